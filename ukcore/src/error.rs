@@ -1,0 +1,196 @@
+//! Every failure, in the modeller's own names.
+
+use std::fmt;
+
+/// What can go wrong in solving, assembling and integrating a mechanism.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Error {
+    /// rank [M | Aᵀ] < n (the condition of eq. 19): these coordinates have neither mass nor constraint in some direction.
+    Underdetermined {
+        /// Names of the coordinates that move in the undetermined directions.
+        coordinates: Vec<String>,
+        /// rank [M | Aᵀ].
+        rank: usize,
+        /// n.
+        needed: usize,
+    },
+    /// A q̈ = b has no solution: these constraints contradict each other.
+    Inconsistent {
+        /// Names of the constraints involved, with the residual of A q̈ − b.
+        constraints: Vec<(String, f64)>,
+    },
+    /// The state does not satisfy these constraints (φ or φ̇), and no nearby state does or was asked for.
+    OffConstraint {
+        /// `"position"` or `"velocity"`.
+        level: &'static str,
+        /// Names of the constraints, with their residual.
+        constraints: Vec<(String, f64)>,
+    },
+    /// A value is NaN or infinite.
+    NonFinite {
+        /// What: `"parameter m"`, `"coordinate x[3]"`, `"force on th1"`, `"constraint link[2]"`.
+        what: Vec<String>,
+    },
+    /// M has a negative eigenvalue, or is not what a mass matrix can be.
+    IndefiniteMass {
+        /// Coordinates at which the factorisation failed.
+        coordinates: Vec<String>,
+    },
+    /// A name that is not there.
+    UnknownName {
+        /// `"parameter"`, `"coordinate"`, `"model"`, ….
+        kind: &'static str,
+        /// What was asked for.
+        name: String,
+        /// The nearest name that exists.
+        nearest: Option<String>,
+    },
+    /// A vector of the wrong length.
+    WrongLength {
+        /// Which vector.
+        what: &'static str,
+        /// Its length as given.
+        found: usize,
+        /// Its length as needed.
+        expected: usize,
+    },
+    /// A setting outside of its range.
+    InvalidSetting {
+        /// Which setting.
+        what: &'static str,
+        /// What is wrong and what is allowed.
+        reason: String,
+    },
+    /// The step size fell below rounding at time `t`.
+    StepTooSmall {
+        /// Step size.
+        step: f64,
+    },
+    /// The number of steps allowed was used up.
+    TooManySteps {
+        /// The number.
+        steps: usize,
+    },
+    /// Another error that arose during integration, with the time and state where it did.
+    At {
+        /// Time.
+        t: f64,
+        /// Coordinates.
+        q: Vec<f64>,
+        /// Velocities.
+        v: Vec<f64>,
+        /// What happened there.
+        source: Box<Error>,
+    },
+}
+
+impl Error {
+    /// An [`Error::UnknownName`] with the nearest of `names`.
+    pub fn unknown_name<'a>(
+        kind: &'static str,
+        name: &str,
+        names: &mut dyn Iterator<Item = &'a str>,
+    ) -> Self {
+        let nearest = names
+            .map(|n| (distance(name, n), n))
+            .min_by_key(|(d, _)| *d)
+            .filter(|(d, n)| *d <= n.len().max(name.len()) / 2)
+            .map(|(_, n)| n.to_owned());
+        Error::UnknownName {
+            kind,
+            name: name.to_owned(),
+            nearest,
+        }
+    }
+}
+
+/// Levenshtein distance, case ignored.
+fn distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.to_lowercase().chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, ca) in a.to_lowercase().chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, cb) in b.iter().enumerate() {
+            let substitution = diagonal + usize::from(ca != *cb);
+            diagonal = row[j + 1];
+            row[j + 1] = substitution.min(diagonal + 1).min(row[j] + 1);
+        }
+    }
+    row[b.len()]
+}
+
+struct Named<'a>(&'a [(String, f64)]);
+
+impl fmt::Display for Named<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, (name, residual)) in self.0.iter().enumerate() {
+            let comma = if i > 0 { ", " } else { "" };
+            write!(f, "{comma}`{name}` ({residual:.3e})")?;
+        }
+        Ok(())
+    }
+}
+
+fn quoted(names: &[String]) -> String {
+    let names: Vec<String> = names.iter().map(|n| format!("`{n}`")).collect();
+    names.join(", ")
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Error::Underdetermined { coordinates, rank, needed } => write!(
+                f,
+                "the motion is not determined: rank [M | Aᵀ] is {rank}, not {needed}; {} can accelerate without mass or constraint; give mass or add a constraint",
+                quoted(coordinates)
+            ),
+            Error::Inconsistent { constraints } => write!(
+                f,
+                "constraints contradict each other (residual of A q̈ − b): {}; remove one of them or make them agree",
+                Named(constraints)
+            ),
+            Error::OffConstraint { level, constraints } => write!(
+                f,
+                "the state violates constraints at {level} level (residual): {}; start from a consistent state, for example one from `assemble`",
+                Named(constraints)
+            ),
+            Error::NonFinite { what } => write!(f, "not a finite number: {}", what.join(", ")),
+            Error::IndefiniteMass { coordinates } => write!(
+                f,
+                "the mass matrix is not positive semidefinite at {}; masses must not be negative",
+                quoted(coordinates)
+            ),
+            Error::UnknownName { kind, name, nearest } => {
+                write!(f, "no {kind} is called `{name}`")?;
+                match nearest {
+                    Some(n) => write!(f, "; did you mean `{n}`?"),
+                    None => Ok(()),
+                }
+            }
+            Error::WrongLength { what, found, expected } => {
+                write!(f, "`{what}` has length {found}, but {expected} is needed")
+            }
+            Error::InvalidSetting { what, reason } => write!(f, "`{what}` {reason}"),
+            Error::StepTooSmall { step } => write!(
+                f,
+                "the step size fell to {step:.1e}, below rounding; the motion may have a singularity here, or the tolerance is too tight"
+            ),
+            Error::TooManySteps { steps } => write!(
+                f,
+                "{steps} steps were not enough; raise `max_steps`, loosen the tolerance, or soften stiff forces"
+            ),
+            Error::At { t, source, .. } => write!(f, "at t = {t}: {source}"),
+        }
+    }
+}
+
+impl std::error::Error for Error {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Error::At { source, .. } => Some(source.as_ref()),
+            _ => None,
+        }
+    }
+}

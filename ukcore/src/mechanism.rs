@@ -1,0 +1,285 @@
+//! What the compiler knows about a mechanism, and the code it emitted for it.
+//!
+//! [`Mechanism`] is implemented by [`multibody!`](crate::multibody), never by hand. Notation is that of Zhao, Zhen & Chen 2013:
+//! M q̈ = Q (eq. 1), A q̈ = b (eq. 5), c the non-ideal force (eq. 8). `n` is the number of coordinates, `m` of constraints,
+//! `h` of holonomic ones, which come first.
+
+use crate::error::Error;
+use crate::scalar::Scalar;
+
+/// A declared mechanism: its parameters (`self`), what is known about it (`SPEC`), and its equations as straight-line code.
+///
+/// All matrices are column-major. The emitted code writes **structural non-zeros only**: the caller passes buffers that
+/// were zeroed once, and may reuse them for the same mechanism type. No method allocates. Every method panics if a slice has
+/// not the stated length; [`Solver`](crate::Solver) and [`Simulation`](crate::Simulation) check what users pass in before that.
+pub trait Mechanism: Clone + Default + Send + Sync + 'static {
+    /// Names, structure and readable equations.
+    const SPEC: &'static Spec;
+
+    /// Value of parameter `index` (order of `SPEC.params`).
+    fn parameter(&self, index: usize) -> f64;
+    /// Sets parameter `index` (order of `SPEC.params`).
+    fn set_parameter(&mut self, index: usize, value: f64);
+
+    /// M, Q, c, A and b at (t, q, q̇): eqs. 1, 5 and 8. Q includes −∂V/∂q and, with `kinetic`, Lagrange's velocity terms.
+    fn dynamics<S: Scalar>(&self, t: S, q: &[S], v: &[S], out: &mut Terms<'_, S>);
+    /// M(q, t), n × n.
+    fn mass_matrix<S: Scalar>(&self, t: S, q: &[S], mass: &mut [S]);
+    /// A(q, q̇, t), m × n.
+    fn jacobian<S: Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]);
+    /// φ(q, t) of the `h` holonomic constraints (eq. 3).
+    fn residual<S: Scalar>(&self, t: S, q: &[S], phi: &mut [S]);
+    /// All `m` constraints at velocity level: φ̇ of the holonomic (eq. 3 differentiated once), φ(q, q̇, t) of the nonholonomic (eq. 4).
+    fn residual_rate<S: Scalar>(&self, t: S, q: &[S], v: &[S], rate: &mut [S]);
+    /// Kinetic energy T and potential V at (t, q, q̇); V is 0 where none is declared.
+    fn energy<S: Scalar>(&self, t: S, q: &[S], v: &[S]) -> Energy<S>;
+    /// The declared outputs.
+    fn outputs<S: Scalar>(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]);
+
+    /// Value of the parameter called `name` (`"m"`, `"m[3]"`).
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name.
+    fn get(&self, name: &str) -> Result<f64, Error> {
+        Ok(self.parameter(Self::SPEC.parameter_index(name)?))
+    }
+
+    /// Sets the parameter called `name` (`"m"`, `"m[3]"`; a family's bare name sets all its members).
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name.
+    fn set(&mut self, name: &str, value: f64) -> Result<(), Error> {
+        let mut found = false;
+        for (i, p) in Self::SPEC.params.iter().enumerate() {
+            if p.name.split_once('[').is_some_and(|(family, _)| family == name) {
+                self.set_parameter(i, value);
+                found = true;
+            }
+        }
+        if !found {
+            self.set_parameter(Self::SPEC.parameter_index(name)?, value);
+        }
+        Ok(())
+    }
+}
+
+/// Buffers that [`Mechanism::dynamics`] writes to (column-major, zeroed once by the caller).
+#[derive(Debug)]
+pub struct Terms<'a, S> {
+    /// M, n × n (eq. 1).
+    pub mass: &'a mut [S],
+    /// Q, n (eq. 1).
+    pub force: &'a mut [S],
+    /// c, n (eq. 8).
+    pub nonideal: &'a mut [S],
+    /// A, m × n (eq. 5).
+    pub jacobian: &'a mut [S],
+    /// b, m (eq. 5).
+    pub rhs: &'a mut [S],
+}
+
+/// Kinetic and potential energy.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Energy<S = f64> {
+    /// T, from `kinetic` or as ½ q̇ᵀ M q̇.
+    pub kinetic: S,
+    /// V, from `potential`; 0 where none is declared.
+    pub potential: S,
+}
+
+impl Energy<f64> {
+    /// T + V.
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        self.kinetic + self.potential
+    }
+}
+
+/// Everything known about a mechanism at compile time.
+#[derive(Debug)]
+pub struct Spec {
+    /// Type name.
+    pub name: &'static str,
+    /// Doc comment of the declaration.
+    pub doc: &'static str,
+    /// Parameters, families flattened (`m[0]`, `m[1]`, …).
+    pub params: &'static [ParamSpec],
+    /// Coordinate names (`x[0]`, `th1`), the order of q.
+    pub coords: &'static [&'static str],
+    /// Constraints, holonomic ones first, the order of the rows of A.
+    pub constraints: &'static [ConstraintSpec],
+    /// Number h of holonomic constraints.
+    pub holonomic: usize,
+    /// Outputs, in declared order.
+    pub outputs: &'static [OutputSpec],
+    /// What the compiler found out.
+    pub structure: Structure,
+    /// The derived equations, readable.
+    pub equations: Equations,
+}
+
+/// A parameter.
+#[derive(Debug)]
+pub struct ParamSpec {
+    /// Name as declared.
+    pub name: &'static str,
+    /// Doc comment; empty if none.
+    pub doc: &'static str,
+    /// Default value.
+    pub default: f64,
+}
+
+/// An output.
+#[derive(Debug)]
+pub struct OutputSpec {
+    /// Name as declared.
+    pub name: &'static str,
+    /// Doc comment; empty if none.
+    pub doc: &'static str,
+}
+
+/// A constraint.
+#[derive(Debug)]
+pub struct ConstraintSpec {
+    /// Name as declared, with indices (`link[3]`; components of vector equations `joint[0]`, `joint[1]`).
+    pub name: &'static str,
+    /// Holonomic or nonholonomic.
+    pub kind: ConstraintKind,
+    /// φ = 0, readable.
+    pub equation: &'static str,
+}
+
+/// Kind of a constraint (eqs. 3 and 4).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ConstraintKind {
+    /// φ(q, t) = 0, differentiated twice.
+    Holonomic,
+    /// φ(q, q̇, t) = 0, differentiated once.
+    Nonholonomic,
+}
+
+/// What the compiler found out about a mechanism.
+#[derive(Debug)]
+pub struct Structure {
+    /// Structural non-zeros (row, column) of M, both triangles.
+    pub mass_pattern: &'static [(usize, usize)],
+    /// Structural non-zeros (row, column) of A.
+    pub jacobian_pattern: &'static [(usize, usize)],
+    /// M has no off-diagonal entry.
+    pub mass_diagonal: bool,
+    /// M depends on neither q nor t.
+    pub mass_constant: bool,
+    /// A depends on neither q, q̇ nor t.
+    pub jacobian_constant: bool,
+    /// Coordinates whose row of M is zero: they need the Udwadia-Phohomsiri equation (eq. 19).
+    pub massless: &'static [usize],
+    /// No explicit time anywhere.
+    pub scleronomic: bool,
+    /// A `nonideal` section exists (c of eq. 8).
+    pub nonideal: bool,
+    /// A `potential` section exists.
+    pub potential: bool,
+    /// T + V is conserved: scleronomic, no `force` and no `nonideal`, nonholonomic constraints homogeneous in q̇, and M either constant or from `kinetic`.
+    pub conservative: bool,
+    /// Sentences: what was left out of the code for this mechanism, and why.
+    pub left_out: &'static [&'static str],
+    /// Operations in one call of [`Mechanism::dynamics`].
+    pub operations: Operations,
+}
+
+/// Operation counts of emitted code.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Operations {
+    /// Additions, subtractions and negations.
+    pub additions: usize,
+    /// Multiplications.
+    pub multiplications: usize,
+    /// Divisions and reciprocals.
+    pub divisions: usize,
+    /// Square roots.
+    pub square_roots: usize,
+    /// Sines, exponentials, powers and the like; sine and cosine of one argument count as one.
+    pub transcendentals: usize,
+    /// Comparisons and selections (abs, sign, min, max).
+    pub selections: usize,
+}
+
+/// The derived equations as text; entries that are zero are absent.
+#[derive(Debug)]
+pub struct Equations {
+    /// Entries (row, column, text) of the lower triangle of M.
+    pub mass: &'static [(usize, usize, &'static str)],
+    /// Entries (coordinate, text) of Q.
+    pub force: &'static [(usize, &'static str)],
+    /// Entries (coordinate, text) of c.
+    pub nonideal: &'static [(usize, &'static str)],
+    /// Entries (row, column, text) of A.
+    pub jacobian: &'static [(usize, usize, &'static str)],
+    /// Entries (constraint, text) of b.
+    pub rhs: &'static [(usize, &'static str)],
+}
+
+impl Spec {
+    /// Number n of coordinates.
+    #[must_use]
+    pub const fn n(&self) -> usize {
+        self.coords.len()
+    }
+
+    /// Number m of constraints.
+    #[must_use]
+    pub const fn m(&self) -> usize {
+        self.constraints.len()
+    }
+
+    /// Index of the parameter called `name`.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name.
+    pub fn parameter_index(&self, name: &str) -> Result<usize, Error> {
+        find("parameter", name, self.params.iter().map(|p| p.name))
+    }
+
+    /// Index of the coordinate called `name`.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name.
+    pub fn coordinate_index(&self, name: &str) -> Result<usize, Error> {
+        find("coordinate", name, self.coords.iter().copied())
+    }
+
+    /// Index of the output called `name`.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name.
+    pub fn output_index(&self, name: &str) -> Result<usize, Error> {
+        find("output", name, self.outputs.iter().map(|o| o.name))
+    }
+
+    /// Index of the constraint called `name`.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name.
+    pub fn constraint_index(&self, name: &str) -> Result<usize, Error> {
+        find("constraint", name, self.constraints.iter().map(|c| c.name))
+    }
+}
+
+fn find<'a>(
+    kind: &'static str,
+    name: &str,
+    mut names: impl Iterator<Item = &'a str> + Clone,
+) -> Result<usize, Error> {
+    names
+        .clone()
+        .position(|n| n == name)
+        .ok_or_else(|| Error::unknown_name(kind, name, &mut names))
+}
+
+/// For emitted code: the length check of a slice argument.
+#[doc(hidden)]
+#[cold]
+#[track_caller]
+pub fn wrong_length(what: &str, expected: usize, found: usize) -> ! {
+    panic!("`{what}` must have length {expected}, but has length {found}")
+}

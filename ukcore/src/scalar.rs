@@ -1,0 +1,270 @@
+//! The numbers that emitted code computes with.
+
+use std::fmt::Debug;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A number type for emitted code: `f64`, `f32`, or [`Dual`](crate::Dual) for exact derivatives.
+///
+/// One straight-line program serves them all; constants enter through [`Scalar::from_f64`], branches through [`Scalar::select_le`].
+pub trait Scalar:
+    Copy
+    + Debug
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + 'static
+{
+    /// The constant `x`.
+    fn from_f64(x: f64) -> Self;
+    /// `then` where `a ≤ b`, else `otherwise` (also where a or b is NaN).
+    fn select_le(a: Self, b: Self, then: Self, otherwise: Self) -> Self;
+    /// 1/x.
+    #[inline]
+    fn recip(self) -> Self {
+        Self::from_f64(1.0) / self
+    }
+    /// Square root.
+    fn sqrt(self) -> Self;
+    /// Sine and cosine.
+    fn sin_cos(self) -> (Self, Self);
+    /// Sine.
+    #[inline]
+    fn sin(self) -> Self {
+        self.sin_cos().0
+    }
+    /// Cosine.
+    #[inline]
+    fn cos(self) -> Self {
+        self.sin_cos().1
+    }
+    /// Tangent.
+    fn tan(self) -> Self;
+    /// Arc sine.
+    fn asin(self) -> Self;
+    /// Arc cosine.
+    fn acos(self) -> Self;
+    /// Arc tangent.
+    fn atan(self) -> Self;
+    /// Angle of the point (x, y) with `self` = y.
+    fn atan2(self, x: Self) -> Self;
+    /// Hyperbolic sine.
+    fn sinh(self) -> Self;
+    /// Hyperbolic cosine.
+    fn cosh(self) -> Self;
+    /// Hyperbolic tangent.
+    fn tanh(self) -> Self;
+    /// eˣ.
+    fn exp(self) -> Self;
+    /// Natural logarithm.
+    fn ln(self) -> Self;
+    /// Absolute value.
+    fn abs(self) -> Self;
+    /// −1, 0 or 1; NaN for NaN (unlike `f64::signum`, sign(0) = 0).
+    fn sign(self) -> Self;
+    /// The smaller one.
+    fn min(self, other: Self) -> Self;
+    /// The larger one.
+    fn max(self, other: Self) -> Self;
+    /// √(x² + y²).
+    fn hypot(self, other: Self) -> Self;
+    /// xⁿ for an integer n.
+    fn powi(self, n: i32) -> Self;
+    /// xʸ.
+    fn powf(self, y: Self) -> Self;
+}
+
+macro_rules! float {
+    ($f:ident) => {
+        impl Scalar for $f {
+            #[inline]
+            #[allow(clippy::cast_possible_truncation, reason = "f32 takes the nearest value")]
+            fn from_f64(x: f64) -> Self {
+                x as $f
+            }
+            #[inline]
+            fn select_le(a: Self, b: Self, then: Self, otherwise: Self) -> Self {
+                if a <= b { then } else { otherwise }
+            }
+            #[inline]
+            fn sin_cos(self) -> (Self, Self) {
+                $f::sin_cos(self)
+            }
+            #[inline]
+            fn sign(self) -> Self {
+                if self == 0.0 { 0.0 } else { $f::signum(self) }
+            }
+            float!(@unary $f: sqrt sin cos tan asin acos atan sinh cosh tanh exp ln abs recip);
+            float!(@binary $f: atan2 min max hypot powf);
+            #[inline]
+            fn powi(self, n: i32) -> Self {
+                $f::powi(self, n)
+            }
+        }
+    };
+    (@unary $f:ident: $($name:ident)*) => {
+        $(#[inline] fn $name(self) -> Self { $f::$name(self) })*
+    };
+    (@binary $f:ident: $($name:ident)*) => {
+        $(#[inline] fn $name(self, other: Self) -> Self { $f::$name(self, other) })*
+    };
+}
+float!(f64);
+float!(f32);
+
+/// A value with a derivative: forward-mode differentiation through emitted code.
+///
+/// Where a function has no derivative (abs at 0, min at a tie) one of its one-sided ones, or 0, is given.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Dual<S = f64> {
+    /// The value.
+    pub re: S,
+    /// Its derivative.
+    pub eps: S,
+}
+
+impl<S: Scalar> Dual<S> {
+    /// A value and its derivative.
+    pub const fn new(re: S, eps: S) -> Self {
+        Dual { re, eps }
+    }
+    /// The value `self.re` → `re`, by the chain rule with the outer derivative `slope`.
+    #[inline]
+    fn chain(self, re: S, slope: S) -> Self {
+        Dual::new(re, slope * self.eps)
+    }
+}
+
+impl<S: Scalar> Add for Dual<S> {
+    type Output = Self;
+    #[inline]
+    fn add(self, o: Self) -> Self {
+        Dual::new(self.re + o.re, self.eps + o.eps)
+    }
+}
+impl<S: Scalar> Sub for Dual<S> {
+    type Output = Self;
+    #[inline]
+    fn sub(self, o: Self) -> Self {
+        Dual::new(self.re - o.re, self.eps - o.eps)
+    }
+}
+impl<S: Scalar> Mul for Dual<S> {
+    type Output = Self;
+    #[inline]
+    fn mul(self, o: Self) -> Self {
+        Dual::new(self.re * o.re, self.eps * o.re + self.re * o.eps)
+    }
+}
+impl<S: Scalar> Div for Dual<S> {
+    type Output = Self;
+    #[inline]
+    fn div(self, o: Self) -> Self {
+        let re = self.re / o.re;
+        Dual::new(re, (self.eps - re * o.eps) / o.re)
+    }
+}
+impl<S: Scalar> Neg for Dual<S> {
+    type Output = Self;
+    #[inline]
+    fn neg(self) -> Self {
+        Dual::new(-self.re, -self.eps)
+    }
+}
+
+impl<S: Scalar> Scalar for Dual<S> {
+    fn from_f64(x: f64) -> Self {
+        Dual::new(S::from_f64(x), S::from_f64(0.0))
+    }
+    fn select_le(a: Self, b: Self, then: Self, otherwise: Self) -> Self {
+        Dual::new(
+            S::select_le(a.re, b.re, then.re, otherwise.re),
+            S::select_le(a.re, b.re, then.eps, otherwise.eps),
+        )
+    }
+    fn sqrt(self) -> Self {
+        let r = self.re.sqrt();
+        self.chain(r, (r + r).recip())
+    }
+    fn sin_cos(self) -> (Self, Self) {
+        let (s, c) = self.re.sin_cos();
+        (self.chain(s, c), self.chain(c, -s))
+    }
+    fn tan(self) -> Self {
+        let r = self.re.tan();
+        self.chain(r, S::from_f64(1.0) + r * r)
+    }
+    fn asin(self) -> Self {
+        let root = (S::from_f64(1.0) - self.re * self.re).sqrt();
+        self.chain(self.re.asin(), root.recip())
+    }
+    fn acos(self) -> Self {
+        let root = (S::from_f64(1.0) - self.re * self.re).sqrt();
+        self.chain(self.re.acos(), -root.recip())
+    }
+    fn atan(self) -> Self {
+        let slope = (S::from_f64(1.0) + self.re * self.re).recip();
+        self.chain(self.re.atan(), slope)
+    }
+    fn atan2(self, x: Self) -> Self {
+        let square = self.re * self.re + x.re * x.re;
+        Dual::new(
+            self.re.atan2(x.re),
+            (x.re * self.eps - self.re * x.eps) / square,
+        )
+    }
+    fn sinh(self) -> Self {
+        self.chain(self.re.sinh(), self.re.cosh())
+    }
+    fn cosh(self) -> Self {
+        self.chain(self.re.cosh(), self.re.sinh())
+    }
+    fn tanh(self) -> Self {
+        let r = self.re.tanh();
+        self.chain(r, S::from_f64(1.0) - r * r)
+    }
+    fn exp(self) -> Self {
+        let r = self.re.exp();
+        self.chain(r, r)
+    }
+    fn ln(self) -> Self {
+        self.chain(self.re.ln(), self.re.recip())
+    }
+    fn abs(self) -> Self {
+        self.chain(self.re.abs(), self.re.sign())
+    }
+    fn sign(self) -> Self {
+        self.chain(self.re.sign(), S::from_f64(0.0))
+    }
+    fn min(self, o: Self) -> Self {
+        Self::select_le(self, o, self, o)
+    }
+    fn max(self, o: Self) -> Self {
+        Self::select_le(self, o, o, self)
+    }
+    fn hypot(self, o: Self) -> Self {
+        let r = self.re.hypot(o.re);
+        Dual::new(r, (self.re * self.eps + o.re * o.eps) / r)
+    }
+    fn powi(self, n: i32) -> Self {
+        let slope = match n {
+            0 => S::from_f64(0.0),
+            _ => S::from_f64(f64::from(n)) * self.re.powi(n - 1),
+        };
+        self.chain(self.re.powi(n), slope)
+    }
+    fn powf(self, y: Self) -> Self {
+        let r = self.re.powf(y.re);
+        let base = y.re * self.re.powf(y.re - S::from_f64(1.0)) * self.eps;
+        // ln x only counts where the exponent varies, so a negative base with a fixed exponent stays finite.
+        let zero = S::from_f64(0.0);
+        let exponent = S::select_le(
+            y.eps.abs(),
+            zero,
+            zero,
+            r * self.re.ln() * y.eps,
+        );
+        Dual::new(r, base + exponent)
+    }
+}
