@@ -6,6 +6,7 @@
 pub mod assemble;
 pub mod error;
 pub mod mechanism;
+pub mod pinv;
 pub mod scalar;
 pub mod solver;
 pub mod stabilise;

@@ -1,0 +1,456 @@
+//! A rank-revealing pseudo-inverse with an explicit tolerance.
+//!
+//! A matrix C (rows: constraints) is taken apart as Cᵀ P = Q \[R₁₁ R₁₂; 0 R₂₂\] by Householder reflections with column pivoting,
+//! so that the rows of C that the others imply come last and can be named. With the rank r decided, R₂₂ counts as zero and
+//! \[R₁₁ R₁₂\] = \[T 0\] Zᵀ by reflections from the right: the complete orthogonal decomposition, from which
+//!
+//! C⁺ = Q₁ T⁻ᵀ Z₁ᵀ Pᵀ,  (Cᵀ)⁺ = P Z₁ T⁻¹ Q₁ᵀ.
+//!
+//! Rows are interchanged too, the largest entry first: with that the reflections are stable row by row, and coordinates of
+//! very different mass (rows of M^−½Aᵀ of very different size) keep their digits (Cox & Higham 1998).
+
+use nalgebra::DMatrix;
+
+/// An earlier column is taken as pivot if its significance is at least this share of the largest: the declared order is kept
+/// where it costs nothing, and of two equal constraints the later one is called redundant. One half at most doubles the growth
+/// of the columns not yet taken.
+const PREFER_EARLIER: f64 = 0.5;
+
+/// Complete orthogonal decomposition of Cᵀ (n × m) in buffers that are allocated once.
+#[derive(Debug, Clone)]
+pub struct Decomposition {
+    n: usize,
+    m: usize,
+    /// Cᵀ, then R on and above the diagonal and the reflectors below; n × m, column-major.
+    a: Vec<f64>,
+    tau: Vec<f64>,
+    /// Position → row (coordinate) and column (constraint).
+    row: Vec<usize>,
+    col: Vec<usize>,
+    pivots: Vec<f64>,
+    significance: Vec<f64>,
+    /// \[T Z\] of the second step; leading dimension `n`.
+    t: Vec<f64>,
+    zeta: Vec<f64>,
+    steps: usize,
+    rank: usize,
+    work_n: Vec<f64>,
+    work_m: Vec<f64>,
+}
+
+impl Decomposition {
+    /// Buffers for matrices C of up to `m` rows and exactly `n` columns.
+    #[must_use]
+    pub fn new(m: usize, n: usize) -> Self {
+        Decomposition {
+            n,
+            m,
+            a: vec![0.0; n * m],
+            tau: vec![0.0; n.min(m)],
+            row: (0..n).collect(),
+            col: (0..m).collect(),
+            pivots: vec![0.0; n.min(m)],
+            significance: vec![0.0; m],
+            t: vec![0.0; n * m],
+            zeta: vec![0.0; n.min(m)],
+            steps: 0,
+            rank: 0,
+            work_n: vec![0.0; n],
+            work_m: vec![0.0; m],
+        }
+    }
+
+    /// The buffer for the next matrix, as Cᵀ with `m` columns of length n (row i of C is column i).
+    ///
+    /// # Panics
+    /// If `m` exceeds what [`Decomposition::new`] was given.
+    pub fn load(&mut self, m: usize) -> &mut [f64] {
+        assert!(self.n * m <= self.a.len(), "more rows than there is room for");
+        self.m = m;
+        &mut self.a[..self.n * m]
+    }
+
+    /// Pivoted triangularisation of the loaded matrix.
+    ///
+    /// The significance of a row c of C is `scale[c]` · maxᵢ `weight[i]` |cᵢ|, taken over what the rows chosen before do not
+    /// imply. It decides pivots and rank; the caller chooses `scale` and `weight` so that it is relative to the whole row.
+    /// Stops where no significance exceeds `floor`.
+    pub fn factor(&mut self, weight: &[f64], scale: &[f64], floor: f64) {
+        let (n, m) = (self.n, self.m);
+        self.row.iter_mut().enumerate().for_each(|(i, r)| *r = i);
+        self.col.iter_mut().enumerate().for_each(|(c, p)| *p = c);
+        self.steps = 0;
+        for k in 0..n.min(m) {
+            let mut best = 0.0_f64;
+            for c in k..m {
+                let column = &self.a[c * n + k..(c + 1) * n];
+                let largest = column
+                    .iter()
+                    .zip(&self.row[k..])
+                    .fold(0.0_f64, |s, (x, &i)| s.max(x.abs() * weight[i]));
+                self.significance[c] = largest * scale[self.col[c]];
+                best = best.max(self.significance[c]);
+            }
+            if best <= floor {
+                break;
+            }
+            let chosen = (k..m)
+                .find(|&c| self.significance[c] >= PREFER_EARLIER * best)
+                .unwrap_or(k);
+            self.pivots[k] = best;
+            self.swap_columns(k, chosen);
+            self.swap_rows(k);
+            self.reflect(k);
+            self.steps = k + 1;
+        }
+        self.set_rank(self.steps);
+    }
+
+    /// Moves column `chosen` to place `k`, those between one place on, so that the declared order is kept among them.
+    fn swap_columns(&mut self, k: usize, chosen: usize) {
+        let n = self.n;
+        for c in (k..chosen).rev() {
+            self.col.swap(c, c + 1);
+            let (left, right) = self.a.split_at_mut((c + 1) * n);
+            left[c * n..].swap_with_slice(&mut right[..n]);
+        }
+    }
+
+    /// Brings the largest entry of column k below its diagonal onto the diagonal.
+    fn swap_rows(&mut self, k: usize) {
+        let (n, m) = (self.n, self.m);
+        let column = &self.a[k * n..(k + 1) * n];
+        let top = (k..n).fold(k, |best, i| {
+            if column[i].abs() > column[best].abs() { i } else { best }
+        });
+        if top != k {
+            self.row.swap(k, top);
+            for c in 0..m {
+                self.a.swap(c * n + k, c * n + top);
+            }
+        }
+    }
+
+    /// Householder reflection of column k, applied to the columns after it.
+    fn reflect(&mut self, k: usize) {
+        let n = self.n;
+        let (left, right) = self.a.split_at_mut((k + 1) * n);
+        let x = &mut left[k * n + k..];
+        let (beta, tau) = householder(x);
+        self.tau[k] = tau;
+        let v = &x[1..];
+        for column in right[..(self.m - k - 1) * n].chunks_exact_mut(n) {
+            let s = tau * (column[k] + dot(v, &column[k + 1..]));
+            column[k] -= s;
+            axpy(-s, v, &mut column[k + 1..]);
+        }
+        x[0] = beta;
+    }
+
+    /// Significances of the pivots in the order they were taken; all exceed the floor given to [`Decomposition::factor`].
+    #[must_use]
+    pub fn pivots(&self) -> &[f64] {
+        &self.pivots[..self.steps]
+    }
+
+    /// The rank in force.
+    #[must_use]
+    pub fn rank(&self) -> usize {
+        self.rank
+    }
+
+    /// Rows of C in pivot order: the first [`rank`](Self::rank) imply the others.
+    #[must_use]
+    pub fn order(&self) -> &[usize] {
+        &self.col[..self.m]
+    }
+
+    /// Takes the first `rank` pivots as the rank and prepares the pseudo-inverse; `rank` is cut to the number of pivots.
+    /// May be called again with another rank.
+    pub fn set_rank(&mut self, rank: usize) {
+        let (n, m) = (self.n, self.m);
+        let r = rank.min(self.steps);
+        self.rank = r;
+        for c in 0..m {
+            let top = r.min(c + 1);
+            self.t[c * n..c * n + top].copy_from_slice(&self.a[c * n..c * n + top]);
+        }
+        if r == m {
+            return;
+        }
+        for i in (0..r).rev() {
+            // Row i of [T Z]: zero its part right of column r against the diagonal.
+            self.work_m[0] = self.t[i * n + i];
+            for c in r..m {
+                self.work_m[c - r + 1] = self.t[c * n + i];
+            }
+            let (beta, tau) = householder(&mut self.work_m[..m - r + 1]);
+            self.zeta[i] = tau;
+            self.t[i * n + i] = beta;
+            for c in r..m {
+                self.t[c * n + i] = self.work_m[c - r + 1];
+            }
+            for l in 0..i {
+                let mut s = self.t[i * n + l];
+                for c in r..m {
+                    s += self.t[c * n + i] * self.t[c * n + l];
+                }
+                s *= tau;
+                self.t[i * n + l] -= s;
+                for c in r..m {
+                    self.t[c * n + l] -= s * self.t[c * n + i];
+                }
+            }
+        }
+    }
+
+    /// Reflection i of Z on `y` (length m).
+    fn reflect_z(&self, i: usize, y: &mut [f64]) {
+        let (n, r) = (self.n, self.rank);
+        let mut s = y[i];
+        for c in r..self.m {
+            s += self.t[c * n + i] * y[c];
+        }
+        s *= self.zeta[i];
+        y[i] -= s;
+        for c in r..self.m {
+            y[c] -= s * self.t[c * n + i];
+        }
+    }
+
+    /// Reflection k of Q on `x` (length n, permuted).
+    fn reflect_q(&self, k: usize, x: &mut [f64]) {
+        let v = &self.a[k * self.n + k + 1..(k + 1) * self.n];
+        let s = self.tau[k] * (x[k] + dot(v, &x[k + 1..]));
+        x[k] -= s;
+        axpy(-s, v, &mut x[k + 1..]);
+    }
+
+    /// x = C⁺ β: of all x that minimise |C x − β| the shortest.
+    pub fn solve(&mut self, beta: &[f64], x: &mut [f64]) {
+        let (n, m, r) = (self.n, self.m, self.rank);
+        let mut y = std::mem::take(&mut self.work_m);
+        for c in 0..m {
+            y[c] = beta[self.col[c]];
+        }
+        if r < m {
+            (0..r).rev().for_each(|i| self.reflect_z(i, &mut y));
+        }
+        // Tᵀ y = β₁, forwards.
+        for i in 0..r {
+            let column = &self.t[i * n..i * n + i + 1];
+            y[i] = (y[i] - dot(&column[..i], &y[..i])) / column[i];
+        }
+        self.rotate(&y[..r], x);
+        self.work_m = y;
+    }
+
+    /// x = Q \[y; 0\].
+    fn rotate(&mut self, y: &[f64], x: &mut [f64]) {
+        let mut z = std::mem::take(&mut self.work_n);
+        z.fill(0.0);
+        z[..y.len()].copy_from_slice(y);
+        (0..self.rank).rev().for_each(|k| self.reflect_q(k, &mut z));
+        for (z, &i) in z.iter().zip(&self.row) {
+            x[i] = *z;
+        }
+        self.work_n = z;
+    }
+
+    /// λ = (Cᵀ)⁺ x: of all λ that minimise |Cᵀ λ − x| the shortest.
+    pub fn solve_transposed(&mut self, x: &[f64], lambda: &mut [f64]) {
+        let (n, m, r) = (self.n, self.m, self.rank);
+        let mut z = std::mem::take(&mut self.work_n);
+        for (z, &i) in z.iter_mut().zip(&self.row) {
+            *z = x[i];
+        }
+        (0..r).for_each(|k| self.reflect_q(k, &mut z));
+        // T y = Q₁ᵀ x, backwards.
+        for i in (0..r).rev() {
+            z[i] /= self.t[i * n + i];
+            let s = z[i];
+            axpy(-s, &self.t[i * n..i * n + i], &mut z[..i]);
+        }
+        self.work_m[..r].copy_from_slice(&z[..r]);
+        self.work_n = z;
+        let mut y = std::mem::take(&mut self.work_m);
+        y[r..].fill(0.0);
+        if r < m {
+            (0..r).for_each(|i| self.reflect_z(i, &mut y));
+        }
+        for c in 0..m {
+            lambda[self.col[c]] = y[c];
+        }
+        self.work_m = y;
+    }
+
+    /// Writes an orthonormal basis of the null space of C, n − rank columns of length n, into `basis` (column-major).
+    pub fn null_space(&mut self, basis: &mut [f64]) {
+        let (n, r) = (self.n, self.rank);
+        let mut z = std::mem::take(&mut self.work_n);
+        for (j, column) in basis.chunks_exact_mut(n).take(n - r).enumerate() {
+            z.fill(0.0);
+            z[r + j] = 1.0;
+            (0..r).rev().for_each(|k| self.reflect_q(k, &mut z));
+            for (z, &i) in z.iter().zip(&self.row) {
+                column[i] = *z;
+            }
+        }
+        self.work_n = z;
+    }
+
+    /// Writes an orthonormal basis of the null space of Cᵀ (the dependences among the rows of C), m − rank columns of length m.
+    pub fn dependences(&self, basis: &mut [f64]) {
+        let (m, r) = (self.m, self.rank);
+        let mut y = vec![0.0; m];
+        for (j, column) in basis.chunks_exact_mut(m).take(m - r).enumerate() {
+            y.fill(0.0);
+            y[r + j] = 1.0;
+            (0..r).for_each(|i| self.reflect_z(i, &mut y));
+            for (y, &c) in y.iter().zip(&self.col) {
+                column[c] = *y;
+            }
+        }
+    }
+}
+
+/// The reflection I − τ v vᵀ (v₀ = 1) that maps x to β e₀. Overwrites x₁.. with v₁.. and returns (β, τ).
+fn householder(x: &mut [f64]) -> (f64, f64) {
+    let alpha = x[0];
+    let tail = dot(&x[1..], &x[1..]);
+    if tail == 0.0 {
+        return (alpha, 0.0);
+    }
+    let norm = (alpha * alpha + tail).sqrt();
+    let beta = if alpha > 0.0 { -norm } else { norm };
+    let inverse = (alpha - beta).recip();
+    x[1..].iter_mut().for_each(|x| *x *= inverse);
+    (beta, (beta - alpha) / beta)
+}
+
+/// Σ aᵢ bᵢ.
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// y ← y + s x.
+pub(crate) fn axpy(s: f64, x: &[f64], y: &mut [f64]) {
+    y.iter_mut().zip(x).for_each(|(y, x)| *y += s * x);
+}
+
+/// C⁺ and the rank of C. Rows of which no entry exceeds `tolerance` times the largest entry of C, once what the other rows imply
+/// is taken off, count as implied. A matrix of zeros, or one that is not finite, has rank 0.
+#[must_use]
+pub fn pseudo_inverse(matrix: &DMatrix<f64>, tolerance: f64) -> (DMatrix<f64>, usize) {
+    let (m, n) = matrix.shape();
+    let mut inverse = DMatrix::zeros(n, m);
+    let largest = matrix.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
+    if largest == 0.0 || !matrix.iter().all(|x| x.is_finite()) {
+        return (inverse, 0);
+    }
+    let mut decomposition = Decomposition::new(m, n);
+    let columns = decomposition.load(m);
+    for (i, column) in columns.chunks_exact_mut(n).enumerate() {
+        for (j, x) in column.iter_mut().enumerate() {
+            *x = matrix[(i, j)] / largest;
+        }
+    }
+    decomposition.factor(&vec![1.0; n], &vec![1.0; m], tolerance);
+    let mut unit = vec![0.0; m];
+    for i in 0..m {
+        unit[i] = 1.0 / largest;
+        decomposition.solve(&unit, inverse.column_mut(i).as_mut_slice());
+        unit[i] = 0.0;
+    }
+    (inverse, decomposition.rank())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Deterministic numbers in (−1, 1).
+    fn numbers() -> impl FnMut() -> f64 {
+        let mut state = 1_u64;
+        move || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            ((state >> 11) as f64) / ((1_u64 << 52) as f64) - 1.0
+        }
+    }
+
+    fn penrose(c: &DMatrix<f64>, rank: usize) {
+        let (p, r) = pseudo_inverse(c, 1e-11);
+        assert_eq!(r, rank, "rank of a {:?} matrix", c.shape());
+        let scale = c.amax().max(1e-300);
+        assert!((c * &p * c - c).amax() < 1e-11 * scale);
+        assert!((&p * c * &p - &p).amax() < 1e-10 * p.amax());
+        let (cp, pc) = (c * &p, &p * c);
+        assert!((&cp - cp.transpose()).amax() < 1e-11);
+        assert!((&pc - pc.transpose()).amax() < 1e-11);
+    }
+
+    #[test]
+    fn penrose_conditions_for_every_shape_and_rank() {
+        let mut next = numbers();
+        for (m, n) in [(1, 1), (2, 5), (5, 2), (6, 6), (9, 4), (4, 9), (12, 12)] {
+            for rank in 1..=m.min(n) {
+                let left = DMatrix::from_fn(m, rank, |_, _| next());
+                let right = DMatrix::from_fn(rank, n, |_, _| next());
+                penrose(&(left * right), rank);
+            }
+        }
+        for scale in [1e-12, 1e12, 1e150, 1e-150] {
+            penrose(&(DMatrix::from_fn(4, 6, |_, _| next()) * scale), 4);
+        }
+    }
+
+    #[test]
+    fn zero_and_non_finite_matrices_have_rank_zero() {
+        let (p, rank) = pseudo_inverse(&DMatrix::zeros(3, 2), 1e-11);
+        assert_eq!((p, rank), (DMatrix::zeros(2, 3), 0));
+        let bad = DMatrix::from_row_slice(1, 2, &[f64::NAN, 1.0]);
+        assert_eq!(pseudo_inverse(&bad, 1e-11).1, 0);
+        assert_eq!(pseudo_inverse(&DMatrix::zeros(0, 3), 1e-11).1, 0);
+    }
+
+    #[test]
+    fn the_later_of_two_equal_rows_comes_last() {
+        let mut d = Decomposition::new(3, 2);
+        d.load(3).copy_from_slice(&[1.0, 0.0, 1.0, 0.0, 0.0, 1.0]);
+        d.factor(&[1.0; 2], &[1.0; 3], 1e-11);
+        assert_eq!((d.rank(), d.order()), (2, &[0, 2, 1][..]));
+    }
+
+    #[test]
+    fn null_spaces_of_c_and_of_its_transpose() {
+        let mut next = numbers();
+        let left = DMatrix::from_fn(5, 3, |_, _| next());
+        let c = left * DMatrix::from_fn(3, 7, |_, _| next());
+        let mut d = Decomposition::new(5, 7);
+        d.load(5).copy_from_slice(c.transpose().as_slice());
+        d.factor(&[1.0; 7], &[1.0; 5], 1e-11);
+        let mut basis = DMatrix::zeros(7, 4);
+        d.null_space(basis.as_mut_slice());
+        assert!((&c * &basis).amax() < 1e-13);
+        assert!((basis.transpose() * &basis - DMatrix::identity(4, 4)).amax() < 1e-13);
+        let mut dependences = DMatrix::zeros(5, 2);
+        d.dependences(dependences.as_mut_slice());
+        assert!((c.transpose() * &dependences).amax() < 1e-13);
+    }
+
+    #[test]
+    fn a_lower_rank_can_be_taken_afterwards() {
+        let c = DMatrix::from_row_slice(2, 2, &[1.0, 0.0, 1.0, 1e-6]);
+        let mut d = Decomposition::new(2, 2);
+        d.load(2).copy_from_slice(c.transpose().as_slice());
+        d.factor(&[1.0; 2], &[1.0; 2], 1e-11);
+        assert_eq!(d.rank(), 2);
+        let mut x = [0.0; 2];
+        d.set_rank(1);
+        d.solve(&[1.0, 1.0], &mut x);
+        assert!((x[0] - 1.0).abs() < 1e-6 && x[1].abs() < 1e-6);
+        d.set_rank(2);
+        d.solve(&[1.0, 2.0], &mut x);
+        assert!((x[0] - 1.0).abs() < 1e-9 && (x[1] - 1e6).abs() < 1e-3);
+    }
+}
