@@ -1,0 +1,411 @@
+//! Events: zeros of functions of the state, located while integrating.
+
+use std::fmt;
+
+use crate::error::Error;
+
+/// Parts into which each step is divided in the search for sign changes, ends included.
+///
+/// Two zeros of one event function less than an eighth of a step apart can cancel and be missed. An interpolant of a
+/// step that passed error control at order 8 (or 5) seldom has more than one or two extrema within it, so eight parts leave a
+/// margin; where that is not enough, [`max_step`](crate::Simulation::max_step) makes the search finer.
+pub const EVENT_PARTS: usize = 8;
+
+/// Which sign changes count. Signs are compared in the order in which the run passes them, also when it runs backward.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Direction {
+    /// From negative to positive.
+    Rising,
+    /// From positive to negative.
+    Falling,
+    /// Both.
+    #[default]
+    Both,
+}
+
+type Function = Box<dyn FnMut(f64, &[f64], &[f64]) -> f64>;
+
+/// A function g(t, q, q̇) whose zeros are to be located.
+///
+/// A zero counts where g changes its sign, or arrives at exactly 0; a g that starts at exactly 0 is not an event. Its time is
+/// located to rounding on the interpolant of the step, at projected states.
+/// Where g is not a number, the run fails with an error that says so.
+///
+/// ```
+/// use ukcore::events::{Direction, Event};
+/// let bottom = Event::new("bottom", |_t, q, _v| q[0]).direction(Direction::Rising);
+/// let floor = Event::new("floor", |_t, q, _v| q[1]).direction(Direction::Falling).terminal();
+/// # let _ = (bottom, floor);
+/// ```
+pub struct Event {
+    pub(crate) name: String,
+    pub(crate) function: Function,
+    pub(crate) direction: Direction,
+    pub(crate) terminal: bool,
+}
+
+impl Event {
+    /// An event called `name` where `function` of (t, q, q̇) crosses zero, in either direction.
+    pub fn new(
+        name: impl Into<String>,
+        function: impl FnMut(f64, &[f64], &[f64]) -> f64 + 'static,
+    ) -> Self {
+        Event {
+            name: name.into(),
+            function: Box::new(function),
+            direction: Direction::Both,
+            terminal: false,
+        }
+    }
+
+    /// Counts crossings in this direction only.
+    #[must_use]
+    pub fn direction(mut self, direction: Direction) -> Self {
+        self.direction = direction;
+        self
+    }
+
+    /// Ends the run at the first crossing that counts.
+    #[must_use]
+    pub fn terminal(mut self) -> Self {
+        self.terminal = true;
+        self
+    }
+}
+
+impl fmt::Debug for Event {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Event")
+            .field("name", &self.name)
+            .field("direction", &self.direction)
+            .field("terminal", &self.terminal)
+            .finish_non_exhaustive()
+    }
+}
+
+/// A located event.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EventHit {
+    /// Name of the event.
+    pub name: String,
+    /// Time.
+    pub t: f64,
+    /// Coordinates, projected.
+    pub q: Vec<f64>,
+    /// Velocities, projected.
+    pub v: Vec<f64>,
+    /// [`Direction::Rising`] or [`Direction::Falling`].
+    pub direction: Direction,
+}
+
+/// A crossing found in one step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Crossing {
+    /// Index of the event.
+    pub(crate) event: usize,
+    pub(crate) t: f64,
+    pub(crate) direction: Direction,
+}
+
+/// The state where an event function is evaluated.
+pub(crate) trait States {
+    /// Interpolated state at `t` into `y`; the ends of the step are exact.
+    fn state(&mut self, t: f64, y: &mut [f64]);
+    /// The same, projected onto the constraints.
+    fn consistent(&mut self, t: f64, y: &mut [f64]) -> Result<(), Error>;
+}
+
+/// Watches events over the steps of a run.
+pub(crate) struct Watch {
+    pub(crate) events: Vec<Event>,
+    /// g of each event at the end of the last accepted step, and at the end of the current one.
+    accepted: Vec<f64>,
+    current: Vec<f64>,
+    /// Crossings of the current step in the order of time.
+    pub(crate) crossings: Vec<Crossing>,
+    state: Vec<f64>,
+}
+
+impl Watch {
+    /// Nothing has been evaluated yet: [`Watch::start`] comes first.
+    pub(crate) fn new(events: Vec<Event>, coordinates: usize) -> Self {
+        let values = vec![0.0; events.len()];
+        Watch {
+            accepted: values.clone(),
+            current: values,
+            crossings: Vec::new(),
+            state: vec![0.0; 2 * coordinates],
+            events,
+        }
+    }
+
+    /// Evaluates the events at the start of the run.
+    pub(crate) fn start(&mut self, t: f64, y: &[f64]) -> Result<(), Error> {
+        let (q, v) = y.split_at(y.len() / 2);
+        for (event, value) in self.events.iter_mut().zip(&mut self.accepted) {
+            *value = evaluate(event, t, q, v)?;
+        }
+        Ok(())
+    }
+
+    /// Finds the crossings in the step from `t_old` to `t`, up to the first terminal one.
+    pub(crate) fn search(
+        &mut self,
+        t_old: f64,
+        t: f64,
+        states: &mut impl States,
+    ) -> Result<(), Error> {
+        let Watch {
+            events,
+            accepted,
+            current,
+            crossings,
+            state,
+        } = self;
+        crossings.clear();
+        current.copy_from_slice(accepted);
+        let n = state.len() / 2;
+        let mut a = t_old;
+        for part in 1..=EVENT_PARTS {
+            let b = if part == EVENT_PARTS {
+                t
+            } else {
+                t_old + (t - t_old) * (part as f64 / EVENT_PARTS as f64)
+            };
+            states.state(b, state);
+            let found = crossings.len();
+            for (i, event) in events.iter_mut().enumerate() {
+                let before = current[i];
+                let after = evaluate(event, b, &state[..n], &state[n..])?;
+                current[i] = after;
+                let direction = match before {
+                    g if g < 0.0 && after >= 0.0 => Direction::Rising,
+                    g if g > 0.0 && after <= 0.0 => Direction::Falling,
+                    _ => continue,
+                };
+                if event.direction == Direction::Both || event.direction == direction {
+                    crossings.push(Crossing {
+                        event: i,
+                        t: b,
+                        direction,
+                    });
+                }
+            }
+            for crossing in &mut crossings[found..] {
+                let event = &mut events[crossing.event];
+                let mut g = |t: f64| {
+                    states.consistent(t, state)?;
+                    evaluate(event, t, &state[..n], &state[n..])
+                };
+                crossing.t = locate(&mut g, a, b, crossing.direction)?;
+            }
+            let forward = t >= t_old;
+            crossings[found..].sort_by(|x, y| {
+                if forward {
+                    x.t.total_cmp(&y.t)
+                } else {
+                    y.t.total_cmp(&x.t)
+                }
+            });
+            if let Some(last) = crossings.iter().position(|c| events[c.event].terminal) {
+                crossings.truncate(last + 1);
+                break;
+            }
+            a = b;
+        }
+        Ok(())
+    }
+
+    /// The step is accepted: the next one begins at its end.
+    pub(crate) fn accept(&mut self) {
+        std::mem::swap(&mut self.accepted, &mut self.current);
+    }
+}
+
+fn evaluate(event: &mut Event, t: f64, q: &[f64], v: &[f64]) -> Result<f64, Error> {
+    let value = (event.function)(t, q, v);
+    if value.is_nan() {
+        let what = vec![format!("event {}", event.name)];
+        return Err(Error::NonFinite { what });
+    }
+    Ok(value)
+}
+
+/// The zero of `g` between `a` and `b` where it changes its sign in `direction`, to rounding in t.
+///
+/// Of the two neighbouring times it is left with it returns the one at which the sign has changed, so that a run which
+/// goes on from there does not meet the same zero again. A `g` at projected states can differ from the interpolated one
+/// that suggested the interval; where it then has its zero just outside, the nearer end is returned.
+///
+/// Inverse quadratic interpolation where it is safe, else bisection: T. R. Chandrupatla, Adv. Eng. Softw. 28 (1997) 145-149.
+fn locate(
+    g: &mut impl FnMut(f64) -> Result<f64, Error>,
+    a: f64,
+    b: f64,
+    direction: Direction,
+) -> Result<f64, Error> {
+    let sign = if direction == Direction::Falling {
+        -1.0
+    } else {
+        1.0
+    };
+    let mut g = |t: f64| -> Result<f64, Error> { Ok(sign * g(t)?) };
+    let (mut x1, mut x2) = (b, a);
+    let (mut f1, mut f2) = (g(b)?, g(a)?);
+    if f1 < 0.0 {
+        return Ok(b);
+    }
+    if f2 >= 0.0 {
+        return Ok(a);
+    }
+    // x1 the newest point, x2 on the other side of the zero, x3 the one before x1.
+    let mut part = 0.5;
+    // Each pair of iterations at least halves the interval, so rounding is reached long before this.
+    for _ in 0..2 * f64::MANTISSA_DIGITS + 64 {
+        let x = x1 + part * (x2 - x1);
+        let f = g(x)?;
+        let (x3, f3);
+        if (f >= 0.0) == (f1 >= 0.0) {
+            (x3, f3) = (x1, f1);
+        } else {
+            (x3, f3) = (x2, f2);
+            (x2, f2) = (x1, f1);
+        }
+        (x1, f1) = (x, f);
+        let width = (x2 - x1).abs();
+        let resolution = f64::EPSILON * x1.abs().max(x2.abs());
+        if f1 == 0.0 || width <= resolution {
+            break;
+        }
+        let xi = (x1 - x2) / (x3 - x2);
+        let phi = (f1 - f2) / (f3 - f2);
+        part = if phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi {
+            f1 / (f2 - f1) * f3 / (f2 - f3)
+                + (x3 - x1) / (x2 - x1) * f1 / (f3 - f1) * f2 / (f3 - f2)
+        } else {
+            0.5
+        };
+        let least = (0.5 * resolution / width).min(0.5);
+        part = part.clamp(least, 1.0 - least);
+    }
+    Ok(if f1 >= 0.0 { x1 } else { x2 })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Zero of `g` on [a, b] (in either order), and the number of evaluations.
+    fn zero(g: impl Fn(f64) -> f64, a: f64, b: f64, direction: Direction) -> (f64, usize) {
+        let mut count = 0;
+        let mut g = |t: f64| {
+            count += 1;
+            Ok(g(t))
+        };
+        let t = locate(&mut g, a, b, direction).unwrap();
+        (t, count)
+    }
+
+    #[test]
+    fn zeros_are_located_to_rounding_in_few_evaluations() {
+        let check = |g: fn(f64) -> f64, a: f64, b: f64, expect: f64| {
+            let direction = if g(b) > 0.0 {
+                Direction::Rising
+            } else {
+                Direction::Falling
+            };
+            let (t, count) = zero(g, a, b, direction);
+            let rounding = 2.0 * f64::EPSILON * expect.abs();
+            assert!((t - expect).abs() <= rounding, "{t} is not {expect}");
+            assert!(count <= 60, "{count} evaluations");
+            assert!(g(t) == 0.0 || (g(t) > 0.0) == (g(b) > 0.0), "wrong side");
+        };
+        let pi = std::f64::consts::PI;
+        check(f64::sin, 3.0, 3.5, pi);
+        check(f64::sin, 3.5, 3.0, pi);
+        check(|t| (t - 1.0).powi(3), 0.0, 1.75, 1.0);
+        check(|t| if t < 0.3 { -1.0 } else { 1e-9 }, 0.0, 1.0, 0.3);
+        check(|t| (20.0 * (t - 2.0)).tanh(), 1.9, 9.0, 2.0);
+        check(|t| t - 1e9 - 0.125, 1e9, 1e9 + 1.0, 1e9 + 0.125);
+    }
+
+    #[test]
+    fn an_end_serves_where_the_projected_function_does_not_change_sign() {
+        assert_eq!(zero(|t| t, 0.5, 1.0, Direction::Rising).0, 0.5);
+        assert_eq!(zero(|t| t - 2.0, 0.5, 1.0, Direction::Rising).0, 1.0);
+    }
+
+    struct Line;
+    impl States for Line {
+        fn state(&mut self, t: f64, y: &mut [f64]) {
+            y[0] = t;
+        }
+        fn consistent(&mut self, t: f64, y: &mut [f64]) -> Result<(), Error> {
+            self.state(t, y);
+            Ok(())
+        }
+    }
+
+    fn crossings(events: Vec<Event>, steps: &[f64]) -> Vec<(usize, f64, Direction)> {
+        let mut watch = Watch::new(events, 1);
+        watch.start(steps[0], &[steps[0], 0.0]).unwrap();
+        let mut found = Vec::new();
+        for step in steps.windows(2) {
+            watch.search(step[0], step[1], &mut Line).unwrap();
+            found.extend(watch.crossings.iter().map(|c| (c.event, c.t, c.direction)));
+            watch.accept();
+        }
+        found
+    }
+
+    #[test]
+    fn several_events_in_one_step_come_in_the_order_of_time() {
+        let events = || {
+            vec![
+                Event::new("late", |_, q, _| q[0] - 0.7),
+                Event::new("both", |_, q, _| (q[0] - 0.2) * (q[0] - 0.65)),
+                Event::new("falling", |_, q, _| (q[0] - 0.3) * (q[0] - 0.9))
+                    .direction(Direction::Falling),
+            ]
+        };
+        let order = |steps: &[f64]| -> Vec<(usize, f64)> {
+            let round = |t: f64| (t * 1e12).round() * 1e-12;
+            let found = crossings(events(), steps);
+            found.iter().map(|(e, t, _)| (*e, round(*t))).collect()
+        };
+        let forward = order(&[0.0, 1.0]);
+        assert_eq!(forward, [(1, 0.2), (2, 0.3), (1, 0.65), (0, 0.7)]);
+        let backward = order(&[1.0, 0.5, 0.0]);
+        assert_eq!(backward, [(2, 0.9), (0, 0.7), (1, 0.65), (1, 0.2)]);
+    }
+
+    #[test]
+    fn an_exact_zero_counts_on_arrival_and_not_at_the_start() {
+        let event = || vec![Event::new("zero", |_, q, _| q[0] - 0.5)];
+        assert_eq!(crossings(event(), &[0.5, 1.0, 2.0]), []);
+        let at = (0, 0.5, Direction::Rising);
+        assert_eq!(crossings(event(), &[0.0, 0.5, 1.0]), [at]);
+        assert_eq!(crossings(event(), &[0.0, 1.0]), [at]);
+    }
+
+    #[test]
+    fn a_terminal_event_ends_the_search() {
+        let events = vec![
+            Event::new("later", |_, q, _| q[0] - 0.52),
+            Event::new("end", |_, q, _| q[0] - 0.51).terminal(),
+            Event::new("earlier", |_, q, _| q[0] - 0.1),
+        ];
+        let found = crossings(events, &[0.0, 1.0]);
+        let names: Vec<usize> = found.iter().map(|c| c.0).collect();
+        assert_eq!(names, [2, 1]);
+    }
+
+    #[test]
+    fn a_function_that_is_not_a_number_is_an_error() {
+        let mut watch = Watch::new(vec![Event::new("root", |_, q, _| q[0].sqrt())], 1);
+        watch.start(1.0, &[1.0, 0.0]).unwrap();
+        let error = watch.search(1.0, -1.0, &mut Line).unwrap_err();
+        let what = vec!["event root".to_owned()];
+        assert_eq!(error, Error::NonFinite { what });
+    }
+}

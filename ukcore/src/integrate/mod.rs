@@ -1,0 +1,170 @@
+//! Adaptive integration of y' = f(t, y) with a projection after each step.
+//!
+//! This is the seam between the mechanics and the integrator. [`Simulation`](crate::Simulation) is the [`Problem`]; a
+//! [`Method`] advances it. The rest of the crate sees neither tableaus nor the library that holds them, so a method
+//! can be replaced, or others (implicit, symplectic) put beside it, without a change elsewhere.
+//!
+//! The order of events in one step, which each method keeps:
+//!
+//! 1. attempt a step, estimate its error, reject it and shrink the step where the error is above 1 in [`error_norm`]
+//!    or where f failed;
+//! 2. [`Problem::project`] the new state; a change above [`PROJECTION_LIMIT`] in the same norm rejects the step;
+//! 3. evaluate f at the projected state, for the next step to begin with;
+//! 4. [`Problem::step`]: samples, events, the interpolant.
+//!
+//! A failure in 2 to 4 rejects the step like a failure in 1. So an error reaches the user only where no step, however
+//! small, avoids it, and then it carries the place where it arose.
+
+pub(crate) mod ivp;
+
+use crate::error::Error;
+
+/// The explicit Runge-Kutta methods on offer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Method {
+    /// Dormand and Prince's 8(5,3), interpolant of order 7. The better choice at tolerances below about 1e-5.
+    #[default]
+    Dop853,
+    /// Dormand and Prince's 5(4), interpolant of order 4.
+    Dopri5,
+}
+
+/// Largest size of a projection, in [`error_norm`], after which a step still counts as good.
+///
+/// A step starts on the constraints and its local error is estimated to be at most 1 in this norm; so it ends at most
+/// that far off them, and the nearest consistent state, nearest in the mass metric, is of the order of 1 away. Ten times
+/// that says that the estimate was wrong, or that levers in the constraints multiply the error of one coordinate into
+/// another one. In both cases the step does not have the accuracy that was asked for.
+pub const PROJECTION_LIMIT: f64 = 10.0;
+
+/// Root mean square of change / (tol + tol max(|y_old|, |y_new|)): the norm in which both methods measure their error.
+pub(crate) fn error_norm(change: impl Iterator<Item = (f64, f64, f64)>, tolerance: f64) -> f64 {
+    let (mut sum, mut count) = (0.0, 0.0);
+    for (delta, old, new) in change {
+        let weighted = delta / (tolerance + tolerance * old.abs().max(new.abs()));
+        sum += weighted * weighted;
+        count += 1.0;
+    }
+    if count > 0.0 {
+        f64::sqrt(sum / count)
+    } else {
+        0.0
+    }
+}
+
+/// What is to be integrated, and what is to be done along the way.
+pub(crate) trait Problem {
+    /// y' at (t, y) into `rate`. Not called with a non-finite y.
+    fn derivative(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Error>;
+    /// Moves an accepted y to the nearest consistent state.
+    fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), Error>;
+    /// The next time at which an interpolant is wanted, if any; may change in [`Problem::step`].
+    fn next_sample(&self) -> Option<f64>;
+    /// Called after each accepted step. After an error nothing of this call may be kept: the step is tried again, shorter.
+    fn step(&mut self, step: &Step<'_>) -> Result<Next, Error>;
+}
+
+/// An accepted step.
+pub(crate) struct Step<'a> {
+    /// Time at its start.
+    pub(crate) t_old: f64,
+    /// Time at its end; before `t_old` where integration runs backward.
+    pub(crate) t: f64,
+    /// Projected state at its end.
+    pub(crate) y: &'a [f64],
+    /// States between; there if [`Settings::dense`] is set or [`Problem::next_sample`] lies in this step.
+    pub(crate) interpolant: Option<&'a dyn Interpolant>,
+}
+
+/// The states within one step.
+pub(crate) trait Interpolant {
+    /// State at `t`, as interpolated: not projected.
+    fn state(&self, t: f64, y: &mut [f64]);
+    /// An owned copy.
+    fn segment(&self) -> Segment;
+}
+
+/// Formula of an interpolant: (s, y, coefficients, s_old, h).
+type Formula = fn(f64, &mut [f64], &[f64], f64, f64);
+
+/// An [`Interpolant`] that is kept.
+#[derive(Clone)]
+pub(crate) struct Segment {
+    /// s = t going forward, −t going backward.
+    sign: f64,
+    s_old: f64,
+    h: f64,
+    coefficients: Vec<f64>,
+    formula: Formula,
+}
+
+impl Segment {
+    /// Time at the start of the step.
+    pub(crate) fn t_old(&self) -> f64 {
+        self.sign * self.s_old
+    }
+
+    /// State at `t`, as interpolated: not projected.
+    pub(crate) fn state(&self, t: f64, y: &mut [f64]) {
+        (self.formula)(self.sign * t, y, &self.coefficients, self.s_old, self.h);
+    }
+}
+
+/// How to go on after a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Next {
+    /// Go on.
+    Continue,
+    /// End here.
+    Stop,
+}
+
+/// Settings of a run, validated.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Settings {
+    /// Absolute and relative tolerance, both.
+    pub(crate) tolerance: f64,
+    /// First step size, positive; `None`: chosen by the method.
+    pub(crate) first_step: Option<f64>,
+    /// Largest step size, positive; `None`: no limit.
+    pub(crate) max_step: Option<f64>,
+    /// Largest number of attempted steps.
+    pub(crate) max_steps: usize,
+    /// An interpolant is wanted on every step.
+    pub(crate) dense: bool,
+}
+
+/// How a run ended.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Outcome {
+    /// At the end time.
+    Reached,
+    /// Where [`Problem::step`] said so.
+    Stopped,
+    /// No step, however small, succeeded; or there were too many.
+    Failed { t: f64, y: Vec<f64>, error: Error },
+}
+
+/// Result of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Report {
+    pub(crate) outcome: Outcome,
+    /// Accepted steps.
+    pub(crate) steps: usize,
+    /// Attempted steps that were not accepted.
+    pub(crate) rejected: usize,
+}
+
+impl Method {
+    /// Integrates from (t0, y0) to `t_end` ≠ t0, in either direction.
+    pub(crate) fn run(
+        self,
+        problem: &mut impl Problem,
+        t0: f64,
+        y0: &[f64],
+        t_end: f64,
+        settings: &Settings,
+    ) -> Report {
+        ivp::run(self, problem, t0, y0, t_end, settings)
+    }
+}

@@ -1,0 +1,414 @@
+//! The result of a simulation, and what can be computed along it.
+
+use std::fmt;
+use std::io::{self, Write};
+
+use crate::assemble::State;
+use crate::error::Error;
+use crate::events::EventHit;
+use crate::integrate::Segment;
+use crate::mechanism::{Energy, Mechanism};
+use crate::solver::{Solution, Solver, SolverOptions};
+use crate::stabilise::Projector;
+
+/// One row of a [`Trajectory`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample<'a> {
+    /// Time.
+    pub t: f64,
+    /// Coordinates.
+    pub q: &'a [f64],
+    /// Velocities.
+    pub v: &'a [f64],
+}
+
+impl Sample<'_> {
+    /// An owned copy, for example to start another run from.
+    #[must_use]
+    pub fn to_state(self) -> State {
+        State {
+            t: self.t,
+            q: self.q.to_vec(),
+            v: self.v.to_vec(),
+        }
+    }
+}
+
+/// What a run cost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Work {
+    /// Accepted steps.
+    pub steps: usize,
+    /// Attempted steps that were not accepted: because of their error, of the size of their projection, or of a failure.
+    pub rejected: usize,
+    /// Evaluations of the acceleration.
+    pub evaluations: usize,
+    /// States projected: the start, the end of each step, samples and events within steps.
+    pub projections: usize,
+    /// Newton steps in them, for positions and velocities together.
+    pub projection_iterations: usize,
+    /// Evaluations that had to leave the fast path for the rank-revealing one.
+    pub fallbacks: usize,
+}
+
+/// How far a sample is off the constraints.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Residual {
+    /// Largest |φ| of the holonomic constraints, in their units.
+    pub position: f64,
+    /// Largest |φ̇| of the holonomic and |φ| of the nonholonomic constraints, in their units.
+    pub velocity: f64,
+}
+
+impl Residual {
+    /// The larger one of the two.
+    #[must_use]
+    pub fn largest(self) -> f64 {
+        nan_max(self.position, self.velocity)
+    }
+}
+
+/// Why a run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Ending {
+    /// It reached the end time.
+    Completed,
+    /// A terminal event.
+    Event,
+    /// [`progress`](crate::Simulation::progress) asked for it.
+    Interrupted,
+    /// An error, which [`Failure`](crate::Failure) carries.
+    #[default]
+    Failed,
+}
+
+/// Samples of a motion, its events, its cost; and what follows from the samples.
+///
+/// Its methods compute at each sample anew what is asked for; nothing but states is stored.
+#[derive(Clone)]
+pub struct Trajectory<M> {
+    mechanism: M,
+    options: SolverOptions,
+    pub(crate) times: Vec<f64>,
+    /// [q; q̇] of one sample after the other.
+    pub(crate) states: Vec<f64>,
+    pub(crate) events: Vec<EventHit>,
+    pub(crate) segments: Option<Vec<Segment>>,
+    /// Whether states between samples are to be projected.
+    pub(crate) projected: bool,
+    /// Start time, and the state with which the run ended; unset before a valid start.
+    pub(crate) start: f64,
+    pub(crate) end: Option<State>,
+    pub(crate) ending: Ending,
+    pub(crate) work: Work,
+}
+
+impl<M: Mechanism> Trajectory<M> {
+    pub(crate) fn new(mechanism: M, options: SolverOptions) -> Self {
+        Trajectory {
+            mechanism,
+            options,
+            times: Vec::new(),
+            states: Vec::new(),
+            events: Vec::new(),
+            segments: None,
+            projected: false,
+            start: 0.0,
+            end: None,
+            ending: Ending::Failed,
+            work: Work::default(),
+        }
+    }
+
+    /// The mechanism, with the parameters that were simulated.
+    #[must_use]
+    pub fn mechanism(&self) -> &M {
+        &self.mechanism
+    }
+
+    /// Number of samples.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.times.len()
+    }
+
+    /// Whether there is no sample.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.times.is_empty()
+    }
+
+    /// The samples, in the order of integration.
+    pub fn samples(
+        &self,
+    ) -> impl DoubleEndedIterator<Item = Sample<'_>> + ExactSizeIterator + Clone {
+        (0..self.len()).map(|i| self.sample_at(i))
+    }
+
+    /// Sample `index`, if there are so many.
+    #[must_use]
+    pub fn sample(&self, index: usize) -> Option<Sample<'_>> {
+        (index < self.len()).then(|| self.sample_at(index))
+    }
+
+    fn sample_at(&self, index: usize) -> Sample<'_> {
+        let n = M::SPEC.n();
+        let state = &self.states[2 * n * index..2 * n * (index + 1)];
+        let (q, v) = state.split_at(n);
+        let t = self.times[index];
+        Sample { t, q, v }
+    }
+
+    /// The state with which the run ended, be it a sample or not: at the end time, at a terminal event, or after the last step
+    /// that succeeded. `None` only in a [`Failure`](crate::Failure) of a run that could not start.
+    #[must_use]
+    pub fn last(&self) -> Option<Sample<'_>> {
+        let State { t, q, v } = self.end.as_ref()?;
+        Some(Sample { t: *t, q, v })
+    }
+
+    /// Why the run ended.
+    #[must_use]
+    pub fn ending(&self) -> Ending {
+        self.ending
+    }
+
+    /// What the run cost.
+    #[must_use]
+    pub fn work(&self) -> Work {
+        self.work
+    }
+
+    /// Times of the samples.
+    #[must_use]
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// The located events called `name`, in the order of integration; none if there is no such event.
+    pub fn events<'a>(&'a self, name: &'a str) -> impl DoubleEndedIterator<Item = &'a EventHit> {
+        self.events.iter().filter(move |hit| hit.name == name)
+    }
+
+    /// All located events, in the order of integration.
+    #[must_use]
+    pub fn all_events(&self) -> &[EventHit] {
+        &self.events
+    }
+
+    /// The state at any time of the run, which must have been a [`dense`](crate::Simulation::dense) one; projected like the samples.
+    ///
+    /// # Errors
+    /// [`Error::InvalidSetting`] if the interpolant was not kept or `t` is outside of the run; what projection can report.
+    pub fn at(&self, t: f64) -> Result<State, Error> {
+        let invalid = |what, reason| Err(Error::InvalidSetting { what, reason });
+        let Some(segments) = &self.segments else {
+            let reason = "was not asked for, so there is no state between the samples; build the simulation with `.dense()`";
+            return invalid("dense", reason.to_owned());
+        };
+        let Some(end) = &self.end else {
+            return invalid("t", format!("is {t}, but the run did not start"));
+        };
+        let (low, high) = (self.start.min(end.t), self.start.max(end.t));
+        if !(low..=high).contains(&t) {
+            return invalid("t", format!("is {t}, but the run covers {low} to {high}"));
+        }
+        if t == end.t {
+            return Ok(end.clone());
+        }
+        let forward = end.t >= self.start;
+        let begun = |s: &Segment| {
+            if forward {
+                s.t_old() <= t
+            } else {
+                s.t_old() >= t
+            }
+        };
+        let index = segments.partition_point(begun).saturating_sub(1);
+        let Some(segment) = segments.get(index) else {
+            return Ok(end.clone());
+        };
+        let n = M::SPEC.n();
+        let mut q = vec![0.0; 2 * n];
+        segment.state(t, &mut q);
+        let mut v = q.split_off(n);
+        if self.projected {
+            let mut projector = Projector::new::<M>();
+            projector.position(&self.mechanism, t, &mut q, &v)?;
+            projector.velocity(&self.mechanism, t, &q, &mut v)?;
+        }
+        Ok(State { t, q, v })
+    }
+
+    /// Values of the coordinate called `name` at the samples.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name.
+    pub fn coordinate(&self, name: &str) -> Result<Vec<f64>, Error> {
+        let index = M::SPEC.coordinate_index(name)?;
+        Ok(self.samples().map(|s| s.q[index]).collect())
+    }
+
+    /// Velocities of the coordinate called `name` at the samples.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name.
+    pub fn velocity(&self, name: &str) -> Result<Vec<f64>, Error> {
+        let index = M::SPEC.coordinate_index(name)?;
+        Ok(self.samples().map(|s| s.v[index]).collect())
+    }
+
+    /// Values of the output called `name` at the samples.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name.
+    pub fn output(&self, name: &str) -> Result<Vec<f64>, Error> {
+        let index = M::SPEC.output_index(name)?;
+        Ok(self.outputs().iter().map(|row| row[index]).collect())
+    }
+
+    /// All outputs at the samples: one row a sample, the order of [`Spec::outputs`](crate::Spec::outputs).
+    #[must_use]
+    pub fn outputs(&self) -> Vec<Vec<f64>> {
+        let row = |s: Sample<'_>| {
+            let mut row = vec![0.0; M::SPEC.outputs.len()];
+            self.mechanism.outputs(s.t, s.q, s.v, &mut row);
+            row
+        };
+        self.samples().map(row).collect()
+    }
+
+    /// Kinetic and potential energy at the samples.
+    #[must_use]
+    pub fn energy(&self) -> Vec<Energy> {
+        let energy = |s: Sample<'_>| self.mechanism.energy(s.t, s.q, s.v);
+        self.samples().map(energy).collect()
+    }
+
+    /// Largest |E − E₀| over the samples, E = T + V, as a part of the largest energy exchanged: the largest T or |V − V₀|.
+    ///
+    /// So the zero of V does not matter. Where nothing moves it is 0; it says something of the accuracy only where energy
+    /// is conserved ([`Structure::conservative`](crate::Structure::conservative)).
+    #[must_use]
+    pub fn energy_drift(&self) -> f64 {
+        let energy = self.energy();
+        let Some(first) = energy.first() else {
+            return 0.0;
+        };
+        let (mut drift, mut scale) = (0.0, 0.0);
+        for e in &energy {
+            // V − V₀ first: a large constant in V must not hide the rest.
+            let change = (e.potential - first.potential) + (e.kinetic - first.kinetic);
+            drift = nan_max(drift, change.abs());
+            scale = nan_max(scale, e.kinetic.abs());
+            scale = nan_max(scale, (e.potential - first.potential).abs());
+        }
+        if scale == 0.0 { drift } else { drift / scale }
+    }
+
+    /// How far the samples are off the constraints.
+    #[must_use]
+    pub fn residuals(&self) -> Vec<Residual> {
+        let mut position = vec![0.0; M::SPEC.holonomic];
+        let mut velocity = vec![0.0; M::SPEC.m()];
+        let largest = |values: &[f64]| values.iter().fold(0.0, |m, r| nan_max(m, r.abs()));
+        let mut residual = |s: Sample<'_>| {
+            self.mechanism.residual(s.t, s.q, &mut position);
+            self.mechanism.residual_rate(s.t, s.q, s.v, &mut velocity);
+            Residual {
+                position: largest(&position),
+                velocity: largest(&velocity),
+            }
+        };
+        self.samples().map(&mut residual).collect()
+    }
+
+    /// Accelerations q̈ at the samples, by the formula of the run.
+    ///
+    /// # Errors
+    /// What the solver reports, with the sample ([`Error::At`]).
+    pub fn accelerations(&self) -> Result<Vec<Vec<f64>>, Error> {
+        let mut solver = Solver::new::<M>(self.options);
+        let mut acceleration = |s: Sample<'_>| {
+            let mut out = vec![0.0; s.q.len()];
+            match solver.acceleration(&self.mechanism, s.t, s.q, s.v, &mut out) {
+                Ok(()) => Ok(out),
+                Err(error) => Err(at(s, error)),
+            }
+        };
+        self.samples().map(&mut acceleration).collect()
+    }
+
+    /// Accelerations, constraint forces, multipliers and ranks at the samples, by the formula of the run.
+    ///
+    /// # Errors
+    /// What the solver reports, with the sample ([`Error::At`]).
+    pub fn solutions(&self) -> Result<Vec<Solution>, Error> {
+        let mut solver = Solver::new::<M>(self.options);
+        let mut solve = |s: Sample<'_>| {
+            let solution = solver.solve(&self.mechanism, s.t, s.q, s.v);
+            solution.map_err(|error| at(s, error))
+        };
+        self.samples().map(&mut solve).collect()
+    }
+
+    /// Writes the samples as comma-separated values under a line of names: `t`, the coordinates (`x[0]`), their rates
+    /// (`dot(x[0])`), the outputs, `energy` (T + V), `residual` ([`Residual::largest`]).
+    ///
+    /// Numbers have the fewest digits that read back as the same number.
+    ///
+    /// # Errors
+    /// Those of `writer`.
+    pub fn write_csv(&self, writer: &mut (impl Write + ?Sized)) -> io::Result<()> {
+        let spec = M::SPEC;
+        let mut writer = io::BufWriter::new(writer);
+        write!(writer, "t")?;
+        for name in spec.coords {
+            write!(writer, ",{name}")?;
+        }
+        for name in spec.coords {
+            write!(writer, ",dot({name})")?;
+        }
+        for output in spec.outputs {
+            write!(writer, ",{}", output.name)?;
+        }
+        writeln!(writer, ",energy,residual")?;
+        let rows = self.samples().zip(self.outputs());
+        let facts = self.energy().into_iter().zip(self.residuals());
+        for ((sample, outputs), (energy, residual)) in rows.zip(facts) {
+            write!(writer, "{:?}", sample.t)?;
+            for value in sample.q.iter().chain(sample.v).chain(&outputs) {
+                write!(writer, ",{value:?}")?;
+            }
+            writeln!(writer, ",{:?},{:?}", energy.total(), residual.largest())?;
+        }
+        writer.flush()
+    }
+}
+
+/// The larger one, or NaN if either is.
+fn nan_max(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a > b { a } else { b }
+}
+
+fn at(sample: Sample<'_>, error: Error) -> Error {
+    Error::At {
+        t: sample.t,
+        q: sample.q.to_vec(),
+        v: sample.v.to_vec(),
+        source: Box::new(error),
+    }
+}
+
+impl<M: Mechanism> fmt::Debug for Trajectory<M> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Trajectory")
+            .field("mechanism", &M::SPEC.name)
+            .field("samples", &self.len())
+            .field("events", &self.events)
+            .field("end", &self.end)
+            .field("ending", &self.ending)
+            .field("work", &self.work)
+            .finish_non_exhaustive()
+    }
+}
