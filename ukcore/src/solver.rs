@@ -1,7 +1,45 @@
 //! Accelerations, constraint forces and multipliers at a state.
+//!
+//! # Rank decisions
+//!
+//! The *significance* of a constraint is the largest entry of its row of A, as a share of what it is before the part implied by
+//! the other rows is taken off. It lies between 0 and about 1 and does not depend on how constraints or masses are scaled. A row
+//! is redundant if its significance does not exceed a tolerance:
+//!
+//! - [`SolverOptions::rank_tolerance`] at a state that satisfies the constraints.
+//! - A set that is redundant only *on* the manifold φ = 0 (a third parallel rod of a parallelogram, Bricard's linkage) has, at a
+//!   distance δ from it, a significance of order δ, and what that row then demands is noise divided by δ. A Runge-Kutta stage
+//!   lies off the manifold. So where a significance is below [`RANK_CEILING`], the Newton correction Δq (and Δv) is computed from
+//!   the rows above the ceiling and the equations are evaluated there too: the difference ΔA is how far A is from the one at
+//!   the manifold, hence bounds what significance drift alone can lend. The tolerance is raised to [`DRIFT_FACTOR`] |ΔA|
+//!   (relative to the row), up to the ceiling.
+//!
+//! The same difference, |Δb| + |ΔA||q̈|, is granted to the redundant rows before they are called inconsistent.
 
+use std::any::TypeId;
+
+use crate::diagnose::{self, Diagnosis};
 use crate::error::Error;
 use crate::mechanism::Mechanism;
+use crate::saddle::Saddle;
+use crate::metric::MassFault;
+use crate::workspace::{Dense, Evaluated, Route, Rows};
+
+/// Default of [`SolverOptions::rank_tolerance`].
+///
+/// Entries of A are exact to a few ε; differences of coordinates lose the digits that the coordinates' size costs (three for
+/// lengths of a thousandth of the coordinates), and elimination multiplies by at most the number of rows, say a hundred:
+/// ε · 10³ · 10² ≈ 2e-11. What lies above is a constraint that the modeller must have meant.
+pub const RANK_TOLERANCE: f64 = 2e-11;
+
+/// Largest tolerance that drift may lead to. A row that keeps 3 % of itself is independent at any state near enough to the
+/// manifold to be called a state of this mechanism; and mechanisms away from singular configurations never pay for the drift
+/// estimate.
+pub const RANK_CEILING: f64 = 1.0 / 32.0;
+
+/// Factor on the measured drift of A and b: pivoted elimination can enlarge a perturbation of the rows (in practice by less than
+/// ten), and one Newton correction measures the drift to first order.
+pub const DRIFT_FACTOR: f64 = 10.0;
 
 /// Which formula computes the accelerations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -9,11 +47,11 @@ pub enum Formula {
     /// Udwadia-Kalaba where M is regular, Udwadia-Phohomsiri where it is singular.
     #[default]
     Auto,
-    /// Eq. 13, for regular M.
+    /// Eq. 13, for regular M only.
     UdwadiaKalaba,
-    /// Eq. 19, also for singular M.
+    /// Eq. 19, for regular and singular M.
     UdwadiaPhohomsiri,
-    /// The saddle-point system [M Aᵀ; A 0].
+    /// Gaussian elimination of \[M Aᵀ; A 0\]. Where constraints are redundant or nearly so, eq. 19 takes over (a fallback).
     Kkt,
 }
 
@@ -22,7 +60,7 @@ pub enum Formula {
 pub struct Baumgarte {
     /// α in 1/s.
     pub alpha: f64,
-    /// β in 1/s.
+    /// β in 1/s; β = α is critical damping.
     pub beta: f64,
 }
 
@@ -31,7 +69,8 @@ pub struct Baumgarte {
 pub struct SolverOptions {
     /// The formula.
     pub formula: Formula,
-    /// Relative rank tolerance.
+    /// Significance up to which a constraint counts as implied by the others (see the [module](self)); between ε and
+    /// [`RANK_CEILING`], values outside are moved there.
     pub rank_tolerance: f64,
     /// Baumgarte's stabilisation, if wanted.
     pub baumgarte: Option<Baumgarte>,
@@ -41,7 +80,7 @@ impl Default for SolverOptions {
     fn default() -> Self {
         SolverOptions {
             formula: Formula::Auto,
-            rank_tolerance: 1e-11,
+            rank_tolerance: RANK_TOLERANCE,
             baumgarte: None,
         }
     }
@@ -50,9 +89,10 @@ impl Default for SolverOptions {
 /// What a [`Solver`] has done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct SolverWork {
-    /// Evaluations of [`Mechanism::dynamics`].
+    /// Evaluations of [`Mechanism::dynamics`], those for drift estimates included.
     pub evaluations: usize,
-    /// Evaluations that had to leave the formula first tried for a more general one.
+    /// Solutions that had to leave the formula first tried for a more general one: a mass matrix that looked regular at compile
+    /// time and is singular at run time, or redundant constraints under [`Formula::Kkt`].
     pub fallbacks: usize,
 }
 
@@ -61,41 +101,111 @@ pub struct SolverWork {
 pub struct Solution {
     /// q̈.
     pub acceleration: Vec<f64>,
-    /// Qc_id.
+    /// Qc_id, the force of ideal constraints (eq. 11): does no work in a virtual displacement.
     pub ideal_force: Vec<f64>,
-    /// Qc_nid.
+    /// Qc_nid, the non-ideal part (eq. 12). M q̈ = Q + Qc_id + Qc_nid.
     pub nonideal_force: Vec<f64>,
-    /// λ.
+    /// λ with Qc_id = Aᵀλ; the one of least norm where constraints are redundant.
     pub multipliers: Vec<f64>,
     /// Rank of A.
     pub rank: usize,
-    /// n − rank.
+    /// n − rank A.
     pub degrees_of_freedom: usize,
-    /// The formula used.
+    /// The formula that was used (never [`Formula::Auto`]).
     pub formula: Formula,
-    /// Constraints implied by the others.
+    /// Indices of constraints that the others imply, ascending. Not an error.
     pub redundant: Vec<usize>,
 }
 
-/// Solves M q̈ = Q + Qc with A q̈ = b in preallocated buffers.
+impl Solution {
+    /// Rank, degrees of freedom and redundant constraints by name.
+    #[must_use]
+    pub fn diagnosis<M: Mechanism>(&self) -> Diagnosis {
+        Diagnosis::new(M::SPEC, self.rank, &self.redundant)
+    }
+}
+
+/// Solves M q̈ = Q + Qc, A q̈ = b in buffers allocated once.
 #[derive(Debug, Clone)]
 pub struct Solver {
+    owner: TypeId,
+    owner_name: &'static str,
     options: SolverOptions,
     work: SolverWork,
+    n: usize,
+    m: usize,
+    here: Evaluated,
+    /// b, with Baumgarte's terms.
+    rhs: Vec<f64>,
+    /// Q + c.
+    force: Vec<f64>,
+    position: Vec<f64>,
+    rate: Vec<f64>,
+    dense: Dense,
+    saddle: Option<Saddle>,
+    drift: Drift,
+}
+
+/// The equations at the nearest state on the manifold.
+#[derive(Debug, Clone)]
+struct Drift {
+    known: bool,
+    there: Evaluated,
+    q: Vec<f64>,
+    v: Vec<f64>,
+    correction: Vec<f64>,
+}
+
+/// Rank and formula of the evaluation in hand.
+#[derive(Debug, Clone, Copy)]
+struct Prepared {
+    formula: Formula,
+    /// The tolerance that decided the rank.
+    tolerance: f64,
 }
 
 impl Solver {
-    /// A solver for mechanisms of type `M`.
+    /// A solver for mechanisms of type `M`. Everything it will ever need is allocated here.
     #[must_use]
     pub fn new<M: Mechanism>(options: SolverOptions) -> Self {
-        let work = SolverWork::default();
-        Solver { options, work }
+        let spec = M::SPEC;
+        let (n, m) = (spec.n(), spec.m());
+        let saddle = (options.formula == Formula::Kkt).then(|| Saddle::new(n, m));
+        Solver {
+            owner: TypeId::of::<M>(),
+            owner_name: spec.name,
+            options: SolverOptions {
+                rank_tolerance: options.rank_tolerance.max(f64::EPSILON).min(RANK_CEILING),
+                ..options
+            },
+            work: SolverWork::default(),
+            n,
+            m,
+            here: Evaluated::new(n, m),
+            rhs: vec![0.0; m],
+            force: vec![0.0; n],
+            position: vec![0.0; spec.holonomic],
+            rate: vec![0.0; m],
+            dense: Dense::new(n, m, spec.structure.mass_diagonal),
+            saddle,
+            drift: Drift {
+                known: false,
+                there: Evaluated::new(n, m),
+                q: vec![0.0; n],
+                v: vec![0.0; n],
+                correction: vec![0.0; n],
+            },
+        }
     }
 
-    /// q̈ at (t, q, q̇) into `out`.
+    /// q̈ at (t, q, q̇) into `out` (each of length n). Allocates nothing unless it fails.
+    ///
+    /// Off the constraints, q̈ is what eqs. 13 and 19 give there; redundant constraints are then met in the least-squares sense.
     ///
     /// # Errors
-    /// See [`Error`].
+    /// [`Error::NonFinite`], [`Error::Underdetermined`], [`Error::Inconsistent`], [`Error::IndefiniteMass`],
+    /// [`Error::WrongLength`], and [`Error::InvalidSetting`] for a formula that does not fit the mass matrix, or a solver made for
+    /// another mechanism.
     pub fn acceleration<M: Mechanism>(
         &mut self,
         mech: &M,
@@ -104,26 +214,70 @@ impl Solver {
         v: &[f64],
         out: &mut [f64],
     ) -> Result<(), Error> {
-        let solution = self.solve(mech, t, q, v)?;
-        out.copy_from_slice(&solution.acceleration);
-        Ok(())
+        diagnose::check_length("out", out.len(), self.n)?;
+        let prepared = self.prepare(mech, t, q, v)?;
+        if M::SPEC.structure.nonideal {
+            let sum = self.here.force.iter().zip(&self.here.nonideal);
+            self.force.iter_mut().zip(sum).for_each(|(f, (a, b))| *f = a + b);
+        } else {
+            self.force.copy_from_slice(&self.here.force);
+        }
+        self.solve_for_force(prepared.formula, out);
+        self.check(mech, t, q, v, prepared.tolerance, out)
     }
 
-    /// Everything at (t, q, q̇).
+    /// Accelerations, forces, multipliers and rank at (t, q, q̇). Allocates its result.
     ///
     /// # Errors
-    /// See [`Error`].
+    /// As [`Solver::acceleration`].
     pub fn solve<M: Mechanism>(
         &mut self,
-        _mech: &M,
-        _t: f64,
-        _q: &[f64],
-        _v: &[f64],
+        mech: &M,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
     ) -> Result<Solution, Error> {
-        self.work.evaluations += 1;
-        Err(Error::InvalidSetting {
-            what: "formula",
-            reason: format!("{:?} is being written", self.options.formula),
+        let n = self.n;
+        let mut ideal = vec![0.0; n];
+        let prepared = self.prepare(mech, t, q, v)?;
+        self.force.copy_from_slice(&self.here.force);
+        self.solve_for_force(prepared.formula, &mut ideal);
+        let mut ideal_force = if prepared.formula == Formula::UdwadiaKalaba {
+            let mut force = self.dense.reaction.clone();
+            self.dense.metric.multiply(&mut force);
+            force
+        } else {
+            let mut force = self.mass_times(&ideal);
+            force.iter_mut().zip(&self.here.force).for_each(|(f, q)| *f -= q);
+            force
+        };
+        let mut acceleration = ideal.clone();
+        let mut nonideal_force = vec![0.0; n];
+        if M::SPEC.structure.nonideal {
+            let sum = self.here.force.iter().zip(&self.here.nonideal);
+            self.force.iter_mut().zip(sum).for_each(|(f, (a, b))| *f = a + b);
+            self.solve_for_force(prepared.formula, &mut acceleration);
+            let change: Vec<f64> = acceleration.iter().zip(&ideal).map(|(a, b)| a - b).collect();
+            nonideal_force = self.mass_times(&change);
+        }
+        self.check(mech, t, q, v, prepared.tolerance, &acceleration)?;
+        let mut multipliers = vec![0.0; self.m];
+        self.dense.multipliers(&mut ideal_force.clone(), &mut multipliers);
+        if self.m == 0 {
+            ideal_force.fill(0.0);
+        }
+        let rank = self.dense.cod.rank();
+        let mut redundant = self.dense.cod.order()[rank..].to_vec();
+        redundant.sort_unstable();
+        Ok(Solution {
+            acceleration,
+            ideal_force,
+            nonideal_force,
+            multipliers,
+            rank,
+            degrees_of_freedom: n - rank,
+            formula: prepared.formula,
+            redundant,
         })
     }
 
@@ -131,5 +285,263 @@ impl Solver {
     #[must_use]
     pub fn work(&self) -> SolverWork {
         self.work
+    }
+
+    fn rows(&self) -> Rows<'_> {
+        rows(&self.here, self.m)
+    }
+
+    fn mass_times(&self, x: &[f64]) -> Vec<f64> {
+        let mut y = vec![0.0; self.n];
+        for (x, column) in x.iter().zip(self.here.mass.chunks_exact(self.n)) {
+            crate::pinv::axpy(*x, column, &mut y);
+        }
+        y
+    }
+
+    /// Evaluates, factors, and decides the rank.
+    fn prepare<M: Mechanism>(
+        &mut self,
+        mech: &M,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+    ) -> Result<Prepared, Error> {
+        if self.owner != TypeId::of::<M>() {
+            return Err(Error::InvalidSetting {
+                what: "mechanism",
+                reason: format!(
+                    "is a `{}`, but this solver was made for `{}`",
+                    M::SPEC.name,
+                    self.owner_name
+                ),
+            });
+        }
+        diagnose::check_length("q", q.len(), self.n)?;
+        diagnose::check_length("v", v.len(), self.n)?;
+        self.here.dynamics(mech, t, q, v);
+        self.work.evaluations += 1;
+        self.drift.known = false;
+        self.rhs.copy_from_slice(&self.here.rhs);
+        if let Some(Baumgarte { alpha, beta }) = self.options.baumgarte {
+            mech.residual(t, q, &mut self.position);
+            mech.residual_rate(t, q, v, &mut self.rate);
+            let h = self.position.len();
+            for (i, b) in self.rhs.iter_mut().enumerate() {
+                *b -= match self.position.get(i) {
+                    Some(phi) => 2.0 * alpha * self.rate[i] + beta * beta * phi,
+                    None => alpha * self.rate[i],
+                };
+            }
+            debug_assert!(h <= self.m);
+        }
+        let finite = |x: &[f64]| x.iter().all(|x| x.is_finite());
+        let terms = &self.here;
+        if !(t.is_finite() && finite(q) && finite(v) && finite(&terms.mass) && finite(&terms.force))
+            || !(finite(&terms.nonideal) && finite(&terms.jacobian) && finite(&self.rhs))
+        {
+            return Err(diagnose::non_finite_input(mech, t, q, v)
+                .unwrap_or_else(|| diagnose::non_finite_terms::<M>(terms, &self.rhs)));
+        }
+        let formula = self.factor::<M>()?;
+        let tolerance = self.decide_rank(mech, t, q, v)?;
+        if formula != Formula::UdwadiaKalaba && self.dense.determined() < self.n {
+            return Err(Error::Underdetermined {
+                coordinates: diagnose::participating(M::SPEC, &self.dense.undetermined()),
+                rank: self.dense.determined(),
+                needed: self.n,
+            });
+        }
+        let formula = self.eliminate(formula);
+        Ok(Prepared { formula, tolerance })
+    }
+
+    /// Factors M and A; the formula is then UdwadiaKalaba, UdwadiaPhohomsiri or Kkt.
+    fn factor<M: Mechanism>(&mut self) -> Result<Formula, Error> {
+        let structure = &M::SPEC.structure;
+        let floor = self.options.rank_tolerance;
+        let a = rows(&self.here, self.m);
+        let (route, formula) = match self.options.formula {
+            Formula::Auto if structure.massless.is_empty() => (Route::Regular, Formula::UdwadiaKalaba),
+            Formula::UdwadiaKalaba => (Route::Regular, Formula::UdwadiaKalaba),
+            Formula::Auto | Formula::UdwadiaPhohomsiri => (Route::Singular, Formula::UdwadiaPhohomsiri),
+            Formula::Kkt => (Route::Singular, Formula::Kkt),
+        };
+        match self.dense.factor(route, &self.here.mass, a, floor) {
+            Ok(()) => Ok(formula),
+            Err(MassFault::Singular(_)) if self.options.formula == Formula::Auto => {
+                self.work.fallbacks += 1;
+                let singular = self.dense.factor(Route::Singular, &self.here.mass, a, floor);
+                singular.map_err(|fault| mass_error::<M>(fault))?;
+                Ok(Formula::UdwadiaPhohomsiri)
+            }
+            Err(fault) => Err(mass_error::<M>(fault)),
+        }
+    }
+
+    /// Decides the rank (see the [module](self)) and returns the tolerance that did.
+    fn decide_rank<M: Mechanism>(
+        &mut self,
+        mech: &M,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+    ) -> Result<f64, Error> {
+        let mut tolerance = self.options.rank_tolerance;
+        let clear = leading(self.dense.cod.pivots(), RANK_CEILING);
+        let mut rank = self.dense.cod.pivots().len();
+        if clear < rank {
+            self.dense.cod.set_rank(clear);
+            self.measure_drift(mech, t, q, v);
+            let there = rows(&self.drift.there, self.m);
+            let here = rows(&self.here, self.m);
+            for c in 0..self.m {
+                let change = here.row(c).zip(there.row(c)).map(|(a, b)| (a - b).abs());
+                // Not finite: no state worth the name is near.
+                let change = change.fold(0.0, |s: f64, x| if x.is_finite() { s.max(x) } else { f64::INFINITY });
+                if change > 0.0 {
+                    tolerance = tolerance.max(DRIFT_FACTOR * change / here.largest(c));
+                }
+            }
+            tolerance = tolerance.min(RANK_CEILING);
+            rank = leading(self.dense.cod.pivots(), tolerance);
+        }
+        let reduced = self.dense.set_rank(rank, &self.here.mass);
+        reduced.map_err(|fault| mass_error::<M>(fault))?;
+        Ok(tolerance)
+    }
+
+    /// The equations one Newton step nearer to the manifold, with the rank in force.
+    fn measure_drift<M: Mechanism>(&mut self, mech: &M, t: f64, q: &[f64], v: &[f64]) {
+        let Drift { known, there, q: near_q, v: near_v, correction } = &mut self.drift;
+        *known = true;
+        mech.residual(t, q, &mut self.position);
+        mech.residual_rate(t, q, v, &mut self.rate);
+        self.dense.least_norm(&self.rate, correction);
+        near_v.iter_mut().zip(v).zip(&*correction).for_each(|((x, v), d)| *x = v - d);
+        self.rate.fill(0.0);
+        self.rate[..self.position.len()].copy_from_slice(&self.position);
+        self.dense.least_norm(&self.rate, correction);
+        near_q.iter_mut().zip(q).zip(&*correction).for_each(|((x, q), d)| *x = q - d);
+        there.dynamics(mech, t, near_q, near_v);
+        self.work.evaluations += 1;
+    }
+
+    /// Under Formula::Kkt: eliminates, or falls back.
+    fn eliminate(&mut self, formula: Formula) -> Formula {
+        match &mut self.saddle {
+            Some(saddle) if formula == Formula::Kkt => {
+                let a = rows(&self.here, self.m);
+                let independent = leading(self.dense.cod.pivots(), RANK_CEILING) == self.m;
+                let scales = (&self.dense.metric.root[..], &self.dense.row_scale[..]);
+                if independent && saddle.factor(&self.here.mass, a, scales.0, scales.1) {
+                    return Formula::Kkt;
+                }
+                self.work.fallbacks += 1;
+                Formula::UdwadiaPhohomsiri
+            }
+            _ => formula,
+        }
+    }
+
+    fn solve_for_force(&mut self, formula: Formula, out: &mut [f64]) {
+        let a = rows(&self.here, self.m);
+        match &mut self.saddle {
+            Some(saddle) if formula == Formula::Kkt => {
+                let (root, row_scale) = (&self.dense.metric.root, &self.dense.row_scale);
+                saddle.solve(&self.force, &self.rhs, root, row_scale, out);
+            }
+            _ => {
+                let force = Some(&self.force[..]);
+                self.dense.solve(&self.here.mass, a, force, &self.rhs, out);
+            }
+        }
+    }
+
+    /// Redundant rows must agree with the others, and q̈ must be finite.
+    fn check<M: Mechanism>(
+        &mut self,
+        mech: &M,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        tolerance: f64,
+        acceleration: &[f64],
+    ) -> Result<(), Error> {
+        let spec = M::SPEC;
+        if !acceleration.iter().all(|x| x.is_finite()) {
+            let names = spec.coords.iter().zip(acceleration).filter(|(_, x)| !x.is_finite());
+            return Err(Error::NonFinite {
+                what: names.map(|(name, _)| format!("acceleration of {name}")).collect(),
+            });
+        }
+        if self.dense.cod.rank() == self.m || self.agrees(acceleration, tolerance) {
+            return Ok(());
+        }
+        if !self.drift.known {
+            self.measure_drift(mech, t, q, v);
+            if self.agrees(acceleration, tolerance) {
+                return Ok(());
+            }
+        }
+        let a = self.rows();
+        let residual: Vec<f64> =
+            (0..self.m).map(|c| a.product(c, acceleration) - self.rhs[c]).collect();
+        // A row of zeros has no scale: 0 = b.
+        let scale: Vec<f64> =
+            self.dense.row_scale.iter().map(|&s| if s > 0.0 { s } else { 1.0 }).collect();
+        Err(Error::Inconsistent { constraints: diagnose::offending(spec, &residual, &scale) })
+    }
+
+    /// Whether A q̈ = b holds up to `tolerance` and drift.
+    fn agrees(&self, acceleration: &[f64], tolerance: f64) -> bool {
+        let a = self.rows();
+        let size = |c: usize| self.rhs[c].abs() + a.magnitude(c, acceleration);
+        let scale = &self.dense.row_scale;
+        let largest = (0..self.m).map(|c| scale[c] * size(c)).fold(0.0, f64::max);
+        let rounding = DRIFT_FACTOR * tolerance.min(RANK_CEILING) * largest;
+        (0..self.m).all(|c| {
+            let residual = (self.rhs[c] - a.product(c, acceleration)).abs();
+            if scale[c] == 0.0 {
+                return residual == 0.0 || residual <= self.granted(c, acceleration);
+            }
+            let granted = scale[c] * self.granted(c, acceleration);
+            scale[c] * residual <= rounding + granted.min(RANK_CEILING * largest)
+        })
+    }
+
+    /// What drift explains of the residual of row `c`.
+    fn granted(&self, c: usize, acceleration: &[f64]) -> f64 {
+        if !self.drift.known {
+            return 0.0;
+        }
+        let there = rows(&self.drift.there, self.m);
+        let change = self.rows().row(c).zip(there.row(c)).zip(acceleration);
+        let change: f64 = change.map(|((a, b), x)| ((a - b) * x).abs()).sum();
+        let granted = DRIFT_FACTOR * ((self.drift.there.rhs[c] - self.rhs[c]).abs() + change);
+        if granted.is_finite() { granted } else { 0.0 }
+    }
+}
+
+fn rows(terms: &Evaluated, m: usize) -> Rows<'_> {
+    Rows { jacobian: &terms.jacobian, stride: m, rows: m }
+}
+
+/// Number of pivots before the first that does not exceed `tolerance`.
+pub(crate) fn leading(pivots: &[f64], tolerance: f64) -> usize {
+    pivots.iter().take_while(|p| **p > tolerance).count()
+}
+
+pub(crate) fn mass_error<M: Mechanism>(fault: MassFault) -> Error {
+    let name = |i: usize| M::SPEC.coords[i];
+    match fault {
+        MassFault::Singular(i) => Error::InvalidSetting {
+            what: "formula",
+            reason: format!(
+                "UdwadiaKalaba (eq. 13) needs a regular mass matrix, but it is singular at `{}`; take Auto or UdwadiaPhohomsiri",
+                name(i)
+            ),
+        },
+        MassFault::Indefinite(i) => Error::IndefiniteMass { coordinates: vec![name(i).to_owned()] },
     }
 }

@@ -1,0 +1,148 @@
+//! From rank facts to the modeller's words.
+
+use std::fmt;
+
+use crate::error::Error;
+use crate::mechanism::{Mechanism, Spec};
+use crate::workspace::Evaluated;
+
+/// A coordinate or constraint takes part in a finding if its share is at least this much of the largest one's. Shares that are
+/// zero in exact arithmetic are below 1e-12 (rounding over the smallest pivot taken as regular); true ones are seldom below 1e-3.
+pub(crate) const PARTICIPATION: f64 = 1e-6;
+
+/// What a mechanism's constraints amount to at one state.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Diagnosis {
+    /// Number n of coordinates.
+    pub coordinates: usize,
+    /// Number m of constraints.
+    pub constraints: usize,
+    /// Rank of A.
+    pub rank: usize,
+    /// n − rank A.
+    pub degrees_of_freedom: usize,
+    /// Names of constraints that the others imply.
+    pub redundant: Vec<String>,
+}
+
+impl Diagnosis {
+    /// The diagnosis for `spec` with A of rank `rank` and the constraints `redundant` (indices) implied by the others.
+    #[must_use]
+    pub fn new(spec: &Spec, rank: usize, redundant: &[usize]) -> Self {
+        let names = redundant.iter().filter_map(|&i| spec.constraints.get(i));
+        Diagnosis {
+            coordinates: spec.n(),
+            constraints: spec.m(),
+            rank,
+            degrees_of_freedom: spec.n().saturating_sub(rank),
+            redundant: names.map(|c| c.name.to_owned()).collect(),
+        }
+    }
+}
+
+impl fmt::Display for Diagnosis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{} coordinates, {} constraints of rank {}, {} degrees of freedom",
+            self.coordinates, self.constraints, self.rank, self.degrees_of_freedom
+        )?;
+        match self.redundant.len() {
+            0 => Ok(()),
+            _ => write!(f, "; implied by the others: {}", self.redundant.join(", ")),
+        }
+    }
+}
+
+/// Names of the coordinates whose share is significant.
+pub(crate) fn participating(spec: &Spec, shares: &[f64]) -> Vec<String> {
+    let largest = shares.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
+    let pairs = spec.coords.iter().zip(shares);
+    pairs
+        .filter(|(_, x)| x.abs() > PARTICIPATION * largest)
+        .map(|(name, _)| (*name).to_owned())
+        .collect()
+}
+
+/// Names and residuals of the constraints whose scaled residual (`residual` · `scale`) is significant.
+pub(crate) fn offending(spec: &Spec, residual: &[f64], scale: &[f64]) -> Vec<(String, f64)> {
+    let scaled = || residual.iter().zip(scale).map(|(r, s)| (r * s).abs());
+    let largest = scaled().fold(0.0_f64, f64::max);
+    let rows = spec.constraints.iter().zip(residual).zip(scaled());
+    rows.filter(|(_, s)| *s >= PARTICIPATION * largest || s.is_nan())
+        .filter(|((_, r), _)| **r != 0.0)
+        .map(|((c, r), _)| (c.name.to_owned(), *r))
+        .collect()
+}
+
+/// An [`Error::NonFinite`] for the state or parameters, if any of those is not finite.
+pub(crate) fn non_finite_input<M: Mechanism>(mech: &M, t: f64, q: &[f64], v: &[f64]) -> Option<Error> {
+    let spec = M::SPEC;
+    let mut what = Vec::new();
+    for (i, p) in spec.params.iter().enumerate() {
+        if !mech.parameter(i).is_finite() {
+            what.push(format!("parameter {}", p.name));
+        }
+    }
+    if !t.is_finite() {
+        what.push("time t".to_owned());
+    }
+    for (i, name) in spec.coords.iter().enumerate() {
+        if !q[i].is_finite() {
+            what.push(format!("coordinate {name}"));
+        }
+        if !v[i].is_finite() {
+            what.push(format!("velocity dot({name})"));
+        }
+    }
+    (!what.is_empty()).then_some(Error::NonFinite { what })
+}
+
+/// An [`Error::NonFinite`] for the terms of the equations, in order: mass, force, non-ideal force, constraint.
+pub(crate) fn non_finite_terms<M: Mechanism>(terms: &Evaluated, rhs: &[f64]) -> Error {
+    let spec = M::SPEC;
+    let (n, m) = (spec.n(), spec.m());
+    let mut what = Vec::new();
+    for (j, name) in spec.coords.iter().enumerate() {
+        if !terms.mass[j * n..(j + 1) * n].iter().all(|x| x.is_finite()) {
+            what.push(format!("mass on {name}"));
+        }
+    }
+    for (name, x) in spec.coords.iter().zip(&terms.force) {
+        if !x.is_finite() {
+            what.push(format!("force on {name}"));
+        }
+    }
+    for (name, x) in spec.coords.iter().zip(&terms.nonideal) {
+        if !x.is_finite() {
+            what.push(format!("non-ideal force on {name}"));
+        }
+    }
+    for (c, constraint) in spec.constraints.iter().enumerate() {
+        let mut row = (0..n).map(|j| terms.jacobian[j * m + c]);
+        if !rhs[c].is_finite() || !row.all(f64::is_finite) {
+            what.push(format!("constraint {}", constraint.name));
+        }
+    }
+    Error::NonFinite { what }
+}
+
+/// An [`Error::NonFinite`] for constraint residuals.
+pub(crate) fn non_finite_residual(spec: &Spec, residual: &[f64]) -> Error {
+    let rows = spec.constraints.iter().zip(residual);
+    Error::NonFinite {
+        what: rows
+            .filter(|(_, r)| !r.is_finite())
+            .map(|(c, _)| format!("constraint {}", c.name))
+            .collect(),
+    }
+}
+
+/// The length checks common to everything that takes a state.
+pub(crate) fn check_length(what: &'static str, found: usize, expected: usize) -> Result<(), Error> {
+    if found == expected {
+        Ok(())
+    } else {
+        Err(Error::WrongLength { what, found, expected })
+    }
+}

@@ -1,0 +1,209 @@
+//! M as a metric: M = L Lᵀ where it is regular, scales for the coordinates where it is not.
+
+/// A pivot d_k of the Cholesky factorisation counts as zero below this multiple of n ε M_kk.
+///
+/// d_k/M_kk is the share of coordinate k's inertia that the coordinates before it do not carry already. Rounding of M and of the
+/// factorisation puts an error of a few n ε on it; the factor leaves room for masses that are themselves sums of cancelling terms.
+const PIVOT_ROUNDING: f64 = 256.0;
+
+/// Why M cannot serve as asked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum MassFault {
+    /// Singular: found at this coordinate.
+    Singular(usize),
+    /// Indefinite: found at this coordinate.
+    Indefinite(usize),
+}
+
+/// What M is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    /// M = L Lᵀ with L diagonal (in `root`).
+    Diagonal,
+    /// M = L Lᵀ with L lower triangular.
+    Full,
+    /// Only a scaling L = diag(root).
+    Scales,
+}
+
+/// A metric on the coordinates, in buffers allocated once. Throughout, x = Lᵀ q̈ are the scaled accelerations.
+#[derive(Debug, Clone)]
+pub(crate) struct Metric {
+    n: usize,
+    kind: Kind,
+    /// L_ii.
+    pub(crate) root: Vec<f64>,
+    /// L, column-major, allocated where M is not diagonal.
+    l: Vec<f64>,
+}
+
+impl Metric {
+    pub(crate) fn new(n: usize, diagonal: bool) -> Self {
+        Metric {
+            n,
+            kind: Kind::Diagonal,
+            root: vec![1.0; n],
+            l: vec![0.0; if diagonal { 0 } else { n * n }],
+        }
+    }
+
+    /// Whether M itself is the metric (M = L Lᵀ).
+    pub(crate) fn regular(&self) -> bool {
+        self.kind != Kind::Scales
+    }
+
+    /// M = L Lᵀ: square roots or Cholesky. An error where M is not positive definite to rounding.
+    pub(crate) fn factor(&mut self, mass: &[f64]) -> Result<(), MassFault> {
+        let n = self.n;
+        let verdict = |k: usize, pivot: f64, floor: f64| match pivot {
+            p if p > floor => Ok(p.sqrt()),
+            p if p >= -floor => Err(MassFault::Singular(k)),
+            _ => Err(MassFault::Indefinite(k)),
+        };
+        if self.l.is_empty() {
+            self.kind = Kind::Diagonal;
+            for k in 0..n {
+                self.root[k] = verdict(k, mass[k * n + k], 0.0)?;
+            }
+            return Ok(());
+        }
+        self.kind = Kind::Full;
+        self.l.copy_from_slice(mass);
+        let relative = PIVOT_ROUNDING * n as f64 * f64::EPSILON;
+        for k in 0..n {
+            for j in 0..k {
+                let (done, column) = self.l.split_at_mut(k * n);
+                let factor = done[j * n + k];
+                crate::pinv::axpy(-factor, &done[j * n + k..(j + 1) * n], &mut column[k..n]);
+            }
+            let column = &mut self.l[k * n + k..(k + 1) * n];
+            let root = verdict(k, column[0], relative * mass[k * n + k].abs())?;
+            column[0] = root;
+            column[1..].iter_mut().for_each(|x| *x /= root);
+            self.root[k] = root;
+        }
+        Ok(())
+    }
+
+    /// Scales for a singular M: √M_ii where there is mass. A massless coordinate gets the scale at which its entries of A do not
+    /// exceed those of the massive coordinates in any row that has both, so that it neither hides them nor is hidden. The accelerations do
+    /// not depend on these scales, only their rounding and the rank decisions do.
+    pub(crate) fn scale(
+        &mut self,
+        mass: &[f64],
+        jacobian: &[f64],
+        stride: usize,
+        rows: usize,
+    ) -> Result<(), MassFault> {
+        let n = self.n;
+        self.kind = Kind::Scales;
+        for i in 0..n {
+            let own = mass[i * n + i];
+            let coupled = || (0..n).any(|j| mass[j * n + i] != 0.0 || mass[i * n + j] != 0.0);
+            if own < 0.0 || (own == 0.0 && coupled()) {
+                return Err(MassFault::Indefinite(i));
+            }
+            self.root[i] = own.sqrt();
+        }
+        for j in 0..n {
+            if mass[j * n + j] > 0.0 {
+                continue;
+            }
+            let mut root = 0.0_f64;
+            for c in 0..rows {
+                let entry = jacobian[j * stride + c].abs();
+                let massive = (0..n)
+                    .filter(|&i| mass[i * n + i] > 0.0)
+                    .map(|i| (jacobian[i * stride + c] / self.root[i]).abs())
+                    .fold(0.0_f64, f64::max);
+                if massive > 0.0 {
+                    root = root.max(entry / massive);
+                }
+            }
+            self.root[j] = if root > 0.0 { root } else { 1.0 };
+        }
+        Ok(())
+    }
+
+    /// x ← L⁻¹ x.
+    pub(crate) fn divide(&self, x: &mut [f64]) {
+        if self.kind == Kind::Full {
+            let n = self.n;
+            for i in 0..n {
+                x[i] /= self.root[i];
+                let s = x[i];
+                crate::pinv::axpy(-s, &self.l[i * n + i + 1..(i + 1) * n], &mut x[i + 1..]);
+            }
+        } else {
+            x.iter_mut().zip(&self.root).for_each(|(x, l)| *x /= l);
+        }
+    }
+
+    /// x ← L⁻ᵀ x.
+    pub(crate) fn divide_transposed(&self, x: &mut [f64]) {
+        if self.kind == Kind::Full {
+            let n = self.n;
+            for i in (0..n).rev() {
+                let s = crate::pinv::dot(&self.l[i * n + i + 1..(i + 1) * n], &x[i + 1..]);
+                x[i] = (x[i] - s) / self.root[i];
+            }
+        } else {
+            self.divide(x);
+        }
+    }
+
+    /// x ← L x.
+    pub(crate) fn multiply(&self, x: &mut [f64]) {
+        if self.kind == Kind::Full {
+            let n = self.n;
+            for i in (0..n).rev() {
+                let s = x[i];
+                x[i] = s * self.root[i];
+                crate::pinv::axpy(s, &self.l[i * n + i + 1..(i + 1) * n], &mut x[i + 1..]);
+            }
+        } else {
+            x.iter_mut().zip(&self.root).for_each(|(x, l)| *x *= l);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const M: [f64; 9] = [4.0, 2.0, 1.0, 2.0, 5.0, 3.0, 1.0, 3.0, 6.0];
+
+    #[test]
+    fn l_times_its_transpose_is_m() {
+        let mut metric = Metric::new(3, false);
+        metric.factor(&M).unwrap();
+        for j in 0..3 {
+            let mut x = [0.0; 3];
+            x[j] = 1.0;
+            // M⁻¹ e_j, multiplied by M.
+            metric.divide(&mut x);
+            metric.divide_transposed(&mut x);
+            for i in 0..3 {
+                let product: f64 = (0..3).map(|k| M[k * 3 + i] * x[k]).sum();
+                assert!((product - f64::from(u8::from(i == j))).abs() < 1e-15);
+            }
+        }
+        let mut x = [1.0, -2.0, 3.0];
+        metric.multiply(&mut x);
+        metric.divide(&mut x);
+        assert!((x[0] - 1.0).abs() + (x[1] + 2.0).abs() + (x[2] - 3.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn singular_and_indefinite_masses_are_told_apart() {
+        let mut full = Metric::new(2, false);
+        assert_eq!(full.factor(&[1.0, 1.0, 1.0, 1.0]), Err(MassFault::Singular(1)));
+        assert_eq!(full.factor(&[1.0, 2.0, 2.0, 1.0]), Err(MassFault::Indefinite(1)));
+        let mut diagonal = Metric::new(2, true);
+        assert_eq!(diagonal.factor(&[1.0, 0.0, 0.0, 0.0]), Err(MassFault::Singular(1)));
+        assert_eq!(diagonal.factor(&[-1.0, 0.0, 0.0, 1.0]), Err(MassFault::Indefinite(0)));
+        assert_eq!(diagonal.factor(&[1e-30, 0.0, 0.0, 1e30]), Ok(()));
+        let no_rows: [f64; 0] = [];
+        assert_eq!(full.scale(&[0.0, 1.0, 1.0, 1.0], &no_rows, 0, 0), Err(MassFault::Indefinite(0)));
+    }
+}

@@ -1,0 +1,413 @@
+//! The dense constrained solve in preallocated buffers: the allocation-free equivalents of eqs. 13 and 19.
+//!
+//! Regular M = L Lᵀ: with B = A L⁻ᵀ and a = M⁻¹ f,  q̈ = a + L⁻ᵀ B⁺ (b − A a).  L and M^½ differ by an orthogonal factor,
+//! which cancels in M^½ B⁺.
+//!
+//! Singular M, coordinates scaled to x = L q̈ by a diagonal L, Ĉ = A L⁻¹, M̂ = L⁻¹ M L⁻¹: eq. 19 asks for Ĉ x = b and for
+//! (I − Ĉ⁺Ĉ)(M̂ x − L⁻¹ f) = 0. With an orthonormal basis N of the null space of Ĉ,
+//! x = Ĉ⁺ b + N z,  (Nᵀ M̂ N) z = Nᵀ (L⁻¹ f − M̂ Ĉ⁺ b).
+//!
+//! Each row of B (or Ĉ) is divided by its norm first. For consistent constraints that changes neither the set of q̈ with A q̈ = b
+//! nor, hence, the one of least norm in it, and rank decisions become independent of how a constraint is scaled.
+
+use crate::mechanism::{Mechanism, Terms};
+use crate::metric::{MassFault, Metric};
+use crate::pinv::{Decomposition, axpy, dot};
+
+/// A pivot of Nᵀ M̂ N (M̂ has unit diagonal where there is mass) counts as zero below this multiple of n ε: errors of the basis
+/// N and of the product are a few n ε.
+const INERTIA_ROUNDING: f64 = 64.0;
+
+/// Buffers of [`Mechanism::dynamics`].
+#[derive(Debug, Clone)]
+pub(crate) struct Evaluated {
+    pub(crate) mass: Vec<f64>,
+    pub(crate) force: Vec<f64>,
+    pub(crate) nonideal: Vec<f64>,
+    pub(crate) jacobian: Vec<f64>,
+    pub(crate) rhs: Vec<f64>,
+}
+
+impl Evaluated {
+    pub(crate) fn new(n: usize, m: usize) -> Self {
+        Evaluated {
+            mass: vec![0.0; n * n],
+            force: vec![0.0; n],
+            nonideal: vec![0.0; n],
+            jacobian: vec![0.0; m * n],
+            rhs: vec![0.0; m],
+        }
+    }
+
+    pub(crate) fn dynamics<M: Mechanism>(&mut self, mech: &M, t: f64, q: &[f64], v: &[f64]) {
+        let mut terms = Terms {
+            mass: &mut self.mass,
+            force: &mut self.force,
+            nonideal: &mut self.nonideal,
+            jacobian: &mut self.jacobian,
+            rhs: &mut self.rhs,
+        };
+        mech.dynamics(t, q, v, &mut terms);
+    }
+}
+
+/// Some rows of A (m × n, column-major): the first `rows`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Rows<'a> {
+    pub(crate) jacobian: &'a [f64],
+    /// m, the distance of columns.
+    pub(crate) stride: usize,
+    pub(crate) rows: usize,
+}
+
+impl<'a> Rows<'a> {
+    /// Entries of row `c`.
+    pub(crate) fn row(self, c: usize) -> impl Iterator<Item = f64> + 'a {
+        self.jacobian.iter().skip(c).step_by(self.stride.max(1)).copied()
+    }
+
+    /// (A x)_c.
+    pub(crate) fn product(self, c: usize, x: &[f64]) -> f64 {
+        self.row(c).zip(x).map(|(a, x)| a * x).sum()
+    }
+
+    /// Σ |A_ci x_i|, the size of the terms of (A x)_c.
+    pub(crate) fn magnitude(self, c: usize, x: &[f64]) -> f64 {
+        self.row(c).zip(x).map(|(a, x)| (a * x).abs()).sum()
+    }
+
+    /// max |A_ci|.
+    pub(crate) fn largest(self, c: usize) -> f64 {
+        self.row(c).fold(0.0, |s, a| s.max(a.abs()))
+    }
+}
+
+/// How to treat M.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Route {
+    /// Factor it.
+    Regular,
+    /// Null-space form.
+    Singular,
+}
+
+/// The constrained solve.
+#[derive(Debug, Clone)]
+pub(crate) struct Dense {
+    n: usize,
+    pub(crate) metric: Metric,
+    pub(crate) cod: Decomposition,
+    /// sᵢ = 1/‖row i of B‖, 0 for a row of zeros.
+    pub(crate) row_scale: Vec<f64>,
+    significance: Vec<f64>,
+    /// N, n × (n − rank).
+    basis: Vec<f64>,
+    /// Pivoted Cholesky factor of Nᵀ M̂ N, and its order.
+    inertia: Vec<f64>,
+    inertia_order: Vec<usize>,
+    inertia_rank: usize,
+    scaled_rhs: Vec<f64>,
+    /// The part of x = Lᵀ q̈ that the constraints contribute (regular M), after [`Dense::solve`].
+    pub(crate) reaction: Vec<f64>,
+    work: Vec<f64>,
+    reduced: Vec<f64>,
+}
+
+impl Dense {
+    /// Buffers for n coordinates and up to m constraints.
+    pub(crate) fn new(n: usize, m: usize, diagonal: bool) -> Self {
+        Dense {
+            n,
+            metric: Metric::new(n, diagonal),
+            cod: Decomposition::new(m, n),
+            row_scale: vec![0.0; m],
+            significance: vec![0.0; m],
+            basis: vec![0.0; n * n],
+            inertia: vec![0.0; n * n],
+            inertia_order: (0..n).collect(),
+            inertia_rank: 0,
+            scaled_rhs: vec![0.0; m],
+            reaction: vec![0.0; n],
+            work: vec![0.0; n],
+            reduced: vec![0.0; n],
+        }
+    }
+
+    /// Factors M and A, keeping every pivot above `floor`. The rank is then [`Decomposition::rank`] of `cod`; to change it, call
+    /// [`Dense::set_rank`], which must be called in any case on the singular route.
+    ///
+    /// The significance of a row of A is its largest entry, in A's own units, as a share of what that entry was before the parts
+    /// implied by other rows were taken off: it depends neither on the scaling of constraints nor on that of masses.
+    pub(crate) fn factor(
+        &mut self,
+        route: Route,
+        mass: &[f64],
+        a: Rows<'_>,
+        floor: f64,
+    ) -> Result<(), MassFault> {
+        match route {
+            Route::Regular => self.metric.factor(mass)?,
+            Route::Singular => self.metric.scale(mass, a.jacobian, a.stride, a.rows)?,
+        }
+        let columns = self.cod.load(a.rows);
+        for (c, column) in columns.chunks_exact_mut(self.n).enumerate() {
+            column.iter_mut().zip(a.row(c)).for_each(|(x, a)| *x = a);
+            self.metric.divide(column);
+            // In two steps, so that rows of any magnitude have a norm.
+            let largest = column.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
+            self.row_scale[c] = 0.0;
+            self.significance[c] = 0.0;
+            if largest > 0.0 {
+                column.iter_mut().for_each(|x| *x /= largest);
+                let norm = dot(column, column).sqrt();
+                column.iter_mut().for_each(|x| *x /= norm);
+                self.row_scale[c] = (largest * norm).recip();
+                self.significance[c] = largest * norm / a.largest(c);
+            }
+        }
+        self.cod.factor(&self.metric.root, &self.significance[..a.rows], floor);
+        Ok(())
+    }
+
+    /// Takes the first `rank` pivots as the rank. On the singular route Nᵀ M̂ N is factored; `Indefinite` names a coordinate if
+    /// it has a negative eigenvalue.
+    pub(crate) fn set_rank(&mut self, rank: usize, mass: &[f64]) -> Result<(), MassFault> {
+        if rank != self.cod.rank() {
+            self.cod.set_rank(rank);
+        }
+        if self.metric.regular() {
+            return Ok(());
+        }
+        self.reduce(mass)
+    }
+
+    /// Pivoted Cholesky factorisation of Nᵀ M̂ N.
+    fn reduce(&mut self, mass: &[f64]) -> Result<(), MassFault> {
+        let n = self.n;
+        let d = n - self.cod.rank();
+        self.cod.null_space(&mut self.basis[..n * d]);
+        for j in 0..d {
+            let column = &self.basis[j * n..(j + 1) * n];
+            weigh(mass, &self.metric, column, &mut self.work);
+            for i in 0..=j {
+                let entry = dot(&self.basis[i * n..(i + 1) * n], &self.work);
+                self.inertia[j * d + i] = entry;
+                self.inertia[i * d + j] = entry;
+            }
+        }
+        let floor = INERTIA_ROUNDING * n as f64 * f64::EPSILON;
+        let z = &mut self.inertia;
+        let order = &mut self.inertia_order;
+        order.iter_mut().enumerate().for_each(|(i, o)| *o = i);
+        self.inertia_rank = d;
+        for k in 0..d {
+            let top = (k..d).fold(k, |b, i| if z[i * d + i] > z[b * d + b] { i } else { b });
+            if z[top * d + top] <= floor {
+                self.inertia_rank = k;
+                let lowest = (k..d).fold(k, |b, i| if z[i * d + i] < z[b * d + b] { i } else { b });
+                if z[lowest * d + lowest] < -floor {
+                    let column = &self.basis[order[lowest] * n..(order[lowest] + 1) * n];
+                    return Err(MassFault::Indefinite(position_of_largest(column)));
+                }
+                break;
+            }
+            if top != k {
+                order.swap(k, top);
+                for i in 0..d {
+                    z.swap(i * d + k, i * d + top);
+                }
+                for i in 0..d {
+                    z.swap(k * d + i, top * d + i);
+                }
+            }
+            // Lower triangle, right-looking.
+            let root = z[k * d + k].sqrt();
+            z[k * d + k] = root;
+            for i in k + 1..d {
+                z[k * d + i] /= root;
+            }
+            for j in k + 1..d {
+                let (done, rest) = z.split_at_mut(j * d);
+                axpy(-done[k * d + j], &done[k * d + j..(k + 1) * d], &mut rest[j..d]);
+            }
+        }
+        Ok(())
+    }
+
+    /// rank [M | Aᵀ].
+    pub(crate) fn determined(&self) -> usize {
+        if self.metric.regular() {
+            self.n
+        } else {
+            self.cod.rank() + self.inertia_rank
+        }
+    }
+
+    /// Shares of the coordinates in the directions that neither mass nor constraint determines (0 … 1, scaled coordinates).
+    /// Allocates.
+    pub(crate) fn undetermined(&self) -> Vec<f64> {
+        let (n, k) = (self.n, self.inertia_rank);
+        let d = n - self.cod.rank();
+        let mut share = vec![0.0_f64; n];
+        for j in k..d {
+            // Null vector: 1 at j, and L₁₁ᵀ y = −(row j of L) above.
+            let mut y: Vec<f64> = (0..k).map(|i| -self.inertia[i * d + j]).collect();
+            for i in (0..k).rev() {
+                let below = &self.inertia[i * d + i + 1..i * d + k];
+                y[i] = (y[i] - dot(below, &y[i + 1..])) / self.inertia[i * d + i];
+            }
+            y.push(1.0);
+            let mut direction = vec![0.0; n];
+            for (y, &o) in y.iter().zip(self.inertia_order[..k].iter().chain([&self.inertia_order[j]])) {
+                axpy(*y, &self.basis[o * n..(o + 1) * n], &mut direction);
+            }
+            let largest = direction.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
+            for (s, x) in share.iter_mut().zip(&direction) {
+                *s = s.max(x.abs() / largest);
+            }
+        }
+        share
+    }
+
+    /// The shortest Δ (in the metric, or in scaled coordinates if M is singular) with A Δ = `rhs`, into `out`.
+    pub(crate) fn least_norm(&mut self, rhs: &[f64], out: &mut [f64]) {
+        let scaled = self.scaled_rhs.iter_mut().zip(&self.row_scale).zip(rhs);
+        scaled.for_each(|((x, s), b)| *x = s * b);
+        self.cod.solve(&self.scaled_rhs, out);
+        self.metric.divide_transposed(out);
+    }
+
+    /// q̈ with M q̈ = f + Aᵀλ and A q̈ = b into `out`. Directions without inertia stay at rest: see [`Dense::determined`].
+    pub(crate) fn solve(
+        &mut self,
+        mass: &[f64],
+        a: Rows<'_>,
+        force: Option<&[f64]>,
+        rhs: &[f64],
+        out: &mut [f64],
+    ) {
+        if self.metric.regular() {
+            self.solve_regular(a, force, rhs, out);
+        } else {
+            self.solve_singular(mass, force, rhs, out);
+        }
+    }
+
+    fn solve_regular(&mut self, a: Rows<'_>, force: Option<&[f64]>, rhs: &[f64], out: &mut [f64]) {
+        match force {
+            Some(force) => {
+                out.copy_from_slice(force);
+                self.metric.divide(out);
+                self.metric.divide_transposed(out);
+            }
+            None => out.fill(0.0),
+        }
+        for c in 0..a.rows {
+            self.scaled_rhs[c] = self.row_scale[c] * (rhs[c] - a.product(c, out));
+        }
+        self.cod.solve(&self.scaled_rhs, &mut self.reaction);
+        self.work.copy_from_slice(&self.reaction);
+        self.metric.divide_transposed(&mut self.work);
+        axpy(1.0, &self.work, out);
+    }
+
+    fn solve_singular(&mut self, mass: &[f64], force: Option<&[f64]>, rhs: &[f64], out: &mut [f64]) {
+        let (n, k) = (self.n, self.inertia_rank);
+        let d = n - self.cod.rank();
+        let scaled = self.scaled_rhs.iter_mut().zip(&self.row_scale).zip(rhs);
+        scaled.for_each(|((x, s), b)| *x = s * b);
+        self.cod.solve(&self.scaled_rhs, out);
+        // L⁻¹ f − M̂ Ĉ⁺ b.
+        weigh(mass, &self.metric, out, &mut self.work);
+        match force {
+            Some(f) => {
+                for i in 0..n {
+                    self.work[i] = f[i] / self.metric.root[i] - self.work[i];
+                }
+            }
+            None => self.work.iter_mut().for_each(|x| *x = -*x),
+        }
+        let z = &mut self.reduced;
+        for (i, z) in z[..k].iter_mut().enumerate() {
+            let o = self.inertia_order[i];
+            *z = dot(&self.basis[o * n..(o + 1) * n], &self.work);
+        }
+        for i in 0..k {
+            z[i] /= self.inertia[i * d + i];
+            let s = z[i];
+            axpy(-s, &self.inertia[i * d + i + 1..i * d + k], &mut z[i + 1..k]);
+        }
+        for i in (0..k).rev() {
+            let s = dot(&self.inertia[i * d + i + 1..i * d + k], &z[i + 1..k]);
+            z[i] = (z[i] - s) / self.inertia[i * d + i];
+        }
+        for i in 0..k {
+            let o = self.inertia_order[i];
+            axpy(z[i], &self.basis[o * n..(o + 1) * n], out);
+        }
+        self.metric.divide(out);
+    }
+
+    /// λ of least norm (after undoing the row scaling) with Aᵀλ = f for an f in the range of Aᵀ; `f` is overwritten. Allocates
+    /// if constraints are redundant.
+    pub(crate) fn multipliers(&mut self, f: &mut [f64], lambda: &mut [f64]) {
+        self.metric.divide(f);
+        self.cod.solve_transposed(f, lambda);
+        lambda.iter_mut().zip(&self.row_scale).for_each(|(l, s)| *l *= s);
+        let m = lambda.len();
+        let excess = m - self.cod.rank();
+        if excess == 0 {
+            return;
+        }
+        // λ is determined up to the dependences of the rows; take their part off (Gram-Schmidt, twice for rounding).
+        let mut basis = vec![0.0; m * excess];
+        self.cod.dependences(&mut basis);
+        for column in basis.chunks_exact_mut(m) {
+            for (x, s) in column.iter_mut().zip(&self.row_scale) {
+                // A row of zeros has no scale and takes part in no force.
+                *x *= if *s > 0.0 { *s } else { 1.0 };
+            }
+        }
+        for j in 0..excess {
+            let (done, rest) = basis.split_at_mut(j * m);
+            let column = &mut rest[..m];
+            normalise(column);
+            for _ in 0..2 {
+                for other in done.chunks_exact(m) {
+                    axpy(-dot(other, column), other, column);
+                }
+            }
+            normalise(column);
+        }
+        for _ in 0..2 {
+            for column in basis.chunks_exact(m) {
+                axpy(-dot(column, lambda), column, lambda);
+            }
+        }
+    }
+}
+
+fn normalise(x: &mut [f64]) {
+    let largest = x.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
+    if largest > 0.0 {
+        x.iter_mut().for_each(|x| *x /= largest);
+        let norm = dot(x, x).sqrt();
+        x.iter_mut().for_each(|x| *x /= norm);
+    }
+}
+
+/// y = M̂ x = L⁻¹ M L⁻¹ x for a diagonal L.
+fn weigh(mass: &[f64], metric: &Metric, x: &[f64], y: &mut [f64]) {
+    y.fill(0.0);
+    for (j, column) in mass.chunks_exact(x.len()).enumerate() {
+        let s = x[j] / metric.root[j];
+        if s != 0.0 {
+            axpy(s, column, y);
+        }
+    }
+    metric.divide(y);
+}
+
+fn position_of_largest(x: &[f64]) -> usize {
+    (0..x.len()).fold(0, |b, i| if x[i].abs() > x[b].abs() { i } else { b })
+}
