@@ -98,16 +98,10 @@ pub(crate) fn non_finite_input<M: Mechanism>(mech: &M, t: f64, q: &[f64], v: &[f
     (!what.is_empty()).then_some(Error::NonFinite { what })
 }
 
-/// An [`Error::NonFinite`] for the terms of the equations, in order: mass, force, non-ideal force, constraint.
+/// An [`Error::NonFinite`] for the terms of the equations, in order: mass and constraints, forces, b.
 pub(crate) fn non_finite_terms<M: Mechanism>(terms: &Evaluated, rhs: &[f64]) -> Error {
     let spec = M::SPEC;
-    let (n, m) = (spec.n(), spec.m());
-    let mut what = Vec::new();
-    for (j, name) in spec.coords.iter().enumerate() {
-        if !terms.mass[j * n..(j + 1) * n].iter().all(|x| x.is_finite()) {
-            what.push(format!("mass on {name}"));
-        }
-    }
+    let mut what = non_finite_matrices(spec, &terms.mass, &terms.jacobian);
     for (name, x) in spec.coords.iter().zip(&terms.force) {
         if !x.is_finite() {
             what.push(format!("force on {name}"));
@@ -118,13 +112,31 @@ pub(crate) fn non_finite_terms<M: Mechanism>(terms: &Evaluated, rhs: &[f64]) -> 
             what.push(format!("non-ideal force on {name}"));
         }
     }
-    for (c, constraint) in spec.constraints.iter().enumerate() {
-        let mut row = (0..n).map(|j| terms.jacobian[j * m + c]);
-        if !rhs[c].is_finite() || !row.all(f64::is_finite) {
-            what.push(format!("constraint {}", constraint.name));
+    if let Error::NonFinite { what: constraints } = non_finite_residual(spec, rhs) {
+        for constraint in constraints {
+            if !what.contains(&constraint) {
+                what.push(constraint);
+            }
         }
     }
     Error::NonFinite { what }
+}
+
+/// The coordinates in whose column M, and the constraints in whose row A (m × n) is not finite.
+pub(crate) fn non_finite_matrices(spec: &Spec, mass: &[f64], jacobian: &[f64]) -> Vec<String> {
+    let (n, m) = (spec.n(), spec.m());
+    let mut what = Vec::new();
+    for (name, column) in spec.coords.iter().zip(mass.chunks_exact(n)) {
+        if !column.iter().all(|x| x.is_finite()) {
+            what.push(format!("mass on {name}"));
+        }
+    }
+    for (c, constraint) in spec.constraints.iter().enumerate() {
+        if !(0..n).all(|j| jacobian[j * m + c].is_finite()) {
+            what.push(format!("constraint {}", constraint.name));
+        }
+    }
+    what
 }
 
 /// An [`Error::NonFinite`] for constraint residuals.

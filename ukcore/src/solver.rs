@@ -16,14 +16,12 @@
 //!
 //! The same difference, |Δb| + |ΔA||q̈|, is granted to the redundant rows before they are called inconsistent.
 
-use std::any::TypeId;
-
 use crate::diagnose::{self, Diagnosis};
 use crate::error::Error;
 use crate::mechanism::Mechanism;
 use crate::saddle::Saddle;
 use crate::metric::MassFault;
-use crate::workspace::{Dense, Evaluated, Route, Rows};
+use crate::workspace::{Dense, Evaluated, Owner, Route, Rows};
 
 /// Default of [`SolverOptions::rank_tolerance`].
 ///
@@ -128,8 +126,7 @@ impl Solution {
 /// Solves M q̈ = Q + Qc, A q̈ = b in buffers allocated once.
 #[derive(Debug, Clone)]
 pub struct Solver {
-    owner: TypeId,
-    owner_name: &'static str,
+    owner: Owner,
     options: SolverOptions,
     work: SolverWork,
     n: usize,
@@ -172,8 +169,7 @@ impl Solver {
         let (n, m) = (spec.n(), spec.m());
         let saddle = (options.formula == Formula::Kkt).then(|| Saddle::new(n, m));
         Solver {
-            owner: TypeId::of::<M>(),
-            owner_name: spec.name,
+            owner: Owner::of::<M>(),
             options: SolverOptions {
                 rank_tolerance: options.rank_tolerance.max(f64::EPSILON).min(RANK_CEILING),
                 ..options
@@ -307,16 +303,7 @@ impl Solver {
         q: &[f64],
         v: &[f64],
     ) -> Result<Prepared, Error> {
-        if self.owner != TypeId::of::<M>() {
-            return Err(Error::InvalidSetting {
-                what: "mechanism",
-                reason: format!(
-                    "is a `{}`, but this solver was made for `{}`",
-                    M::SPEC.name,
-                    self.owner_name
-                ),
-            });
-        }
+        self.owner.check::<M>("solver")?;
         diagnose::check_length("q", q.len(), self.n)?;
         diagnose::check_length("v", v.len(), self.n)?;
         self.here.dynamics(mech, t, q, v);
@@ -326,14 +313,12 @@ impl Solver {
         if let Some(Baumgarte { alpha, beta }) = self.options.baumgarte {
             mech.residual(t, q, &mut self.position);
             mech.residual_rate(t, q, v, &mut self.rate);
-            let h = self.position.len();
             for (i, b) in self.rhs.iter_mut().enumerate() {
                 *b -= match self.position.get(i) {
                     Some(phi) => 2.0 * alpha * self.rate[i] + beta * beta * phi,
                     None => alpha * self.rate[i],
                 };
             }
-            debug_assert!(h <= self.m);
         }
         let finite = |x: &[f64]| x.iter().all(|x| x.is_finite());
         let terms = &self.here;

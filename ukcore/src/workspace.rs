@@ -10,6 +10,9 @@
 //! Each row of B (or Ĉ) is divided by its norm first. For consistent constraints that changes neither the set of q̈ with A q̈ = b
 //! nor, hence, the one of least norm in it, and rank decisions become independent of how a constraint is scaled.
 
+use std::any::TypeId;
+
+use crate::error::Error;
 use crate::mechanism::{Mechanism, Terms};
 use crate::metric::{MassFault, Metric};
 use crate::pinv::{Decomposition, axpy, dot};
@@ -17,6 +20,29 @@ use crate::pinv::{Decomposition, axpy, dot};
 /// A pivot of Nᵀ M̂ N (M̂ has unit diagonal where there is mass) counts as zero below this multiple of n ε: errors of the basis
 /// N and of the product are a few n ε.
 const INERTIA_ROUNDING: f64 = 64.0;
+
+/// The mechanism type that buffers belong to: those of another one have other sizes and other structural zeros.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Owner {
+    id: TypeId,
+    name: &'static str,
+}
+
+impl Owner {
+    pub(crate) fn of<M: Mechanism>() -> Self {
+        Owner { id: TypeId::of::<M>(), name: M::SPEC.name }
+    }
+
+    pub(crate) fn check<M: Mechanism>(self, what: &str) -> Result<(), Error> {
+        if self.id == TypeId::of::<M>() {
+            return Ok(());
+        }
+        Err(Error::InvalidSetting {
+            what: "mechanism",
+            reason: format!("is a `{}`, but this {what} was made for `{}`", M::SPEC.name, self.name),
+        })
+    }
+}
 
 /// Buffers of [`Mechanism::dynamics`].
 #[derive(Debug, Clone)]
