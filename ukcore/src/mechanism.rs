@@ -9,8 +9,8 @@ use crate::scalar::Scalar;
 
 /// A declared mechanism: its parameters (`self`), what is known about it (`SPEC`), and its equations as straight-line code.
 ///
-/// All matrices are column-major. The emitted code writes **structural non-zeros only**: the caller passes buffers that
-/// were zeroed once, and may reuse them for the same mechanism type. No method allocates. Every method panics if a slice has
+/// All matrices are column-major. Into matrices the emitted code writes **structural non-zeros only**: the caller passes buffers
+/// that were zeroed once, and may reuse them for the same mechanism type. Vectors are written completely. No method allocates. Every method panics if a slice has
 /// not the stated length; [`Solver`](crate::Solver) and [`Simulation`](crate::Simulation) check what users pass in before that.
 pub trait Mechanism: Clone + Default + Send + Sync + 'static {
     /// Names, structure and readable equations.
@@ -207,6 +207,8 @@ pub struct Operations {
 /// The derived equations as text; entries that are zero are absent.
 #[derive(Debug)]
 pub struct Equations {
+    /// Abbreviations (name, text) that the others use.
+    pub definitions: &'static [(&'static str, &'static str)],
     /// Entries (row, column, text) of the lower triangle of M.
     pub mass: &'static [(usize, usize, &'static str)],
     /// Entries (coordinate, text) of Q.
@@ -276,10 +278,40 @@ fn find<'a>(
         .ok_or_else(|| Error::unknown_name(kind, name, &mut names))
 }
 
-/// For emitted code: the length check of a slice argument.
+/// What emitted code calls. Not for other use.
 #[doc(hidden)]
-#[cold]
-#[track_caller]
-pub fn wrong_length(what: &str, expected: usize, found: usize) -> ! {
-    panic!("`{what}` must have length {expected}, but has length {found}")
+pub mod emitted {
+    /// `slice` as an array of its one right length.
+    #[inline]
+    #[track_caller]
+    pub fn exact<'a, S, const N: usize>(slice: &'a [S], what: &str) -> &'a [S; N] {
+        match slice.try_into() {
+            Ok(array) => array,
+            Err(_) => wrong_length(what, N, slice.len()),
+        }
+    }
+
+    /// `slice` as an array of its one right length.
+    #[inline]
+    #[track_caller]
+    pub fn exact_mut<'a, S, const N: usize>(slice: &'a mut [S], what: &str) -> &'a mut [S; N] {
+        let found = slice.len();
+        match slice.try_into() {
+            Ok(array) => array,
+            Err(_) => wrong_length(what, N, found),
+        }
+    }
+
+    /// A parameter's position that is none.
+    #[cold]
+    #[track_caller]
+    pub fn no_parameter(index: usize) -> ! {
+        panic!("there is no parameter number {index}")
+    }
+
+    #[cold]
+    #[track_caller]
+    fn wrong_length(what: &str, expected: usize, found: usize) -> ! {
+        panic!("`{what}` must have length {expected}, but has length {found}")
+    }
 }

@@ -1,0 +1,99 @@
+//! What can be decided about a mechanism at compile time.
+
+use super::dynamics::Dynamics;
+use super::sparsity::unmatched_rows;
+use crate::diag::Diagnostics;
+use crate::expr::{Id, Kind, System};
+use crate::model::Model;
+use std::collections::HashMap;
+
+/// Reports what makes the motion undetermined or a constraint meaningless.
+pub(crate) fn check(system: &System, dynamics: &Dynamics, model: &Model, diag: &Diagnostics) {
+    constraints(system, diag);
+    masses(system, dynamics, diag);
+    if diag.is_empty() {
+        determined(dynamics, model, diag);
+    }
+}
+
+fn constraints(system: &System, diag: &Diagnostics) {
+    let g = &system.graph;
+    let mut seen: HashMap<(Kind, Id), String> = HashMap::new();
+    for constraint in &system.constraints {
+        let name = constraint.item.text();
+        let uses = g.uses(constraint.phi);
+        let message = match constraint.kind {
+            _ if g.is_zero(constraint.phi) => {
+                Some(format!("constraint `{name}` is always true; remove it"))
+            }
+            Kind::Holonomic if !uses.coord => Some(format!(
+                "constraint `{name}` contains no coordinate, so it constrains nothing"
+            )),
+            Kind::Nonholonomic if !uses.velocity => Some(format!(
+                "constraint `{name}` contains no velocity; move it under `holonomic`"
+            )),
+            _ => None,
+        };
+        if let Some(message) = message {
+            diag.error(constraint.loc, message);
+            continue;
+        }
+        let (_, essence) = g.unscaled(constraint.phi);
+        let key = (constraint.kind, essence);
+        if let Some(other) = seen.get(&key) {
+            diag.error(
+                constraint.loc,
+                format!("constraint `{name}` is the same equation as `{other}`; remove one"),
+            );
+        }
+        seen.entry(key).or_insert(name);
+    }
+}
+
+fn masses(system: &System, dynamics: &Dynamics, diag: &Diagnostics) {
+    let g = &system.graph;
+    for ((row, column), (entry, loc)) in &system.mass {
+        if row == column && g.as_const(*entry).is_some_and(|m| m < 0.0) {
+            diag.error(*loc, "a mass must not be negative");
+        }
+    }
+    if let Some((_, loc)) = system.kinetic {
+        if dynamics.mass.values().any(|m| g.uses(*m).velocity) {
+            diag.error(
+                loc,
+                "the kinetic energy must be quadratic in the velocities: its second derivative still contains one",
+            );
+        } else if dynamics.mass.is_empty() {
+            diag.error(loc, "the kinetic energy contains no square of a velocity");
+        }
+    }
+}
+
+/// rank [M | Aᵀ] = n, the condition of eq. 19, as far as the structure tells.
+fn determined(dynamics: &Dynamics, model: &Model, diag: &Diagnostics) {
+    let n = model.coord_elements.len();
+    let mut columns: Vec<Vec<usize>> = vec![Vec::new(); n];
+    for (i, j) in dynamics.mass.keys() {
+        columns[*i].push(*j);
+        if i != j {
+            columns[*j].push(*i);
+        }
+    }
+    for (row, i) in dynamics.jacobian.keys() {
+        columns[*i].push(n + row);
+    }
+    for i in unmatched_rows(&columns, n + dynamics.rhs.len()) {
+        let element = &model.coord_elements[i];
+        let name = &element.name;
+        let message = if columns[i].is_empty() {
+            format!(
+                "coordinate `{name}` has neither mass nor constraint, so nothing determines its motion; give it mass, constrain it, or remove it"
+            )
+        } else {
+            format!(
+                "rank [M | Aᵀ] is below {n} whatever the parameters are: the massless coordinates outnumber the constraints on them, `{name}` among them; give it mass or constrain it"
+            )
+        };
+        diag.error(model.coords[element.family].name.span(), message);
+    }
+}

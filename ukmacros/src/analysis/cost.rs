@@ -1,0 +1,56 @@
+//! Operation counts.
+
+use crate::expr::{Func, Graph, Id, Node};
+use std::collections::HashSet;
+
+/// Operations of straight-line code; each node is computed once.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Operations {
+    pub(crate) additions: usize,
+    pub(crate) multiplications: usize,
+    pub(crate) divisions: usize,
+    pub(crate) square_roots: usize,
+    pub(crate) transcendentals: usize,
+    pub(crate) selections: usize,
+}
+
+/// Counts the operations of the nodes `needed`.
+pub(crate) fn count(g: &Graph, needed: &HashSet<Id>) -> Operations {
+    let mut n = Operations::default();
+    for id in needed {
+        match g.node(*id) {
+            Node::Const(_) | Node::Symbol(_) => {}
+            Node::Sum(c, terms) => {
+                n.additions += terms.len() - 1 + usize::from(c.get() != 0.0);
+                n.multiplications += terms.iter().filter(|(k, _)| k.get().abs() != 1.0).count();
+            }
+            Node::Scale(c, _) if c.get() == -1.0 => n.additions += 1,
+            Node::Scale(..) => n.multiplications += 1,
+            Node::Product(factors) => {
+                let (above, below): (Vec<_>, Vec<_>) = factors.iter().partition(|(_, e)| *e > 0);
+                for side in [&above, &below] {
+                    n.multiplications += side.len().saturating_sub(1);
+                    n.multiplications += side.iter().map(|(_, e)| power_cost(*e)).sum::<usize>();
+                }
+                n.divisions += usize::from(!below.is_empty());
+            }
+            Node::Call(func, args) => match func {
+                Func::Sqrt => n.square_roots += 1,
+                Func::Abs | Func::Sign | Func::Min | Func::Max => n.selections += 1,
+                // Counted with its sine.
+                Func::Cos
+                    if g.find_call(Func::Sin, args[0])
+                        .is_some_and(|s| needed.contains(&s)) => {}
+                _ => n.transcendentals += 1,
+            },
+            Node::Select { .. } => n.selections += 1,
+        }
+    }
+    n
+}
+
+/// Multiplications in xⁿ by repeated squaring.
+fn power_cost(exponent: i32) -> usize {
+    let n = exponent.unsigned_abs();
+    (n.ilog2() + n.count_ones() - 1) as usize
+}

@@ -1,0 +1,146 @@
+//! M, Q, A, b from what was declared.
+
+use crate::expr::{Derivative, Graph, Id, Kind, Symbol, System};
+use std::collections::BTreeMap;
+
+/// The equations of motion as nodes. Notation as in Zhao, Zhen & Chen 2013.
+pub(crate) struct Dynamics {
+    /// Lower triangle of M (row ≥ column), structural non-zeros.
+    pub(crate) mass: BTreeMap<(usize, usize), Id>,
+    /// Q, per coordinate.
+    pub(crate) force: Vec<Id>,
+    /// c, per coordinate.
+    pub(crate) nonideal: Vec<Id>,
+    /// A (constraint, coordinate), structural non-zeros.
+    pub(crate) jacobian: BTreeMap<(usize, usize), Id>,
+    /// b, per constraint.
+    pub(crate) rhs: Vec<Id>,
+    /// φ, per holonomic constraint.
+    pub(crate) phi: Vec<Id>,
+    /// φ̇ of holonomic constraints, φ of nonholonomic ones.
+    pub(crate) rate: Vec<Id>,
+    /// T.
+    pub(crate) kinetic: Id,
+    /// V, 0 where none is declared.
+    pub(crate) potential: Id,
+}
+
+/// Derives the equations of motion of a system with `n` coordinates.
+pub(crate) fn derive(system: &mut System, n: usize) -> Dynamics {
+    let g = &mut system.graph;
+    let zero = g.zero();
+    let mut force = vec![zero; n];
+    for (i, f) in &system.force {
+        force[*i] = *f;
+    }
+    let mut mass = BTreeMap::new();
+    let kinetic;
+    if let Some((t, _)) = system.kinetic {
+        kinetic = t;
+        lagrange(t, &mut mass, &mut force, g);
+    } else {
+        mass = system.mass.iter().map(|(at, (m, _))| (*at, *m)).collect();
+        mass.retain(|_, m| !g.is_zero(*m));
+        kinetic = half_square(&mass, g);
+    }
+    let potential = system.potential.unwrap_or(zero);
+    for (i, f) in force.iter_mut().enumerate() {
+        let gradient = Derivative::partial(Symbol::Coord(i)).of(potential, g);
+        *f = subtract(*f, gradient, g);
+    }
+    let mut nonideal = vec![zero; n];
+    for (i, c) in system.nonideal.iter().flatten() {
+        nonideal[*i] = *c;
+    }
+
+    let mut total = Derivative::total();
+    let mut partials: Vec<(Derivative, Derivative)> = (0..n)
+        .map(|i| {
+            (
+                Derivative::partial(Symbol::Coord(i)),
+                Derivative::partial(Symbol::Velocity(i)),
+            )
+        })
+        .collect();
+    let mut jacobian = BTreeMap::new();
+    let (mut rhs, mut phi, mut rate) = (Vec::new(), Vec::new(), Vec::new());
+    for (row, constraint) in system.constraints.iter().enumerate() {
+        let velocity_level = match constraint.kind {
+            Kind::Holonomic => {
+                phi.push(constraint.phi);
+                total.of(constraint.phi, g)
+            }
+            Kind::Nonholonomic => constraint.phi,
+        };
+        rate.push(velocity_level);
+        for symbol in g.support(constraint.phi).to_vec() {
+            let entry = match (constraint.kind, symbol) {
+                (Kind::Holonomic, Symbol::Coord(i)) => (i, partials[i].0.of(constraint.phi, g)),
+                (Kind::Nonholonomic, Symbol::Velocity(i)) => {
+                    (i, partials[i].1.of(constraint.phi, g))
+                }
+                _ => continue,
+            };
+            if !g.is_zero(entry.1) {
+                jacobian.insert((row, entry.0), entry.1);
+            }
+        }
+        // d/dt of the velocity level is A q̈ + (its value at q̈ = 0), so b is minus the latter.
+        let at_rest = total.of(velocity_level, g);
+        rhs.push(g.neg(at_rest));
+    }
+    Dynamics {
+        mass,
+        force,
+        nonideal,
+        jacobian,
+        rhs,
+        phi,
+        rate,
+        kinetic,
+        potential,
+    }
+}
+
+/// Lagrange's equations d/dt(∂T/∂q̇) − ∂T/∂q = Q: M = ∂²T/∂q̇², and the rest of the left side goes into Q.
+fn lagrange(t: Id, mass: &mut BTreeMap<(usize, usize), Id>, force: &mut [Id], g: &mut Graph) {
+    let mut total = Derivative::total();
+    for i in 0..force.len() {
+        let momentum = Derivative::partial(Symbol::Velocity(i)).of(t, g);
+        for j in 0..=i {
+            let entry = Derivative::partial(Symbol::Velocity(j)).of(momentum, g);
+            if !g.is_zero(entry) {
+                mass.insert((i, j), entry);
+            }
+        }
+        let transport = total.of(momentum, g);
+        let gradient = Derivative::partial(Symbol::Coord(i)).of(t, g);
+        force[i] = subtract(force[i], transport, g);
+        let positive = g.neg(gradient);
+        force[i] = subtract(force[i], positive, g);
+    }
+}
+
+/// a − b as one sum.
+fn subtract(a: Id, b: Id, g: &mut Graph) -> Id {
+    if g.is_zero(b) {
+        return a;
+    }
+    let mut terms = g.open(1.0, a);
+    terms.extend(g.open(-1.0, b));
+    g.sum(&terms)
+}
+
+/// ½ q̇ᵀ M q̇.
+fn half_square(mass: &BTreeMap<(usize, usize), Id>, g: &mut Graph) -> Id {
+    let mut terms = Vec::new();
+    for ((i, j), m) in mass {
+        let (vi, vj) = (
+            g.symbol(Symbol::Velocity(*i)),
+            g.symbol(Symbol::Velocity(*j)),
+        );
+        let term = g.product(&[(*m, 1), (vi, 1), (vj, 1)]);
+        terms.push((if i == j { 0.5 } else { 1.0 }, term));
+    }
+    g.sum(&terms)
+}

@@ -1,0 +1,16 @@
+//! From equations of a mechanism to what is emitted: derivatives, structure, checks.
+
+mod check;
+mod cost;
+mod dynamics;
+mod schedule;
+mod sparsity;
+mod structure;
+mod verify;
+
+pub(crate) use check::check;
+pub(crate) use cost::{Operations, count};
+pub(crate) use dynamics::{Dynamics, derive};
+pub(crate) use schedule::{Program, Step, schedule};
+pub(crate) use structure::{Structure, structure};
+pub(crate) use verify::verify;

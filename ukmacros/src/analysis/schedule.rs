@@ -1,0 +1,127 @@
+//! What becomes a variable, and in which order.
+
+use crate::expr::{Func, Graph, Id, Node};
+use std::collections::{HashMap, HashSet};
+
+/// Straight-line code for some values.
+pub(crate) struct Program {
+    pub(crate) steps: Vec<Step>,
+    /// All nodes that are computed.
+    pub(crate) needed: HashSet<Id>,
+}
+
+/// One statement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Step {
+    /// A variable for this node.
+    Let(Id),
+    /// Two variables, sine and cosine of one argument.
+    SinCos { sin: Id, cos: Id },
+    /// The value of root number `.0` is stored.
+    Store(usize),
+}
+
+/// Orders the computation of `roots`: each is stored as soon as it is known; what is used more than once, or has a name
+/// in `named`, becomes a variable.
+pub(crate) fn schedule(g: &Graph, roots: &[Id], named: &HashMap<Id, String>) -> Program {
+    let needed = reachable(g, roots);
+    let mut order: Vec<Id> = needed.iter().copied().collect();
+    order.sort_unstable();
+    let uses = count_uses(g, roots, &order);
+    let pair = |id: Id| -> Option<(Id, Id)> {
+        let Node::Call(func @ (Func::Sin | Func::Cos), args) = g.node(id) else {
+            return None;
+        };
+        let other_func = if *func == Func::Sin {
+            Func::Cos
+        } else {
+            Func::Sin
+        };
+        let other = g
+            .find_call(other_func, args[0])
+            .filter(|o| needed.contains(o))?;
+        Some(if *func == Func::Sin {
+            (id, other)
+        } else {
+            (other, id)
+        })
+    };
+    let variable = |id: Id| match g.node(id) {
+        Node::Const(_) | Node::Symbol(_) => false,
+        // A sign is cheaper than a variable.
+        Node::Scale(c, _) if c.get() == -1.0 => false,
+        _ => uses[&id] > 1 || named.contains_key(&id) || pair(id).is_some(),
+    };
+    let mut steps = Vec::new();
+    let mut done: HashSet<Id> = HashSet::new();
+    for (k, root) in roots.iter().enumerate() {
+        // Depth-first, operands before users, without recursion.
+        let mut stack = vec![(*root, false)];
+        while let Some((id, expanded)) = stack.pop() {
+            if done.contains(&id) {
+                continue;
+            }
+            if !expanded {
+                stack.push((id, true));
+                for operand in g.operands(id).into_iter().rev() {
+                    stack.push((operand, false));
+                }
+                continue;
+            }
+            done.insert(id);
+            if let Some((sin, cos)) = pair(id) {
+                done.insert(sin);
+                done.insert(cos);
+                steps.push(Step::SinCos { sin, cos });
+            } else if variable(id) {
+                steps.push(Step::Let(id));
+            }
+        }
+        steps.push(Step::Store(k));
+    }
+    Program { steps, needed }
+}
+
+fn reachable(g: &Graph, roots: &[Id]) -> HashSet<Id> {
+    let mut needed = HashSet::new();
+    let mut stack = roots.to_vec();
+    while let Some(id) = stack.pop() {
+        if needed.insert(id) {
+            stack.extend(g.operands(id));
+        }
+    }
+    needed
+}
+
+/// How often each node is read; a square reads its base twice, an inlined sign passes its readers on.
+fn count_uses(g: &Graph, roots: &[Id], ascending: &[Id]) -> HashMap<Id, usize> {
+    let mut uses: HashMap<Id, usize> = ascending.iter().map(|id| (*id, 0)).collect();
+    let read = |id: Id, times: usize, uses: &mut HashMap<Id, usize>| {
+        *uses.entry(id).or_insert(0) += times;
+    };
+    for root in roots {
+        read(*root, 1, &mut uses);
+    }
+    for id in ascending.iter().rev() {
+        match g.node(*id) {
+            Node::Scale(c, inner) if c.get() == -1.0 => {
+                let readers = uses[id];
+                read(*inner, readers, &mut uses);
+            }
+            Node::Product(factors) => {
+                for (base, exponent) in factors {
+                    let times = match exponent.unsigned_abs() {
+                        2 | 3 => 2,
+                        _ => 1,
+                    };
+                    read(*base, times, &mut uses);
+                }
+            }
+            _ => g
+                .operands(*id)
+                .into_iter()
+                .for_each(|o| read(o, 1, &mut uses)),
+        }
+    }
+    uses
+}

@@ -1,0 +1,151 @@
+//! Facts about a mechanism that solver and reader use, and what the emitted code leaves out because of them.
+
+use super::dynamics::Dynamics;
+use crate::expr::{Graph, Kind, Symbol, System};
+
+/// Facts known at compile time.
+pub(crate) struct Structure {
+    pub(crate) mass_diagonal: bool,
+    pub(crate) mass_constant: bool,
+    pub(crate) jacobian_constant: bool,
+    pub(crate) massless: Vec<usize>,
+    pub(crate) scleronomic: bool,
+    pub(crate) nonideal: bool,
+    pub(crate) potential: bool,
+    pub(crate) conservative: bool,
+    pub(crate) left_out: Vec<String>,
+}
+
+/// Collects the facts.
+pub(crate) fn structure(system: &mut System, dynamics: &Dynamics) -> Structure {
+    let n = dynamics.force.len();
+    let homogeneous = homogeneous(system);
+    let g = &system.graph;
+    let has_mass = |i: usize| dynamics.mass.keys().any(|(r, c)| *r == i || *c == i);
+    let mass_diagonal = dynamics.mass.keys().all(|(r, c)| r == c);
+    let mass_constant = dynamics.mass.values().all(|m| g.uses(*m).constant());
+    let jacobian_constant = dynamics.jacobian.values().all(|a| g.uses(*a).constant());
+    let massless: Vec<usize> = (0..n).filter(|i| !has_mass(*i)).collect();
+    let equations = dynamics
+        .mass
+        .values()
+        .chain(&dynamics.force)
+        .chain(&dynamics.nonideal)
+        .chain(&dynamics.rate)
+        .chain(&dynamics.phi)
+        .chain([&dynamics.potential]);
+    let scleronomic = equations.into_iter().all(|id| !g.uses(*id).time);
+    let nonideal = system.nonideal.is_some();
+    let forced = system.force.values().any(|f| !g.is_zero(*f));
+    let conservative = scleronomic
+        && !nonideal
+        && !forced
+        && homogeneous
+        && (mass_constant || system.kinetic.is_some());
+    let mut structure = Structure {
+        mass_diagonal,
+        mass_constant,
+        jacobian_constant,
+        massless,
+        scleronomic,
+        nonideal,
+        potential: system.potential.is_some(),
+        conservative,
+        left_out: Vec::new(),
+    };
+    structure.left_out = left_out(&structure, system, dynamics);
+    structure
+}
+
+fn left_out(s: &Structure, system: &System, dynamics: &Dynamics) -> Vec<String> {
+    let g = &system.graph;
+    let mut out = Vec::new();
+    let n = dynamics.force.len();
+    let m = dynamics.rhs.len();
+    let mut say = |when: bool, text: String| {
+        if when {
+            out.push(text);
+        }
+    };
+    say(
+        m == 0,
+        "constraint solve: there are no constraints, M q̈ = Q".to_owned(),
+    );
+    say(
+        m > 0 && dynamics.jacobian.len() < n * m,
+        format!(
+            "{} of the {} entries of A: structurally zero, never written",
+            n * m - dynamics.jacobian.len(),
+            n * m
+        ),
+    );
+    say(
+        s.mass_diagonal,
+        "off-diagonal entries of M: M is diagonal, its square root is taken entry by entry"
+            .to_owned(),
+    );
+    say(
+        s.mass_constant && system.kinetic.is_some(),
+        "velocity terms of Lagrange's equations: M is constant".to_owned(),
+    );
+    say(
+        s.scleronomic,
+        "∂/∂t terms: no equation contains the time".to_owned(),
+    );
+    say(
+        !s.nonideal,
+        "non-ideal force c (eq. 12): all constraints are ideal".to_owned(),
+    );
+    let zero_rhs = dynamics.rhs.iter().filter(|b| g.is_zero(**b)).count();
+    say(
+        zero_rhs > 0,
+        format!("{zero_rhs} of {m} entries of b: identically zero"),
+    );
+    let unforced = dynamics.force.iter().filter(|f| g.is_zero(**f)).count();
+    say(
+        unforced > 0,
+        format!("{unforced} of {n} entries of Q: identically zero"),
+    );
+    say(
+        s.massless.is_empty() && s.mass_diagonal,
+        "Udwadia-Phohomsiri formula (eq. 19): no coordinate is massless while the parameters are positive".to_owned(),
+    );
+    out
+}
+
+/// Whether all nonholonomic constraints are homogeneous of degree one in q̇ (Σ q̇ ∂φ/∂q̇ = φ), so that their forces do no work.
+fn homogeneous(system: &mut System) -> bool {
+    let g = &mut system.graph;
+    let rows: Vec<_> = system
+        .constraints
+        .iter()
+        .filter(|c| c.kind == Kind::Nonholonomic)
+        .map(|c| c.phi)
+        .collect();
+    rows.into_iter().all(|phi| linear_homogeneous(phi, g))
+}
+
+fn linear_homogeneous(phi: crate::expr::Id, g: &mut Graph) -> bool {
+    // Linear with no rest: the second derivatives vanish, and φ vanishes with q̇.
+    let velocities: Vec<Symbol> = g
+        .support(phi)
+        .iter()
+        .copied()
+        .filter(|s| matches!(s, Symbol::Velocity(_)))
+        .collect();
+    let mut terms = vec![(1.0, phi)];
+    for symbol in velocities {
+        let slope = crate::expr::Derivative::partial(symbol).of(phi, g);
+        if g.uses(slope).velocity {
+            return false;
+        }
+        let v = g.symbol(symbol);
+        let product = g.mul(slope, v);
+        terms.extend(g.open(-1.0, product));
+    }
+    let first = terms.remove(0).1;
+    let mut all = g.open(1.0, first);
+    all.extend(terms);
+    let rest = g.sum(&all);
+    g.is_zero(rest)
+}

@@ -1,0 +1,240 @@
+//! Each derivation checked by substituting back, in debug builds of the macro.
+//!
+//! The derivatives that the graph made symbolically are compared with truncated Taylor arithmetic: φ is evaluated along a
+//! parabola q(s) at three points, with its first and second derivative in s, which must be φ̇ and A q̈ − b.
+
+use super::dynamics::Dynamics;
+use crate::expr::{Func, Graph, Id, Kind, Node, Point, Symbol, System, eval};
+use std::collections::HashSet;
+
+/// Relative difference that rounding can explain at arguments of order one; a wrong derivative is off by far more.
+const TOLERANCE: f64 = 1e-8;
+
+/// Names of what disagrees at every point tried: a defect of this compiler.
+pub(crate) fn verify(system: &System, dynamics: &Dynamics, n: usize) -> Vec<String> {
+    let mut suspects: Option<HashSet<String>> = None;
+    for seed in 1..=3 {
+        let mut random = Random(seed);
+        let mut draw = || -> Vec<f64> { (0..n).map(|_| random.next()).collect() };
+        let motion = Motion {
+            params: &system.defaults,
+            q: draw(),
+            v: draw(),
+            a: draw(),
+            t: 0.7,
+        };
+        let wrong = motion.disagreements(system, dynamics);
+        suspects = Some(match suspects {
+            None => wrong,
+            Some(known) => known.intersection(&wrong).cloned().collect(),
+        });
+    }
+    let mut names: Vec<String> = suspects.unwrap_or_default().into_iter().collect();
+    names.sort_unstable();
+    names
+}
+
+/// A small deterministic generator on (0.2, 1.2): inside the domain of most functions.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut x = self.0;
+        x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        #[allow(clippy::cast_precision_loss, reason = "only 53 bits are taken")]
+        let unit = ((x ^ (x >> 31)) >> 11) as f64 / (1u64 << 53) as f64;
+        0.2 + unit
+    }
+}
+
+/// q + v s + a s²/2 with velocity v + a s, at time t + s.
+struct Motion<'a> {
+    params: &'a [f64],
+    q: Vec<f64>,
+    v: Vec<f64>,
+    a: Vec<f64>,
+    t: f64,
+}
+
+impl Motion<'_> {
+    fn disagreements(&self, system: &System, dynamics: &Dynamics) -> HashSet<String> {
+        let g = &system.graph;
+        let point = Point {
+            params: self.params,
+            q: &self.q,
+            v: &self.v,
+            t: self.t,
+        };
+        let places = dynamics.jacobian.keys();
+        let entries: Vec<Id> = dynamics.jacobian.values().copied().collect();
+        let entries = eval(g, &entries, &point);
+        let rate = eval(g, &dynamics.rate, &point);
+        let rhs = eval(g, &dynamics.rhs, &point);
+        // A q̈ − b, with the size of its terms.
+        let mut second: Vec<(f64, f64)> = rhs.iter().map(|b| (-b, b.abs() + 1.0)).collect();
+        for ((row, column), entry) in places.zip(entries) {
+            let term = entry * self.a[*column];
+            second[*row].0 += term;
+            second[*row].1 += term.abs();
+        }
+        let phis: Vec<Id> = system.constraints.iter().map(|c| c.phi).collect();
+        let jets = self.jets(g, &phis);
+        let mut wrong = HashSet::new();
+        for (row, constraint) in system.constraints.iter().enumerate() {
+            let jet = jets[row];
+            let (value, scale) = second[row];
+            let (first_ok, second_ok) = match constraint.kind {
+                Kind::Holonomic => (agree(jet.1, rate[row], 1.0), agree(jet.2, value, scale)),
+                Kind::Nonholonomic => (agree(jet.0, rate[row], 1.0), agree(jet.1, value, scale)),
+            };
+            if !first_ok || !second_ok {
+                wrong.insert(constraint.item.text());
+            }
+        }
+        wrong
+    }
+
+    fn jets(&self, g: &Graph, roots: &[Id]) -> Vec<Jet> {
+        let top = roots.iter().map(|r| r.index() + 1).max().unwrap_or(0);
+        let mut values: Vec<Jet> = Vec::with_capacity(top);
+        for i in 0..top {
+            let jet = self.jet(g.node(g.at(i)), &values);
+            values.push(jet);
+        }
+        roots.iter().map(|r| values[r.index()]).collect()
+    }
+
+    fn jet(&self, node: &Node, values: &[Jet]) -> Jet {
+        let at = |id: &Id| values[id.index()];
+        match node {
+            Node::Const(x) => Jet(x.get(), 0.0, 0.0),
+            Node::Symbol(Symbol::Param(i)) => Jet(self.params[*i], 0.0, 0.0),
+            Node::Symbol(Symbol::Coord(i)) => Jet(self.q[*i], self.v[*i], self.a[*i]),
+            Node::Symbol(Symbol::Velocity(i)) => Jet(self.v[*i], self.a[*i], 0.0),
+            Node::Symbol(Symbol::Time) => Jet(self.t, 1.0, 0.0),
+            Node::Sum(c, terms) => terms.iter().fold(Jet(c.get(), 0.0, 0.0), |sum, (k, t)| {
+                sum.plus(at(t).times(Jet(k.get(), 0.0, 0.0)))
+            }),
+            Node::Scale(c, inner) => at(inner).times(Jet(c.get(), 0.0, 0.0)),
+            Node::Product(factors) => {
+                factors
+                    .iter()
+                    .fold(Jet(1.0, 0.0, 0.0), |product, (base, e)| {
+                        let (u, e) = (at(base), *e);
+                        let slope = f64::from(e) * u.0.powi(e - 1);
+                        let bend = f64::from(e) * f64::from(e - 1) * u.0.powi(e - 2);
+                        product.times(u.chain(u.0.powi(e), slope, bend))
+                    })
+            }
+            Node::Call(func, args) => call(*func, at(&args[0]), args.get(1).map(at)),
+            Node::Select {
+                a,
+                b,
+                then,
+                otherwise,
+            } => {
+                if at(a).0 <= at(b).0 {
+                    at(then)
+                } else {
+                    at(otherwise)
+                }
+            }
+        }
+    }
+}
+
+/// Value, first and second derivative in s.
+#[derive(Clone, Copy)]
+struct Jet(f64, f64, f64);
+
+impl Jet {
+    fn plus(self, o: Jet) -> Jet {
+        Jet(self.0 + o.0, self.1 + o.1, self.2 + o.2)
+    }
+    fn times(self, o: Jet) -> Jet {
+        Jet(
+            self.0 * o.0,
+            self.1 * o.0 + self.0 * o.1,
+            self.2 * o.0 + 2.0 * self.1 * o.1 + self.0 * o.2,
+        )
+    }
+    /// f(u) from f, f′ and f″ at u.
+    fn chain(self, value: f64, slope: f64, bend: f64) -> Jet {
+        Jet(
+            value,
+            slope * self.1,
+            bend * self.1 * self.1 + slope * self.2,
+        )
+    }
+    fn ln(self) -> Jet {
+        self.chain(self.0.ln(), 1.0 / self.0, -1.0 / (self.0 * self.0))
+    }
+    fn exp(self) -> Jet {
+        let e = self.0.exp();
+        self.chain(e, e, e)
+    }
+    fn sqrt(self) -> Jet {
+        let r = self.0.sqrt();
+        self.chain(r, 0.5 / r, -0.25 / (r * r * r))
+    }
+}
+
+fn call(func: Func, u: Jet, w: Option<Jet>) -> Jet {
+    let x = u.0;
+    let w = w.unwrap_or(Jet(0.0, 0.0, 0.0));
+    match func {
+        Func::Sqrt => u.sqrt(),
+        Func::Sin => u.chain(x.sin(), x.cos(), -x.sin()),
+        Func::Cos => u.chain(x.cos(), -x.sin(), -x.cos()),
+        Func::Tan => {
+            let t = x.tan();
+            u.chain(t, 1.0 + t * t, 2.0 * t * (1.0 + t * t))
+        }
+        Func::Asin | Func::Acos => {
+            let r = (1.0 - x * x).sqrt();
+            let (slope, bend) = (1.0 / r, x / (r * r * r));
+            if func == Func::Asin {
+                u.chain(x.asin(), slope, bend)
+            } else {
+                u.chain(x.acos(), -slope, -bend)
+            }
+        }
+        Func::Atan => {
+            let d = 1.0 + x * x;
+            u.chain(x.atan(), 1.0 / d, -2.0 * x / (d * d))
+        }
+        Func::Sinh => u.chain(x.sinh(), x.cosh(), x.sinh()),
+        Func::Cosh => u.chain(x.cosh(), x.sinh(), x.cosh()),
+        Func::Tanh => {
+            let t = x.tanh();
+            u.chain(t, 1.0 - t * t, -2.0 * t * (1.0 - t * t))
+        }
+        Func::Exp => u.exp(),
+        Func::Ln => u.ln(),
+        Func::Abs if x < 0.0 => u.times(Jet(-1.0, 0.0, 0.0)),
+        Func::Abs => u,
+        Func::Sign => u.chain(if x == 0.0 { 0.0 } else { x.signum() }, 0.0, 0.0),
+        Func::Min if x <= w.0 => u,
+        Func::Max if x >= w.0 => u,
+        Func::Min | Func::Max => w,
+        Func::Hypot => u.times(u).plus(w.times(w)).sqrt(),
+        Func::Powf => u.ln().times(w).exp(),
+        Func::Atan2 => {
+            // θ′ = (w u′ − u w′)/(u² + w²), and the quotient's own derivative.
+            let top = w.0 * u.1 - u.0 * w.1;
+            let bottom = u.0 * u.0 + w.0 * w.0;
+            let top1 = w.0 * u.2 - u.0 * w.2;
+            let bottom1 = 2.0 * (u.0 * u.1 + w.0 * w.1);
+            let rate = top / bottom;
+            Jet(x.atan2(w.0), rate, (top1 - rate * bottom1) / bottom)
+        }
+    }
+}
+
+/// Whether two numbers agree to rounding; outside of a function's domain nothing is claimed.
+fn agree(a: f64, b: f64, scale: f64) -> bool {
+    let scale = scale.max(a.abs()).max(b.abs());
+    !a.is_finite() || !b.is_finite() || (a - b).abs() <= TOLERANCE * scale
+}

@@ -1,0 +1,133 @@
+//! Errors: collected, located, reported together.
+
+use proc_macro2::{Delimiter, Group, Ident, Literal, Punct, Spacing, Span, TokenStream, TokenTree};
+use std::cell::RefCell;
+
+/// The source range of something: its first and its last token (stable Rust cannot join spans).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Loc {
+    pub(crate) start: Span,
+    pub(crate) end: Span,
+}
+
+impl From<Span> for Loc {
+    fn from(span: Span) -> Self {
+        Loc {
+            start: span,
+            end: span,
+        }
+    }
+}
+
+impl Loc {
+    /// The range that `tokens` cover; the macro call itself if there are none.
+    pub(crate) fn of(tokens: &impl quote::ToTokens) -> Self {
+        let mut iter = tokens.to_token_stream().into_iter();
+        let Some(first) = iter.next() else {
+            return Span::call_site().into();
+        };
+        let start = first.span();
+        let end = iter.last().map_or(start, |t| t.span());
+        Loc { start, end }
+    }
+}
+
+/// An error at a place.
+#[derive(Clone, Debug)]
+pub(crate) struct Diagnostic {
+    pub(crate) loc: Loc,
+    pub(crate) message: String,
+}
+
+/// Collects errors, so that one run of the compiler shows them all.
+#[derive(Default)]
+pub(crate) struct Diagnostics {
+    found: RefCell<Vec<Diagnostic>>,
+}
+
+impl Diagnostics {
+    /// Records an error.
+    pub(crate) fn error(&self, loc: impl Into<Loc>, message: impl Into<String>) {
+        self.found.borrow_mut().push(Diagnostic {
+            loc: loc.into(),
+            message: message.into(),
+        });
+    }
+
+    /// Records what `syn` found wrong.
+    pub(crate) fn syntax(&self, error: &syn::Error) {
+        for e in error.clone() {
+            self.error(e.span(), e.to_string());
+        }
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.found.borrow().is_empty()
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.found.borrow().len()
+    }
+
+    /// All errors, each place and text once.
+    #[cfg(test)]
+    pub(crate) fn take(self) -> Vec<Diagnostic> {
+        self.found.into_inner()
+    }
+
+    /// One `compile_error!` per error, spanning its range.
+    pub(crate) fn to_tokens(&self) -> TokenStream {
+        self.found.borrow().iter().flat_map(compile_error).collect()
+    }
+}
+
+/// `::core::compile_error! { "message" }`, whose first and last token carry the range, which is how rustc finds it.
+fn compile_error(diagnostic: &Diagnostic) -> TokenStream {
+    let Loc { start, end } = diagnostic.loc;
+    let at = |span: Span, tree: TokenTree| {
+        let mut tree = tree;
+        tree.set_span(span);
+        tree
+    };
+    let punct = |c, spacing| at(start, Punct::new(c, spacing).into());
+    let literal = at(end, Literal::string(&diagnostic.message).into());
+    let group = Group::new(Delimiter::Brace, literal.into());
+    [
+        punct(':', Spacing::Joint),
+        punct(':', Spacing::Alone),
+        Ident::new("core", start).into(),
+        punct(':', Spacing::Joint),
+        punct(':', Spacing::Alone),
+        Ident::new("compile_error", start).into(),
+        punct('!', Spacing::Alone),
+        at(end, group.into()),
+    ]
+    .into_iter()
+    .collect()
+}
+
+/// The nearest of `names` to `name`, as a half-sentence of an error message (empty if none is near).
+pub(crate) fn suggest<'a>(name: &str, names: impl IntoIterator<Item = &'a str>) -> String {
+    let near = names
+        .into_iter()
+        .map(|n| (distance(name, n), n))
+        .min()
+        .filter(|(d, n)| *d <= n.len().max(name.len()) / 3);
+    near.map_or_else(String::new, |(_, n)| format!("; did you mean `{n}`?"))
+}
+
+/// Levenshtein distance.
+fn distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, ca) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, cb) in b.iter().enumerate() {
+            let substitution = diagonal + usize::from(ca != *cb);
+            diagonal = row[j + 1];
+            row[j + 1] = substitution.min(diagonal + 1).min(row[j] + 1);
+        }
+    }
+    row[b.len()]
+}

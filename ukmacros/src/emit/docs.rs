@@ -1,0 +1,176 @@
+//! The derived equations as text, for rustdoc and `SPEC`.
+
+use crate::analysis::Dynamics;
+use crate::expr::{Id, Printer, System};
+use crate::model::Model;
+use std::collections::HashMap;
+use std::fmt::Write as _;
+
+/// A shared subexpression of at least this many symbols gets a name of its own.
+const ABBREVIATE: usize = 12;
+/// Rows of a block shown in rustdoc before the middle is left out.
+const ROWS: usize = 12;
+
+/// The equations, row by row.
+pub(super) struct Listing {
+    pub(super) definitions: Vec<(String, String)>,
+    pub(super) mass: Vec<(usize, usize, String)>,
+    pub(super) force: Vec<(usize, String)>,
+    pub(super) nonideal: Vec<(usize, String)>,
+    pub(super) jacobian: Vec<(usize, usize, String)>,
+    pub(super) rhs: Vec<(usize, String)>,
+    pub(super) phi: Vec<String>,
+}
+
+/// Prints the equations of `system`.
+pub(super) fn listing(system: &System, dynamics: &Dynamics, model: &Model) -> Listing {
+    let coords: Vec<String> = model
+        .coord_elements
+        .iter()
+        .map(|e| e.name.clone())
+        .collect();
+    let params: Vec<String> = model
+        .param_elements
+        .iter()
+        .map(|e| e.name.clone())
+        .collect();
+    let mut printer = Printer {
+        graph: &system.graph,
+        coords: &coords,
+        params: &params,
+        named: HashMap::new(),
+    };
+    let phis: Vec<Id> = system.constraints.iter().map(|c| c.phi).collect();
+    let roots: Vec<Id> = dynamics
+        .mass
+        .values()
+        .chain(&dynamics.force)
+        .chain(&dynamics.nonideal)
+        .chain(dynamics.jacobian.values())
+        .chain(&dynamics.rhs)
+        .copied()
+        .chain(phis.iter().copied())
+        .collect();
+    let definitions = abbreviate(system, &roots, &mut printer);
+    let g = &system.graph;
+    let vector = |ids: &[Id]| -> Vec<(usize, String)> {
+        let present = ids.iter().enumerate().filter(|(_, id)| !g.is_zero(**id));
+        present.map(|(i, id)| (i, printer.text(*id))).collect()
+    };
+    let matrix = |entries: &std::collections::BTreeMap<(usize, usize), Id>| {
+        entries
+            .iter()
+            .map(|((i, j), id)| (*i, *j, printer.text(*id)))
+            .collect()
+    };
+    Listing {
+        mass: matrix(&dynamics.mass),
+        force: vector(&dynamics.force),
+        nonideal: vector(&dynamics.nonideal),
+        jacobian: matrix(&dynamics.jacobian),
+        rhs: vector(&dynamics.rhs),
+        phi: phis
+            .iter()
+            .map(|id| format!("{} = 0", printer.text(*id)))
+            .collect(),
+        definitions,
+    }
+}
+
+/// Names what is long and used more than once, and what the modeller named by `let`.
+fn abbreviate(system: &System, roots: &[Id], printer: &mut Printer<'_>) -> Vec<(String, String)> {
+    let g = &system.graph;
+    let mut readers: HashMap<Id, usize> = HashMap::new();
+    let mut stack = roots.to_vec();
+    while let Some(id) = stack.pop() {
+        let count = readers.entry(id).or_insert(0);
+        *count += 1;
+        if *count == 1 {
+            stack.extend(g.operands(id));
+        }
+    }
+    let mut order: Vec<Id> = readers.keys().copied().collect();
+    order.sort_unstable();
+    let mut sizes: HashMap<Id, usize> = HashMap::new();
+    let mut definitions = Vec::new();
+    for id in order {
+        let operands = g.operands(id);
+        let size = 1 + operands.iter().map(|o| sizes[o]).sum::<usize>();
+        let hint = system.hints.get(&id).filter(|_| size >= ABBREVIATE / 2);
+        let shared = readers[&id] > 1 && size >= ABBREVIATE;
+        if operands.is_empty() || !(hint.is_some() || shared) {
+            sizes.insert(id, size);
+            continue;
+        }
+        let name = hint
+            .cloned()
+            .unwrap_or_else(|| format!("s{}", definitions.len() + 1));
+        definitions.push((name.clone(), printer.definition(id)));
+        printer.named.insert(id, name);
+        sizes.insert(id, 1);
+    }
+    definitions
+}
+
+impl Listing {
+    /// Markdown of the equations for the emitted type's docs.
+    pub(super) fn markdown(&self, system: &System, model: &Model) -> String {
+        let coord = |i: usize| &model.coord_elements[i].name;
+        let constraint = |i: usize| system.constraints[i].item.text();
+        let mut out = String::new();
+        let mut block = |title: &str, rows: Vec<String>| {
+            if rows.is_empty() {
+                return;
+            }
+            let _ = writeln!(out, "{title}\n\n```text");
+            let hidden = rows.len().saturating_sub(ROWS);
+            let shown = if hidden > 0 { ROWS - 2 } else { rows.len() };
+            for row in &rows[..shown] {
+                let _ = writeln!(out, "{row}");
+            }
+            if hidden > 0 {
+                let _ = writeln!(
+                    out,
+                    "… {} rows like these …\n{}",
+                    rows.len() - shown - 1,
+                    rows[rows.len() - 1]
+                );
+            }
+            let _ = writeln!(out, "```\n");
+        };
+        let definitions = self.definitions.iter().map(|(n, t)| format!("{n} = {t}"));
+        let mass = self
+            .mass
+            .iter()
+            .map(|(i, j, t)| format!("M[{}, {}] = {t}", coord(*i), coord(*j)));
+        let force = self
+            .force
+            .iter()
+            .map(|(i, t)| format!("Q[{}] = {t}", coord(*i)));
+        let nonideal = self
+            .nonideal
+            .iter()
+            .map(|(i, t)| format!("c[{}] = {t}", coord(*i)));
+        let phi = self
+            .phi
+            .iter()
+            .enumerate()
+            .map(|(i, t)| format!("{}: {t}", constraint(i)));
+        let jacobian = self
+            .jacobian
+            .iter()
+            .map(|(i, j, t)| format!("A[{}, {}] = {t}", constraint(*i), coord(*j)));
+        let rhs = self
+            .rhs
+            .iter()
+            .map(|(i, t)| format!("b[{}] = {t}", constraint(*i)));
+        block("Abbreviations:", definitions.collect());
+        block("Mass matrix M (lower triangle), eq. 1:", mass.collect());
+        block("Generalised force Q, eq. 1:", force.collect());
+        block("Constraints φ, eqs. 3 and 4:", phi.collect());
+        block("Constraint Jacobian A, eq. 5:", jacobian.collect());
+        block("Right-hand side b, eq. 5:", rhs.collect());
+        block("Non-ideal force c, eq. 8:", nonideal.collect());
+        out
+    }
+}

@@ -1,0 +1,68 @@
+//! After an error: a type with the right names and an empty implementation, so that one mistake gives one message.
+
+use super::impls::{constants, item, operations_literal, parameters};
+use crate::analysis::Operations;
+use crate::expr::System;
+use crate::model::Model;
+use crate::parse::Declaration;
+use proc_macro2::TokenStream;
+use quote::quote;
+
+/// The type without its equations.
+pub(crate) fn fallback(decl: &Declaration, model: &Model, system: &System) -> TokenStream {
+    let item = item(decl, model, &system.defaults, "");
+    let constants = constants(decl, model, system);
+    let parameters = parameters(model);
+    let name = &decl.name;
+    let text = name.to_string();
+    let operations = operations_literal(Operations::default());
+    quote! {
+        #item
+        #constants
+        #[automatically_derived]
+        #[allow(unused_variables, clippy::all, clippy::pedantic)]
+        impl ::ukcore::Mechanism for #name {
+            const SPEC: &'static ::ukcore::Spec = &::ukcore::Spec {
+                name: #text,
+                doc: "",
+                params: &[],
+                coords: &[],
+                constraints: &[],
+                holonomic: 0,
+                outputs: &[],
+                structure: ::ukcore::Structure {
+                    mass_pattern: &[],
+                    jacobian_pattern: &[],
+                    mass_diagonal: false,
+                    mass_constant: false,
+                    jacobian_constant: false,
+                    massless: &[],
+                    scleronomic: false,
+                    nonideal: false,
+                    potential: false,
+                    conservative: false,
+                    left_out: &[],
+                    operations: #operations,
+                },
+                equations: ::ukcore::Equations {
+                    definitions: &[],
+                    mass: &[],
+                    force: &[],
+                    nonideal: &[],
+                    jacobian: &[],
+                    rhs: &[],
+                },
+            };
+            #parameters
+            fn dynamics<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], out: &mut ::ukcore::Terms<'_, S>) {}
+            fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) {}
+            fn jacobian<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {}
+            fn residual<S: ::ukcore::Scalar>(&self, t: S, q: &[S], phi: &mut [S]) {}
+            fn residual_rate<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], rate: &mut [S]) {}
+            fn energy<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S]) -> ::ukcore::Energy<S> {
+                ::ukcore::Energy { kinetic: t, potential: t }
+            }
+            fn outputs<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) {}
+        }
+    }
+}

@@ -1,0 +1,592 @@
+//! The emitted type and its implementation of `ukcore::Mechanism`.
+
+use super::body::{Body, Root, body, float};
+use super::docs::{Listing, listing};
+use super::names::{constant, plain};
+use crate::analysis::{Dynamics, Operations, Structure};
+use crate::expr::{ConstraintRef, Id, Kind, System};
+use crate::model::Model;
+use crate::parse::Declaration;
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{format_ident, quote};
+
+/// Everything the declaration becomes.
+pub(crate) fn emit(
+    decl: &Declaration,
+    model: &Model,
+    system: &System,
+    dynamics: &Dynamics,
+    structure: &Structure,
+) -> TokenStream {
+    let listing = listing(system, dynamics, model);
+    let heading = "# Equations of motion\n\nDerived from the declaration at compile time, in the notation of Zhao, Zhen & Chen 2013: \
+                   M q̈ = Q is the unconstrained motion, A q̈ = b what the constraints demand.";
+    let equations = format!("{heading}\n\n{}", listing.markdown(system, model));
+    let item = item(decl, model, &system.defaults, &equations);
+    let constants = constants(decl, model, system);
+    let functions = Functions {
+        system,
+        model,
+        dynamics,
+    };
+    let implementation = functions.implementation(decl, structure, &listing);
+    quote! {
+        #item
+        #constants
+        #implementation
+    }
+}
+
+/// `"…"` for each line of a doc comment.
+pub(super) fn doc(text: &str) -> TokenStream {
+    text.lines()
+        .map(|line| {
+            let line = if line.is_empty() {
+                String::new()
+            } else {
+                format!(" {line}")
+            };
+            quote! { #[doc = #line] }
+        })
+        .collect()
+}
+
+/// The struct of parameters, and its default.
+pub(super) fn item(
+    decl: &Declaration,
+    model: &Model,
+    defaults: &[f64],
+    extra: &str,
+) -> TokenStream {
+    let (vis, name) = (&decl.vis, &decl.name);
+    let own = if decl.docs.is_empty() {
+        format!("Mechanism `{name}`.")
+    } else {
+        decl.docs.join("\n")
+    };
+    let docs = doc(&format!("{own}\n\n{extra}"));
+    let mut fields = TokenStream::new();
+    let mut values = TokenStream::new();
+    for family in &model.params {
+        let field = &family.name;
+        let text = if family.docs.is_empty() {
+            format!("Parameter `{field}`.")
+        } else {
+            family.docs.join("\n")
+        };
+        let docs = doc(&text);
+        let numbers: Vec<TokenStream> = family
+            .members
+            .iter()
+            .map(|i| float(defaults.get(*i).copied().unwrap_or(f64::NAN)))
+            .collect();
+        if family.indexed {
+            let len = Literal::usize_unsuffixed(family.members.len());
+            fields.extend(quote! { #docs pub #field: [f64; #len], });
+            values.extend(quote! { #field: [#(#numbers),*], });
+        } else {
+            fields.extend(quote! { #docs pub #field: f64, });
+            values.extend(quote! { #field: #(#numbers)*, });
+        }
+    }
+    quote! {
+        #docs
+        #[derive(Clone, Debug, PartialEq)]
+        #[allow(non_snake_case, clippy::approx_constant)]
+        #vis struct #name { #fields }
+
+        #[automatically_derived]
+        #[allow(clippy::approx_constant, clippy::derivable_impls, clippy::unreadable_literal)]
+        impl ::core::default::Default for #name {
+            fn default() -> Self {
+                #name { #values }
+            }
+        }
+    }
+}
+
+/// Index constants: coordinates, constraints, outputs.
+pub(super) fn constants(decl: &Declaration, model: &Model, system: &System) -> TokenStream {
+    let name = &decl.name;
+    let mut out = TokenStream::new();
+    for (text, (value, docs)) in &model.integers {
+        let ident = format_ident!("{}", plain(text).to_uppercase());
+        let docs = match docs.as_slice() {
+            [] => doc(&format!("Constant `{text}` of the declaration.")),
+            docs => doc(&docs.join("\n")),
+        };
+        let value = Literal::i64_unsuffixed(*value);
+        out.extend(quote! { #docs pub const #ident: usize = #value; });
+    }
+    for family in &model.coords {
+        let rows: Vec<Place> = family.members.iter().map(|i| (None, *i)).collect();
+        let docs = format!(
+            "Position in q of coordinate{} `{}`.",
+            plural(family.indexed),
+            family.name
+        );
+        let ident = constant(&family.name);
+        out.extend(index(&ident, family.indexed, &rows, &docs));
+    }
+    let constraints = system.constraints.iter().enumerate();
+    for (base, indexed, rows) in group(constraints.map(|(row, c)| (&c.item, row))) {
+        let docs = format!(
+            "Row in A of constraint{} `{base}`.",
+            plural(indexed || rows.len() > 1)
+        );
+        out.extend(index(&constant(&base), indexed, &rows, &docs));
+    }
+    let outputs = system.outputs.iter().enumerate();
+    for (base, indexed, rows) in group(outputs.map(|(row, o)| (&o.item, row))) {
+        let docs = format!(
+            "Position of output{} `{base}`.",
+            plural(indexed || rows.len() > 1)
+        );
+        let ident = format_ident!("OUT_{}", constant(&base));
+        out.extend(index(&ident, indexed, &rows, &docs));
+    }
+    quote! {
+        #[automatically_derived]
+        #[allow(dead_code)]
+        impl #name { #out }
+    }
+}
+
+/// Component (if a vector) and position.
+type Place = (Option<usize>, usize);
+
+fn plural(several: bool) -> &'static str {
+    if several { "s" } else { "" }
+}
+
+/// Items of one family, in order of appearance.
+fn group<'a>(
+    items: impl Iterator<Item = (&'a ConstraintRef, usize)>,
+) -> Vec<(Ident, bool, Vec<Place>)> {
+    let mut out: Vec<(Ident, bool, Vec<Place>)> = Vec::new();
+    for (item, row) in items {
+        let place = (item.component, row);
+        match out.iter_mut().find(|(base, ..)| *base == item.base) {
+            Some((.., rows)) => rows.push(place),
+            None => out.push((item.base.clone(), item.index.is_some(), vec![place])),
+        }
+    }
+    out
+}
+
+/// `pub const NAME: usize`, an array for families, an array of arrays for families of vectors.
+fn index(ident: &Ident, indexed: bool, rows: &[Place], docs: &str) -> TokenStream {
+    let docs = doc(docs);
+    let number = |n: usize| Literal::usize_unsuffixed(n);
+    let mut groups: Vec<Vec<Literal>> = Vec::new();
+    for (component, row) in rows {
+        if component.is_none_or(|c| c == 0) || groups.is_empty() {
+            groups.push(Vec::new());
+        }
+        if let Some(last) = groups.last_mut() {
+            last.push(number(*row));
+        }
+    }
+    let vector = rows.iter().any(|(component, _)| component.is_some());
+    let members: Vec<TokenStream> = groups
+        .iter()
+        .map(|g| {
+            if vector {
+                quote! { [#(#g),*] }
+            } else {
+                quote! { #(#g)* }
+            }
+        })
+        .collect();
+    let len = number(members.len());
+    // Vectors of different lengths in one family have no array type; their names still find them.
+    let width = groups.first().map_or(0, Vec::len);
+    if groups.iter().any(|g| g.len() != width) {
+        return TokenStream::new();
+    }
+    let width = number(width);
+    let inner = if vector {
+        quote! { [usize; #width] }
+    } else {
+        quote! { usize }
+    };
+    if indexed {
+        quote! { #docs pub const #ident: [#inner; #len] = [#(#members),*]; }
+    } else {
+        quote! { #docs pub const #ident: #inner = #(#members)*; }
+    }
+}
+
+struct Functions<'a> {
+    system: &'a System,
+    model: &'a Model,
+    dynamics: &'a Dynamics,
+}
+
+impl Functions<'_> {
+    fn n(&self) -> usize {
+        self.model.coord_elements.len()
+    }
+
+    fn m(&self) -> usize {
+        self.dynamics.rhs.len()
+    }
+
+    fn body(&self, roots: &[Root]) -> Body {
+        body(self.system, self.model, roots)
+    }
+
+    fn implementation(
+        &self,
+        decl: &Declaration,
+        structure: &Structure,
+        listing: &Listing,
+    ) -> TokenStream {
+        let name = &decl.name;
+        let dynamics = self.dynamics_body();
+        let spec = self.spec(decl, structure, listing, dynamics.operations);
+        let parameters = parameters(self.model);
+        let tokens = &dynamics.tokens;
+        let counts = operations_doc(dynamics.operations);
+        let (nn, nm) = (self.n() * self.n(), self.n() * self.m());
+        let (n, m) = (self.n(), self.m());
+        let mass = self.function("mass", nn, self.mass_roots());
+        let jacobian = self.function("jacobian", nm, self.jacobian_roots());
+        let phi = self.function(
+            "phi",
+            self.dynamics.phi.len(),
+            vector("phi", "phi", &self.dynamics.phi),
+        );
+        let rate = self.function("rate", m, vector("rate", "rate", &self.dynamics.rate));
+        let outputs: Vec<Id> = self.system.outputs.iter().map(|o| o.value).collect();
+        let outputs = self.function(
+            "outputs",
+            outputs.len(),
+            vector("outputs", "output", &outputs),
+        );
+        let energy = self.body(&[
+            Root {
+                id: self.dynamics.kinetic,
+                place: quote! { let kinetic },
+                purpose: "kinetic".to_owned(),
+            },
+            Root {
+                id: self.dynamics.potential,
+                place: quote! { let potential },
+                purpose: "potential".to_owned(),
+            },
+        ]);
+        let energy = energy.tokens;
+        let [nn, nm, n, m] = [nn, nm, n, m].map(Literal::usize_unsuffixed);
+        quote! {
+            #[automatically_derived]
+            #[allow(unused_variables, clippy::all, clippy::pedantic)]
+            impl ::ukcore::Mechanism for #name {
+                #spec
+                #parameters
+                #counts
+                fn dynamics<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], out: &mut ::ukcore::Terms<'_, S>) {
+                    let mass = ::ukcore::emitted::exact_mut::<S, #nn>(out.mass, "mass");
+                    let force = ::ukcore::emitted::exact_mut::<S, #n>(out.force, "force");
+                    let nonideal = ::ukcore::emitted::exact_mut::<S, #n>(out.nonideal, "nonideal");
+                    let jacobian = ::ukcore::emitted::exact_mut::<S, #nm>(out.jacobian, "jacobian");
+                    let rhs = ::ukcore::emitted::exact_mut::<S, #m>(out.rhs, "rhs");
+                    #tokens
+                }
+                fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) { #mass }
+                fn jacobian<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) { #jacobian }
+                fn residual<S: ::ukcore::Scalar>(&self, t: S, q: &[S], phi: &mut [S]) { #phi }
+                fn residual_rate<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], rate: &mut [S]) { #rate }
+                fn energy<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S]) -> ::ukcore::Energy<S> {
+                    #energy
+                    ::ukcore::Energy { kinetic, potential }
+                }
+                fn outputs<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) { #outputs }
+            }
+        }
+    }
+
+    /// A function that fills the slice `target`.
+    fn function(&self, target: &str, len: usize, roots: Vec<Root>) -> TokenStream {
+        let ident = format_ident!("{target}");
+        let len = Literal::usize_unsuffixed(len);
+        let tokens = if roots.is_empty() {
+            TokenStream::new()
+        } else {
+            self.body(&roots).tokens
+        };
+        quote! {
+            let #ident = ::ukcore::emitted::exact_mut::<S, #len>(#ident, #target);
+            #tokens
+        }
+    }
+
+    fn dynamics_body(&self) -> Body {
+        let mut roots = self.mass_roots();
+        roots.extend(vector("force", "force", &self.dynamics.force));
+        roots.extend(vector("nonideal", "nonideal", &self.dynamics.nonideal));
+        roots.extend(self.jacobian_roots());
+        roots.extend(vector("rhs", "b", &self.dynamics.rhs));
+        self.body(&roots)
+    }
+
+    /// Both triangles of M, column by column.
+    fn mass_roots(&self) -> Vec<Root> {
+        let n = self.n();
+        let mut entries: Vec<((usize, usize), Id)> = Vec::new();
+        for ((i, j), id) in &self.dynamics.mass {
+            entries.push(((*j, *i), *id));
+            if i != j {
+                entries.push(((*i, *j), *id));
+            }
+        }
+        entries.sort_unstable_by_key(|(place, _)| *place);
+        let coord = |i: usize| plain(&self.model.coord_elements[i].name);
+        entries
+            .into_iter()
+            .map(|((column, row), id)| {
+                let place = Literal::usize_unsuffixed(row + n * column);
+                Root {
+                    id,
+                    place: quote! { mass[#place] },
+                    purpose: format!("mass_{}_{}", coord(row), coord(column)).to_lowercase(),
+                }
+            })
+            .collect()
+    }
+
+    fn jacobian_roots(&self) -> Vec<Root> {
+        let m = self.m();
+        self.dynamics
+            .jacobian
+            .iter()
+            .map(|((row, column), id)| {
+                let place = Literal::usize_unsuffixed(row + m * column);
+                let constraint = plain(&self.system.constraints[*row].item.text());
+                Root {
+                    id: *id,
+                    place: quote! { jacobian[#place] },
+                    purpose: format!("a_{constraint}").to_lowercase(),
+                }
+            })
+            .collect()
+    }
+
+    fn spec(
+        &self,
+        decl: &Declaration,
+        structure: &Structure,
+        listing: &Listing,
+        operations: Operations,
+    ) -> TokenStream {
+        let name = decl.name.to_string();
+        let docs = decl.docs.join("\n");
+        let params = self.model.param_elements.iter().enumerate().map(|(i, e)| {
+            let (name, docs) = (&e.name, self.model.params[e.family].docs.join(" "));
+            let default = float(self.system.defaults[i]);
+            quote! { ::ukcore::ParamSpec { name: #name, doc: #docs, default: #default } }
+        });
+        let coords = self.model.coord_elements.iter().map(|e| &e.name);
+        let constraints = self.system.constraints.iter().zip(&listing.phi).map(|(c, equation)| {
+            let name = c.item.text();
+            let kind = match c.kind {
+                Kind::Holonomic => quote! { Holonomic },
+                Kind::Nonholonomic => quote! { Nonholonomic },
+            };
+            quote! { ::ukcore::ConstraintSpec { name: #name, kind: ::ukcore::ConstraintKind::#kind, equation: #equation } }
+        });
+        let holonomic = Literal::usize_unsuffixed(self.dynamics.phi.len());
+        let outputs = self.system.outputs.iter().map(|o| {
+            let (name, docs) = (o.item.text(), o.docs.join(" "));
+            quote! { ::ukcore::OutputSpec { name: #name, doc: #docs } }
+        });
+        let structure = self.structure(structure, operations);
+        let equations = equations(listing);
+        quote! {
+            const SPEC: &'static ::ukcore::Spec = &::ukcore::Spec {
+                name: #name,
+                doc: #docs,
+                params: &[#(#params),*],
+                coords: &[#(#coords),*],
+                constraints: &[#(#constraints),*],
+                holonomic: #holonomic,
+                outputs: &[#(#outputs),*],
+                structure: #structure,
+                equations: #equations,
+            };
+        }
+    }
+
+    fn structure(&self, s: &Structure, operations: Operations) -> TokenStream {
+        let pair = |i: usize, j: usize| {
+            let (i, j) = (Literal::usize_unsuffixed(i), Literal::usize_unsuffixed(j));
+            quote! { (#i, #j) }
+        };
+        let mut mass: Vec<(usize, usize)> = Vec::new();
+        for (i, j) in self.dynamics.mass.keys() {
+            mass.push((*i, *j));
+            if i != j {
+                mass.push((*j, *i));
+            }
+        }
+        mass.sort_unstable();
+        let mass = mass.into_iter().map(|(i, j)| pair(i, j));
+        let jacobian = self.dynamics.jacobian.keys().map(|(i, j)| pair(*i, *j));
+        let massless = s.massless.iter().map(|i| Literal::usize_unsuffixed(*i));
+        let left_out = &s.left_out;
+        let Structure {
+            mass_diagonal,
+            mass_constant,
+            jacobian_constant,
+            scleronomic,
+            nonideal,
+            potential,
+            conservative,
+            ..
+        } = s;
+        let operations = operations_literal(operations);
+        quote! {
+            ::ukcore::Structure {
+                mass_pattern: &[#(#mass),*],
+                jacobian_pattern: &[#(#jacobian),*],
+                mass_diagonal: #mass_diagonal,
+                mass_constant: #mass_constant,
+                jacobian_constant: #jacobian_constant,
+                massless: &[#(#massless),*],
+                scleronomic: #scleronomic,
+                nonideal: #nonideal,
+                potential: #potential,
+                conservative: #conservative,
+                left_out: &[#(#left_out),*],
+                operations: #operations,
+            }
+        }
+    }
+}
+
+/// Entries of a vector, all of them.
+fn vector(target: &str, purpose: &str, ids: &[Id]) -> Vec<Root> {
+    let target = format_ident!("{target}");
+    ids.iter()
+        .enumerate()
+        .map(|(i, id)| {
+            let place = Literal::usize_unsuffixed(i);
+            Root {
+                id: *id,
+                place: quote! { #target[#place] },
+                purpose: format!("{purpose}_{i}"),
+            }
+        })
+        .collect()
+}
+
+fn equations(listing: &Listing) -> TokenStream {
+    let triple = |rows: &[(usize, usize, String)]| -> Vec<TokenStream> {
+        rows.iter()
+            .map(|(i, j, text)| {
+                let (i, j) = (Literal::usize_unsuffixed(*i), Literal::usize_unsuffixed(*j));
+                quote! { (#i, #j, #text) }
+            })
+            .collect()
+    };
+    let pairs = |rows: &[(usize, String)]| -> Vec<TokenStream> {
+        rows.iter()
+            .map(|(i, text)| {
+                let i = Literal::usize_unsuffixed(*i);
+                quote! { (#i, #text) }
+            })
+            .collect()
+    };
+    let definitions = listing.definitions.iter().map(|(n, t)| quote! { (#n, #t) });
+    let (mass, jacobian) = (triple(&listing.mass), triple(&listing.jacobian));
+    let (force, nonideal, rhs) = (
+        pairs(&listing.force),
+        pairs(&listing.nonideal),
+        pairs(&listing.rhs),
+    );
+    quote! {
+        ::ukcore::Equations {
+            definitions: &[#(#definitions),*],
+            mass: &[#(#mass),*],
+            force: &[#(#force),*],
+            nonideal: &[#(#nonideal),*],
+            jacobian: &[#(#jacobian),*],
+            rhs: &[#(#rhs),*],
+        }
+    }
+}
+
+pub(super) fn operations_literal(o: Operations) -> TokenStream {
+    let [
+        additions,
+        multiplications,
+        divisions,
+        square_roots,
+        transcendentals,
+        selections,
+    ] = [
+        o.additions,
+        o.multiplications,
+        o.divisions,
+        o.square_roots,
+        o.transcendentals,
+        o.selections,
+    ]
+    .map(Literal::usize_unsuffixed);
+    quote! {
+        ::ukcore::Operations {
+            additions: #additions,
+            multiplications: #multiplications,
+            divisions: #divisions,
+            square_roots: #square_roots,
+            transcendentals: #transcendentals,
+            selections: #selections,
+        }
+    }
+}
+
+fn operations_doc(o: Operations) -> TokenStream {
+    let text = format!(
+        "{} additions, {} multiplications, {} divisions, {} square roots, {} transcendentals, {} selections.",
+        o.additions,
+        o.multiplications,
+        o.divisions,
+        o.square_roots,
+        o.transcendentals,
+        o.selections
+    );
+    doc(&text)
+}
+
+/// Access to parameters by position.
+pub(super) fn parameters(model: &Model) -> TokenStream {
+    let places: Vec<TokenStream> = model
+        .param_elements
+        .iter()
+        .map(|element| {
+            let field = &model.params[element.family].name;
+            match element.index {
+                None => quote! { self.#field },
+                Some(k) => {
+                    let k = Literal::usize_unsuffixed(k);
+                    quote! { self.#field[#k] }
+                }
+            }
+        })
+        .collect();
+    let numbers: Vec<Literal> = (0..places.len()).map(Literal::usize_unsuffixed).collect();
+    quote! {
+        fn parameter(&self, index: usize) -> f64 {
+            match index {
+                #(#numbers => #places,)*
+                _ => ::ukcore::emitted::no_parameter(index),
+            }
+        }
+        fn set_parameter(&mut self, index: usize, value: f64) {
+            match index {
+                #(#numbers => #places = value,)*
+                _ => ::ukcore::emitted::no_parameter(index),
+            }
+        }
+    }
+}

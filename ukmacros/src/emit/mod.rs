@@ -1,0 +1,10 @@
+//! Program to Rust. The only place that writes code.
+
+mod body;
+mod docs;
+mod fallback;
+mod impls;
+mod names;
+
+pub(crate) use fallback::fallback;
+pub(crate) use impls::emit;

@@ -1,0 +1,215 @@
+//! Names of variables and constants, from those of the source.
+
+use crate::expr::{Graph, Id, Node, Symbol};
+use crate::model::Model;
+use proc_macro2::{Ident, Span};
+use quote::format_ident;
+use std::collections::{HashMap, HashSet};
+
+/// Names that emitted functions use themselves, or that Rust reserves.
+const TAKEN: [&str; 64] = [
+    "t",
+    "q",
+    "v",
+    "out",
+    "lit",
+    "mass",
+    "force",
+    "nonideal",
+    "jacobian",
+    "rhs",
+    "phi",
+    "rate",
+    "outputs",
+    "kinetic",
+    "potential",
+    "as",
+    "break",
+    "const",
+    "continue",
+    "crate",
+    "else",
+    "enum",
+    "extern",
+    "false",
+    "fn",
+    "for",
+    "if",
+    "impl",
+    "in",
+    "let",
+    "loop",
+    "match",
+    "mod",
+    "move",
+    "mut",
+    "pub",
+    "ref",
+    "return",
+    "self",
+    "static",
+    "struct",
+    "super",
+    "trait",
+    "true",
+    "type",
+    "unsafe",
+    "use",
+    "where",
+    "while",
+    "async",
+    "await",
+    "dyn",
+    "abstract",
+    "become",
+    "box",
+    "do",
+    "final",
+    "macro",
+    "override",
+    "priv",
+    "typeof",
+    "try",
+    "gen",
+    "yield",
+];
+
+/// Longest composed name.
+const LONGEST: usize = 32;
+
+/// An identifier for `text` such as `x[3]`: `x_3`.
+pub(super) fn plain(text: &str) -> String {
+    let mut out = String::new();
+    for c in text.chars() {
+        if c.is_alphanumeric() {
+            out.push(c);
+        } else if !out.is_empty() && !out.ends_with('_') {
+            out.push('_');
+        }
+    }
+    let trimmed = out.trim_end_matches('_');
+    match trimmed.chars().next() {
+        None => "value".to_owned(),
+        Some(c) if c.is_numeric() => format!("n_{trimmed}"),
+        Some(_) => trimmed.to_owned(),
+    }
+}
+
+/// An associated constant's name: `x` → `X`.
+pub(super) fn constant(name: &Ident) -> Ident {
+    Ident::new(&plain(&name.to_string()).to_uppercase(), Span::call_site())
+}
+
+/// Variables of one emitted function.
+pub(super) struct Namer<'a> {
+    graph: &'a Graph,
+    hints: &'a HashMap<Id, String>,
+    symbols: HashMap<Symbol, String>,
+    variables: HashMap<Id, String>,
+    taken: HashSet<String>,
+}
+
+impl<'a> Namer<'a> {
+    pub(super) fn new(graph: &'a Graph, model: &Model, hints: &'a HashMap<Id, String>) -> Self {
+        let mut namer = Namer {
+            graph,
+            hints,
+            symbols: HashMap::new(),
+            variables: HashMap::new(),
+            taken: TAKEN.iter().map(|s| (*s).to_owned()).collect(),
+        };
+        namer.symbols.insert(Symbol::Time, "t".to_owned());
+        let mut enter = |symbol: Symbol, text: &str| {
+            let name = namer.fresh(&snake(text));
+            namer.symbols.insert(symbol, name);
+        };
+        for (i, coordinate) in model.coord_elements.iter().enumerate() {
+            enter(Symbol::Coord(i), &coordinate.name);
+        }
+        for (i, coordinate) in model.coord_elements.iter().enumerate() {
+            enter(Symbol::Velocity(i), &format!("dot_{}", coordinate.name));
+        }
+        for (i, parameter) in model.param_elements.iter().enumerate() {
+            enter(Symbol::Param(i), &parameter.name);
+        }
+        namer
+    }
+
+    fn fresh(&mut self, wish: &str) -> String {
+        let mut name = wish.to_owned();
+        let mut k = 1;
+        while !self.taken.insert(name.clone()) {
+            k += 1;
+            name = format!("{wish}_{k}");
+        }
+        name
+    }
+
+    pub(super) fn symbol(&self, symbol: Symbol) -> Ident {
+        format_ident!("{}", self.symbols[&symbol])
+    }
+
+    /// The variable that holds `id`, if it has one.
+    pub(super) fn variable(&self, id: Id) -> Option<Ident> {
+        self.variables.get(&id).map(|n| format_ident!("{n}"))
+    }
+
+    /// Makes a variable for `id`, named for what it is, or else for the value `purpose` it helps to compute.
+    pub(super) fn declare(&mut self, id: Id, purpose: &str) -> Ident {
+        let wish = match self.hints.get(&id) {
+            Some(hint) => snake(hint),
+            None => self
+                .compose(id)
+                .unwrap_or_else(|| format!("{purpose}_part")),
+        };
+        let name = self.fresh(&wish);
+        self.variables.insert(id, name.clone());
+        format_ident!("{name}")
+    }
+
+    /// A name made of the names of the operands, if short.
+    fn compose(&self, id: Id) -> Option<String> {
+        let name = match self.graph.node(id) {
+            Node::Call(func, args) => {
+                let args: Option<Vec<String>> = args.iter().map(|a| self.atom(*a)).collect();
+                format!("{}_{}", func.name(), args?.join("_"))
+            }
+            Node::Sum(c, terms) if c.get() == 0.0 && terms.len() == 2 => {
+                let (a, b) = (terms[0], terms[1]);
+                if a.0.get() != 1.0 || b.0.get().abs() != 1.0 {
+                    return None;
+                }
+                let word = if b.0.get() > 0.0 { "plus" } else { "minus" };
+                format!("{}_{word}_{}", self.atom(a.1)?, self.atom(b.1)?)
+            }
+            Node::Product(factors) => {
+                let mut parts = Vec::new();
+                for (base, exponent) in factors {
+                    let base = self.atom(*base)?;
+                    parts.push(match exponent {
+                        1 => base,
+                        2 => format!("sq_{base}"),
+                        -1 => format!("per_{base}"),
+                        _ => return None,
+                    });
+                }
+                parts.join("_")
+            }
+            Node::Scale(c, inner) if c.get() == 2.0 => format!("twice_{}", self.atom(*inner)?),
+            _ => return None,
+        };
+        (name.len() <= LONGEST).then_some(name)
+    }
+
+    fn atom(&self, id: Id) -> Option<String> {
+        match self.graph.node(id) {
+            Node::Symbol(s) => Some(self.symbols[s].clone()),
+            _ => self.variables.get(&id).cloned(),
+        }
+    }
+}
+
+fn snake(text: &str) -> String {
+    // `X1` and `x1` cannot both be declared, so lower case stays unique.
+    plain(text).to_lowercase()
+}

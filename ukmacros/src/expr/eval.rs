@@ -1,0 +1,84 @@
+//! Numeric value of an expression: parameter defaults, and the check of each pass by substitution.
+
+use super::graph::{Func, Graph, Id, Node, Symbol};
+
+/// Values of the symbols.
+pub(crate) struct Point<'a> {
+    pub(crate) params: &'a [f64],
+    pub(crate) q: &'a [f64],
+    pub(crate) v: &'a [f64],
+    pub(crate) t: f64,
+}
+
+/// Values of all nodes up to the highest of `roots`, in one sweep; returns those of `roots`.
+pub(crate) fn eval(g: &Graph, roots: &[Id], point: &Point<'_>) -> Vec<f64> {
+    let mut needed = vec![false; roots.iter().map(|r| r.index() + 1).max().unwrap_or(0)];
+    for root in roots {
+        needed[root.index()] = true;
+    }
+    for i in (0..needed.len()).rev() {
+        if needed[i] {
+            for operand in g.operands(g.at(i)) {
+                needed[operand.index()] = true;
+            }
+        }
+    }
+    let mut values = vec![0.0; needed.len()];
+    for i in (0..needed.len()).filter(|i| needed[*i]) {
+        values[i] = value(g.node(g.at(i)), &values, point);
+    }
+    roots.iter().map(|r| values[r.index()]).collect()
+}
+
+fn value(node: &Node, values: &[f64], point: &Point<'_>) -> f64 {
+    let at = |id: &Id| values[id.index()];
+    let pick = |list: &[f64], i: usize| list.get(i).copied().unwrap_or(f64::NAN);
+    match node {
+        Node::Const(x) => x.get(),
+        Node::Symbol(Symbol::Param(i)) => pick(point.params, *i),
+        Node::Symbol(Symbol::Coord(i)) => pick(point.q, *i),
+        Node::Symbol(Symbol::Velocity(i)) => pick(point.v, *i),
+        Node::Symbol(Symbol::Time) => point.t,
+        Node::Sum(c, terms) => c.get() + terms.iter().map(|(k, t)| k.get() * at(t)).sum::<f64>(),
+        Node::Scale(c, inner) => c.get() * at(inner),
+        Node::Product(factors) => factors.iter().map(|(f, e)| at(f).powi(*e)).product(),
+        Node::Call(func, args) => {
+            let u = at(&args[0]);
+            let w = args.get(1).map_or(f64::NAN, at);
+            match func {
+                Func::Sqrt => u.sqrt(),
+                Func::Sin => u.sin(),
+                Func::Cos => u.cos(),
+                Func::Tan => u.tan(),
+                Func::Asin => u.asin(),
+                Func::Acos => u.acos(),
+                Func::Atan => u.atan(),
+                Func::Sinh => u.sinh(),
+                Func::Cosh => u.cosh(),
+                Func::Tanh => u.tanh(),
+                Func::Exp => u.exp(),
+                Func::Ln => u.ln(),
+                Func::Abs => u.abs(),
+                Func::Sign if u == 0.0 => 0.0,
+                Func::Sign => u.signum(),
+                Func::Atan2 => u.atan2(w),
+                Func::Min => u.min(w),
+                Func::Max => u.max(w),
+                Func::Hypot => u.hypot(w),
+                Func::Powf => u.powf(w),
+            }
+        }
+        Node::Select {
+            a,
+            b,
+            then,
+            otherwise,
+        } => {
+            if at(a) <= at(b) {
+                at(then)
+            } else {
+                at(otherwise)
+            }
+        }
+    }
+}

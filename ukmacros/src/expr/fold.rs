@@ -1,0 +1,257 @@
+//! Constructors: simplify exactly, then intern.
+//!
+//! Simplifications are those of real arithmetic that do not lose accuracy: like terms are collected, zero and one vanish,
+//! powers of one base are joined, constants are folded where `f64` rounds as it would at run time.
+//! `x / x` becomes 1 and `0 · x` becomes 0: removable singularities are removed.
+
+use super::graph::{Func, Graph, Id, Node, Num, Symbol};
+
+impl Graph {
+    pub(crate) fn constant(&mut self, x: f64) -> Id {
+        self.intern(Node::Const(Num::new(x)))
+    }
+
+    pub(crate) fn zero(&mut self) -> Id {
+        self.constant(0.0)
+    }
+
+    pub(crate) fn one(&mut self) -> Id {
+        self.constant(1.0)
+    }
+
+    pub(crate) fn symbol(&mut self, symbol: Symbol) -> Id {
+        self.intern(Node::Symbol(symbol))
+    }
+
+    pub(crate) fn scale(&mut self, c: f64, id: Id) -> Id {
+        if let Some(x) = self.as_const(id) {
+            return self.constant(c * x);
+        }
+        let (inner_c, inner) = self.unscaled(id);
+        let c = c * inner_c;
+        if c == 0.0 {
+            self.zero()
+        } else if c == 1.0 {
+            inner
+        } else {
+            self.intern(Node::Scale(Num::new(c), inner))
+        }
+    }
+
+    pub(crate) fn neg(&mut self, id: Id) -> Id {
+        self.scale(-1.0, id)
+    }
+
+    pub(crate) fn add(&mut self, a: Id, b: Id) -> Id {
+        self.sum(&[(1.0, a), (1.0, b)])
+    }
+
+    pub(crate) fn sub(&mut self, a: Id, b: Id) -> Id {
+        self.sum(&[(1.0, a), (-1.0, b)])
+    }
+
+    /// Σ coefficient · term. Sums among the terms stay sums, as parentheses do.
+    pub(crate) fn sum(&mut self, terms: &[(f64, Id)]) -> Id {
+        let mut constant = 0.0;
+        let mut collected: Vec<(f64, Id)> = Vec::with_capacity(terms.len());
+        for &(c, id) in terms {
+            if let Some(x) = self.as_const(id) {
+                constant += c * x;
+                continue;
+            }
+            let (inner_c, inner) = self.unscaled(id);
+            match collected.iter_mut().find(|(_, known)| *known == inner) {
+                Some((known, _)) => *known += c * inner_c,
+                None => collected.push((c * inner_c, inner)),
+            }
+        }
+        collected.retain(|(c, _)| *c != 0.0);
+        collected.sort_by_key(|(_, id)| *id);
+        match collected.as_slice() {
+            [] => return self.constant(constant),
+            [(c, id)] if constant == 0.0 => return self.scale(*c, *id),
+            _ => {}
+        }
+        let mut factor = 1.0;
+        if constant == 0.0 {
+            let first = collected[0].0;
+            let alike = collected.iter().all(|(c, _)| c.abs() == first.abs());
+            factor = if alike { first } else { first.signum() };
+        }
+        let terms = collected
+            .iter()
+            .map(|(c, id)| (Num::new(c / factor), *id))
+            .collect();
+        let sum = self.intern(Node::Sum(Num::new(constant), terms));
+        self.scale(factor, sum)
+    }
+
+    /// c · id as terms of a sum: a sum is opened. For what the compiler derives, not for what a user grouped.
+    pub(crate) fn open(&mut self, c: f64, id: Id) -> Vec<(f64, Id)> {
+        let (k, inner) = self.unscaled(id);
+        let Node::Sum(constant, terms) = self.node(inner).clone() else {
+            return vec![(c, id)];
+        };
+        let mut out: Vec<(f64, Id)> = terms.iter().map(|(ci, t)| (c * k * ci.get(), *t)).collect();
+        if constant.get() != 0.0 {
+            out.push((c * k * constant.get(), self.one()));
+        }
+        out
+    }
+
+    pub(crate) fn mul(&mut self, a: Id, b: Id) -> Id {
+        self.product(&[(a, 1), (b, 1)])
+    }
+
+    pub(crate) fn div(&mut self, a: Id, b: Id) -> Id {
+        self.product(&[(a, 1), (b, -1)])
+    }
+
+    pub(crate) fn pow(&mut self, base: Id, exponent: i32) -> Id {
+        self.product(&[(base, exponent)])
+    }
+
+    pub(crate) fn square(&mut self, base: Id) -> Id {
+        self.pow(base, 2)
+    }
+
+    /// Π factor^exponent.
+    pub(crate) fn product(&mut self, factors: &[(Id, i32)]) -> Id {
+        let mut coefficient = 1.0;
+        let mut collected: Vec<(Id, i32)> = Vec::with_capacity(factors.len());
+        for &(id, exponent) in factors {
+            if exponent == 0 {
+                continue;
+            }
+            let (c, inner) = match self.as_const(id) {
+                Some(x) => (x, None),
+                None => {
+                    let (c, inner) = self.unscaled(id);
+                    (c, Some(inner))
+                }
+            };
+            // Division where the exponent is −1: x / 3 is better rounded than x · 3⁻¹.
+            coefficient = match exponent {
+                -1 => coefficient / c,
+                _ => coefficient * c.powi(exponent),
+            };
+            let Some(inner) = inner else { continue };
+            let opened = match self.node(inner) {
+                Node::Product(inner_factors) => inner_factors.clone(),
+                _ => vec![(inner, 1)],
+            };
+            for (base, e) in opened {
+                let Some(e) = e.checked_mul(exponent) else {
+                    // An exponent beyond i32: keep the power as it is.
+                    collected.push((inner, exponent));
+                    break;
+                };
+                match collected.iter_mut().find(|(known, _)| *known == base) {
+                    Some((_, known)) => *known = known.saturating_add(e),
+                    None => collected.push((base, e)),
+                }
+            }
+        }
+        collected.retain(|(_, e)| *e != 0);
+        collected.sort_unstable();
+        if coefficient == 0.0 || collected.is_empty() {
+            return self.constant(coefficient);
+        }
+        let product = match collected.as_slice() {
+            [(id, 1)] => *id,
+            _ => self.intern(Node::Product(collected)),
+        };
+        self.scale(coefficient, product)
+    }
+
+    pub(crate) fn call1(&mut self, func: Func, arg: Id) -> Id {
+        if let Some(x) = self.as_const(arg) {
+            // Only where the value is exact, so that the emitted code does not depend on the compiling machine's libm.
+            let folded = match func {
+                Func::Sqrt if x >= 0.0 => Some(x.sqrt()),
+                Func::Abs => Some(x.abs()),
+                Func::Sign => Some(if x == 0.0 { 0.0 } else { x.signum() }),
+                Func::Sin | Func::Tan | Func::Asin | Func::Atan | Func::Sinh | Func::Tanh
+                    if x == 0.0 =>
+                {
+                    Some(0.0)
+                }
+                Func::Cos | Func::Cosh | Func::Exp if x == 0.0 => Some(1.0),
+                Func::Ln | Func::Acos if x == 1.0 => Some(0.0),
+                _ => None,
+            };
+            if let Some(x) = folded {
+                return self.constant(x);
+            }
+        }
+        let (c, inner) = self.unscaled(arg);
+        // Even and odd functions of −u are functions of u: one node serves both.
+        if c < 0.0 {
+            let positive = self.scale(-c, inner);
+            match func {
+                Func::Cos | Func::Cosh | Func::Abs => return self.call1(func, positive),
+                Func::Sin
+                | Func::Tan
+                | Func::Asin
+                | Func::Atan
+                | Func::Sinh
+                | Func::Tanh
+                | Func::Sign => {
+                    let value = self.call1(func, positive);
+                    return self.neg(value);
+                }
+                _ => {}
+            }
+        }
+        self.intern(Node::Call(func, vec![arg]))
+    }
+
+    pub(crate) fn call2(&mut self, func: Func, a: Id, b: Id) -> Id {
+        if func == Func::Powf {
+            if let Some(y) = self.as_const(b) {
+                if y == 0.5 {
+                    return self.call1(Func::Sqrt, a);
+                }
+                #[allow(
+                    clippy::cast_possible_truncation,
+                    reason = "checked to be a small integer"
+                )]
+                if y.fract() == 0.0 && y.abs() <= 64.0 {
+                    return self.pow(a, y as i32);
+                }
+            }
+        }
+        if let (Some(x), Some(y)) = (self.as_const(a), self.as_const(b)) {
+            let folded = match func {
+                Func::Min => Some(x.min(y)),
+                Func::Max => Some(x.max(y)),
+                _ => None,
+            };
+            if let Some(x) = folded {
+                return self.constant(x);
+            }
+        }
+        if a == b && matches!(func, Func::Min | Func::Max) {
+            return a;
+        }
+        let args = match func {
+            // Symmetric functions: one order.
+            Func::Min | Func::Max | Func::Hypot if b < a => vec![b, a],
+            _ => vec![a, b],
+        };
+        self.intern(Node::Call(func, args))
+    }
+
+    /// `then` where a ≤ b, else `otherwise`.
+    pub(crate) fn select(&mut self, a: Id, b: Id, then: Id, otherwise: Id) -> Id {
+        if then == otherwise {
+            return then;
+        }
+        self.intern(Node::Select {
+            a,
+            b,
+            then,
+            otherwise,
+        })
+    }
+}

@@ -1,0 +1,288 @@
+//! Hash-consed arena of expressions.
+//!
+//! Invariants, kept by the constructors in `fold`:
+//! - operands stand before their users, so ascending ids are a topological order;
+//! - terms and factors are sorted by id, each id once: `a + b` and `b + a` are one node;
+//! - a constant is only ever a [`Node::Const`], a sum's constant or a coefficient; [`Node::Scale`] is never nested and never 0 or 1;
+//! - a sum without constant starts with a positive coefficient, and its coefficients are not all of one magnitude other than 1
+//!   (the common factor is a [`Node::Scale`] around it), so `a − b` and `b − a` share their node;
+//! - a product has no product or scale among its factors. A sum may have a sum among its terms: parentheses are kept,
+//!   since regrouping a sum changes its rounding.
+
+use std::collections::HashMap;
+
+/// A node's place in the arena.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) struct Id(u32);
+
+impl Id {
+    pub(crate) fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// An `f64` compared by its bits (−0 is stored as 0).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Num(u64);
+
+impl Num {
+    pub(crate) fn new(x: f64) -> Self {
+        Num((x + 0.0).to_bits())
+    }
+    pub(crate) fn get(self) -> f64 {
+        f64::from_bits(self.0)
+    }
+}
+
+/// A quantity that is given at run time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) enum Symbol {
+    /// A parameter, by its position.
+    Param(usize),
+    /// A coordinate q, by its position.
+    Coord(usize),
+    /// Its velocity q̇.
+    Velocity(usize),
+    /// Time t.
+    Time,
+}
+
+/// A function of one or two arguments.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) enum Func {
+    Sqrt,
+    Sin,
+    Cos,
+    Tan,
+    Asin,
+    Acos,
+    Atan,
+    Sinh,
+    Cosh,
+    Tanh,
+    Exp,
+    Ln,
+    Abs,
+    Sign,
+    Atan2,
+    Min,
+    Max,
+    Hypot,
+    Powf,
+}
+
+impl Func {
+    /// Name in the declaration and in the emitted code.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Func::Sqrt => "sqrt",
+            Func::Sin => "sin",
+            Func::Cos => "cos",
+            Func::Tan => "tan",
+            Func::Asin => "asin",
+            Func::Acos => "acos",
+            Func::Atan => "atan",
+            Func::Sinh => "sinh",
+            Func::Cosh => "cosh",
+            Func::Tanh => "tanh",
+            Func::Exp => "exp",
+            Func::Ln => "ln",
+            Func::Abs => "abs",
+            Func::Sign => "sign",
+            Func::Atan2 => "atan2",
+            Func::Min => "min",
+            Func::Max => "max",
+            Func::Hypot => "hypot",
+            Func::Powf => "powf",
+        }
+    }
+
+    pub(crate) const ALL: [Func; 19] = [
+        Func::Sqrt,
+        Func::Sin,
+        Func::Cos,
+        Func::Tan,
+        Func::Asin,
+        Func::Acos,
+        Func::Atan,
+        Func::Sinh,
+        Func::Cosh,
+        Func::Tanh,
+        Func::Exp,
+        Func::Ln,
+        Func::Abs,
+        Func::Sign,
+        Func::Atan2,
+        Func::Min,
+        Func::Max,
+        Func::Hypot,
+        Func::Powf,
+    ];
+
+    /// Number of arguments.
+    pub(crate) fn arity(self) -> usize {
+        match self {
+            Func::Atan2 | Func::Min | Func::Max | Func::Hypot | Func::Powf => 2,
+            _ => 1,
+        }
+    }
+}
+
+/// A node.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Node {
+    Const(Num),
+    Symbol(Symbol),
+    /// constant + Σ coefficient · term.
+    Sum(Num, Vec<(Num, Id)>),
+    /// coefficient · node.
+    Scale(Num, Id),
+    /// Π factor^exponent, exponents not zero.
+    Product(Vec<(Id, i32)>),
+    Call(Func, Vec<Id>),
+    /// `then` where a ≤ b, else `otherwise`.
+    Select {
+        a: Id,
+        b: Id,
+        then: Id,
+        otherwise: Id,
+    },
+}
+
+/// What a node depends on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Uses {
+    pub(crate) param: bool,
+    pub(crate) coord: bool,
+    pub(crate) velocity: bool,
+    pub(crate) time: bool,
+}
+
+impl Uses {
+    fn join(self, o: Uses) -> Uses {
+        Uses {
+            param: self.param | o.param,
+            coord: self.coord | o.coord,
+            velocity: self.velocity | o.velocity,
+            time: self.time | o.time,
+        }
+    }
+
+    /// Neither q, q̇ nor t: fixed once the parameters are.
+    pub(crate) fn constant(self) -> bool {
+        !(self.coord || self.velocity || self.time)
+    }
+}
+
+/// The arena.
+#[derive(Default)]
+pub(crate) struct Graph {
+    nodes: Vec<Node>,
+    uses: Vec<Uses>,
+    /// Coordinates and velocities below each node, sorted.
+    support: Vec<Vec<Symbol>>,
+    known: HashMap<Node, Id>,
+}
+
+impl Graph {
+    /// The node at position `index` (below the number of nodes).
+    pub(crate) fn at(&self, index: usize) -> Id {
+        Id(u32::try_from(index).unwrap_or(u32::MAX))
+    }
+
+    pub(crate) fn node(&self, id: Id) -> &Node {
+        &self.nodes[id.index()]
+    }
+
+    pub(crate) fn uses(&self, id: Id) -> Uses {
+        self.uses[id.index()]
+    }
+
+    /// Whether `id` depends on the coordinate or velocity `symbol`.
+    pub(crate) fn depends(&self, id: Id, symbol: Symbol) -> bool {
+        self.support[id.index()].binary_search(&symbol).is_ok()
+    }
+
+    /// Coordinates and velocities that `id` depends on.
+    pub(crate) fn support(&self, id: Id) -> &[Symbol] {
+        &self.support[id.index()]
+    }
+
+    /// The node itself if it is known, else a new one. Only `fold` calls this: it keeps the invariants.
+    pub(super) fn intern(&mut self, node: Node) -> Id {
+        if let Some(id) = self.known.get(&node) {
+            return *id;
+        }
+        let id = Id(u32::try_from(self.nodes.len()).unwrap_or(u32::MAX));
+        let mut uses = Uses::default();
+        let mut support = Vec::new();
+        if let Node::Symbol(s) = node {
+            match s {
+                Symbol::Param(_) => uses.param = true,
+                Symbol::Coord(_) => uses.coord = true,
+                Symbol::Velocity(_) => uses.velocity = true,
+                Symbol::Time => uses.time = true,
+            }
+            if uses.coord || uses.velocity {
+                support.push(s);
+            }
+        }
+        for operand in operands(&node) {
+            uses = uses.join(self.uses[operand.index()]);
+            support.extend_from_slice(&self.support[operand.index()]);
+        }
+        support.sort_unstable();
+        support.dedup();
+        self.nodes.push(node.clone());
+        self.uses.push(uses);
+        self.support.push(support);
+        self.known.insert(node, id);
+        id
+    }
+
+    /// The value if `id` is a constant.
+    pub(crate) fn as_const(&self, id: Id) -> Option<f64> {
+        match self.node(id) {
+            Node::Const(x) => Some(x.get()),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn is_zero(&self, id: Id) -> bool {
+        self.as_const(id) == Some(0.0)
+    }
+
+    /// `id` without its coefficient.
+    pub(crate) fn unscaled(&self, id: Id) -> (f64, Id) {
+        match self.node(id) {
+            Node::Scale(c, inner) => (c.get(), *inner),
+            _ => (1.0, id),
+        }
+    }
+
+    /// The node `func(arg)`, if there is one.
+    pub(crate) fn find_call(&self, func: Func, arg: Id) -> Option<Id> {
+        self.known.get(&Node::Call(func, vec![arg])).copied()
+    }
+
+    /// Operands of `id`.
+    pub(crate) fn operands(&self, id: Id) -> Vec<Id> {
+        operands(self.node(id))
+    }
+}
+
+fn operands(node: &Node) -> Vec<Id> {
+    match node {
+        Node::Const(_) | Node::Symbol(_) => Vec::new(),
+        Node::Sum(_, terms) => terms.iter().map(|(_, id)| *id).collect(),
+        Node::Scale(_, inner) => vec![*inner],
+        Node::Product(factors) => factors.iter().map(|(id, _)| *id).collect(),
+        Node::Call(_, args) => args.clone(),
+        Node::Select {
+            a,
+            b,
+            then,
+            otherwise,
+        } => vec![*a, *b, *then, *otherwise],
+    }
+}

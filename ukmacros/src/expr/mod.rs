@@ -1,0 +1,14 @@
+//! The expression graph: one node per distinct value, exact simplification, derivatives.
+
+mod diff;
+mod display;
+mod eval;
+mod fold;
+mod graph;
+mod lower;
+
+pub(crate) use diff::Derivative;
+pub(crate) use display::Printer;
+pub(crate) use eval::{Point, eval};
+pub(crate) use graph::{Func, Graph, Id, Node, Symbol};
+pub(crate) use lower::{ConstraintRef, Kind, System, lower};

@@ -1,0 +1,360 @@
+//! Integer constants, families, loops; duplicates and reserved names.
+
+use super::types::{Element, Family, Model, Name};
+use crate::diag::{Diagnostics, Loc, suggest};
+use crate::parse::{BinaryOp, Block, Declaration, Expr, ExprKind, Key, Range};
+use proc_macro2::Ident;
+use std::collections::{BTreeMap, HashMap};
+
+/// More repetitions than this are a slip, and would keep the compiler busy for hours.
+const MAX_REPETITIONS: i64 = 100_000;
+
+/// Names with a fixed meaning.
+const RESERVED: [&str; 33] = [
+    "t", "PI", "dot", "ddot", "sum", "sq", "sin", "cos", "tan", "asin", "acos", "atan", "atan2",
+    "sinh", "cosh", "tanh", "exp", "ln", "abs", "sign", "signum", "min", "max", "hypot", "sqrt",
+    "powi", "powf", "recip", "self", "Self", "super", "crate", "_",
+];
+
+/// Resolves constants, parameters and coordinates.
+pub(crate) fn resolve(decl: &mut Declaration, diag: &Diagnostics) -> Model {
+    let mut model = Model {
+        integers: BTreeMap::new(),
+        floats: Vec::new(),
+        params: Vec::new(),
+        coords: Vec::new(),
+        param_elements: Vec::new(),
+        coord_elements: Vec::new(),
+        names: HashMap::new(),
+    };
+    for constant in std::mem::take(&mut decl.consts) {
+        let name = constant.name.to_string();
+        let meaning = if constant.integer {
+            let scope = Scope::new(&model);
+            let value = scope.integer(&constant.value, diag);
+            if value.is_some_and(|v| v < 0) {
+                diag.error(
+                    constant.value.loc,
+                    format!("`{name}` is a `usize`, which cannot be negative"),
+                );
+            }
+            let docs = constant.docs.clone();
+            model.integers.insert(name, (value.unwrap_or(0), docs));
+            Name::Integer
+        } else {
+            Name::Float(model.floats.len())
+        };
+        declare(&constant.name, meaning, &mut model, diag);
+        if !constant.integer {
+            model.floats.push(constant);
+        }
+    }
+    for block in &decl.params {
+        let mut found = Vec::new();
+        let looped = matches!(block, Block::For { .. });
+        Scope::new(&model).unroll(std::slice::from_ref(block), diag, &mut |param, scope| {
+            let default = (param.default.clone(), scope.variables.clone());
+            collect(&param.key, &param.docs, looped, scope, diag, &mut found);
+            for f in found.iter_mut().filter(|f| f.default.is_none()) {
+                f.default = Some(default.clone());
+            }
+        });
+        for f in found {
+            add(f, Kind::Param, &mut model, diag);
+        }
+    }
+    for block in &decl.coords {
+        let mut found = Vec::new();
+        let looped = matches!(block, Block::For { .. });
+        Scope::new(&model).unroll(std::slice::from_ref(block), diag, &mut |coord, scope| {
+            collect(&coord.key, &coord.docs, looped, scope, diag, &mut found);
+        });
+        for f in found {
+            add(f, Kind::Coord, &mut model, diag);
+        }
+    }
+    if model.coord_elements.is_empty() && diag.is_empty() {
+        diag.error(
+            decl.name.span(),
+            format!(
+                "`{}` has no coordinates; add `coords {{ x, y }}`",
+                decl.name
+            ),
+        );
+    }
+    model
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Param,
+    Coord,
+}
+
+/// A member found while unrolling.
+struct Found {
+    name: Ident,
+    docs: Vec<String>,
+    index: Option<usize>,
+    loc: Loc,
+    default: Option<(Expr, Vec<(String, i64)>)>,
+}
+
+/// `x[N]` outside of a loop is a family of N; `x[i]` inside of one is its member i.
+fn collect(
+    key: &Key,
+    docs: &[String],
+    looped: bool,
+    scope: &Scope<'_>,
+    diag: &Diagnostics,
+    out: &mut Vec<Found>,
+) {
+    let mut push = |index| {
+        out.push(Found {
+            name: key.name.clone(),
+            docs: docs.to_vec(),
+            index,
+            loc: key.loc(),
+            default: None,
+        });
+    };
+    let Some(index) = &key.index else {
+        return push(None);
+    };
+    let Some(n) = scope.integer(index, diag) else {
+        return;
+    };
+    match usize::try_from(n) {
+        Ok(i) if looped => push(Some(i)),
+        Ok(size) if size > 0 && n <= MAX_REPETITIONS => (0..size).for_each(|i| push(Some(i))),
+        _ => diag.error(
+            index.loc,
+            format!("a family needs between 1 and {MAX_REPETITIONS} members, not {n}"),
+        ),
+    }
+}
+
+fn add(found: Found, kind: Kind, model: &mut Model, diag: &Diagnostics) {
+    let text = found.name.to_string();
+    let families = match kind {
+        Kind::Param => &model.params,
+        Kind::Coord => &model.coords,
+    };
+    let existing = families
+        .iter()
+        .position(|f| f.name == found.name)
+        .filter(|f| families[*f].indexed && found.index == Some(families[*f].members.len()));
+    let family = existing.unwrap_or(families.len());
+    if existing.is_none() {
+        if found.index.is_some_and(|i| i != 0) {
+            diag.error(
+                found.loc,
+                format!(
+                    "members of `{text}` must be declared in order from `{text}[0]`, each once"
+                ),
+            );
+            return;
+        }
+        let meaning = match kind {
+            Kind::Param => Name::Param(family),
+            Kind::Coord => Name::Coord(family),
+        };
+        if !declare(&found.name, meaning, model, diag) {
+            return;
+        }
+    }
+    let (families, elements) = match kind {
+        Kind::Param => (&mut model.params, &mut model.param_elements),
+        Kind::Coord => (&mut model.coords, &mut model.coord_elements),
+    };
+    if existing.is_none() {
+        families.push(Family {
+            name: found.name,
+            docs: found.docs,
+            indexed: found.index.is_some(),
+            members: Vec::new(),
+        });
+    }
+    families[family].members.push(elements.len());
+    elements.push(Element {
+        name: found.index.map_or(text.clone(), |i| format!("{text}[{i}]")),
+        family,
+        index: found.index,
+        default: found.default,
+    });
+}
+
+/// Enters a name; reports and returns false if it is taken.
+fn declare(name: &Ident, meaning: Name, model: &mut Model, diag: &Diagnostics) -> bool {
+    if let Err(message) = model.free(name) {
+        diag.error(name.span(), message);
+        return false;
+    }
+    model.names.insert(name.to_string(), meaning);
+    true
+}
+
+impl Model {
+    /// Whether `name` may still be declared; the reason if not.
+    pub(crate) fn free(&self, name: &Ident) -> Result<(), String> {
+        let text = name.to_string();
+        if RESERVED.contains(&text.as_str()) || text.starts_with("r#") {
+            return Err(format!("`{text}` is reserved; choose another name"));
+        }
+        if self.names.contains_key(&text) {
+            return Err(format!("`{text}` is declared twice; names must be unique"));
+        }
+        let upper = text.to_uppercase();
+        if let Some(other) = self.names.keys().find(|n| n.to_uppercase() == upper) {
+            return Err(format!(
+                "`{text}` and `{other}` would both become the constant `{upper}`; rename one"
+            ));
+        }
+        Ok(())
+    }
+}
+
+/// What is visible where an expression stands: constants and loop variables.
+#[derive(Clone)]
+pub(crate) struct Scope<'m> {
+    model: &'m Model,
+    pub(crate) variables: Vec<(String, i64)>,
+}
+
+impl<'m> Scope<'m> {
+    pub(crate) fn new(model: &'m Model) -> Self {
+        Scope::with(model, Vec::new())
+    }
+
+    pub(crate) fn with(model: &'m Model, variables: Vec<(String, i64)>) -> Self {
+        Scope { model, variables }
+    }
+
+    /// Value of a loop variable or integer constant.
+    pub(crate) fn lookup(&self, name: &str) -> Option<i64> {
+        let variable = self.variables.iter().rev().find(|(n, _)| n == name);
+        variable
+            .map(|(_, v)| *v)
+            .or_else(|| self.model.integers.get(name).map(|(v, _)| *v))
+    }
+
+    /// This scope with the variable `var` = `value`.
+    pub(crate) fn bind(&self, var: &Ident, value: i64) -> Self {
+        let mut inner = self.clone();
+        inner.variables.push((var.to_string(), value));
+        inner
+    }
+
+    /// An integer known at compile time.
+    pub(crate) fn integer(&self, e: &Expr, diag: &Diagnostics) -> Option<i64> {
+        let overflow = || diag.error(e.loc, "integer overflow");
+        match &e.kind {
+            ExprKind::Int(n) => Some(*n),
+            ExprKind::Group(inner) => self.integer(inner, diag),
+            ExprKind::Neg(inner) => self.integer(inner, diag)?.checked_neg(),
+            ExprKind::Name(name) => {
+                let found = self.lookup(&name.to_string());
+                if found.is_none() {
+                    let names = self.model.integers.keys().map(String::as_str);
+                    let names = names.chain(self.variables.iter().map(|(n, _)| n.as_str()));
+                    let near = suggest(&name.to_string(), names);
+                    diag.error(
+                        e.loc,
+                        format!("`{name}` is not an integer constant or loop variable{near}; indices and ranges must be known at compile time"),
+                    );
+                }
+                found
+            }
+            ExprKind::Binary(op, a, b) => {
+                let (a, b) = (self.integer(a, diag)?, self.integer(b, diag)?);
+                let result = match op {
+                    BinaryOp::Add => a.checked_add(b),
+                    BinaryOp::Sub => a.checked_sub(b),
+                    BinaryOp::Mul => a.checked_mul(b),
+                    BinaryOp::Div if b == 0 => {
+                        diag.error(e.loc, "division by zero");
+                        return None;
+                    }
+                    BinaryOp::Div => a.checked_div(b),
+                };
+                if result.is_none() {
+                    overflow();
+                }
+                result
+            }
+            ExprKind::Error => None,
+            _ => {
+                diag.error(
+                    e.loc,
+                    "not an integer known at compile time; indices and ranges take integers, `const`s and loop variables",
+                );
+                None
+            }
+        }
+    }
+
+    /// The integers of a range.
+    pub(crate) fn range(&self, range: &Range, diag: &Diagnostics) -> Option<std::ops::Range<i64>> {
+        let from = self.integer(&range.from, diag)?;
+        let to = self
+            .integer(&range.to, diag)?
+            .checked_add(i64::from(range.inclusive))?;
+        if to.saturating_sub(from) > MAX_REPETITIONS {
+            let loc = Loc {
+                start: range.from.loc.start,
+                end: range.to.loc.end,
+            };
+            diag.error(
+                loc,
+                format!("a range of more than {MAX_REPETITIONS} is not unrolled"),
+            );
+            return None;
+        }
+        Some(from..to)
+    }
+
+    /// Checks that `var` can be a loop variable here.
+    pub(crate) fn loop_variable(&self, var: &Ident, diag: &Diagnostics) -> bool {
+        let taken = self.variables.iter().any(|(n, _)| var == n);
+        let reason = match self.model.free(var) {
+            Err(reason) => Some(reason),
+            Ok(()) if taken => Some(format!(
+                "`{var}` is already a loop variable; choose another name"
+            )),
+            Ok(()) => None,
+        };
+        if let Some(reason) = &reason {
+            diag.error(var.span(), reason.clone());
+        }
+        reason.is_none()
+    }
+
+    /// Visits every entry with its loop variables bound. A repetition with an error is the last, so that one slip gives one message.
+    pub(crate) fn unroll<T>(
+        &self,
+        blocks: &[Block<T>],
+        diag: &Diagnostics,
+        visit: &mut dyn FnMut(&T, &Scope<'m>),
+    ) {
+        for block in blocks {
+            match block {
+                Block::One(entry) => visit(entry, self),
+                Block::For { var, range, body } => {
+                    if !self.loop_variable(var, diag) {
+                        continue;
+                    }
+                    let Some(range) = self.range(range, diag) else {
+                        continue;
+                    };
+                    let before = diag.len();
+                    for i in range {
+                        self.bind(var, i).unroll(body, diag, visit);
+                        if diag.len() > before {
+                            break;
+                        }
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,420 @@
+//! Sections and entries.
+//!
+//! ```ebnf
+//! declaration = docs, [vis], NAME, "{", { section }, "}" ;
+//! section     = "const", NAME, ":", ("usize" | "f64"), "=", expr, ";"
+//!             | "let", NAME, "=", (expr | function), ";"
+//!             | "let", block(key, "=", (expr | function))
+//!             | "params", block(docs, key, "=", expr)
+//!             | "coords", block(docs, key)
+//!             | "mass", block((key | "(", key, ",", key, ")"), ":", expr)
+//!             | ("kinetic" | "potential"), block(expr)
+//!             | ("force" | "nonideal"), block(key, ":", expr)
+//!             | ("holonomic" | "nonholonomic"), block(key, ":", expr, "=", expr)
+//!             | "output", block(docs, key, "=", expr) ;
+//! block(e)    = "{", { (e | "for", NAME, "in", expr, "..", expr, "{", { e }, "}"), ["," | ";"] }, "}" ;
+//! key         = NAME, ["[", expr, "]"] ;
+//! function    = "|", NAME, { ",", NAME }, "|", expr ;
+//! ```
+//! `expr` is Rust's expression grammar, of which `+ - * /`, calls, method calls, indexing, vectors `[a, b]` and `sum(a..b, |i| …)` have a meaning.
+
+use super::expr::{Expr, Range};
+use super::item::{
+    Block, Const, Coord, Declaration, Entry, Equation, Function, Key, Let, LetValue, MassEntry,
+    Output, Param, Section,
+};
+use crate::diag::{Diagnostics, Loc, suggest};
+use proc_macro2::{Ident, TokenStream};
+use quote::ToTokens as _;
+use syn::parse::ParseStream;
+use syn::{Token, braced, bracketed, parenthesized};
+
+const SECTIONS: [&str; 12] = [
+    "const",
+    "params",
+    "coords",
+    "let",
+    "mass",
+    "kinetic",
+    "force",
+    "potential",
+    "holonomic",
+    "nonholonomic",
+    "nonideal",
+    "output",
+];
+
+/// Parses a declaration; `None` if not even its name could be read.
+pub(crate) fn parse(tokens: TokenStream, diag: &Diagnostics) -> Option<Declaration> {
+    let parser = |input: ParseStream<'_>| declaration(input, diag);
+    match syn::parse::Parser::parse2(parser, tokens) {
+        Ok(declaration) => Some(declaration),
+        Err(e) => {
+            diag.syntax(&e);
+            None
+        }
+    }
+}
+
+fn declaration(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Declaration> {
+    let docs = docs(input, diag)?;
+    let vis: syn::Visibility = input.parse()?;
+    let _: Option<Token![struct]> = input.parse()?;
+    let name: Ident = input.parse()?;
+    let mut out = Declaration {
+        docs,
+        vis: vis.to_token_stream(),
+        name,
+        consts: Vec::new(),
+        params: Vec::new(),
+        coords: Vec::new(),
+        lets: Vec::new(),
+        mass: None,
+        kinetic: None,
+        force: Vec::new(),
+        potential: None,
+        holonomic: Vec::new(),
+        nonholonomic: Vec::new(),
+        nonideal: None,
+        outputs: Vec::new(),
+    };
+    let body;
+    braced!(body in input);
+    let mut seen: Vec<String> = Vec::new();
+    while !body.is_empty() {
+        // What follows a syntax error inside a declaration cannot be trusted: stop there, keep what was read.
+        if let Err(e) = section(&body, &mut out, &mut seen, diag) {
+            diag.syntax(&e);
+            let _: TokenStream = body.parse()?;
+        }
+    }
+    if !input.is_empty() {
+        diag.error(
+            input.span(),
+            "one declaration per `multibody!`; put this in a macro call of its own",
+        );
+        let _: TokenStream = input.parse()?;
+    }
+    Ok(out)
+}
+
+fn section(
+    input: ParseStream<'_>,
+    out: &mut Declaration,
+    seen: &mut Vec<String>,
+    diag: &Diagnostics,
+) -> syn::Result<()> {
+    let docs = docs(input, diag)?;
+    if input.peek(Token![const]) {
+        out.consts.push(constant(input, docs, diag)?);
+        return Ok(());
+    }
+    if input.peek(Token![let]) {
+        let _: Token![let] = input.parse()?;
+        if input.peek(syn::token::Brace) {
+            blocks(input, &mut out.lets, diag, let_entry)?;
+        } else {
+            out.lets.push(Block::One(let_entry(input, diag)?));
+            let _: Token![;] = input.parse()?;
+        }
+        return Ok(());
+    }
+    let keyword: Ident = input.parse().map_err(|e| {
+        syn::Error::new(e.span(), format!("expected a section: {}", list(&SECTIONS)))
+    })?;
+    let name = keyword.to_string();
+    if seen.contains(&name) {
+        diag.error(
+            keyword.span(),
+            format!("section `{name}` appears twice; put its entries into one"),
+        );
+    }
+    seen.push(name.clone());
+    match name.as_str() {
+        "params" => blocks(input, &mut out.params, diag, param_entry),
+        "coords" => blocks(input, &mut out.coords, diag, coord_entry),
+        "mass" => present(input, keyword, &mut out.mass, diag, mass_entry),
+        "kinetic" => present(input, keyword, &mut out.kinetic, diag, term),
+        "potential" => present(input, keyword, &mut out.potential, diag, term),
+        "force" => blocks(input, &mut out.force, diag, entry),
+        "nonideal" => present(input, keyword, &mut out.nonideal, diag, entry),
+        "holonomic" => blocks(input, &mut out.holonomic, diag, equation),
+        "nonholonomic" => blocks(input, &mut out.nonholonomic, diag, equation),
+        "output" => blocks(input, &mut out.outputs, diag, output_entry),
+        _ => {
+            diag.error(
+                keyword.span(),
+                format!(
+                    "unknown section `{name}`{}; sections are {}",
+                    suggest(&name, SECTIONS),
+                    list(&SECTIONS)
+                ),
+            );
+            let _: proc_macro2::TokenTree = input.parse()?;
+            Ok(())
+        }
+    }
+}
+
+fn list(names: &[&str]) -> String {
+    let quoted: Vec<String> = names.iter().map(|n| format!("`{n}`")).collect();
+    quoted.join(", ")
+}
+
+/// The text of leading doc comments; other attributes are refused.
+fn docs(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Vec<String>> {
+    let mut docs = Vec::new();
+    for attribute in input.call(syn::Attribute::parse_outer)? {
+        match &attribute.meta {
+            syn::Meta::NameValue(syn::MetaNameValue {
+                path,
+                value:
+                    syn::Expr::Lit(syn::ExprLit {
+                        lit: syn::Lit::Str(text),
+                        ..
+                    }),
+                ..
+            }) if path.is_ident("doc") => {
+                docs.extend(text.value().lines().map(|l| l.trim().to_owned()));
+            }
+            other => diag.error(Loc::of(other), "only doc comments are allowed here"),
+        }
+    }
+    Ok(docs)
+}
+
+fn constant(input: ParseStream<'_>, docs: Vec<String>, diag: &Diagnostics) -> syn::Result<Const> {
+    let _: Token![const] = input.parse()?;
+    let name: Ident = input.parse()?;
+    let _: Token![:] = input.parse()?;
+    let ty: Ident = input.parse()?;
+    if ty != "usize" && ty != "f64" {
+        diag.error(
+            ty.span(),
+            format!("a constant is a `usize` or an `f64`, not `{ty}`"),
+        );
+    }
+    let _: Token![=] = input.parse()?;
+    let value = expression(input, diag)?;
+    let _: Token![;] = input.parse()?;
+    Ok(Const {
+        docs,
+        name,
+        integer: ty != "f64",
+        value,
+    })
+}
+
+fn expression(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Expr> {
+    let e: syn::Expr = input.parse()?;
+    Ok(Expr::convert(&e, diag))
+}
+
+fn key(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Key> {
+    let name: Ident = input.parse()?;
+    let mut index = None;
+    if input.peek(syn::token::Bracket) {
+        let inner;
+        bracketed!(inner in input);
+        index = Some(expression(&inner, diag)?);
+        if !inner.is_empty() {
+            return Err(inner.error("a family has one index, such as `x[i]`"));
+        }
+    }
+    Ok(Key { name, index })
+}
+
+type EntryParser<T> = fn(ParseStream<'_>, &Diagnostics) -> syn::Result<T>;
+
+/// `{ entry entry, for i in a..b { entry } }` appended to `out`, so that entries before a syntax error are kept.
+fn blocks<T>(
+    input: ParseStream<'_>,
+    out: &mut Vec<Block<T>>,
+    diag: &Diagnostics,
+    parse: EntryParser<T>,
+) -> syn::Result<()> {
+    let body;
+    braced!(body in input);
+    while !body.is_empty() {
+        if body.peek(Token![for]) {
+            out.push(for_block(&body, diag, parse)?);
+        } else {
+            out.push(Block::One(parse(&body, diag)?));
+        }
+        let _: Option<Token![,]> = body.parse()?;
+        let _: Option<Token![;]> = body.parse()?;
+    }
+    Ok(())
+}
+
+fn for_block<T>(
+    input: ParseStream<'_>,
+    diag: &Diagnostics,
+    parse: EntryParser<T>,
+) -> syn::Result<Block<T>> {
+    let _: Token![for] = input.parse()?;
+    let var: Ident = input.parse()?;
+    let _: Token![in] = input.parse()?;
+    let range = syn::Expr::parse_without_eager_brace(input)?;
+    let range = Range::convert(&range, diag);
+    let mut body = Vec::new();
+    blocks(input, &mut body, diag, parse)?;
+    match range {
+        Some(range) => Ok(Block::For { var, range, body }),
+        // Reported already; an empty loop keeps the rest going.
+        None => Ok(Block::For {
+            range: Range {
+                from: Box::new(error_at(&var)),
+                to: Box::new(error_at(&var)),
+                inclusive: false,
+            },
+            var,
+            body: Vec::new(),
+        }),
+    }
+}
+
+fn error_at(ident: &Ident) -> Expr {
+    Expr {
+        loc: ident.span().into(),
+        kind: super::ExprKind::Error,
+    }
+}
+
+fn present<T>(
+    input: ParseStream<'_>,
+    keyword: Ident,
+    out: &mut Option<Section<T>>,
+    diag: &Diagnostics,
+    parse: EntryParser<T>,
+) -> syn::Result<()> {
+    let section = out.get_or_insert(Section {
+        keyword,
+        blocks: Vec::new(),
+    });
+    blocks(input, &mut section.blocks, diag, parse)
+}
+
+fn param_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Param> {
+    let docs = docs(input, diag)?;
+    let key = key(input, diag)?;
+    if !input.peek(Token![=]) {
+        return Err(syn::Error::new(
+            key.name.span(),
+            format!("parameter `{0}` needs a default: `{0} = 1.0`", key.name),
+        ));
+    }
+    let _: Token![=] = input.parse()?;
+    let default = expression(input, diag)?;
+    Ok(Param { docs, key, default })
+}
+
+fn coord_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Coord> {
+    let docs = docs(input, diag)?;
+    let key = key(input, diag)?;
+    Ok(Coord { docs, key })
+}
+
+fn let_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Let> {
+    let key = key(input, diag)?;
+    let _: Token![=] = input.parse()?;
+    let e: syn::Expr = input.parse()?;
+    let value = match &e {
+        syn::Expr::Closure(closure) => {
+            let mut args = Vec::new();
+            for pattern in &closure.inputs {
+                match pattern {
+                    syn::Pat::Ident(p) if p.subpat.is_none() && p.by_ref.is_none() => {
+                        args.push(p.ident.clone());
+                    }
+                    other => diag.error(
+                        Loc::of(other),
+                        "an argument is a plain name, such as `|v| …`",
+                    ),
+                }
+            }
+            LetValue::Function(Function {
+                args,
+                body: Expr::convert(&closure.body, diag),
+            })
+        }
+        value => LetValue::Value(Expr::convert(value, diag)),
+    };
+    Ok(Let { key, value })
+}
+
+fn mass_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<MassEntry> {
+    let (first, other) = if input.peek(syn::token::Paren) {
+        let pair;
+        parenthesized!(pair in input);
+        let first = key(&pair, diag)?;
+        let _: Token![,] = pair.parse()?;
+        let second = key(&pair, diag)?;
+        let _: Option<Token![,]> = pair.parse()?;
+        if !pair.is_empty() {
+            return Err(pair.error("an entry of M belongs to one or two coordinates"));
+        }
+        (first, Some(second))
+    } else {
+        (key(input, diag)?, None)
+    };
+    let _: Token![:] = input.parse()?;
+    let value = expression(input, diag)?;
+    Ok(MassEntry {
+        key: first,
+        other,
+        value,
+    })
+}
+
+fn term(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Expr> {
+    expression(input, diag)
+}
+
+fn entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Entry> {
+    let key = key(input, diag)?;
+    let _: Token![:] = input.parse()?;
+    let value = expression(input, diag)?;
+    Ok(Entry { key, value })
+}
+
+fn equation(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Equation> {
+    let key = key(input, diag)?;
+    if !input.peek(Token![:]) {
+        return Err(syn::Error::new(
+            key.name.span(),
+            format!(
+                "a constraint needs a name: `name: lhs = rhs` (found `{}` first)",
+                key.name
+            ),
+        ));
+    }
+    let _: Token![:] = input.parse()?;
+    let e: syn::Expr = input.parse()?;
+    let syn::Expr::Assign(assign) = &e else {
+        let loc = Loc::of(&e);
+        diag.error(loc, "a constraint is an equation: `lhs = rhs`");
+        let error = |loc| Expr {
+            loc,
+            kind: super::ExprKind::Error,
+        };
+        return Ok(Equation {
+            key,
+            lhs: error(loc),
+            rhs: error(loc),
+        });
+    };
+    Ok(Equation {
+        key,
+        lhs: Expr::convert(&assign.left, diag),
+        rhs: Expr::convert(&assign.right, diag),
+    })
+}
+
+fn output_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Output> {
+    let docs = docs(input, diag)?;
+    let key = key(input, diag)?;
+    let _: Token![=] = input.parse()?;
+    let value = expression(input, diag)?;
+    Ok(Output { docs, key, value })
+}

@@ -1,0 +1,122 @@
+//! The syntax tree of a declaration.
+
+use super::expr::{Expr, Range};
+use crate::diag::Loc;
+use proc_macro2::{Ident, TokenStream};
+
+/// A whole declaration.
+pub(crate) struct Declaration {
+    pub(crate) docs: Vec<String>,
+    /// Visibility, as written.
+    pub(crate) vis: TokenStream,
+    pub(crate) name: Ident,
+    pub(crate) consts: Vec<Const>,
+    pub(crate) params: Vec<Block<Param>>,
+    pub(crate) coords: Vec<Block<Coord>>,
+    pub(crate) lets: Vec<Block<Let>>,
+    pub(crate) mass: Option<Section<MassEntry>>,
+    pub(crate) kinetic: Option<Section<Expr>>,
+    pub(crate) force: Vec<Block<Entry>>,
+    pub(crate) potential: Option<Section<Expr>>,
+    pub(crate) holonomic: Vec<Block<Equation>>,
+    pub(crate) nonholonomic: Vec<Block<Equation>>,
+    pub(crate) nonideal: Option<Section<Entry>>,
+    pub(crate) outputs: Vec<Block<Output>>,
+}
+
+/// A section whose presence matters, not only its entries.
+pub(crate) struct Section<T> {
+    pub(crate) keyword: Ident,
+    pub(crate) blocks: Vec<Block<T>>,
+}
+
+/// An entry, or a `for` over entries.
+pub(crate) enum Block<T> {
+    One(T),
+    For {
+        var: Ident,
+        range: Range,
+        body: Vec<Block<T>>,
+    },
+}
+
+/// `const N: usize = 17;`
+pub(crate) struct Const {
+    pub(crate) docs: Vec<String>,
+    pub(crate) name: Ident,
+    /// `usize` (true) or `f64`.
+    pub(crate) integer: bool,
+    pub(crate) value: Expr,
+}
+
+/// A name with an optional index: `x`, `x[i + 1]`.
+pub(crate) struct Key {
+    pub(crate) name: Ident,
+    pub(crate) index: Option<Expr>,
+}
+
+impl Key {
+    pub(crate) fn loc(&self) -> Loc {
+        Loc {
+            start: self.name.span(),
+            end: self.index.as_ref().map_or(self.name.span(), |i| i.loc.end),
+        }
+    }
+}
+
+/// `m = 1.0`, `k[N] = 2.0`.
+pub(crate) struct Param {
+    pub(crate) docs: Vec<String>,
+    pub(crate) key: Key,
+    pub(crate) default: Expr,
+}
+
+/// `x[N]`, `th`.
+pub(crate) struct Coord {
+    pub(crate) docs: Vec<String>,
+    pub(crate) key: Key,
+}
+
+/// `let thrust = …;`
+pub(crate) struct Let {
+    pub(crate) key: Key,
+    pub(crate) value: LetValue,
+}
+
+pub(crate) enum LetValue {
+    Value(Expr),
+    Function(Function),
+}
+
+/// `|area, v| …`
+pub(crate) struct Function {
+    pub(crate) args: Vec<Ident>,
+    pub(crate) body: Expr,
+}
+
+/// `x: m` or `(x, y): m12`.
+pub(crate) struct MassEntry {
+    pub(crate) key: Key,
+    pub(crate) other: Option<Key>,
+    pub(crate) value: Expr,
+}
+
+/// `x: value`.
+pub(crate) struct Entry {
+    pub(crate) key: Key,
+    pub(crate) value: Expr,
+}
+
+/// `name: lhs = rhs`.
+pub(crate) struct Equation {
+    pub(crate) key: Key,
+    pub(crate) lhs: Expr,
+    pub(crate) rhs: Expr,
+}
+
+/// `fall = y[0]`.
+pub(crate) struct Output {
+    pub(crate) docs: Vec<String>,
+    pub(crate) key: Key,
+    pub(crate) value: Expr,
+}

@@ -1,0 +1,9 @@
+//! Tokens to syntax tree. The only place that knows `syn`.
+
+mod expr;
+mod grammar;
+mod item;
+
+pub(crate) use expr::{BinaryOp, Expr, ExprKind, Range};
+pub(crate) use grammar::parse;
+pub(crate) use item::{Block, Const, Declaration, Entry, Equation, Function, Key, LetValue};
