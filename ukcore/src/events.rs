@@ -368,15 +368,16 @@ mod tests {
                     .direction(Direction::Falling),
             ]
         };
-        let order = |steps: &[f64]| -> Vec<(usize, f64)> {
-            let round = |t: f64| (t * 1e12).round() * 1e-12;
+        let check = |steps: &[f64], expect: &[(usize, f64)]| {
             let found = crossings(events(), steps);
-            found.iter().map(|(e, t, _)| (*e, round(*t))).collect()
+            assert_eq!(found.len(), expect.len());
+            for ((event, t, _), expect) in found.into_iter().zip(expect) {
+                assert_eq!(event, expect.0);
+                assert!((t - expect.1).abs() < 1e-15, "{t} is not {}", expect.1);
+            }
         };
-        let forward = order(&[0.0, 1.0]);
-        assert_eq!(forward, [(1, 0.2), (2, 0.3), (1, 0.65), (0, 0.7)]);
-        let backward = order(&[1.0, 0.5, 0.0]);
-        assert_eq!(backward, [(2, 0.9), (0, 0.7), (1, 0.65), (1, 0.2)]);
+        check(&[0.0, 1.0], &[(1, 0.2), (2, 0.3), (1, 0.65), (0, 0.7)]);
+        check(&[1.0, 0.5, 0.0], &[(2, 0.9), (0, 0.7), (1, 0.65), (1, 0.2)]);
     }
 
     #[test]

@@ -4,13 +4,20 @@ use std::fmt;
 use std::ops::ControlFlow;
 
 use crate::assemble::State;
+use crate::diagnose;
 use crate::error::Error;
-use crate::events::{Event, EventHit, States, Watch};
-use crate::integrate::{Method, Next, Outcome, Problem, Settings, Step};
+use crate::events::{Event, Watch};
+use crate::integrate::{Method, Outcome, Settings};
 use crate::mechanism::Mechanism;
 use crate::solver::{Formula, Solver, SolverOptions};
 use crate::stabilise::{Projector, Stabilisation};
-use crate::trajectory::{Ending, Trajectory, Work};
+use crate::trajectory::{Ending, Trajectory};
+
+mod run;
+#[cfg(test)]
+mod tests;
+
+use run::{Agenda, Progress, Run, Sampling, at};
 
 /// How far a start may be off the constraints: projection may move a coordinate by this part of the largest one (a
 /// velocity likewise), plus the tolerance of the run.
@@ -21,21 +28,6 @@ pub const START_BOUND: f64 = 1e-6;
 
 /// Smallest tolerance accepted: ten units of rounding. Below, the error estimate is rounding alone, and steps shrink to nothing.
 pub const SMALLEST_TOLERANCE: f64 = 10.0 * f64::EPSILON;
-
-/// A constraint is named in [`Error::OffConstraint`] if its residual exceeds this part of the largest one; smaller ones are side effects.
-const NAMED_PART: f64 = 1e-3;
-
-/// A sample within so many units of rounding of the end time is the end: k dt and t_end are rounded once each.
-const SAME_TIME: f64 = 4.0 * f64::EPSILON;
-
-#[derive(Debug, Clone)]
-enum Sampling {
-    Steps,
-    Every(f64),
-    At(Vec<f64>),
-}
-
-type Progress = Box<dyn FnMut(f64) -> ControlFlow<()>>;
 
 /// A simulation: settings, then [`until`](Simulation::until).
 ///
@@ -278,24 +270,17 @@ impl<M: Mechanism> Simulation<M> {
         if !t_end.is_finite() {
             return invalid("t_end", format!("is {t_end}, but must be finite"));
         }
-        let sizes = [
-            ("max_step", self.max_step),
-            ("first_step", self.first_step),
-            (
-                "dt",
-                match self.sampling {
-                    Sampling::Every(dt) => Some(dt),
-                    _ => None,
-                },
-            ),
-        ];
-        for (what, size) in sizes {
-            if size.is_some_and(|size| !(size.is_finite() && size > 0.0)) {
-                let size = size.unwrap_or_default();
-                return invalid(
-                    what,
-                    format!("is {size:?}, but must be positive and finite"),
-                );
+        let dt = match self.sampling {
+            Sampling::Every(dt) => Some(dt),
+            Sampling::Steps | Sampling::At(_) => None,
+        };
+        let first = ("first_step", self.first_step);
+        for (what, size) in [("dt", dt), ("max_step", self.max_step), first] {
+            if let Some(size) = size
+                && !(size.is_finite() && size > 0.0)
+            {
+                let reason = format!("is {size:?}, but must be positive and finite");
+                return invalid(what, reason);
             }
         }
         if self.max_steps == 0 {
@@ -313,6 +298,16 @@ impl<M: Mechanism> Simulation<M> {
             let reason = "is missing; give the simulation a state, for example one from `assemble`";
             return invalid("start", reason.to_owned());
         };
+        if !(t_end - start.t).is_finite() && start.t.is_finite() {
+            return invalid("t_end", format!("is {t_end:?}, too far from {:?}", start.t));
+        }
+        if let Some(dt) = dt {
+            let rounding = f64::EPSILON * start.t.abs().max(t_end.abs());
+            if dt <= rounding {
+                let reason = format!("is {dt:?}, which is below the rounding of the times");
+                return invalid("dt", reason);
+            }
+        }
         if let Sampling::At(times) = &self.sampling {
             let (low, high) = (start.t.min(t_end), start.t.max(t_end));
             if let Some(t) = times.iter().find(|t| !(low..=high).contains(*t)) {
@@ -344,37 +339,11 @@ impl<M: Mechanism> Simulation<M> {
             let reason = "is missing".to_owned();
             return Err(Error::InvalidSetting { what, reason });
         };
-        let expected = spec.n();
-        for (what, found) in [("q", q.len()), ("v", v.len())] {
-            if found != expected {
-                return Err(Error::WrongLength {
-                    what,
-                    found,
-                    expected,
-                });
-            }
+        diagnose::check_length("q", q.len(), spec.n())?;
+        diagnose::check_length("v", v.len(), spec.n())?;
+        if let Some(error) = diagnose::non_finite_input(&self.mechanism, t, &q, &v) {
+            return Err(error);
         }
-        let mut what = Vec::new();
-        if !t.is_finite() {
-            what.push("start time".to_owned());
-        }
-        for (i, param) in spec.params.iter().enumerate() {
-            if !self.mechanism.parameter(i).is_finite() {
-                what.push(format!("parameter {}", param.name));
-            }
-        }
-        for (name, (q, v)) in spec.coords.iter().zip(q.iter().zip(&v)) {
-            if !q.is_finite() {
-                what.push(format!("coordinate {name}"));
-            }
-            if !v.is_finite() {
-                what.push(format!("velocity of {name}"));
-            }
-        }
-        if !what.is_empty() {
-            return Err(Error::NonFinite { what });
-        }
-
         let (mut new_q, mut new_v) = (q.clone(), v.clone());
         let position = projector.position(&self.mechanism, t, &mut new_q, &v)?;
         if !self.near(&q, &new_q) {
@@ -407,285 +376,10 @@ impl<M: Mechanism> Simulation<M> {
 }
 
 fn off_constraint<M: Mechanism>(level: &'static str, residual: &[f64]) -> Error {
-    let largest = residual.iter().fold(0.0, |m: f64, r| m.max(r.abs()));
-    let named = M::SPEC.constraints.iter().zip(residual);
+    let scale = vec![1.0; residual.len()];
     Error::OffConstraint {
         level,
-        constraints: named
-            .filter(|(_, r)| r.abs() >= NAMED_PART * largest)
-            .map(|(c, r)| (c.name.to_owned(), *r))
-            .collect(),
-    }
-}
-
-fn at(t: f64, y: &[f64], error: Error) -> Error {
-    let (q, v) = y.split_at(y.len() / 2);
-    Error::At {
-        t,
-        q: q.to_vec(),
-        v: v.to_vec(),
-        source: Box::new(error),
-    }
-}
-
-/// Which samples are still to be taken.
-struct Agenda {
-    sampling: Sampling,
-    t0: f64,
-    t_end: f64,
-    /// Samples taken from it so far.
-    taken: usize,
-}
-
-impl Agenda {
-    fn new(sampling: Sampling, t0: f64, t_end: f64) -> Self {
-        Agenda {
-            sampling,
-            t0,
-            t_end,
-            taken: 0,
-        }
-    }
-
-    /// Time of the next sample that does not come by itself at the end of a step.
-    fn next(&self) -> Option<f64> {
-        match &self.sampling {
-            Sampling::Steps => None,
-            Sampling::Every(dt) => {
-                let span = self.t_end - self.t0;
-                // The start is sample 0.
-                let t = self.t0 + ((self.taken + 1) as f64 * dt).copysign(span);
-                let rounding = SAME_TIME * self.t0.abs().max(self.t_end.abs());
-                let left = (self.t_end - t) * span.signum();
-                (left > rounding).then_some(t)
-            }
-            Sampling::At(times) => times.get(self.taken).copied(),
-        }
-    }
-
-    /// Whether the end of the run is a sample in any case.
-    fn wants_end(&self) -> bool {
-        !matches!(self.sampling, Sampling::At(_))
-    }
-}
-
-/// The simulation as a problem for the integrator.
-struct Run<'a, M> {
-    mechanism: &'a M,
-    solver: Solver,
-    projector: Projector,
-    project: bool,
-    n: usize,
-    agenda: Agenda,
-    watch: Watch,
-    progress: Option<Progress>,
-    /// Time and state at the end of the last accepted step; the time is that of the event where a terminal one ended it.
-    t: f64,
-    y: Vec<f64>,
-    /// A state within a step.
-    between: Vec<f64>,
-    trajectory: &'a mut Trajectory<M>,
-}
-
-impl<M: Mechanism> Run<'_, M> {
-    /// Events and sample at the start.
-    fn start(&mut self, t: f64, y: &[f64]) -> Result<(), Error> {
-        let asked = !self.agenda.wants_end() && self.agenda.next() == Some(t);
-        if asked {
-            self.agenda.taken += 1;
-        }
-        if asked || self.agenda.wants_end() {
-            self.trajectory.times.push(t);
-            self.trajectory.states.extend_from_slice(y);
-        }
-        let watched = self.watch.start(t, y);
-        watched.map_err(|error| at(t, y, error))
-    }
-
-    /// The state with which the run ended becomes its last sample, if samples are not at given times only.
-    fn finish(&mut self) {
-        let work = self.solver.work();
-        self.trajectory.work.evaluations = work.evaluations;
-        self.trajectory.work.fallbacks = work.fallbacks;
-        let Trajectory {
-            times, states, end, ..
-        } = &mut *self.trajectory;
-        if let Some(end) = end
-            && self.agenda.wants_end()
-            && times.last().is_some_and(|t| *t != end.t)
-        {
-            times.push(end.t);
-            states.extend_from_slice(&end.q);
-            states.extend_from_slice(&end.v);
-        }
-    }
-
-    /// What is to be kept of an accepted step.
-    fn record(&mut self, step: &Step<'_>) -> Result<(), Error> {
-        let mut within = Within {
-            mechanism: self.mechanism,
-            projector: &mut self.projector,
-            project: self.project,
-            step,
-            y_old: &self.y,
-            trajectory: &mut *self.trajectory,
-        };
-        self.watch.search(step.t_old, step.t, &mut within)?;
-        let mut t_stop = step.t;
-        for crossing in &self.watch.crossings {
-            let event = &self.watch.events[crossing.event];
-            within.consistent(crossing.t, &mut self.between)?;
-            let (q, v) = self.between.split_at(self.n);
-            within.trajectory.events.push(EventHit {
-                name: event.name.clone(),
-                t: crossing.t,
-                q: q.to_vec(),
-                v: v.to_vec(),
-                direction: crossing.direction,
-            });
-            if event.terminal {
-                t_stop = crossing.t;
-                within.trajectory.ending = Ending::Event;
-            }
-        }
-        let forward = step.t >= step.t_old;
-        while let Some(t) = self.agenda.next() {
-            if if forward { t > t_stop } else { t < t_stop } {
-                break;
-            }
-            within.consistent(t, &mut self.between)?;
-            self.agenda.taken += 1;
-            within.trajectory.times.push(t);
-            within.trajectory.states.extend_from_slice(&self.between);
-        }
-        within.consistent(t_stop, &mut self.between)?;
-        let Trajectory {
-            times,
-            states,
-            segments,
-            ..
-        } = within.trajectory;
-        if let Sampling::Steps = self.agenda.sampling {
-            times.push(t_stop);
-            states.extend_from_slice(&self.between);
-        }
-        if let (Some(segments), Some(interpolant)) = (segments, step.interpolant) {
-            segments.push(interpolant.segment());
-        }
-        self.t = t_stop;
-        Ok(())
-    }
-}
-
-impl<M: Mechanism> Problem for Run<'_, M> {
-    fn derivative(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Error> {
-        let (q, v) = y.split_at(self.n);
-        let (q_rate, v_rate) = rate.split_at_mut(self.n);
-        q_rate.copy_from_slice(v);
-        self.solver.acceleration(self.mechanism, t, q, v, v_rate)
-    }
-
-    fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), Error> {
-        if self.project {
-            let work = &mut self.trajectory.work;
-            project(self.mechanism, &mut self.projector, work, t, y)?;
-        }
-        Ok(())
-    }
-
-    fn next_sample(&self) -> Option<f64> {
-        self.agenda.next()
-    }
-
-    fn step(&mut self, step: &Step<'_>) -> Result<Next, Error> {
-        let taken = self.agenda.taken;
-        let samples = self.trajectory.times.len();
-        let events = self.trajectory.events.len();
-        let ending = self.trajectory.ending;
-        if let Err(error) = self.record(step) {
-            self.agenda.taken = taken;
-            self.trajectory.times.truncate(samples);
-            self.trajectory.states.truncate(2 * self.n * samples);
-            self.trajectory.events.truncate(events);
-            self.trajectory.ending = ending;
-            return Err(error);
-        }
-        self.watch.accept();
-        self.y.copy_from_slice(step.y);
-        if let Some(end) = &mut self.trajectory.end {
-            end.t = self.t;
-            end.q.copy_from_slice(&self.between[..self.n]);
-            end.v.copy_from_slice(&self.between[self.n..]);
-        }
-        let go_on = self.progress.as_mut().map(|progress| progress(self.t));
-        if self.trajectory.ending == Ending::Event {
-            return Ok(Next::Stop);
-        }
-        if go_on == Some(ControlFlow::Break(())) && self.t != self.agenda.t_end {
-            self.trajectory.ending = Ending::Interrupted;
-            return Ok(Next::Stop);
-        }
-        Ok(Next::Continue)
-    }
-}
-
-/// Projects y = [q; q̇], positions first, and counts it.
-fn project<M: Mechanism>(
-    mechanism: &M,
-    projector: &mut Projector,
-    work: &mut Work,
-    t: f64,
-    y: &mut [f64],
-) -> Result<(), Error> {
-    let (q, v) = y.split_at_mut(y.len() / 2);
-    work.projections += 1;
-    let position = projector.position(mechanism, t, q, v)?;
-    work.projection_iterations += position.iterations;
-    let velocity = projector.velocity(mechanism, t, q, v)?;
-    work.projection_iterations += velocity.iterations;
-    Ok(())
-}
-
-/// The states of one step.
-struct Within<'a, 'b, M> {
-    mechanism: &'a M,
-    projector: &'a mut Projector,
-    project: bool,
-    step: &'a Step<'b>,
-    y_old: &'a [f64],
-    trajectory: &'a mut Trajectory<M>,
-}
-
-impl<M: Mechanism> Within<'_, '_, M> {
-    /// The state at an end of the step, which needs neither interpolation nor projection.
-    fn end(&self, t: f64) -> Option<&[f64]> {
-        if t == self.step.t {
-            Some(self.step.y)
-        } else if t == self.step.t_old {
-            Some(self.y_old)
-        } else {
-            None
-        }
-    }
-}
-
-impl<M: Mechanism> States for Within<'_, '_, M> {
-    fn state(&mut self, t: f64, y: &mut [f64]) {
-        match (self.end(t), self.step.interpolant) {
-            (Some(end), _) => y.copy_from_slice(end),
-            (None, Some(interpolant)) => interpolant.state(t, y),
-            // A method owes the interpolant where it was asked for; without it there is no value, and that is seen.
-            (None, None) => y.fill(f64::NAN),
-        }
-    }
-
-    fn consistent(&mut self, t: f64, y: &mut [f64]) -> Result<(), Error> {
-        self.state(t, y);
-        if self.project && self.end(t).is_none() {
-            let work = &mut self.trajectory.work;
-            project(self.mechanism, self.projector, work, t, y)?;
-        }
-        Ok(())
+        constraints: diagnose::offending(M::SPEC, residual, &scale),
     }
 }
 

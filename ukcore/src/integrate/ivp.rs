@@ -2,7 +2,8 @@
 //!
 //! What its source (0.6) does, and what is done about it here:
 //!
-//! - Its test for a requested output time assumes that time increases. So integration always runs forward in s = ±t.
+//! - Its test for a requested output time assumes that time increases. So integration always runs forward, in s = ±(t − t0).
+//!   Counting from t0 also keeps a large t0 from rounding the step sizes: at t = 1e9 the sum t + h would keep seven digits of h = 1.
 //! - A callback can hand back a changed solution *or* ask for output at a time, not both, and a changed solution costs an
 //!   evaluation more. So the projection is not left to the callback. Both methods evaluate f at the end of the step before they
 //!   call back, since the next step begins with that value; that evaluation is recognised by its place in the sequence
@@ -28,6 +29,24 @@ use crate::error::Error;
 
 /// End times that differ by so many units of rounding are the same: `x + (x_end - x)` rounds twice.
 const END_ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// Conversion between t and s.
+#[derive(Clone, Copy)]
+pub(super) struct Clock {
+    t0: f64,
+    /// 1 going forward, −1 going backward.
+    sign: f64,
+}
+
+impl Clock {
+    pub(super) fn t(self, s: f64) -> f64 {
+        self.t0 + self.sign * s
+    }
+
+    pub(super) fn s(self, t: f64) -> f64 {
+        self.sign * (t - self.t0)
+    }
+}
 
 /// What the wrapper has to know of a method.
 #[derive(Clone, Copy)]
@@ -82,6 +101,8 @@ enum Verdict {
     Stop,
     /// Redo the step of that size.
     Redo(f64),
+    /// A step of that size does not advance t.
+    Underflow(f64),
     /// f cannot be evaluated at the start.
     Hopeless,
     TooManySteps,
@@ -99,7 +120,8 @@ struct Shared<'p, P> {
     problem: &'p mut P,
     tableau: Tableau,
     tolerance: f64,
-    sign: f64,
+    clock: Clock,
+    t_end: f64,
     s_end: f64,
     max_steps: usize,
     /// Last accepted state.
@@ -124,7 +146,7 @@ struct Shared<'p, P> {
 
 impl<P: Problem> Shared<'_, P> {
     fn note(&mut self, s: f64, y: &[f64], error: Error) {
-        let t = self.sign * s;
+        let t = self.clock.t(s);
         let y = y.to_vec();
         self.trouble = Some(Trouble { t, y, error });
     }
@@ -141,7 +163,7 @@ impl<P: Problem> Shared<'_, P> {
         };
         if !done {
             rate.fill(f64::NAN);
-        } else if self.sign < 0.0 {
+        } else if self.clock.sign < 0.0 {
             for r in rate {
                 *r = -*r;
             }
@@ -153,7 +175,7 @@ impl<P: Problem> Shared<'_, P> {
             // After a failed stage this is its consequence; otherwise the step was far too long, and is rejected.
             return false;
         }
-        match self.problem.derivative(self.sign * s, y, rate) {
+        match self.problem.derivative(self.clock.t(s), y, rate) {
             Ok(()) => true,
             Err(error) => {
                 self.note(s, y, error);
@@ -184,7 +206,7 @@ impl<P: Problem> Shared<'_, P> {
         if self.raw.iter().any(|y| !y.is_finite()) {
             return false;
         }
-        match self.problem.project(self.sign * s, &mut self.projected) {
+        match self.problem.project(self.clock.t(s), &mut self.projected) {
             Ok(()) => {
                 let pairs = self.raw.iter().zip(&self.projected);
                 let change = pairs
@@ -201,9 +223,12 @@ impl<P: Problem> Shared<'_, P> {
         }
     }
 
+    /// Asks for the interpolant of the step in which the next sample lies; a little early, since ends of steps are rounded.
     fn ask(&self) -> ControlFlag {
-        let sample = self.problem.next_sample();
-        ControlFlag::XOut(sample.map_or(f64::INFINITY, |t| self.sign * t))
+        ControlFlag::XOut(self.problem.next_sample().map_or(f64::INFINITY, |t| {
+            let s = self.clock.s(t);
+            s - END_ROUNDING * s.abs()
+        }))
     }
 
     fn interrupt(&mut self, verdict: Verdict) -> ControlFlag {
@@ -232,15 +257,20 @@ impl<P: Problem> Shared<'_, P> {
             }
         }
         y.copy_from_slice(&self.projected);
-        let last = (s - self.s_end).abs() <= END_ROUNDING * self.s_end.abs().max(s.abs());
+        let last = (s - self.s_end).abs() <= END_ROUNDING * self.s_end;
+        let t_old = self.clock.t(self.s);
+        let t = if last { self.t_end } else { self.clock.t(s) };
+        if t == t_old {
+            return self.interrupt(Verdict::Underflow(s - self.s));
+        }
         let states = interpolant.map(|inner| States {
             inner,
-            sign: self.sign,
+            clock: self.clock,
             formula: self.tableau.formula,
         });
         let step = Step {
-            t_old: self.sign * self.s,
-            t: self.sign * if last { self.s_end } else { s },
+            t_old,
+            t,
             y,
             interpolant: states.as_ref().map(|s| s as &dyn Interpolant),
         };
@@ -269,19 +299,19 @@ impl<P: Problem> Shared<'_, P> {
 
 struct States<'a> {
     inner: &'a StepInterpolant<'a>,
-    sign: f64,
+    clock: Clock,
     formula: Formula,
 }
 
 impl Interpolant for States<'_> {
     fn state(&self, t: f64, y: &mut [f64]) {
-        self.inner.interpolate(self.sign * t, y);
+        self.inner.interpolate(self.clock.s(t), y);
     }
 
     fn segment(&self) -> Segment {
         let DenseSegment { cont, xold, h, .. } = self.inner.to_segment();
         Segment {
-            sign: self.sign,
+            clock: self.clock,
             s_old: xold,
             h,
             coefficients: cont,
@@ -312,7 +342,7 @@ impl<P: Problem> SolOut for Callback<'_, '_, P> {
         let calls = std::mem::take(&mut shared.calls);
         if std::mem::take(&mut shared.entering) {
             // Trouble that is new at the start of a run is f failing there, or in the probe for the first step size.
-            let here = shared.sign * shared.s;
+            let here = shared.clock.t(shared.s);
             return match &shared.trouble {
                 Some(trouble) if shared.steps == 0 && trouble.t == here => {
                     shared.interrupt(Verdict::Hopeless)
@@ -336,14 +366,16 @@ pub(super) fn run(
     settings: &Settings,
 ) -> Report {
     let sign = if t_end < t0 { -1.0 } else { 1.0 };
+    let clock = Clock { t0, sign };
     let shared = RefCell::new(Shared {
         problem,
         tableau: Tableau::of(method),
         tolerance: settings.tolerance,
-        sign,
-        s_end: sign * t_end,
+        clock,
+        t_end,
+        s_end: clock.s(t_end),
         max_steps: settings.max_steps,
-        s: sign * t0,
+        s: 0.0,
         y: y0.to_vec(),
         raw: y0.to_vec(),
         projected: y0.to_vec(),
@@ -378,7 +410,7 @@ pub(super) fn run(
         };
         let failed = |shared: &mut Shared<'_, _>, error| {
             let here = Trouble {
-                t: sign * shared.s,
+                t: clock.t(shared.s),
                 y: shared.y.clone(),
                 error,
             };
@@ -401,6 +433,7 @@ pub(super) fn run(
                 failed(&mut shared, too_many)
             }
             (Verdict::Stop, _) => report(&shared, Outcome::Stopped),
+            (Verdict::Underflow(step), _) => failed(&mut shared, Error::StepTooSmall { step }),
             (Verdict::Hopeless, _) => failed(&mut shared, Error::StepTooSmall { step: 0.0 }),
             (Verdict::None, Ok(IntegrationResult { status, h, .. })) => match status {
                 Status::Success => report(&shared, Outcome::Reached),

@@ -15,7 +15,9 @@
 //! A failure in 2 to 4 rejects the step like a failure in 1. So an error reaches the user only where no step, however
 //! small, avoids it, and then it carries the place where it arose.
 
-pub(crate) mod ivp;
+mod ivp;
+#[cfg(test)]
+mod tests;
 
 use crate::error::Error;
 
@@ -90,8 +92,7 @@ type Formula = fn(f64, &mut [f64], &[f64], f64, f64);
 /// An [`Interpolant`] that is kept.
 #[derive(Clone)]
 pub(crate) struct Segment {
-    /// s = t going forward, −t going backward.
-    sign: f64,
+    clock: ivp::Clock,
     s_old: f64,
     h: f64,
     coefficients: Vec<f64>,
@@ -101,12 +102,12 @@ pub(crate) struct Segment {
 impl Segment {
     /// Time at the start of the step.
     pub(crate) fn t_old(&self) -> f64 {
-        self.sign * self.s_old
+        self.clock.t(self.s_old)
     }
 
     /// State at `t`, as interpolated: not projected.
     pub(crate) fn state(&self, t: f64, y: &mut [f64]) {
-        (self.formula)(self.sign * t, y, &self.coefficients, self.s_old, self.h);
+        (self.formula)(self.clock.s(t), y, &self.coefficients, self.s_old, self.h);
     }
 }
 

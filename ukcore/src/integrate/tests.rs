@@ -1,0 +1,347 @@
+//! The methods on plain right-hand sides, without mechanics.
+
+use super::*;
+
+type Derivative = fn(f64, &[f64], &mut [f64]) -> Result<(), Error>;
+type Projection = fn(f64, &mut [f64]) -> Result<(), Error>;
+
+/// A problem made of functions, which writes down what happens.
+struct Plain {
+    f: Derivative,
+    project: Projection,
+    sample: Option<f64>,
+    fail_after: f64,
+    evaluations: Vec<(f64, Vec<f64>)>,
+    steps: Vec<(f64, f64, Vec<f64>)>,
+    interpolants: usize,
+    segments: Vec<Segment>,
+}
+
+impl Plain {
+    fn new(f: Derivative) -> Self {
+        Plain {
+            f,
+            project: |_, _| Ok(()),
+            sample: None,
+            fail_after: f64::INFINITY,
+            evaluations: Vec::new(),
+            steps: Vec::new(),
+            interpolants: 0,
+            segments: Vec::new(),
+        }
+    }
+}
+
+fn failure() -> Error {
+    let what = vec!["test".to_owned()];
+    Error::NonFinite { what }
+}
+
+impl Problem for Plain {
+    fn derivative(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Error> {
+        self.evaluations.push((t, y.to_vec()));
+        (self.f)(t, y, rate)
+    }
+    fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), Error> {
+        (self.project)(t, y)
+    }
+    fn next_sample(&self) -> Option<f64> {
+        self.sample
+    }
+    fn step(&mut self, step: &Step<'_>) -> Result<Next, Error> {
+        if step.t > self.fail_after {
+            return Err(failure());
+        }
+        if let Some(interpolant) = step.interpolant {
+            self.interpolants += 1;
+            self.segments.push(interpolant.segment());
+        }
+        if self.sample.is_some_and(|t| t <= step.t) {
+            self.sample = self.sample.map(|t| t + 1.0);
+        }
+        self.steps.push((step.t_old, step.t, step.y.to_vec()));
+        Ok(Next::Continue)
+    }
+}
+
+const METHODS: [Method; 2] = [Method::Dop853, Method::Dopri5];
+
+fn settings(tolerance: f64) -> Settings {
+    Settings {
+        tolerance,
+        first_step: None,
+        max_step: None,
+        max_steps: 100_000,
+        dense: false,
+    }
+}
+
+/// Angle 0 at t = 0, angular velocity 1.
+fn circle(_: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Error> {
+    rate[0] = -y[1];
+    rate[1] = y[0];
+    Ok(())
+}
+
+fn circle_error(t: f64, y: &[f64]) -> f64 {
+    f64::hypot(y[0] - t.cos(), y[1] - t.sin())
+}
+
+/// Onto the unit circle.
+fn normalise(_: f64, y: &mut [f64]) -> Result<(), Error> {
+    let r = f64::hypot(y[0], y[1]);
+    y[0] /= r;
+    y[1] /= r;
+    Ok(())
+}
+
+/// Runs a circle and returns its error at the end, evaluations and report.
+fn run_circle(method: Method, projected: bool, t_end: f64, tolerance: f64) -> (f64, Plain, Report) {
+    let mut plain = Plain::new(circle);
+    if projected {
+        plain.project = normalise;
+    }
+    let report = method.run(&mut plain, 0.0, &[1.0, 0.0], t_end, &settings(tolerance));
+    assert_eq!(report.outcome, Outcome::Reached);
+    let (_, t, y) = plain.steps.last().unwrap().clone();
+    assert_eq!(t, t_end);
+    (circle_error(t, &y), plain, report)
+}
+
+#[test]
+fn error_falls_with_the_order_of_the_method() {
+    for (method, order) in [(Method::Dop853, 8.0), (Method::Dopri5, 5.0)] {
+        for projected in [false, true] {
+            for t_end in [30.0, -30.0] {
+                let (coarse, few, _) = run_circle(method, projected, t_end, 1e-5);
+                let (fine, many, _) = run_circle(method, projected, t_end, 1e-10);
+                let work = many.evaluations.len() as f64 / few.evaluations.len() as f64;
+                let observed = (coarse / fine).ln() / work.ln();
+                assert!(fine < 1e-8, "{method:?}: {fine}");
+                assert!(
+                    (observed - order).abs() < 1.3,
+                    "{method:?}: order {observed}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn projection_costs_no_evaluation_and_evaluations_are_made_at_projected_states() {
+    for method in METHODS {
+        let (_, plain, report) = run_circle(method, true, 20.0, 1e-6);
+        let attempts = report.steps + report.rejected;
+        let count = match method {
+            // f at the start, the probe for the first step, eleven stages, one at the end of each accepted step.
+            Method::Dop853 => 2 + 11 * attempts + report.steps,
+            Method::Dopri5 => 2 + 6 * attempts,
+        };
+        assert_eq!(plain.evaluations.len(), count);
+        assert_eq!(report.steps, plain.steps.len());
+        for step in &plain.steps {
+            let (_, t, y) = step;
+            assert!((f64::hypot(y[0], y[1]) - 1.0).abs() < 4e-16);
+            assert!(
+                plain
+                    .evaluations
+                    .iter()
+                    .any(|(s, z)| z == y && (s - t).abs() < 1e-14)
+            );
+        }
+    }
+}
+
+#[test]
+fn interpolants_come_where_asked_for_only() {
+    for method in METHODS {
+        let extra = if method == Method::Dop853 { 3 } else { 0 };
+        let run = |sample, dense| {
+            let mut plain = Plain::new(circle);
+            plain.project = normalise;
+            plain.sample = sample;
+            let settings = Settings {
+                dense,
+                ..settings(1e-9)
+            };
+            let report = method.run(&mut plain, 0.0, &[1.0, 0.0], 10.0, &settings);
+            assert_eq!(report.outcome, Outcome::Reached);
+            (plain, report)
+        };
+        let (none, report) = run(None, false);
+        assert_eq!(none.interpolants, 0);
+        let (some, _) = run(Some(0.5), false);
+        let crossed = |(a, b, _): &&(f64, f64, Vec<f64>)| (a - 0.5).floor() < (b - 0.5).floor();
+        assert_eq!(some.interpolants, some.steps.iter().filter(crossed).count());
+        let cost = some.evaluations.len() - none.evaluations.len();
+        assert_eq!(cost, extra * some.interpolants);
+        let (all, _) = run(None, true);
+        assert_eq!(all.interpolants, report.steps);
+        let cost = all.evaluations.len() - none.evaluations.len();
+        assert_eq!(cost, extra * report.steps);
+    }
+}
+
+#[test]
+fn interpolants_agree_with_the_motion_in_both_directions() {
+    for (method, bound) in [(Method::Dop853, 1e-9), (Method::Dopri5, 1e-8)] {
+        for t_end in [10.0, -10.0] {
+            let mut plain = Plain::new(circle);
+            let settings = Settings {
+                dense: true,
+                ..settings(1e-10)
+            };
+            let report = method.run(&mut plain, 0.0, &[1.0, 0.0], t_end, &settings);
+            assert_eq!(report.outcome, Outcome::Reached);
+            for (segment, (t_old, t, _)) in plain.segments.iter().zip(&plain.steps) {
+                assert_eq!(segment.t_old(), *t_old);
+                for part in [0.0, 0.1, 0.5, 0.9, 1.0] {
+                    let t = t_old + part * (t - t_old);
+                    let mut y = [0.0; 2];
+                    segment.state(t, &mut y);
+                    assert!(circle_error(t, &y) < bound, "{method:?} at {t}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_failing_right_hand_side_is_reported_where_no_step_avoids_it() {
+    for method in METHODS {
+        for sign in [1.0, -1.0] {
+            // y = 1 − |t|: the root ends at |t| = 1.
+            let f: Derivative = |t, y, rate| {
+                rate[0] = -t.signum();
+                if y[0] < 0.0 { Err(failure()) } else { Ok(()) }
+            };
+            let mut plain = Plain::new(f);
+            let report = method.run(
+                &mut plain,
+                sign * 1e-3,
+                &[0.999],
+                sign * 9.0,
+                &settings(1e-8),
+            );
+            let Outcome::Failed { t, y, error } = report.outcome else {
+                panic!("{:?}", report.outcome);
+            };
+            assert_eq!(error, failure());
+            assert!((t.abs() - 1.0).abs() < 1e-13, "{method:?} at {t}");
+            assert!(y[0] < 0.0 && y[0] > -1e-13);
+            let last = plain.steps.last().unwrap();
+            assert!((last.1.abs() - 1.0).abs() < 1e-13);
+            assert!(report.rejected > 10);
+            assert_eq!(report.steps, plain.steps.len());
+        }
+    }
+}
+
+#[test]
+fn failing_at_the_start_is_reported_at_once() {
+    for method in METHODS {
+        let mut plain = Plain::new(|_, _, _| Err(failure()));
+        let report = method.run(&mut plain, 2.0, &[3.0], 5.0, &settings(1e-8));
+        let (t, y, error) = (2.0, vec![3.0], failure());
+        assert_eq!(report.outcome, Outcome::Failed { t, y, error });
+        assert!(plain.evaluations.len() <= 2);
+        assert_eq!((report.steps, report.rejected), (0, 0));
+    }
+}
+
+#[test]
+fn a_projection_that_is_too_large_rejects_the_step() {
+    for method in METHODS {
+        // Beyond t = 1 consistent states are elsewhere.
+        let mut plain = Plain::new(circle);
+        plain.project = |t, y| {
+            if t > 1.0 {
+                y[0] += 1e-3;
+            }
+            Ok(())
+        };
+        let report = method.run(&mut plain, 0.0, &[1.0, 0.0], 5.0, &settings(1e-6));
+        let Outcome::Failed { t, error, .. } = report.outcome else {
+            panic!("{:?}", report.outcome);
+        };
+        assert!(matches!(error, Error::StepTooSmall { .. }), "{error:?}");
+        assert!((t - 1.0).abs() < 1e-12, "{t}");
+        assert!(report.rejected > 10);
+
+        // Within the limit it is a good step.
+        let mut plain = Plain::new(circle);
+        plain.project = |_, y| {
+            y[0] += 1e-6;
+            Ok(())
+        };
+        let report = method.run(&mut plain, 0.0, &[1.0, 0.0], 5.0, &settings(1e-6));
+        assert_eq!(report.outcome, Outcome::Reached);
+    }
+}
+
+#[test]
+fn a_failing_projection_or_step_rejects_the_step() {
+    for method in METHODS {
+        let mut plain = Plain::new(circle);
+        plain.project = |t, _| if t > 1.0 { Err(failure()) } else { Ok(()) };
+        let report = method.run(&mut plain, 0.0, &[1.0, 0.0], 5.0, &settings(1e-6));
+        let Outcome::Failed { t, error, .. } = report.outcome else {
+            panic!("{:?}", report.outcome);
+        };
+        assert_eq!(error, failure());
+        assert!(t >= 1.0 && t < 1.0 + 1e-13, "{t}");
+
+        let mut plain = Plain::new(circle);
+        plain.fail_after = 1.0;
+        let report = method.run(&mut plain, 0.0, &[1.0, 0.0], 5.0, &settings(1e-6));
+        let Outcome::Failed { t, error, .. } = report.outcome else {
+            panic!("{:?}", report.outcome);
+        };
+        assert_eq!(error, failure());
+        assert!(t >= 1.0 && t < 1.0 + 1e-13, "{t}");
+        assert!(plain.steps.iter().all(|step| step.1 <= 1.0));
+    }
+}
+
+#[test]
+fn step_limits_are_kept() {
+    for method in METHODS {
+        let run = |settings: Settings| {
+            let mut plain = Plain::new(circle);
+            let report = method.run(&mut plain, 0.0, &[1.0, 0.0], 50.0, &settings);
+            (plain, report)
+        };
+        let (plain, _) = run(Settings {
+            max_step: Some(0.01),
+            first_step: Some(0.001),
+            ..settings(1e-6)
+        });
+        assert_eq!(plain.steps[0].1, 0.001);
+        assert!(plain.steps.iter().all(|(a, b, _)| b - a <= 0.01 * 1.0101));
+        for steps in [1, 2, 3, 7] {
+            let (_, report) = run(Settings {
+                max_steps: steps,
+                ..settings(1e-9)
+            });
+            assert_eq!(report.steps + report.rejected, steps);
+            let Outcome::Failed { error, .. } = report.outcome else {
+                panic!("{:?}", report.outcome);
+            };
+            assert_eq!(error, Error::TooManySteps { steps });
+        }
+    }
+}
+
+#[test]
+fn a_growing_time_does_not_hide_the_end() {
+    for method in METHODS {
+        for (t0, span) in [(1e9, 3.0), (-1e9, -3.0), (0.1, 0.2), (1.0 / 3.0, -0.7)] {
+            let mut plain = Plain::new(circle);
+            let report = method.run(&mut plain, t0, &[1.0, 0.0], t0 + span, &settings(1e-9));
+            assert_eq!(report.outcome, Outcome::Reached);
+            let (_, t, y) = plain.steps.last().unwrap();
+            assert_eq!(*t, t0 + span);
+            assert!(circle_error(span, y) < 1e-7);
+        }
+    }
+}

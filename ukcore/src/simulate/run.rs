@@ -1,0 +1,299 @@
+//! A simulation as the [`Problem`] that a [`Method`](crate::integrate::Method) advances.
+
+use std::ops::ControlFlow;
+
+use crate::error::Error;
+use crate::events::{EventHit, States, Watch};
+use crate::integrate::{Next, Problem, Step};
+use crate::mechanism::Mechanism;
+use crate::solver::Solver;
+use crate::stabilise::Projector;
+use crate::trajectory::{Ending, Trajectory, Work};
+
+/// A sample within so many units of rounding of the end time is the end: k dt and t_end are rounded once each.
+const SAME_TIME: f64 = 4.0 * f64::EPSILON;
+
+/// When samples are taken.
+#[derive(Debug, Clone)]
+pub(super) enum Sampling {
+    /// At each accepted step.
+    Steps,
+    /// At multiples of that time after the start, and at the end.
+    Every(f64),
+    /// At these times only.
+    At(Vec<f64>),
+}
+
+pub(super) type Progress = Box<dyn FnMut(f64) -> ControlFlow<()>>;
+
+/// `error` with the place where it arose.
+pub(super) fn at(t: f64, y: &[f64], error: Error) -> Error {
+    let (q, v) = y.split_at(y.len() / 2);
+    Error::At {
+        t,
+        q: q.to_vec(),
+        v: v.to_vec(),
+        source: Box::new(error),
+    }
+}
+
+/// Which samples are still to be taken.
+pub(super) struct Agenda {
+    sampling: Sampling,
+    t0: f64,
+    t_end: f64,
+    /// Samples taken from it so far.
+    taken: usize,
+}
+
+impl Agenda {
+    pub(super) fn new(sampling: Sampling, t0: f64, t_end: f64) -> Self {
+        Agenda {
+            sampling,
+            t0,
+            t_end,
+            taken: 0,
+        }
+    }
+
+    /// Time of the next sample that does not come by itself at the end of a step.
+    fn next(&self) -> Option<f64> {
+        match &self.sampling {
+            Sampling::Steps => None,
+            Sampling::Every(dt) => {
+                let span = self.t_end - self.t0;
+                // The start is sample 0.
+                let t = self.t0 + ((self.taken + 1) as f64 * dt).copysign(span);
+                let rounding = SAME_TIME * self.t0.abs().max(self.t_end.abs());
+                let left = (self.t_end - t) * span.signum();
+                (left > rounding).then_some(t)
+            }
+            Sampling::At(times) => times.get(self.taken).copied(),
+        }
+    }
+
+    /// Whether the end of the run is a sample in any case.
+    fn wants_end(&self) -> bool {
+        !matches!(self.sampling, Sampling::At(_))
+    }
+}
+
+/// The simulation as a problem for the integrator.
+pub(super) struct Run<'a, M> {
+    pub(super) mechanism: &'a M,
+    pub(super) solver: Solver,
+    pub(super) projector: Projector,
+    pub(super) project: bool,
+    pub(super) n: usize,
+    pub(super) agenda: Agenda,
+    pub(super) watch: Watch,
+    pub(super) progress: Option<Progress>,
+    /// Time and state at the end of the last accepted step; the time is that of the event where a terminal one ended it.
+    pub(super) t: f64,
+    pub(super) y: Vec<f64>,
+    /// A state within a step.
+    pub(super) between: Vec<f64>,
+    pub(super) trajectory: &'a mut Trajectory<M>,
+}
+
+impl<M: Mechanism> Run<'_, M> {
+    /// Events and sample at the start.
+    pub(super) fn start(&mut self, t: f64, y: &[f64]) -> Result<(), Error> {
+        let asked = !self.agenda.wants_end() && self.agenda.next() == Some(t);
+        if asked {
+            self.agenda.taken += 1;
+        }
+        if asked || self.agenda.wants_end() {
+            self.trajectory.times.push(t);
+            self.trajectory.states.extend_from_slice(y);
+        }
+        let watched = self.watch.start(t, y);
+        watched.map_err(|error| at(t, y, error))
+    }
+
+    /// The state with which the run ended becomes its last sample, if samples are not at given times only.
+    pub(super) fn finish(&mut self) {
+        let work = self.solver.work();
+        self.trajectory.work.evaluations = work.evaluations;
+        self.trajectory.work.fallbacks = work.fallbacks;
+        let Trajectory {
+            times, states, end, ..
+        } = &mut *self.trajectory;
+        if let Some(end) = end
+            && self.agenda.wants_end()
+            && times.last().is_some_and(|t| *t != end.t)
+        {
+            times.push(end.t);
+            states.extend_from_slice(&end.q);
+            states.extend_from_slice(&end.v);
+        }
+    }
+
+    /// What is to be kept of an accepted step.
+    fn record(&mut self, step: &Step<'_>) -> Result<(), Error> {
+        let mut within = Within {
+            mechanism: self.mechanism,
+            projector: &mut self.projector,
+            project: self.project,
+            step,
+            y_old: &self.y,
+            trajectory: &mut *self.trajectory,
+        };
+        self.watch.search(step.t_old, step.t, &mut within)?;
+        let mut t_stop = step.t;
+        for crossing in &self.watch.crossings {
+            let event = &self.watch.events[crossing.event];
+            within.consistent(crossing.t, &mut self.between)?;
+            let (q, v) = self.between.split_at(self.n);
+            within.trajectory.events.push(EventHit {
+                name: event.name.clone(),
+                t: crossing.t,
+                q: q.to_vec(),
+                v: v.to_vec(),
+                direction: crossing.direction,
+            });
+            if event.terminal {
+                t_stop = crossing.t;
+                within.trajectory.ending = Ending::Event;
+            }
+        }
+        let forward = step.t >= step.t_old;
+        while let Some(t) = self.agenda.next() {
+            if if forward { t > t_stop } else { t < t_stop } {
+                break;
+            }
+            within.consistent(t, &mut self.between)?;
+            self.agenda.taken += 1;
+            within.trajectory.times.push(t);
+            within.trajectory.states.extend_from_slice(&self.between);
+        }
+        within.consistent(t_stop, &mut self.between)?;
+        let Trajectory {
+            times,
+            states,
+            segments,
+            ..
+        } = within.trajectory;
+        if let Sampling::Steps = self.agenda.sampling {
+            times.push(t_stop);
+            states.extend_from_slice(&self.between);
+        }
+        if let (Some(segments), Some(interpolant)) = (segments, step.interpolant) {
+            segments.push(interpolant.segment());
+        }
+        self.t = t_stop;
+        Ok(())
+    }
+}
+
+impl<M: Mechanism> Problem for Run<'_, M> {
+    fn derivative(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Error> {
+        let (q, v) = y.split_at(self.n);
+        let (q_rate, v_rate) = rate.split_at_mut(self.n);
+        q_rate.copy_from_slice(v);
+        self.solver.acceleration(self.mechanism, t, q, v, v_rate)
+    }
+
+    fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), Error> {
+        if self.project {
+            let work = &mut self.trajectory.work;
+            project(self.mechanism, &mut self.projector, work, t, y)?;
+        }
+        Ok(())
+    }
+
+    fn next_sample(&self) -> Option<f64> {
+        self.agenda.next()
+    }
+
+    fn step(&mut self, step: &Step<'_>) -> Result<Next, Error> {
+        let taken = self.agenda.taken;
+        let samples = self.trajectory.times.len();
+        let events = self.trajectory.events.len();
+        let ending = self.trajectory.ending;
+        if let Err(error) = self.record(step) {
+            self.agenda.taken = taken;
+            self.trajectory.times.truncate(samples);
+            self.trajectory.states.truncate(2 * self.n * samples);
+            self.trajectory.events.truncate(events);
+            self.trajectory.ending = ending;
+            return Err(error);
+        }
+        self.watch.accept();
+        self.y.copy_from_slice(step.y);
+        if let Some(end) = &mut self.trajectory.end {
+            end.t = self.t;
+            end.q.copy_from_slice(&self.between[..self.n]);
+            end.v.copy_from_slice(&self.between[self.n..]);
+        }
+        let go_on = self.progress.as_mut().map(|progress| progress(self.t));
+        if self.trajectory.ending == Ending::Event {
+            return Ok(Next::Stop);
+        }
+        if go_on == Some(ControlFlow::Break(())) && self.t != self.agenda.t_end {
+            self.trajectory.ending = Ending::Interrupted;
+            return Ok(Next::Stop);
+        }
+        Ok(Next::Continue)
+    }
+}
+
+/// Projects y = [q; q̇], positions first, and counts it.
+fn project<M: Mechanism>(
+    mechanism: &M,
+    projector: &mut Projector,
+    work: &mut Work,
+    t: f64,
+    y: &mut [f64],
+) -> Result<(), Error> {
+    let (q, v) = y.split_at_mut(y.len() / 2);
+    work.projections += 1;
+    let position = projector.position(mechanism, t, q, v)?;
+    work.projection_iterations += position.iterations;
+    let velocity = projector.velocity(mechanism, t, q, v)?;
+    work.projection_iterations += velocity.iterations;
+    Ok(())
+}
+
+/// The states of one step.
+struct Within<'a, 'b, M> {
+    mechanism: &'a M,
+    projector: &'a mut Projector,
+    project: bool,
+    step: &'a Step<'b>,
+    y_old: &'a [f64],
+    trajectory: &'a mut Trajectory<M>,
+}
+
+impl<M: Mechanism> Within<'_, '_, M> {
+    /// The state at an end of the step, which needs neither interpolation nor projection.
+    fn end(&self, t: f64) -> Option<&[f64]> {
+        if t == self.step.t {
+            Some(self.step.y)
+        } else if t == self.step.t_old {
+            Some(self.y_old)
+        } else {
+            None
+        }
+    }
+}
+
+impl<M: Mechanism> States for Within<'_, '_, M> {
+    fn state(&mut self, t: f64, y: &mut [f64]) {
+        match (self.end(t), self.step.interpolant) {
+            (Some(end), _) => y.copy_from_slice(end),
+            (None, Some(interpolant)) => interpolant.state(t, y),
+            // A method owes the interpolant where it was asked for; without it there is no value, and that is seen.
+            (None, None) => y.fill(f64::NAN),
+        }
+    }
+
+    fn consistent(&mut self, t: f64, y: &mut [f64]) -> Result<(), Error> {
+        self.state(t, y);
+        if self.project && self.end(t).is_none() {
+            let work = &mut self.trajectory.work;
+            project(self.mechanism, self.projector, work, t, y)?;
+        }
+        Ok(())
+    }
+}
