@@ -530,3 +530,6 @@ pub(crate) fn mass_error<M: Mechanism>(fault: MassFault) -> Error {
         MassFault::Indefinite(i) => Error::IndefiniteMass { coordinates: vec![name(i).to_owned()] },
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -246,7 +246,7 @@ impl Dense {
                     z.swap(k * d + i, top * d + i);
                 }
             }
-            // Lower triangle, right-looking.
+            // Right-looking, both triangles of the rest, since later interchanges need them.
             let root = z[k * d + k].sqrt();
             z[k * d + k] = root;
             for i in k + 1..d {
@@ -254,7 +254,8 @@ impl Dense {
             }
             for j in k + 1..d {
                 let (done, rest) = z.split_at_mut(j * d);
-                axpy(-done[k * d + j], &done[k * d + j..(k + 1) * d], &mut rest[j..d]);
+                let column = &done[k * d + k + 1..(k + 1) * d];
+                axpy(-done[k * d + j], column, &mut rest[k + 1..d]);
             }
         }
         Ok(())

@@ -1,0 +1,374 @@
+use nalgebra::{DMatrix, DVector};
+
+use super::*;
+use crate::equations::{kkt, uk, up};
+use crate::fixture::*;
+use crate::stabilise::Projector;
+
+const TOLERANCE: f64 = 1e-11;
+
+/// Deterministic numbers in (−1, 1).
+fn numbers(mut state: u64) -> impl FnMut() -> f64 {
+    move || {
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        ((state >> 11) as f64) / ((1_u64 << 52) as f64) - 1.0
+    }
+}
+
+/// M, Q, c, A, b as dense matrices.
+struct Printed {
+    mass: DMatrix<f64>,
+    force: DVector<f64>,
+    nonideal: DVector<f64>,
+    jacobian: DMatrix<f64>,
+    rhs: DVector<f64>,
+}
+
+fn printed<M: Mechanism>(mech: &M, t: f64, q: &[f64], v: &[f64]) -> Printed {
+    let (n, m) = (M::SPEC.n(), M::SPEC.m());
+    let mut terms = Evaluated::new(n, m);
+    terms.dynamics(mech, t, q, v);
+    Printed {
+        mass: DMatrix::from_column_slice(n, n, &terms.mass),
+        force: DVector::from_vec(terms.force),
+        nonideal: DVector::from_vec(terms.nonideal),
+        jacobian: DMatrix::from_column_slice(m, n, &terms.jacobian),
+        rhs: DVector::from_vec(terms.rhs),
+    }
+}
+
+fn solver<M: Mechanism>(formula: Formula) -> Solver {
+    Solver::new::<M>(SolverOptions { formula, ..SolverOptions::default() })
+}
+
+/// A consistent state near (q, v).
+fn consistent<M: Mechanism>(mech: &M, t: f64, q: &[f64], v: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    let (mut q, mut v) = (q.to_vec(), v.to_vec());
+    let mut projector = Projector::new::<M>();
+    projector.position(mech, t, &mut q, &v).unwrap();
+    projector.velocity(mech, t, &q, &mut v).unwrap();
+    (q, v)
+}
+
+fn close(a: &[f64], b: &[f64], relative: f64, what: &str) {
+    let size = b.iter().fold(1.0_f64, |s, x| s.max(x.abs()));
+    for (a, b) in a.iter().zip(b) {
+        assert!((a - b).abs() <= relative * size, "{what}: {a} is not {b}");
+    }
+}
+
+/// Every path gives the same acceleration and forces, and these obey the principles of mechanics.
+fn agree<M: Mechanism>(mech: &M, t: f64, q: &[f64], v: &[f64]) -> Solution {
+    let (q, v) = consistent(mech, t, q, v);
+    let p = printed(mech, t, &q, &v);
+    let solution = solver::<M>(Formula::Auto).solve(mech, t, &q, &v).unwrap();
+    let total = &p.force + &p.nonideal;
+    let oracle = up::acceleration(&p.mass, &total, &p.jacobian, &p.rhs, TOLERANCE).unwrap();
+    close(&solution.acceleration, oracle.as_slice(), 1e-9, "eq. 19");
+    if let Some(oracle) =
+        uk::acceleration_nonideal(&p.mass, &p.force, &p.nonideal, &p.jacobian, &p.rhs, TOLERANCE)
+    {
+        if p.mass.clone().symmetric_eigenvalues().min() > 1e-9 {
+            close(&solution.acceleration, oracle.as_slice(), 1e-9, "eq. 13");
+            let ideal = uk::ideal_force(&p.mass, &p.force, &p.jacobian, &p.rhs, TOLERANCE).unwrap();
+            close(&solution.ideal_force, ideal.as_slice(), 1e-9, "eq. 11");
+            let nonideal = uk::nonideal_force(&p.mass, &p.nonideal, &p.jacobian, TOLERANCE).unwrap();
+            close(&solution.nonideal_force, nonideal.as_slice(), 1e-9, "eq. 12");
+        }
+    }
+    let formulas: &[Formula] = match M::SPEC.structure.massless {
+        [] => &[Formula::UdwadiaPhohomsiri, Formula::Kkt, Formula::Auto],
+        _ => &[Formula::UdwadiaPhohomsiri, Formula::Kkt],
+    };
+    for formula in formulas {
+        let mut other = solver::<M>(*formula);
+        let mut out = vec![f64::NAN; q.len()];
+        other.acceleration(mech, t, &q, &v, &mut out).unwrap();
+        close(&out, &solution.acceleration, 1e-9, "acceleration()");
+        let other = other.solve(mech, t, &q, &v).unwrap();
+        close(&other.acceleration, &solution.acceleration, 1e-9, "another formula");
+        close(&other.ideal_force, &solution.ideal_force, 1e-9, "another formula's force");
+        close(&other.multipliers, &solution.multipliers, 1e-9, "another formula's multipliers");
+        assert_eq!((other.rank, &other.redundant), (solution.rank, &solution.redundant));
+    }
+    if solution.redundant.is_empty() {
+        let (x, lambda) = kkt::solve(&p.mass, &total, &p.jacobian, &p.rhs).unwrap();
+        close(x.as_slice(), &solution.acceleration, 1e-9, "dense saddle point");
+        if p.nonideal.amax() == 0.0 {
+            close(lambda.as_slice(), &solution.multipliers, 1e-9, "multipliers");
+        }
+    }
+    mechanics(&p, &solution);
+    solution
+}
+
+/// Newton's law, the constraints, no virtual work, Aᵀλ, and Gauss's principle.
+fn mechanics(p: &Printed, s: &Solution) {
+    let n = p.force.len();
+    let x = DVector::from_column_slice(&s.acceleration);
+    let ideal = DVector::from_column_slice(&s.ideal_force);
+    let nonideal = DVector::from_column_slice(&s.nonideal_force);
+    let balance = &p.mass * &x - (&p.force + &ideal + &nonideal);
+    close(balance.as_slice(), &vec![0.0; n], 1e-9, "M q̈ = Q + Qc");
+    close((&p.jacobian * &x).as_slice(), p.rhs.as_slice(), 1e-9, "A q̈ = b");
+    let lambda = DVector::from_column_slice(&s.multipliers);
+    close((p.jacobian.transpose() * lambda).as_slice(), &s.ideal_force, 1e-9, "Qc = Aᵀλ");
+    let (a_plus, rank) = crate::pinv::pseudo_inverse(&p.jacobian, TOLERANCE);
+    assert_eq!((rank, n - rank), (s.rank, s.degrees_of_freedom));
+    let virtuals = DMatrix::identity(n, n) - a_plus * &p.jacobian;
+    close((&virtuals * &ideal).as_slice(), &vec![0.0; n], 1e-9, "virtual work");
+    // Gauss: with Q + c as the given force, (q̈ − a)ᵀ M (q̈ − a) is least among all accelerations the constraints allow.
+    let given = &p.force + &p.nonideal;
+    let zwang = |x: &DVector<f64>| (x.transpose() * &p.mass * x)[0] - 2.0 * given.dot(x);
+    let least = zwang(&x);
+    let mut next = numbers(7);
+    for _ in 0..10 {
+        let other = &x + &virtuals * DVector::from_fn(n, |_, _| next());
+        assert!(zwang(&other) >= least - 1e-9 * least.abs().max(1.0), "Gauss's principle");
+    }
+}
+
+#[test]
+fn all_paths_agree_and_obey_mechanics() {
+    agree(&Pendulum::default(), 0.0, &[0.6, -0.8], &[0.4, 0.3]);
+    agree(&Twice::default(), 0.0, &[0.6, -0.8, 1.2, -1.6], &[1.0, 0.0, 0.5, 0.5]);
+    agree(&Parallelogram::default(), 0.0, &[0.6, 0.8, 2.6, 0.8], &[0.8, -0.6, 0.8, -0.6]);
+    agree(&Springs::default(), 0.0, &[1.0, 0.5], &[0.1, 0.0]);
+    agree(&Prescribed::default(), 0.7, &[0.6, 0.0], &[0.0, 1.0]);
+    agree(&Skate::default(), 0.0, &[0.0, 0.0, 0.4], &[1.5, 0.5, 0.3]);
+    agree(&Quaternion::default(), 0.0, &[0.5, 0.6, -0.3, 0.5], &[1.0, -2.0, 0.5, 0.2]);
+}
+
+#[test]
+fn pendulum_tension_and_acceleration() {
+    let (s, c) = (0.6_f64, 0.8_f64);
+    let omega = 1.7;
+    let mech = Pendulum::default();
+    let (q, v) = ([s, -c], [omega * c, omega * s]);
+    let solution = solver::<Pendulum>(Formula::Auto).solve(&mech, 0.0, &q, &v).unwrap();
+    // θ̈ = −g sin θ; tension m (g cos θ + ω²) along the rod.
+    let alpha = -9.8 * s;
+    let expected = [alpha * c - omega * omega * s, alpha * s + omega * omega * c];
+    close(&solution.acceleration, &expected, 1e-14, "acceleration");
+    let tension = 9.8 * c + omega * omega;
+    close(&solution.ideal_force, &[-tension * s, tension * c], 1e-14, "tension");
+    assert_eq!(solution.formula, Formula::UdwadiaKalaba);
+    assert_eq!((solution.rank, solution.degrees_of_freedom), (1, 1));
+    assert!(solution.redundant.is_empty());
+}
+
+#[test]
+fn springs_in_series_act_as_one() {
+    let mech = Springs::default();
+    let k = 3.0 * 5.0 / 8.0;
+    let solution = agree(&mech, 0.0, &[1.0, 5.0 / 8.0], &[0.0, 0.0]);
+    assert!((solution.acceleration[0] + k / 2.0).abs() < 1e-14);
+    assert_eq!(solution.formula, Formula::UdwadiaPhohomsiri);
+    // Mass → 0⁺ tends to that.
+    for light in [1e-3, 1e-6, 1e-12, 1e-18, 1e-30, 1e-200] {
+        let mech = Springs { params: vec![2.0, light, 3.0, 5.0] };
+        let solution = agree(&mech, 0.0, &[1.0, 5.0 / 8.0], &[0.0, 0.0]);
+        assert!((solution.acceleration[0] + k / 2.0).abs() < light + 1e-14);
+    }
+}
+
+#[test]
+fn duplicates_are_redundant_at_any_scale() {
+    for scale in [1e-12, 1e-6, 1.0, -3.0, 1e6, 1e12] {
+        let mech = Twice { params: vec![1.0, 2.0, scale, 0.0] };
+        let (q, v) = consistent(&mech, 0.0, &[0.6, -0.8, 1.2, -1.6], &[1.0, 0.0, 0.5, 0.5]);
+        for off in [0.0, 1e-9, 1e-3, 0.1] {
+            let q: Vec<f64> = q.iter().zip([1.0, -0.3, 0.2, 0.9]).map(|(q, d)| q + off * d).collect();
+            let solution = solver::<Twice>(Formula::Auto).solve(&mech, 0.0, &q, &v).unwrap();
+            assert_eq!((solution.rank, solution.degrees_of_freedom, &solution.redundant[..]), (3 - 1, 2, &[2][..]));
+            // Least norm: the force is shared as 1 : scale.
+            let l = &solution.multipliers;
+            let skew = (l[2] - scale * l[1]).abs() / scale.hypot(1.0);
+            assert!(skew <= 1e-12 * l[0].abs() && l[1].hypot(l[2]) > 0.0, "{l:?}");
+        }
+    }
+}
+
+#[test]
+fn constraint_scaling_changes_nothing() {
+    let state = consistent(&Parallelogram::default(), 0.0, &[0.6, 0.8, 2.6, 0.8], &[0.8, -0.6, 0.8, -0.6]);
+    let mut reference = vec![0.0; 4];
+    for (i, scale) in [1.0, 1e-12, 1e12].into_iter().enumerate() {
+        let mech = Parallelogram { params: vec![scale, 1.0] };
+        let mut solver = solver::<Parallelogram>(Formula::Auto);
+        let solution = solver.solve(&mech, 0.0, &state.0, &state.1).unwrap();
+        assert_eq!((solution.rank, solution.degrees_of_freedom), (3, 1));
+        if i == 0 {
+            reference.clone_from(&solution.acceleration);
+        }
+        close(&solution.acceleration, &reference, 1e-12, "scaled constraint");
+    }
+}
+
+#[test]
+fn sets_redundant_only_on_the_manifold_survive_drift() {
+    let mech = Parallelogram::default();
+    let mut next = numbers(3);
+    for angle in [0.3_f64, 0.9, 1.4, 2.2, -0.7] {
+        let (s, c) = angle.sin_cos();
+        let omega = 1.3;
+        let q = [c, s, 2.0 + c, s];
+        let v = [-omega * s, omega * c, -omega * s, omega * c];
+        // Crank: weights at the ends of both arms, no inertia otherwise: θ̈ = −g cos θ.
+        let alpha = -9.8 * c;
+        let exact = [-alpha * s - omega * omega * c, alpha * c - omega * omega * s];
+        for exponent in 3..=16 {
+            let delta = 10_f64.powi(-exponent);
+            for formula in [Formula::Auto, Formula::UdwadiaPhohomsiri, Formula::Kkt] {
+                let mut solver = solver::<Parallelogram>(formula);
+                for _ in 0..20 {
+                    let off = |x: &[f64; 4], next: &mut dyn FnMut() -> f64| x.map(|x| x + delta * next());
+                    let (q, v) = (off(&q, &mut next), off(&v, &mut next));
+                    let mut out = [0.0; 4];
+                    solver.acceleration(&mech, 0.0, &q, &v, &mut out).unwrap();
+                    let expected = [exact[0], exact[1], exact[0], exact[1]];
+                    close(&out, &expected, 30.0 * delta + 1e-9, &format!("at {angle}, off by {delta:e}"));
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn contradictions_are_named() {
+    let mech = Contradiction::default();
+    for (t, expected) in [(0.0, true), (1.0, true)] {
+        let x = f64::sin(t);
+        let result = solver::<Contradiction>(Formula::Auto).solve(&mech, t, &[x, 0.0], &[f64::cos(t), 0.0]);
+        assert_eq!(result.is_err(), expected);
+        let Err(Error::Inconsistent { constraints }) = result else { panic!("{result:?}") };
+        let names: Vec<&str> = constraints.iter().map(|c| c.0.as_str()).collect();
+        assert_eq!(names, ["sine", "cosine"]);
+    }
+    for scale in [1e-9, 1.0, 1e9] {
+        let mech = Twice { params: vec![1.0, 2.0, scale, 1e-6] };
+        let (q, v) = ([0.6, -0.8, 1.2, -1.6], [0.0; 4]);
+        let result = solver::<Twice>(Formula::Auto).solve(&mech, 0.0, &q, &v);
+        let Err(Error::Inconsistent { constraints }) = result else { panic!("{result:?}") };
+        let names: Vec<&str> = constraints.iter().map(|c| c.0.as_str()).collect();
+        assert_eq!(names, ["rod[1]", "copy"]);
+    }
+}
+
+#[test]
+fn undetermined_coordinates_are_named() {
+    for formula in [Formula::Auto, Formula::UdwadiaPhohomsiri, Formula::Kkt] {
+        let result = solver::<Loose>(formula).solve(&Loose::default(), 0.0, &[0.0; 3], &[0.0; 3]);
+        let Err(Error::Underdetermined { coordinates, rank, needed }) = result else { panic!("{result:?}") };
+        assert_eq!((coordinates, rank, needed), (vec!["z".into(), "w".into()], 2, 3));
+    }
+    let enough = Loose { params: vec![0.0, 0.5] };
+    agree(&enough, 0.0, &[0.0; 3], &[0.0; 3]);
+}
+
+#[test]
+fn a_mass_that_vanishes_at_run_time() {
+    let mech = Prescribed { params: vec![0.0] };
+    let mut solver = solver::<Prescribed>(Formula::Auto);
+    let mut out = [0.0; 2];
+    solver.acceleration(&mech, 0.5, &[0.5_f64.sin(), 0.0], &[0.5_f64.cos(), 0.0], &mut out).unwrap();
+    close(&out, &[-(0.5_f64.sin()), 3.0], 1e-15, "prescribed");
+    assert_eq!(solver.work().fallbacks, 1);
+    let pendulum = Pendulum { params: vec![0.0, 1.0, 9.8] };
+    let result = Solver::new::<Pendulum>(SolverOptions::default()).solve(&pendulum, 0.0, &[1.0, 0.0], &[0.0; 2]);
+    assert!(matches!(&result, Err(Error::Underdetermined { coordinates, .. }) if coordinates == &["y"]), "{result:?}");
+    let negative = Pendulum { params: vec![-1.0, 1.0, 9.8] };
+    let result = Solver::new::<Pendulum>(SolverOptions::default()).solve(&negative, 0.0, &[1.0, 0.0], &[0.0; 2]);
+    assert_eq!(result, Err(Error::IndefiniteMass { coordinates: vec!["x".into()] }));
+}
+
+#[test]
+fn a_quaternion_body_obeys_eulers_equations() {
+    let mech = Quaternion::default();
+    let (q, v) = consistent(&mech, 0.0, &[0.5, 0.6, -0.3, 0.5], &[1.0, -2.0, 0.5, 0.2]);
+    let mut solver = solver::<Quaternion>(Formula::Auto);
+    let solution = solver.solve(&mech, 0.0, &q, &v).unwrap();
+    assert_eq!(solution.formula, Formula::UdwadiaPhohomsiri);
+    assert_eq!(solver.work().fallbacks, 1);
+    // ω = 2 G(e) ė, ω̇ = 2 G(e) ë (G(ė) ė = 0); J ω̇ = J ω × ω.
+    let g = |e: &[f64], x: &[f64]| {
+        [
+            2.0 * (-e[1] * x[0] + e[0] * x[1] + e[3] * x[2] - e[2] * x[3]),
+            2.0 * (-e[2] * x[0] - e[3] * x[1] + e[0] * x[2] + e[1] * x[3]),
+            2.0 * (-e[3] * x[0] + e[2] * x[1] - e[1] * x[2] + e[0] * x[3]),
+        ]
+    };
+    let (w, dw) = (g(&q, &v), g(&q, &solution.acceleration));
+    let j = [1.0, 2.0, 4.0];
+    for i in 0..3 {
+        let (a, b) = ((i + 1) % 3, (i + 2) % 3);
+        assert!((j[i] * dw[i] - (j[a] - j[b]) * w[a] * w[b]).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn what_is_not_finite_is_named() {
+    let what = |mech: &Skate, t: f64, q: [f64; 3], v: [f64; 3]| {
+        match Solver::new::<Skate>(SolverOptions::default()).solve(mech, t, &q, &v) {
+            Err(Error::NonFinite { what }) => what,
+            other => panic!("{other:?}"),
+        }
+    };
+    let good = Skate::default();
+    let bad = Skate { params: vec![2.0, f64::NAN] };
+    assert_eq!(what(&bad, 0.0, [0.0; 3], [1.0; 3]), ["parameter friction"]);
+    assert_eq!(what(&good, f64::NAN, [0.0; 3], [1.0; 3]), ["time t"]);
+    assert_eq!(what(&good, 0.0, [0.0, 0.0, f64::INFINITY], [1.0; 3]), ["coordinate th"]);
+    assert_eq!(what(&good, 0.0, [0.0; 3], [1.0, f64::NAN, 1.0]), ["velocity dot(y)"]);
+    assert_eq!(what(&good, 0.0, [0.0; 3], [1e308, 1.0, 1e10]), ["constraint pace", "constraint edge"]);
+    let light = Pendulum { params: vec![1e-300, 1.0, 1.7e308] };
+    let result = Solver::new::<Pendulum>(SolverOptions::default()).solve(&light, 0.0, &[0.0, 1.0], &[0.0; 2]);
+    assert_eq!(result, Err(Error::NonFinite { what: vec!["acceleration of y".into()] }));
+    let heavy = Pendulum { params: vec![1e300, 1.0, 1e300] };
+    let result = Solver::new::<Pendulum>(SolverOptions::default()).solve(&heavy, 0.0, &[1.0, 0.0], &[0.0; 2]);
+    assert_eq!(result, Err(Error::NonFinite { what: vec!["force on y".into()] }));
+}
+
+#[test]
+fn mass_ratios_do_not_cost_constraints() {
+    for exponent in [-12, -6, 6, 12] {
+        let mech = Twice { params: vec![10_f64.powi(exponent), 1.0, 1.0, 0.0] };
+        for formula in [Formula::Auto, Formula::UdwadiaPhohomsiri] {
+            let (q, v) = consistent(&mech, 0.0, &[0.6, -0.8, 1.4, -1.4], &[1.0, 0.0, 0.5, 0.5]);
+            let solution = solver::<Twice>(formula).solve(&mech, 0.0, &q, &v).unwrap();
+            assert_eq!((solution.rank, &solution.redundant[..]), (2, &[2][..]), "1e{exponent} {formula:?}");
+            let p = printed(&mech, 0.0, &q, &v);
+            let x = DVector::from_column_slice(&solution.acceleration);
+            close((&p.jacobian * x).as_slice(), p.rhs.as_slice(), 1e-9, "A q̈ = b");
+        }
+    }
+}
+
+#[test]
+fn baumgarte_feeds_the_residuals_back() {
+    let mech = Pendulum::default();
+    let baumgarte = Some(Baumgarte { alpha: 5.0, beta: 7.0 });
+    let mut solver = Solver::new::<Pendulum>(SolverOptions { baumgarte, ..SolverOptions::default() });
+    let (q, v) = ([0.61, -0.83], [0.4, 0.5]);
+    let mut out = [0.0; 2];
+    for _ in 0..2 {
+        solver.acceleration(&mech, 0.0, &q, &v, &mut out).unwrap();
+        let second = 2.0 * (q[0] * out[0] + q[1] * out[1] + v[0] * v[0] + v[1] * v[1]);
+        let first = 2.0 * (q[0] * v[0] + q[1] * v[1]);
+        let phi = q[0] * q[0] + q[1] * q[1] - 1.0;
+        assert!((second + 10.0 * first + 49.0 * phi).abs() < 1e-13);
+    }
+}
+
+#[test]
+fn wrong_uses_are_refused() {
+    let mech = Pendulum::default();
+    let mut solver = solver::<Pendulum>(Formula::UdwadiaKalaba);
+    let wrong = solver.solve(&mech, 0.0, &[0.0; 3], &[0.0; 2]);
+    assert_eq!(wrong, Err(Error::WrongLength { what: "q", found: 3, expected: 2 }));
+    let other = solver.solve(&Springs::default(), 0.0, &[0.0; 2], &[0.0; 2]);
+    assert!(matches!(other, Err(Error::InvalidSetting { what: "mechanism", .. })));
+    let mut solver = Solver::new::<Springs>(SolverOptions { formula: Formula::UdwadiaKalaba, ..SolverOptions::default() });
+    let singular = solver.solve(&Springs::default(), 0.0, &[0.0; 2], &[0.0; 2]);
+    assert!(matches!(singular, Err(Error::InvalidSetting { what: "formula", .. })));
+}
