@@ -15,9 +15,10 @@ use crate::workspace::{Dense, Owner, Route, Rows};
 /// one for q, one or two for the evaluation of φ.
 const ROUNDING: f64 = 4.0;
 
-/// A projection that has stopped making progress is accepted if the step it still asks for is within this many ε of the state's
-/// size (all measured in the metric). Constraints whose terms cancel stay above [`ROUNDING`]; a thousand ε keep lengths to 1e-12.
-const STALLED: f64 = 1e3;
+/// A projection that has stopped making progress is accepted if no residual exceeds this many ε of max|A_ij| max|q_j| over the
+/// coordinates of its constraint: terms that cancel, or constraints that nearly lose rank, can keep it above [`ROUNDING`].
+/// Lengths of links among coordinates thirty times as large still hold to 1e-12.
+const STALLED: f64 = 64.0;
 
 /// Progress: a Newton step that does not divide the residual by this is not converging quadratically.
 const PROGRESS: f64 = 0.1;
@@ -193,14 +194,14 @@ impl Projector {
             self.factor(mech, t, if level == Level::Position { x } else { other }, rows)?;
         }
         self.best.copy_from_slice(x);
-        let mut merit = self.merit(rows);
+        let mut merit = self.merit(x, rows);
         let (mut best_merit, mut stalls) = (merit, 0);
         while correction.iterations < MAX_STEPS {
             correction.iterations += 1;
             self.advance(x, rows);
             self.evaluate(mech, t, x, other, level);
             let previous = merit;
-            merit = self.merit(rows);
+            merit = self.merit(x, rows);
             if merit.is_finite() && merit < best_merit {
                 best_merit = merit;
                 self.best.copy_from_slice(x);
@@ -218,26 +219,21 @@ impl Projector {
                     continue;
                 }
                 stalls += 1;
-                let size = self.size(x);
-                if best_merit <= STALLED * f64::EPSILON * size {
-                    break;
-                }
-                if stalls > MAX_STALLS || !merit.is_finite() {
+                if self.acceptable(x, rows) || stalls > MAX_STALLS || !merit.is_finite() {
                     break;
                 }
             }
             factored = false;
             self.jacobian(mech, t, x, other, level);
             self.factor(mech, t, if level == Level::Position { x } else { other }, rows)?;
-            merit = self.merit(rows);
+            merit = self.merit(x, rows);
         }
         x.copy_from_slice(&self.best);
         self.evaluate(mech, t, x, other, level);
         correction.residual = self.largest(rows);
         let changes = x.iter().zip(&self.start);
         correction.norm = changes.fold(0.0, |s, (x, y)| s.max((x - y).abs()));
-        let merit = self.merit(rows);
-        if self.at_rounding(x, rows) || merit <= STALLED * f64::EPSILON * self.size(x) {
+        if self.at_rounding(x, rows) || self.acceptable(x, rows) {
             return Ok(correction);
         }
         Err(self.off_constraint::<M>(x, rows, level))
@@ -302,24 +298,35 @@ impl Projector {
         x.iter_mut().zip(&self.step).for_each(|(x, d)| *x += d);
     }
 
-    /// The residual as a distance in the metric, the largest over the rows.
-    fn merit(&self, rows: usize) -> f64 {
-        let pairs = self.residual[..rows].iter().zip(&self.dense.row_scale);
-        pairs.fold(0.0, |s, (r, scale)| {
+    /// How far off: |φ_c| / max|A_cj|, the largest over the rows that are not at rounding level yet.
+    fn merit(&self, x: &[f64], rows: usize) -> f64 {
+        let a = rows_of(&self.jacobian, self.m, rows);
+        (0..rows).filter(|&c| !self.row_at_rounding(a, c, x)).fold(0.0, |s: f64, c| {
+            let largest = a.largest(c);
             // A row of zeros has no scale.
-            let x = (r * if *scale > 0.0 { *scale } else { 1.0 }).abs();
-            if x.is_nan() || s.is_nan() { f64::NAN } else { s.max(x) }
+            let off = self.residual[c].abs() / if largest > 0.0 { largest } else { 1.0 };
+            if off.is_nan() || s.is_nan() { f64::NAN } else { s.max(off) }
         })
     }
 
-    /// The state's size in the same measure.
-    fn size(&self, x: &[f64]) -> f64 {
-        x.iter().zip(&self.dense.metric.root).fold(0.0, |s, (x, l)| s.max((x * l).abs()))
+    fn row_at_rounding(&self, a: Rows<'_>, c: usize, x: &[f64]) -> bool {
+        self.residual[c].abs() <= ROUNDING * f64::EPSILON * a.magnitude(c, x)
     }
 
     fn at_rounding(&self, x: &[f64], rows: usize) -> bool {
         let a = rows_of(&self.jacobian, self.m, rows);
-        (0..rows).all(|c| self.residual[c].abs() <= ROUNDING * f64::EPSILON * a.magnitude(c, x))
+        (0..rows).all(|c| self.row_at_rounding(a, c, x))
+    }
+
+    /// The size that [`STALLED`] refers to.
+    fn terms(&self, c: usize, rows: usize, x: &[f64]) -> f64 {
+        let a = rows_of(&self.jacobian, self.m, rows);
+        let sizes = a.row(c).zip(x).filter(|(a, _)| *a != 0.0);
+        a.largest(c) * sizes.fold(0.0, |s: f64, (_, x)| s.max(x.abs()))
+    }
+
+    fn acceptable(&self, x: &[f64], rows: usize) -> bool {
+        (0..rows).all(|c| self.residual[c].abs() <= STALLED * f64::EPSILON * self.terms(c, rows, x))
     }
 
     fn largest(&self, rows: usize) -> f64 {
@@ -345,11 +352,10 @@ impl Projector {
     }
 
     fn off_constraint<M: Mechanism>(&self, x: &[f64], rows: usize, level: Level) -> Error {
-        let a = rows_of(&self.jacobian, self.m, rows);
         // Rows at rounding level are met.
         let mut residual = self.residual[..rows].to_vec();
         for (c, r) in residual.iter_mut().enumerate() {
-            if r.abs() <= STALLED * f64::EPSILON * a.magnitude(c, x) {
+            if r.abs() <= STALLED * f64::EPSILON * self.terms(c, rows, x) {
                 *r = 0.0;
             }
         }
@@ -368,3 +374,6 @@ impl Projector {
 fn rows_of(jacobian: &[f64], m: usize, rows: usize) -> Rows<'_> {
     Rows { jacobian, stride: m, rows }
 }
+
+#[cfg(test)]
+mod tests;

@@ -323,7 +323,7 @@ fn what_is_not_finite_is_named() {
     assert_eq!(what(&good, 0.0, [0.0; 3], [1e308, 1.0, 1e10]), ["constraint pace", "constraint edge"]);
     let light = Pendulum { params: vec![1e-300, 1.0, 1.7e308] };
     let result = Solver::new::<Pendulum>(SolverOptions::default()).solve(&light, 0.0, &[0.0, 1.0], &[0.0; 2]);
-    assert_eq!(result, Err(Error::NonFinite { what: vec!["acceleration of y".into()] }));
+    assert_eq!(result, Err(Error::NonFinite { what: vec!["acceleration of x".into(), "acceleration of y".into()] }));
     let heavy = Pendulum { params: vec![1e300, 1.0, 1e300] };
     let result = Solver::new::<Pendulum>(SolverOptions::default()).solve(&heavy, 0.0, &[1.0, 0.0], &[0.0; 2]);
     assert_eq!(result, Err(Error::NonFinite { what: vec!["force on y".into()] }));
