@@ -1,0 +1,328 @@
+//! The figures.
+
+use std::collections::BTreeMap;
+
+use plotters::style::RGBColor;
+
+use crate::failure::Failure;
+use crate::html::fixed;
+use crate::plot::{COLOURS, Chart, Legend, Series, round_range};
+
+use super::chain::Chain;
+use super::fish::Fish;
+use super::published::GRAVITY;
+
+/// File names without ending, and the text of the SVG.
+pub(super) type Figures = BTreeMap<String, String>;
+
+type Curve = Vec<(f64, f64)>;
+
+/// Half a page wide.
+const HALF: (u32, u32) = (560, 360);
+/// A whole page wide.
+const WHOLE: (u32, u32) = (1000, 400);
+/// What the paper's figures of the fish show settles in this time, s; it turns over later.
+const FISH_TIME: f64 = 5.0;
+const TIME: &str = "time t (s)";
+
+/// All figures.
+///
+/// # Errors
+/// [`Failure::Failed`] if one cannot be drawn.
+pub(super) fn all(chains: &[Chain], fishes: &[Fish]) -> Result<Figures, Failure> {
+    let mut charts: Vec<(String, Chart)> = Vec::new();
+    if let Some(first) = chains.first() {
+        charts.push(("chain-falling".to_owned(), falling(first)));
+    }
+    charts.extend(tip_accelerations(chains));
+    charts.push((
+        "chain-accelerations".to_owned(),
+        tip_accelerations_together(chains),
+    ));
+    charts.push(("chain-lead".to_owned(), lead(chains)));
+    charts.push(("chain-fall".to_owned(), fall(chains)));
+    charts.extend(by_amplitude(fishes));
+    for (k, (name, label)) in SWEEPS.iter().enumerate() {
+        let of = |curve: fn(&Fish) -> &Curve| sweep_curves(fishes, k, curve, *label);
+        charts.push((
+            format!("fish-{name}-speed"),
+            chart(
+                "forward velocity −ẋ1 (m/s)",
+                (0.0, FISH_TIME),
+                of(|f| &f.speed),
+                Legend::LowerRight,
+            ),
+        ));
+        charts.push((
+            format!("fish-{name}-acceleration"),
+            chart(
+                "acceleration ẍ1 (m/s²)",
+                (0.0, FISH_TIME),
+                of(|f| &f.acceleration),
+                Legend::LowerMiddle,
+            ),
+        ));
+        charts.push((
+            format!("fish-{name}-swing"),
+            chart(
+                "swing angle θ1 (°)",
+                (0.0, FISH_TIME),
+                of(|f| &f.swing),
+                Legend::UpperLeft,
+            ),
+        ));
+    }
+    charts.push(("fish-turning".to_owned(), turning(fishes)));
+    charts.push(("fish-turning-speed".to_owned(), turning_speed(fishes)));
+    charts
+        .into_iter()
+        .map(|(name, chart)| Ok((name, chart.svg()?)))
+        .collect()
+}
+
+/// A chart over time whose vertical range holds all of its curves.
+fn chart(y_label: &str, x: (f64, f64), curves: Vec<Series>, legend: Legend) -> Chart {
+    let series: Vec<Series> = curves.into_iter().map(|s| cut(s, x)).collect();
+    let y = round_range(series.iter().flat_map(|s| s.points.iter().map(|p| p.1)));
+    Chart {
+        x_label: TIME.to_owned(),
+        y_label: y_label.to_owned(),
+        x,
+        y,
+        series,
+        legend,
+        size: HALF,
+    }
+}
+
+/// The points within the horizontal range: what lies outside would still be written to the file.
+fn cut(mut series: Series, (from, to): (f64, f64)) -> Series {
+    series.points.retain(|(x, _)| (from..=to).contains(x));
+    series
+}
+
+/// The chain at several times, both axes of one scale.
+fn falling(chain: &Chain) -> Chart {
+    let last = chain.snapshots.len().saturating_sub(1);
+    let mut series = vec![Series::reference("path of the tip", chain.path.clone())];
+    for (k, (t, points)) in chain.snapshots.iter().enumerate() {
+        let turn = k == last;
+        series.push(Series {
+            colour: if turn {
+                COLOURS[1]
+            } else {
+                shade(k as f64 / last.max(1) as f64)
+            },
+            dots: 2,
+            ..Series::new(
+                if turn {
+                    format!("t = {} s: the turn", fixed(*t, 3))
+                } else {
+                    format!("t = {} s", fixed(*t, 1))
+                },
+                0,
+                points.clone(),
+            )
+        });
+    }
+    let (x, depth) = ((-1.0, 15.0), 17.0);
+    // The axes' labels and margins take this much of the picture (see `plot`).
+    let (frame_x, frame_y) = (92, 66);
+    let width = 560;
+    let height = frame_y + (f64::from(width - frame_x) * (depth + 0.5) / (x.1 - x.0)) as u32;
+    Chart {
+        x_label: "x (m)".to_owned(),
+        y_label: "y, downwards (m)".to_owned(),
+        x,
+        y: (depth, -0.5),
+        series,
+        legend: Legend::LowerRight,
+        size: (width, height),
+    }
+}
+
+/// Light to dark blue.
+fn shade(part: f64) -> RGBColor {
+    let mix = |light: f64, dark: f64| (light + (dark - light) * part) as u8;
+    RGBColor(mix(168.0, 3.0), mix(206.0, 40.0), mix(230.0, 90.0))
+}
+
+fn horizontal(label: &str, value: f64, (from, to): (f64, f64)) -> Series {
+    Series::reference(label, vec![(from, value), (to, value)])
+}
+
+/// Figs. 2-6, all in the range of the deepest, so that they compare.
+fn tip_accelerations(chains: &[Chain]) -> Vec<(String, Chart)> {
+    let x = (0.0, 2.0);
+    let y = round_range(
+        chains
+            .iter()
+            .flat_map(|c| c.acceleration.iter().map(|p| p.1)),
+    );
+    chains
+        .iter()
+        .map(|c| {
+            let series = vec![
+                horizontal("g", GRAVITY, x),
+                Series::new(format!("x0 = {} m", c.row.x0), 0, c.acceleration.clone()),
+            ];
+            let chart = chart("tip acceleration ÿ1 (m/s²)", x, series, Legend::LowerLeft);
+            (format!("fig{}", c.row.paper.figure), Chart { y, ..chart })
+        })
+        .collect()
+}
+
+fn tip_accelerations_together(chains: &[Chain]) -> Chart {
+    let x = (0.0, 1.9);
+    let mut series = vec![horizontal("g", GRAVITY, x)];
+    series.extend(
+        chains
+            .iter()
+            .enumerate()
+            .map(|(k, c)| Series::new(format!("x0 = {} m", c.row.x0), k, c.acceleration.clone())),
+    );
+    // What the paper speaks of, accelerations above g, would be a thin line next to the peaks.
+    let chart = chart("tip acceleration ÿ1 (m/s²)", x, series, Legend::LowerLeft);
+    Chart {
+        y: (-30.0, 30.0),
+        series: chart
+            .series
+            .into_iter()
+            .map(|s| clip(s, (-30.0, 30.0)))
+            .collect(),
+        ..chart
+    }
+}
+
+/// The curve up to where it first leaves the vertical range.
+fn clip(mut series: Series, (low, high): (f64, f64)) -> Series {
+    let end = series
+        .points
+        .iter()
+        .position(|(_, y)| !(low..=high).contains(y))
+        .unwrap_or(series.points.len());
+    series.points.truncate(end);
+    series
+}
+
+/// Fall of the tip beyond that of a free body, up to the turn.
+fn lead(chains: &[Chain]) -> Chart {
+    let x = (0.0, 1.9);
+    let mut series = vec![horizontal("free fall", 0.0, x)];
+    series.extend(chains.iter().enumerate().map(|(k, c)| {
+        let points = before_turn(c)
+            .map(|(t, y)| (t, y - 0.5 * GRAVITY * t * t))
+            .collect();
+        Series::new(format!("x0 = {} m", c.row.x0), k, points)
+    }));
+    chart(
+        "fall of the tip less ½ g t² (m)",
+        x,
+        series,
+        Legend::UpperLeft,
+    )
+}
+
+fn fall(chains: &[Chain]) -> Chart {
+    let x = (0.0, 1.9);
+    let free = (0..=190)
+        .map(|k| f64::from(k) * 0.01)
+        .map(|t| (t, 0.5 * GRAVITY * t * t))
+        .collect();
+    let mut series = vec![Series::reference("free fall, ½ g t²", free)];
+    series.extend(
+        chains
+            .iter()
+            .enumerate()
+            .map(|(k, c)| Series::new(format!("x0 = {} m", c.row.x0), k, before_turn(c).collect())),
+    );
+    let chart = chart(
+        "fall of the tip y1, downwards (m)",
+        x,
+        series,
+        Legend::LowerLeft,
+    );
+    Chart {
+        y: (chart.y.1, chart.y.0),
+        ..chart
+    }
+}
+
+fn before_turn(chain: &Chain) -> impl Iterator<Item = (f64, f64)> {
+    let t_max = chain.row.t_max;
+    chain.fall.iter().copied().filter(move |(t, _)| *t <= t_max)
+}
+
+const SWEEPS: [(&str, fn(&Fish) -> String); 3] = [
+    ("amplitude", |f| format!("A3 = {}", f.row.a3)),
+    ("frequency", |f| {
+        format!("ω = {}π rad/s", f.row.gait.omega_pi)
+    }),
+    ("phase", |f| format!("φ = {}°", f.row.phi_deg)),
+];
+
+/// The gaits of a sweep in order of what is varied.
+pub(super) fn of_sweep(fishes: &[Fish], k: usize) -> Vec<&Fish> {
+    let varied = |f: &Fish| [f.row.a3, f.row.omega, f.row.phi_deg][k];
+    let mut chosen: Vec<&Fish> = fishes.iter().filter(|f| f.row.gait.sweeps()[k]).collect();
+    chosen.sort_by(|a, b| varied(a).total_cmp(&varied(b)));
+    chosen
+}
+
+fn sweep_curves(
+    fishes: &[Fish],
+    k: usize,
+    curve: fn(&Fish) -> &Curve,
+    label: fn(&Fish) -> String,
+) -> Vec<Series> {
+    of_sweep(fishes, k)
+        .into_iter()
+        .enumerate()
+        .map(|(i, f)| Series::new(label(f), i, curve(f).clone()))
+        .collect()
+}
+
+/// Figs. 9-12 (forward velocity) and 13-16 (acceleration), each group in one range.
+fn by_amplitude(fishes: &[Fish]) -> Vec<(String, Chart)> {
+    let x = (0.0, FISH_TIME);
+    let chosen = of_sweep(fishes, 0);
+    let mut charts = Vec::new();
+    let curves: [(usize, &str, fn(&Fish) -> &Curve); 2] = [
+        (9, "forward velocity −ẋ1 (m/s)", |f| &f.speed),
+        (13, "acceleration ẍ1 (m/s²)", |f| &f.acceleration),
+    ];
+    for (figure, label, curve) in curves {
+        let y = round_range(
+            chosen
+                .iter()
+                .flat_map(|f| curve(f).iter().filter(|p| p.0 <= x.1).map(|p| p.1)),
+        );
+        for (i, f) in chosen.iter().enumerate() {
+            let series = vec![horizontal("", 0.0, x), Series::new("", 0, curve(f).clone())];
+            let chart = chart(label, x, series, Legend::None);
+            charts.push((format!("fig{}", figure + i), Chart { y, ..chart }));
+        }
+    }
+    charts
+}
+
+/// θ1 over the whole run: the instability that the paper does not mention.
+fn turning(fishes: &[Fish]) -> Chart {
+    let x = (0.0, 10.0);
+    let mut series = vec![horizontal("across (90°)", 90.0, x)];
+    series.extend(sweep_curves(fishes, 0, |f| &f.swing, SWEEPS[0].1));
+    Chart {
+        size: WHOLE,
+        ..chart("swing angle θ1 (°)", x, series, Legend::UpperLeft)
+    }
+}
+
+fn turning_speed(fishes: &[Fish]) -> Chart {
+    let x = (0.0, 10.0);
+    let mut series = vec![horizontal("", 0.0, x)];
+    series.extend(sweep_curves(fishes, 0, |f| &f.speed, SWEEPS[0].1));
+    Chart {
+        size: WHOLE,
+        ..chart("forward velocity −ẋ1 (m/s)", x, series, Legend::LowerRight)
+    }
+}

@@ -1,0 +1,287 @@
+//! Line charts as SVG text.
+//!
+//! The text of an SVG is set by whoever shows it, so no font is needed here; the drawing library's estimate of text widths is enough.
+
+use plotters::coord::Shift;
+use plotters::coord::types::RangedCoordf64;
+use plotters::prelude::*;
+
+use crate::failure::Failure;
+
+/// Okabe and Ito's palette, told apart with every common colour vision; the order puts strong contrasts first.
+pub(crate) const COLOURS: [RGBColor; 6] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
+];
+/// Reference curves: free fall, zero, g.
+pub(crate) const GREY: RGBColor = RGBColor(120, 120, 120);
+
+const FONT: &str = "Helvetica, Arial, sans-serif";
+const LABEL_SIZE: u32 = 15;
+const TICK_SIZE: u32 = 13;
+const GRID: RGBColor = RGBColor(226, 226, 226);
+const FRAME: RGBColor = RGBColor(90, 90, 90);
+
+/// A curve.
+#[derive(Debug, Clone)]
+pub(crate) struct Series {
+    /// Entry of the legend; none if empty.
+    pub(crate) label: String,
+    /// The points, in order.
+    pub(crate) points: Vec<(f64, f64)>,
+    /// Colour.
+    pub(crate) colour: RGBColor,
+    /// Width in pixels.
+    pub(crate) width: u32,
+    /// Dashed.
+    pub(crate) dashed: bool,
+    /// Radius of a dot at each point; 0 for none.
+    pub(crate) dots: u32,
+}
+
+impl Series {
+    /// A plain curve in the colour number `index` of [`COLOURS`].
+    pub(crate) fn new(label: impl Into<String>, index: usize, points: Vec<(f64, f64)>) -> Self {
+        Series {
+            label: label.into(),
+            points,
+            colour: COLOURS[index % COLOURS.len()],
+            width: 2,
+            dashed: false,
+            dots: 0,
+        }
+    }
+
+    /// A dashed grey curve to compare with.
+    pub(crate) fn reference(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
+        Series {
+            colour: GREY,
+            width: 1,
+            dashed: true,
+            ..Series::new(label, 0, points)
+        }
+    }
+}
+
+/// Where the legend stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Legend {
+    None,
+    UpperLeft,
+    LowerMiddle,
+    LowerLeft,
+    LowerRight,
+}
+
+/// A chart.
+#[derive(Debug, Clone)]
+pub(crate) struct Chart {
+    /// Label of the horizontal axis, with its unit.
+    pub(crate) x_label: String,
+    /// Label of the vertical axis, with its unit.
+    pub(crate) y_label: String,
+    /// Horizontal range, from left to right.
+    pub(crate) x: (f64, f64),
+    /// Vertical range, from bottom to top; a larger first value makes the axis point down.
+    pub(crate) y: (f64, f64),
+    /// The curves; later ones lie on top.
+    pub(crate) series: Vec<Series>,
+    /// Place of the legend.
+    pub(crate) legend: Legend,
+    /// Width and height in pixels.
+    pub(crate) size: (u32, u32),
+}
+
+impl Chart {
+    /// The chart as the text of an SVG file.
+    ///
+    /// # Errors
+    /// [`Failure::Failed`] if the drawing library fails.
+    pub(crate) fn svg(&self) -> Result<String, Failure> {
+        let mut text = String::new();
+        {
+            let area = SVGBackend::with_string(&mut text, self.size).into_drawing_area();
+            self.draw(&area)
+                .and_then(|()| area.present())
+                .map_err(|e| Failure::Failed(format!("cannot draw a figure: {e}")))?;
+        }
+        Ok(scalable(&text, self.size))
+    }
+
+    fn draw<'a>(&self, area: &DrawingArea<SVGBackend<'a>, Shift>) -> Result<(), DrawError<'a>> {
+        area.fill(&WHITE)?;
+        let mut chart = ChartBuilder::on(area)
+            .margin(10)
+            .margin_right(18)
+            .x_label_area_size(46)
+            .y_label_area_size(64)
+            .build_cartesian_2d(self.x.0..self.x.1, self.y.0..self.y.1)?;
+        chart
+            .configure_mesh()
+            .light_line_style(TRANSPARENT)
+            .bold_line_style(GRID)
+            .axis_style(FRAME)
+            .label_style((FONT, TICK_SIZE))
+            .axis_desc_style((FONT, LABEL_SIZE))
+            .x_desc(self.x_label.as_str())
+            .y_desc(self.y_label.as_str())
+            .x_label_formatter(&|v| tick(*v))
+            .y_label_formatter(&|v| tick(*v))
+            .x_labels(8)
+            .y_labels(8)
+            .draw()?;
+        for series in &self.series {
+            draw_series(&mut chart, series)?;
+        }
+        let position = match self.legend {
+            Legend::None => return Ok(()),
+            Legend::UpperLeft => SeriesLabelPosition::UpperLeft,
+            Legend::LowerMiddle => SeriesLabelPosition::LowerMiddle,
+            Legend::LowerLeft => SeriesLabelPosition::LowerLeft,
+            Legend::LowerRight => SeriesLabelPosition::LowerRight,
+        };
+        chart
+            .configure_series_labels()
+            .position(position)
+            .margin(8)
+            .legend_area_size(30)
+            .background_style(WHITE.mix(0.85))
+            .label_font((FONT, TICK_SIZE))
+            .draw()
+    }
+}
+
+type DrawError<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
+
+fn draw_series<'a>(
+    chart: &mut ChartContext<'a, SVGBackend<'a>, Cartesian2d<RangedCoordf64, RangedCoordf64>>,
+    series: &Series,
+) -> Result<(), DrawError<'a>> {
+    let style = series.colour.stroke_width(series.width);
+    let points = series.points.iter().copied();
+    let annotation = if series.dashed {
+        chart.draw_series(DashedLineSeries::new(points, 6, 4, style))?
+    } else {
+        chart.draw_series(LineSeries::new(points, style))?
+    };
+    if !series.label.is_empty() {
+        let dashed = series.dashed;
+        annotation
+            .label(series.label.as_str())
+            .legend(move |(x, y)| {
+                let gap = if dashed { 9 } else { 0 };
+                EmptyElement::at((x, y))
+                    + PathElement::new(vec![(0, 0), (11 - gap / 3, 0)], style)
+                    + PathElement::new(vec![(11 + gap / 3, 0), (22, 0)], style)
+            });
+    }
+    if series.dots > 0 {
+        chart.draw_series(
+            series
+                .points
+                .iter()
+                .map(|&p| Circle::new(p, series.dots, series.colour.filled())),
+        )?;
+    }
+    Ok(())
+}
+
+/// A tick's number: shortest form, with a minus sign, and no "-0".
+fn tick(value: f64) -> String {
+    // Ticks are multiples of a power of ten; what is below a millionth of it is rounding.
+    let rounded = (value * 1e6).round() / 1e6;
+    if rounded == 0.0 {
+        return "0".to_owned();
+    }
+    rounded.to_string().replace('-', "−")
+}
+
+/// Gives the SVG a view box (the drawing library sets one only in some versions), so that a page can scale it.
+fn scalable(svg: &str, (width, height): (u32, u32)) -> String {
+    if svg.contains("viewBox") {
+        return svg.to_owned();
+    }
+    svg.replacen(
+        "<svg ",
+        &format!("<svg viewBox=\"0 0 {width} {height}\" "),
+        1,
+    )
+}
+
+/// The smallest range of round numbers (1, 2 or 5 times a power of ten) that holds all of `values`.
+pub(crate) fn round_range(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    let (low, high) = values
+        .filter(|v| v.is_finite())
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
+            (l.min(v), h.max(v))
+        });
+    if low > high {
+        return (0.0, 1.0);
+    }
+    let span = if high > low {
+        high - low
+    } else {
+        high.abs().max(1.0)
+    };
+    let step = round_step(span / 10.0);
+    let (low, high) = ((low / step).floor() * step, (high / step).ceil() * step);
+    (low, if high > low { high } else { low + step })
+}
+
+fn round_step(at_least: f64) -> f64 {
+    let power = 10.0_f64.powf(at_least.log10().floor());
+    let factor = [1.0, 2.0, 5.0]
+        .into_iter()
+        .find(|f| f * power >= at_least)
+        .unwrap_or(10.0);
+    factor * power
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_are_round_and_hold_the_values() {
+        assert_eq!(round_range([-336.6, 24.1].into_iter()), (-350.0, 50.0));
+        assert_eq!(round_range([3.0, 3.0].into_iter()), (3.0, 3.5));
+        assert_eq!(round_range(std::iter::empty()), (0.0, 1.0));
+        assert_eq!(round_range([0.0, f64::NAN, 0.0].into_iter()), (0.0, 0.1));
+        let (low, high) = round_range([0.013, 0.0994].into_iter());
+        assert!(low <= 0.013 && high >= 0.0994 && high < 0.12);
+    }
+
+    #[test]
+    fn ticks_read_well() {
+        assert_eq!(tick(-0.30000000000000004), "−0.3");
+        assert_eq!(tick(-0.0), "0");
+        assert_eq!(tick(250.0), "250");
+    }
+
+    #[test]
+    fn a_chart_is_drawn_without_fonts() {
+        let chart = Chart {
+            x_label: "t (s)".into(),
+            y_label: "ÿ < 1 (m/s²)".into(),
+            x: (0.0, 2.0),
+            y: (17.0, 0.0),
+            series: vec![
+                Series::new("chain", 0, vec![(0.0, 1.0), (1.0, 16.0)]),
+                Series::reference("free fall", vec![(0.0, 0.0), (2.0, 5.0)]),
+            ],
+            legend: Legend::LowerRight,
+            size: (480, 300),
+        };
+        let svg = chart.svg().expect("figure");
+        assert!(svg.starts_with("<svg "));
+        assert!(svg.trim_end().ends_with("</svg>"));
+        assert!(svg.contains("viewBox=\"0 0 480 300\""));
+        for text in ["t (s)", "ÿ &lt; 1 (m/s²)", "free fall"] {
+            assert!(svg.contains(text), "{text} in {svg}");
+        }
+    }
+}

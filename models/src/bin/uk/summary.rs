@@ -1,0 +1,195 @@
+//! The summary of a run, for reading and as JSON.
+
+use std::io::{self, Write};
+
+use clap::ValueEnum;
+use models::Model;
+use serde::Serialize;
+use serde_json::{Map, Value};
+use ukcore::{Ending, Trajectory};
+
+use crate::args::RunArgs;
+use crate::drift::Drift;
+use crate::scene::Ready;
+
+/// What a run was, what came out and what it cost. SI units.
+#[derive(Debug, Serialize)]
+pub(crate) struct Summary {
+    model: &'static str,
+    start: &'static str,
+    parameters: Map<String, Value>,
+    method: String,
+    stabilise: String,
+    tolerance: f64,
+    /// `"completed"`, or `"failed"` with `error` saying why.
+    ending: &'static str,
+    error: Option<String>,
+    /// The last state that was computed.
+    #[serde(rename = "final")]
+    last: Option<Last>,
+    samples: usize,
+    /// Largest of all samples.
+    #[serde(flatten)]
+    drift: Drift,
+    work: Counters,
+    /// Wall time of the integration, s.
+    seconds: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct Last {
+    t: f64,
+    q: Map<String, Value>,
+    /// Rates, by the names of the coordinates.
+    v: Map<String, Value>,
+    outputs: Map<String, Value>,
+    energy: Energies,
+}
+
+#[derive(Debug, Serialize)]
+struct Energies {
+    kinetic: f64,
+    potential: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct Counters {
+    steps: usize,
+    rejected: usize,
+    evaluations: usize,
+    projections: usize,
+    projection_iterations: usize,
+    fallbacks: usize,
+}
+
+/// Names with values; a value that is not finite becomes null, as JSON has no other word for it.
+fn named<'a>(
+    names: impl IntoIterator<Item = &'a str>,
+    values: impl IntoIterator<Item = f64>,
+) -> Map<String, Value> {
+    names
+        .into_iter()
+        .zip(values)
+        .map(|(name, value)| (name.to_owned(), Value::from(value)))
+        .collect()
+}
+
+fn word(arg: &impl ValueEnum) -> String {
+    arg.to_possible_value()
+        .map(|v| v.get_name().to_owned())
+        .unwrap_or_default()
+}
+
+impl Summary {
+    /// The summary of `trajectory`, which took `seconds`; `error` says why it ended early, if it did.
+    pub(crate) fn new<M: Model>(
+        trajectory: &Trajectory<M>,
+        ready: &Ready<M>,
+        args: &RunArgs,
+        seconds: f64,
+        error: Option<String>,
+    ) -> Self {
+        let spec = M::SPEC;
+        let mechanism = trajectory.mechanism();
+        let last = trajectory.last().map(|last| {
+            let mut outputs = vec![0.0; spec.outputs.len()];
+            mechanism.outputs(last.t, last.q, last.v, &mut outputs);
+            let energy = mechanism.energy(last.t, last.q, last.v);
+            Last {
+                t: last.t,
+                q: named(spec.coords.iter().copied(), last.q.iter().copied()),
+                v: named(spec.coords.iter().copied(), last.v.iter().copied()),
+                outputs: named(spec.outputs.iter().map(|o| o.name), outputs),
+                energy: Energies {
+                    kinetic: energy.kinetic,
+                    potential: energy.potential,
+                },
+            }
+        });
+        let values = (0..spec.params.len()).map(|i| ready.mechanism.parameter(i));
+        let work = trajectory.work();
+        Summary {
+            model: M::ID,
+            start: ready.start,
+            parameters: named(spec.params.iter().map(|p| p.name), values),
+            method: word(&args.method),
+            stabilise: word(&args.stabilise),
+            tolerance: args.tol,
+            ending: match trajectory.ending() {
+                Ending::Completed => "completed",
+                Ending::Event => "event",
+                Ending::Interrupted => "interrupted",
+                Ending::Failed => "failed",
+            },
+            error,
+            last,
+            samples: trajectory.len(),
+            drift: Drift::of(trajectory),
+            work: Counters {
+                steps: work.steps,
+                rejected: work.rejected,
+                evaluations: work.evaluations,
+                projections: work.projections,
+                projection_iterations: work.projection_iterations,
+                fallbacks: work.fallbacks,
+            },
+            seconds,
+        }
+    }
+
+    /// Writes the summary for reading.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub(crate) fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        writeln!(
+            out,
+            "{} from `{}`, {} at tolerance {:e}, {}",
+            self.model, self.start, self.method, self.tolerance, self.ending
+        )?;
+        if let Some(last) = &self.last {
+            writeln!(out, "\nState at t = {} s", last.t)?;
+            for ((name, q), v) in last.q.iter().zip(last.v.values()) {
+                writeln!(
+                    out,
+                    "  {name:<12} {:>18}   dot {:>18}",
+                    number(q),
+                    number(v)
+                )?;
+            }
+            if !last.outputs.is_empty() {
+                writeln!(out, "\nOutputs")?;
+                for (name, value) in &last.outputs {
+                    writeln!(out, "  {name:<12} {:>18}", number(value))?;
+                }
+            }
+        }
+        let (d, w) = (&self.drift, &self.work);
+        writeln!(
+            out,
+            "\nResiduals: position {:.1e}, velocity {:.1e} at most over {} samples",
+            d.position_residual, d.velocity_residual, self.samples
+        )?;
+        match d.energy_drift {
+            Some(drift) => writeln!(out, "Energy drift: {drift:.1e} of the energy exchanged")?,
+            None => writeln!(out, "Energy is not conserved in this model")?,
+        }
+        writeln!(
+            out,
+            "Work: {} steps ({} rejected), {} evaluations, {} projections ({} iterations), {} fallbacks; {:.3} s",
+            w.steps,
+            w.rejected,
+            w.evaluations,
+            w.projections,
+            w.projection_iterations,
+            w.fallbacks,
+            self.seconds
+        )
+    }
+}
+
+fn number(value: &Value) -> String {
+    value
+        .as_f64()
+        .map_or_else(|| "not finite".to_owned(), |v| format!("{:.12}", v + 0.0))
+}
