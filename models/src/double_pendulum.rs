@@ -1,0 +1,139 @@
+//! A double pendulum in Cartesian coordinates.
+
+use crate::model::{Chosen, positive};
+use crate::{Model, StartOption, StartOptions, StartSpec};
+use std::f64::consts::FRAC_PI_2;
+use ukcore::{Error, State};
+
+ukcore::multibody! {
+    /// Two point masses on massless rigid rods, the first about a pivot at the origin; y points up.
+    pub DoublePendulum {
+        params {
+            /// Inner mass, kg
+            m1 = 1.0,
+            /// Outer mass, kg
+            m2 = 1.0,
+            /// Length of the inner rod, m
+            l1 = 1.0,
+            /// Length of the outer rod, m
+            l2 = 1.0,
+            /// Acceleration of gravity (exact in binary), m/s^2
+            g = 9.8125,
+        }
+        coords {
+            /// Position of the inner mass, m
+            x1, y1,
+            /// Position of the outer mass, m
+            x2, y2,
+        }
+        mass { x1: m1, y1: m1, x2: m2, y2: m2 }
+        potential { m1 * g * y1, m2 * g * y2 }
+        holonomic {
+            inner: sq(x1) + sq(y1) = sq(l1),
+            outer: sq(x2 - x1) + sq(y2 - y1) = sq(l2),
+        }
+        output {
+            /// Angle of the inner rod from the downward vertical, rad
+            angle1 = atan2(x1, -y1),
+            /// Angle of the outer rod from the downward vertical, rad
+            angle2 = atan2(x2 - x1, y1 - y2),
+        }
+    }
+}
+
+/// Options that both formulations of the double pendulum share.
+pub(crate) const RELEASED: StartSpec = StartSpec {
+    name: "released",
+    doc: "let go with given angles and angular velocities of the rods",
+    options: &[
+        option(
+            "from1",
+            "angle of the inner rod from the downward vertical",
+            FRAC_PI_2,
+            "rad",
+        ),
+        option(
+            "from2",
+            "angle of the outer rod from the downward vertical",
+            FRAC_PI_2,
+            "rad",
+        ),
+        option("rate1", "angular velocity of the inner rod", 0.0, "rad/s"),
+        option("rate2", "angular velocity of the outer rod", 0.0, "rad/s"),
+    ],
+};
+
+const fn option(
+    name: &'static str,
+    doc: &'static str,
+    default: f64,
+    unit: &'static str,
+) -> StartOption {
+    StartOption {
+        name,
+        doc,
+        default,
+        unit,
+    }
+}
+
+impl Model for DoublePendulum {
+    const ID: &'static str = "double_pendulum";
+
+    fn summary() -> &'static str {
+        "double pendulum in Cartesian coordinates (chaotic)"
+    }
+
+    fn starts() -> &'static [StartSpec] {
+        &[RELEASED]
+    }
+
+    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
+        let [from1, from2, rate1, rate2] = Chosen::of::<Self>(name, options)?.values();
+        positive("l1", self.l1)?;
+        positive("l2", self.l2)?;
+        let (q, v) = self.at_angles([from1, from2], [rate1, rate2]);
+        Ok(State {
+            t: 0.0,
+            q: q.to_vec(),
+            v: v.to_vec(),
+        })
+    }
+
+    fn duration() -> f64 {
+        10.0
+    }
+}
+
+impl DoublePendulum {
+    /// Positions (x1, y1, x2, y2), m, and velocities, m/s, for the rods' angles from the downward vertical, rad, and rates, rad/s.
+    #[must_use]
+    pub fn at_angles(&self, angles: [f64; 2], rates: [f64; 2]) -> ([f64; 4], [f64; 4]) {
+        let rod = |length: f64, angle: f64, rate: f64| {
+            let (sin, cos) = angle.sin_cos();
+            let speed = length * rate;
+            ([length * sin, -length * cos], [speed * cos, speed * sin])
+        };
+        let (p, vp) = rod(self.l1, angles[0], rates[0]);
+        let (r, vr) = rod(self.l2, angles[1], rates[1]);
+        (
+            [p[0], p[1], p[0] + r[0], p[1] + r[1]],
+            [vp[0], vp[1], vp[0] + vr[0], vp[1] + vr[1]],
+        )
+    }
+
+    /// Angular frequencies of the two small oscillations about the rest position, slow one first, rad/s.
+    ///
+    /// Roots of m1 l1 l2 ω⁴ − (m1 + m2) g (l1 + l2) ω² + (m1 + m2) g² = 0 (Landau & Lifshitz, Mechanics, §23, problem 2).
+    #[must_use]
+    pub fn small_oscillations(&self) -> [f64; 2] {
+        let both = self.m1 + self.m2;
+        let product = self.m1 * self.l1 * self.l2;
+        let half = 0.5 * both * self.g * (self.l1 + self.l2);
+        let root = (half * half - product * both * self.g * self.g).sqrt();
+        // The smaller root from the product of both: no cancellation.
+        let fast = (half + root) / product;
+        let slow = both * self.g * self.g / (half + root);
+        [slow.sqrt(), fast.sqrt()]
+    }
+}

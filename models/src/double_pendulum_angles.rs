@@ -1,0 +1,90 @@
+//! The double pendulum in angles: no constraints, M from the kinetic energy.
+
+use crate::double_pendulum::{DoublePendulum, RELEASED};
+use crate::model::{Chosen, positive};
+use crate::{Model, StartOptions, StartSpec};
+use ukcore::{Error, State};
+
+ukcore::multibody! {
+    /// The double pendulum in the angles of its rods from the downward vertical, declared by its energies alone.
+    pub DoublePendulumAngles {
+        params {
+            /// Inner mass, kg
+            m1 = 1.0,
+            /// Outer mass, kg
+            m2 = 1.0,
+            /// Length of the inner rod, m
+            l1 = 1.0,
+            /// Length of the outer rod, m
+            l2 = 1.0,
+            /// Acceleration of gravity (exact in binary), m/s^2
+            g = 9.8125,
+        }
+        coords {
+            /// Angle of the inner rod, rad
+            th1,
+            /// Angle of the outer rod, rad
+            th2,
+        }
+        kinetic {
+            0.5 * (m1 + m2) * sq(l1 * dot(th1)),
+            0.5 * m2 * sq(l2 * dot(th2)),
+            m2 * l1 * l2 * dot(th1) * dot(th2) * cos(th1 - th2),
+        }
+        potential {
+            -(m1 + m2) * g * l1 * cos(th1),
+            -m2 * g * l2 * cos(th2),
+        }
+        output {
+            /// Horizontal position of the inner mass, m
+            x1 = l1 * sin(th1),
+            /// Vertical position of the inner mass, upwards, m
+            y1 = -l1 * cos(th1),
+            /// Horizontal position of the outer mass, m
+            x2 = l1 * sin(th1) + l2 * sin(th2),
+            /// Vertical position of the outer mass, upwards, m
+            y2 = -l1 * cos(th1) - l2 * cos(th2),
+        }
+    }
+}
+
+impl Model for DoublePendulumAngles {
+    const ID: &'static str = "double_pendulum_angles";
+
+    fn summary() -> &'static str {
+        "double pendulum in angles, by its kinetic energy (equals double_pendulum)"
+    }
+
+    fn starts() -> &'static [StartSpec] {
+        &[RELEASED]
+    }
+
+    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
+        let [from1, from2, rate1, rate2] = Chosen::of::<Self>(name, options)?.values();
+        positive("l1", self.l1)?;
+        positive("l2", self.l2)?;
+        Ok(State {
+            t: 0.0,
+            q: vec![from1, from2],
+            v: vec![rate1, rate2],
+        })
+    }
+
+    fn duration() -> f64 {
+        10.0
+    }
+}
+
+impl DoublePendulumAngles {
+    /// The same pendulum in Cartesian coordinates.
+    #[must_use]
+    pub fn cartesian(&self) -> DoublePendulum {
+        DoublePendulum {
+            m1: self.m1,
+            m2: self.m2,
+            l1: self.l1,
+            l2: self.l2,
+            g: self.g,
+        }
+    }
+}

@@ -1,0 +1,199 @@
+//! The two-joint carangiform fish robot of Zhao, Zhen & Chen 2013, §6-10.
+
+use crate::model::Chosen;
+use crate::{Model, StartOption, StartOptions, StartSpec};
+use std::f64::consts::PI;
+use ukcore::{Error, State};
+
+ukcore::multibody! {
+    /// Fish robot of three links: body, peduncle and tail fin. x is longitudinal with the tail at +x, so it swims towards −x; y is
+    /// lateral. The angles of peduncle and fin are prescribed and carry no inertia, which makes M singular (eqs. 36, 37).
+    /// Parameters are those of Table 2, with its moments of inertia of peduncle and fin left out as the model does not use them.
+    /// (Zhao, Zhen & Chen 2013, §6-10.)
+    pub FishRobot {
+        params {
+            /// Mass of the body, kg
+            m1 = 0.409,
+            /// Moment of inertia of the body about its centre, kg m^2
+            i1 = 1.23e-3,
+            /// Half length of the body, m
+            a = 0.09375,
+            /// Frontal area of the body, m^2
+            s = 7.069e-3,
+            /// Lateral area of the body (as printed; far more than a body of this size has), m^2
+            s1 = 0.19,
+            /// Mass of the peduncle, kg
+            m2 = 0.104,
+            /// Length of the peduncle, m
+            l2 = 0.0625,
+            /// Lateral area of the peduncle, m^2
+            s2 = 0.04,
+            /// Mass of the fin, kg
+            m3 = 9.0e-3,
+            /// Half length of the fin, m
+            b = 0.015,
+            /// Lateral area of the fin, m^2
+            s3 = 0.008,
+            /// Density of water, kg/m^3
+            rho = 998.0,
+            /// Drag coefficient
+            cd = 0.5,
+            /// Span of the fin, m
+            span = 0.075,
+            /// Half chord of the fin, m
+            half_chord = 0.015,
+            /// Amplitude of the peduncle's angle, rad
+            a2 = 0.3,
+            /// Amplitude of the fin's angle, rad
+            a3 = 0.6,
+            /// Angular frequency of the gait, rad/s
+            w = 2.0 * PI,
+            /// Phase by which the fin lags the peduncle, rad
+            phi = PI / 12.0,
+        }
+        coords {
+            /// Position and angle of the body, m and rad
+            x1, y1, th1,
+            /// Position and angle of the peduncle, m and rad
+            x2, y2, th2,
+            /// Position and angle of the fin, m and rad
+            x3, y3, th3,
+        }
+        let drag = |area, v| -0.5 * rho * cd * area * v.abs() * v;
+        let lift = 2.0 * PI * rho * span * half_chord;
+        let lift_x = lift * (dot(x3) * dot(y3) * sin(th3) - sq(dot(y3)) * cos(th3));
+        let lift_y = lift * (dot(x3) * dot(y3) * cos(th3) - sq(dot(x3)) * sin(th3));
+        mass { x1: m1, y1: m1, th1: i1, x2: m2, y2: m2, x3: m3, y3: m3 }
+        force {
+            x1: drag(s, dot(x1)),
+            y1: drag(s1, dot(y1)),
+            y2: drag(s2, dot(y2)),
+            x3: lift_x,
+            y3: drag(s3, dot(y3)) + lift_y,
+        }
+        holonomic {
+            joint1: [x1 + a * cos(th1), y1 + a * sin(th1)] = [x2 - l2 / 2.0 * cos(th2), y2 - l2 / 2.0 * sin(th2)],
+            joint2: [x2 + l2 / 2.0 * cos(th2), y2 + l2 / 2.0 * sin(th2)] = [x3 - b * cos(th3), y3 - b * sin(th3)],
+            peduncle: th2 = a2 * sin(w * t),
+            fin: th3 = a3 * sin(w * t - phi),
+        }
+        output {
+            /// Speed of the body towards its nose's side, −x, m/s
+            forward_speed = -dot(x1),
+            /// Swing angle of the body, rad
+            swing = th1,
+            /// Force of the water on the fin along x by lift (negative drives the fish), N
+            fin_x = lift_x,
+            /// Force of the water on the fin along y by lift, N
+            fin_y = lift_y,
+            /// Longitudinal position of the fin's trailing edge, m
+            edge_x = x3 + b * cos(th3),
+            /// Lateral position of the fin's trailing edge, m
+            edge_y = y3 + b * sin(th3),
+        }
+    }
+}
+
+const BODY_X: StartOption = StartOption {
+    name: "x",
+    doc: "longitudinal position of the body",
+    default: 0.0,
+    unit: "m",
+};
+const BODY_Y: StartOption = StartOption {
+    name: "y",
+    doc: "lateral position of the body",
+    default: 0.0,
+    unit: "m",
+};
+const BODY_ANGLE: StartOption = StartOption {
+    name: "angle",
+    doc: "angle of the body",
+    default: 0.0,
+    unit: "rad",
+};
+
+impl Model for FishRobot {
+    const ID: &'static str = "fish";
+
+    fn summary() -> &'static str {
+        "two-joint carangiform fish robot (Zhao, Zhen & Chen 2013, case 2)"
+    }
+
+    fn starts() -> &'static [StartSpec] {
+        &[StartSpec {
+            name: "table3",
+            doc: "the body at rest, peduncle and fin as the gait has them at t = 0 (Table 3, made consistent)",
+            options: &[BODY_X, BODY_Y, BODY_ANGLE],
+        }]
+    }
+
+    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
+        let [x, y, angle] = Chosen::of::<Self>(name, options)?.values();
+        Ok(self.follow(0.0, [x, y, angle], [0.0; 3]))
+    }
+
+    fn duration() -> f64 {
+        4.0
+    }
+}
+
+impl FishRobot {
+    /// Angles of peduncle and fin at time `t`, rad, and their rates, rad/s (eq. 48): ([θ2, θ3], [θ̇2, θ̇3]).
+    #[must_use]
+    pub fn gait(&self, t: f64) -> ([f64; 2], [f64; 2]) {
+        let (sin2, cos2) = (self.w * t).sin_cos();
+        let (sin3, cos3) = (self.w * t - self.phi).sin_cos();
+        (
+            [self.a2 * sin2, self.a3 * sin3],
+            [self.a2 * self.w * cos2, self.a3 * self.w * cos3],
+        )
+    }
+
+    /// The consistent state at time `t` whose body has the position `body` = (x1, y1, θ1), m and rad, and the velocity `rate`: peduncle
+    /// and fin follow from the gait and the joints (eqs. 40, 41, 44, 45, 48).
+    #[must_use]
+    pub fn follow(&self, t: f64, body: [f64; 3], rate: [f64; 3]) -> State {
+        let ([th2, th3], [w2, w3]) = self.gait(t);
+        let mut q = Vec::with_capacity(9);
+        let mut v = Vec::with_capacity(9);
+        let [mut x, mut y, mut angle] = body;
+        let [mut vx, mut vy, mut spin] = rate;
+        // Half lengths towards the joint behind the link, and from it to the centre of the next.
+        let behind = [self.a, self.l2 / 2.0];
+        let before = [self.l2 / 2.0, self.b];
+        q.extend(body);
+        v.extend(rate);
+        for (i, (next, next_spin)) in [(th2, w2), (th3, w3)].into_iter().enumerate() {
+            for (length, angle, spin) in [(behind[i], angle, spin), (before[i], next, next_spin)] {
+                let (sin, cos) = angle.sin_cos();
+                x += length * cos;
+                y += length * sin;
+                vx -= length * spin * sin;
+                vy += length * spin * cos;
+            }
+            (angle, spin) = (next, next_spin);
+            q.extend([x, y, angle]);
+            v.extend([vx, vy, spin]);
+        }
+        State { t, q, v }
+    }
+
+    /// Drag of the water on a link that moves with `speed`, m/s, across `area`, m² (eq. 29), in N.
+    #[must_use]
+    pub fn drag(&self, area: f64, speed: f64) -> f64 {
+        -0.5 * self.rho * self.cd * area * speed.abs() * speed
+    }
+
+    /// Lift on the fin that has the angle `angle`, rad, and moves with `velocity`, m/s (eqs. 30-34), in N:
+    /// L = 2πρlC (v3 × l_e) × v3 with the fin's direction l_e = −(cos θ3, sin θ3) and the inflow v3 = −(ẋ3, ẏ3).
+    #[must_use]
+    pub fn lift(&self, angle: f64, velocity: [f64; 2]) -> [f64; 2] {
+        let edge = [-angle.cos(), -angle.sin()];
+        let inflow = [-velocity[0], -velocity[1]];
+        // The first cross product points out of the plane; the second turns it back into it.
+        let normal = inflow[0] * edge[1] - inflow[1] * edge[0];
+        let factor = 2.0 * PI * self.rho * self.span * self.half_chord * normal;
+        [-factor * inflow[1], factor * inflow[0]]
+    }
+}

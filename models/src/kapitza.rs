@@ -1,0 +1,153 @@
+//! Kapitza's pendulum: a pendulum that stands on its head because its pivot shakes.
+
+use crate::model::{Chosen, positive};
+use crate::{Model, StartOption, StartOptions, StartSpec};
+use std::f64::consts::PI;
+use ukcore::{Error, State};
+
+ukcore::multibody! {
+    /// Pendulum whose pivot moves vertically as a cos(w t), in Cartesian coordinates of the bob; y points up. The rod's constraint
+    /// contains the time.
+    pub KapitzaPendulum {
+        params {
+            /// Mass of the bob, kg
+            m = 1.0,
+            /// Length of the rod, m
+            l = 1.0,
+            /// Acceleration of gravity, m/s^2
+            g = 9.81,
+            /// Amplitude of the pivot, m
+            a = 0.1,
+            /// Angular frequency of the pivot, rad/s
+            w = 100.0,
+        }
+        coords {
+            /// Horizontal position, m
+            x,
+            /// Vertical position, upwards, m
+            y,
+        }
+        let pivot = a * cos(w * t);
+        mass { x: m, y: m }
+        potential { m * g * y }
+        holonomic { rod: sq(x) + sq(y - pivot) = sq(l) }
+        output {
+            /// Angle from the upward vertical, clockwise, rad
+            angle = atan2(x, y - pivot),
+            /// Height of the pivot, m
+            pivot_y = pivot,
+        }
+    }
+}
+
+const RATE: StartOption = StartOption {
+    name: "rate",
+    doc: "angular velocity",
+    default: 0.0,
+    unit: "rad/s",
+};
+
+impl Model for KapitzaPendulum {
+    const ID: &'static str = "kapitza";
+
+    fn summary() -> &'static str {
+        "pendulum upside down on a shaking pivot (time in the constraint)"
+    }
+
+    fn starts() -> &'static [StartSpec] {
+        &[
+            StartSpec {
+                name: "inverted",
+                doc: "near the upward vertical, pivot at its highest",
+                options: &[
+                    StartOption {
+                        name: "from",
+                        doc: "angle from the upward vertical, clockwise",
+                        default: 0.2,
+                        unit: "rad",
+                    },
+                    RATE,
+                ],
+            },
+            StartSpec {
+                name: "hanging",
+                doc: "near the downward vertical, pivot at its highest",
+                options: &[
+                    StartOption {
+                        name: "from",
+                        doc: "angle from the downward vertical, counter-clockwise",
+                        default: 0.2,
+                        unit: "rad",
+                    },
+                    RATE,
+                ],
+            },
+        ]
+    }
+
+    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
+        let start = Chosen::of::<Self>(name, options)?;
+        let [from, rate] = start.values();
+        positive("l", self.l)?;
+        let (angle, rate) = if start.spec.name == "hanging" {
+            (PI - from, -rate)
+        } else {
+            (from, rate)
+        };
+        let (q, v) = self.at_angle(0.0, angle, rate);
+        Ok(State {
+            t: 0.0,
+            q: q.to_vec(),
+            v: v.to_vec(),
+        })
+    }
+
+    fn duration() -> f64 {
+        5.0
+    }
+}
+
+impl KapitzaPendulum {
+    /// Height of the pivot, m, its velocity, m/s, and acceleration, m/s².
+    #[must_use]
+    pub fn pivot(&self, t: f64) -> [f64; 3] {
+        let (sin, cos) = (self.w * t).sin_cos();
+        [
+            self.a * cos,
+            -self.a * self.w * sin,
+            -self.a * self.w * self.w * cos,
+        ]
+    }
+
+    /// Position, m, and velocity, m/s, of the bob at time `t`, for the angle from the upward vertical, rad, and its rate, rad/s.
+    #[must_use]
+    pub fn at_angle(&self, t: f64, angle: f64, rate: f64) -> ([f64; 2], [f64; 2]) {
+        let [height, velocity, _] = self.pivot(t);
+        let (sin, cos) = angle.sin_cos();
+        let speed = self.l * rate;
+        (
+            [self.l * sin, height + self.l * cos],
+            [speed * cos, velocity - speed * sin],
+        )
+    }
+
+    /// Exact angular acceleration, rad/s², in the angle from the upward vertical: θ̈ = (g + s̈(t)) sin θ / l with the pivot at s(t).
+    #[must_use]
+    pub fn angular_acceleration(&self, t: f64, angle: f64) -> f64 {
+        (self.g + self.pivot(t)[2]) * angle.sin() / self.l
+    }
+
+    /// Whether the inverted position is stable in the limit of fast, small shaking: (a w)² > 2 g l
+    /// (Landau & Lifshitz, Mechanics, §30, problem 1).
+    #[must_use]
+    pub fn inverted_is_stable(&self) -> bool {
+        (self.a * self.w).powi(2) > 2.0 * self.g * self.l
+    }
+
+    /// Angular frequency, rad/s, of the slow oscillation about the upward vertical, averaged over the shaking:
+    /// Ω² = (a w/l)²/2 − g/l, with relative errors of order a/l and (Ω/w)²; NaN where it is not stable.
+    #[must_use]
+    pub fn slow_frequency(&self) -> f64 {
+        (0.5 * (self.a * self.w / self.l).powi(2) - self.g / self.l).sqrt()
+    }
+}

@@ -1,0 +1,122 @@
+//! A knife edge on an inclined plane: nonholonomic, in closed form.
+
+use crate::model::Chosen;
+use crate::{Model, StartOption, StartOptions, StartSpec};
+use ukcore::{Error, State};
+
+ukcore::multibody! {
+    /// Knife edge (a skate) on a plane inclined by `slope`; x points down the slope, y across it. The edge touches at its centre of mass
+    /// and does not slip sideways: a nonholonomic constraint. Set turning, it drifts across the slope and never gets down.
+    pub KnifeEdge {
+        params {
+            /// Mass, kg
+            m = 1.0,
+            /// Moment of inertia about the normal of the plane, kg m^2
+            i = 0.1,
+            /// Acceleration of gravity, m/s^2
+            g = 9.81,
+            /// Inclination of the plane, rad
+            slope = PI / 6.0,
+        }
+        coords {
+            /// Position down the slope, m
+            x,
+            /// Position across the slope, m
+            y,
+            /// Direction of the edge, from the line of fall, rad
+            th,
+        }
+        mass { x: m, y: m, th: i }
+        potential { -m * g * sin(slope) * x }
+        nonholonomic { edge: dot(x) * sin(th) = dot(y) * cos(th) }
+        output {
+            /// Speed along the edge, m/s
+            speed = dot(x) * cos(th) + dot(y) * sin(th),
+            /// Angular velocity, rad/s
+            spin = dot(th),
+        }
+    }
+}
+
+impl Model for KnifeEdge {
+    const ID: &'static str = "knife_edge";
+
+    fn summary() -> &'static str {
+        "knife edge on an inclined plane (nonholonomic, closed form)"
+    }
+
+    fn starts() -> &'static [StartSpec] {
+        &[StartSpec {
+            name: "spinning",
+            doc: "at the origin, turning and gliding along its edge",
+            options: &[
+                StartOption {
+                    name: "turn",
+                    doc: "angular velocity",
+                    default: 1.0,
+                    unit: "rad/s",
+                },
+                StartOption {
+                    name: "glide",
+                    doc: "speed along the edge",
+                    default: 0.0,
+                    unit: "m/s",
+                },
+                StartOption {
+                    name: "heading",
+                    doc: "direction of the edge, from the line of fall",
+                    default: 0.0,
+                    unit: "rad",
+                },
+            ],
+        }]
+    }
+
+    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
+        let [turn, glide, heading] = Chosen::of::<Self>(name, options)?.values();
+        let (sin, cos) = heading.sin_cos();
+        Ok(State {
+            t: 0.0,
+            q: vec![0.0, 0.0, heading],
+            v: vec![glide * cos, glide * sin, turn],
+        })
+    }
+
+    fn duration() -> f64 {
+        10.0
+    }
+}
+
+impl KnifeEdge {
+    /// Position (x, y, θ), m and rad, at time `t` after the start at the origin with the heading θ₀, rad, turning with ω, rad/s, and gliding
+    /// with u₀, m/s.
+    ///
+    /// θ̇ is constant and the speed along the edge has u̇ = k cos θ with k = g sin(slope), so with c = u₀ − (k/ω) sin θ₀
+    /// x = (c/ω)(sin θ − sin θ₀) + k/(2ω²) (sin² θ − sin² θ₀),
+    /// y = (c/ω)(cos θ₀ − cos θ) + k/(2ω²) (θ − θ₀ − (sin 2θ − sin 2θ₀)/2);
+    /// a straight line for ω = 0 (Neimark & Fufaev, Dynamics of Nonholonomic Systems).
+    #[must_use]
+    pub fn path(&self, turn: f64, glide: f64, heading: f64, t: f64) -> [f64; 3] {
+        let k = self.g * self.slope.sin();
+        let (s0, c0) = heading.sin_cos();
+        if turn == 0.0 {
+            let way = glide * t + 0.5 * k * c0 * t * t;
+            return [way * c0, way * s0, heading];
+        }
+        let th = heading + turn * t;
+        let (s, c) = th.sin_cos();
+        let constant = glide - k / turn * s0;
+        let drift = k / (2.0 * turn * turn);
+        [
+            constant / turn * (s - s0) + drift * (s * s - s0 * s0),
+            constant / turn * (c0 - c) + drift * (th - heading - (s * c - s0 * c0)),
+            th,
+        ]
+    }
+
+    /// Mean velocity across the slope when started at rest, m/s: g sin(slope)/(2ω).
+    #[must_use]
+    pub fn drift(&self, turn: f64) -> f64 {
+        self.g * self.slope.sin() / (2.0 * turn)
+    }
+}

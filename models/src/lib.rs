@@ -1,0 +1,38 @@
+//! Mechanisms declared with [`ukcore::multibody!`]: the two of Zhao, Zhen & Chen 2013 and a small one for each feature.
+//!
+//! Each module holds a declaration, its start states, and what is known about its motion in closed form. All models are found
+//! by name in the [registry](visit).
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+pub mod double_pendulum;
+pub mod double_pendulum_angles;
+pub mod elliptic;
+pub mod fish;
+pub mod kapitza;
+pub mod knife_edge;
+pub mod massless_spring;
+mod model;
+pub mod pendulum;
+mod registry;
+pub mod rigid_body;
+pub mod rough_block;
+pub mod slider_crank;
+pub mod slider_crank_redundant;
+pub mod uchain;
+
+pub use double_pendulum::DoublePendulum;
+pub use double_pendulum_angles::DoublePendulumAngles;
+pub use fish::FishRobot;
+pub use kapitza::KapitzaPendulum;
+pub use knife_edge::KnifeEdge;
+pub use massless_spring::MasslessSpring;
+pub use model::{Model, StartOption, StartOptions, StartSpec};
+pub use pendulum::Pendulum;
+pub use registry::{Visitor, ids, visit};
+pub use rigid_body::RigidBody;
+pub use rough_block::RoughBlock;
+pub use slider_crank::SliderCrank;
+pub use slider_crank_redundant::SliderCrankRedundant;
+pub use uchain::UChain;

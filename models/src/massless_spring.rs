@@ -1,0 +1,104 @@
+//! A mass on two springs in series, joined by a massless point: M is singular.
+
+use crate::model::{Chosen, positive};
+use crate::{Model, StartOption, StartOptions, StartSpec};
+use ukcore::{Error, State};
+
+ukcore::multibody! {
+    /// Wall, spring k1, massless joint, spring k2, mass: all along one line. The joint has no mass, so the forces of the springs on it
+    /// balance at all times; declared as a constraint this makes [M | Aᵀ] regular (the condition of eq. 19), and its constraint
+    /// force is zero. Both positions are measured from where the springs are relaxed.
+    pub MasslessSpring {
+        params {
+            /// Mass, kg
+            m = 1.0,
+            /// Stiffness of the spring at the wall, N/m
+            k1 = 30.0,
+            /// Stiffness of the spring at the mass, N/m
+            k2 = 60.0,
+        }
+        coords {
+            /// Position of the massless joint, m
+            joint,
+            /// Position of the mass, m
+            x,
+        }
+        mass { x: m }
+        potential { 0.5 * k1 * sq(joint), 0.5 * k2 * sq(x - joint) }
+        holonomic { balance: k1 * joint = k2 * (x - joint) }
+        output {
+            /// Force that the springs transmit, N
+            spring_force = k1 * joint,
+        }
+    }
+}
+
+impl Model for MasslessSpring {
+    const ID: &'static str = "massless_spring";
+
+    fn summary() -> &'static str {
+        "mass on two springs with a massless joint (singular M, closed form)"
+    }
+
+    fn starts() -> &'static [StartSpec] {
+        &[StartSpec {
+            name: "pulled",
+            doc: "mass pulled out and let go, joint in balance",
+            options: &[
+                StartOption {
+                    name: "pull",
+                    doc: "position of the mass",
+                    default: 0.1,
+                    unit: "m",
+                },
+                StartOption {
+                    name: "speed",
+                    doc: "velocity of the mass",
+                    default: 0.0,
+                    unit: "m/s",
+                },
+            ],
+        }]
+    }
+
+    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
+        let [pull, speed] = Chosen::of::<Self>(name, options)?.values();
+        positive("k1", self.k1)?;
+        positive("k2", self.k2)?;
+        let ratio = self.ratio();
+        Ok(State {
+            t: 0.0,
+            q: vec![ratio * pull, pull],
+            v: vec![ratio * speed, speed],
+        })
+    }
+
+    fn duration() -> f64 {
+        10.0
+    }
+}
+
+impl MasslessSpring {
+    /// Position of the joint over that of the mass: k2/(k1 + k2).
+    #[must_use]
+    pub fn ratio(&self) -> f64 {
+        self.k2 / (self.k1 + self.k2)
+    }
+
+    /// Angular frequency, rad/s: √(k/m) with 1/k = 1/k1 + 1/k2.
+    #[must_use]
+    pub fn frequency(&self) -> f64 {
+        (self.k1 * self.ratio() / self.m).sqrt()
+    }
+
+    /// Position, m, and velocity, m/s, of the mass at time `t` after the start with `pull`, m, and `speed`, m/s.
+    #[must_use]
+    pub fn oscillation(&self, pull: f64, speed: f64, t: f64) -> (f64, f64) {
+        let frequency = self.frequency();
+        let (sin, cos) = (frequency * t).sin_cos();
+        (
+            pull * cos + speed / frequency * sin,
+            speed * cos - pull * frequency * sin,
+        )
+    }
+}

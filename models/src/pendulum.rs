@@ -1,0 +1,111 @@
+//! A simple pendulum in Cartesian coordinates, with its motion in elliptic functions.
+
+use crate::elliptic;
+use crate::model::{Chosen, positive};
+use crate::{Model, StartOption, StartOptions, StartSpec};
+use std::f64::consts::FRAC_PI_2;
+use ukcore::{Error, State};
+
+ukcore::multibody! {
+    /// Point mass on a massless rigid rod about a pivot at the origin; y points up.
+    pub Pendulum {
+        params {
+            /// Mass, kg
+            m = 1.0,
+            /// Length of the rod, m
+            l = 1.0,
+            /// Acceleration of gravity, m/s^2
+            g = 9.81,
+        }
+        coords {
+            /// Horizontal position, m
+            x,
+            /// Vertical position, upwards, m
+            y,
+        }
+        mass { x: m, y: m }
+        potential { m * g * y }
+        holonomic { rod: sq(x) + sq(y) = sq(l) }
+        output {
+            /// Angle from the downward vertical, counter-clockwise, rad
+            angle = atan2(x, -y),
+            /// Tension of the rod, N
+            tension = m * (sq(dot(x)) + sq(dot(y)) - g * y) / l,
+        }
+    }
+}
+
+impl Model for Pendulum {
+    const ID: &'static str = "pendulum";
+
+    fn summary() -> &'static str {
+        "simple pendulum in Cartesian coordinates (closed form)"
+    }
+
+    fn starts() -> &'static [StartSpec] {
+        &[StartSpec {
+            name: "released",
+            doc: "let go at an angle",
+            options: &[
+                StartOption {
+                    name: "from",
+                    doc: "angle from the downward vertical, counter-clockwise",
+                    default: -FRAC_PI_2,
+                    unit: "rad",
+                },
+                StartOption {
+                    name: "rate",
+                    doc: "angular velocity",
+                    default: 0.0,
+                    unit: "rad/s",
+                },
+            ],
+        }]
+    }
+
+    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
+        let [angle, rate] = Chosen::of::<Self>(name, options)?.values();
+        positive("l", self.l)?;
+        let (q, v) = self.at_angle(angle, rate);
+        Ok(State {
+            t: 0.0,
+            q: q.to_vec(),
+            v: v.to_vec(),
+        })
+    }
+
+    fn duration() -> f64 {
+        10.0
+    }
+}
+
+impl Pendulum {
+    /// Position, m, and velocity, m/s, at the angle `angle` from the downward vertical, rad, and its rate, rad/s.
+    #[must_use]
+    pub fn at_angle(&self, angle: f64, rate: f64) -> ([f64; 2], [f64; 2]) {
+        let (sin, cos) = angle.sin_cos();
+        let speed = self.l * rate;
+        ([self.l * sin, -self.l * cos], [speed * cos, speed * sin])
+    }
+
+    /// Period of the swing with the given amplitude, rad, in s: 4 √(l/g) K(sin²(θ₀/2)) (Landau & Lifshitz, Mechanics, §11).
+    #[must_use]
+    pub fn period(&self, amplitude: f64) -> f64 {
+        let m = (0.5 * amplitude).sin().powi(2);
+        4.0 * (self.l / self.g).sqrt() * elliptic::complete(m)
+    }
+
+    /// Angle, rad, and angular velocity, rad/s, at time `t` after the release at rest from the angle `from`, |from| < π.
+    ///
+    /// sin(θ/2) = k cd(ω₀ t | k²) with k = sin(θ₀/2), ω₀ = √(g/l) and cd = cn/dn.
+    #[must_use]
+    pub fn swing(&self, from: f64, t: f64) -> (f64, f64) {
+        let k = (0.5 * from).sin();
+        let frequency = (self.g / self.l).sqrt();
+        let (sn, cn, dn) = elliptic::jacobi(frequency * t, k * k);
+        let angle = 2.0 * (k * cn / dn).asin();
+        // d(cd)/du = −(1 − k²) sn/dn², and cos(θ/2) = √(1 − k²)/dn.
+        let rate = -2.0 * k * frequency * (1.0 - k * k).sqrt() * sn / dn;
+        (angle, rate)
+    }
+}

@@ -1,0 +1,53 @@
+//! All models, by name.
+
+use crate::{
+    DoublePendulum, DoublePendulumAngles, FishRobot, KapitzaPendulum, KnifeEdge, MasslessSpring,
+    Model, Pendulum, RigidBody, RoughBlock, SliderCrank, SliderCrankRedundant, UChain,
+};
+use ukcore::Error;
+
+/// Something to do with a model whose type is known only by name. (A [`Model`] has generic methods, so there is no `dyn Model`.)
+pub trait Visitor {
+    /// What comes out.
+    type Output;
+    /// Does it with the model `M`.
+    fn visit<M: Model>(self) -> Self::Output;
+}
+
+macro_rules! registry {
+    ($($model:ty),* $(,)?) => {
+        /// Names of all models.
+        #[must_use]
+        pub fn ids() -> Vec<&'static str> {
+            vec![$(<$model as Model>::ID),*]
+        }
+
+        /// Lets `visitor` visit the model called `id`.
+        ///
+        /// # Errors
+        /// [`Error::UnknownName`] with the nearest name.
+        pub fn visit<V: Visitor>(id: &str, visitor: V) -> Result<V::Output, Error> {
+            $(
+                if id == <$model as Model>::ID {
+                    return Ok(visitor.visit::<$model>());
+                }
+            )*
+            Err(Error::unknown_name("model", id, &mut ids().into_iter()))
+        }
+    };
+}
+
+registry![
+    UChain,
+    FishRobot,
+    Pendulum,
+    DoublePendulum,
+    DoublePendulumAngles,
+    KapitzaPendulum,
+    SliderCrank,
+    SliderCrankRedundant,
+    KnifeEdge,
+    RoughBlock,
+    MasslessSpring,
+    RigidBody,
+];

@@ -1,0 +1,172 @@
+//! A free rigid body in a unit quaternion: M is 4 × 4 of rank 3.
+
+use crate::elliptic;
+use crate::model::Chosen;
+use crate::{Model, StartOption, StartOptions, StartSpec};
+use ukcore::{Error, State};
+
+ukcore::multibody! {
+    /// Free rigid body about its centre of mass, turned by the unit quaternion (e0, e1, e2, e3) from body to space. The angular
+    /// velocity in body axes is ω = 2 G(e) ė, so M = 4 Gᵀ I G is singular along e; the constraint |e|² = 1 mends that (eq. 19).
+    pub RigidBody {
+        params {
+            /// Smallest principal moment of inertia, kg m^2
+            i1 = 1.0,
+            /// Middle principal moment of inertia, kg m^2
+            i2 = 2.0,
+            /// Largest principal moment of inertia, kg m^2
+            i3 = 3.0,
+        }
+        coords {
+            /// Scalar part of the quaternion
+            e0,
+            /// Vector part of the quaternion
+            e1, e2, e3,
+        }
+        let w1 = 2.0 * (-e1 * dot(e0) + e0 * dot(e1) + e3 * dot(e2) - e2 * dot(e3));
+        let w2 = 2.0 * (-e2 * dot(e0) - e3 * dot(e1) + e0 * dot(e2) + e1 * dot(e3));
+        let w3 = 2.0 * (-e3 * dot(e0) + e2 * dot(e1) - e1 * dot(e2) + e0 * dot(e3));
+        kinetic { 0.5 * i1 * sq(w1), 0.5 * i2 * sq(w2), 0.5 * i3 * sq(w3) }
+        holonomic { unit: sq(e0) + sq(e1) + sq(e2) + sq(e3) = 1.0 }
+        output {
+            /// Angular velocity about the body's axis 1, rad/s
+            spin1 = w1,
+            /// Angular velocity about the body's axis 2, rad/s
+            spin2 = w2,
+            /// Angular velocity about the body's axis 3, rad/s
+            spin3 = w3,
+            /// Angular momentum along the space axis x, kg m^2/s
+            momentum_x = (1.0 - 2.0 * (sq(e2) + sq(e3))) * i1 * w1
+                + 2.0 * (e1 * e2 - e0 * e3) * i2 * w2
+                + 2.0 * (e1 * e3 + e0 * e2) * i3 * w3,
+            /// Angular momentum along the space axis y, kg m^2/s
+            momentum_y = 2.0 * (e1 * e2 + e0 * e3) * i1 * w1
+                + (1.0 - 2.0 * (sq(e1) + sq(e3))) * i2 * w2
+                + 2.0 * (e2 * e3 - e0 * e1) * i3 * w3,
+            /// Angular momentum along the space axis z, kg m^2/s
+            momentum_z = 2.0 * (e1 * e3 - e0 * e2) * i1 * w1
+                + 2.0 * (e2 * e3 + e0 * e1) * i2 * w2
+                + (1.0 - 2.0 * (sq(e1) + sq(e2))) * i3 * w3,
+        }
+    }
+}
+
+const fn rate(name: &'static str, doc: &'static str, default: f64) -> StartOption {
+    StartOption {
+        name,
+        doc,
+        default,
+        unit: "rad/s",
+    }
+}
+
+const TUMBLING: StartSpec = StartSpec {
+    name: "tumbling",
+    doc: "body axes along the space axes, turning nearly about the middle, unstable one",
+    options: &[
+        rate("rate1", "angular velocity about axis 1", 0.01),
+        rate("rate2", "angular velocity about axis 2", 2.0),
+        rate("rate3", "angular velocity about axis 3", 0.02),
+    ],
+};
+
+impl Model for RigidBody {
+    const ID: &'static str = "rigid_body";
+
+    fn summary() -> &'static str {
+        "free rigid body in a unit quaternion (singular M from the kinetic energy)"
+    }
+
+    fn starts() -> &'static [StartSpec] {
+        &[TUMBLING]
+    }
+
+    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
+        let spin = Chosen::of::<Self>(name, options)?.values();
+        let q = [1.0, 0.0, 0.0, 0.0];
+        Ok(State {
+            t: 0.0,
+            q: q.to_vec(),
+            v: quaternion_rate(q, spin).to_vec(),
+        })
+    }
+
+    fn duration() -> f64 {
+        20.0
+    }
+}
+
+/// ė = ½ G(e)ᵀ ω, 1/s, for the unit quaternion e and the angular velocity ω in body axes, rad/s.
+#[must_use]
+pub fn quaternion_rate(e: [f64; 4], spin: [f64; 3]) -> [f64; 4] {
+    let [e0, e1, e2, e3] = e;
+    let [w1, w2, w3] = spin;
+    [
+        0.5 * (-e1 * w1 - e2 * w2 - e3 * w3),
+        0.5 * (e0 * w1 - e3 * w2 + e2 * w3),
+        0.5 * (e3 * w1 + e0 * w2 - e1 * w3),
+        0.5 * (-e2 * w1 + e1 * w2 + e0 * w3),
+    ]
+}
+
+impl RigidBody {
+    /// Angular velocity in body axes, rad/s, at time `t` after it was `spin`; `None` unless i1 < i2 < i3, and on the
+    /// separatrix.
+    ///
+    /// Euler's equations in Jacobi's functions (Landau & Lifshitz, Mechanics, §37): with L² > 2 E i2, ω1 ∝ cn τ, ω2 ∝ sn τ, ω3 ∝ dn τ;
+    /// with L² < 2 E i2 axes 1 and 3 change places. The phase of `spin` comes from the incomplete integral F.
+    #[must_use]
+    pub fn spin(&self, spin: [f64; 3], t: f64) -> Option<[f64; 3]> {
+        let inertia = [self.i1, self.i2, self.i3];
+        if !(0.0 < self.i1 && self.i1 < self.i2 && self.i2 < self.i3) {
+            return None;
+        }
+        // 2E and L².
+        let energy: f64 = (0..3).map(|k| inertia[k] * spin[k] * spin[k]).sum();
+        let momentum: f64 = (0..3).map(|k| (inertia[k] * spin[k]).powi(2)).sum();
+        // Euler's equations keep their form when axes 1 and 3 change places and all rates their signs.
+        if momentum > energy * self.i2 {
+            about_axis_3(inertia, energy, momentum, spin, t)
+        } else {
+            let mirrored = |[a, b, c]: [f64; 3]| [-c, -b, -a];
+            let [i1, i2, i3] = inertia;
+            about_axis_3([i3, i2, i1], energy, momentum, mirrored(spin), t).map(mirrored)
+        }
+    }
+}
+
+/// [`RigidBody::spin`] when ω3 keeps its sign. `energy` is 2E, `momentum` L².
+fn about_axis_3(
+    [i1, i2, i3]: [f64; 3],
+    energy: f64,
+    momentum: f64,
+    spin: [f64; 3],
+    t: f64,
+) -> Option<[f64; 3]> {
+    let low = energy * i3 - momentum;
+    let high = momentum - energy * i1;
+    let amplitude = [
+        (low / (i1 * (i3 - i1))).sqrt(),
+        (low / (i2 * (i3 - i2))).sqrt(),
+        (high / (i3 * (i3 - i1))).sqrt(),
+    ];
+    let m = (i2 - i1) * low / ((i3 - i2) * high);
+    if m >= 1.0 || m.is_nan() {
+        return None;
+    }
+    let rate = ((i3 - i2) * high / (i1 * i2 * i3)).sqrt();
+    // With i3 the largest the phase runs forwards, with i3 the smallest backwards. Turning two of the rates around changes nothing.
+    let sense = if i3 > i1 { 1.0 } else { -1.0 };
+    let sign = if spin[2] < 0.0 { -1.0 } else { 1.0 };
+    let phase = if low == 0.0 {
+        0.0
+    } else {
+        (sign * spin[1] / amplitude[1]).atan2(spin[0] / amplitude[0])
+    };
+    let (sn, cn, dn) = elliptic::jacobi(elliptic::incomplete(phase, m) + sense * rate * t, m);
+    Some([
+        amplitude[0] * cn,
+        sign * amplitude[1] * sn,
+        sign * amplitude[2] * dn,
+    ])
+}

@@ -1,0 +1,122 @@
+//! A block on a rough slope: dry friction as a non-ideal constraint force, in closed form.
+
+use crate::model::Chosen;
+use crate::{Model, StartOption, StartOptions, StartSpec};
+use ukcore::{Error, State};
+
+ukcore::multibody! {
+    /// Block on a slope that falls towards +x; y points up. The slope's constraint is not ideal: it rubs with Coulomb's friction
+    /// mu N against the motion, where N = m g cos(slope) is the ideal constraint force, known beforehand. Friction is of sliding only:
+    /// the slope has to be steeper than the angle of repose, mu < tan(slope), or the block would have to stick.
+    pub RoughBlock {
+        params {
+            /// Mass, kg
+            m = 1.0,
+            /// Acceleration of gravity, m/s^2
+            g = 9.81,
+            /// Inclination of the slope, rad
+            slope = PI / 6.0,
+            /// Coefficient of friction
+            mu = 0.2,
+        }
+        coords {
+            /// Horizontal position, m
+            x,
+            /// Vertical position, upwards, m
+            y,
+        }
+        let speed_down = dot(x) * cos(slope) - dot(y) * sin(slope);
+        let friction = -mu * m * g * cos(slope) * sign(speed_down);
+        mass { x: m, y: m }
+        potential { m * g * y }
+        holonomic { plane: x * sin(slope) + y * cos(slope) = 0.0 }
+        nonideal { x: friction * cos(slope), y: -friction * sin(slope) }
+        output {
+            /// Way down the slope, m
+            way = x * cos(slope) - y * sin(slope),
+            /// Speed down the slope, m/s
+            speed = speed_down,
+            /// Friction, positive down the slope, N
+            friction_force = friction,
+        }
+    }
+}
+
+impl Model for RoughBlock {
+    const ID: &'static str = "rough_block";
+
+    fn summary() -> &'static str {
+        "block on a rough slope (non-ideal constraint, closed form)"
+    }
+
+    fn starts() -> &'static [StartSpec] {
+        &[StartSpec {
+            name: "kicked",
+            doc: "at the origin, kicked along the slope",
+            options: &[StartOption {
+                name: "kick",
+                doc: "speed down the slope; negative is up",
+                default: -5.0,
+                unit: "m/s",
+            }],
+        }]
+    }
+
+    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
+        let [kick] = Chosen::of::<Self>(name, options)?.values();
+        let repose = self.slope.tan();
+        if !(self.mu >= 0.0 && self.mu < repose) {
+            let reason = format!(
+                "is {}; it must not be negative, and below tan(slope) = {repose}: this friction cannot hold a block at rest",
+                self.mu
+            );
+            return Err(Error::InvalidSetting { what: "mu", reason });
+        }
+        let (sin, cos) = self.slope.sin_cos();
+        Ok(State {
+            t: 0.0,
+            q: vec![0.0, 0.0],
+            v: vec![kick * cos, -kick * sin],
+        })
+    }
+
+    fn duration() -> f64 {
+        3.0
+    }
+}
+
+impl RoughBlock {
+    /// Acceleration down the slope, m/s², when sliding down and when sliding up: g (sin ∓ mu cos).
+    #[must_use]
+    pub fn accelerations(&self) -> [f64; 2] {
+        let (sin, cos) = self.slope.sin_cos();
+        [
+            self.g * (sin - self.mu * cos),
+            self.g * (sin + self.mu * cos),
+        ]
+    }
+
+    /// When a block that was kicked with `kick`, m/s down the slope, turns, s; 0 if it slides down from the start.
+    #[must_use]
+    pub fn turning_time(&self, kick: f64) -> f64 {
+        (-kick / self.accelerations()[1]).max(0.0)
+    }
+
+    /// Way down the slope, m, and speed, m/s, at time `t` after the kick from the origin.
+    #[must_use]
+    pub fn slide(&self, kick: f64, t: f64) -> (f64, f64) {
+        let [down, up] = self.accelerations();
+        let turn = self.turning_time(kick);
+        let rising = t.min(turn);
+        let way = kick * rising + 0.5 * up * rising * rising;
+        if t <= turn && kick < 0.0 {
+            return (way, kick + up * t);
+        }
+        let start = kick.max(0.0);
+        let sliding = t - turn;
+        (
+            way + start * sliding + 0.5 * down * sliding * sliding,
+            start + down * sliding,
+        )
+    }
+}

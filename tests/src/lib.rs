@@ -1,0 +1,68 @@
+//! What the tests share: random states, all models in turn, and an independent dense oracle.
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+mod oracle;
+mod random;
+
+pub use oracle::{Dense, pseudo_inverse};
+pub use random::Random;
+
+use models::{Model, Visitor};
+
+/// A test of any model.
+pub trait Check {
+    /// Tests the model `M`; panics where it fails.
+    fn check<M: Model>(&self);
+}
+
+/// Runs `check` on every model of the registry.
+///
+/// # Panics
+/// Where `check` does.
+pub fn every_model(check: &impl Check) {
+    struct Run<'a, C>(&'a C);
+    impl<C: Check> Visitor for Run<'_, C> {
+        type Output = ();
+        fn visit<M: Model>(self) {
+            self.0.check::<M>();
+        }
+    }
+    let ids = models::ids();
+    assert!(!ids.is_empty(), "the registry has no model");
+    for id in ids {
+        models::visit(id, Run(check)).expect("ids() names registered models");
+    }
+}
+
+/// Panics unless `found` is `expected` up to `tolerance` (absolute).
+///
+/// # Panics
+/// See above.
+#[track_caller]
+pub fn assert_close(what: &str, found: f64, expected: f64, tolerance: f64) {
+    let off = (found - expected).abs();
+    assert!(
+        off <= tolerance,
+        "{what}: {found} is not {expected} within {tolerance:e}, but {off:e} off"
+    );
+}
+
+/// Panics unless all of `found` are those of `expected` up to `tolerance` (absolute).
+///
+/// # Panics
+/// See above.
+#[track_caller]
+pub fn assert_all_close(what: &str, found: &[f64], expected: &[f64], tolerance: f64) {
+    assert_eq!(found.len(), expected.len(), "{what}: lengths");
+    for (i, (f, e)) in found.iter().zip(expected).enumerate() {
+        assert_close(&format!("{what}, {i}"), *f, *e, tolerance);
+    }
+}
+
+/// Largest absolute value; 0 of nothing.
+#[must_use]
+pub fn largest<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
+    values.into_iter().fold(0.0, |a: f64, x| a.max(x.abs()))
+}

@@ -1,0 +1,92 @@
+//! An independent dense solution of the equations of motion, over nalgebra's singular value decomposition: no code shared with `ukcore`.
+
+use nalgebra::{DMatrix, DVector};
+use ukcore::{Mechanism, State, Terms};
+
+/// Moore-Penrose inverse by singular values; those below `tolerance` times the largest count as zero.
+///
+/// # Panics
+/// If the decomposition fails, which takes a NaN.
+#[must_use]
+pub fn pseudo_inverse(matrix: &DMatrix<f64>, tolerance: f64) -> DMatrix<f64> {
+    if matrix.is_empty() {
+        return DMatrix::zeros(matrix.ncols(), matrix.nrows());
+    }
+    let svd = matrix.clone().svd(true, true);
+    let cut = tolerance * svd.singular_values.max();
+    svd.pseudo_inverse(cut)
+        .expect("both factors were asked for")
+}
+
+/// M, Q, c, A and b of a state, as matrices.
+#[derive(Debug, Clone)]
+pub struct Dense {
+    /// M (eq. 1).
+    pub mass: DMatrix<f64>,
+    /// Q (eq. 1).
+    pub force: DVector<f64>,
+    /// c (eq. 8).
+    pub nonideal: DVector<f64>,
+    /// A (eq. 5).
+    pub jacobian: DMatrix<f64>,
+    /// b (eq. 5).
+    pub rhs: DVector<f64>,
+}
+
+/// Relative rank tolerance: far above the rounding of a state projected to about 1e-15, far below any dependence that the
+/// geometry of the models has.
+const RANK: f64 = 1e-10;
+
+impl Dense {
+    /// Evaluates `mechanism` at `state`.
+    #[must_use]
+    pub fn of<M: Mechanism>(mechanism: &M, state: &State) -> Self {
+        let (n, m) = (M::SPEC.n(), M::SPEC.m());
+        let mut dense = Dense {
+            mass: DMatrix::zeros(n, n),
+            force: DVector::zeros(n),
+            nonideal: DVector::zeros(n),
+            jacobian: DMatrix::zeros(m, n),
+            rhs: DVector::zeros(m),
+        };
+        let mut terms = Terms {
+            mass: dense.mass.as_mut_slice(),
+            force: dense.force.as_mut_slice(),
+            nonideal: dense.nonideal.as_mut_slice(),
+            jacobian: dense.jacobian.as_mut_slice(),
+            rhs: dense.rhs.as_mut_slice(),
+        };
+        mechanism.dynamics(state.t, &state.q, &state.v, &mut terms);
+        dense
+    }
+
+    /// q̈ by eq. 19, with Q + c for Q.
+    #[must_use]
+    pub fn udwadia_phohomsiri(&self) -> DVector<f64> {
+        let (n, m) = (self.force.len(), self.rhs.len());
+        let project = self.tangent();
+        let mut stacked = DMatrix::zeros(n + m, n);
+        stacked.rows_mut(0, n).copy_from(&(project * &self.mass));
+        stacked.rows_mut(n, m).copy_from(&self.jacobian);
+        let mut right = DVector::zeros(n + m);
+        right
+            .rows_mut(0, n)
+            .copy_from(&(&self.force + &self.nonideal));
+        right.rows_mut(n, m).copy_from(&self.rhs);
+        pseudo_inverse(&stacked, RANK) * right
+    }
+
+    /// I − A⁺A: projects onto the virtual displacements, which satisfy A δq = 0.
+    #[must_use]
+    pub fn tangent(&self) -> DMatrix<f64> {
+        let n = self.force.len();
+        DMatrix::identity(n, n) - pseudo_inverse(&self.jacobian, RANK) * &self.jacobian
+    }
+
+    /// Gauss's function ½ aᵀ M a − aᵀ (Q + c), least for the actual acceleration among those with A a = b.
+    #[must_use]
+    pub fn gauss(&self, acceleration: &DVector<f64>) -> f64 {
+        let inertia = &self.mass * acceleration;
+        0.5 * acceleration.dot(&inertia) - acceleration.dot(&(&self.force + &self.nonideal))
+    }
+}

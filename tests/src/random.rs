@@ -1,0 +1,74 @@
+//! Random numbers and states, the same in every run.
+
+use models::Model;
+use ukcore::{Projector, State};
+
+/// SplitMix64 (Steele, Lea & Flood 2014).
+#[derive(Debug, Clone)]
+pub struct Random(u64);
+
+impl Random {
+    /// A generator with its seed.
+    #[must_use]
+    pub fn new(seed: u64) -> Self {
+        Random(seed)
+    }
+
+    /// Uniform in [−1, 1).
+    pub fn signed(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^= z >> 31;
+        // 53 bits fill the mantissa.
+        (z >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    /// `n` values, each uniform in [−1, 1).
+    pub fn vector(&mut self, n: usize) -> Vec<f64> {
+        (0..n).map(|_| self.signed()).collect()
+    }
+
+    /// The model with each parameter changed by up to `part` of its default value.
+    pub fn parameters<M: Model>(&mut self, part: f64) -> M {
+        let mut mechanism = M::default();
+        for i in 0..M::SPEC.params.len() {
+            let value = mechanism.parameter(i);
+            mechanism.set_parameter(i, value * (1.0 + part * self.signed()));
+        }
+        mechanism
+    }
+
+    /// The default start, each coordinate moved by up to `spread` and each velocity by up to 1, at a time in [0, 1). On no constraint.
+    ///
+    /// # Panics
+    /// If the model has no default start.
+    pub fn state<M: Model>(&mut self, mechanism: &M, spread: f64) -> State {
+        let mut state = mechanism.default_start().expect("the default start exists");
+        state.t = 0.5 * (self.signed() + 1.0);
+        for q in &mut state.q {
+            *q += spread * self.signed();
+        }
+        for v in &mut state.v {
+            *v += self.signed();
+        }
+        state
+    }
+
+    /// A random state near the default start, projected onto the constraints.
+    ///
+    /// # Panics
+    /// If the projection fails.
+    pub fn consistent_state<M: Model>(&mut self, mechanism: &M, spread: f64) -> State {
+        let mut state = self.state(mechanism, spread);
+        let mut projector = Projector::new::<M>();
+        projector
+            .position(mechanism, state.t, &mut state.q, &state.v)
+            .unwrap_or_else(|e| panic!("{}: {e}", M::ID));
+        projector
+            .velocity(mechanism, state.t, &state.q, &mut state.v)
+            .unwrap_or_else(|e| panic!("{}: {e}", M::ID));
+        state
+    }
+}

@@ -1,0 +1,62 @@
+//! After setup, an acceleration allocates nothing.
+
+use models::Model;
+use tests::{Check, every_model};
+use ukcore::{Formula, Projector, Solver, SolverOptions};
+
+#[test]
+fn acceleration_allocates_nothing() {
+    struct Acceleration;
+    impl Check for Acceleration {
+        fn check<M: Model>(&self) {
+            let model = M::default();
+            let state = model.default_start().expect("the default start exists");
+            for formula in [Formula::Auto, Formula::Kkt, Formula::UdwadiaPhohomsiri] {
+                let options = SolverOptions {
+                    formula,
+                    ..SolverOptions::default()
+                };
+                let mut solver = Solver::new::<M>(options);
+                let mut out = vec![0.0; M::SPEC.n()];
+                let count = allocation_counter::measure(|| {
+                    for k in 0..10 {
+                        let t = state.t + 1e-3 * f64::from(k);
+                        let result = solver.acceleration(&model, t, &state.q, &state.v, &mut out);
+                        assert!(result.is_ok(), "{}: {result:?}", M::ID);
+                    }
+                });
+                assert_eq!(count.count_total, 0, "{}, {formula:?}: {count:?}", M::ID);
+            }
+        }
+    }
+    every_model(&Acceleration);
+}
+
+#[test]
+fn evaluation_and_projection_allocate_nothing() {
+    struct Evaluation;
+    impl Check for Evaluation {
+        fn check<M: Model>(&self) {
+            let model = M::default();
+            let mut state = model.default_start().expect("the default start exists");
+            let mut projector = Projector::new::<M>();
+            let mut phi = vec![0.0; M::SPEC.holonomic];
+            let mut rate = vec![0.0; M::SPEC.m()];
+            let mut outputs = vec![0.0; M::SPEC.outputs.len()];
+            let count = allocation_counter::measure(|| {
+                for _ in 0..3 {
+                    model.residual(state.t, &state.q, &mut phi);
+                    model.residual_rate(state.t, &state.q, &state.v, &mut rate);
+                    model.outputs(state.t, &state.q, &state.v, &mut outputs);
+                    let energy = model.energy(state.t, &state.q, &state.v);
+                    assert!(energy.total().is_finite(), "{}", M::ID);
+                    let position = projector.position(&model, state.t, &mut state.q, &state.v);
+                    let velocity = projector.velocity(&model, state.t, &state.q, &mut state.v);
+                    assert!(position.is_ok() && velocity.is_ok(), "{}", M::ID);
+                }
+            });
+            assert_eq!(count.count_total, 0, "{}: {count:?}", M::ID);
+        }
+    }
+    every_model(&Evaluation);
+}

@@ -1,0 +1,457 @@
+//! Each small model against its motion in closed form.
+
+use models::{
+    DoublePendulum, DoublePendulumAngles, KapitzaPendulum, KnifeEdge, MasslessSpring, Model,
+    Pendulum, RigidBody, RoughBlock, SliderCrank, SliderCrankRedundant, StartOptions,
+};
+use serde_json::Value;
+use std::f64::consts::{FRAC_PI_2, PI};
+use tests::{Random, assert_all_close, assert_close, largest};
+use ukcore::{Direction, Event, Mechanism, Simulation, Solver, SolverOptions, State, Trajectory};
+
+/// Tolerance of the runs; motions are compared with 100 to 1000 times as much, for the error that accumulates.
+const TOLERANCE: f64 = 1e-11;
+
+fn run<M: Model>(model: M, options: StartOptions, until: f64) -> Trajectory<M> {
+    let name = M::starts()[0].name;
+    let start = model
+        .start(name, &options)
+        .unwrap_or_else(|e| panic!("{}: {e}", M::ID));
+    run_from(model, start, until)
+}
+
+fn run_from<M: Model>(model: M, start: State, until: f64) -> Trajectory<M> {
+    Simulation::new(model)
+        .start(start)
+        .tolerance(TOLERANCE)
+        .until(until)
+        .unwrap_or_else(|e| panic!("{}: {}", M::ID, e.error))
+}
+
+fn decimals(value: &Value) -> f64 {
+    value.as_str().expect("decimals").parse().expect("a number")
+}
+
+#[test]
+fn pendulum_in_elliptic_functions() {
+    let pendulum = Pendulum::default();
+    let run = run(pendulum.clone(), StartOptions::new(), 10.0);
+    for sample in run.samples() {
+        let (angle, rate) = pendulum.swing(-FRAC_PI_2, sample.t);
+        let (q, v) = pendulum.at_angle(angle, rate);
+        assert_all_close("q", sample.q, &q, 1e-9);
+        assert_all_close("v", sample.v, &v, 1e-8);
+    }
+    let tension = run.output("tension").expect("declared");
+    for (solution, tension) in run.solutions().expect("solvable").iter().zip(tension) {
+        let force = solution.ideal_force[0].hypot(solution.ideal_force[1]);
+        assert_close("tension", force, tension, 1e-9);
+    }
+}
+
+#[test]
+fn pendulum_reference() {
+    let data: Value = serde_json::from_str(include_str!("../data/pendulum.json")).expect("JSON");
+    let pendulum = Pendulum::default();
+    let period = decimals(&data["period"]);
+    assert_close("period", pendulum.period(FRAC_PI_2), period, 1e-15 * period);
+    for point in data["reference"].as_array().expect("a list") {
+        let t = decimals(&point["t"]);
+        // The closed form at t is as good as ω₀ t is: rounding grows with t.
+        let (angle, rate) = pendulum.swing(-FRAC_PI_2, t);
+        let (q, v) = pendulum.at_angle(angle, rate);
+        let accuracy = 1e-13 * (1.0 + t);
+        assert_all_close(
+            "q",
+            &q,
+            &[decimals(&point["x"]), decimals(&point["y"])],
+            accuracy,
+        );
+        assert_all_close(
+            "v",
+            &v,
+            &[decimals(&point["vx"]), decimals(&point["vy"])],
+            10.0 * accuracy,
+        );
+        let mut outputs = vec![0.0; Pendulum::SPEC.outputs.len()];
+        pendulum.outputs(t, &q, &v, &mut outputs);
+        assert_close(
+            "tension",
+            outputs[Pendulum::OUT_TENSION],
+            decimals(&point["tension"]),
+            30.0 * accuracy,
+        );
+    }
+}
+
+#[test]
+fn pendulum_period_by_event() {
+    for amplitude in [0.1, 1.0, 3.0] {
+        let pendulum = Pendulum {
+            l: 0.7,
+            ..Pendulum::default()
+        };
+        let options = StartOptions::new().with("from", amplitude);
+        let start = pendulum.start("released", &options).expect("a start");
+        let period = pendulum.period(amplitude);
+        let bottom = Event::new("bottom", |_t, q, _v| q[0]).direction(Direction::Falling);
+        let run = Simulation::new(pendulum)
+            .start(start)
+            .tolerance(TOLERANCE)
+            .event(bottom)
+            .until(1.5 * period)
+            .unwrap_or_else(|e| panic!("{}", e.error));
+        let times: Vec<f64> = run.events("bottom").map(|hit| hit.t).collect();
+        assert_all_close("bottoms", &times, &[0.25 * period, 1.25 * period], 1e-9);
+    }
+}
+
+#[test]
+fn double_pendulum_reference() {
+    let data: Value =
+        serde_json::from_str(include_str!("../data/double_pendulum.json")).expect("JSON");
+    let cartesian = DoublePendulum::default();
+    let angles = DoublePendulumAngles::default();
+    let mut state = cartesian.default_start().expect("a start");
+    let mut angle_state = angles.default_start().expect("a start");
+    for point in data["reference"].as_array().expect("a list") {
+        let t = decimals(&point["t"]);
+        let amplification = point["error_amplification"].as_f64().expect("a number");
+        if t > 15.0 {
+            break;
+        }
+        let numbers = |key: &str| -> Vec<f64> {
+            point[key]
+                .as_array()
+                .expect("a list")
+                .iter()
+                .map(decimals)
+                .collect()
+        };
+        // Errors made on the way grow, too; the worst amplification so far is 40 but at t = 15.
+        let accuracy = 1e-9 * amplification.max(10.0);
+        let run = run_from(cartesian.clone(), state, t);
+        let last = run.last().expect("an end");
+        assert_all_close(&format!("q at {t}"), last.q, &numbers("q"), accuracy);
+        assert_all_close(&format!("v at {t}"), last.v, &numbers("v"), 10.0 * accuracy);
+        let angle_run = run_from(angles.clone(), angle_state, t);
+        let angle_last = angle_run.last().expect("an end");
+        let [a, b, rate_a, rate_b] = [
+            angle_last.q[0],
+            angle_last.q[1],
+            angle_last.v[0],
+            angle_last.v[1],
+        ];
+        let (q, v) = cartesian.at_angles([a, b], [rate_a, rate_b]);
+        assert_all_close(&format!("q by angles at {t}"), &q, &numbers("q"), accuracy);
+        assert_all_close(
+            &format!("v by angles at {t}"),
+            &v,
+            &numbers("v"),
+            10.0 * accuracy,
+        );
+        state = last.to_state();
+        angle_state = angle_last.to_state();
+    }
+}
+
+#[test]
+fn double_pendulum_accelerates_alike_in_both_formulations() {
+    let mut random = Random::new(11);
+    for _ in 0..50 {
+        let angles: DoublePendulumAngles = random.parameters(0.5);
+        let cartesian = angles.cartesian();
+        let (a, b) = (PI * random.signed(), PI * random.signed());
+        let (u, w) = (3.0 * random.signed(), 3.0 * random.signed());
+        let mut angular = vec![0.0; 2];
+        Solver::new::<DoublePendulumAngles>(SolverOptions::default())
+            .acceleration(&angles, 0.0, &[a, b], &[u, w], &mut angular)
+            .expect("regular");
+        let (q, v) = cartesian.at_angles([a, b], [u, w]);
+        let mut found = vec![0.0; 4];
+        Solver::new::<DoublePendulum>(SolverOptions::default())
+            .acceleration(&cartesian, 0.0, &q, &v, &mut found)
+            .expect("regular");
+        let rod = |l: f64, angle: f64, rate: f64, acceleration: f64| {
+            let (sin, cos) = angle.sin_cos();
+            let centripetal = rate * rate;
+            [
+                l * (acceleration * cos - centripetal * sin),
+                l * (acceleration * sin + centripetal * cos),
+            ]
+        };
+        let inner = rod(angles.l1, a, u, angular[0]);
+        let outer = rod(angles.l2, b, w, angular[1]);
+        let expected = [inner[0], inner[1], inner[0] + outer[0], inner[1] + outer[1]];
+        assert_all_close("q̈", &found, &expected, 1e-11 * largest(&expected).max(1.0));
+    }
+}
+
+#[test]
+fn double_pendulum_small_oscillations() {
+    let pendulum = DoublePendulumAngles {
+        m1: 1.3,
+        m2: 0.7,
+        l1: 0.9,
+        l2: 1.1,
+        ..Default::default()
+    };
+    for frequency in pendulum.cartesian().small_oscillations() {
+        // The mode's shape, from the first row of (K − ω² M) θ = 0. The frequency is off by the amplitude squared.
+        let both = pendulum.m1 + pendulum.m2;
+        let square = frequency * frequency;
+        let own = both * pendulum.l1 * (pendulum.g - square * pendulum.l1);
+        let ratio = own / (square * pendulum.m2 * pendulum.l1 * pendulum.l2);
+        let amplitude = 1e-4;
+        let options = StartOptions::new()
+            .with("from1", amplitude)
+            .with("from2", ratio * amplitude);
+        let start = pendulum.start("released", &options).expect("a start");
+        let run = run_from(pendulum.clone(), start, 2.0 * PI / frequency);
+        let last = run.last().expect("an end");
+        assert_all_close(
+            "one period",
+            last.q,
+            &[amplitude, ratio * amplitude],
+            1e-8 * amplitude.sqrt(),
+        );
+        let half = run_from(
+            pendulum.clone(),
+            run.sample(0).expect("a start").to_state(),
+            PI / frequency,
+        );
+        let last = half.last().expect("an end");
+        assert_all_close(
+            "half a period",
+            last.q,
+            &[-amplitude, -ratio * amplitude],
+            1e-8 * amplitude.sqrt(),
+        );
+    }
+}
+
+#[test]
+fn kapitza_in_its_angle() {
+    let mut random = Random::new(5);
+    let mut solver = Solver::new::<KapitzaPendulum>(SolverOptions::default());
+    for _ in 0..50 {
+        let pendulum: KapitzaPendulum = random.parameters(0.5);
+        let (t, angle, rate) = (random.signed(), PI * random.signed(), 5.0 * random.signed());
+        let (q, v) = pendulum.at_angle(t, angle, rate);
+        let mut found = vec![0.0; 2];
+        solver
+            .acceleration(&pendulum, t, &q, &v, &mut found)
+            .expect("regular");
+        let acceleration = pendulum.angular_acceleration(t, angle);
+        let (sin, cos) = angle.sin_cos();
+        let expected = [
+            pendulum.l * (acceleration * cos - rate * rate * sin),
+            pendulum.pivot(t)[2] - pendulum.l * (acceleration * sin + rate * rate * cos),
+        ];
+        assert_all_close("q̈", &found, &expected, 1e-11 * largest(&expected));
+    }
+}
+
+#[test]
+fn kapitza_stands_on_its_head() {
+    let pendulum = KapitzaPendulum::default();
+    assert!(pendulum.inverted_is_stable());
+    let run = run(pendulum.clone(), StartOptions::new(), 5.0);
+    let angles = run.output("angle").expect("declared");
+    // It swings through ±0.2 slowly; the shaking adds (a/l) sin θ.
+    assert!(largest(&angles) < 0.23, "{}", largest(&angles));
+    // The slow swing crosses zero every half period: the mean of five, within the order a/l of the average.
+    let half = PI / pendulum.slow_frequency();
+    let crossings: Vec<f64> = run
+        .times()
+        .windows(2)
+        .zip(angles.windows(2))
+        .filter(|(_, a)| a[0] * a[1] < 0.0)
+        .map(|(t, _)| 0.5 * (t[0] + t[1]))
+        .collect();
+    let first = crossings.first().copied().expect("it swings");
+    let last = crossings.last().copied().expect("it swings");
+    let halves = ((last - first) / half).round();
+    assert_close(
+        "slow half period",
+        (last - first) / halves,
+        half,
+        0.05 * half,
+    );
+
+    let slow = KapitzaPendulum {
+        w: 30.0,
+        ..pendulum
+    };
+    assert!(!slow.inverted_is_stable());
+    let angles = run_from(slow.clone(), slow.default_start().expect("a start"), 5.0)
+        .output("angle")
+        .expect("declared");
+    assert!(largest(&angles) > 1.0, "it falls");
+}
+
+#[test]
+fn slider_crank_with_one_degree_of_freedom() {
+    let crank = SliderCrank {
+        torque: 0.4,
+        ..SliderCrank::default()
+    };
+    let run = run(crank.clone(), StartOptions::new(), 1.0);
+    let start = run.sample(0).expect("a start").to_state();
+    let kinetic = |angle: f64, rate: f64| {
+        0.5 * crank.reduced_inertia(angle).expect("the rod reaches") * rate * rate
+    };
+    let angle = start.q[SliderCrank::TH1];
+    let energy = kinetic(angle, start.v[SliderCrank::TH1]) + crank.reduced_potential(angle);
+    for sample in run.samples() {
+        let angle = sample.q[SliderCrank::TH1];
+        assert_close(
+            "stroke",
+            sample.q[SliderCrank::X3],
+            crank.stroke(angle),
+            1e-13,
+        );
+        let work = energy - crank.reduced_potential(angle);
+        let rate = (2.0 * work / crank.reduced_inertia(angle).expect("the rod reaches")).sqrt();
+        assert_close("rate of the crank", sample.v[SliderCrank::TH1], rate, 1e-8);
+        let expected = crank.at_crank(angle, rate).expect("the rod reaches");
+        assert_all_close("q", sample.q, &expected.q, 1e-12);
+        assert_all_close("q̇", sample.v, &expected.v, 1e-8);
+    }
+    let solution = Solver::new::<SliderCrank>(SolverOptions::default())
+        .solve(&crank, start.t, &start.q, &start.v)
+        .expect("regular");
+    assert_eq!((solution.rank, solution.degrees_of_freedom), (8, 1));
+    assert!(solution.redundant.is_empty());
+}
+
+#[test]
+fn slider_crank_does_not_mind_redundant_constraints() {
+    let redundant = SliderCrankRedundant::default();
+    let plain = redundant.without_redundancy();
+    let with = run(redundant.clone(), StartOptions::new(), 1.0);
+    let without = run(plain, StartOptions::new(), 1.0);
+    let (a, b) = (
+        with.last().expect("an end"),
+        without.last().expect("an end"),
+    );
+    assert_all_close("q", a.q, b.q, 1e-8);
+    assert_all_close("q̇", a.v, b.v, 1e-7);
+    for solution in with.solutions().expect("redundant is no error") {
+        assert_eq!((solution.rank, solution.degrees_of_freedom), (8, 1));
+        assert_eq!(solution.redundant.len(), 2);
+    }
+}
+
+#[test]
+fn knife_edge_paths() {
+    for (turn, glide, heading) in [
+        (1.0, 0.0, 0.0),
+        (1.3, 0.7, -0.4),
+        (-2.0, 1.0, 2.0),
+        (0.0, 0.5, 0.3),
+    ] {
+        let options = StartOptions::new()
+            .with("turn", turn)
+            .with("glide", glide)
+            .with("heading", heading);
+        let knife = KnifeEdge::default();
+        let run = run(knife.clone(), options, 5.0);
+        for sample in run.samples() {
+            let expected = knife.path(turn, glide, heading, sample.t);
+            let size = largest(&expected).max(1.0);
+            assert_all_close("path", sample.q, &expected, 1e-9 * size);
+        }
+    }
+    // A whole number of half turns from rest: it has drifted across the slope only.
+    let knife = KnifeEdge::default();
+    let run = run(knife.clone(), StartOptions::new(), PI);
+    let last = run.last().expect("an end");
+    assert_close("down", last.q[KnifeEdge::X], 0.0, 1e-9);
+    assert_close("across", last.q[KnifeEdge::Y], PI * knife.drift(1.0), 1e-9);
+}
+
+#[test]
+fn block_slides_by_coulomb() {
+    let block = RoughBlock::default();
+    for kick in [-5.0, 0.5] {
+        // Through the turn the friction jumps; the step that meets the jump is as good as the tolerance.
+        let run = run(block.clone(), StartOptions::new().with("kick", kick), 3.0);
+        let ways = run.output("way").expect("declared");
+        let speeds = run.output("speed").expect("declared");
+        for ((t, way), speed) in run.times().iter().zip(ways).zip(speeds) {
+            let (expected_way, expected_speed) = block.slide(kick, *t);
+            assert_close("way", way, expected_way, 1e-8);
+            assert_close("speed", speed, expected_speed, 1e-8);
+        }
+    }
+    // The normal force is ideal, friction is not, and neither contains the other.
+    let start = block.default_start().expect("a start");
+    let solution = Solver::new::<RoughBlock>(SolverOptions::default())
+        .solve(&block, start.t, &start.q, &start.v)
+        .expect("regular");
+    let size = |force: &[f64]| force[0].hypot(force[1]);
+    let normal = block.m * block.g * block.slope.cos();
+    assert_close("normal force", size(&solution.ideal_force), normal, 1e-13);
+    assert_close(
+        "friction",
+        size(&solution.nonideal_force),
+        block.mu * normal,
+        1e-13,
+    );
+    let steep = RoughBlock { mu: 0.6, ..block };
+    assert!(steep.default_start().is_err(), "it would stick");
+}
+
+#[test]
+fn massless_joint_oscillates_with_the_mass() {
+    let spring = MasslessSpring {
+        m: 0.3,
+        ..MasslessSpring::default()
+    };
+    let (pull, speed) = (0.1, -0.7);
+    let run = run(
+        spring.clone(),
+        StartOptions::new().with("pull", pull).with("speed", speed),
+        5.0,
+    );
+    for sample in run.samples() {
+        let (x, v) = spring.oscillation(pull, speed, sample.t);
+        let ratio = spring.ratio();
+        assert_all_close("q", sample.q, &[ratio * x, x], 1e-9);
+        assert_all_close("q̇", sample.v, &[ratio * v, v], 1e-8);
+    }
+    for solution in run.solutions().expect("[M | Aᵀ] has full rank") {
+        assert!(
+            largest(&solution.ideal_force) < 1e-12,
+            "the balance needs no force"
+        );
+    }
+}
+
+#[test]
+fn rigid_body_tumbles_by_euler() {
+    let body = RigidBody::default();
+    for spin in [
+        [0.01, 2.0, 0.02],
+        [0.3, -1.0, 0.4],
+        [1.0, 0.2, -0.3],
+        [-1.0, 0.5, 0.1],
+        [0.1, 0.3, -1.0],
+    ] {
+        let options = StartOptions::new()
+            .with("rate1", spin[0])
+            .with("rate2", spin[1])
+            .with("rate3", spin[2]);
+        let run = run(body.clone(), options, 10.0);
+        for (t, outputs) in run.times().iter().zip(run.outputs()) {
+            let expected = body.spin(spin, *t).expect("three different moments");
+            assert_all_close("spin", &outputs[..3], &expected, 2e-8);
+        }
+    }
+    // Equal to the start at t = 0, and constant about a principal axis.
+    let still = body
+        .spin([0.0, 0.0, 1.5], 3.0)
+        .expect("three different moments");
+    assert_all_close("principal axis", &still, &[0.0, 0.0, 1.5], 1e-15);
+}

@@ -1,0 +1,141 @@
+//! The fish robot against a reference solution, and the paper's claims on its sweeps.
+
+use models::{FishRobot, Model};
+use serde_json::Value;
+use std::f64::consts::PI;
+use tests::{Dense, Random, assert_all_close, assert_close, largest};
+use ukcore::{Mechanism, Simulation, Solver, SolverOptions, Trajectory};
+
+/// A gait: A3, ω/π, φ in degrees; and what an independent integration (equations derived by a computer algebra system, tolerance 1e-9) gives
+/// for it: ẍ1(0), m/s², and the mean ẋ1 over t ∈ [3, 4] s, m/s.
+const SWEEPS: [(f64, f64, f64, f64, f64); 10] = [
+    (0.1, 2.0, 15.0, -0.191_562_7, -0.098_647_5),
+    (0.2, 2.0, 15.0, -0.223_384_1, -0.106_945_9),
+    (0.4, 2.0, 15.0, -0.292_362_1, -0.121_537_0),
+    (0.6, 2.0, 15.0, -0.367_899_0, -0.132_748_3),
+    (0.6, 2.5, 15.0, -0.574_842_1, -0.166_840_8),
+    (0.6, 3.0, 15.0, -0.827_772_7, -0.201_285_7),
+    (0.6, 3.5, 15.0, -1.126_690_6, -0.235_936_3),
+    (0.6, 2.0, 0.0, -0.381_219_3, -0.138_774_3),
+    (0.6, 2.0, 30.0, -0.331_604_5, -0.124_537_4),
+    (0.6, 2.0, 60.0, -0.227_006_5, -0.102_176_5),
+];
+
+fn fish(a3: f64, w_over_pi: f64, phi_degrees: f64) -> FishRobot {
+    FishRobot {
+        a3,
+        w: w_over_pi * PI,
+        phi: phi_degrees.to_radians(),
+        ..FishRobot::default()
+    }
+}
+
+fn swim(fish: &FishRobot, tolerance: f64, times: Vec<f64>) -> Trajectory<FishRobot> {
+    let end = times.last().copied().expect("there are times");
+    Simulation::new(fish.clone())
+        .start(fish.default_start().expect("the start is consistent"))
+        .tolerance(tolerance)
+        .at(times)
+        .until(end)
+        .unwrap_or_else(|e| panic!("{}", e.error))
+}
+
+fn start_acceleration(fish: &FishRobot) -> f64 {
+    let start = fish.default_start().expect("the start is consistent");
+    let mut out = vec![0.0; FishRobot::SPEC.n()];
+    Solver::new::<FishRobot>(SolverOptions::default())
+        .acceleration(fish, start.t, &start.q, &start.v, &mut out)
+        .expect("[M | Aᵀ] has full rank");
+    out[FishRobot::X1]
+}
+
+#[test]
+fn states_agree_with_the_reference() {
+    let data: Value = serde_json::from_str(include_str!("../data/fish.json")).expect("JSON");
+    let run = swim(&FishRobot::default(), 1e-10, vec![1.0, 2.0, 4.0]);
+    for sample in run.samples() {
+        let expected: Vec<f64> = data["states"][format!("{:.1}", sample.t)]
+            .as_array()
+            .expect("a list")
+            .iter()
+            .map(|v| v.as_f64().expect("a number"))
+            .collect();
+        let body = [FishRobot::X1, FishRobot::Y1, FishRobot::TH1];
+        let mut found = body.map(|i| sample.q[i]).to_vec();
+        found.extend(body.map(|i| sample.v[i]));
+        assert_all_close(&format!("t = {}", sample.t), &found, &expected, 1e-6);
+    }
+}
+
+#[test]
+fn sweeps() {
+    for (a3, w, phi, acceleration, speed) in SWEEPS {
+        let case = format!("A3 = {a3}, ω = {w} π, φ = {phi}°");
+        let fish = fish(a3, w, phi);
+        assert_close(&case, start_acceleration(&fish), acceleration, 1e-6);
+        let run = swim(&fish, 1e-8, vec![3.0, 4.0]);
+        let x = run.coordinate("x1").expect("the fish has a body");
+        assert_close(&case, x[1] - x[0], speed, 1e-5);
+    }
+}
+
+#[test]
+fn paper_claims_on_the_sweeps() {
+    // Speeds and starting accelerations are towards −x. Rows 0-3 vary A3, rows 3-6 ω, rows 7, 3, 8, 9 φ.
+    let grows = |rows: &[usize]| {
+        for pair in rows.windows(2) {
+            let (a, b) = (SWEEPS[pair[0]], SWEEPS[pair[1]]);
+            assert!(-b.3 > -a.3 && -b.4 > -a.4, "{a:?} to {b:?}");
+        }
+    };
+    grows(&[0, 1, 2, 3]);
+    grows(&[3, 4, 5, 6]);
+    grows(&[9, 8, 3, 7]);
+}
+
+#[test]
+fn start_is_consistent() {
+    let mut random = Random::new(3);
+    for _ in 0..10 {
+        let fish: FishRobot = random.parameters(0.3);
+        let body: [f64; 3] = std::array::from_fn(|_| random.signed());
+        let rate: [f64; 3] = std::array::from_fn(|_| random.signed());
+        let state = fish.follow(random.signed(), body, rate);
+        let mut phi = vec![0.0; FishRobot::SPEC.holonomic];
+        let mut phi_dot = vec![0.0; FishRobot::SPEC.m()];
+        fish.residual(state.t, &state.q, &mut phi);
+        fish.residual_rate(state.t, &state.q, &state.v, &mut phi_dot);
+        assert!(
+            largest(&phi) < 1e-15 && largest(&phi_dot) < 1e-14,
+            "{phi:?} {phi_dot:?}"
+        );
+    }
+}
+
+#[test]
+fn forces_are_equations_29_to_34() {
+    let mut random = Random::new(4);
+    for _ in 0..20 {
+        let fish: FishRobot = random.parameters(0.3);
+        let state = random.state(&fish, 0.5);
+        let force = Dense::of(&fish, &state).force;
+        let (q, v) = (&state.q, &state.v);
+        let velocity = [v[FishRobot::X3], v[FishRobot::Y3]];
+        let lift = fish.lift(q[FishRobot::TH3], velocity);
+        let mut expected = vec![0.0; 9];
+        expected[FishRobot::X1] = fish.drag(fish.s, v[FishRobot::X1]);
+        expected[FishRobot::Y1] = fish.drag(fish.s1, v[FishRobot::Y1]);
+        expected[FishRobot::Y2] = fish.drag(fish.s2, v[FishRobot::Y2]);
+        expected[FishRobot::X3] = lift[0];
+        expected[FishRobot::Y3] = fish.drag(fish.s3, v[FishRobot::Y3]) + lift[1];
+        let size = largest(&expected);
+        assert_all_close("Q", force.as_slice(), &expected, 1e-13 * size);
+        // Lift is perpendicular to the inflow.
+        assert_close(
+            "power of lift",
+            lift[0] * velocity[0] + lift[1] * velocity[1],
+            0.0,
+            1e-12 * size,
+        );
+    }
+}
