@@ -46,12 +46,18 @@ pub(crate) struct Diagnostics {
 }
 
 impl Diagnostics {
-    /// Records an error.
+    /// Records an error, unless the same one is recorded for the same place (in a function that is called twice, say).
     pub(crate) fn error(&self, loc: impl Into<Loc>, message: impl Into<String>) {
-        self.found.borrow_mut().push(Diagnostic {
-            loc: loc.into(),
-            message: message.into(),
-        });
+        let (loc, message) = (loc.into(), message.into());
+        // Spans cannot be compared, but they can be printed.
+        let place = |l: &Loc| format!("{:?} {:?}", l.start, l.end);
+        let mut found = self.found.borrow_mut();
+        let known = found
+            .iter()
+            .any(|d| d.message == message && place(&d.loc) == place(&loc));
+        if !known {
+            found.push(Diagnostic { loc, message });
+        }
     }
 
     /// Records what `syn` found wrong.
@@ -69,7 +75,7 @@ impl Diagnostics {
         self.found.borrow().len()
     }
 
-    /// All errors, each place and text once.
+    /// All errors.
     #[cfg(test)]
     pub(crate) fn take(self) -> Vec<Diagnostic> {
         self.found.into_inner()

@@ -10,6 +10,9 @@ mod expr;
 mod model;
 mod parse;
 
+#[cfg(test)]
+mod tests;
+
 use proc_macro2::TokenStream;
 
 /// Declares a mechanism; see `ukcore` for the language.

@@ -105,7 +105,7 @@ pub(crate) fn derive(system: &mut System, n: usize) -> Dynamics {
 /// Lagrange's equations d/dt(∂T/∂q̇) − ∂T/∂q = Q: M = ∂²T/∂q̇², and the rest of the left side goes into Q.
 fn lagrange(t: Id, mass: &mut BTreeMap<(usize, usize), Id>, force: &mut [Id], g: &mut Graph) {
     let mut total = Derivative::total();
-    for i in 0..force.len() {
+    for (i, force) in force.iter_mut().enumerate() {
         let momentum = Derivative::partial(Symbol::Velocity(i)).of(t, g);
         for j in 0..=i {
             let entry = Derivative::partial(Symbol::Velocity(j)).of(momentum, g);
@@ -115,9 +115,10 @@ fn lagrange(t: Id, mass: &mut BTreeMap<(usize, usize), Id>, force: &mut [Id], g:
         }
         let transport = total.of(momentum, g);
         let gradient = Derivative::partial(Symbol::Coord(i)).of(t, g);
-        force[i] = subtract(force[i], transport, g);
-        let positive = g.neg(gradient);
-        force[i] = subtract(force[i], positive, g);
+        let mut terms = g.open(1.0, *force);
+        terms.extend(g.open(-1.0, transport));
+        terms.extend(g.open(1.0, gradient));
+        *force = g.sum(&terms);
     }
 }
 

@@ -242,11 +242,12 @@ impl Writer<'_> {
 
     fn scale(&self, c: f64, inner: Id) -> (TokenStream, Binding) {
         // −(a − b) is b − a.
-        if c == -1.0 && self.namer.variable(inner).is_none() {
-            if let Node::Sum(constant, terms) = self.graph.node(inner) {
-                let flipped: Vec<(f64, Id)> = terms.iter().map(|(k, t)| (-k.get(), *t)).collect();
-                return (self.sum(-constant.get(), &flipped), Binding::Sum);
-            }
+        if c == -1.0
+            && self.namer.variable(inner).is_none()
+            && let Node::Sum(constant, terms) = self.graph.node(inner)
+        {
+            let flipped: Vec<(f64, Id)> = terms.iter().map(|(k, t)| (-k.get(), *t)).collect();
+            return (self.sum(-constant.get(), &flipped), Binding::Sum);
         }
         if c == -1.0 {
             let factor = self.wrapped(inner, Binding::Call);

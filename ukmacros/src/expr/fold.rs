@@ -207,18 +207,18 @@ impl Graph {
     }
 
     pub(crate) fn call2(&mut self, func: Func, a: Id, b: Id) -> Id {
-        if func == Func::Powf {
-            if let Some(y) = self.as_const(b) {
-                if y == 0.5 {
-                    return self.call1(Func::Sqrt, a);
-                }
-                #[allow(
-                    clippy::cast_possible_truncation,
-                    reason = "checked to be a small integer"
-                )]
-                if y.fract() == 0.0 && y.abs() <= 64.0 {
-                    return self.pow(a, y as i32);
-                }
+        if func == Func::Powf
+            && let Some(y) = self.as_const(b)
+        {
+            if y == 0.5 {
+                return self.call1(Func::Sqrt, a);
+            }
+            #[allow(
+                clippy::cast_possible_truncation,
+                reason = "checked to be a small integer"
+            )]
+            if y.fract() == 0.0 && y.abs() <= 64.0 {
+                return self.pow(a, y as i32);
             }
         }
         if let (Some(x), Some(y)) = (self.as_const(a), self.as_const(b)) {

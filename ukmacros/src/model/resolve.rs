@@ -114,7 +114,7 @@ fn collect(
             name: key.name.clone(),
             docs: docs.to_vec(),
             index,
-            loc: key.loc(),
+            loc: key.loc,
             default: None,
         });
     };

@@ -213,15 +213,17 @@ fn expression(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Expr> {
 fn key(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Key> {
     let name: Ident = input.parse()?;
     let mut index = None;
+    let mut loc: Loc = name.span().into();
     if input.peek(syn::token::Bracket) {
         let inner;
-        bracketed!(inner in input);
+        let bracket = bracketed!(inner in input);
+        loc.end = bracket.span.close();
         index = Some(expression(&inner, diag)?);
         if !inner.is_empty() {
             return Err(inner.error("a family has one index, such as `x[i]`"));
         }
     }
-    Ok(Key { name, index })
+    Ok(Key { name, index, loc })
 }
 
 type EntryParser<T> = fn(ParseStream<'_>, &Diagnostics) -> syn::Result<T>;
@@ -236,10 +238,18 @@ fn blocks<T>(
     let body;
     braced!(body in input);
     while !body.is_empty() {
-        if body.peek(Token![for]) {
-            out.push(for_block(&body, diag, parse)?);
+        let block = if body.peek(Token![for]) {
+            for_block(&body, diag, parse)
         } else {
-            out.push(Block::One(parse(&body, diag)?));
+            parse(&body, diag).map(Block::One)
+        };
+        match block {
+            Ok(block) => out.push(block),
+            // The rest of this section cannot be trusted; the next ones can.
+            Err(e) => {
+                diag.syntax(&e);
+                let _: TokenStream = body.parse()?;
+            }
         }
         let _: Option<Token![,]> = body.parse()?;
         let _: Option<Token![;]> = body.parse()?;

@@ -53,15 +53,8 @@ pub(crate) struct Const {
 pub(crate) struct Key {
     pub(crate) name: Ident,
     pub(crate) index: Option<Expr>,
-}
-
-impl Key {
-    pub(crate) fn loc(&self) -> Loc {
-        Loc {
-            start: self.name.span(),
-            end: self.index.as_ref().map_or(self.name.span(), |i| i.loc.end),
-        }
-    }
+    /// From the name to the closing bracket.
+    pub(crate) loc: Loc,
 }
 
 /// `m = 1.0`, `k[N] = 2.0`.

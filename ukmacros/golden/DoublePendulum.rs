@@ -1,0 +1,341 @@
+/// Two point masses on massless rigid rods, the first about a pivot at the origin; y points up.
+///
+/// # Equations of motion
+///
+/// Derived from the declaration at compile time, in the notation of Zhao, Zhen & Chen 2013: M q̈ = Q is the unconstrained motion, A q̈ = b what the constraints demand.
+///
+/// Mass matrix M (lower triangle), eq. 1:
+///
+/// ```text
+/// M[x1, x1] = m1
+/// M[y1, y1] = m1
+/// M[x2, x2] = m2
+/// M[y2, y2] = m2
+/// ```
+///
+/// Generalised force Q, eq. 1:
+///
+/// ```text
+/// Q[y1] = -m1*g
+/// Q[y2] = -m2*g
+/// ```
+///
+/// Constraints φ, eqs. 3 and 4:
+///
+/// ```text
+/// inner: sq(x1) + sq(y1) - sq(l1) = 0
+/// outer: sq(x1 - x2) + sq(y1 - y2) - sq(l2) = 0
+/// ```
+///
+/// Constraint Jacobian A, eq. 5:
+///
+/// ```text
+/// A[inner, x1] = 2*x1
+/// A[inner, y1] = 2*y1
+/// A[outer, x1] = 2*(x1 - x2)
+/// A[outer, y1] = 2*(y1 - y2)
+/// A[outer, x2] = 2*(x2 - x1)
+/// A[outer, y2] = 2*(y2 - y1)
+/// ```
+///
+/// Right-hand side b, eq. 5:
+///
+/// ```text
+/// b[inner] = -2*(sq(dot(x1)) + sq(dot(y1)))
+/// b[outer] = -2*(sq(dot(x1) - dot(x2)) + sq(dot(y1) - dot(y2)))
+/// ```
+///
+#[derive(Clone, Debug, PartialEq)]
+#[allow(non_snake_case, clippy::approx_constant)]
+pub struct DoublePendulum {
+    /// Inner mass, kg
+    pub m1: f64,
+    /// Outer mass, kg
+    pub m2: f64,
+    /// Length of the inner rod, m
+    pub l1: f64,
+    /// Length of the outer rod, m
+    pub l2: f64,
+    /// Acceleration of gravity (exact in binary), m/s^2
+    pub g: f64,
+}
+#[automatically_derived]
+#[allow(clippy::approx_constant, clippy::derivable_impls, clippy::unreadable_literal)]
+impl ::core::default::Default for DoublePendulum {
+    fn default() -> Self {
+        DoublePendulum {
+            m1: 1.0,
+            m2: 1.0,
+            l1: 1.0,
+            l2: 1.0,
+            g: 9.8125,
+        }
+    }
+}
+#[automatically_derived]
+#[allow(dead_code)]
+impl DoublePendulum {
+    /// Position in q of coordinate `x1`.
+    pub const X1: usize = 0;
+    /// Position in q of coordinate `y1`.
+    pub const Y1: usize = 1;
+    /// Position in q of coordinate `x2`.
+    pub const X2: usize = 2;
+    /// Position in q of coordinate `y2`.
+    pub const Y2: usize = 3;
+    /// Row in A of constraint `inner`.
+    pub const INNER: usize = 0;
+    /// Row in A of constraint `outer`.
+    pub const OUTER: usize = 1;
+    /// Position of output `angle1`.
+    pub const OUT_ANGLE1: usize = 0;
+    /// Position of output `angle2`.
+    pub const OUT_ANGLE2: usize = 1;
+}
+#[automatically_derived]
+#[allow(unused_variables, clippy::all, clippy::pedantic)]
+impl ::ukcore::Mechanism for DoublePendulum {
+    const SPEC: &'static ::ukcore::Spec = &::ukcore::Spec {
+        name: "DoublePendulum",
+        doc: "Two point masses on massless rigid rods, the first about a pivot at the origin; y points up.",
+        params: &[
+            ::ukcore::ParamSpec {
+                name: "m1",
+                doc: "Inner mass, kg",
+                default: 1.0,
+            },
+            ::ukcore::ParamSpec {
+                name: "m2",
+                doc: "Outer mass, kg",
+                default: 1.0,
+            },
+            ::ukcore::ParamSpec {
+                name: "l1",
+                doc: "Length of the inner rod, m",
+                default: 1.0,
+            },
+            ::ukcore::ParamSpec {
+                name: "l2",
+                doc: "Length of the outer rod, m",
+                default: 1.0,
+            },
+            ::ukcore::ParamSpec {
+                name: "g",
+                doc: "Acceleration of gravity (exact in binary), m/s^2",
+                default: 9.8125,
+            },
+        ],
+        coords: &["x1", "y1", "x2", "y2"],
+        constraints: &[
+            ::ukcore::ConstraintSpec {
+                name: "inner",
+                kind: ::ukcore::ConstraintKind::Holonomic,
+                equation: "sq(x1) + sq(y1) - sq(l1) = 0",
+            },
+            ::ukcore::ConstraintSpec {
+                name: "outer",
+                kind: ::ukcore::ConstraintKind::Holonomic,
+                equation: "sq(x1 - x2) + sq(y1 - y2) - sq(l2) = 0",
+            },
+        ],
+        holonomic: 2,
+        outputs: &[
+            ::ukcore::OutputSpec {
+                name: "angle1",
+                doc: "Angle of the inner rod from the downward vertical, rad",
+            },
+            ::ukcore::OutputSpec {
+                name: "angle2",
+                doc: "Angle of the outer rod from the downward vertical, rad",
+            },
+        ],
+        structure: ::ukcore::Structure {
+            mass_pattern: &[(0, 0), (1, 1), (2, 2), (3, 3)],
+            jacobian_pattern: &[(0, 0), (0, 1), (1, 0), (1, 1), (1, 2), (1, 3)],
+            mass_diagonal: true,
+            mass_constant: true,
+            jacobian_constant: false,
+            massless: &[],
+            scleronomic: true,
+            nonideal: false,
+            potential: true,
+            conservative: true,
+            left_out: &[
+                "2 of the 8 entries of A: structurally zero, never written",
+                "off-diagonal entries of M: M is diagonal, its square root is taken entry by entry",
+                "∂/∂t terms: no equation contains the time",
+                "non-ideal force c (eq. 12): all constraints are ideal",
+                "2 of 4 entries of Q: identically zero",
+                "Udwadia-Phohomsiri formula (eq. 19): no coordinate is massless while the parameters are positive",
+            ],
+            operations: ::ukcore::Operations {
+                additions: 8,
+                multiplications: 14,
+                divisions: 0,
+                square_roots: 0,
+                transcendentals: 0,
+                selections: 0,
+            },
+        },
+        equations: ::ukcore::Equations {
+            definitions: &[],
+            mass: &[(0, 0, "m1"), (1, 1, "m1"), (2, 2, "m2"), (3, 3, "m2")],
+            force: &[(1, "-m1*g"), (3, "-m2*g")],
+            nonideal: &[],
+            jacobian: &[
+                (0, 0, "2*x1"),
+                (0, 1, "2*y1"),
+                (1, 0, "2*(x1 - x2)"),
+                (1, 1, "2*(y1 - y2)"),
+                (1, 2, "2*(x2 - x1)"),
+                (1, 3, "2*(y2 - y1)"),
+            ],
+            rhs: &[
+                (0, "-2*(sq(dot(x1)) + sq(dot(y1)))"),
+                (1, "-2*(sq(dot(x1) - dot(x2)) + sq(dot(y1) - dot(y2)))"),
+            ],
+        },
+    };
+    fn parameter(&self, index: usize) -> f64 {
+        match index {
+            0 => self.m1,
+            1 => self.m2,
+            2 => self.l1,
+            3 => self.l2,
+            4 => self.g,
+            _ => ::ukcore::emitted::no_parameter(index),
+        }
+    }
+    fn set_parameter(&mut self, index: usize, value: f64) {
+        match index {
+            0 => self.m1 = value,
+            1 => self.m2 = value,
+            2 => self.l1 = value,
+            3 => self.l2 = value,
+            4 => self.g = value,
+            _ => ::ukcore::emitted::no_parameter(index),
+        }
+    }
+    /// 8 additions, 14 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
+    fn dynamics<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        out: &mut ::ukcore::Terms<'_, S>,
+    ) {
+        let mass = ::ukcore::emitted::exact_mut::<S, 16>(out.mass, "mass");
+        let force = ::ukcore::emitted::exact_mut::<S, 4>(out.force, "force");
+        let nonideal = ::ukcore::emitted::exact_mut::<S, 4>(out.nonideal, "nonideal");
+        let jacobian = ::ukcore::emitted::exact_mut::<S, 8>(out.jacobian, "jacobian");
+        let rhs = ::ukcore::emitted::exact_mut::<S, 2>(out.rhs, "rhs");
+        let [x1, y1, x2, y2] = *::ukcore::emitted::exact::<S, 4>(q, "q");
+        let [dot_x1, dot_y1, dot_x2, dot_y2] = *::ukcore::emitted::exact::<S, 4>(v, "v");
+        let lit = S::from_f64;
+        let m1 = lit(self.m1);
+        let m2 = lit(self.m2);
+        let g = lit(self.g);
+        mass[0] = m1;
+        mass[5] = m1;
+        mass[10] = m2;
+        mass[15] = m2;
+        force[0] = lit(0.0);
+        force[1] = -(m1 * g);
+        force[2] = lit(0.0);
+        force[3] = -(m2 * g);
+        nonideal[0] = lit(0.0);
+        nonideal[1] = lit(0.0);
+        nonideal[2] = lit(0.0);
+        nonideal[3] = lit(0.0);
+        jacobian[0] = lit(2.0) * x1;
+        jacobian[2] = lit(2.0) * y1;
+        let x1_minus_x2 = x1 - x2;
+        jacobian[1] = lit(2.0) * x1_minus_x2;
+        let y1_minus_y2 = y1 - y2;
+        jacobian[3] = lit(2.0) * y1_minus_y2;
+        jacobian[5] = lit(-2.0) * x1_minus_x2;
+        jacobian[7] = lit(-2.0) * y1_minus_y2;
+        rhs[0] = lit(-2.0) * (dot_x1 * dot_x1 + dot_y1 * dot_y1);
+        let dot_x1_minus_dot_x2 = dot_x1 - dot_x2;
+        let dot_y1_minus_dot_y2 = dot_y1 - dot_y2;
+        rhs[1] = lit(-2.0)
+            * (dot_x1_minus_dot_x2 * dot_x1_minus_dot_x2
+                + dot_y1_minus_dot_y2 * dot_y1_minus_dot_y2);
+    }
+    fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) {
+        let mass = ::ukcore::emitted::exact_mut::<S, 16>(mass, "mass");
+        let lit = S::from_f64;
+        let m1 = lit(self.m1);
+        let m2 = lit(self.m2);
+        mass[0] = m1;
+        mass[5] = m1;
+        mass[10] = m2;
+        mass[15] = m2;
+    }
+    fn jacobian<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
+        let jacobian = ::ukcore::emitted::exact_mut::<S, 8>(jacobian, "jacobian");
+        let [x1, y1, x2, y2] = *::ukcore::emitted::exact::<S, 4>(q, "q");
+        let lit = S::from_f64;
+        jacobian[0] = lit(2.0) * x1;
+        jacobian[2] = lit(2.0) * y1;
+        let x1_minus_x2 = x1 - x2;
+        jacobian[1] = lit(2.0) * x1_minus_x2;
+        let y1_minus_y2 = y1 - y2;
+        jacobian[3] = lit(2.0) * y1_minus_y2;
+        jacobian[5] = lit(-2.0) * x1_minus_x2;
+        jacobian[7] = lit(-2.0) * y1_minus_y2;
+    }
+    fn residual<S: ::ukcore::Scalar>(&self, t: S, q: &[S], phi: &mut [S]) {
+        let phi = ::ukcore::emitted::exact_mut::<S, 2>(phi, "phi");
+        let [x1, y1, x2, y2] = *::ukcore::emitted::exact::<S, 4>(q, "q");
+        let lit = S::from_f64;
+        let l1 = lit(self.l1);
+        let l2 = lit(self.l2);
+        phi[0] = x1 * x1 + y1 * y1 - l1 * l1;
+        let x1_minus_x2 = x1 - x2;
+        let y1_minus_y2 = y1 - y2;
+        phi[1] = x1_minus_x2 * x1_minus_x2 + y1_minus_y2 * y1_minus_y2 - l2 * l2;
+    }
+    fn residual_rate<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        rate: &mut [S],
+    ) {
+        let rate = ::ukcore::emitted::exact_mut::<S, 2>(rate, "rate");
+        let [x1, y1, x2, y2] = *::ukcore::emitted::exact::<S, 4>(q, "q");
+        let [dot_x1, dot_y1, dot_x2, dot_y2] = *::ukcore::emitted::exact::<S, 4>(v, "v");
+        let lit = S::from_f64;
+        rate[0] = lit(2.0) * (x1 * dot_x1 + y1 * dot_y1);
+        rate[1] = lit(2.0)
+            * ((x1 - x2) * (dot_x1 - dot_x2) + (y1 - y2) * (dot_y1 - dot_y2));
+    }
+    fn energy<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+    ) -> ::ukcore::Energy<S> {
+        let [_, y1, _, y2] = *::ukcore::emitted::exact::<S, 4>(q, "q");
+        let [dot_x1, dot_y1, dot_x2, dot_y2] = *::ukcore::emitted::exact::<S, 4>(v, "v");
+        let lit = S::from_f64;
+        let m1 = lit(self.m1);
+        let m2 = lit(self.m2);
+        let g = lit(self.g);
+        let kinetic = lit(0.5)
+            * (m1 * dot_x1 * dot_x1 + m1 * dot_y1 * dot_y1 + m2 * dot_x2 * dot_x2
+                + m2 * dot_y2 * dot_y2);
+        let potential = m1 * g * y1 + m2 * g * y2;
+        ::ukcore::Energy {
+            kinetic,
+            potential,
+        }
+    }
+    fn outputs<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) {
+        let outputs = ::ukcore::emitted::exact_mut::<S, 2>(outputs, "outputs");
+        let [x1, y1, x2, y2] = *::ukcore::emitted::exact::<S, 4>(q, "q");
+        outputs[0] = x1.atan2(-y1);
+        outputs[1] = (x2 - x1).atan2(y1 - y2);
+    }
+}

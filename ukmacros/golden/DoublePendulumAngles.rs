@@ -1,0 +1,293 @@
+/// The double pendulum in the angles of its rods from the downward vertical, declared by its energies alone.
+///
+/// # Equations of motion
+///
+/// Derived from the declaration at compile time, in the notation of Zhao, Zhen & Chen 2013: M q̈ = Q is the unconstrained motion, A q̈ = b what the constraints demand.
+///
+/// Mass matrix M (lower triangle), eq. 1:
+///
+/// ```text
+/// M[th1, th1] = (m1 + m2)*sq(l1)
+/// M[th2, th1] = m2*l1*l2*cos(th1 - th2)
+/// M[th2, th2] = m2*sq(l2)
+/// ```
+///
+/// Generalised force Q, eq. 1:
+///
+/// ```text
+/// Q[th1] = m2*l1*l2*dot(th2)*(dot(th1) - dot(th2))*sin(th1 - th2) - m2*l1*dot(th1)*l2*dot(th2)*sin(th1 - th2) - (m1 + m2)*l1*g*sin(th1)
+/// Q[th2] = m2*l1*dot(th1)*l2*dot(th2)*sin(th1 - th2) + m2*l1*dot(th1)*l2*(dot(th1) - dot(th2))*sin(th1 - th2) - m2*l2*g*sin(th2)
+/// ```
+///
+#[derive(Clone, Debug, PartialEq)]
+#[allow(non_snake_case, clippy::approx_constant)]
+pub struct DoublePendulumAngles {
+    /// Inner mass, kg
+    pub m1: f64,
+    /// Outer mass, kg
+    pub m2: f64,
+    /// Length of the inner rod, m
+    pub l1: f64,
+    /// Length of the outer rod, m
+    pub l2: f64,
+    /// Acceleration of gravity (exact in binary), m/s^2
+    pub g: f64,
+}
+#[automatically_derived]
+#[allow(clippy::approx_constant, clippy::derivable_impls, clippy::unreadable_literal)]
+impl ::core::default::Default for DoublePendulumAngles {
+    fn default() -> Self {
+        DoublePendulumAngles {
+            m1: 1.0,
+            m2: 1.0,
+            l1: 1.0,
+            l2: 1.0,
+            g: 9.8125,
+        }
+    }
+}
+#[automatically_derived]
+#[allow(dead_code)]
+impl DoublePendulumAngles {
+    /// Position in q of coordinate `th1`.
+    pub const TH1: usize = 0;
+    /// Position in q of coordinate `th2`.
+    pub const TH2: usize = 1;
+    /// Position of output `x1`.
+    pub const OUT_X1: usize = 0;
+    /// Position of output `y1`.
+    pub const OUT_Y1: usize = 1;
+    /// Position of output `x2`.
+    pub const OUT_X2: usize = 2;
+    /// Position of output `y2`.
+    pub const OUT_Y2: usize = 3;
+}
+#[automatically_derived]
+#[allow(unused_variables, clippy::all, clippy::pedantic)]
+impl ::ukcore::Mechanism for DoublePendulumAngles {
+    const SPEC: &'static ::ukcore::Spec = &::ukcore::Spec {
+        name: "DoublePendulumAngles",
+        doc: "The double pendulum in the angles of its rods from the downward vertical, declared by its energies alone.",
+        params: &[
+            ::ukcore::ParamSpec {
+                name: "m1",
+                doc: "Inner mass, kg",
+                default: 1.0,
+            },
+            ::ukcore::ParamSpec {
+                name: "m2",
+                doc: "Outer mass, kg",
+                default: 1.0,
+            },
+            ::ukcore::ParamSpec {
+                name: "l1",
+                doc: "Length of the inner rod, m",
+                default: 1.0,
+            },
+            ::ukcore::ParamSpec {
+                name: "l2",
+                doc: "Length of the outer rod, m",
+                default: 1.0,
+            },
+            ::ukcore::ParamSpec {
+                name: "g",
+                doc: "Acceleration of gravity (exact in binary), m/s^2",
+                default: 9.8125,
+            },
+        ],
+        coords: &["th1", "th2"],
+        constraints: &[],
+        holonomic: 0,
+        outputs: &[
+            ::ukcore::OutputSpec {
+                name: "x1",
+                doc: "Horizontal position of the inner mass, m",
+            },
+            ::ukcore::OutputSpec {
+                name: "y1",
+                doc: "Vertical position of the inner mass, upwards, m",
+            },
+            ::ukcore::OutputSpec {
+                name: "x2",
+                doc: "Horizontal position of the outer mass, m",
+            },
+            ::ukcore::OutputSpec {
+                name: "y2",
+                doc: "Vertical position of the outer mass, upwards, m",
+            },
+        ],
+        structure: ::ukcore::Structure {
+            mass_pattern: &[(0, 0), (0, 1), (1, 0), (1, 1)],
+            jacobian_pattern: &[],
+            mass_diagonal: false,
+            mass_constant: false,
+            jacobian_constant: true,
+            massless: &[],
+            scleronomic: true,
+            nonideal: false,
+            potential: true,
+            conservative: true,
+            left_out: &[
+                "constraint solve: there are no constraints, M q\u{308} = Q",
+                "∂/∂t terms: no equation contains the time",
+                "non-ideal force c (eq. 12): all constraints are ideal",
+            ],
+            operations: ::ukcore::Operations {
+                additions: 7,
+                multiplications: 28,
+                divisions: 0,
+                square_roots: 0,
+                transcendentals: 3,
+                selections: 0,
+            },
+        },
+        equations: ::ukcore::Equations {
+            definitions: &[],
+            mass: &[
+                (0, 0, "(m1 + m2)*sq(l1)"),
+                (1, 0, "m2*l1*l2*cos(th1 - th2)"),
+                (1, 1, "m2*sq(l2)"),
+            ],
+            force: &[
+                (
+                    0,
+                    "m2*l1*l2*dot(th2)*(dot(th1) - dot(th2))*sin(th1 - th2) - m2*l1*dot(th1)*l2*dot(th2)*sin(th1 - th2) - (m1 + m2)*l1*g*sin(th1)",
+                ),
+                (
+                    1,
+                    "m2*l1*dot(th1)*l2*dot(th2)*sin(th1 - th2) + m2*l1*dot(th1)*l2*(dot(th1) - dot(th2))*sin(th1 - th2) - m2*l2*g*sin(th2)",
+                ),
+            ],
+            nonideal: &[],
+            jacobian: &[],
+            rhs: &[],
+        },
+    };
+    fn parameter(&self, index: usize) -> f64 {
+        match index {
+            0 => self.m1,
+            1 => self.m2,
+            2 => self.l1,
+            3 => self.l2,
+            4 => self.g,
+            _ => ::ukcore::emitted::no_parameter(index),
+        }
+    }
+    fn set_parameter(&mut self, index: usize, value: f64) {
+        match index {
+            0 => self.m1 = value,
+            1 => self.m2 = value,
+            2 => self.l1 = value,
+            3 => self.l2 = value,
+            4 => self.g = value,
+            _ => ::ukcore::emitted::no_parameter(index),
+        }
+    }
+    /// 7 additions, 28 multiplications, 0 divisions, 0 square roots, 3 transcendentals, 0 selections.
+    fn dynamics<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        out: &mut ::ukcore::Terms<'_, S>,
+    ) {
+        let mass = ::ukcore::emitted::exact_mut::<S, 4>(out.mass, "mass");
+        let force = ::ukcore::emitted::exact_mut::<S, 2>(out.force, "force");
+        let nonideal = ::ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
+        let jacobian = ::ukcore::emitted::exact_mut::<S, 0>(out.jacobian, "jacobian");
+        let rhs = ::ukcore::emitted::exact_mut::<S, 0>(out.rhs, "rhs");
+        let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
+        let [dot_th1, dot_th2] = *::ukcore::emitted::exact::<S, 2>(v, "v");
+        let lit = S::from_f64;
+        let m1 = lit(self.m1);
+        let m2 = lit(self.m2);
+        let l1 = lit(self.l1);
+        let l2 = lit(self.l2);
+        let g = lit(self.g);
+        let m1_plus_m2 = m1 + m2;
+        mass[0] = m1_plus_m2 * l1 * l1;
+        let th1_minus_th2 = th1 - th2;
+        let (sin_th1_minus_th2, cos_th1_minus_th2) = th1_minus_th2.sin_cos();
+        let m2_l1_l2_cos_th1_minus_th2 = m2 * l1 * l2 * cos_th1_minus_th2;
+        mass[1] = m2_l1_l2_cos_th1_minus_th2;
+        mass[2] = m2_l1_l2_cos_th1_minus_th2;
+        mass[3] = m2 * l2 * l2;
+        let dot_th1_minus_dot_th2 = dot_th1 - dot_th2;
+        let force_0_part = m2 * l1 * dot_th1 * l2 * dot_th2 * sin_th1_minus_th2;
+        force[0] = m2 * l1 * l2 * dot_th2 * dot_th1_minus_dot_th2 * sin_th1_minus_th2
+            - force_0_part - m1_plus_m2 * l1 * g * th1.sin();
+        force[1] = force_0_part
+            + m2 * l1 * dot_th1 * l2 * dot_th1_minus_dot_th2 * sin_th1_minus_th2
+            - m2 * l2 * g * th2.sin();
+        nonideal[0] = lit(0.0);
+        nonideal[1] = lit(0.0);
+    }
+    fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) {
+        let mass = ::ukcore::emitted::exact_mut::<S, 4>(mass, "mass");
+        let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
+        let lit = S::from_f64;
+        let m1 = lit(self.m1);
+        let m2 = lit(self.m2);
+        let l1 = lit(self.l1);
+        let l2 = lit(self.l2);
+        mass[0] = (m1 + m2) * l1 * l1;
+        let mass_th2_th1_part = m2 * l1 * l2 * (th1 - th2).cos();
+        mass[1] = mass_th2_th1_part;
+        mass[2] = mass_th2_th1_part;
+        mass[3] = m2 * l2 * l2;
+    }
+    fn jacobian<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
+        let jacobian = ::ukcore::emitted::exact_mut::<S, 0>(jacobian, "jacobian");
+    }
+    fn residual<S: ::ukcore::Scalar>(&self, t: S, q: &[S], phi: &mut [S]) {
+        let phi = ::ukcore::emitted::exact_mut::<S, 0>(phi, "phi");
+    }
+    fn residual_rate<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        rate: &mut [S],
+    ) {
+        let rate = ::ukcore::emitted::exact_mut::<S, 0>(rate, "rate");
+    }
+    fn energy<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+    ) -> ::ukcore::Energy<S> {
+        let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
+        let [dot_th1, dot_th2] = *::ukcore::emitted::exact::<S, 2>(v, "v");
+        let lit = S::from_f64;
+        let m1 = lit(self.m1);
+        let m2 = lit(self.m2);
+        let l1 = lit(self.l1);
+        let l2 = lit(self.l2);
+        let g = lit(self.g);
+        let m1_plus_m2 = m1 + m2;
+        let kinetic = lit(0.5) * (m1_plus_m2 * l1 * l1 * dot_th1 * dot_th1)
+            + lit(0.5) * (m2 * l2 * l2 * dot_th2 * dot_th2)
+            + m2 * l1 * dot_th1 * l2 * dot_th2 * (th1 - th2).cos();
+        let potential = -(m1_plus_m2 * l1 * g * th1.cos()) - m2 * l2 * g * th2.cos();
+        ::ukcore::Energy {
+            kinetic,
+            potential,
+        }
+    }
+    fn outputs<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) {
+        let outputs = ::ukcore::emitted::exact_mut::<S, 4>(outputs, "outputs");
+        let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
+        let lit = S::from_f64;
+        let l1 = lit(self.l1);
+        let l2 = lit(self.l2);
+        let (sin_th1, cos_th1) = th1.sin_cos();
+        let l1_sin_th1 = l1 * sin_th1;
+        outputs[0] = l1_sin_th1;
+        let l1_cos_th1 = l1 * cos_th1;
+        outputs[1] = -l1_cos_th1;
+        let (sin_th2, cos_th2) = th2.sin_cos();
+        outputs[2] = l1_sin_th1 + l2 * sin_th2;
+        outputs[3] = -l1_cos_th1 - l2 * cos_th2;
+    }
+}

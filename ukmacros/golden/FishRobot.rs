@@ -1,0 +1,774 @@
+/// Fish robot of three links: body, peduncle and tail fin. x is longitudinal with the tail at +x, so it swims towards −x; y is
+/// lateral. The angles of peduncle and fin are prescribed and carry no inertia, which makes M singular (eqs. 36, 37).
+/// Parameters are those of Table 2, with its moments of inertia of peduncle and fin left out as the model does not use them.
+/// (Zhao, Zhen & Chen 2013, §6-10.)
+///
+/// # Equations of motion
+///
+/// Derived from the declaration at compile time, in the notation of Zhao, Zhen & Chen 2013: M q̈ = Q is the unconstrained motion, A q̈ = b what the constraints demand.
+///
+/// Abbreviations:
+///
+/// ```text
+/// lift_x = rho*span*half_chord*(dot(x3)*dot(y3)*sin(th3) - sq(dot(y3))*cos(th3))
+/// lift_y = rho*span*half_chord*(dot(x3)*dot(y3)*cos(th3) - sq(dot(x3))*sin(th3))
+/// ```
+///
+/// Mass matrix M (lower triangle), eq. 1:
+///
+/// ```text
+/// M[x1, x1] = m1
+/// M[y1, y1] = m1
+/// M[th1, th1] = i1
+/// M[x2, x2] = m2
+/// M[y2, y2] = m2
+/// M[x3, x3] = m3
+/// M[y3, y3] = m3
+/// ```
+///
+/// Generalised force Q, eq. 1:
+///
+/// ```text
+/// Q[x1] = -0.5*rho*s*dot(x1)*cd*abs(dot(x1))
+/// Q[y1] = -0.5*rho*cd*s1*dot(y1)*abs(dot(y1))
+/// Q[y2] = -0.5*rho*cd*s2*dot(y2)*abs(dot(y2))
+/// Q[x3] = 6.283185307179586*lift_x
+/// Q[y3] = 6.283185307179586*lift_y - 0.5*rho*dot(y3)*cd*s3*abs(dot(y3))
+/// ```
+///
+/// Constraints φ, eqs. 3 and 4:
+///
+/// ```text
+/// joint1[0]: x1 + a*cos(th1) + 0.5*l2*cos(th2) - x2 = 0
+/// joint1[1]: y1 + a*sin(th1) + 0.5*l2*sin(th2) - y2 = 0
+/// joint2[0]: x2 + 0.5*l2*cos(th2) + cos(th3)*b - x3 = 0
+/// joint2[1]: y2 + 0.5*l2*sin(th2) + sin(th3)*b - y3 = 0
+/// peduncle: th2 - a2*sin(w*t) = 0
+/// fin: th3 - a3*sin(w*t - phi) = 0
+/// ```
+///
+/// Constraint Jacobian A, eq. 5:
+///
+/// ```text
+/// A[joint1[0], x1] = 1
+/// A[joint1[0], th1] = -a*sin(th1)
+/// A[joint1[0], x2] = -1
+/// A[joint1[0], th2] = -0.5*l2*sin(th2)
+/// A[joint1[1], y1] = 1
+/// A[joint1[1], th1] = a*cos(th1)
+/// A[joint1[1], y2] = -1
+/// A[joint1[1], th2] = 0.5*l2*cos(th2)
+/// A[joint2[0], x2] = 1
+/// A[joint2[0], th2] = -0.5*l2*sin(th2)
+/// … 7 rows like these …
+/// A[fin, th3] = 1
+/// ```
+///
+/// Right-hand side b, eq. 5:
+///
+/// ```text
+/// b[joint1[0]] = a*cos(th1)*sq(dot(th1)) + 0.5*l2*cos(th2)*sq(dot(th2))
+/// b[joint1[1]] = a*sin(th1)*sq(dot(th1)) + 0.5*l2*sin(th2)*sq(dot(th2))
+/// b[joint2[0]] = 0.5*l2*cos(th2)*sq(dot(th2)) + cos(th3)*b*sq(dot(th3))
+/// b[joint2[1]] = 0.5*l2*sin(th2)*sq(dot(th2)) + sin(th3)*b*sq(dot(th3))
+/// b[peduncle] = -a2*sq(w)*sin(w*t)
+/// b[fin] = -sq(w)*a3*sin(w*t - phi)
+/// ```
+///
+#[derive(Clone, Debug, PartialEq)]
+#[allow(non_snake_case, clippy::approx_constant)]
+pub struct FishRobot {
+    /// Mass of the body, kg
+    pub m1: f64,
+    /// Moment of inertia of the body about its centre, kg m^2
+    pub i1: f64,
+    /// Half length of the body, m
+    pub a: f64,
+    /// Frontal area of the body, m^2
+    pub s: f64,
+    /// Lateral area of the body (as printed; far more than a body of this size has), m^2
+    pub s1: f64,
+    /// Mass of the peduncle, kg
+    pub m2: f64,
+    /// Length of the peduncle, m
+    pub l2: f64,
+    /// Lateral area of the peduncle, m^2
+    pub s2: f64,
+    /// Mass of the fin, kg
+    pub m3: f64,
+    /// Half length of the fin, m
+    pub b: f64,
+    /// Lateral area of the fin, m^2
+    pub s3: f64,
+    /// Density of water, kg/m^3
+    pub rho: f64,
+    /// Drag coefficient
+    pub cd: f64,
+    /// Span of the fin, m
+    pub span: f64,
+    /// Half chord of the fin, m
+    pub half_chord: f64,
+    /// Amplitude of the peduncle's angle, rad
+    pub a2: f64,
+    /// Amplitude of the fin's angle, rad
+    pub a3: f64,
+    /// Angular frequency of the gait, rad/s
+    pub w: f64,
+    /// Phase by which the fin lags the peduncle, rad
+    pub phi: f64,
+}
+#[automatically_derived]
+#[allow(clippy::approx_constant, clippy::derivable_impls, clippy::unreadable_literal)]
+impl ::core::default::Default for FishRobot {
+    fn default() -> Self {
+        FishRobot {
+            m1: 0.409,
+            i1: 0.00123,
+            a: 0.09375,
+            s: 0.007069,
+            s1: 0.19,
+            m2: 0.104,
+            l2: 0.0625,
+            s2: 0.04,
+            m3: 0.009,
+            b: 0.015,
+            s3: 0.008,
+            rho: 998.0,
+            cd: 0.5,
+            span: 0.075,
+            half_chord: 0.015,
+            a2: 0.3,
+            a3: 0.6,
+            w: ::core::f64::consts::TAU,
+            phi: 0.2617993877991494,
+        }
+    }
+}
+#[automatically_derived]
+#[allow(dead_code)]
+impl FishRobot {
+    /// Position in q of coordinate `x1`.
+    pub const X1: usize = 0;
+    /// Position in q of coordinate `y1`.
+    pub const Y1: usize = 1;
+    /// Position in q of coordinate `th1`.
+    pub const TH1: usize = 2;
+    /// Position in q of coordinate `x2`.
+    pub const X2: usize = 3;
+    /// Position in q of coordinate `y2`.
+    pub const Y2: usize = 4;
+    /// Position in q of coordinate `th2`.
+    pub const TH2: usize = 5;
+    /// Position in q of coordinate `x3`.
+    pub const X3: usize = 6;
+    /// Position in q of coordinate `y3`.
+    pub const Y3: usize = 7;
+    /// Position in q of coordinate `th3`.
+    pub const TH3: usize = 8;
+    /// Row in A of constraints `joint1`.
+    pub const JOINT1: [usize; 2] = [0, 1];
+    /// Row in A of constraints `joint2`.
+    pub const JOINT2: [usize; 2] = [2, 3];
+    /// Row in A of constraint `peduncle`.
+    pub const PEDUNCLE: usize = 4;
+    /// Row in A of constraint `fin`.
+    pub const FIN: usize = 5;
+    /// Position of output `forward_speed`.
+    pub const OUT_FORWARD_SPEED: usize = 0;
+    /// Position of output `swing`.
+    pub const OUT_SWING: usize = 1;
+    /// Position of output `fin_x`.
+    pub const OUT_FIN_X: usize = 2;
+    /// Position of output `fin_y`.
+    pub const OUT_FIN_Y: usize = 3;
+    /// Position of output `edge_x`.
+    pub const OUT_EDGE_X: usize = 4;
+    /// Position of output `edge_y`.
+    pub const OUT_EDGE_Y: usize = 5;
+}
+#[automatically_derived]
+#[allow(unused_variables, clippy::all, clippy::pedantic)]
+impl ::ukcore::Mechanism for FishRobot {
+    const SPEC: &'static ::ukcore::Spec = &::ukcore::Spec {
+        name: "FishRobot",
+        doc: "Fish robot of three links: body, peduncle and tail fin. x is longitudinal with the tail at +x, so it swims towards −x; y is\nlateral. The angles of peduncle and fin are prescribed and carry no inertia, which makes M singular (eqs. 36, 37).\nParameters are those of Table 2, with its moments of inertia of peduncle and fin left out as the model does not use them.\n(Zhao, Zhen & Chen 2013, §6-10.)",
+        params: &[
+            ::ukcore::ParamSpec {
+                name: "m1",
+                doc: "Mass of the body, kg",
+                default: 0.409,
+            },
+            ::ukcore::ParamSpec {
+                name: "i1",
+                doc: "Moment of inertia of the body about its centre, kg m^2",
+                default: 0.00123,
+            },
+            ::ukcore::ParamSpec {
+                name: "a",
+                doc: "Half length of the body, m",
+                default: 0.09375,
+            },
+            ::ukcore::ParamSpec {
+                name: "s",
+                doc: "Frontal area of the body, m^2",
+                default: 0.007069,
+            },
+            ::ukcore::ParamSpec {
+                name: "s1",
+                doc: "Lateral area of the body (as printed; far more than a body of this size has), m^2",
+                default: 0.19,
+            },
+            ::ukcore::ParamSpec {
+                name: "m2",
+                doc: "Mass of the peduncle, kg",
+                default: 0.104,
+            },
+            ::ukcore::ParamSpec {
+                name: "l2",
+                doc: "Length of the peduncle, m",
+                default: 0.0625,
+            },
+            ::ukcore::ParamSpec {
+                name: "s2",
+                doc: "Lateral area of the peduncle, m^2",
+                default: 0.04,
+            },
+            ::ukcore::ParamSpec {
+                name: "m3",
+                doc: "Mass of the fin, kg",
+                default: 0.009,
+            },
+            ::ukcore::ParamSpec {
+                name: "b",
+                doc: "Half length of the fin, m",
+                default: 0.015,
+            },
+            ::ukcore::ParamSpec {
+                name: "s3",
+                doc: "Lateral area of the fin, m^2",
+                default: 0.008,
+            },
+            ::ukcore::ParamSpec {
+                name: "rho",
+                doc: "Density of water, kg/m^3",
+                default: 998.0,
+            },
+            ::ukcore::ParamSpec {
+                name: "cd",
+                doc: "Drag coefficient",
+                default: 0.5,
+            },
+            ::ukcore::ParamSpec {
+                name: "span",
+                doc: "Span of the fin, m",
+                default: 0.075,
+            },
+            ::ukcore::ParamSpec {
+                name: "half_chord",
+                doc: "Half chord of the fin, m",
+                default: 0.015,
+            },
+            ::ukcore::ParamSpec {
+                name: "a2",
+                doc: "Amplitude of the peduncle's angle, rad",
+                default: 0.3,
+            },
+            ::ukcore::ParamSpec {
+                name: "a3",
+                doc: "Amplitude of the fin's angle, rad",
+                default: 0.6,
+            },
+            ::ukcore::ParamSpec {
+                name: "w",
+                doc: "Angular frequency of the gait, rad/s",
+                default: ::core::f64::consts::TAU,
+            },
+            ::ukcore::ParamSpec {
+                name: "phi",
+                doc: "Phase by which the fin lags the peduncle, rad",
+                default: 0.2617993877991494,
+            },
+        ],
+        coords: &["x1", "y1", "th1", "x2", "y2", "th2", "x3", "y3", "th3"],
+        constraints: &[
+            ::ukcore::ConstraintSpec {
+                name: "joint1[0]",
+                kind: ::ukcore::ConstraintKind::Holonomic,
+                equation: "x1 + a*cos(th1) + 0.5*l2*cos(th2) - x2 = 0",
+            },
+            ::ukcore::ConstraintSpec {
+                name: "joint1[1]",
+                kind: ::ukcore::ConstraintKind::Holonomic,
+                equation: "y1 + a*sin(th1) + 0.5*l2*sin(th2) - y2 = 0",
+            },
+            ::ukcore::ConstraintSpec {
+                name: "joint2[0]",
+                kind: ::ukcore::ConstraintKind::Holonomic,
+                equation: "x2 + 0.5*l2*cos(th2) + cos(th3)*b - x3 = 0",
+            },
+            ::ukcore::ConstraintSpec {
+                name: "joint2[1]",
+                kind: ::ukcore::ConstraintKind::Holonomic,
+                equation: "y2 + 0.5*l2*sin(th2) + sin(th3)*b - y3 = 0",
+            },
+            ::ukcore::ConstraintSpec {
+                name: "peduncle",
+                kind: ::ukcore::ConstraintKind::Holonomic,
+                equation: "th2 - a2*sin(w*t) = 0",
+            },
+            ::ukcore::ConstraintSpec {
+                name: "fin",
+                kind: ::ukcore::ConstraintKind::Holonomic,
+                equation: "th3 - a3*sin(w*t - phi) = 0",
+            },
+        ],
+        holonomic: 6,
+        outputs: &[
+            ::ukcore::OutputSpec {
+                name: "forward_speed",
+                doc: "Speed of the body towards its nose's side, −x, m/s",
+            },
+            ::ukcore::OutputSpec {
+                name: "swing",
+                doc: "Swing angle of the body, rad",
+            },
+            ::ukcore::OutputSpec {
+                name: "fin_x",
+                doc: "Force of the water on the fin along x by lift (negative drives the fish), N",
+            },
+            ::ukcore::OutputSpec {
+                name: "fin_y",
+                doc: "Force of the water on the fin along y by lift, N",
+            },
+            ::ukcore::OutputSpec {
+                name: "edge_x",
+                doc: "Longitudinal position of the fin's trailing edge, m",
+            },
+            ::ukcore::OutputSpec {
+                name: "edge_y",
+                doc: "Lateral position of the fin's trailing edge, m",
+            },
+        ],
+        structure: ::ukcore::Structure {
+            mass_pattern: &[(0, 0), (1, 1), (2, 2), (3, 3), (4, 4), (6, 6), (7, 7)],
+            jacobian_pattern: &[
+                (0, 0),
+                (0, 2),
+                (0, 3),
+                (0, 5),
+                (1, 1),
+                (1, 2),
+                (1, 4),
+                (1, 5),
+                (2, 3),
+                (2, 5),
+                (2, 6),
+                (2, 8),
+                (3, 4),
+                (3, 5),
+                (3, 7),
+                (3, 8),
+                (4, 5),
+                (5, 8),
+            ],
+            mass_diagonal: true,
+            mass_constant: true,
+            jacobian_constant: false,
+            massless: &[5, 8],
+            scleronomic: false,
+            nonideal: false,
+            potential: false,
+            conservative: false,
+            left_out: &[
+                "36 of the 54 entries of A: structurally zero, never written",
+                "off-diagonal entries of M: M is diagonal, its square root is taken entry by entry",
+                "non-ideal force c (eq. 12): all constraints are ideal",
+                "4 of 9 entries of Q: identically zero",
+            ],
+            operations: ::ukcore::Operations {
+                additions: 12,
+                multiplications: 73,
+                divisions: 0,
+                square_roots: 0,
+                transcendentals: 5,
+                selections: 4,
+            },
+        },
+        equations: ::ukcore::Equations {
+            definitions: &[
+                (
+                    "lift_x",
+                    "rho*span*half_chord*(dot(x3)*dot(y3)*sin(th3) - sq(dot(y3))*cos(th3))",
+                ),
+                (
+                    "lift_y",
+                    "rho*span*half_chord*(dot(x3)*dot(y3)*cos(th3) - sq(dot(x3))*sin(th3))",
+                ),
+            ],
+            mass: &[
+                (0, 0, "m1"),
+                (1, 1, "m1"),
+                (2, 2, "i1"),
+                (3, 3, "m2"),
+                (4, 4, "m2"),
+                (6, 6, "m3"),
+                (7, 7, "m3"),
+            ],
+            force: &[
+                (0, "-0.5*rho*s*dot(x1)*cd*abs(dot(x1))"),
+                (1, "-0.5*rho*cd*s1*dot(y1)*abs(dot(y1))"),
+                (4, "-0.5*rho*cd*s2*dot(y2)*abs(dot(y2))"),
+                (6, "6.283185307179586*lift_x"),
+                (7, "6.283185307179586*lift_y - 0.5*rho*dot(y3)*cd*s3*abs(dot(y3))"),
+            ],
+            nonideal: &[],
+            jacobian: &[
+                (0, 0, "1"),
+                (0, 2, "-a*sin(th1)"),
+                (0, 3, "-1"),
+                (0, 5, "-0.5*l2*sin(th2)"),
+                (1, 1, "1"),
+                (1, 2, "a*cos(th1)"),
+                (1, 4, "-1"),
+                (1, 5, "0.5*l2*cos(th2)"),
+                (2, 3, "1"),
+                (2, 5, "-0.5*l2*sin(th2)"),
+                (2, 6, "-1"),
+                (2, 8, "-sin(th3)*b"),
+                (3, 4, "1"),
+                (3, 5, "0.5*l2*cos(th2)"),
+                (3, 7, "-1"),
+                (3, 8, "cos(th3)*b"),
+                (4, 5, "1"),
+                (5, 8, "1"),
+            ],
+            rhs: &[
+                (0, "a*cos(th1)*sq(dot(th1)) + 0.5*l2*cos(th2)*sq(dot(th2))"),
+                (1, "a*sin(th1)*sq(dot(th1)) + 0.5*l2*sin(th2)*sq(dot(th2))"),
+                (2, "0.5*l2*cos(th2)*sq(dot(th2)) + cos(th3)*b*sq(dot(th3))"),
+                (3, "0.5*l2*sin(th2)*sq(dot(th2)) + sin(th3)*b*sq(dot(th3))"),
+                (4, "-a2*sq(w)*sin(w*t)"),
+                (5, "-sq(w)*a3*sin(w*t - phi)"),
+            ],
+        },
+    };
+    fn parameter(&self, index: usize) -> f64 {
+        match index {
+            0 => self.m1,
+            1 => self.i1,
+            2 => self.a,
+            3 => self.s,
+            4 => self.s1,
+            5 => self.m2,
+            6 => self.l2,
+            7 => self.s2,
+            8 => self.m3,
+            9 => self.b,
+            10 => self.s3,
+            11 => self.rho,
+            12 => self.cd,
+            13 => self.span,
+            14 => self.half_chord,
+            15 => self.a2,
+            16 => self.a3,
+            17 => self.w,
+            18 => self.phi,
+            _ => ::ukcore::emitted::no_parameter(index),
+        }
+    }
+    fn set_parameter(&mut self, index: usize, value: f64) {
+        match index {
+            0 => self.m1 = value,
+            1 => self.i1 = value,
+            2 => self.a = value,
+            3 => self.s = value,
+            4 => self.s1 = value,
+            5 => self.m2 = value,
+            6 => self.l2 = value,
+            7 => self.s2 = value,
+            8 => self.m3 = value,
+            9 => self.b = value,
+            10 => self.s3 = value,
+            11 => self.rho = value,
+            12 => self.cd = value,
+            13 => self.span = value,
+            14 => self.half_chord = value,
+            15 => self.a2 = value,
+            16 => self.a3 = value,
+            17 => self.w = value,
+            18 => self.phi = value,
+            _ => ::ukcore::emitted::no_parameter(index),
+        }
+    }
+    /// 12 additions, 73 multiplications, 0 divisions, 0 square roots, 5 transcendentals, 4 selections.
+    fn dynamics<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        out: &mut ::ukcore::Terms<'_, S>,
+    ) {
+        let mass = ::ukcore::emitted::exact_mut::<S, 81>(out.mass, "mass");
+        let force = ::ukcore::emitted::exact_mut::<S, 9>(out.force, "force");
+        let nonideal = ::ukcore::emitted::exact_mut::<S, 9>(out.nonideal, "nonideal");
+        let jacobian = ::ukcore::emitted::exact_mut::<S, 54>(out.jacobian, "jacobian");
+        let rhs = ::ukcore::emitted::exact_mut::<S, 6>(out.rhs, "rhs");
+        let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
+            S,
+            9,
+        >(q, "q");
+        let [dot_x1, dot_y1, dot_th1, _, dot_y2, dot_th2, dot_x3, dot_y3, dot_th3] = *::ukcore::emitted::exact::<
+            S,
+            9,
+        >(v, "v");
+        let lit = S::from_f64;
+        let m1 = lit(self.m1);
+        let i1 = lit(self.i1);
+        let a = lit(self.a);
+        let s = lit(self.s);
+        let s1 = lit(self.s1);
+        let m2 = lit(self.m2);
+        let l2 = lit(self.l2);
+        let s2 = lit(self.s2);
+        let m3 = lit(self.m3);
+        let b = lit(self.b);
+        let s3 = lit(self.s3);
+        let rho = lit(self.rho);
+        let cd = lit(self.cd);
+        let span = lit(self.span);
+        let half_chord = lit(self.half_chord);
+        let a2 = lit(self.a2);
+        let a3 = lit(self.a3);
+        let w = lit(self.w);
+        let phi_2 = lit(self.phi);
+        mass[0] = m1;
+        mass[10] = m1;
+        mass[20] = i1;
+        mass[30] = m2;
+        mass[40] = m2;
+        mass[60] = m3;
+        mass[70] = m3;
+        force[0] = lit(-0.5) * (rho * s * dot_x1 * cd * dot_x1.abs());
+        force[1] = lit(-0.5) * (rho * cd * s1 * dot_y1 * dot_y1.abs());
+        force[2] = lit(0.0);
+        force[3] = lit(0.0);
+        force[4] = lit(-0.5) * (rho * cd * s2 * dot_y2 * dot_y2.abs());
+        force[5] = lit(0.0);
+        let (sin_th3, cos_th3) = th3.sin_cos();
+        let lift_x = rho * span * half_chord
+            * (dot_x3 * dot_y3 * sin_th3 - dot_y3 * dot_y3 * cos_th3);
+        force[6] = lit(::core::f64::consts::TAU) * lift_x;
+        let lift_y = rho * span * half_chord
+            * (dot_x3 * dot_y3 * cos_th3 - dot_x3 * dot_x3 * sin_th3);
+        force[7] = lit(::core::f64::consts::TAU) * lift_y
+            - lit(0.5) * (rho * dot_y3 * cd * s3 * dot_y3.abs());
+        force[8] = lit(0.0);
+        nonideal[0] = lit(0.0);
+        nonideal[1] = lit(0.0);
+        nonideal[2] = lit(0.0);
+        nonideal[3] = lit(0.0);
+        nonideal[4] = lit(0.0);
+        nonideal[5] = lit(0.0);
+        nonideal[6] = lit(0.0);
+        nonideal[7] = lit(0.0);
+        nonideal[8] = lit(0.0);
+        jacobian[0] = lit(1.0);
+        let (sin_th1, cos_th1) = th1.sin_cos();
+        jacobian[12] = -(a * sin_th1);
+        jacobian[18] = lit(-1.0);
+        let (sin_th2, cos_th2) = th2.sin_cos();
+        let a_joint1_0_part = lit(-0.5) * (l2 * sin_th2);
+        jacobian[30] = a_joint1_0_part;
+        jacobian[7] = lit(1.0);
+        jacobian[13] = a * cos_th1;
+        jacobian[25] = lit(-1.0);
+        let a_joint1_1_part = lit(0.5) * (l2 * cos_th2);
+        jacobian[31] = a_joint1_1_part;
+        jacobian[20] = lit(1.0);
+        jacobian[32] = a_joint1_0_part;
+        jacobian[38] = lit(-1.0);
+        jacobian[50] = -(sin_th3 * b);
+        jacobian[27] = lit(1.0);
+        jacobian[33] = a_joint1_1_part;
+        jacobian[45] = lit(-1.0);
+        jacobian[51] = cos_th3 * b;
+        jacobian[34] = lit(1.0);
+        jacobian[53] = lit(1.0);
+        let l2_cos_th2_sq_dot_th2 = l2 * cos_th2 * dot_th2 * dot_th2;
+        rhs[0] = a * cos_th1 * dot_th1 * dot_th1 + lit(0.5) * l2_cos_th2_sq_dot_th2;
+        let l2_sin_th2_sq_dot_th2 = l2 * sin_th2 * dot_th2 * dot_th2;
+        rhs[1] = a * sin_th1 * dot_th1 * dot_th1 + lit(0.5) * l2_sin_th2_sq_dot_th2;
+        rhs[2] = lit(0.5) * l2_cos_th2_sq_dot_th2 + cos_th3 * b * dot_th3 * dot_th3;
+        rhs[3] = lit(0.5) * l2_sin_th2_sq_dot_th2 + sin_th3 * b * dot_th3 * dot_th3;
+        let w_t = w * t;
+        rhs[4] = -(a2 * w * w * w_t.sin());
+        rhs[5] = -(w * w * a3 * (w_t - phi_2).sin());
+    }
+    fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) {
+        let mass = ::ukcore::emitted::exact_mut::<S, 81>(mass, "mass");
+        let lit = S::from_f64;
+        let m1 = lit(self.m1);
+        let i1 = lit(self.i1);
+        let m2 = lit(self.m2);
+        let m3 = lit(self.m3);
+        mass[0] = m1;
+        mass[10] = m1;
+        mass[20] = i1;
+        mass[30] = m2;
+        mass[40] = m2;
+        mass[60] = m3;
+        mass[70] = m3;
+    }
+    fn jacobian<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
+        let jacobian = ::ukcore::emitted::exact_mut::<S, 54>(jacobian, "jacobian");
+        let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
+            S,
+            9,
+        >(q, "q");
+        let lit = S::from_f64;
+        let a = lit(self.a);
+        let l2 = lit(self.l2);
+        let b = lit(self.b);
+        jacobian[0] = lit(1.0);
+        let (sin_th1, cos_th1) = th1.sin_cos();
+        jacobian[12] = -(a * sin_th1);
+        jacobian[18] = lit(-1.0);
+        let (sin_th2, cos_th2) = th2.sin_cos();
+        let a_joint1_0_part = lit(-0.5) * (l2 * sin_th2);
+        jacobian[30] = a_joint1_0_part;
+        jacobian[7] = lit(1.0);
+        jacobian[13] = a * cos_th1;
+        jacobian[25] = lit(-1.0);
+        let a_joint1_1_part = lit(0.5) * (l2 * cos_th2);
+        jacobian[31] = a_joint1_1_part;
+        jacobian[20] = lit(1.0);
+        jacobian[32] = a_joint1_0_part;
+        jacobian[38] = lit(-1.0);
+        let (sin_th3, cos_th3) = th3.sin_cos();
+        jacobian[50] = -(sin_th3 * b);
+        jacobian[27] = lit(1.0);
+        jacobian[33] = a_joint1_1_part;
+        jacobian[45] = lit(-1.0);
+        jacobian[51] = cos_th3 * b;
+        jacobian[34] = lit(1.0);
+        jacobian[53] = lit(1.0);
+    }
+    fn residual<S: ::ukcore::Scalar>(&self, t: S, q: &[S], phi: &mut [S]) {
+        let phi = ::ukcore::emitted::exact_mut::<S, 6>(phi, "phi");
+        let [x1, y1, th1, x2, y2, th2, x3, y3, th3] = *::ukcore::emitted::exact::<
+            S,
+            9,
+        >(q, "q");
+        let lit = S::from_f64;
+        let a = lit(self.a);
+        let l2 = lit(self.l2);
+        let b = lit(self.b);
+        let a2 = lit(self.a2);
+        let a3 = lit(self.a3);
+        let w = lit(self.w);
+        let phi_2 = lit(self.phi);
+        let (sin_th1, cos_th1) = th1.sin_cos();
+        let (sin_th2, cos_th2) = th2.sin_cos();
+        let l2_cos_th2 = l2 * cos_th2;
+        phi[0] = x1 + a * cos_th1 + lit(0.5) * l2_cos_th2 - x2;
+        let l2_sin_th2 = l2 * sin_th2;
+        phi[1] = y1 + a * sin_th1 + lit(0.5) * l2_sin_th2 - y2;
+        let (sin_th3, cos_th3) = th3.sin_cos();
+        phi[2] = x2 + lit(0.5) * l2_cos_th2 + cos_th3 * b - x3;
+        phi[3] = y2 + lit(0.5) * l2_sin_th2 + sin_th3 * b - y3;
+        let w_t = w * t;
+        phi[4] = th2 - a2 * w_t.sin();
+        phi[5] = th3 - a3 * (w_t - phi_2).sin();
+    }
+    fn residual_rate<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        rate: &mut [S],
+    ) {
+        let rate = ::ukcore::emitted::exact_mut::<S, 6>(rate, "rate");
+        let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
+            S,
+            9,
+        >(q, "q");
+        let [dot_x1, dot_y1, dot_th1, dot_x2, dot_y2, dot_th2, dot_x3, dot_y3, dot_th3,
+        ] = *::ukcore::emitted::exact::<S, 9>(v, "v");
+        let lit = S::from_f64;
+        let a = lit(self.a);
+        let l2 = lit(self.l2);
+        let b = lit(self.b);
+        let a2 = lit(self.a2);
+        let a3 = lit(self.a3);
+        let w = lit(self.w);
+        let phi_2 = lit(self.phi);
+        let (sin_th1, cos_th1) = th1.sin_cos();
+        let (sin_th2, cos_th2) = th2.sin_cos();
+        let l2_sin_th2_dot_th2 = l2 * sin_th2 * dot_th2;
+        rate[0] = dot_x1 - dot_x2 - a * sin_th1 * dot_th1
+            - lit(0.5) * l2_sin_th2_dot_th2;
+        let l2_cos_th2_dot_th2 = l2 * cos_th2 * dot_th2;
+        rate[1] = dot_y1 + a * cos_th1 * dot_th1 + lit(0.5) * l2_cos_th2_dot_th2
+            - dot_y2;
+        let (sin_th3, cos_th3) = th3.sin_cos();
+        rate[2] = dot_x2 - dot_x3 - lit(0.5) * l2_sin_th2_dot_th2
+            - sin_th3 * b * dot_th3;
+        rate[3] = dot_y2 + lit(0.5) * l2_cos_th2_dot_th2 + cos_th3 * b * dot_th3
+            - dot_y3;
+        let w_t = w * t;
+        rate[4] = dot_th2 - a2 * w * w_t.cos();
+        rate[5] = dot_th3 - w * a3 * (w_t - phi_2).cos();
+    }
+    fn energy<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+    ) -> ::ukcore::Energy<S> {
+        let [dot_x1, dot_y1, dot_th1, dot_x2, dot_y2, _, dot_x3, dot_y3, _] = *::ukcore::emitted::exact::<
+            S,
+            9,
+        >(v, "v");
+        let lit = S::from_f64;
+        let m1 = lit(self.m1);
+        let i1 = lit(self.i1);
+        let m2 = lit(self.m2);
+        let m3 = lit(self.m3);
+        let kinetic = lit(0.5)
+            * (m1 * dot_x1 * dot_x1 + m1 * dot_y1 * dot_y1 + i1 * dot_th1 * dot_th1
+                + m2 * dot_x2 * dot_x2 + m2 * dot_y2 * dot_y2 + dot_x3 * dot_x3 * m3
+                + dot_y3 * dot_y3 * m3);
+        let potential = lit(0.0);
+        ::ukcore::Energy {
+            kinetic,
+            potential,
+        }
+    }
+    fn outputs<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) {
+        let outputs = ::ukcore::emitted::exact_mut::<S, 6>(outputs, "outputs");
+        let [_, _, th1, _, _, _, x3, y3, th3] = *::ukcore::emitted::exact::<
+            S,
+            9,
+        >(q, "q");
+        let [dot_x1, _, _, _, _, _, dot_x3, dot_y3, _] = *::ukcore::emitted::exact::<
+            S,
+            9,
+        >(v, "v");
+        let lit = S::from_f64;
+        let b = lit(self.b);
+        let rho = lit(self.rho);
+        let span = lit(self.span);
+        let half_chord = lit(self.half_chord);
+        outputs[0] = -dot_x1;
+        outputs[1] = th1;
+        let (sin_th3, cos_th3) = th3.sin_cos();
+        let lift_x = rho * span * half_chord
+            * (dot_x3 * dot_y3 * sin_th3 - dot_y3 * dot_y3 * cos_th3);
+        outputs[2] = lit(::core::f64::consts::TAU) * lift_x;
+        let lift_y = rho * span * half_chord
+            * (dot_x3 * dot_y3 * cos_th3 - dot_x3 * dot_x3 * sin_th3);
+        outputs[3] = lit(::core::f64::consts::TAU) * lift_y;
+        outputs[4] = x3 + cos_th3 * b;
+        outputs[5] = y3 + sin_th3 * b;
+    }
+}

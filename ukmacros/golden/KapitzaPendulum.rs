@@ -1,0 +1,310 @@
+/// Pendulum whose pivot moves vertically as a cos(w t), in Cartesian coordinates of the bob; y points up. The rod's constraint
+/// contains the time.
+///
+/// # Equations of motion
+///
+/// Derived from the declaration at compile time, in the notation of Zhao, Zhen & Chen 2013: M q̈ = Q is the unconstrained motion, A q̈ = b what the constraints demand.
+///
+/// Abbreviations:
+///
+/// ```text
+/// pivot = a*cos(w*t)
+/// ```
+///
+/// Mass matrix M (lower triangle), eq. 1:
+///
+/// ```text
+/// M[x, x] = m
+/// M[y, y] = m
+/// ```
+///
+/// Generalised force Q, eq. 1:
+///
+/// ```text
+/// Q[y] = -m*g
+/// ```
+///
+/// Constraints φ, eqs. 3 and 4:
+///
+/// ```text
+/// rod: sq(x) + sq(pivot - y) - sq(l) = 0
+/// ```
+///
+/// Constraint Jacobian A, eq. 5:
+///
+/// ```text
+/// A[rod, x] = 2*x
+/// A[rod, y] = 2*(y - pivot)
+/// ```
+///
+/// Right-hand side b, eq. 5:
+///
+/// ```text
+/// b[rod] = 2*(a*sq(w)*cos(w*t)*(pivot - y) - sq(dot(x)) - sq(dot(y) + a*w*sin(w*t)))
+/// ```
+///
+#[derive(Clone, Debug, PartialEq)]
+#[allow(non_snake_case, clippy::approx_constant)]
+pub struct KapitzaPendulum {
+    /// Mass of the bob, kg
+    pub m: f64,
+    /// Length of the rod, m
+    pub l: f64,
+    /// Acceleration of gravity, m/s^2
+    pub g: f64,
+    /// Amplitude of the pivot, m
+    pub a: f64,
+    /// Angular frequency of the pivot, rad/s
+    pub w: f64,
+}
+#[automatically_derived]
+#[allow(clippy::approx_constant, clippy::derivable_impls, clippy::unreadable_literal)]
+impl ::core::default::Default for KapitzaPendulum {
+    fn default() -> Self {
+        KapitzaPendulum {
+            m: 1.0,
+            l: 1.0,
+            g: 9.81,
+            a: 0.1,
+            w: 100.0,
+        }
+    }
+}
+#[automatically_derived]
+#[allow(dead_code)]
+impl KapitzaPendulum {
+    /// Position in q of coordinate `x`.
+    pub const X: usize = 0;
+    /// Position in q of coordinate `y`.
+    pub const Y: usize = 1;
+    /// Row in A of constraint `rod`.
+    pub const ROD: usize = 0;
+    /// Position of output `angle`.
+    pub const OUT_ANGLE: usize = 0;
+    /// Position of output `pivot_y`.
+    pub const OUT_PIVOT_Y: usize = 1;
+}
+#[automatically_derived]
+#[allow(unused_variables, clippy::all, clippy::pedantic)]
+impl ::ukcore::Mechanism for KapitzaPendulum {
+    const SPEC: &'static ::ukcore::Spec = &::ukcore::Spec {
+        name: "KapitzaPendulum",
+        doc: "Pendulum whose pivot moves vertically as a cos(w t), in Cartesian coordinates of the bob; y points up. The rod's constraint\ncontains the time.",
+        params: &[
+            ::ukcore::ParamSpec {
+                name: "m",
+                doc: "Mass of the bob, kg",
+                default: 1.0,
+            },
+            ::ukcore::ParamSpec {
+                name: "l",
+                doc: "Length of the rod, m",
+                default: 1.0,
+            },
+            ::ukcore::ParamSpec {
+                name: "g",
+                doc: "Acceleration of gravity, m/s^2",
+                default: 9.81,
+            },
+            ::ukcore::ParamSpec {
+                name: "a",
+                doc: "Amplitude of the pivot, m",
+                default: 0.1,
+            },
+            ::ukcore::ParamSpec {
+                name: "w",
+                doc: "Angular frequency of the pivot, rad/s",
+                default: 100.0,
+            },
+        ],
+        coords: &["x", "y"],
+        constraints: &[
+            ::ukcore::ConstraintSpec {
+                name: "rod",
+                kind: ::ukcore::ConstraintKind::Holonomic,
+                equation: "sq(x) + sq(pivot - y) - sq(l) = 0",
+            },
+        ],
+        holonomic: 1,
+        outputs: &[
+            ::ukcore::OutputSpec {
+                name: "angle",
+                doc: "Angle from the upward vertical, clockwise, rad",
+            },
+            ::ukcore::OutputSpec {
+                name: "pivot_y",
+                doc: "Height of the pivot, m",
+            },
+        ],
+        structure: ::ukcore::Structure {
+            mass_pattern: &[(0, 0), (1, 1)],
+            jacobian_pattern: &[(0, 0), (0, 1)],
+            mass_diagonal: true,
+            mass_constant: true,
+            jacobian_constant: false,
+            massless: &[],
+            scleronomic: false,
+            nonideal: false,
+            potential: true,
+            conservative: false,
+            left_out: &[
+                "off-diagonal entries of M: M is diagonal, its square root is taken entry by entry",
+                "non-ideal force c (eq. 12): all constraints are ideal",
+                "1 of 2 entries of Q: identically zero",
+                "Udwadia-Phohomsiri formula (eq. 19): no coordinate is massless while the parameters are positive",
+            ],
+            operations: ::ukcore::Operations {
+                additions: 5,
+                multiplications: 14,
+                divisions: 0,
+                square_roots: 0,
+                transcendentals: 1,
+                selections: 0,
+            },
+        },
+        equations: ::ukcore::Equations {
+            definitions: &[("pivot", "a*cos(w*t)")],
+            mass: &[(0, 0, "m"), (1, 1, "m")],
+            force: &[(1, "-m*g")],
+            nonideal: &[],
+            jacobian: &[(0, 0, "2*x"), (0, 1, "2*(y - pivot)")],
+            rhs: &[
+                (
+                    0,
+                    "2*(a*sq(w)*cos(w*t)*(pivot - y) - sq(dot(x)) - sq(dot(y) + a*w*sin(w*t)))",
+                ),
+            ],
+        },
+    };
+    fn parameter(&self, index: usize) -> f64 {
+        match index {
+            0 => self.m,
+            1 => self.l,
+            2 => self.g,
+            3 => self.a,
+            4 => self.w,
+            _ => ::ukcore::emitted::no_parameter(index),
+        }
+    }
+    fn set_parameter(&mut self, index: usize, value: f64) {
+        match index {
+            0 => self.m = value,
+            1 => self.l = value,
+            2 => self.g = value,
+            3 => self.a = value,
+            4 => self.w = value,
+            _ => ::ukcore::emitted::no_parameter(index),
+        }
+    }
+    /// 5 additions, 14 multiplications, 0 divisions, 0 square roots, 1 transcendentals, 0 selections.
+    fn dynamics<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        out: &mut ::ukcore::Terms<'_, S>,
+    ) {
+        let mass = ::ukcore::emitted::exact_mut::<S, 4>(out.mass, "mass");
+        let force = ::ukcore::emitted::exact_mut::<S, 2>(out.force, "force");
+        let nonideal = ::ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
+        let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(out.jacobian, "jacobian");
+        let rhs = ::ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
+        let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
+        let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
+        let lit = S::from_f64;
+        let m = lit(self.m);
+        let g = lit(self.g);
+        let a = lit(self.a);
+        let w = lit(self.w);
+        mass[0] = m;
+        mass[3] = m;
+        force[0] = lit(0.0);
+        force[1] = -(m * g);
+        nonideal[0] = lit(0.0);
+        nonideal[1] = lit(0.0);
+        jacobian[0] = lit(2.0) * x;
+        let w_t = w * t;
+        let (sin_w_t, cos_w_t) = w_t.sin_cos();
+        let pivot = a * cos_w_t;
+        let pivot_minus_y = pivot - y;
+        jacobian[1] = lit(-2.0) * pivot_minus_y;
+        let b_0_part = dot_y + a * w * sin_w_t;
+        rhs[0] = lit(-2.0)
+            * (dot_x * dot_x + b_0_part * b_0_part
+                - a * w * w * cos_w_t * pivot_minus_y);
+    }
+    fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) {
+        let mass = ::ukcore::emitted::exact_mut::<S, 4>(mass, "mass");
+        let lit = S::from_f64;
+        let m = lit(self.m);
+        mass[0] = m;
+        mass[3] = m;
+    }
+    fn jacobian<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
+        let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(jacobian, "jacobian");
+        let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
+        let lit = S::from_f64;
+        let a = lit(self.a);
+        let w = lit(self.w);
+        jacobian[0] = lit(2.0) * x;
+        let pivot = a * (w * t).cos();
+        jacobian[1] = lit(-2.0) * (pivot - y);
+    }
+    fn residual<S: ::ukcore::Scalar>(&self, t: S, q: &[S], phi: &mut [S]) {
+        let phi = ::ukcore::emitted::exact_mut::<S, 1>(phi, "phi");
+        let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
+        let lit = S::from_f64;
+        let l = lit(self.l);
+        let a = lit(self.a);
+        let w = lit(self.w);
+        let pivot = a * (w * t).cos();
+        let pivot_minus_y = pivot - y;
+        phi[0] = x * x + pivot_minus_y * pivot_minus_y - l * l;
+    }
+    fn residual_rate<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        rate: &mut [S],
+    ) {
+        let rate = ::ukcore::emitted::exact_mut::<S, 1>(rate, "rate");
+        let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
+        let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
+        let lit = S::from_f64;
+        let a = lit(self.a);
+        let w = lit(self.w);
+        let w_t = w * t;
+        let (sin_w_t, cos_w_t) = w_t.sin_cos();
+        let pivot = a * cos_w_t;
+        rate[0] = lit(2.0) * (x * dot_x - (pivot - y) * (dot_y + a * w * sin_w_t));
+    }
+    fn energy<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+    ) -> ::ukcore::Energy<S> {
+        let [_, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
+        let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
+        let lit = S::from_f64;
+        let m = lit(self.m);
+        let g = lit(self.g);
+        let kinetic = lit(0.5) * (m * dot_x * dot_x + m * dot_y * dot_y);
+        let potential = m * g * y;
+        ::ukcore::Energy {
+            kinetic,
+            potential,
+        }
+    }
+    fn outputs<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) {
+        let outputs = ::ukcore::emitted::exact_mut::<S, 2>(outputs, "outputs");
+        let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
+        let lit = S::from_f64;
+        let a = lit(self.a);
+        let w = lit(self.w);
+        let pivot = a * (w * t).cos();
+        outputs[0] = x.atan2(y - pivot);
+        outputs[1] = pivot;
+    }
+}

@@ -1,0 +1,278 @@
+/// Knife edge (a skate) on a plane inclined by `slope`; x points down the slope, y across it. The edge touches at its centre of mass
+/// and does not slip sideways: a nonholonomic constraint. Set turning, it drifts across the slope and never gets down.
+///
+/// # Equations of motion
+///
+/// Derived from the declaration at compile time, in the notation of Zhao, Zhen & Chen 2013: M q̈ = Q is the unconstrained motion, A q̈ = b what the constraints demand.
+///
+/// Mass matrix M (lower triangle), eq. 1:
+///
+/// ```text
+/// M[x, x] = m
+/// M[y, y] = m
+/// M[th, th] = i
+/// ```
+///
+/// Generalised force Q, eq. 1:
+///
+/// ```text
+/// Q[x] = m*g*sin(slope)
+/// ```
+///
+/// Constraints φ, eqs. 3 and 4:
+///
+/// ```text
+/// edge: dot(x)*sin(th) - dot(y)*cos(th) = 0
+/// ```
+///
+/// Constraint Jacobian A, eq. 5:
+///
+/// ```text
+/// A[edge, x] = sin(th)
+/// A[edge, y] = -cos(th)
+/// ```
+///
+/// Right-hand side b, eq. 5:
+///
+/// ```text
+/// b[edge] = -(dot(x)*cos(th)*dot(th) + sin(th)*dot(y)*dot(th))
+/// ```
+///
+#[derive(Clone, Debug, PartialEq)]
+#[allow(non_snake_case, clippy::approx_constant)]
+pub struct KnifeEdge {
+    /// Mass, kg
+    pub m: f64,
+    /// Moment of inertia about the normal of the plane, kg m^2
+    pub i: f64,
+    /// Acceleration of gravity, m/s^2
+    pub g: f64,
+    /// Inclination of the plane, rad
+    pub slope: f64,
+}
+#[automatically_derived]
+#[allow(clippy::approx_constant, clippy::derivable_impls, clippy::unreadable_literal)]
+impl ::core::default::Default for KnifeEdge {
+    fn default() -> Self {
+        KnifeEdge {
+            m: 1.0,
+            i: 0.1,
+            g: 9.81,
+            slope: 0.5235987755982988,
+        }
+    }
+}
+#[automatically_derived]
+#[allow(dead_code)]
+impl KnifeEdge {
+    /// Position in q of coordinate `x`.
+    pub const X: usize = 0;
+    /// Position in q of coordinate `y`.
+    pub const Y: usize = 1;
+    /// Position in q of coordinate `th`.
+    pub const TH: usize = 2;
+    /// Row in A of constraint `edge`.
+    pub const EDGE: usize = 0;
+    /// Position of output `speed`.
+    pub const OUT_SPEED: usize = 0;
+    /// Position of output `spin`.
+    pub const OUT_SPIN: usize = 1;
+}
+#[automatically_derived]
+#[allow(unused_variables, clippy::all, clippy::pedantic)]
+impl ::ukcore::Mechanism for KnifeEdge {
+    const SPEC: &'static ::ukcore::Spec = &::ukcore::Spec {
+        name: "KnifeEdge",
+        doc: "Knife edge (a skate) on a plane inclined by `slope`; x points down the slope, y across it. The edge touches at its centre of mass\nand does not slip sideways: a nonholonomic constraint. Set turning, it drifts across the slope and never gets down.",
+        params: &[
+            ::ukcore::ParamSpec {
+                name: "m",
+                doc: "Mass, kg",
+                default: 1.0,
+            },
+            ::ukcore::ParamSpec {
+                name: "i",
+                doc: "Moment of inertia about the normal of the plane, kg m^2",
+                default: 0.1,
+            },
+            ::ukcore::ParamSpec {
+                name: "g",
+                doc: "Acceleration of gravity, m/s^2",
+                default: 9.81,
+            },
+            ::ukcore::ParamSpec {
+                name: "slope",
+                doc: "Inclination of the plane, rad",
+                default: 0.5235987755982988,
+            },
+        ],
+        coords: &["x", "y", "th"],
+        constraints: &[
+            ::ukcore::ConstraintSpec {
+                name: "edge",
+                kind: ::ukcore::ConstraintKind::Nonholonomic,
+                equation: "dot(x)*sin(th) - dot(y)*cos(th) = 0",
+            },
+        ],
+        holonomic: 0,
+        outputs: &[
+            ::ukcore::OutputSpec {
+                name: "speed",
+                doc: "Speed along the edge, m/s",
+            },
+            ::ukcore::OutputSpec {
+                name: "spin",
+                doc: "Angular velocity, rad/s",
+            },
+        ],
+        structure: ::ukcore::Structure {
+            mass_pattern: &[(0, 0), (1, 1), (2, 2)],
+            jacobian_pattern: &[(0, 0), (0, 1)],
+            mass_diagonal: true,
+            mass_constant: true,
+            jacobian_constant: false,
+            massless: &[],
+            scleronomic: true,
+            nonideal: false,
+            potential: true,
+            conservative: true,
+            left_out: &[
+                "1 of the 3 entries of A: structurally zero, never written",
+                "off-diagonal entries of M: M is diagonal, its square root is taken entry by entry",
+                "∂/∂t terms: no equation contains the time",
+                "non-ideal force c (eq. 12): all constraints are ideal",
+                "2 of 3 entries of Q: identically zero",
+                "Udwadia-Phohomsiri formula (eq. 19): no coordinate is massless while the parameters are positive",
+            ],
+            operations: ::ukcore::Operations {
+                additions: 3,
+                multiplications: 6,
+                divisions: 0,
+                square_roots: 0,
+                transcendentals: 2,
+                selections: 0,
+            },
+        },
+        equations: ::ukcore::Equations {
+            definitions: &[],
+            mass: &[(0, 0, "m"), (1, 1, "m"), (2, 2, "i")],
+            force: &[(0, "m*g*sin(slope)")],
+            nonideal: &[],
+            jacobian: &[(0, 0, "sin(th)"), (0, 1, "-cos(th)")],
+            rhs: &[(0, "-(dot(x)*cos(th)*dot(th) + sin(th)*dot(y)*dot(th))")],
+        },
+    };
+    fn parameter(&self, index: usize) -> f64 {
+        match index {
+            0 => self.m,
+            1 => self.i,
+            2 => self.g,
+            3 => self.slope,
+            _ => ::ukcore::emitted::no_parameter(index),
+        }
+    }
+    fn set_parameter(&mut self, index: usize, value: f64) {
+        match index {
+            0 => self.m = value,
+            1 => self.i = value,
+            2 => self.g = value,
+            3 => self.slope = value,
+            _ => ::ukcore::emitted::no_parameter(index),
+        }
+    }
+    /// 3 additions, 6 multiplications, 0 divisions, 0 square roots, 2 transcendentals, 0 selections.
+    fn dynamics<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        out: &mut ::ukcore::Terms<'_, S>,
+    ) {
+        let mass = ::ukcore::emitted::exact_mut::<S, 9>(out.mass, "mass");
+        let force = ::ukcore::emitted::exact_mut::<S, 3>(out.force, "force");
+        let nonideal = ::ukcore::emitted::exact_mut::<S, 3>(out.nonideal, "nonideal");
+        let jacobian = ::ukcore::emitted::exact_mut::<S, 3>(out.jacobian, "jacobian");
+        let rhs = ::ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
+        let [_, _, th] = *::ukcore::emitted::exact::<S, 3>(q, "q");
+        let [dot_x, dot_y, dot_th] = *::ukcore::emitted::exact::<S, 3>(v, "v");
+        let lit = S::from_f64;
+        let m = lit(self.m);
+        let i = lit(self.i);
+        let g = lit(self.g);
+        let slope = lit(self.slope);
+        mass[0] = m;
+        mass[4] = m;
+        mass[8] = i;
+        force[0] = m * g * slope.sin();
+        force[1] = lit(0.0);
+        force[2] = lit(0.0);
+        nonideal[0] = lit(0.0);
+        nonideal[1] = lit(0.0);
+        nonideal[2] = lit(0.0);
+        let (sin_th, cos_th) = th.sin_cos();
+        jacobian[0] = sin_th;
+        jacobian[1] = -cos_th;
+        rhs[0] = -(dot_x * cos_th * dot_th) - sin_th * dot_y * dot_th;
+    }
+    fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) {
+        let mass = ::ukcore::emitted::exact_mut::<S, 9>(mass, "mass");
+        let lit = S::from_f64;
+        let m = lit(self.m);
+        let i = lit(self.i);
+        mass[0] = m;
+        mass[4] = m;
+        mass[8] = i;
+    }
+    fn jacobian<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
+        let jacobian = ::ukcore::emitted::exact_mut::<S, 3>(jacobian, "jacobian");
+        let [_, _, th] = *::ukcore::emitted::exact::<S, 3>(q, "q");
+        let (sin_th, cos_th) = th.sin_cos();
+        jacobian[0] = sin_th;
+        jacobian[1] = -cos_th;
+    }
+    fn residual<S: ::ukcore::Scalar>(&self, t: S, q: &[S], phi: &mut [S]) {
+        let phi = ::ukcore::emitted::exact_mut::<S, 0>(phi, "phi");
+    }
+    fn residual_rate<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        rate: &mut [S],
+    ) {
+        let rate = ::ukcore::emitted::exact_mut::<S, 1>(rate, "rate");
+        let [_, _, th] = *::ukcore::emitted::exact::<S, 3>(q, "q");
+        let [dot_x, dot_y, _] = *::ukcore::emitted::exact::<S, 3>(v, "v");
+        let (sin_th, cos_th) = th.sin_cos();
+        rate[0] = dot_x * sin_th - dot_y * cos_th;
+    }
+    fn energy<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+    ) -> ::ukcore::Energy<S> {
+        let [x, _, _] = *::ukcore::emitted::exact::<S, 3>(q, "q");
+        let [dot_x, dot_y, dot_th] = *::ukcore::emitted::exact::<S, 3>(v, "v");
+        let lit = S::from_f64;
+        let m = lit(self.m);
+        let i = lit(self.i);
+        let g = lit(self.g);
+        let slope = lit(self.slope);
+        let kinetic = lit(0.5)
+            * (m * dot_x * dot_x + m * dot_y * dot_y + i * dot_th * dot_th);
+        let potential = -(m * g * slope.sin() * x);
+        ::ukcore::Energy {
+            kinetic,
+            potential,
+        }
+    }
+    fn outputs<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) {
+        let outputs = ::ukcore::emitted::exact_mut::<S, 2>(outputs, "outputs");
+        let [_, _, th] = *::ukcore::emitted::exact::<S, 3>(q, "q");
+        let [dot_x, dot_y, dot_th] = *::ukcore::emitted::exact::<S, 3>(v, "v");
+        let (sin_th, cos_th) = th.sin_cos();
+        outputs[0] = dot_x * cos_th + sin_th * dot_y;
+        outputs[1] = dot_th;
+    }
+}

@@ -1,0 +1,249 @@
+/// Wall, spring k1, massless joint, spring k2, mass: all along one line. The joint has no mass, so the forces of the springs on it
+/// balance at all times; declared as a constraint this makes [M | Aᵀ] regular (the condition of eq. 19), and its constraint
+/// force is zero. Both positions are measured from where the springs are relaxed.
+///
+/// # Equations of motion
+///
+/// Derived from the declaration at compile time, in the notation of Zhao, Zhen & Chen 2013: M q̈ = Q is the unconstrained motion, A q̈ = b what the constraints demand.
+///
+/// Mass matrix M (lower triangle), eq. 1:
+///
+/// ```text
+/// M[x, x] = m
+/// ```
+///
+/// Generalised force Q, eq. 1:
+///
+/// ```text
+/// Q[joint] = -(k1*joint + k2*(joint - x))
+/// Q[x] = k2*(joint - x)
+/// ```
+///
+/// Constraints φ, eqs. 3 and 4:
+///
+/// ```text
+/// balance: k1*joint + k2*(joint - x) = 0
+/// ```
+///
+/// Constraint Jacobian A, eq. 5:
+///
+/// ```text
+/// A[balance, joint] = k1 + k2
+/// A[balance, x] = -k2
+/// ```
+///
+#[derive(Clone, Debug, PartialEq)]
+#[allow(non_snake_case, clippy::approx_constant)]
+pub struct MasslessSpring {
+    /// Mass, kg
+    pub m: f64,
+    /// Stiffness of the spring at the wall, N/m
+    pub k1: f64,
+    /// Stiffness of the spring at the mass, N/m
+    pub k2: f64,
+}
+#[automatically_derived]
+#[allow(clippy::approx_constant, clippy::derivable_impls, clippy::unreadable_literal)]
+impl ::core::default::Default for MasslessSpring {
+    fn default() -> Self {
+        MasslessSpring {
+            m: 1.0,
+            k1: 30.0,
+            k2: 60.0,
+        }
+    }
+}
+#[automatically_derived]
+#[allow(dead_code)]
+impl MasslessSpring {
+    /// Position in q of coordinate `joint`.
+    pub const JOINT: usize = 0;
+    /// Position in q of coordinate `x`.
+    pub const X: usize = 1;
+    /// Row in A of constraint `balance`.
+    pub const BALANCE: usize = 0;
+    /// Position of output `spring_force`.
+    pub const OUT_SPRING_FORCE: usize = 0;
+}
+#[automatically_derived]
+#[allow(unused_variables, clippy::all, clippy::pedantic)]
+impl ::ukcore::Mechanism for MasslessSpring {
+    const SPEC: &'static ::ukcore::Spec = &::ukcore::Spec {
+        name: "MasslessSpring",
+        doc: "Wall, spring k1, massless joint, spring k2, mass: all along one line. The joint has no mass, so the forces of the springs on it\nbalance at all times; declared as a constraint this makes [M | Aᵀ] regular (the condition of eq. 19), and its constraint\nforce is zero. Both positions are measured from where the springs are relaxed.",
+        params: &[
+            ::ukcore::ParamSpec {
+                name: "m",
+                doc: "Mass, kg",
+                default: 1.0,
+            },
+            ::ukcore::ParamSpec {
+                name: "k1",
+                doc: "Stiffness of the spring at the wall, N/m",
+                default: 30.0,
+            },
+            ::ukcore::ParamSpec {
+                name: "k2",
+                doc: "Stiffness of the spring at the mass, N/m",
+                default: 60.0,
+            },
+        ],
+        coords: &["joint", "x"],
+        constraints: &[
+            ::ukcore::ConstraintSpec {
+                name: "balance",
+                kind: ::ukcore::ConstraintKind::Holonomic,
+                equation: "k1*joint + k2*(joint - x) = 0",
+            },
+        ],
+        holonomic: 1,
+        outputs: &[
+            ::ukcore::OutputSpec {
+                name: "spring_force",
+                doc: "Force that the springs transmit, N",
+            },
+        ],
+        structure: ::ukcore::Structure {
+            mass_pattern: &[(1, 1)],
+            jacobian_pattern: &[(0, 0), (0, 1)],
+            mass_diagonal: true,
+            mass_constant: true,
+            jacobian_constant: true,
+            massless: &[0],
+            scleronomic: true,
+            nonideal: false,
+            potential: true,
+            conservative: true,
+            left_out: &[
+                "off-diagonal entries of M: M is diagonal, its square root is taken entry by entry",
+                "∂/∂t terms: no equation contains the time",
+                "non-ideal force c (eq. 12): all constraints are ideal",
+                "1 of 1 entries of b: identically zero",
+            ],
+            operations: ::ukcore::Operations {
+                additions: 5,
+                multiplications: 2,
+                divisions: 0,
+                square_roots: 0,
+                transcendentals: 0,
+                selections: 0,
+            },
+        },
+        equations: ::ukcore::Equations {
+            definitions: &[],
+            mass: &[(1, 1, "m")],
+            force: &[(0, "-(k1*joint + k2*(joint - x))"), (1, "k2*(joint - x)")],
+            nonideal: &[],
+            jacobian: &[(0, 0, "k1 + k2"), (0, 1, "-k2")],
+            rhs: &[],
+        },
+    };
+    fn parameter(&self, index: usize) -> f64 {
+        match index {
+            0 => self.m,
+            1 => self.k1,
+            2 => self.k2,
+            _ => ::ukcore::emitted::no_parameter(index),
+        }
+    }
+    fn set_parameter(&mut self, index: usize, value: f64) {
+        match index {
+            0 => self.m = value,
+            1 => self.k1 = value,
+            2 => self.k2 = value,
+            _ => ::ukcore::emitted::no_parameter(index),
+        }
+    }
+    /// 5 additions, 2 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
+    fn dynamics<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        out: &mut ::ukcore::Terms<'_, S>,
+    ) {
+        let mass = ::ukcore::emitted::exact_mut::<S, 4>(out.mass, "mass");
+        let force = ::ukcore::emitted::exact_mut::<S, 2>(out.force, "force");
+        let nonideal = ::ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
+        let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(out.jacobian, "jacobian");
+        let rhs = ::ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
+        let [joint, x] = *::ukcore::emitted::exact::<S, 2>(q, "q");
+        let lit = S::from_f64;
+        let m = lit(self.m);
+        let k1 = lit(self.k1);
+        let k2 = lit(self.k2);
+        mass[3] = m;
+        let force_0_part = k2 * (joint - x);
+        force[0] = -(k1 * joint) - force_0_part;
+        force[1] = force_0_part;
+        nonideal[0] = lit(0.0);
+        nonideal[1] = lit(0.0);
+        jacobian[0] = k1 + k2;
+        jacobian[1] = -k2;
+        rhs[0] = lit(0.0);
+    }
+    fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) {
+        let mass = ::ukcore::emitted::exact_mut::<S, 4>(mass, "mass");
+        let lit = S::from_f64;
+        let m = lit(self.m);
+        mass[3] = m;
+    }
+    fn jacobian<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
+        let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(jacobian, "jacobian");
+        let lit = S::from_f64;
+        let k1 = lit(self.k1);
+        let k2 = lit(self.k2);
+        jacobian[0] = k1 + k2;
+        jacobian[1] = -k2;
+    }
+    fn residual<S: ::ukcore::Scalar>(&self, t: S, q: &[S], phi: &mut [S]) {
+        let phi = ::ukcore::emitted::exact_mut::<S, 1>(phi, "phi");
+        let [joint, x] = *::ukcore::emitted::exact::<S, 2>(q, "q");
+        let lit = S::from_f64;
+        let k1 = lit(self.k1);
+        let k2 = lit(self.k2);
+        phi[0] = k1 * joint + k2 * (joint - x);
+    }
+    fn residual_rate<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        rate: &mut [S],
+    ) {
+        let rate = ::ukcore::emitted::exact_mut::<S, 1>(rate, "rate");
+        let [dot_joint, dot_x] = *::ukcore::emitted::exact::<S, 2>(v, "v");
+        let lit = S::from_f64;
+        let k1 = lit(self.k1);
+        let k2 = lit(self.k2);
+        rate[0] = k1 * dot_joint - k2 * (dot_x - dot_joint);
+    }
+    fn energy<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+    ) -> ::ukcore::Energy<S> {
+        let [joint, x] = *::ukcore::emitted::exact::<S, 2>(q, "q");
+        let [_, dot_x] = *::ukcore::emitted::exact::<S, 2>(v, "v");
+        let lit = S::from_f64;
+        let m = lit(self.m);
+        let k1 = lit(self.k1);
+        let k2 = lit(self.k2);
+        let kinetic = lit(0.5) * (m * dot_x * dot_x);
+        let joint_minus_x = joint - x;
+        let potential = lit(0.5)
+            * (k1 * joint * joint + k2 * joint_minus_x * joint_minus_x);
+        ::ukcore::Energy {
+            kinetic,
+            potential,
+        }
+    }
+    fn outputs<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) {
+        let outputs = ::ukcore::emitted::exact_mut::<S, 1>(outputs, "outputs");
+        let [joint, _] = *::ukcore::emitted::exact::<S, 2>(q, "q");
+        let lit = S::from_f64;
+        let k1 = lit(self.k1);
+        outputs[0] = k1 * joint;
+    }
+}

@@ -1,0 +1,259 @@
+/// Point mass on a massless rigid rod about a pivot at the origin; y points up.
+///
+/// # Equations of motion
+///
+/// Derived from the declaration at compile time, in the notation of Zhao, Zhen & Chen 2013: M q̈ = Q is the unconstrained motion, A q̈ = b what the constraints demand.
+///
+/// Mass matrix M (lower triangle), eq. 1:
+///
+/// ```text
+/// M[x, x] = m
+/// M[y, y] = m
+/// ```
+///
+/// Generalised force Q, eq. 1:
+///
+/// ```text
+/// Q[y] = -m*g
+/// ```
+///
+/// Constraints φ, eqs. 3 and 4:
+///
+/// ```text
+/// rod: sq(x) + sq(y) - sq(l) = 0
+/// ```
+///
+/// Constraint Jacobian A, eq. 5:
+///
+/// ```text
+/// A[rod, x] = 2*x
+/// A[rod, y] = 2*y
+/// ```
+///
+/// Right-hand side b, eq. 5:
+///
+/// ```text
+/// b[rod] = -2*(sq(dot(x)) + sq(dot(y)))
+/// ```
+///
+#[derive(Clone, Debug, PartialEq)]
+#[allow(non_snake_case, clippy::approx_constant)]
+pub struct Pendulum {
+    /// Mass, kg
+    pub m: f64,
+    /// Length of the rod, m
+    pub l: f64,
+    /// Acceleration of gravity, m/s^2
+    pub g: f64,
+}
+#[automatically_derived]
+#[allow(clippy::approx_constant, clippy::derivable_impls, clippy::unreadable_literal)]
+impl ::core::default::Default for Pendulum {
+    fn default() -> Self {
+        Pendulum {
+            m: 1.0,
+            l: 1.0,
+            g: 9.81,
+        }
+    }
+}
+#[automatically_derived]
+#[allow(dead_code)]
+impl Pendulum {
+    /// Position in q of coordinate `x`.
+    pub const X: usize = 0;
+    /// Position in q of coordinate `y`.
+    pub const Y: usize = 1;
+    /// Row in A of constraint `rod`.
+    pub const ROD: usize = 0;
+    /// Position of output `angle`.
+    pub const OUT_ANGLE: usize = 0;
+    /// Position of output `tension`.
+    pub const OUT_TENSION: usize = 1;
+}
+#[automatically_derived]
+#[allow(unused_variables, clippy::all, clippy::pedantic)]
+impl ::ukcore::Mechanism for Pendulum {
+    const SPEC: &'static ::ukcore::Spec = &::ukcore::Spec {
+        name: "Pendulum",
+        doc: "Point mass on a massless rigid rod about a pivot at the origin; y points up.",
+        params: &[
+            ::ukcore::ParamSpec {
+                name: "m",
+                doc: "Mass, kg",
+                default: 1.0,
+            },
+            ::ukcore::ParamSpec {
+                name: "l",
+                doc: "Length of the rod, m",
+                default: 1.0,
+            },
+            ::ukcore::ParamSpec {
+                name: "g",
+                doc: "Acceleration of gravity, m/s^2",
+                default: 9.81,
+            },
+        ],
+        coords: &["x", "y"],
+        constraints: &[
+            ::ukcore::ConstraintSpec {
+                name: "rod",
+                kind: ::ukcore::ConstraintKind::Holonomic,
+                equation: "sq(x) + sq(y) - sq(l) = 0",
+            },
+        ],
+        holonomic: 1,
+        outputs: &[
+            ::ukcore::OutputSpec {
+                name: "angle",
+                doc: "Angle from the downward vertical, counter-clockwise, rad",
+            },
+            ::ukcore::OutputSpec {
+                name: "tension",
+                doc: "Tension of the rod, N",
+            },
+        ],
+        structure: ::ukcore::Structure {
+            mass_pattern: &[(0, 0), (1, 1)],
+            jacobian_pattern: &[(0, 0), (0, 1)],
+            mass_diagonal: true,
+            mass_constant: true,
+            jacobian_constant: false,
+            massless: &[],
+            scleronomic: true,
+            nonideal: false,
+            potential: true,
+            conservative: true,
+            left_out: &[
+                "off-diagonal entries of M: M is diagonal, its square root is taken entry by entry",
+                "∂/∂t terms: no equation contains the time",
+                "non-ideal force c (eq. 12): all constraints are ideal",
+                "1 of 2 entries of Q: identically zero",
+                "Udwadia-Phohomsiri formula (eq. 19): no coordinate is massless while the parameters are positive",
+            ],
+            operations: ::ukcore::Operations {
+                additions: 2,
+                multiplications: 6,
+                divisions: 0,
+                square_roots: 0,
+                transcendentals: 0,
+                selections: 0,
+            },
+        },
+        equations: ::ukcore::Equations {
+            definitions: &[],
+            mass: &[(0, 0, "m"), (1, 1, "m")],
+            force: &[(1, "-m*g")],
+            nonideal: &[],
+            jacobian: &[(0, 0, "2*x"), (0, 1, "2*y")],
+            rhs: &[(0, "-2*(sq(dot(x)) + sq(dot(y)))")],
+        },
+    };
+    fn parameter(&self, index: usize) -> f64 {
+        match index {
+            0 => self.m,
+            1 => self.l,
+            2 => self.g,
+            _ => ::ukcore::emitted::no_parameter(index),
+        }
+    }
+    fn set_parameter(&mut self, index: usize, value: f64) {
+        match index {
+            0 => self.m = value,
+            1 => self.l = value,
+            2 => self.g = value,
+            _ => ::ukcore::emitted::no_parameter(index),
+        }
+    }
+    /// 2 additions, 6 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
+    fn dynamics<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        out: &mut ::ukcore::Terms<'_, S>,
+    ) {
+        let mass = ::ukcore::emitted::exact_mut::<S, 4>(out.mass, "mass");
+        let force = ::ukcore::emitted::exact_mut::<S, 2>(out.force, "force");
+        let nonideal = ::ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
+        let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(out.jacobian, "jacobian");
+        let rhs = ::ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
+        let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
+        let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
+        let lit = S::from_f64;
+        let m = lit(self.m);
+        let g = lit(self.g);
+        mass[0] = m;
+        mass[3] = m;
+        force[0] = lit(0.0);
+        force[1] = -(m * g);
+        nonideal[0] = lit(0.0);
+        nonideal[1] = lit(0.0);
+        jacobian[0] = lit(2.0) * x;
+        jacobian[1] = lit(2.0) * y;
+        rhs[0] = lit(-2.0) * (dot_x * dot_x + dot_y * dot_y);
+    }
+    fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) {
+        let mass = ::ukcore::emitted::exact_mut::<S, 4>(mass, "mass");
+        let lit = S::from_f64;
+        let m = lit(self.m);
+        mass[0] = m;
+        mass[3] = m;
+    }
+    fn jacobian<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
+        let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(jacobian, "jacobian");
+        let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
+        let lit = S::from_f64;
+        jacobian[0] = lit(2.0) * x;
+        jacobian[1] = lit(2.0) * y;
+    }
+    fn residual<S: ::ukcore::Scalar>(&self, t: S, q: &[S], phi: &mut [S]) {
+        let phi = ::ukcore::emitted::exact_mut::<S, 1>(phi, "phi");
+        let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
+        let lit = S::from_f64;
+        let l = lit(self.l);
+        phi[0] = x * x + y * y - l * l;
+    }
+    fn residual_rate<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        rate: &mut [S],
+    ) {
+        let rate = ::ukcore::emitted::exact_mut::<S, 1>(rate, "rate");
+        let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
+        let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
+        let lit = S::from_f64;
+        rate[0] = lit(2.0) * (x * dot_x + y * dot_y);
+    }
+    fn energy<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+    ) -> ::ukcore::Energy<S> {
+        let [_, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
+        let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
+        let lit = S::from_f64;
+        let m = lit(self.m);
+        let g = lit(self.g);
+        let kinetic = lit(0.5) * (m * dot_x * dot_x + m * dot_y * dot_y);
+        let potential = m * g * y;
+        ::ukcore::Energy {
+            kinetic,
+            potential,
+        }
+    }
+    fn outputs<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) {
+        let outputs = ::ukcore::emitted::exact_mut::<S, 2>(outputs, "outputs");
+        let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
+        let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
+        let lit = S::from_f64;
+        let m = lit(self.m);
+        let l = lit(self.l);
+        let g = lit(self.g);
+        outputs[0] = x.atan2(-y);
+        outputs[1] = m * (dot_x * dot_x + dot_y * dot_y - g * y) / l;
+    }
+}

@@ -1,0 +1,424 @@
+/// Free rigid body about its centre of mass, turned by the unit quaternion (e0, e1, e2, e3) from body to space. The angular
+/// velocity in body axes is ω = 2 G(e) ė, so M = 4 Gᵀ I G is singular along e; the constraint |e|² = 1 mends that (eq. 19).
+///
+/// # Equations of motion
+///
+/// Derived from the declaration at compile time, in the notation of Zhao, Zhen & Chen 2013: M q̈ = Q is the unconstrained motion, A q̈ = b what the constraints demand.
+///
+/// Abbreviations:
+///
+/// ```text
+/// w1 = e1*dot(e0) + e2*dot(e3) - e0*dot(e1) - e3*dot(e2)
+/// w2 = dot(e0)*e2 + dot(e1)*e3 - e0*dot(e2) - e1*dot(e3)
+/// w3 = dot(e0)*e3 + e1*dot(e2) - dot(e1)*e2 - e0*dot(e3)
+/// ```
+///
+/// Mass matrix M (lower triangle), eq. 1:
+///
+/// ```text
+/// M[e0, e0] = 4*(sq(e1)*i1 + sq(e2)*i2 + sq(e3)*i3)
+/// M[e1, e0] = 4*(e3*e2*i2 - e1*e0*i1 - e3*e2*i3)
+/// M[e1, e1] = 4*(sq(e0)*i1 + sq(e3)*i2 + sq(e2)*i3)
+/// M[e2, e0] = 4*(e1*e3*i3 - e1*e3*i1 - e0*e2*i2)
+/// M[e2, e1] = 4*(e0*e3*i1 - e0*e3*i2 - e1*e2*i3)
+/// M[e2, e2] = 4*(sq(e3)*i1 + sq(e0)*i2 + sq(e1)*i3)
+/// M[e3, e0] = 4*(e1*e2*i1 - e1*e2*i2 - e0*e3*i3)
+/// M[e3, e1] = 4*(e0*e2*i3 - e0*e2*i1 - e1*e3*i2)
+/// M[e3, e2] = 4*(e1*e0*i2 - e3*e2*i1 - e1*e0*i3)
+/// M[e3, e3] = 4*(sq(e2)*i1 + sq(e1)*i2 + sq(e0)*i3)
+/// ```
+///
+/// Generalised force Q, eq. 1:
+///
+/// ```text
+/// Q[e0] = -8*(dot(e1)*w1*i1 + dot(e2)*w2*i2 + dot(e3)*w3*i3)
+/// Q[e1] = 8*(dot(e0)*w1*i1 + dot(e2)*w3*i3 - dot(e3)*w2*i2)
+/// Q[e2] = 8*(dot(e3)*w1*i1 + dot(e0)*w2*i2 - dot(e1)*w3*i3)
+/// Q[e3] = 8*(dot(e1)*w2*i2 + dot(e0)*w3*i3 - dot(e2)*w1*i1)
+/// ```
+///
+/// Constraints φ, eqs. 3 and 4:
+///
+/// ```text
+/// unit: sq(e0) + sq(e1) + sq(e2) + sq(e3) - 1 = 0
+/// ```
+///
+/// Constraint Jacobian A, eq. 5:
+///
+/// ```text
+/// A[unit, e0] = 2*e0
+/// A[unit, e1] = 2*e1
+/// A[unit, e2] = 2*e2
+/// A[unit, e3] = 2*e3
+/// ```
+///
+/// Right-hand side b, eq. 5:
+///
+/// ```text
+/// b[unit] = -2*(sq(dot(e0)) + sq(dot(e1)) + sq(dot(e2)) + sq(dot(e3)))
+/// ```
+///
+#[derive(Clone, Debug, PartialEq)]
+#[allow(non_snake_case, clippy::approx_constant)]
+pub struct RigidBody {
+    /// Smallest principal moment of inertia, kg m^2
+    pub i1: f64,
+    /// Middle principal moment of inertia, kg m^2
+    pub i2: f64,
+    /// Largest principal moment of inertia, kg m^2
+    pub i3: f64,
+}
+#[automatically_derived]
+#[allow(clippy::approx_constant, clippy::derivable_impls, clippy::unreadable_literal)]
+impl ::core::default::Default for RigidBody {
+    fn default() -> Self {
+        RigidBody {
+            i1: 1.0,
+            i2: 2.0,
+            i3: 3.0,
+        }
+    }
+}
+#[automatically_derived]
+#[allow(dead_code)]
+impl RigidBody {
+    /// Position in q of coordinate `e0`.
+    pub const E0: usize = 0;
+    /// Position in q of coordinate `e1`.
+    pub const E1: usize = 1;
+    /// Position in q of coordinate `e2`.
+    pub const E2: usize = 2;
+    /// Position in q of coordinate `e3`.
+    pub const E3: usize = 3;
+    /// Row in A of constraint `unit`.
+    pub const UNIT: usize = 0;
+    /// Position of output `spin1`.
+    pub const OUT_SPIN1: usize = 0;
+    /// Position of output `spin2`.
+    pub const OUT_SPIN2: usize = 1;
+    /// Position of output `spin3`.
+    pub const OUT_SPIN3: usize = 2;
+    /// Position of output `momentum_x`.
+    pub const OUT_MOMENTUM_X: usize = 3;
+    /// Position of output `momentum_y`.
+    pub const OUT_MOMENTUM_Y: usize = 4;
+    /// Position of output `momentum_z`.
+    pub const OUT_MOMENTUM_Z: usize = 5;
+}
+#[automatically_derived]
+#[allow(unused_variables, clippy::all, clippy::pedantic)]
+impl ::ukcore::Mechanism for RigidBody {
+    const SPEC: &'static ::ukcore::Spec = &::ukcore::Spec {
+        name: "RigidBody",
+        doc: "Free rigid body about its centre of mass, turned by the unit quaternion (e0, e1, e2, e3) from body to space. The angular\nvelocity in body axes is ω = 2 G(e) ė, so M = 4 Gᵀ I G is singular along e; the constraint |e|² = 1 mends that (eq. 19).",
+        params: &[
+            ::ukcore::ParamSpec {
+                name: "i1",
+                doc: "Smallest principal moment of inertia, kg m^2",
+                default: 1.0,
+            },
+            ::ukcore::ParamSpec {
+                name: "i2",
+                doc: "Middle principal moment of inertia, kg m^2",
+                default: 2.0,
+            },
+            ::ukcore::ParamSpec {
+                name: "i3",
+                doc: "Largest principal moment of inertia, kg m^2",
+                default: 3.0,
+            },
+        ],
+        coords: &["e0", "e1", "e2", "e3"],
+        constraints: &[
+            ::ukcore::ConstraintSpec {
+                name: "unit",
+                kind: ::ukcore::ConstraintKind::Holonomic,
+                equation: "sq(e0) + sq(e1) + sq(e2) + sq(e3) - 1 = 0",
+            },
+        ],
+        holonomic: 1,
+        outputs: &[
+            ::ukcore::OutputSpec {
+                name: "spin1",
+                doc: "Angular velocity about the body's axis 1, rad/s",
+            },
+            ::ukcore::OutputSpec {
+                name: "spin2",
+                doc: "Angular velocity about the body's axis 2, rad/s",
+            },
+            ::ukcore::OutputSpec {
+                name: "spin3",
+                doc: "Angular velocity about the body's axis 3, rad/s",
+            },
+            ::ukcore::OutputSpec {
+                name: "momentum_x",
+                doc: "Angular momentum along the space axis x, kg m^2/s",
+            },
+            ::ukcore::OutputSpec {
+                name: "momentum_y",
+                doc: "Angular momentum along the space axis y, kg m^2/s",
+            },
+            ::ukcore::OutputSpec {
+                name: "momentum_z",
+                doc: "Angular momentum along the space axis z, kg m^2/s",
+            },
+        ],
+        structure: ::ukcore::Structure {
+            mass_pattern: &[
+                (0, 0),
+                (0, 1),
+                (0, 2),
+                (0, 3),
+                (1, 0),
+                (1, 1),
+                (1, 2),
+                (1, 3),
+                (2, 0),
+                (2, 1),
+                (2, 2),
+                (2, 3),
+                (3, 0),
+                (3, 1),
+                (3, 2),
+                (3, 3),
+            ],
+            jacobian_pattern: &[(0, 0), (0, 1), (0, 2), (0, 3)],
+            mass_diagonal: false,
+            mass_constant: false,
+            jacobian_constant: false,
+            massless: &[],
+            scleronomic: true,
+            nonideal: false,
+            potential: false,
+            conservative: true,
+            left_out: &[
+                "∂/∂t terms: no equation contains the time",
+                "non-ideal force c (eq. 12): all constraints are ideal",
+            ],
+            operations: ::ukcore::Operations {
+                additions: 40,
+                multiplications: 119,
+                divisions: 0,
+                square_roots: 0,
+                transcendentals: 0,
+                selections: 0,
+            },
+        },
+        equations: ::ukcore::Equations {
+            definitions: &[
+                ("w1", "e1*dot(e0) + e2*dot(e3) - e0*dot(e1) - e3*dot(e2)"),
+                ("w2", "dot(e0)*e2 + dot(e1)*e3 - e0*dot(e2) - e1*dot(e3)"),
+                ("w3", "dot(e0)*e3 + e1*dot(e2) - dot(e1)*e2 - e0*dot(e3)"),
+            ],
+            mass: &[
+                (0, 0, "4*(sq(e1)*i1 + sq(e2)*i2 + sq(e3)*i3)"),
+                (1, 0, "4*(e3*e2*i2 - e1*e0*i1 - e3*e2*i3)"),
+                (1, 1, "4*(sq(e0)*i1 + sq(e3)*i2 + sq(e2)*i3)"),
+                (2, 0, "4*(e1*e3*i3 - e1*e3*i1 - e0*e2*i2)"),
+                (2, 1, "4*(e0*e3*i1 - e0*e3*i2 - e1*e2*i3)"),
+                (2, 2, "4*(sq(e3)*i1 + sq(e0)*i2 + sq(e1)*i3)"),
+                (3, 0, "4*(e1*e2*i1 - e1*e2*i2 - e0*e3*i3)"),
+                (3, 1, "4*(e0*e2*i3 - e0*e2*i1 - e1*e3*i2)"),
+                (3, 2, "4*(e1*e0*i2 - e3*e2*i1 - e1*e0*i3)"),
+                (3, 3, "4*(sq(e2)*i1 + sq(e1)*i2 + sq(e0)*i3)"),
+            ],
+            force: &[
+                (0, "-8*(dot(e1)*w1*i1 + dot(e2)*w2*i2 + dot(e3)*w3*i3)"),
+                (1, "8*(dot(e0)*w1*i1 + dot(e2)*w3*i3 - dot(e3)*w2*i2)"),
+                (2, "8*(dot(e3)*w1*i1 + dot(e0)*w2*i2 - dot(e1)*w3*i3)"),
+                (3, "8*(dot(e1)*w2*i2 + dot(e0)*w3*i3 - dot(e2)*w1*i1)"),
+            ],
+            nonideal: &[],
+            jacobian: &[(0, 0, "2*e0"), (0, 1, "2*e1"), (0, 2, "2*e2"), (0, 3, "2*e3")],
+            rhs: &[(0, "-2*(sq(dot(e0)) + sq(dot(e1)) + sq(dot(e2)) + sq(dot(e3)))")],
+        },
+    };
+    fn parameter(&self, index: usize) -> f64 {
+        match index {
+            0 => self.i1,
+            1 => self.i2,
+            2 => self.i3,
+            _ => ::ukcore::emitted::no_parameter(index),
+        }
+    }
+    fn set_parameter(&mut self, index: usize, value: f64) {
+        match index {
+            0 => self.i1 = value,
+            1 => self.i2 = value,
+            2 => self.i3 = value,
+            _ => ::ukcore::emitted::no_parameter(index),
+        }
+    }
+    /// 40 additions, 119 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
+    fn dynamics<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        out: &mut ::ukcore::Terms<'_, S>,
+    ) {
+        let mass = ::ukcore::emitted::exact_mut::<S, 16>(out.mass, "mass");
+        let force = ::ukcore::emitted::exact_mut::<S, 4>(out.force, "force");
+        let nonideal = ::ukcore::emitted::exact_mut::<S, 4>(out.nonideal, "nonideal");
+        let jacobian = ::ukcore::emitted::exact_mut::<S, 4>(out.jacobian, "jacobian");
+        let rhs = ::ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
+        let [e0, e1, e2, e3] = *::ukcore::emitted::exact::<S, 4>(q, "q");
+        let [dot_e0, dot_e1, dot_e2, dot_e3] = *::ukcore::emitted::exact::<S, 4>(v, "v");
+        let lit = S::from_f64;
+        let i1 = lit(self.i1);
+        let i2 = lit(self.i2);
+        let i3 = lit(self.i3);
+        mass[0] = lit(4.0) * (e1 * e1 * i1 + e2 * e2 * i2 + e3 * e3 * i3);
+        let mass_e1_e0_part = lit(-4.0) * (e1 * e0 * i1 + e3 * e2 * i3 - e3 * e2 * i2);
+        mass[1] = mass_e1_e0_part;
+        let mass_e2_e0_part = lit(-4.0) * (e1 * e3 * i1 + e0 * e2 * i2 - e1 * e3 * i3);
+        mass[2] = mass_e2_e0_part;
+        let mass_e3_e0_part = lit(4.0) * (e1 * e2 * i1 - e1 * e2 * i2 - e0 * e3 * i3);
+        mass[3] = mass_e3_e0_part;
+        mass[4] = mass_e1_e0_part;
+        mass[5] = lit(4.0) * (e0 * e0 * i1 + e3 * e3 * i2 + e2 * e2 * i3);
+        let mass_e2_e1_part = lit(4.0) * (e0 * e3 * i1 - e0 * e3 * i2 - e1 * e2 * i3);
+        mass[6] = mass_e2_e1_part;
+        let mass_e3_e1_part = lit(-4.0) * (e0 * e2 * i1 + e1 * e3 * i2 - e0 * e2 * i3);
+        mass[7] = mass_e3_e1_part;
+        mass[8] = mass_e2_e0_part;
+        mass[9] = mass_e2_e1_part;
+        mass[10] = lit(4.0) * (e3 * e3 * i1 + e0 * e0 * i2 + e1 * e1 * i3);
+        let mass_e3_e2_part = lit(-4.0) * (e3 * e2 * i1 + e1 * e0 * i3 - e1 * e0 * i2);
+        mass[11] = mass_e3_e2_part;
+        mass[12] = mass_e3_e0_part;
+        mass[13] = mass_e3_e1_part;
+        mass[14] = mass_e3_e2_part;
+        mass[15] = lit(4.0) * (e2 * e2 * i1 + e1 * e1 * i2 + e0 * e0 * i3);
+        let w1 = e1 * dot_e0 + e2 * dot_e3 - e0 * dot_e1 - e3 * dot_e2;
+        let w2 = dot_e0 * e2 + dot_e1 * e3 - e0 * dot_e2 - e1 * dot_e3;
+        let w3 = dot_e0 * e3 + e1 * dot_e2 - dot_e1 * e2 - e0 * dot_e3;
+        force[0] = lit(-8.0) * (dot_e1 * w1 * i1 + dot_e2 * w2 * i2 + dot_e3 * w3 * i3);
+        force[1] = lit(8.0) * (dot_e0 * w1 * i1 + dot_e2 * w3 * i3 - dot_e3 * w2 * i2);
+        force[2] = lit(8.0) * (dot_e3 * w1 * i1 + dot_e0 * w2 * i2 - dot_e1 * w3 * i3);
+        force[3] = lit(-8.0) * (dot_e2 * w1 * i1 - dot_e1 * w2 * i2 - dot_e0 * w3 * i3);
+        nonideal[0] = lit(0.0);
+        nonideal[1] = lit(0.0);
+        nonideal[2] = lit(0.0);
+        nonideal[3] = lit(0.0);
+        jacobian[0] = lit(2.0) * e0;
+        jacobian[1] = lit(2.0) * e1;
+        jacobian[2] = lit(2.0) * e2;
+        jacobian[3] = lit(2.0) * e3;
+        rhs[0] = lit(-2.0)
+            * (dot_e0 * dot_e0 + dot_e1 * dot_e1 + dot_e2 * dot_e2 + dot_e3 * dot_e3);
+    }
+    fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) {
+        let mass = ::ukcore::emitted::exact_mut::<S, 16>(mass, "mass");
+        let [e0, e1, e2, e3] = *::ukcore::emitted::exact::<S, 4>(q, "q");
+        let lit = S::from_f64;
+        let i1 = lit(self.i1);
+        let i2 = lit(self.i2);
+        let i3 = lit(self.i3);
+        mass[0] = lit(4.0) * (e1 * e1 * i1 + e2 * e2 * i2 + e3 * e3 * i3);
+        let mass_e1_e0_part = lit(-4.0) * (e1 * e0 * i1 + e3 * e2 * i3 - e3 * e2 * i2);
+        mass[1] = mass_e1_e0_part;
+        let mass_e2_e0_part = lit(-4.0) * (e1 * e3 * i1 + e0 * e2 * i2 - e1 * e3 * i3);
+        mass[2] = mass_e2_e0_part;
+        let mass_e3_e0_part = lit(4.0) * (e1 * e2 * i1 - e1 * e2 * i2 - e0 * e3 * i3);
+        mass[3] = mass_e3_e0_part;
+        mass[4] = mass_e1_e0_part;
+        mass[5] = lit(4.0) * (e0 * e0 * i1 + e3 * e3 * i2 + e2 * e2 * i3);
+        let mass_e2_e1_part = lit(4.0) * (e0 * e3 * i1 - e0 * e3 * i2 - e1 * e2 * i3);
+        mass[6] = mass_e2_e1_part;
+        let mass_e3_e1_part = lit(-4.0) * (e0 * e2 * i1 + e1 * e3 * i2 - e0 * e2 * i3);
+        mass[7] = mass_e3_e1_part;
+        mass[8] = mass_e2_e0_part;
+        mass[9] = mass_e2_e1_part;
+        mass[10] = lit(4.0) * (e3 * e3 * i1 + e0 * e0 * i2 + e1 * e1 * i3);
+        let mass_e3_e2_part = lit(-4.0) * (e3 * e2 * i1 + e1 * e0 * i3 - e1 * e0 * i2);
+        mass[11] = mass_e3_e2_part;
+        mass[12] = mass_e3_e0_part;
+        mass[13] = mass_e3_e1_part;
+        mass[14] = mass_e3_e2_part;
+        mass[15] = lit(4.0) * (e2 * e2 * i1 + e1 * e1 * i2 + e0 * e0 * i3);
+    }
+    fn jacobian<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
+        let jacobian = ::ukcore::emitted::exact_mut::<S, 4>(jacobian, "jacobian");
+        let [e0, e1, e2, e3] = *::ukcore::emitted::exact::<S, 4>(q, "q");
+        let lit = S::from_f64;
+        jacobian[0] = lit(2.0) * e0;
+        jacobian[1] = lit(2.0) * e1;
+        jacobian[2] = lit(2.0) * e2;
+        jacobian[3] = lit(2.0) * e3;
+    }
+    fn residual<S: ::ukcore::Scalar>(&self, t: S, q: &[S], phi: &mut [S]) {
+        let phi = ::ukcore::emitted::exact_mut::<S, 1>(phi, "phi");
+        let [e0, e1, e2, e3] = *::ukcore::emitted::exact::<S, 4>(q, "q");
+        let lit = S::from_f64;
+        phi[0] = e0 * e0 + e1 * e1 + e2 * e2 + e3 * e3 - lit(1.0);
+    }
+    fn residual_rate<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        rate: &mut [S],
+    ) {
+        let rate = ::ukcore::emitted::exact_mut::<S, 1>(rate, "rate");
+        let [e0, e1, e2, e3] = *::ukcore::emitted::exact::<S, 4>(q, "q");
+        let [dot_e0, dot_e1, dot_e2, dot_e3] = *::ukcore::emitted::exact::<S, 4>(v, "v");
+        let lit = S::from_f64;
+        rate[0] = lit(2.0) * (e0 * dot_e0 + e1 * dot_e1 + e2 * dot_e2 + e3 * dot_e3);
+    }
+    fn energy<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+    ) -> ::ukcore::Energy<S> {
+        let [e0, e1, e2, e3] = *::ukcore::emitted::exact::<S, 4>(q, "q");
+        let [dot_e0, dot_e1, dot_e2, dot_e3] = *::ukcore::emitted::exact::<S, 4>(v, "v");
+        let lit = S::from_f64;
+        let i1 = lit(self.i1);
+        let i2 = lit(self.i2);
+        let i3 = lit(self.i3);
+        let w1 = e1 * dot_e0 + e2 * dot_e3 - e0 * dot_e1 - e3 * dot_e2;
+        let w2 = dot_e0 * e2 + dot_e1 * e3 - e0 * dot_e2 - e1 * dot_e3;
+        let w3 = dot_e0 * e3 + e1 * dot_e2 - dot_e1 * e2 - e0 * dot_e3;
+        let kinetic = lit(2.0) * (w1 * w1 * i1 + w2 * w2 * i2 + w3 * w3 * i3);
+        let potential = lit(0.0);
+        ::ukcore::Energy {
+            kinetic,
+            potential,
+        }
+    }
+    fn outputs<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) {
+        let outputs = ::ukcore::emitted::exact_mut::<S, 6>(outputs, "outputs");
+        let [e0, e1, e2, e3] = *::ukcore::emitted::exact::<S, 4>(q, "q");
+        let [dot_e0, dot_e1, dot_e2, dot_e3] = *::ukcore::emitted::exact::<S, 4>(v, "v");
+        let lit = S::from_f64;
+        let i1 = lit(self.i1);
+        let i2 = lit(self.i2);
+        let i3 = lit(self.i3);
+        let w1 = e1 * dot_e0 + e2 * dot_e3 - e0 * dot_e1 - e3 * dot_e2;
+        outputs[0] = lit(-2.0) * w1;
+        let w2 = dot_e0 * e2 + dot_e1 * e3 - e0 * dot_e2 - e1 * dot_e3;
+        outputs[1] = lit(-2.0) * w2;
+        let w3 = dot_e0 * e3 + e1 * dot_e2 - dot_e1 * e2 - e0 * dot_e3;
+        outputs[2] = lit(-2.0) * w3;
+        let sq_e2 = e2 * e2;
+        let sq_e3 = e3 * e3;
+        let e1_e2 = e1 * e2;
+        let e0_e3 = e0 * e3;
+        let e1_e3 = e1 * e3;
+        let e0_e2 = e0 * e2;
+        outputs[3] = lit(-2.0) * (w1 * i1 * (lit(1.0) - lit(2.0) * (sq_e2 + sq_e3)))
+            - lit(4.0) * (w2 * i2 * (e1_e2 - e0_e3))
+            - lit(4.0) * (w3 * i3 * (e1_e3 + e0_e2));
+        let sq_e1 = e1 * e1;
+        let e3_e2 = e3 * e2;
+        let e1_e0 = e1 * e0;
+        outputs[4] = lit(-4.0) * (w1 * i1 * (e1_e2 + e0_e3))
+            - lit(2.0) * (w2 * i2 * (lit(1.0) - lit(2.0) * (sq_e1 + sq_e3)))
+            - lit(4.0) * (w3 * i3 * (e3_e2 - e1_e0));
+        outputs[5] = lit(-4.0) * (w1 * i1 * (e1_e3 - e0_e2))
+            - lit(4.0) * (w2 * i2 * (e3_e2 + e1_e0))
+            - lit(2.0) * (w3 * i3 * (lit(1.0) - lit(2.0) * (sq_e1 + sq_e2)));
+    }
+}

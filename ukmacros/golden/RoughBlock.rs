@@ -1,0 +1,299 @@
+/// Block on a slope that falls towards +x; y points up. The slope's constraint is not ideal: it rubs with Coulomb's friction
+/// mu N against the motion, where N = m g cos(slope) is the ideal constraint force, known beforehand. Friction is of sliding only:
+/// the slope has to be steeper than the angle of repose, mu < tan(slope), or the block would have to stick.
+///
+/// # Equations of motion
+///
+/// Derived from the declaration at compile time, in the notation of Zhao, Zhen & Chen 2013: M q̈ = Q is the unconstrained motion, A q̈ = b what the constraints demand.
+///
+/// Abbreviations:
+///
+/// ```text
+/// speed_down = dot(x)*cos(slope) - dot(y)*sin(slope)
+/// ```
+///
+/// Mass matrix M (lower triangle), eq. 1:
+///
+/// ```text
+/// M[x, x] = m
+/// M[y, y] = m
+/// ```
+///
+/// Generalised force Q, eq. 1:
+///
+/// ```text
+/// Q[y] = -m*g
+/// ```
+///
+/// Constraints φ, eqs. 3 and 4:
+///
+/// ```text
+/// plane: x*sin(slope) + cos(slope)*y = 0
+/// ```
+///
+/// Constraint Jacobian A, eq. 5:
+///
+/// ```text
+/// A[plane, x] = sin(slope)
+/// A[plane, y] = cos(slope)
+/// ```
+///
+/// Non-ideal force c, eq. 8:
+///
+/// ```text
+/// c[x] = -sq(cos(slope))*mu*m*g*sign(speed_down)
+/// c[y] = cos(slope)*sin(slope)*mu*m*g*sign(speed_down)
+/// ```
+///
+#[derive(Clone, Debug, PartialEq)]
+#[allow(non_snake_case, clippy::approx_constant)]
+pub struct RoughBlock {
+    /// Mass, kg
+    pub m: f64,
+    /// Acceleration of gravity, m/s^2
+    pub g: f64,
+    /// Inclination of the slope, rad
+    pub slope: f64,
+    /// Coefficient of friction
+    pub mu: f64,
+}
+#[automatically_derived]
+#[allow(clippy::approx_constant, clippy::derivable_impls, clippy::unreadable_literal)]
+impl ::core::default::Default for RoughBlock {
+    fn default() -> Self {
+        RoughBlock {
+            m: 1.0,
+            g: 9.81,
+            slope: 0.5235987755982988,
+            mu: 0.2,
+        }
+    }
+}
+#[automatically_derived]
+#[allow(dead_code)]
+impl RoughBlock {
+    /// Position in q of coordinate `x`.
+    pub const X: usize = 0;
+    /// Position in q of coordinate `y`.
+    pub const Y: usize = 1;
+    /// Row in A of constraint `plane`.
+    pub const PLANE: usize = 0;
+    /// Position of output `way`.
+    pub const OUT_WAY: usize = 0;
+    /// Position of output `speed`.
+    pub const OUT_SPEED: usize = 1;
+    /// Position of output `friction_force`.
+    pub const OUT_FRICTION_FORCE: usize = 2;
+}
+#[automatically_derived]
+#[allow(unused_variables, clippy::all, clippy::pedantic)]
+impl ::ukcore::Mechanism for RoughBlock {
+    const SPEC: &'static ::ukcore::Spec = &::ukcore::Spec {
+        name: "RoughBlock",
+        doc: "Block on a slope that falls towards +x; y points up. The slope's constraint is not ideal: it rubs with Coulomb's friction\nmu N against the motion, where N = m g cos(slope) is the ideal constraint force, known beforehand. Friction is of sliding only:\nthe slope has to be steeper than the angle of repose, mu < tan(slope), or the block would have to stick.",
+        params: &[
+            ::ukcore::ParamSpec {
+                name: "m",
+                doc: "Mass, kg",
+                default: 1.0,
+            },
+            ::ukcore::ParamSpec {
+                name: "g",
+                doc: "Acceleration of gravity, m/s^2",
+                default: 9.81,
+            },
+            ::ukcore::ParamSpec {
+                name: "slope",
+                doc: "Inclination of the slope, rad",
+                default: 0.5235987755982988,
+            },
+            ::ukcore::ParamSpec {
+                name: "mu",
+                doc: "Coefficient of friction",
+                default: 0.2,
+            },
+        ],
+        coords: &["x", "y"],
+        constraints: &[
+            ::ukcore::ConstraintSpec {
+                name: "plane",
+                kind: ::ukcore::ConstraintKind::Holonomic,
+                equation: "x*sin(slope) + cos(slope)*y = 0",
+            },
+        ],
+        holonomic: 1,
+        outputs: &[
+            ::ukcore::OutputSpec {
+                name: "way",
+                doc: "Way down the slope, m",
+            },
+            ::ukcore::OutputSpec {
+                name: "speed",
+                doc: "Speed down the slope, m/s",
+            },
+            ::ukcore::OutputSpec {
+                name: "friction_force",
+                doc: "Friction, positive down the slope, N",
+            },
+        ],
+        structure: ::ukcore::Structure {
+            mass_pattern: &[(0, 0), (1, 1)],
+            jacobian_pattern: &[(0, 0), (0, 1)],
+            mass_diagonal: true,
+            mass_constant: true,
+            jacobian_constant: true,
+            massless: &[],
+            scleronomic: true,
+            nonideal: true,
+            potential: true,
+            conservative: false,
+            left_out: &[
+                "off-diagonal entries of M: M is diagonal, its square root is taken entry by entry",
+                "∂/∂t terms: no equation contains the time",
+                "1 of 1 entries of b: identically zero",
+                "1 of 2 entries of Q: identically zero",
+                "Udwadia-Phohomsiri formula (eq. 19): no coordinate is massless while the parameters are positive",
+            ],
+            operations: ::ukcore::Operations {
+                additions: 3,
+                multiplications: 13,
+                divisions: 0,
+                square_roots: 0,
+                transcendentals: 1,
+                selections: 1,
+            },
+        },
+        equations: ::ukcore::Equations {
+            definitions: &[("speed_down", "dot(x)*cos(slope) - dot(y)*sin(slope)")],
+            mass: &[(0, 0, "m"), (1, 1, "m")],
+            force: &[(1, "-m*g")],
+            nonideal: &[
+                (0, "-sq(cos(slope))*mu*m*g*sign(speed_down)"),
+                (1, "cos(slope)*sin(slope)*mu*m*g*sign(speed_down)"),
+            ],
+            jacobian: &[(0, 0, "sin(slope)"), (0, 1, "cos(slope)")],
+            rhs: &[],
+        },
+    };
+    fn parameter(&self, index: usize) -> f64 {
+        match index {
+            0 => self.m,
+            1 => self.g,
+            2 => self.slope,
+            3 => self.mu,
+            _ => ::ukcore::emitted::no_parameter(index),
+        }
+    }
+    fn set_parameter(&mut self, index: usize, value: f64) {
+        match index {
+            0 => self.m = value,
+            1 => self.g = value,
+            2 => self.slope = value,
+            3 => self.mu = value,
+            _ => ::ukcore::emitted::no_parameter(index),
+        }
+    }
+    /// 3 additions, 13 multiplications, 0 divisions, 0 square roots, 1 transcendentals, 1 selections.
+    fn dynamics<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        out: &mut ::ukcore::Terms<'_, S>,
+    ) {
+        let mass = ::ukcore::emitted::exact_mut::<S, 4>(out.mass, "mass");
+        let force = ::ukcore::emitted::exact_mut::<S, 2>(out.force, "force");
+        let nonideal = ::ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
+        let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(out.jacobian, "jacobian");
+        let rhs = ::ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
+        let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
+        let lit = S::from_f64;
+        let m = lit(self.m);
+        let g = lit(self.g);
+        let slope = lit(self.slope);
+        let mu = lit(self.mu);
+        mass[0] = m;
+        mass[3] = m;
+        force[0] = lit(0.0);
+        force[1] = -(m * g);
+        let (sin_slope, cos_slope) = slope.sin_cos();
+        let speed_down = dot_x * cos_slope - dot_y * sin_slope;
+        let sign_speed_down = speed_down.sign();
+        nonideal[0] = -(cos_slope * cos_slope * mu * m * g * sign_speed_down);
+        nonideal[1] = cos_slope * sin_slope * mu * m * g * sign_speed_down;
+        jacobian[0] = sin_slope;
+        jacobian[1] = cos_slope;
+        rhs[0] = lit(0.0);
+    }
+    fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) {
+        let mass = ::ukcore::emitted::exact_mut::<S, 4>(mass, "mass");
+        let lit = S::from_f64;
+        let m = lit(self.m);
+        mass[0] = m;
+        mass[3] = m;
+    }
+    fn jacobian<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
+        let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(jacobian, "jacobian");
+        let lit = S::from_f64;
+        let slope = lit(self.slope);
+        let (sin_slope, cos_slope) = slope.sin_cos();
+        jacobian[0] = sin_slope;
+        jacobian[1] = cos_slope;
+    }
+    fn residual<S: ::ukcore::Scalar>(&self, t: S, q: &[S], phi: &mut [S]) {
+        let phi = ::ukcore::emitted::exact_mut::<S, 1>(phi, "phi");
+        let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
+        let lit = S::from_f64;
+        let slope = lit(self.slope);
+        let (sin_slope, cos_slope) = slope.sin_cos();
+        phi[0] = x * sin_slope + cos_slope * y;
+    }
+    fn residual_rate<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        rate: &mut [S],
+    ) {
+        let rate = ::ukcore::emitted::exact_mut::<S, 1>(rate, "rate");
+        let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
+        let lit = S::from_f64;
+        let slope = lit(self.slope);
+        let (sin_slope, cos_slope) = slope.sin_cos();
+        rate[0] = dot_x * sin_slope + cos_slope * dot_y;
+    }
+    fn energy<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+    ) -> ::ukcore::Energy<S> {
+        let [_, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
+        let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
+        let lit = S::from_f64;
+        let m = lit(self.m);
+        let g = lit(self.g);
+        let kinetic = lit(0.5) * (dot_x * dot_x * m + dot_y * dot_y * m);
+        let potential = y * m * g;
+        ::ukcore::Energy {
+            kinetic,
+            potential,
+        }
+    }
+    fn outputs<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) {
+        let outputs = ::ukcore::emitted::exact_mut::<S, 3>(outputs, "outputs");
+        let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
+        let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
+        let lit = S::from_f64;
+        let m = lit(self.m);
+        let g = lit(self.g);
+        let slope = lit(self.slope);
+        let mu = lit(self.mu);
+        let (sin_slope, cos_slope) = slope.sin_cos();
+        outputs[0] = x * cos_slope - y * sin_slope;
+        let speed_down = dot_x * cos_slope - dot_y * sin_slope;
+        outputs[1] = speed_down;
+        let friction = cos_slope * mu * m * g * speed_down.sign();
+        outputs[2] = -friction;
+    }
+}

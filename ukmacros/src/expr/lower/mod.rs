@@ -1,0 +1,572 @@
+//! Model to graph: loops unrolled, functions applied, vectors taken apart. This file walks the sections.
+
+mod names;
+mod value;
+
+use super::eval::{Point, eval};
+use super::graph::{Graph, Id};
+use crate::diag::{Diagnostics, Loc, suggest};
+use crate::model::{Model, Name, Scope};
+use crate::parse::{Block, Declaration, Equation, Expr, Function, Key, LetValue};
+use proc_macro2::Ident;
+use std::collections::{BTreeMap, HashMap, HashSet};
+
+/// The equations of a declaration as a graph.
+pub(crate) struct System {
+    pub(crate) graph: Graph,
+    /// Default of each parameter.
+    pub(crate) defaults: Vec<f64>,
+    /// Lower triangle (row ≥ column) of the declared M, with where it was declared first.
+    pub(crate) mass: BTreeMap<(usize, usize), (Id, Loc)>,
+    pub(crate) kinetic: Option<(Id, Loc)>,
+    /// Declared generalised forces, by coordinate.
+    pub(crate) force: BTreeMap<usize, Id>,
+    pub(crate) potential: Option<Id>,
+    /// The paper's c, by coordinate.
+    pub(crate) nonideal: Option<BTreeMap<usize, Id>>,
+    /// Holonomic ones first.
+    pub(crate) constraints: Vec<Constraint>,
+    pub(crate) outputs: Vec<OutputValue>,
+    /// Names that the modeller gave to values.
+    pub(crate) hints: HashMap<Id, String>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Kind {
+    Holonomic,
+    Nonholonomic,
+}
+
+/// φ = 0.
+pub(crate) struct Constraint {
+    pub(crate) item: ConstraintRef,
+    pub(crate) kind: Kind,
+    pub(crate) phi: Id,
+    pub(crate) loc: Loc,
+}
+
+/// Name of a constraint or output: family, index, component of a vector equation.
+#[derive(Clone)]
+pub(crate) struct ConstraintRef {
+    pub(crate) base: Ident,
+    pub(crate) index: Option<i64>,
+    pub(crate) component: Option<usize>,
+}
+
+impl ConstraintRef {
+    /// As shown: `link[3]`, `joint[0]`, `joint[2][1]`.
+    pub(crate) fn text(&self) -> String {
+        let mut text = self.base.to_string();
+        if let Some(i) = self.index {
+            text += &format!("[{i}]");
+        }
+        if let Some(c) = self.component {
+            text += &format!("[{c}]");
+        }
+        text
+    }
+}
+
+pub(crate) struct OutputValue {
+    pub(crate) item: ConstraintRef,
+    pub(crate) docs: Vec<String>,
+    pub(crate) value: Id,
+}
+
+/// Where an expression stands, which decides what it may use.
+#[derive(Clone, Copy, PartialEq)]
+enum Place {
+    Const,
+    Default,
+    Let,
+    Mass,
+    Kinetic,
+    Force,
+    Potential,
+    Holonomic,
+    Nonholonomic,
+    Nonideal,
+    Output,
+}
+
+#[derive(Clone)]
+enum Value {
+    Scalar(Id),
+    Vector(Vec<Id>),
+    /// Something already reported: fits everywhere.
+    Error,
+}
+
+enum Binding {
+    Value(Value),
+    Family(BTreeMap<i64, Value>),
+    Function(Function),
+}
+
+/// Lowers everything.
+pub(crate) fn lower(decl: &Declaration, model: &Model, diag: &Diagnostics) -> System {
+    let mut lowering = Lowering {
+        model,
+        diag,
+        graph: Graph::default(),
+        floats: Vec::new(),
+        lets: HashMap::new(),
+        active: Vec::new(),
+        known_params: 0,
+        hints: HashMap::new(),
+    };
+    lowering.run(decl)
+}
+
+struct Lowering<'m> {
+    model: &'m Model,
+    diag: &'m Diagnostics,
+    graph: Graph,
+    floats: Vec<Id>,
+    lets: HashMap<String, Binding>,
+    /// Functions being applied, against recursion.
+    active: Vec<String>,
+    /// Parameters whose default is known: those a default may use.
+    known_params: usize,
+    hints: HashMap<Id, String>,
+}
+
+/// An expression's surroundings: loop variables, function arguments, section.
+#[derive(Clone)]
+struct Env<'m> {
+    scope: Scope<'m>,
+    args: Vec<(String, Value)>,
+    place: Place,
+}
+
+impl<'m> Env<'m> {
+    fn new(scope: &Scope<'m>, place: Place) -> Self {
+        Env {
+            scope: scope.clone(),
+            args: Vec::new(),
+            place,
+        }
+    }
+}
+
+impl<'m> Lowering<'m> {
+    fn run(&mut self, decl: &Declaration) -> System {
+        let top = Scope::new(self.model);
+        for constant in &self.model.floats {
+            let value = self.scalar(&constant.value, &Env::new(&top, Place::Const));
+            self.floats.push(value);
+        }
+        let defaults = self.defaults();
+        self.lower_lets(decl, &top);
+
+        let mut mass: BTreeMap<(usize, usize), (Id, Loc)> = BTreeMap::new();
+        if let Some(section) = &decl.mass {
+            top.unroll(&section.blocks, self.diag, &mut |entry, scope| {
+                let row = self.coordinate(&entry.key, scope);
+                let column = entry.other.as_ref().map(|k| (self.coordinate(k, scope), k));
+                let value = self.scalar(&entry.value, &Env::new(scope, Place::Mass));
+                let (Some(row), column) = (row, column) else {
+                    return;
+                };
+                let column = match column {
+                    None => row,
+                    Some((None, _)) => return,
+                    Some((Some(c), k)) if c == row => {
+                        self.diag.error(
+                            k.loc,
+                            format!("a diagonal entry of M is written `{}: …`", k.name),
+                        );
+                        return;
+                    }
+                    Some((Some(c), _)) => c,
+                };
+                let place = (row.max(column), row.min(column));
+                let old = mass.get(&place).map(|(id, _)| *id);
+                let sum = self.accumulate(old, value);
+                let loc = mass.get(&place).map_or(entry.key.loc, |(_, loc)| *loc);
+                mass.insert(place, (sum, loc));
+            });
+        }
+        if let (Some(_), Some(kinetic)) = (&decl.mass, &decl.kinetic) {
+            self.diag.error(
+                kinetic.keyword.span(),
+                "`mass` and `kinetic` exclude each other: M follows from T; move the masses into `kinetic`",
+            );
+        }
+        let kinetic = decl.kinetic.as_ref().map(|section| {
+            let sum = self.terms_of(&section.blocks, &top, Place::Kinetic);
+            (sum, section.keyword.span().into())
+        });
+        let potential = decl
+            .potential
+            .as_ref()
+            .map(|section| self.terms_of(&section.blocks, &top, Place::Potential));
+        let force = self.entries(&decl.force, &top, Place::Force);
+        let nonideal = decl
+            .nonideal
+            .as_ref()
+            .map(|s| self.entries(&s.blocks, &top, Place::Nonideal));
+        let mut constraints = Vec::new();
+        let mut names = HashSet::new();
+        for (blocks, kind) in [
+            (&decl.holonomic, Kind::Holonomic),
+            (&decl.nonholonomic, Kind::Nonholonomic),
+        ] {
+            top.unroll(blocks, self.diag, &mut |equation, scope| {
+                self.equation(equation, kind, scope, &mut names, &mut constraints);
+            });
+        }
+        let outputs = self.outputs(decl, &top);
+        System {
+            graph: std::mem::take(&mut self.graph),
+            defaults,
+            mass,
+            kinetic,
+            force,
+            potential,
+            nonideal,
+            constraints,
+            outputs,
+            hints: std::mem::take(&mut self.hints),
+        }
+    }
+
+    fn defaults(&mut self) -> Vec<f64> {
+        let mut defaults = Vec::new();
+        for element in &self.model.param_elements {
+            let mut value = f64::NAN;
+            if let Some((expr, variables)) = &element.default {
+                let scope = Scope::with(self.model, variables.clone());
+                let id = self.scalar(expr, &Env::new(&scope, Place::Default));
+                let point = Point {
+                    params: &defaults,
+                    q: &[],
+                    v: &[],
+                    t: 0.0,
+                };
+                value = eval(&self.graph, &[id], &point)[0];
+                if !value.is_finite() && self.diag.is_empty() {
+                    self.diag.error(
+                        expr.loc,
+                        format!("default of `{}` is not a finite number", element.name),
+                    );
+                }
+            }
+            defaults.push(value);
+            self.known_params = defaults.len();
+        }
+        defaults
+    }
+
+    fn lower_lets(&mut self, decl: &Declaration, top: &Scope<'m>) {
+        top.unroll(&decl.lets, self.diag, &mut |binding, scope| {
+            let key = &binding.key;
+            let name = key.name.to_string();
+            let index = match &key.index {
+                None => None,
+                Some(i) => match self.integer(i, scope) {
+                    Some(i) => Some(i),
+                    None => return,
+                },
+            };
+            let again = match (self.lets.get(&name), index) {
+                (None, _) => false,
+                (Some(Binding::Family(members)), Some(i)) => members.contains_key(&i),
+                (Some(_), _) => true,
+            };
+            let taken = match self.model.free(&key.name) {
+                Err(reason) => Some(reason),
+                Ok(()) if again => {
+                    Some(format!("`{name}` is declared twice; names must be unique"))
+                }
+                Ok(()) => None,
+            };
+            if let Some(reason) = taken {
+                self.diag.error(key.loc, reason);
+                return;
+            }
+            let bound = match (&binding.value, index) {
+                (LetValue::Function(f), None) => Binding::Function(Function {
+                    args: f.args.clone(),
+                    body: f.body.clone(),
+                }),
+                (LetValue::Function(f), Some(_)) => {
+                    self.diag.error(
+                        f.body.loc,
+                        "a function cannot be indexed; pass the index as an argument",
+                    );
+                    return;
+                }
+                (LetValue::Value(e), index) => {
+                    let value = self.value(e, &Env::new(scope, Place::Let));
+                    self.hint(&name, index, &value);
+                    match index {
+                        None => Binding::Value(value),
+                        Some(i) => {
+                            if let Some(Binding::Family(members)) = self.lets.get_mut(&name) {
+                                members.insert(i, value);
+                                return;
+                            }
+                            Binding::Family(BTreeMap::from([(i, value)]))
+                        }
+                    }
+                }
+            };
+            self.lets.insert(name, bound);
+        });
+    }
+
+    /// Remembers the modeller's name of a value, for emitted code and printed equations.
+    fn hint(&mut self, name: &str, index: Option<i64>, value: &Value) {
+        let name = index.map_or(name.to_owned(), |i| format!("{name}[{i}]"));
+        let mut enter = |id: Id, name: String| {
+            let (_, id) = self.graph.unscaled(id);
+            if !self.graph.operands(id).is_empty() {
+                self.hints.entry(id).or_insert(name);
+            }
+        };
+        match value {
+            Value::Scalar(id) => enter(*id, name),
+            Value::Vector(ids) => {
+                for (c, id) in ids.iter().enumerate() {
+                    enter(*id, format!("{name}[{c}]"));
+                }
+            }
+            Value::Error => {}
+        }
+    }
+
+    fn accumulate(&mut self, old: Option<Id>, value: Id) -> Id {
+        old.map_or(value, |old| {
+            let mut terms = self.graph.open(1.0, old);
+            terms.push((1.0, value));
+            self.graph.sum(&terms)
+        })
+    }
+
+    /// Sum of the terms of `kinetic` or `potential`.
+    fn terms_of(&mut self, blocks: &[Block<Expr>], top: &Scope<'m>, place: Place) -> Id {
+        let mut terms = Vec::new();
+        top.unroll(blocks, self.diag, &mut |e, scope| {
+            terms.push((1.0, self.scalar(e, &Env::new(scope, place))));
+        });
+        self.graph.sum(&terms)
+    }
+
+    fn entries(
+        &mut self,
+        blocks: &[Block<crate::parse::Entry>],
+        top: &Scope<'m>,
+        place: Place,
+    ) -> BTreeMap<usize, Id> {
+        let mut out = BTreeMap::new();
+        top.unroll(blocks, self.diag, &mut |entry, scope| {
+            let coordinate = self.coordinate(&entry.key, scope);
+            let value = self.scalar(&entry.value, &Env::new(scope, place));
+            if let Some(i) = coordinate {
+                let sum = self.accumulate(out.get(&i).copied(), value);
+                out.insert(i, sum);
+            }
+        });
+        out
+    }
+
+    fn equation(
+        &mut self,
+        equation: &Equation,
+        kind: Kind,
+        scope: &Scope<'m>,
+        names: &mut HashSet<String>,
+        out: &mut Vec<Constraint>,
+    ) {
+        let key = &equation.key;
+        let index = match &key.index {
+            None => None,
+            Some(i) => match self.integer(i, scope) {
+                Some(i) => Some(i),
+                None => return,
+            },
+        };
+        let mut item = ConstraintRef {
+            base: key.name.clone(),
+            index,
+            component: None,
+        };
+        let reason = match self.model.free(&key.name) {
+            Err(reason) => Some(reason),
+            Ok(()) if self.lets.contains_key(&key.name.to_string()) => Some(format!(
+                "`{}` is declared twice; names must be unique",
+                key.name
+            )),
+            Ok(()) if !names.insert(item.text()) => {
+                Some(match (index, scope.variables.is_empty()) {
+                    (None, false) => format!(
+                        "constraint `{0}` is declared twice; in a loop, index it: `{0}[i]: …`",
+                        key.name
+                    ),
+                    _ => format!(
+                        "constraint `{}` is declared twice; names must be unique",
+                        item.text()
+                    ),
+                })
+            }
+            Ok(()) => None,
+        };
+        if let Some(reason) = reason {
+            self.diag.error(key.loc, reason);
+            return;
+        }
+        let place = match kind {
+            Kind::Holonomic => Place::Holonomic,
+            Kind::Nonholonomic => Place::Nonholonomic,
+        };
+        let env = Env::new(scope, place);
+        let mut terms = Vec::new();
+        self.chain(&equation.lhs, 1.0, &env, &mut terms);
+        self.chain(&equation.rhs, -1.0, &env, &mut terms);
+        let loc = key.loc;
+        match self.total(&terms, true) {
+            Value::Scalar(phi) => out.push(Constraint {
+                item,
+                kind,
+                phi,
+                loc,
+            }),
+            Value::Vector(components) => {
+                for (c, phi) in components.into_iter().enumerate() {
+                    item.component = Some(c);
+                    out.push(Constraint {
+                        item: item.clone(),
+                        kind,
+                        phi,
+                        loc,
+                    });
+                }
+            }
+            Value::Error => {}
+        }
+    }
+
+    fn outputs(&mut self, decl: &Declaration, top: &Scope<'m>) -> Vec<OutputValue> {
+        let mut out: Vec<OutputValue> = Vec::new();
+        top.unroll(&decl.outputs, self.diag, &mut |output, scope| {
+            let key = &output.key;
+            let index = match &key.index {
+                None => None,
+                Some(i) => match self.integer(i, scope) {
+                    Some(i) => Some(i),
+                    None => return,
+                },
+            };
+            let value = self.value(&output.value, &Env::new(scope, Place::Output));
+            let ids = match value {
+                Value::Scalar(id) => vec![(None, id)],
+                Value::Vector(ids) => ids
+                    .into_iter()
+                    .enumerate()
+                    .map(|(c, id)| (Some(c), id))
+                    .collect(),
+                Value::Error => return,
+            };
+            for (component, value) in ids {
+                let item = ConstraintRef {
+                    base: key.name.clone(),
+                    index,
+                    component,
+                };
+                let text = item.text();
+                let coordinates = &self.model.coord_elements;
+                if out.iter().any(|o| o.item.text() == text) {
+                    self.diag.error(
+                        key.loc,
+                        format!("output `{text}` is declared twice; names must be unique"),
+                    );
+                    return;
+                }
+                if coordinates.iter().any(|c| c.name == text) {
+                    self.diag.error(
+                        key.loc,
+                        format!(
+                            "`{text}` is a coordinate and in the output anyway; choose another name"
+                        ),
+                    );
+                    return;
+                }
+                out.push(OutputValue {
+                    item,
+                    docs: output.docs.clone(),
+                    value,
+                });
+            }
+        });
+        out
+    }
+
+    /// Position in q of the coordinate that `key` names.
+    fn coordinate(&mut self, key: &Key, scope: &Scope<'m>) -> Option<usize> {
+        let name = key.name.to_string();
+        let Some(Name::Coord(family)) = self.model.names.get(&name) else {
+            let coords = self
+                .model
+                .coords
+                .iter()
+                .map(|f| f.name.to_string())
+                .collect::<Vec<_>>();
+            let near = suggest(&name, coords.iter().map(String::as_str));
+            self.diag.error(
+                key.name.span(),
+                format!("`{name}` is not a coordinate{near}"),
+            );
+            return None;
+        };
+        self.member(
+            &key.name,
+            key.index.as_ref(),
+            &self.model.coords[*family],
+            scope,
+        )
+    }
+
+    /// Element of a family (or the scalar itself).
+    fn member(
+        &self,
+        name: &Ident,
+        index: Option<&Expr>,
+        family: &crate::model::Family,
+        scope: &Scope<'m>,
+    ) -> Option<usize> {
+        match (family.indexed, index) {
+            (false, None) => family.members.first().copied(),
+            (false, Some(i)) => {
+                self.diag.error(
+                    i.loc,
+                    format!("`{name}` is not a family; write it without an index"),
+                );
+                None
+            }
+            (true, None) => {
+                let last = family.members.len() - 1;
+                self.diag.error(
+                    name.span(),
+                    format!(
+                        "`{name}` is a family; choose a member, `{name}[0]` to `{name}[{last}]`"
+                    ),
+                );
+                None
+            }
+            (true, Some(e)) => {
+                let i = self.integer(e, scope)?;
+                let found = usize::try_from(i).ok().and_then(|i| family.members.get(i));
+                if found.is_none() {
+                    let len = family.members.len();
+                    self.diag.error(e.loc, format!("index {i} is out of range: `{name}` has {len} members, `{name}[0]` to `{name}[{}]`", len - 1));
+                }
+                found.copied()
+            }
+        }
+    }
+
+    fn integer(&self, e: &Expr, scope: &Scope<'m>) -> Option<i64> {
+        scope.integer(e, self.diag)
+    }
+}

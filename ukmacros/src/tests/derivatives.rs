@@ -1,0 +1,173 @@
+//! Derivatives against differences, simplification against evaluation.
+
+use crate::expr::{Derivative, Func, Graph, Id, Node, Point, Symbol, eval};
+use proptest::prelude::*;
+
+const X: Symbol = Symbol::Coord(0);
+const Y: Symbol = Symbol::Coord(1);
+
+fn at(g: &Graph, id: Id, x: f64, y: f64) -> f64 {
+    let point = Point {
+        params: &[],
+        q: &[x, y],
+        v: &[0.3, -0.7],
+        t: 0.4,
+    };
+    eval(g, &[id], &point)[0]
+}
+
+/// ∂/∂x of `id` by a fourth-order central difference.
+fn difference(g: &Graph, id: Id, x: f64, y: f64) -> f64 {
+    let h = 1e-3;
+    let f = |k: f64| at(g, id, x + k * h, y);
+    (8.0 * (f(1.0) - f(-1.0)) - (f(2.0) - f(-2.0))) / (12.0 * h)
+}
+
+#[track_caller]
+fn close(a: f64, b: f64, tolerance: f64, what: &str) {
+    let scale = 1.0 + a.abs().max(b.abs());
+    assert!((a - b).abs() <= tolerance * scale, "{what}: {a} and {b}");
+}
+
+#[test]
+fn every_function_has_its_derivative() {
+    for func in Func::ALL {
+        let mut g = Graph::default();
+        let (x, y) = (g.symbol(X), g.symbol(Y));
+        let id = match func.arity() {
+            1 => {
+                // u = x·y + x, so that the chain rule takes part.
+                let xy = g.mul(x, y);
+                let u = g.add(xy, x);
+                g.call1(func, u)
+            }
+            _ => {
+                let (xy, squared) = (g.mul(x, y), g.square(x));
+                g.call2(func, xy, squared)
+            }
+        };
+        let derivative = Derivative::partial(X).of(id, &mut g);
+        // Inside every domain: 0 < x (y + 1) < 1, away from kinks.
+        for (px, py) in [(0.31, 0.9), (0.2, 0.45), (0.47, 0.8)] {
+            let expected = difference(&g, id, px, py);
+            close(at(&g, derivative, px, py), expected, 1e-8, func.name());
+        }
+    }
+}
+
+#[test]
+fn kinks_take_the_documented_branch() {
+    let mut g = Graph::default();
+    let (x, y) = (g.symbol(X), g.symbol(Y));
+    let abs = g.call1(Func::Abs, x);
+    let slope = Derivative::partial(X).of(abs, &mut g);
+    assert_eq!(at(&g, slope, 0.0, 0.0), 0.0);
+    assert_eq!(at(&g, slope, -2.0, 0.0), -1.0);
+    let min = g.call2(Func::Min, x, y);
+    let slope = Derivative::partial(X).of(min, &mut g);
+    assert_eq!(at(&g, slope, 1.0, 1.0), 1.0, "at a tie, the first");
+    assert_eq!(at(&g, slope, 2.0, 1.0), 0.0);
+}
+
+#[test]
+fn equal_expressions_are_one_node() {
+    let mut g = Graph::default();
+    let (x, y) = (g.symbol(X), g.symbol(Y));
+    let (a, b) = (g.add(x, y), g.add(y, x));
+    assert_eq!(a, b);
+    let (d, e) = (g.sub(x, y), g.sub(y, x));
+    let (d2, e2) = (g.square(d), g.square(e));
+    assert_eq!(d2, e2, "(x − y)² = (y − x)²");
+    let quotient = g.div(a, a);
+    assert_eq!(g.as_const(quotient), Some(1.0));
+    let difference = g.sub(a, b);
+    assert!(g.is_zero(difference));
+    let minus = g.neg(x);
+    let (c1, c2) = (g.call1(Func::Cos, minus), g.call1(Func::Cos, x));
+    assert_eq!(c1, c2, "cos is even");
+}
+
+#[test]
+fn parentheses_keep_a_sum_together() {
+    // (y − x) − (x − z) is accurate where the differences are small; y − 2x + z is not.
+    let mut g = Graph::default();
+    let (x, y) = (g.symbol(X), g.symbol(Y));
+    let t = g.symbol(Symbol::Time);
+    let (left, right) = (g.sub(y, x), g.sub(x, t));
+    let id = g.sub(left, right);
+    let (_, id) = g.unscaled(id);
+    assert!(matches!(g.node(id), Node::Sum(_, terms) if terms.len() == 2));
+}
+
+#[test]
+fn total_derivative_counts_time_and_cross_terms() {
+    // φ = x sin(t): φ̇ = ẋ sin t + x cos t; at q̈ = 0, φ̈ = 2 ẋ cos t − x sin t.
+    let mut g = Graph::default();
+    let (x, t) = (g.symbol(X), g.symbol(Symbol::Time));
+    let sine = g.call1(Func::Sin, t);
+    let phi = g.mul(x, sine);
+    let mut total = Derivative::total();
+    let first = total.of(phi, &mut g);
+    let second = total.of(first, &mut g);
+    let (px, v, time) = (1.7, 0.3, 0.4_f64);
+    close(
+        at(&g, first, px, 0.0),
+        v * time.sin() + px * time.cos(),
+        1e-15,
+        "φ̇",
+    );
+    close(
+        at(&g, second, px, 0.0),
+        2.0 * v * time.cos() - px * time.sin(),
+        1e-15,
+        "φ̈",
+    );
+}
+
+/// A recipe for a random expression: each step combines earlier ones.
+fn build(g: &mut Graph, steps: &[(u8, u8, u8)]) -> Id {
+    let mut made = vec![g.symbol(X), g.symbol(Y), g.constant(2.0), g.constant(-0.5)];
+    for (operation, a, b) in steps {
+        let pick = |k: &u8| made[*k as usize % made.len()];
+        let (a, b) = (pick(a), pick(b));
+        let id = match operation % 12 {
+            0 => g.add(a, b),
+            1 => g.sub(a, b),
+            2 | 3 => g.mul(a, b),
+            4 => g.square(a),
+            5 => g.call1(Func::Sin, a),
+            6 => g.call1(Func::Cos, a),
+            7 => g.call1(Func::Tanh, a),
+            8 => {
+                let (one, square) = (g.one(), g.square(b));
+                let d = g.add(one, square);
+                g.div(a, d)
+            }
+            9 => {
+                let (one, square) = (g.one(), g.square(a));
+                let d = g.add(one, square);
+                g.call1(Func::Sqrt, d)
+            }
+            10 => g.call2(Func::Atan2, a, b),
+            _ => g.neg(a),
+        };
+        made.push(id);
+    }
+    *made.last().unwrap_or(&made[0])
+}
+
+proptest! {
+    #[test]
+    fn random_expressions(steps in proptest::collection::vec((0u8..12, any::<u8>(), any::<u8>()), 1..14), x in -1.2f64..1.2, y in -1.2f64..1.2) {
+        let mut g = Graph::default();
+        let id = build(&mut g, &steps);
+        let derivative = Derivative::partial(X).of(id, &mut g);
+        let (value, slope) = (at(&g, id, x, y), at(&g, derivative, x, y));
+        let expected = difference(&g, id, x, y);
+        let coarse = (at(&g, id, x + 2e-3, y) - at(&g, id, x - 2e-3, y)) / 4e-3;
+        // Where the two differences disagree the expression is too rough (a pole, atan2's cut) to judge by differences.
+        let smooth = (expected - coarse).abs() < 1e-3 * (1.0 + expected.abs()) && value.abs() < 1e3;
+        prop_assume!(smooth && slope.is_finite());
+        prop_assert!((slope - expected).abs() <= 1e-5 * (1.0 + expected.abs()), "{slope} {expected}");
+    }
+}

@@ -1,0 +1,201 @@
+//! Every error: its text and the tokens it points at, which the cases mark as `«…»`.
+
+use super::expand;
+use proc_macro2::LineColumn;
+
+/// Where `«` and `»` stand, and the source without them.
+fn unmark(marked: &str) -> (String, Vec<(LineColumn, LineColumn)>) {
+    let (mut source, mut spans, mut open) = (String::new(), Vec::new(), Vec::new());
+    let mut at = LineColumn { line: 1, column: 0 };
+    for c in marked.chars() {
+        match c {
+            '«' => open.push(at),
+            '»' => spans.push((open.pop().expect("« before »"), at)),
+            '\n' => {
+                source.push(c);
+                at = LineColumn {
+                    line: at.line + 1,
+                    column: 0,
+                };
+            }
+            _ => {
+                source.push(c);
+                at.column += 1;
+            }
+        }
+    }
+    (source, spans)
+}
+
+/// Expects exactly the marked errors, in order, each starting with its message.
+#[track_caller]
+fn check(marked: &str, messages: &[&str]) {
+    let (source, spans) = unmark(&format!("pub T {{ {marked} }}"));
+    let (code, mut found) = expand(&source);
+    let shown: Vec<_> = found.iter().map(|d| d.message.as_str()).collect();
+    assert_eq!(found.len(), messages.len(), "errors found: {shown:#?}");
+    assert_eq!(spans.len(), messages.len(), "one mark per message");
+    found.sort_by_key(|d| d.loc.start.start());
+    for ((diagnostic, message), span) in found.iter().zip(messages).zip(spans) {
+        assert!(
+            diagnostic.message.contains(message),
+            "expected «{message}»\n   found «{}»",
+            diagnostic.message
+        );
+        let (start, end) = (diagnostic.loc.start.start(), diagnostic.loc.end.end());
+        assert_eq!((start, end), span, "place of «{}»", diagnostic.message);
+        let first = diagnostic.message.chars().next();
+        assert!(
+            first.is_some_and(|c| !c.is_uppercase() || diagnostic.message.starts_with("M ")),
+            "messages start in lower case: {}",
+            diagnostic.message
+        );
+    }
+    // An error does not take the type away: what uses it gives no second message.
+    let code = code.to_string();
+    assert!(code.contains("compile_error"), "the error is emitted");
+    assert!(code.contains("struct T"), "the fallback keeps the type");
+    assert!(
+        code.contains("Mechanism for T"),
+        "the fallback keeps the trait"
+    );
+    syn::parse_str::<syn::File>(&code).expect("the fallback is Rust");
+}
+
+macro_rules! cases {
+    ($($name:ident: $source:literal => $($message:literal),+;)*) => {
+        $(#[test] fn $name() { check($source, &[$($message),+]); })*
+    };
+}
+
+cases! {
+    // Names.
+    unknown_name: "params { mass1 = 1.0 } coords { x } mass { x: «mass2» }" => "unknown name `mass2`; did you mean `mass1`?";
+    unknown_name_without_neighbour: "coords { x } mass { x: «weight» }" => "declare it under `params`, `coords` or by `let`";
+    unknown_coordinate: "coords { alpha } mass { alpha: 1.0 } force { «alpho»: 1.0 }" => "`alpho` is not a coordinate; did you mean `alpha`?";
+    parameter_as_coordinate: "params { m = 1.0 } coords { x } mass { x: m } force { «m»: 1.0 }" => "`m` is not a coordinate";
+    duplicate_coordinate: "coords { x, «x» } mass { x: 1.0 }" => "`x` is declared twice";
+    duplicate_across_sections: "params { x = 1.0 } coords { «x», y } mass { y: 1.0 }" => "`x` is declared twice";
+    names_alike_but_for_case: "params { k = 1.0 } coords { x, «X» } mass { x: 1.0 }" => "would both become the constant `X`";
+    reserved_name: "coords { «t» } mass { }" => "`t` is reserved";
+    reserved_function_name: "params { «sin» = 1.0 } coords { x } mass { x: 1.0 }" => "`sin` is reserved";
+    duplicate_constraint_name: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { c: x = 1.0  «c»: y = 1.0 }" => "constraint `c` is declared twice";
+    unindexed_constraint_in_a_loop: "coords { x[2] } mass { for i in 0..2 { x[i]: 1.0 } } holonomic { for i in 0..2 { «c»: x[i] = 1.0 } }" => "in a loop, index it: `c[i]: …`";
+    constraint_named_as_a_let: "coords { x } let d = x - 1.0; mass { x: 1.0 } holonomic { «d»: d = 0.0 }" => "`d` is declared twice";
+    duplicate_output: "coords { x } mass { x: 1.0 } output { o = x, «o» = 2.0 * x }" => "output `o` is declared twice";
+    output_named_as_a_coordinate: "coords { x } mass { x: 1.0 } output { «x» = x }" => "is a coordinate and in the output anyway";
+    let_declared_twice: "coords { x } let u = x; let «u» = 2.0 * x; mass { x: 1.0 }" => "`u` is declared twice";
+    let_used_before: "coords { x } let a = «b»; let b = x; mass { x: 1.0 }" => "unknown name `b`";
+    // Syntax.
+    caret_is_no_power: "coords { x } mass { x: 1.0 } holonomic { c: x «^» 2 = 1.0 }" => "`^` is not a power in Rust; write `x.powi(2)`";
+    double_star_is_no_power: "coords { x } mass { x: 1.0 } holonomic { c: x * «*»2.0 = 1.0 }" => "`**` is not a power in Rust";
+    remainder: "coords { x } mass { x: 1.0 } force { x: x «%» 2.0 }" => "`%` cannot be differentiated";
+    comparison: "coords { x } mass { x: 1.0 } force { x: x «<» 2.0 }" => "no comparisons";
+    double_equals: "coords { x } mass { x: 1.0 } holonomic { c: «x == 1.0» }" => "a constraint is an equation: `lhs = rhs`";
+    branch: "coords { x } mass { x: 1.0 } force { x: «if x { 1.0 } else { 2.0 }» }" => "no branches in an equation";
+    two_equals: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { c: x = y «=» 1.0 }" => "an equation has one `=`";
+    not_an_equation: "coords { x } mass { x: 1.0 } holonomic { c: «x - 1.0» }" => "a constraint is an equation: `lhs = rhs`";
+    unnamed_constraint: "coords { x } mass { x: 1.0 } holonomic { «x» = 1.0 }" => "a constraint needs a name";
+    field_access: "params { m = 1.0 } coords { x } mass { x: self.«m» }" => "no fields here";
+    path: "coords { x } mass { x: 1.0 } force { x: «f64::consts::PI» }" => "no paths here; write `PI`";
+    float_suffix: "coords { x } mass { x: «1.0f32» }" => "only `f64` numbers here";
+    text: "coords { x } mass { x: «\"heavy\"» }" => "not a number";
+    closure_in_place: "coords { x } mass { x: 1.0 } force { x: «|u| u» }" => "a function must be named first";
+    cast: "const N: usize = 2; coords { x } mass { x: N as «f32» }" => "only `as f64` is allowed";
+    tuple: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { c: «(x, y)» = [0.0, 0.0] }" => "a vector is written `[a, b]`";
+    parameter_without_default: "params { «m» } coords { x } mass { x: 1.0 }" => "parameter `m` needs a default";
+    unknown_section: "coords { x } mass { x: 1.0 } «forces» { x: 1.0 }" => "unknown section `forces`; did you mean `force`?";
+    repeated_section: "coords { x } «coords» { y } mass { x: 1.0, y: 1.0 }" => "section `coords` appears twice";
+    attribute: "coords { #[«allow(dead_code)»] x } mass { x: 1.0 }" => "only doc comments are allowed here";
+    open_range: "coords { x[3] } mass { for i in «0..» { x[i]: 1.0 } }" => "a range needs both ends";
+    no_range: "coords { x[3] } mass { for i in «3» { x[i]: 1.0 } }" => "expected a range such as `0..N`";
+    // Indices and loops.
+    index_out_of_range: "const N: usize = 3; coords { x[N] } mass { for i in 0..N { x[i]: 1.0 } } holonomic { for i in 0..N { c[i]: x[«i + 1»] = 0.0 } }" => "index 3 is out of range: `x` has 3 members";
+    negative_index: "coords { x[3] } mass { for i in 0..3 { x[i]: 1.0 } } force { x[«-1»]: 1.0 }" => "index -1 is out of range";
+    range_not_constant: "params { n = 3.0 } coords { x[3] } mass { for i in 0..«n» { x[i]: 1.0 } }" => "`n` is not an integer constant or loop variable";
+    fractional_index: "coords { x[3] } mass { for i in 0..3 { x[i]: 1.0 } } force { x[«1.5»]: 1.0 }" => "not an integer known at compile time";
+    endless_range: "coords { x[3] } mass { for i in «0..1000000000» { x[i]: 1.0 } }" => "is not unrolled";
+    loop_variable_taken: "coords { x } mass { x: 1.0 } force { for «x» in 0..2 { x: 1.0 } }" => "`x` is declared twice";
+    nested_loop_variable: "coords { x } mass { x: 1.0 } force { for i in 0..2 { for «i» in 0..2 { x: 1.0 } } }" => "`i` is already a loop variable";
+    family_without_index: "coords { x[3] } mass { for i in 0..3 { x[i]: 1.0 } } force { «x»: 1.0 }" => "`x` is a family; choose a member, `x[0]` to `x[2]`";
+    scalar_with_index: "coords { x } mass { x: 1.0 } force { x[«0»]: 1.0 }" => "`x` is not a family";
+    empty_family: "coords { x[«0»], y } mass { y: 1.0 }" => "a family needs between 1 and 100000 members";
+    integer_overflow: "const N: usize = «9223372036854775807 + 1»; coords { x } mass { x: 1.0 }" => "integer overflow";
+    integer_division_by_zero: "const N: usize = «1 / 0»; coords { x } mass { x: 1.0 }" => "division by zero";
+    negative_constant: "const N: usize = «2 - 3»; coords { x } mass { x: 1.0 }" => "cannot be negative";
+    constant_of_another_type: "const N: «i32» = 3; coords { x } mass { x: 1.0 }" => "a constant is a `usize` or an `f64`, not `i32`";
+    family_members_out_of_order: "coords { for i in 1..3 { «x[i]» } y } mass { y: 1.0 }" => "must be declared in order from `x[0]`";
+    // Functions.
+    unknown_function: "coords { x } mass { x: 1.0 } force { x: «sine»(x) }" => "unknown function `sine`; did you mean `sin`?";
+    unsupported_function: "coords { x } mass { x: 1.0 } force { x: x.«floor»() }" => "unknown function `floor`; functions are sqrt";
+    signum: "coords { x } mass { x: 1.0 } force { x: x.«signum»() }" => "write `sign`, which is 0 at 0";
+    too_many_arguments: "coords { x } mass { x: 1.0 } force { x: «sin»(x, x) }" => "`sin` takes 1 argument, found 2";
+    too_few_arguments: "coords { x } let f = |a, b| a * b; mass { x: 1.0 } force { x: «f»(x) }" => "`f` takes 2 arguments, found 1";
+    calling_a_number: "params { k = 1.0 } coords { x } mass { x: 1.0 } force { x: «k»(x) }" => "`k` is not a function";
+    function_as_a_value: "coords { x } let f = |a| a; mass { x: 1.0 } force { x: «f» }" => "`f` is a function; call it";
+    recursion: "coords { x } let f = |a| «f»(a); mass { x: 1.0 } force { x: f(x) }" => "`f` calls itself";
+    exponent_not_constant: "coords { x } mass { x: 1.0 } force { x: x.powi(«x») }" => "`x` is not an integer constant";
+    sum_without_function: "coords { x } mass { x: 1.0 } force { x: «sum(0..3, x)» }" => "`sum` is written `sum(0..N, |i| …)`";
+    integer_division: "coords { x } mass { x: «1 / 2» }" => "`1 / 2` is an integer division, which Rust rounds to 0; write `1.0 / 2.0`";
+    division_by_zero: "coords { x } mass { x: 1.0 / «0.0» }" => "division by zero";
+    // Vectors.
+    vectors_of_different_length: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { c: [x, y] = «[1.0, 2.0, 3.0]» }" => "expected a vector of 2, found a vector of 3";
+    vector_and_number: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { c: [x, y] + «1.0» = [1.0, 2.0] }" => "expected a vector of 2, found a number";
+    vector_as_force: "coords { x } mass { x: 1.0 } force { x: «[1.0, 2.0]» }" => "expected a number, found a vector of 2";
+    product_of_vectors: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { c: «[x, y] * [x, y]» = 0.0 }" => "the product of two vectors is not defined";
+    division_by_a_vector: "coords { x } mass { x: 1.0 } force { x: 1.0 / «[x, x]» }" => "cannot divide by a vector";
+    component_out_of_range: "coords { x, y } let p = [x, y]; mass { x: 1.0, y: 1.0 } force { x: p[«2»] }" => "index 2 is out of range: `p` has 2 components";
+    indexing_an_expression: "coords { x, y } mass { x: 1.0, y: 1.0 } force { x: «[x, y]»[0] }" => "only a named family can be indexed";
+    // What may stand where.
+    velocity_in_a_holonomic_constraint: "coords { x } mass { x: 1.0 } holonomic { c: «dot(x)» = 0.0 }" => "move the constraint under `nonholonomic`";
+    velocity_by_a_let: "coords { x } let u = dot(x); mass { x: 1.0 } holonomic { c: x + «u» = 0.0 }" => "move the constraint under `nonholonomic`";
+    velocity_in_mass: "coords { x } mass { x: 1.0 + sq(«dot(x)») }" => "M depends on coordinates and time only";
+    velocity_in_potential: "coords { x } mass { x: 1.0 } potential { x * «dot(x)» }" => "a potential depends on coordinates and time only";
+    acceleration: "coords { x } mass { x: 1.0 } force { x: «dot(dot(x))» }" => "is an acceleration, which is what is solved for";
+    acceleration_by_name: "coords { x } mass { x: 1.0 } force { x: «ddot»(x) }" => "accelerations are what is solved for";
+    dot_of_a_constant: "params { m = 1.0 } coords { x } mass { x: m } force { x: dot(«m») }" => "this does not change with time";
+    coordinate_in_a_default: "params { a = «x» } coords { x } mass { x: 1.0 }" => "a parameter is a number";
+    default_uses_a_later_parameter: "params { a = 2.0 * «b», b = 1.0 } coords { x } mass { x: a }" => "a default may use parameters declared above it only";
+    parameter_in_a_constant: "const L: f64 = 2.0 * «m»; params { m = 1.0 } coords { x } mass { x: m }" => "a constant is known at compile time";
+    default_not_finite: "params { a = «ln(-1.0)» } coords { x } mass { x: a }" => "default of `a` is not a finite number";
+    // Mechanics.
+    mass_and_kinetic: "coords { x } mass { x: 1.0 } «kinetic» { 0.5 * sq(dot(x)) }" => "`mass` and `kinetic` exclude each other";
+    kinetic_not_quadratic: "coords { x } «kinetic» { dot(x).powi(4) }" => "must be quadratic in the velocities";
+    kinetic_without_velocity: "coords { x } «kinetic» { x }" => "contains no square of a velocity";
+    negative_mass: "coords { x } mass { «x»: -1.0 }" => "a mass must not be negative";
+    diagonal_as_a_pair: "coords { x } mass { (x, «x»): 1.0 }" => "a diagonal entry of M is written `x: …`";
+    constraint_without_coordinate: "params { l = 1.0 } coords { x } mass { x: 1.0 } holonomic { «c»: sq(l) = sin(t) }" => "constraint `c` contains no coordinate";
+    constraint_without_velocity: "coords { x } mass { x: 1.0 } nonholonomic { «c»: x = 1.0 }" => "contains no velocity; move it under `holonomic`";
+    constraint_always_true: "coords { x } mass { x: 1.0 } holonomic { «c»: 2.0 * x = x + x }" => "constraint `c` is always true";
+    same_constraint_twice: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { a: x - y = 0.0  «b»: y = x }" => "constraint `b` is the same equation as `a`";
+    massless_and_unconstrained: "coords { x, «y» } mass { x: 1.0 } force { y: 1.0 }" => "coordinate `y` has neither mass nor constraint";
+    massless_outnumber_constraints: "coords { x, y, «z» } mass { x: 1.0 } holonomic { c: x + y + z = 0.0 }" => "rank [M | Aᵀ] is below 3";
+}
+
+#[test]
+fn several_errors_are_reported_together() {
+    check(
+        "params { m = 1.0 } coords { x, y } mass { x: «mm», y: m } force { x: «foo»(x) } holonomic { c: x «^» 2 = «yy» }",
+        &[
+            "unknown name `mm`",
+            "unknown function `foo`",
+            "`^` is not a power",
+            "unknown name `yy`",
+        ],
+    );
+}
+
+#[test]
+fn no_coordinates() {
+    let (_, found) = expand("pub T { params { m = 1.0 } coords { } }");
+    assert_eq!(found.len(), 1);
+    assert!(found[0].message.contains("`T` has no coordinates"));
+    assert_eq!(found[0].loc.start.start().column, 4);
+}
+
+#[test]
+fn an_unreadable_name_still_gives_one_error() {
+    let (code, found) = expand("42 { coords { x } }");
+    assert_eq!(found.len(), 1);
+    assert!(code.to_string().contains("compile_error"));
+}
