@@ -1,34 +1,93 @@
 //! From a rough guess to a consistent state.
+//!
+//! Closed loops cannot be drawn by hand to rounding. [`assemble`] takes a guess and coordinates to hold and finds a state near it
+//! that satisfies every constraint: damped Gauss-Newton (Levenberg-Marquardt) on φ, then one linear solve for the velocities
+//! (Newton, if nonholonomic constraints are nonlinear). Each constraint is scaled to a row of A of unit norm, and each
+//! coordinate by the root of its inertia, so that the state found is near in the mass metric.
 
+use nalgebra::DMatrix;
+
+use crate::diagnose;
 use crate::error::Error;
 use crate::mechanism::Mechanism;
+use crate::pinv::Decomposition;
+use crate::solver::RANK_TOLERANCE;
 
-/// Time, coordinates and velocities.
+/// A residual counts as zero below this many ε of the size Σ|A_ij q_j| of its terms; see `stabilise`, whose projection does the
+/// last digits where nothing is held.
+const ROUNDING: f64 = 64.0;
+
+/// Steps at most from one guess. Levenberg-Marquardt converges quadratically at the end; a long chain laid out wrongly takes some
+/// tens of steps to unfold.
+const MAX_STEPS: usize = 200;
+
+/// Guesses: the given one, then it with perturbations of [`SHAKES`] times the size of the coordinates. A guess with points that
+/// coincide has vanishing gradients, from which only a perturbation leads away.
+const SHAKES: [f64; 4] = [0.0, 1e-3, 3e-2, 0.3];
+
+/// Fractional part of the golden ratio: its multiples fill the unit interval evenly.
+const GOLDEN: f64 = 0.618_033_988_749_895;
+
+/// Damping to start with, relative to rows of unit norm: near Gauss-Newton, yet proof against a vanishing singular value.
+const DAMPING: f64 = 1e-3;
+
+/// The damping grows by this after a step that made things worse, and falls by it after one that helped.
+const DAMPING_FACTOR: f64 = 10.0;
+
+/// Beyond this damping steps are below rounding: a minimum that is not zero.
+const DAMPING_LIMIT: f64 = 1e16;
+
+/// A time, coordinates and velocities.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
-    /// Time.
+    /// Time t.
     pub t: f64,
-    /// q.
+    /// Coordinates q, in the order of [`Spec::coords`](crate::Spec::coords).
     pub q: Vec<f64>,
-    /// q̇.
+    /// Velocities q̇, in the same order.
     pub v: Vec<f64>,
 }
 
-/// How far a state is off the constraints.
+impl State {
+    /// The state of a mechanism at rest at q = 0, t = 0.
+    #[must_use]
+    pub fn zeros<M: Mechanism>() -> Self {
+        let n = M::SPEC.n();
+        State { t: 0.0, q: vec![0.0; n], v: vec![0.0; n] }
+    }
+
+    /// Checks lengths, and that every number is finite.
+    ///
+    /// # Errors
+    /// [`Error::WrongLength`], [`Error::NonFinite`] (also for parameters of `mech`).
+    pub fn check<M: Mechanism>(&self, mech: &M) -> Result<(), Error> {
+        diagnose::check_length("q", self.q.len(), M::SPEC.n())?;
+        diagnose::check_length("v", self.v.len(), M::SPEC.n())?;
+        diagnose::non_finite_input(mech, self.t, &self.q, &self.v).map_or(Ok(()), Err)
+    }
+}
+
+/// How far a state is off the constraints, in the constraints' own units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Residuals {
-    /// φ, one value a holonomic constraint.
+    /// φ(q, t) of the h holonomic constraints.
     pub position: Vec<f64>,
-    /// φ̇ and ψ, one value a constraint.
+    /// φ̇ of the holonomic and φ(q, q̇, t) of the nonholonomic constraints, m values.
     pub velocity: Vec<f64>,
 }
 
-/// A consistent state near `guess`, coordinates named in `hold` held.
-///
-/// # Errors
-/// See [`Error`].
-pub fn assemble<M: Mechanism>(_mech: &M, guess: State, _hold: &[&str]) -> Result<State, Error> {
-    Ok(guess)
+impl Residuals {
+    /// Largest |φ|; 0 without holonomic constraints.
+    #[must_use]
+    pub fn largest_position(&self) -> f64 {
+        self.position.iter().fold(0.0, |s, r| s.max(r.abs()))
+    }
+
+    /// Largest |φ̇| or |ψ|; 0 without constraints.
+    #[must_use]
+    pub fn largest_velocity(&self) -> f64 {
+        self.velocity.iter().fold(0.0, |s, r| s.max(r.abs()))
+    }
 }
 
 /// φ, φ̇ and ψ at `state`.
@@ -37,9 +96,345 @@ pub fn assemble<M: Mechanism>(_mech: &M, guess: State, _hold: &[&str]) -> Result
 /// [`Error::WrongLength`].
 pub fn residuals<M: Mechanism>(mech: &M, state: &State) -> Result<Residuals, Error> {
     let spec = M::SPEC;
+    diagnose::check_length("q", state.q.len(), spec.n())?;
+    diagnose::check_length("v", state.v.len(), spec.n())?;
     let mut position = vec![0.0; spec.holonomic];
     let mut velocity = vec![0.0; spec.m()];
     mech.residual(state.t, &state.q, &mut position);
     mech.residual_rate(state.t, &state.q, &state.v, &mut velocity);
     Ok(Residuals { position, velocity })
+}
+
+/// A consistent state near `guess`: φ(q, t) = 0, φ̇ = 0 and φ(q, q̇, t) = 0 to rounding. The coordinates named in `hold` keep both
+/// their value and their velocity; a family's bare name (`"x"` for `x[0]`, `x[1]`, …) holds all its members.
+///
+/// # Errors
+/// - [`Error::OffConstraint`]: no state near the guess satisfies all constraints with these coordinates held; names those in
+///   conflict with the residuals that remain where their squares (scaled) are least. The conflict may be with what is held.
+/// - [`Error::UnknownName`] for a name in `hold`; [`Error::WrongLength`]; [`Error::NonFinite`].
+pub fn assemble<M: Mechanism>(mech: &M, guess: State, hold: &[&str]) -> Result<State, Error> {
+    guess.check(mech)?;
+    let spec = M::SPEC;
+    let mut free = vec![true; spec.n()];
+    for name in hold {
+        let member = |c: &str| c.split_once('[').is_some_and(|(family, _)| family == *name);
+        let members: Vec<usize> =
+            (0..spec.n()).filter(|&j| member(spec.coords[j])).collect();
+        if members.is_empty() {
+            free[spec.coordinate_index(name)?] = false;
+        }
+        members.into_iter().for_each(|j| free[j] = false);
+    }
+    let mut problem = Problem::new(mech, &guess, &free);
+    let q = problem.find(Level::Position, &guess.q, &guess.v)?;
+    let v = problem.find(Level::Velocity, &guess.v, &q)?;
+    Ok(State { t: guess.t, q, v })
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Level {
+    Position,
+    Velocity,
+}
+
+/// The least-squares problem of one level at a time.
+struct Problem<'a, M> {
+    mech: &'a M,
+    t: f64,
+    /// Indices of the coordinates that may change, and 1/√M_jj for each.
+    free: Vec<usize>,
+    scale: Vec<f64>,
+    jacobian: Vec<f64>,
+}
+
+/// One point of the search: scaled residual and Jacobian.
+struct Point {
+    x: Vec<f64>,
+    residual: Vec<f64>,
+    /// Σ|A_ij x_j| a row.
+    terms: Vec<f64>,
+    /// 1/‖row‖ over the free coordinates; over all where that is zero.
+    row_scale: Vec<f64>,
+    /// Rows scaled, columns scaled, free columns only.
+    matrix: DMatrix<f64>,
+}
+
+impl Point {
+    /// ½ Σ (s_c φ_c)².
+    fn cost(&self, residual: &[f64]) -> f64 {
+        residual.iter().zip(&self.row_scale).map(|(r, s)| (r * s).powi(2)).sum()
+    }
+
+    fn met(&self, c: usize) -> bool {
+        self.residual[c].abs() <= ROUNDING * f64::EPSILON * self.terms[c]
+    }
+
+    fn all_met(&self) -> bool {
+        (0..self.residual.len()).all(|c| self.met(c))
+    }
+}
+
+impl<'a, M: Mechanism> Problem<'a, M> {
+    fn new(mech: &'a M, guess: &State, free: &[bool]) -> Self {
+        let n = M::SPEC.n();
+        let mut mass = vec![0.0; n * n];
+        mech.mass_matrix(guess.t, &guess.q, &mut mass);
+        let inertia: Vec<f64> = (0..n).map(|j| mass[j * n + j]).collect();
+        let massive: Vec<f64> = inertia.iter().copied().filter(|m| *m > 0.0 && m.is_finite()).collect();
+        // Massless coordinates move as readily as the middling massive ones.
+        let typical = match massive.len() {
+            0 => 1.0,
+            k => (massive.iter().map(|m| m.ln()).sum::<f64>() / k as f64).exp(),
+        };
+        let free: Vec<usize> = (0..n).filter(|&j| free[j]).collect();
+        let scale = free.iter().map(|&j| match inertia[j] {
+            m if m > 0.0 && m.is_finite() => m.sqrt().recip(),
+            _ => typical.sqrt().recip(),
+        });
+        Problem {
+            mech,
+            t: guess.t,
+            scale: scale.collect(),
+            free,
+            jacobian: vec![0.0; n * M::SPEC.m()],
+        }
+    }
+
+    fn residual(&self, level: Level, x: &[f64], other: &[f64]) -> Vec<f64> {
+        let spec = M::SPEC;
+        match level {
+            Level::Position => {
+                let mut phi = vec![0.0; spec.holonomic];
+                self.mech.residual(self.t, x, &mut phi);
+                phi
+            }
+            Level::Velocity => {
+                let mut rate = vec![0.0; spec.m()];
+                self.mech.residual_rate(self.t, other, x, &mut rate);
+                rate
+            }
+        }
+    }
+
+    fn point(&mut self, level: Level, x: Vec<f64>, other: &[f64]) -> Point {
+        let (n, m) = (M::SPEC.n(), M::SPEC.m());
+        let residual = self.residual(level, &x, other);
+        match level {
+            Level::Position => self.mech.jacobian(self.t, &x, other, &mut self.jacobian),
+            Level::Velocity => self.mech.jacobian(self.t, other, &x, &mut self.jacobian),
+        }
+        let rows = residual.len();
+        let a = &self.jacobian;
+        let mut matrix = DMatrix::zeros(rows, self.free.len());
+        for (k, (&j, scale)) in self.free.iter().zip(&self.scale).enumerate() {
+            for c in 0..rows {
+                matrix[(c, k)] = a[j * m + c] * scale;
+            }
+        }
+        let mut row_scale = vec![1.0; rows];
+        let mut terms = vec![0.0; rows];
+        for c in 0..rows {
+            terms[c] = (0..n).map(|j| (a[j * m + c] * x[j]).abs()).sum();
+            let norm = matrix.row(c).norm();
+            let whole = (0..n).map(|j| a[j * m + c].powi(2)).sum::<f64>().sqrt();
+            if norm > 0.0 || whole > 0.0 {
+                row_scale[c] = if norm > 0.0 { norm } else { whole }.recip();
+            }
+            matrix.row_mut(c).scale_mut(row_scale[c]);
+        }
+        Point { x, residual, terms, row_scale, matrix }
+    }
+
+    /// The solution for one level; tries the guess, then perturbations of it.
+    fn find(&mut self, level: Level, guess: &[f64], other: &[f64]) -> Result<Vec<f64>, Error> {
+        let size = guess.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
+        let size = if size > 0.0 { size } else { 1.0 };
+        let mut best: Option<(f64, Point)> = None;
+        for shake in SHAKES {
+            let mut x = guess.to_vec();
+            for (k, &j) in self.free.iter().enumerate() {
+                // Deterministic, and no two coordinates alike.
+                let share = ((k as f64 + 1.0) * GOLDEN).fract();
+                x[j] += shake * size * (2.0 * share - 1.0);
+            }
+            let point = self.descend(level, x, other);
+            if point.all_met() {
+                return Ok(point.x);
+            }
+            let cost = point.cost(&point.residual);
+            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+                best = Some((cost, point));
+            }
+            if level == Level::Velocity && M::SPEC.holonomic == M::SPEC.m() {
+                // Linear: nothing else to find.
+                break;
+            }
+        }
+        match best {
+            Some((_, point)) => Err(self.conflict(level, &point)),
+            None => Ok(guess.to_vec()),
+        }
+    }
+
+    /// Levenberg-Marquardt from `x`, to a solution or as near to one as it comes.
+    fn descend(&mut self, level: Level, x: Vec<f64>, other: &[f64]) -> Point {
+        let mut point = self.point(level, x, other);
+        let (mut damping, mut stalls) = (DAMPING, 0);
+        for _ in 0..MAX_STEPS {
+            if point.all_met() || self.free.is_empty() || stalls > 3 {
+                break;
+            }
+            let cost = point.cost(&point.residual);
+            // √cost → 0 takes the damping with it: quadratic convergence at the end.
+            let step = self.step(&point, damping * cost.sqrt().min(1.0));
+            let mut x = point.x.clone();
+            for ((&j, scale), d) in self.free.iter().zip(&self.scale).zip(&step) {
+                x[j] += scale * d;
+            }
+            let trial = self.residual(level, &x, other);
+            let trial_cost = point.cost(&trial);
+            if trial_cost < cost {
+                // At the rounding level costs may fall for ever by tiny amounts.
+                stalls = if trial_cost > 0.99 * cost { stalls + 1 } else { 0 };
+                damping = (damping / DAMPING_FACTOR).max(f64::EPSILON);
+                point = self.point(level, x, other);
+            } else {
+                damping *= DAMPING_FACTOR;
+                if damping > DAMPING_LIMIT {
+                    break;
+                }
+            }
+        }
+        point
+    }
+
+    /// d that minimises |J d + φ|² + μ|d|², by the decomposition of \[J; √μ I\].
+    fn step(&self, point: &Point, mu: f64) -> Vec<f64> {
+        let (rows, k) = point.matrix.shape();
+        let root = mu.sqrt();
+        let mut decomposition = Decomposition::new(rows + k, k);
+        let columns = decomposition.load(rows + k);
+        columns.fill(0.0);
+        for (c, column) in columns.chunks_exact_mut(k).enumerate() {
+            if c < rows {
+                column.iter_mut().zip(point.matrix.row(c).iter()).for_each(|(x, a)| *x = *a);
+            } else {
+                column[c - rows] = root;
+            }
+        }
+        decomposition.factor(&vec![1.0; k], &vec![1.0; rows + k], RANK_TOLERANCE);
+        let mut right = vec![0.0; rows + k];
+        for c in 0..rows {
+            right[c] = -point.residual[c] * point.row_scale[c];
+        }
+        let mut d = vec![0.0; k];
+        decomposition.solve(&right, &mut d);
+        d
+    }
+
+    fn conflict(&self, level: Level, point: &Point) -> Error {
+        let mut residual = point.residual.clone();
+        if residual.iter().any(|r| !r.is_finite()) {
+            return diagnose::non_finite_residual(M::SPEC, &residual);
+        }
+        for (c, r) in residual.iter_mut().enumerate() {
+            if point.met(c) {
+                *r = 0.0;
+            }
+        }
+        Error::OffConstraint {
+            level: match level {
+                Level::Position => "position",
+                Level::Velocity => "velocity",
+            },
+            constraints: diagnose::offending(M::SPEC, &residual, &point.row_scale),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixture::*;
+
+    fn consistent<M: Mechanism>(mech: &M, state: &State) {
+        let r = residuals(mech, state).unwrap();
+        assert!(r.largest_position() < 1e-13 && r.largest_velocity() < 1e-13, "{} {state:?} {r:?}", M::SPEC.name);
+    }
+
+    fn state(t: f64, q: &[f64], v: &[f64]) -> State {
+        State { t, q: q.to_vec(), v: v.to_vec() }
+    }
+
+    #[test]
+    fn rough_guesses_become_consistent_states() {
+        let s = assemble(&Pendulum::default(), state(0.0, &[3.0, -4.0], &[1.0, 1.0]), &[]).unwrap();
+        consistent(&Pendulum::default(), &s);
+        assert!((s.q[0] - 0.6).abs() < 0.1);
+        let s = assemble(&Twice::default(), state(0.0, &[0.1, 0.4, 3.0, 0.2], &[1.0, 0.0, 0.0, 1.0]), &[]).unwrap();
+        consistent(&Twice::default(), &s);
+        let s = assemble(&Springs::default(), state(0.0, &[1.0, 9.0], &[1.0, 0.0]), &["x"]).unwrap();
+        consistent(&Springs::default(), &s);
+        assert_eq!((s.q[0], s.v[0]), (1.0, 1.0));
+        assert!((s.q[1] - 0.625).abs() < 1e-15);
+        let s = assemble(&Prescribed::default(), state(0.5, &[9.0, 2.0], &[0.0, 3.0]), &["y"]).unwrap();
+        assert!((s.q[0] - 0.5_f64.sin()).abs() < 1e-15 && (s.v[0] - 0.5_f64.cos()).abs() < 1e-15);
+        assert_eq!((s.q[1], s.v[1]), (2.0, 3.0));
+        let s = assemble(&Skate::default(), state(0.0, &[0.0, 0.0, 0.5], &[0.3, 0.1, 1.0]), &["th"]).unwrap();
+        consistent(&Skate::default(), &s);
+        assert_eq!((s.q[2], s.v[2]), (0.5, 1.0));
+    }
+
+    #[test]
+    fn a_redundant_loop_closes_with_its_crank_held() {
+        let (x, y) = (0.6, 0.8);
+        let guess = state(0.0, &[x, y, 2.9, 0.5], &[-y, x, 0.0, 0.0]);
+        let mech = Parallelogram::default();
+        let s = assemble(&mech, guess, &["x1", "y1"]).unwrap();
+        consistent(&mech, &s);
+        for (found, expected) in s.q.iter().zip([0.6, 0.8, 2.6, 0.8]) {
+            assert!((found - expected).abs() < 1e-10, "{s:?}");
+        }
+        for (found, expected) in s.v.iter().zip([-0.8, 0.6, -0.8, 0.6]) {
+            assert!((found - expected).abs() < 1e-10, "{s:?}");
+        }
+    }
+
+    #[test]
+    fn guesses_without_a_gradient_are_shaken() {
+        let s = assemble(&Pendulum::default(), state(0.0, &[0.0; 2], &[0.0; 2]), &[]).unwrap();
+        consistent(&Pendulum::default(), &s);
+        let s = assemble(&Parallelogram::default(), state(0.0, &[0.0; 4], &[0.0; 4]), &[]).unwrap();
+        consistent(&Parallelogram::default(), &s);
+    }
+
+    #[test]
+    fn consistent_states_stay() {
+        let exact = state(0.0, &[0.6, 0.8, 2.6, 0.8], &[-0.8, 0.6, -0.8, 0.6]);
+        assert_eq!(assemble(&Parallelogram::default(), exact.clone(), &[]), Ok(exact));
+    }
+
+    #[test]
+    fn conflicts_are_named() {
+        let names = |e: Error| match e {
+            Error::OffConstraint { level, constraints } => {
+                (level, constraints.into_iter().map(|c| c.0).collect::<Vec<_>>())
+            }
+            other => panic!("{other:?}"),
+        };
+        let e = assemble(&Contradiction::default(), state(0.0, &[0.3, 0.1], &[0.0; 2]), &[]).unwrap_err();
+        assert_eq!(names(e), ("position", vec!["sine".into(), "cosine".into()]));
+        // Both ends held out of reach.
+        let e = assemble(&Twice::default(), state(0.0, &[0.5, 0.5, 3.0, 0.0], &[0.0; 4]), &["x2", "y2"]).unwrap_err();
+        assert_eq!(names(e), ("position", vec!["rod[0]".into(), "rod[1]".into(), "copy".into()]));
+        let held = ["x", "y"];
+        let e = assemble(&Pendulum::default(), state(0.0, &[1.0, 0.0], &[1.0, 0.0]), &held).unwrap_err();
+        assert_eq!(names(e), ("velocity", vec!["rod".into()]));
+        let e = assemble(&Pendulum::default(), State::zeros::<Pendulum>(), &["z"]).unwrap_err();
+        assert!(matches!(e, Error::UnknownName { kind: "coordinate", .. }));
+        let e = assemble(&Pendulum::default(), state(0.0, &[1.0], &[1.0]), &[]).unwrap_err();
+        assert!(matches!(e, Error::WrongLength { what: "q", .. }));
+        let e = assemble(&Pendulum::default(), state(0.0, &[1.0, f64::NAN], &[1.0, 0.0]), &[]).unwrap_err();
+        assert_eq!(e, Error::NonFinite { what: vec!["coordinate y".into()] });
+    }
 }

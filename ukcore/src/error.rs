@@ -194,3 +194,48 @@ impl std::error::Error for Error {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn nearest(name: &str) -> Option<String> {
+        let names = ["m", "length[0]", "length[1]", "gravity", "th1"];
+        match Error::unknown_name("parameter", name, &mut names.into_iter()) {
+            Error::UnknownName { nearest, .. } => nearest,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn the_nearest_name_is_offered_if_it_is_near() {
+        assert_eq!(nearest("gravty").as_deref(), Some("gravity"));
+        assert_eq!(nearest("Gravity").as_deref(), Some("gravity"));
+        assert_eq!(nearest("length[2]").as_deref(), Some("length[0]"));
+        assert_eq!(nearest("th2").as_deref(), Some("th1"));
+        assert_eq!(nearest("stiffness"), None);
+        assert_eq!(nearest("x"), None);
+        assert_eq!(nearest(""), None);
+    }
+
+    #[test]
+    fn distances() {
+        for (a, b, d) in [("", "", 0), ("", "abc", 3), ("kitten", "sitting", 3), ("θ1", "θ2", 1), ("AB", "ab", 0)] {
+            assert_eq!(distance(a, b), d, "{a} {b}");
+            assert_eq!(distance(b, a), d, "{b} {a}");
+        }
+    }
+
+    #[test]
+    fn messages_name_things_and_give_the_remedy() {
+        let message = Error::Inconsistent { constraints: vec![("rod[1]".into(), 0.5), ("copy".into(), -0.5)] }.to_string();
+        assert!(message.contains("`rod[1]` (5.000e-1), `copy` (-5.000e-1)") && message.contains("remove one"));
+        let inner = Error::NonFinite { what: vec!["force on th1".into()] };
+        let outer = Error::At { t: 0.25, q: vec![], v: vec![], source: Box::new(inner.clone()) };
+        assert_eq!(outer.to_string(), "at t = 0.25: not a finite number: force on th1");
+        let source = std::error::Error::source(&outer).map(ToString::to_string);
+        assert_eq!(source, Some(inner.to_string()));
+        let message = Error::unknown_name("model", "uchan", &mut ["uchain"].into_iter()).to_string();
+        assert_eq!(message, "no model is called `uchan`; did you mean `uchain`?");
+    }
+}

@@ -315,3 +315,35 @@ pub mod emitted {
         panic!("`{what}` must have length {expected}, but has length {found}")
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixture::{Pendulum, Twice};
+
+    #[test]
+    fn parameters_by_name() {
+        let mut mech = Pendulum::default();
+        mech.set("l", 2.5).unwrap();
+        assert_eq!((mech.get("l"), mech.parameter(1)), (Ok(2.5), 2.5));
+        let error = Error::UnknownName { kind: "parameter", name: "L1".into(), nearest: Some("l".into()) };
+        assert_eq!(mech.set("L1", 0.0), Err(error.clone()));
+        assert_eq!(mech.get("L1"), Err(error));
+    }
+
+    #[test]
+    fn indices_by_name() {
+        let spec = Twice::SPEC;
+        assert_eq!((spec.n(), spec.m()), (4, 3));
+        assert_eq!(spec.coordinate_index("y2"), Ok(3));
+        assert_eq!(spec.constraint_index("rod[1]"), Ok(1));
+        assert!(matches!(spec.constraint_index("rod[2]"), Err(Error::UnknownName { nearest: Some(n), .. }) if n == "rod[0]"));
+        assert!(spec.output_index("fall").is_err());
+    }
+
+    #[test]
+    #[should_panic(expected = "`q` must have length 2, but has length 3")]
+    fn lengths_are_stated() {
+        let _: &[f64; 2] = emitted::exact(&[0.0; 3], "q");
+    }
+}

@@ -268,3 +268,68 @@ impl<S: Scalar> Scalar for Dual<S> {
         Dual::new(r, base + exponent)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    type D = Dual<f64>;
+
+    /// Derivative of `f` at x against a fourth-order central difference.
+    fn check(name: &str, x: f64, dual: fn(D) -> D, plain: fn(f64) -> f64) {
+        let result = dual(Dual::new(x, 1.0));
+        assert!((result.re - plain(x)).abs() <= 1e-14 * plain(x).abs().max(1.0), "{name}({x})");
+        let h = 1e-3 * x.abs().max(0.1);
+        let difference = (8.0 * (plain(x + h) - plain(x - h)) - (plain(x + 2.0 * h) - plain(x - 2.0 * h))) / (12.0 * h);
+        let size = difference.abs().max(1.0);
+        assert!((result.eps - difference).abs() < 1e-8 * size, "{name}'({x}): {} is not {difference}", result.eps);
+    }
+
+    #[test]
+    fn derivatives_agree_with_differences() {
+        macro_rules! unary {
+            ($points:expr; $($name:ident)*) => {
+                $(for x in $points { check(stringify!($name), x, |x| Scalar::$name(x), |x| Scalar::$name(x)); })*
+            };
+        }
+        unary!([-0.7, 0.3, 0.85]; sin cos tan asin acos atan sinh cosh tanh exp abs sign recip);
+        unary!([0.2, 1.0, 30.0]; sqrt ln);
+        for x in [-2.0, -0.4, 0.9, 3.0] {
+            check("powi 3", x, |x| x.powi(3), |x| Scalar::powi(x, 3));
+            check("powi -2", x, |x| x.powi(-2), |x| Scalar::powi(x, -2));
+            check("powi 0", x, |x| x.powi(0), |x| Scalar::powi(x, 0));
+            check("atan2 y", x, |x| x.atan2(D::from_f64(-0.8)), |x| x.atan2(-0.8));
+            check("atan2 x", x, |x| D::from_f64(0.6).atan2(x), |x| 0.6_f64.atan2(x));
+            check("hypot", x, |x| x.hypot(D::from_f64(2.0)), |x| x.hypot(2.0));
+            check("min", x, |x| x.min(D::from_f64(0.5)), |x| x.min(0.5));
+            check("max", x, |x| D::from_f64(0.5).max(x), |x| x.max(0.5));
+            check("sin_cos", x, |x| x.sin_cos().0 / x.sin_cos().1, f64::tan);
+            check("arithmetic", x, |x| (x * x - x) / (x * x + D::from_f64(1.0)), |x| (x * x - x) / (x * x + 1.0));
+        }
+        for x in [0.3, 2.0] {
+            check("powf base", x, |x| x.powf(D::from_f64(2.5)), |x| x.powf(2.5));
+            check("powf exponent", x, |x| D::from_f64(1.7).powf(x), |x| 1.7_f64.powf(x));
+        }
+    }
+
+    #[test]
+    fn nested_duals_give_second_derivatives() {
+        let x = 0.7;
+        let twice = Dual::new(Dual::new(x, 1.0), Dual::new(1.0, 0.0));
+        let y = (twice.sin() * twice).exp();
+        let u = x.sin() * x;
+        let (du, ddu) = (x.cos() * x + x.sin(), 2.0 * x.cos() - x.sin() * x);
+        assert!((y.eps.eps - u.exp() * (du * du + ddu)).abs() < 1e-14);
+    }
+
+    #[test]
+    fn where_there_is_no_derivative_values_stay_finite() {
+        let zero = Dual::new(0.0, 1.0);
+        assert_eq!((zero.abs().eps, zero.sign()), (0.0, Dual::new(0.0, 0.0)));
+        let negative = Dual::new(-2.0, 1.0).powf(D::from_f64(2.0));
+        assert_eq!(negative, Dual::new(4.0, -4.0));
+        assert!(Scalar::sign(f64::NAN).is_nan());
+        assert_eq!(Scalar::sign(-3.0_f32), -1.0);
+        assert_eq!(f64::select_le(f64::NAN, 0.0, 1.0, 2.0), 2.0);
+    }
+}
