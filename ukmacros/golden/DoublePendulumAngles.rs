@@ -213,10 +213,10 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         mass[2] = m2_l1_l2_cos_th1_minus_th2;
         mass[3] = m2 * l2 * l2;
         let dot_th1_minus_dot_th2 = dot_th1 - dot_th2;
-        let force_0_part = m2 * l1 * dot_th1 * l2 * dot_th2 * sin_th1_minus_th2;
+        let force_0_part_part = m2 * l1 * dot_th1 * l2 * dot_th2 * sin_th1_minus_th2;
         force[0] = m2 * l1 * l2 * dot_th2 * dot_th1_minus_dot_th2 * sin_th1_minus_th2
-            - force_0_part - m1_plus_m2 * l1 * g * th1.sin();
-        force[1] = force_0_part
+            - force_0_part_part - m1_plus_m2 * l1 * g * th1.sin();
+        force[1] = force_0_part_part
             + m2 * l1 * dot_th1 * l2 * dot_th1_minus_dot_th2 * sin_th1_minus_th2
             - m2 * l2 * g * th2.sin();
         nonideal[0] = lit(0.0);

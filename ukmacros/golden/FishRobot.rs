@@ -7,13 +7,6 @@
 ///
 /// Derived from the declaration at compile time, in the notation of Zhao, Zhen & Chen 2013: M q̈ = Q is the unconstrained motion, A q̈ = b what the constraints demand.
 ///
-/// Abbreviations:
-///
-/// ```text
-/// lift_x = rho*span*half_chord*(dot(x3)*dot(y3)*sin(th3) - sq(dot(y3))*cos(th3))
-/// lift_y = rho*span*half_chord*(dot(x3)*dot(y3)*cos(th3) - sq(dot(x3))*sin(th3))
-/// ```
-///
 /// Mass matrix M (lower triangle), eq. 1:
 ///
 /// ```text
@@ -32,8 +25,8 @@
 /// Q[x1] = -0.5*rho*s*dot(x1)*cd*abs(dot(x1))
 /// Q[y1] = -0.5*rho*cd*s1*dot(y1)*abs(dot(y1))
 /// Q[y2] = -0.5*rho*cd*s2*dot(y2)*abs(dot(y2))
-/// Q[x3] = 6.283185307179586*lift_x
-/// Q[y3] = 6.283185307179586*lift_y - 0.5*rho*dot(y3)*cd*s3*abs(dot(y3))
+/// Q[x3] = 6.283185307179586*rho*span*half_chord*(dot(x3)*dot(y3)*sin(th3) - sq(dot(y3))*cos(th3))
+/// Q[y3] = 6.283185307179586*rho*span*half_chord*(dot(x3)*dot(y3)*cos(th3) - sq(dot(x3))*sin(th3)) - 0.5*rho*dot(y3)*cd*s3*abs(dot(y3))
 /// ```
 ///
 /// Constraints φ, eqs. 3 and 4:
@@ -395,16 +388,7 @@ impl ::ukcore::Mechanism for FishRobot {
             },
         },
         equations: ::ukcore::Equations {
-            definitions: &[
-                (
-                    "lift_x",
-                    "rho*span*half_chord*(dot(x3)*dot(y3)*sin(th3) - sq(dot(y3))*cos(th3))",
-                ),
-                (
-                    "lift_y",
-                    "rho*span*half_chord*(dot(x3)*dot(y3)*cos(th3) - sq(dot(x3))*sin(th3))",
-                ),
-            ],
+            definitions: &[],
             mass: &[
                 (0, 0, "m1"),
                 (1, 1, "m1"),
@@ -418,8 +402,14 @@ impl ::ukcore::Mechanism for FishRobot {
                 (0, "-0.5*rho*s*dot(x1)*cd*abs(dot(x1))"),
                 (1, "-0.5*rho*cd*s1*dot(y1)*abs(dot(y1))"),
                 (4, "-0.5*rho*cd*s2*dot(y2)*abs(dot(y2))"),
-                (6, "6.283185307179586*lift_x"),
-                (7, "6.283185307179586*lift_y - 0.5*rho*dot(y3)*cd*s3*abs(dot(y3))"),
+                (
+                    6,
+                    "6.283185307179586*rho*span*half_chord*(dot(x3)*dot(y3)*sin(th3) - sq(dot(y3))*cos(th3))",
+                ),
+                (
+                    7,
+                    "6.283185307179586*rho*span*half_chord*(dot(x3)*dot(y3)*cos(th3) - sq(dot(x3))*sin(th3)) - 0.5*rho*dot(y3)*cd*s3*abs(dot(y3))",
+                ),
             ],
             nonideal: &[],
             jacobian: &[
@@ -555,12 +545,12 @@ impl ::ukcore::Mechanism for FishRobot {
         force[4] = lit(-0.5) * (rho * cd * s2 * dot_y2 * dot_y2.abs());
         force[5] = lit(0.0);
         let (sin_th3, cos_th3) = th3.sin_cos();
-        let lift_x = rho * span * half_chord
-            * (dot_x3 * dot_y3 * sin_th3 - dot_y3 * dot_y3 * cos_th3);
-        force[6] = lit(::core::f64::consts::TAU) * lift_x;
-        let lift_y = rho * span * half_chord
-            * (dot_x3 * dot_y3 * cos_th3 - dot_x3 * dot_x3 * sin_th3);
-        force[7] = lit(::core::f64::consts::TAU) * lift_y
+        force[6] = lit(::core::f64::consts::TAU)
+            * (rho * span * half_chord
+                * (dot_x3 * dot_y3 * sin_th3 - dot_y3 * dot_y3 * cos_th3));
+        force[7] = lit(::core::f64::consts::TAU)
+            * (rho * span * half_chord
+                * (dot_x3 * dot_y3 * cos_th3 - dot_x3 * dot_x3 * sin_th3))
             - lit(0.5) * (rho * dot_y3 * cd * s3 * dot_y3.abs());
         force[8] = lit(0.0);
         nonideal[0] = lit(0.0);
@@ -762,12 +752,12 @@ impl ::ukcore::Mechanism for FishRobot {
         outputs[0] = -dot_x1;
         outputs[1] = th1;
         let (sin_th3, cos_th3) = th3.sin_cos();
-        let lift_x = rho * span * half_chord
-            * (dot_x3 * dot_y3 * sin_th3 - dot_y3 * dot_y3 * cos_th3);
-        outputs[2] = lit(::core::f64::consts::TAU) * lift_x;
-        let lift_y = rho * span * half_chord
-            * (dot_x3 * dot_y3 * cos_th3 - dot_x3 * dot_x3 * sin_th3);
-        outputs[3] = lit(::core::f64::consts::TAU) * lift_y;
+        outputs[2] = lit(::core::f64::consts::TAU)
+            * (rho * span * half_chord
+                * (dot_x3 * dot_y3 * sin_th3 - dot_y3 * dot_y3 * cos_th3));
+        outputs[3] = lit(::core::f64::consts::TAU)
+            * (rho * span * half_chord
+                * (dot_x3 * dot_y3 * cos_th3 - dot_x3 * dot_x3 * sin_th3));
         outputs[4] = x3 + cos_th3 * b;
         outputs[5] = y3 + sin_th3 * b;
     }

@@ -228,9 +228,9 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         let pivot = a * cos_w_t;
         let pivot_minus_y = pivot - y;
         jacobian[1] = lit(-2.0) * pivot_minus_y;
-        let b_0_part = dot_y + a * w * sin_w_t;
+        let b_0_part_part = dot_y + a * w * sin_w_t;
         rhs[0] = lit(-2.0)
-            * (dot_x * dot_x + b_0_part * b_0_part
+            * (dot_x * dot_x + b_0_part_part * b_0_part_part
                 - a * w * w * cos_w_t * pivot_minus_y);
     }
     fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) {

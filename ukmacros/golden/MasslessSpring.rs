@@ -173,9 +173,9 @@ impl ::ukcore::Mechanism for MasslessSpring {
         let k1 = lit(self.k1);
         let k2 = lit(self.k2);
         mass[3] = m;
-        let force_0_part = k2 * (joint - x);
-        force[0] = -(k1 * joint) - force_0_part;
-        force[1] = force_0_part;
+        let force_0_part_part = k2 * (joint - x);
+        force[0] = -(k1 * joint) - force_0_part_part;
+        force[1] = force_0_part_part;
         nonideal[0] = lit(0.0);
         nonideal[1] = lit(0.0);
         jacobian[0] = k1 + k2;

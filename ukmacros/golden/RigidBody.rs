@@ -8,9 +8,9 @@
 /// Abbreviations:
 ///
 /// ```text
-/// w1 = e1*dot(e0) + e2*dot(e3) - e0*dot(e1) - e3*dot(e2)
-/// w2 = dot(e0)*e2 + dot(e1)*e3 - e0*dot(e2) - e1*dot(e3)
-/// w3 = dot(e0)*e3 + e1*dot(e2) - dot(e1)*e2 - e0*dot(e3)
+/// s1 = e1*dot(e0) + e2*dot(e3) - e0*dot(e1) - e3*dot(e2)
+/// s2 = dot(e0)*e2 + dot(e1)*e3 - e0*dot(e2) - e1*dot(e3)
+/// s3 = dot(e0)*e3 + e1*dot(e2) - dot(e1)*e2 - e0*dot(e3)
 /// ```
 ///
 /// Mass matrix M (lower triangle), eq. 1:
@@ -31,10 +31,10 @@
 /// Generalised force Q, eq. 1:
 ///
 /// ```text
-/// Q[e0] = -8*(dot(e1)*w1*i1 + dot(e2)*w2*i2 + dot(e3)*w3*i3)
-/// Q[e1] = 8*(dot(e0)*w1*i1 + dot(e2)*w3*i3 - dot(e3)*w2*i2)
-/// Q[e2] = 8*(dot(e3)*w1*i1 + dot(e0)*w2*i2 - dot(e1)*w3*i3)
-/// Q[e3] = 8*(dot(e1)*w2*i2 + dot(e0)*w3*i3 - dot(e2)*w1*i1)
+/// Q[e0] = -8*(dot(e1)*s1*i1 + dot(e2)*s2*i2 + dot(e3)*s3*i3)
+/// Q[e1] = 8*(dot(e0)*s1*i1 + dot(e2)*s3*i3 - dot(e3)*s2*i2)
+/// Q[e2] = 8*(dot(e3)*s1*i1 + dot(e0)*s2*i2 - dot(e1)*s3*i3)
+/// Q[e3] = 8*(dot(e1)*s2*i2 + dot(e0)*s3*i3 - dot(e2)*s1*i1)
 /// ```
 ///
 /// Constraints φ, eqs. 3 and 4:
@@ -206,9 +206,9 @@ impl ::ukcore::Mechanism for RigidBody {
         },
         equations: ::ukcore::Equations {
             definitions: &[
-                ("w1", "e1*dot(e0) + e2*dot(e3) - e0*dot(e1) - e3*dot(e2)"),
-                ("w2", "dot(e0)*e2 + dot(e1)*e3 - e0*dot(e2) - e1*dot(e3)"),
-                ("w3", "dot(e0)*e3 + e1*dot(e2) - dot(e1)*e2 - e0*dot(e3)"),
+                ("s1", "e1*dot(e0) + e2*dot(e3) - e0*dot(e1) - e3*dot(e2)"),
+                ("s2", "dot(e0)*e2 + dot(e1)*e3 - e0*dot(e2) - e1*dot(e3)"),
+                ("s3", "dot(e0)*e3 + e1*dot(e2) - dot(e1)*e2 - e0*dot(e3)"),
             ],
             mass: &[
                 (0, 0, "4*(sq(e1)*i1 + sq(e2)*i2 + sq(e3)*i3)"),
@@ -223,10 +223,10 @@ impl ::ukcore::Mechanism for RigidBody {
                 (3, 3, "4*(sq(e2)*i1 + sq(e1)*i2 + sq(e0)*i3)"),
             ],
             force: &[
-                (0, "-8*(dot(e1)*w1*i1 + dot(e2)*w2*i2 + dot(e3)*w3*i3)"),
-                (1, "8*(dot(e0)*w1*i1 + dot(e2)*w3*i3 - dot(e3)*w2*i2)"),
-                (2, "8*(dot(e3)*w1*i1 + dot(e0)*w2*i2 - dot(e1)*w3*i3)"),
-                (3, "8*(dot(e1)*w2*i2 + dot(e0)*w3*i3 - dot(e2)*w1*i1)"),
+                (0, "-8*(dot(e1)*s1*i1 + dot(e2)*s2*i2 + dot(e3)*s3*i3)"),
+                (1, "8*(dot(e0)*s1*i1 + dot(e2)*s3*i3 - dot(e3)*s2*i2)"),
+                (2, "8*(dot(e3)*s1*i1 + dot(e0)*s2*i2 - dot(e1)*s3*i3)"),
+                (3, "8*(dot(e1)*s2*i2 + dot(e0)*s3*i3 - dot(e2)*s1*i1)"),
             ],
             nonideal: &[],
             jacobian: &[(0, 0, "2*e0"), (0, 1, "2*e1"), (0, 2, "2*e2"), (0, 3, "2*e3")],
@@ -290,13 +290,21 @@ impl ::ukcore::Mechanism for RigidBody {
         mass[13] = mass_e3_e1_part;
         mass[14] = mass_e3_e2_part;
         mass[15] = lit(4.0) * (e2 * e2 * i1 + e1 * e1 * i2 + e0 * e0 * i3);
-        let w1 = e1 * dot_e0 + e2 * dot_e3 - e0 * dot_e1 - e3 * dot_e2;
-        let w2 = dot_e0 * e2 + dot_e1 * e3 - e0 * dot_e2 - e1 * dot_e3;
-        let w3 = dot_e0 * e3 + e1 * dot_e2 - dot_e1 * e2 - e0 * dot_e3;
-        force[0] = lit(-8.0) * (dot_e1 * w1 * i1 + dot_e2 * w2 * i2 + dot_e3 * w3 * i3);
-        force[1] = lit(8.0) * (dot_e0 * w1 * i1 + dot_e2 * w3 * i3 - dot_e3 * w2 * i2);
-        force[2] = lit(8.0) * (dot_e3 * w1 * i1 + dot_e0 * w2 * i2 - dot_e1 * w3 * i3);
-        force[3] = lit(-8.0) * (dot_e2 * w1 * i1 - dot_e1 * w2 * i2 - dot_e0 * w3 * i3);
+        let force_0_part_part = e1 * dot_e0 + e2 * dot_e3 - e0 * dot_e1 - e3 * dot_e2;
+        let force_0_part_part_2 = dot_e0 * e2 + dot_e1 * e3 - e0 * dot_e2 - e1 * dot_e3;
+        let force_0_part_part_3 = dot_e0 * e3 + e1 * dot_e2 - dot_e1 * e2 - e0 * dot_e3;
+        force[0] = lit(-8.0)
+            * (dot_e1 * force_0_part_part * i1 + dot_e2 * force_0_part_part_2 * i2
+                + dot_e3 * force_0_part_part_3 * i3);
+        force[1] = lit(8.0)
+            * (dot_e0 * force_0_part_part * i1 + dot_e2 * force_0_part_part_3 * i3
+                - dot_e3 * force_0_part_part_2 * i2);
+        force[2] = lit(8.0)
+            * (dot_e3 * force_0_part_part * i1 + dot_e0 * force_0_part_part_2 * i2
+                - dot_e1 * force_0_part_part_3 * i3);
+        force[3] = lit(-8.0)
+            * (dot_e2 * force_0_part_part * i1 - dot_e1 * force_0_part_part_2 * i2
+                - dot_e0 * force_0_part_part_3 * i3);
         nonideal[0] = lit(0.0);
         nonideal[1] = lit(0.0);
         nonideal[2] = lit(0.0);
@@ -378,10 +386,13 @@ impl ::ukcore::Mechanism for RigidBody {
         let i1 = lit(self.i1);
         let i2 = lit(self.i2);
         let i3 = lit(self.i3);
-        let w1 = e1 * dot_e0 + e2 * dot_e3 - e0 * dot_e1 - e3 * dot_e2;
-        let w2 = dot_e0 * e2 + dot_e1 * e3 - e0 * dot_e2 - e1 * dot_e3;
-        let w3 = dot_e0 * e3 + e1 * dot_e2 - dot_e1 * e2 - e0 * dot_e3;
-        let kinetic = lit(2.0) * (w1 * w1 * i1 + w2 * w2 * i2 + w3 * w3 * i3);
+        let kinetic_part_part = e1 * dot_e0 + e2 * dot_e3 - e0 * dot_e1 - e3 * dot_e2;
+        let kinetic_part_part_2 = dot_e0 * e2 + dot_e1 * e3 - e0 * dot_e2 - e1 * dot_e3;
+        let kinetic_part_part_3 = dot_e0 * e3 + e1 * dot_e2 - dot_e1 * e2 - e0 * dot_e3;
+        let kinetic = lit(2.0)
+            * (kinetic_part_part * kinetic_part_part * i1
+                + kinetic_part_part_2 * kinetic_part_part_2 * i2
+                + kinetic_part_part_3 * kinetic_part_part_3 * i3);
         let potential = lit(0.0);
         ::ukcore::Energy {
             kinetic,
@@ -396,29 +407,32 @@ impl ::ukcore::Mechanism for RigidBody {
         let i1 = lit(self.i1);
         let i2 = lit(self.i2);
         let i3 = lit(self.i3);
-        let w1 = e1 * dot_e0 + e2 * dot_e3 - e0 * dot_e1 - e3 * dot_e2;
-        outputs[0] = lit(-2.0) * w1;
-        let w2 = dot_e0 * e2 + dot_e1 * e3 - e0 * dot_e2 - e1 * dot_e3;
-        outputs[1] = lit(-2.0) * w2;
-        let w3 = dot_e0 * e3 + e1 * dot_e2 - dot_e1 * e2 - e0 * dot_e3;
-        outputs[2] = lit(-2.0) * w3;
+        let output_0_part_part = e1 * dot_e0 + e2 * dot_e3 - e0 * dot_e1 - e3 * dot_e2;
+        outputs[0] = lit(-2.0) * output_0_part_part;
+        let output_1_part_part = dot_e0 * e2 + dot_e1 * e3 - e0 * dot_e2 - e1 * dot_e3;
+        outputs[1] = lit(-2.0) * output_1_part_part;
+        let output_2_part_part = dot_e0 * e3 + e1 * dot_e2 - dot_e1 * e2 - e0 * dot_e3;
+        outputs[2] = lit(-2.0) * output_2_part_part;
         let sq_e2 = e2 * e2;
         let sq_e3 = e3 * e3;
         let e1_e2 = e1 * e2;
         let e0_e3 = e0 * e3;
         let e1_e3 = e1 * e3;
         let e0_e2 = e0 * e2;
-        outputs[3] = lit(-2.0) * (w1 * i1 * (lit(1.0) - lit(2.0) * (sq_e2 + sq_e3)))
-            - lit(4.0) * (w2 * i2 * (e1_e2 - e0_e3))
-            - lit(4.0) * (w3 * i3 * (e1_e3 + e0_e2));
+        outputs[3] = lit(-2.0)
+            * (output_0_part_part * i1 * (lit(1.0) - lit(2.0) * (sq_e2 + sq_e3)))
+            - lit(4.0) * (output_1_part_part * i2 * (e1_e2 - e0_e3))
+            - lit(4.0) * (output_2_part_part * i3 * (e1_e3 + e0_e2));
         let sq_e1 = e1 * e1;
         let e3_e2 = e3 * e2;
         let e1_e0 = e1 * e0;
-        outputs[4] = lit(-4.0) * (w1 * i1 * (e1_e2 + e0_e3))
-            - lit(2.0) * (w2 * i2 * (lit(1.0) - lit(2.0) * (sq_e1 + sq_e3)))
-            - lit(4.0) * (w3 * i3 * (e3_e2 - e1_e0));
-        outputs[5] = lit(-4.0) * (w1 * i1 * (e1_e3 - e0_e2))
-            - lit(4.0) * (w2 * i2 * (e3_e2 + e1_e0))
-            - lit(2.0) * (w3 * i3 * (lit(1.0) - lit(2.0) * (sq_e1 + sq_e2)));
+        outputs[4] = lit(-4.0) * (output_0_part_part * i1 * (e1_e2 + e0_e3))
+            - lit(2.0)
+                * (output_1_part_part * i2 * (lit(1.0) - lit(2.0) * (sq_e1 + sq_e3)))
+            - lit(4.0) * (output_2_part_part * i3 * (e3_e2 - e1_e0));
+        outputs[5] = lit(-4.0) * (output_0_part_part * i1 * (e1_e3 - e0_e2))
+            - lit(4.0) * (output_1_part_part * i2 * (e3_e2 + e1_e0))
+            - lit(2.0)
+                * (output_2_part_part * i3 * (lit(1.0) - lit(2.0) * (sq_e1 + sq_e2)));
     }
 }

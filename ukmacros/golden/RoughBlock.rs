@@ -293,7 +293,7 @@ impl ::ukcore::Mechanism for RoughBlock {
         outputs[0] = x * cos_slope - y * sin_slope;
         let speed_down = dot_x * cos_slope - dot_y * sin_slope;
         outputs[1] = speed_down;
-        let friction = cos_slope * mu * m * g * speed_down.sign();
-        outputs[2] = -friction;
+        let neg_friction = cos_slope * mu * m * g * speed_down.sign();
+        outputs[2] = -neg_friction;
     }
 }

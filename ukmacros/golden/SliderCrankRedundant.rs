@@ -553,10 +553,10 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         jacobian[9] = a_second_rod_part;
         let a_second_rod_part_2 = lit(2.0) * y1 + r_sin_th1 - lit(2.0) * y3;
         jacobian[19] = a_second_rod_part_2;
-        let a_second_rod_part_3 = x1 + lit(0.5) * r_cos_th1 - x3;
-        let a_second_rod_part_4 = y1 + lit(0.5) * r_sin_th1 - y3;
-        jacobian[29] = r * cos_th1 * a_second_rod_part_4
-            - r * sin_th1 * a_second_rod_part_3;
+        let a_second_rod_part_part = x1 + lit(0.5) * r_cos_th1 - x3;
+        let a_second_rod_part_part_2 = y1 + lit(0.5) * r_sin_th1 - y3;
+        jacobian[29] = r * cos_th1 * a_second_rod_part_part_2
+            - r * sin_th1 * a_second_rod_part_part;
         jacobian[69] = -a_second_rod_part;
         jacobian[79] = -a_second_rod_part_2;
         let r_cos_th1_sq_dot_th1 = r * cos_th1 * dot_th1 * dot_th1;
@@ -573,12 +573,13 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         let c_sin_th3_sq_dot_th3 = c * sin_th3 * dot_th3 * dot_th3;
         rhs[7] = c_sin_th3_sq_dot_th3;
         rhs[8] = -c_sin_th3_sq_dot_th3;
-        let b_9_part = dot_x3 + lit(0.5) * (r * sin_th1 * dot_th1) - dot_x1;
-        let b_9_part_2 = dot_y1 + lit(0.5) * (r * cos_th1 * dot_th1) - dot_y3;
+        let b_9_part_part = dot_x3 + lit(0.5) * (r * sin_th1 * dot_th1) - dot_x1;
+        let b_9_part_part_2 = dot_y1 + lit(0.5) * (r * cos_th1 * dot_th1) - dot_y3;
         rhs[9] = lit(-2.0)
-            * (b_9_part * b_9_part + b_9_part_2 * b_9_part_2
-                - lit(0.5) * (r * cos_th1 * a_second_rod_part_3 * dot_th1 * dot_th1)
-                - lit(0.5) * (r * sin_th1 * a_second_rod_part_4 * dot_th1 * dot_th1));
+            * (b_9_part_part * b_9_part_part + b_9_part_part_2 * b_9_part_part_2
+                - lit(0.5) * (r * cos_th1 * a_second_rod_part_part * dot_th1 * dot_th1)
+                - lit(0.5)
+                    * (r * sin_th1 * a_second_rod_part_part_2 * dot_th1 * dot_th1));
     }
     fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 81>(mass, "mass");
@@ -671,12 +672,13 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         phi[4] = x2 + lit(0.5) * l_cos_th2 - x3;
         phi[5] = y2 + lit(0.5) * l_sin_th2 - y3;
         phi[6] = th3;
-        let phi_7_part = c * th3.sin();
-        phi[7] = y3 + phi_7_part;
-        phi[8] = y3 - phi_7_part;
-        let phi_9_part = x1 + lit(0.5) * r_cos_th1 - x3;
-        let phi_9_part_2 = y1 + lit(0.5) * r_sin_th1 - y3;
-        phi[9] = phi_9_part * phi_9_part + phi_9_part_2 * phi_9_part_2 - l * l;
+        let phi_7_part_part = c * th3.sin();
+        phi[7] = y3 + phi_7_part_part;
+        phi[8] = y3 - phi_7_part_part;
+        let phi_9_part_part = x1 + lit(0.5) * r_cos_th1 - x3;
+        let phi_9_part_part_2 = y1 + lit(0.5) * r_sin_th1 - y3;
+        phi[9] = phi_9_part_part * phi_9_part_part
+            + phi_9_part_part_2 * phi_9_part_part_2 - l * l;
     }
     fn residual_rate<S: ::ukcore::Scalar>(
         &self,
@@ -711,9 +713,9 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         rate[4] = dot_x2 - dot_x3 - lit(0.5) * l_sin_th2_dot_th2;
         rate[5] = dot_y2 + lit(0.5) * l_cos_th2_dot_th2 - dot_y3;
         rate[6] = dot_th3;
-        let rate_7_part = c * dot_th3 * th3.cos();
-        rate[7] = dot_y3 + rate_7_part;
-        rate[8] = dot_y3 - rate_7_part;
+        let rate_7_part_part = c * dot_th3 * th3.cos();
+        rate[7] = dot_y3 + rate_7_part_part;
+        rate[8] = dot_y3 - rate_7_part_part;
         rate[9] = lit(-2.0)
             * ((x1 + lit(0.5) * (r * cos_th1) - x3)
                 * (dot_x3 + lit(0.5) * r_sin_th1_dot_th1 - dot_x1)

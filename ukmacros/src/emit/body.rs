@@ -37,7 +37,13 @@ pub(super) fn body(system: &System, model: &Model, roots: &[Root]) -> Body {
         match *step {
             Step::Let(id) => {
                 let value = writer.definition(id);
-                let name = writer.namer.declare(id, &roots[next].purpose);
+                // The value itself, if it is stored in several places; else a part of it.
+                let purpose = &roots[next].purpose;
+                let purpose = match roots[next].id == id {
+                    true => purpose.clone(),
+                    false => format!("{purpose}_part"),
+                };
+                let name = writer.namer.declare(id, &purpose);
                 statements.extend(quote! { let #name = #value; });
             }
             Step::SinCos { sin, cos } => {

@@ -154,7 +154,7 @@ impl<'a> Namer<'a> {
         self.variables.get(&id).map(|n| format_ident!("{n}"))
     }
 
-    /// Makes a variable for `id`, named for what it is, or else for the value `purpose` it helps to compute.
+    /// Makes a variable for `id`, named for what it is, or else for its `purpose`.
     pub(super) fn declare(&mut self, id: Id, purpose: &str) -> Ident {
         let wish = match self.hints.get(&id) {
             Some(hint) => snake(hint),

@@ -320,7 +320,13 @@ impl<'m> Lowering<'m> {
     fn hint(&mut self, name: &str, index: Option<i64>, value: &Value) {
         let name = index.map_or(name.to_owned(), |i| format!("{name}[{i}]"));
         let mut enter = |id: Id, name: String| {
-            let (_, id) = self.graph.unscaled(id);
+            let (c, inner) = self.graph.unscaled(id);
+            // The graph keeps coefficients apart: a name must not pass to a value without its coefficient.
+            let (id, name) = match c {
+                1.0 => (id, name),
+                -1.0 => (inner, format!("neg_{name}")),
+                _ => return,
+            };
             if !self.graph.operands(id).is_empty() {
                 self.hints.entry(id).or_insert(name);
             }
