@@ -118,9 +118,11 @@ impl<M: Mechanism> Simulation<M> {
 
     /// Samples at t₀ + k `dt` (t₀ − k `dt` going backward) and at the end, instead of each accepted step.
     ///
-    /// Samples lie on the interpolant, then are projected; they do not influence the steps. Their error is that of the
-    /// interpolant: compared with runs that end at the sample times it was found at most three times larger with
-    /// DOP853 at tolerances 1e-6 to 1e-12. To have a state at the accuracy of steps, let the run end there.
+    /// Samples lie on the interpolant, then are projected; they do not influence the steps. Interpolation by DOP853 adds an
+    /// error of some ten tolerances to that which the steps have gathered; measured on swings of a pendulum at tolerances
+    /// 1e-4 to 1e-12 against runs that end at the sample times, the largest error of samples was up to 9 times larger within
+    /// the first swing, and the same after a few. With DOPRI5 it was at most 1.25 times larger. For a state
+    /// at the full accuracy of the steps, let a run end there.
     #[must_use]
     pub fn every(mut self, dt: f64) -> Self {
         self.sampling = Sampling::Every(dt);

@@ -41,13 +41,13 @@ pub struct Work {
     pub steps: usize,
     /// Attempted steps that were not accepted: because of their error, of the size of their projection, or of a failure.
     pub rejected: usize,
-    /// Evaluations of the acceleration.
+    /// Evaluations of the mechanism's dynamics, those for drift estimates near singular configurations included.
     pub evaluations: usize,
     /// States projected: the start, the end of each step, samples and events within steps.
     pub projections: usize,
     /// Newton steps in them, for positions and velocities together.
     pub projection_iterations: usize,
-    /// Evaluations that had to leave the fast path for the rank-revealing one.
+    /// Evaluations that had to leave the formula first tried for a more general one.
     pub fallbacks: usize,
 }
 

@@ -1,16 +1,16 @@
 //! Adaptive integration of y' = f(t, y) with a projection after each step.
 //!
-//! This is the seam between the mechanics and the integrator. [`Simulation`](crate::Simulation) is the [`Problem`]; a
+//! This is the seam between the mechanics and the integrator. [`Simulation`](crate::Simulation) is the problem; a
 //! [`Method`] advances it. The rest of the crate sees neither tableaus nor the library that holds them, so a method
 //! can be replaced, or others (implicit, symplectic) put beside it, without a change elsewhere.
 //!
 //! The order of events in one step, which each method keeps:
 //!
-//! 1. attempt a step, estimate its error, reject it and shrink the step where the error is above 1 in [`error_norm`]
-//!    or where f failed;
-//! 2. [`Problem::project`] the new state; a change above [`PROJECTION_LIMIT`] in the same norm rejects the step;
+//! 1. attempt a step, estimate its error, reject it and shrink the step where f failed or the error is above 1 in the
+//!    error norm: the root mean square of error / (tolerance + tolerance |y|);
+//! 2. project the new state; a change above [`PROJECTION_LIMIT`] in the same norm rejects the step;
 //! 3. evaluate f at the projected state, for the next step to begin with;
-//! 4. [`Problem::step`]: samples, events, the interpolant.
+//! 4. samples, events, the interpolant.
 //!
 //! A failure in 2 to 4 rejects the step like a failure in 1. So an error reaches the user only where no step, however
 //! small, avoids it, and then it carries the place where it arose.
@@ -31,7 +31,7 @@ pub enum Method {
     Dopri5,
 }
 
-/// Largest size of a projection, in [`error_norm`], after which a step still counts as good.
+/// Largest size of a projection, in the [error norm](self), after which a step still counts as good.
 ///
 /// A step starts on the constraints and its local error is estimated to be at most 1 in this norm; so it ends at most
 /// that far off them, and the nearest consistent state, nearest in the mass metric, is of the order of 1 away. Ten times

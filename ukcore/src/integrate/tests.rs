@@ -289,7 +289,7 @@ fn a_failing_projection_or_step_rejects_the_step() {
             panic!("{:?}", report.outcome);
         };
         assert_eq!(error, failure());
-        assert!(t >= 1.0 && t < 1.0 + 1e-13, "{t}");
+        assert!((1.0..1.0 + 1e-13).contains(&t), "{t}");
 
         let mut plain = Plain::new(circle);
         plain.fail_after = 1.0;
@@ -298,7 +298,7 @@ fn a_failing_projection_or_step_rejects_the_step() {
             panic!("{:?}", report.outcome);
         };
         assert_eq!(error, failure());
-        assert!(t >= 1.0 && t < 1.0 + 1e-13, "{t}");
+        assert!((1.0..1.0 + 1e-13).contains(&t), "{t}");
         assert!(plain.steps.iter().all(|step| step.1 <= 1.0));
     }
 }

@@ -6,6 +6,7 @@ use std::rc::Rc;
 
 use super::*;
 use crate::events::Direction;
+use crate::fixture;
 use crate::mechanism::{
     ConstraintKind, ConstraintSpec, Energy, Equations, Operations, OutputSpec, ParamSpec, Spec,
     Structure, Terms,
@@ -182,18 +183,23 @@ fn a_pendulum_returns_after_its_period() {
 }
 
 #[test]
-fn error_falls_with_the_tolerance_under_projection() {
-    let time = 5.0 * period(1.0);
+fn error_falls_with_the_order_of_the_method_under_projection() {
+    // After five periods and a quarter it passes the bottom with the speed of the fall.
+    let time = 5.25 * period(1.0);
+    let speed = f64::sqrt(2.0 * 9.8 * (1.0 - f64::cos(1.0)));
+    let (q, v) = (&[0.0, -1.0], &[-speed, 0.0]);
     for (method, order) in [(Method::Dop853, 8.0), (Method::Dopri5, 5.0)] {
         let run = |tolerance| {
             let run = swing(1.0, tolerance).method(method).until(time).unwrap();
-            let off = distance(run.sample(0).unwrap(), run.last().unwrap());
-            (off, run.work().evaluations as f64)
+            let off = distance(Sample { t: time, q, v }, run.last().unwrap());
+            (off, run.work().steps as f64)
         };
-        let ((coarse, few), (fine, many)) = (run(1e-6), run(1e-11));
+        let ((coarse, few), (fine, many)) = (run(1e-8), run(1e-12));
         let observed = (coarse / fine).ln() / (many / few).ln();
-        assert!((observed - order).abs() < 1.5, "{method:?}: {observed}");
-        assert!(fine < 1e-7, "{fine}");
+        // More, if error control and projection leave less than the leading term.
+        assert!(observed > order - 0.5, "{method:?}: {observed}");
+        assert!(observed < order + 2.0, "{method:?}: {observed}");
+        assert!(fine < 1e-9, "{fine}");
     }
 }
 
@@ -237,8 +243,8 @@ fn drift_is_visible_without_stabilisation_and_damped_with_baumgarte() {
 
 #[test]
 fn samples_do_not_change_the_steps_and_lie_near_the_end_of_runs_to_them() {
-    for (method, bound) in [(Method::Dop853, 30.0), (Method::Dopri5, 30.0)] {
-        for tolerance in [1e-6, 1e-9] {
+    for method in [Method::Dop853, Method::Dopri5] {
+        for tolerance in [1e-6, 1e-9, 1e-11] {
             let plain = swing(1.0, tolerance).method(method).until(3.0).unwrap();
             let times: Vec<f64> = (1..30).map(|k| 0.1 * f64::from(k)).collect();
             let run = swing(1.0, tolerance).method(method).at(times.clone());
@@ -249,11 +255,15 @@ fn samples_do_not_change_the_steps_and_lie_near_the_end_of_runs_to_them() {
                 plain.last().unwrap().to_state()
             );
             assert_eq!(run.times(), times);
+            // Largest error over the times: sampled, and where a run of its own ends there.
             let exact = swing(1.0, 1e-13).at(times).until(3.0).unwrap();
+            let (mut sampled, mut ended) = (0.0_f64, 0.0_f64);
             for (sample, exact) in run.samples().zip(exact.samples()) {
-                let off = distance(sample, exact);
-                assert!(off < bound * tolerance, "{off} at {}", sample.t);
+                let end = swing(1.0, tolerance).method(method).until(exact.t);
+                sampled = sampled.max(distance(sample, exact));
+                ended = ended.max(distance(end.unwrap().last().unwrap(), exact));
             }
+            assert!(sampled < 10.0 * ended, "{method:?}: {sampled}, {ended}");
         }
     }
 }
@@ -575,4 +585,58 @@ fn csv_reads_back_as_the_same_numbers() {
         assert_eq!(row[3..5], *sample.v);
     }
     assert_eq!(csv.lines().count(), 1 + run.len());
+}
+
+/// From (q, v) at t = 0, projected.
+fn toy<M: Mechanism>(mechanism: M, q: &[f64], v: &[f64]) -> Simulation<M> {
+    let (t, q, v) = (0.0, q.to_vec(), v.to_vec());
+    Simulation::new(mechanism)
+        .start(State { t, q, v })
+        .tolerance(1e-11)
+}
+
+#[test]
+fn redundant_constraints_change_nothing() {
+    let run = toy(fixture::Twice::default(), &[1.0, 0.0, 1.0, -1.0], &[0.0; 4]);
+    let run = run.every(0.1).until(10.0).unwrap();
+    for (sample, energy) in run.samples().zip(run.energy()) {
+        // Masses 1 and 2; the fixture leaves V out.
+        let potential = 9.8 * (sample.q[1] + 2.0 * (sample.q[3] + 1.0));
+        assert!((energy.kinetic + potential).abs() < 1e-8);
+    }
+    assert!(run.residuals().iter().all(|r| r.largest() < 1e-12));
+    assert!(run.solutions().unwrap().iter().all(|s| s.rank == 2));
+
+    // The copy is implied on the manifold only; stages of a step lie off it.
+    let (s, c) = f64::sin_cos(0.3);
+    let cranks = toy(
+        fixture::Parallelogram::default(),
+        &[c, s, 2.0 + c, s],
+        &[0.0; 4],
+    );
+    let run = cranks.every(0.1).until(1.0).unwrap();
+    assert!(run.residuals().iter().all(|r| r.largest() < 1e-12));
+    for sample in run.samples() {
+        assert!((sample.q[2] - sample.q[0] - 2.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn massless_and_prescribed_coordinates_follow_closed_forms() {
+    // Two springs in series: stiffness k₁ k₂ / (k₁ + k₂) = 15/8, mass 2.
+    let rate = f64::sqrt(15.0 / 16.0);
+    let run = toy(fixture::Springs::default(), &[0.8, 0.5], &[0.0, 0.0]);
+    let run = run.every(0.1).until(20.0).unwrap();
+    for sample in run.samples() {
+        let x = 0.8 * (rate * sample.t).cos();
+        assert!((sample.q[0] - x).abs() < 1e-9);
+        assert!((sample.q[1] - 0.625 * sample.q[0]).abs() < 1e-14);
+    }
+    let run = toy(fixture::Prescribed::default(), &[0.0, 0.0], &[1.0, 0.0]);
+    let run = run.every(0.1).until(-7.0).unwrap();
+    for sample in run.samples() {
+        assert!((sample.q[0] - sample.t.sin()).abs() < 1e-14);
+        assert!((sample.v[0] - sample.t.cos()).abs() < 1e-14);
+        assert!((sample.q[1] - 1.5 * sample.t * sample.t).abs() < 1e-9);
+    }
 }
