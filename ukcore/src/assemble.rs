@@ -53,7 +53,11 @@ impl State {
     #[must_use]
     pub fn zeros<M: Mechanism>() -> Self {
         let n = M::SPEC.n();
-        State { t: 0.0, q: vec![0.0; n], v: vec![0.0; n] }
+        State {
+            t: 0.0,
+            q: vec![0.0; n],
+            v: vec![0.0; n],
+        }
     }
 
     /// Checks lengths, and that every number is finite.
@@ -118,8 +122,7 @@ pub fn assemble<M: Mechanism>(mech: &M, guess: State, hold: &[&str]) -> Result<S
     let mut free = vec![true; spec.n()];
     for name in hold {
         let member = |c: &str| c.split_once('[').is_some_and(|(family, _)| family == *name);
-        let members: Vec<usize> =
-            (0..spec.n()).filter(|&j| member(spec.coords[j])).collect();
+        let members: Vec<usize> = (0..spec.n()).filter(|&j| member(spec.coords[j])).collect();
         if members.is_empty() {
             free[spec.coordinate_index(name)?] = false;
         }
@@ -162,7 +165,11 @@ struct Point {
 impl Point {
     /// ½ Σ (s_c φ_c)².
     fn cost(&self, residual: &[f64]) -> f64 {
-        residual.iter().zip(&self.row_scale).map(|(r, s)| (r * s).powi(2)).sum()
+        residual
+            .iter()
+            .zip(&self.row_scale)
+            .map(|(r, s)| (r * s).powi(2))
+            .sum()
     }
 
     fn met(&self, c: usize) -> bool {
@@ -180,7 +187,11 @@ impl<'a, M: Mechanism> Problem<'a, M> {
         let mut mass = vec![0.0; n * n];
         mech.mass_matrix(guess.t, &guess.q, &mut mass);
         let inertia: Vec<f64> = (0..n).map(|j| mass[j * n + j]).collect();
-        let massive: Vec<f64> = inertia.iter().copied().filter(|m| *m > 0.0 && m.is_finite()).collect();
+        let massive: Vec<f64> = inertia
+            .iter()
+            .copied()
+            .filter(|m| *m > 0.0 && m.is_finite())
+            .collect();
         // Massless coordinates move as readily as the middling massive ones.
         let typical = match massive.len() {
             0 => 1.0,
@@ -242,7 +253,13 @@ impl<'a, M: Mechanism> Problem<'a, M> {
             }
             matrix.row_mut(c).scale_mut(row_scale[c]);
         }
-        Point { x, residual, terms, row_scale, matrix }
+        Point {
+            x,
+            residual,
+            terms,
+            row_scale,
+            matrix,
+        }
     }
 
     /// The solution for one level; tries the guess, then perturbations of it.
@@ -295,7 +312,11 @@ impl<'a, M: Mechanism> Problem<'a, M> {
             let trial_cost = point.cost(&trial);
             if trial_cost < cost {
                 // At the rounding level costs may fall for ever by tiny amounts.
-                stalls = if trial_cost > 0.99 * cost { stalls + 1 } else { 0 };
+                stalls = if trial_cost > 0.99 * cost {
+                    stalls + 1
+                } else {
+                    0
+                };
                 damping = (damping / DAMPING_FACTOR).max(f64::EPSILON);
                 point = self.point(level, x, other);
             } else {
@@ -317,16 +338,21 @@ impl<'a, M: Mechanism> Problem<'a, M> {
         columns.fill(0.0);
         for (c, column) in columns.chunks_exact_mut(k).enumerate() {
             if c < rows {
-                column.iter_mut().zip(point.matrix.row(c).iter()).for_each(|(x, a)| *x = *a);
+                column
+                    .iter_mut()
+                    .zip(point.matrix.row(c).iter())
+                    .for_each(|(x, a)| *x = *a);
             } else {
                 column[c - rows] = root;
             }
         }
         decomposition.factor(&vec![1.0; k], &vec![1.0; rows + k], RANK_TOLERANCE);
         let mut right = vec![0.0; rows + k];
-        for c in 0..rows {
-            right[c] = -point.residual[c] * point.row_scale[c];
-        }
+        let scaled = point.residual.iter().zip(&point.row_scale);
+        right
+            .iter_mut()
+            .zip(scaled)
+            .for_each(|(b, (r, s))| *b = -r * s);
         let mut d = vec![0.0; k];
         decomposition.solve(&right, &mut d);
         d
@@ -359,28 +385,61 @@ mod tests {
 
     fn consistent<M: Mechanism>(mech: &M, state: &State) {
         let r = residuals(mech, state).unwrap();
-        assert!(r.largest_position() < 1e-13 && r.largest_velocity() < 1e-13, "{} {state:?} {r:?}", M::SPEC.name);
+        assert!(
+            r.largest_position() < 1e-13 && r.largest_velocity() < 1e-13,
+            "{} {state:?} {r:?}",
+            M::SPEC.name
+        );
     }
 
     fn state(t: f64, q: &[f64], v: &[f64]) -> State {
-        State { t, q: q.to_vec(), v: v.to_vec() }
+        State {
+            t,
+            q: q.to_vec(),
+            v: v.to_vec(),
+        }
     }
 
     #[test]
     fn rough_guesses_become_consistent_states() {
-        let s = assemble(&Pendulum::default(), state(0.0, &[3.0, -4.0], &[1.0, 1.0]), &[]).unwrap();
+        let s = assemble(
+            &Pendulum::default(),
+            state(0.0, &[3.0, -4.0], &[1.0, 1.0]),
+            &[],
+        )
+        .unwrap();
         consistent(&Pendulum::default(), &s);
         assert!((s.q[0] - 0.6).abs() < 0.1);
-        let s = assemble(&Twice::default(), state(0.0, &[0.1, 0.4, 3.0, 0.2], &[1.0, 0.0, 0.0, 1.0]), &[]).unwrap();
+        let s = assemble(
+            &Twice::default(),
+            state(0.0, &[0.1, 0.4, 3.0, 0.2], &[1.0, 0.0, 0.0, 1.0]),
+            &[],
+        )
+        .unwrap();
         consistent(&Twice::default(), &s);
-        let s = assemble(&Springs::default(), state(0.0, &[1.0, 9.0], &[1.0, 0.0]), &["x"]).unwrap();
+        let s = assemble(
+            &Springs::default(),
+            state(0.0, &[1.0, 9.0], &[1.0, 0.0]),
+            &["x"],
+        )
+        .unwrap();
         consistent(&Springs::default(), &s);
         assert_eq!((s.q[0], s.v[0]), (1.0, 1.0));
         assert!((s.q[1] - 0.625).abs() < 1e-15);
-        let s = assemble(&Prescribed::default(), state(0.5, &[9.0, 2.0], &[0.0, 3.0]), &["y"]).unwrap();
+        let s = assemble(
+            &Prescribed::default(),
+            state(0.5, &[9.0, 2.0], &[0.0, 3.0]),
+            &["y"],
+        )
+        .unwrap();
         assert!((s.q[0] - 0.5_f64.sin()).abs() < 1e-15 && (s.v[0] - 0.5_f64.cos()).abs() < 1e-15);
         assert_eq!((s.q[1], s.v[1]), (2.0, 3.0));
-        let s = assemble(&Skate::default(), state(0.0, &[0.0, 0.0, 0.5], &[0.3, 0.1, 1.0]), &["th"]).unwrap();
+        let s = assemble(
+            &Skate::default(),
+            state(0.0, &[0.0, 0.0, 0.5], &[0.3, 0.1, 1.0]),
+            &["th"],
+        )
+        .unwrap();
         consistent(&Skate::default(), &s);
         assert_eq!((s.q[2], s.v[2]), (0.5, 1.0));
     }
@@ -404,37 +463,83 @@ mod tests {
     fn guesses_without_a_gradient_are_shaken() {
         let s = assemble(&Pendulum::default(), state(0.0, &[0.0; 2], &[0.0; 2]), &[]).unwrap();
         consistent(&Pendulum::default(), &s);
-        let s = assemble(&Parallelogram::default(), state(0.0, &[0.0; 4], &[0.0; 4]), &[]).unwrap();
+        let s = assemble(
+            &Parallelogram::default(),
+            state(0.0, &[0.0; 4], &[0.0; 4]),
+            &[],
+        )
+        .unwrap();
         consistent(&Parallelogram::default(), &s);
     }
 
     #[test]
     fn consistent_states_stay() {
         let exact = state(0.0, &[0.6, 0.8, 2.6, 0.8], &[-0.8, 0.6, -0.8, 0.6]);
-        assert_eq!(assemble(&Parallelogram::default(), exact.clone(), &[]), Ok(exact));
+        assert_eq!(
+            assemble(&Parallelogram::default(), exact.clone(), &[]),
+            Ok(exact)
+        );
     }
 
     #[test]
     fn conflicts_are_named() {
         let names = |e: Error| match e {
-            Error::OffConstraint { level, constraints } => {
-                (level, constraints.into_iter().map(|c| c.0).collect::<Vec<_>>())
-            }
+            Error::OffConstraint { level, constraints } => (
+                level,
+                constraints.into_iter().map(|c| c.0).collect::<Vec<_>>(),
+            ),
             other => panic!("{other:?}"),
         };
-        let e = assemble(&Contradiction::default(), state(0.0, &[0.3, 0.1], &[0.0; 2]), &[]).unwrap_err();
+        let e = assemble(
+            &Contradiction::default(),
+            state(0.0, &[0.3, 0.1], &[0.0; 2]),
+            &[],
+        )
+        .unwrap_err();
         assert_eq!(names(e), ("position", vec!["sine".into(), "cosine".into()]));
         // Both ends held out of reach.
-        let e = assemble(&Twice::default(), state(0.0, &[0.5, 0.5, 3.0, 0.0], &[0.0; 4]), &["x2", "y2"]).unwrap_err();
-        assert_eq!(names(e), ("position", vec!["rod[0]".into(), "rod[1]".into(), "copy".into()]));
+        let e = assemble(
+            &Twice::default(),
+            state(0.0, &[0.5, 0.5, 3.0, 0.0], &[0.0; 4]),
+            &["x2", "y2"],
+        )
+        .unwrap_err();
+        assert_eq!(
+            names(e),
+            (
+                "position",
+                vec!["rod[0]".into(), "rod[1]".into(), "copy".into()]
+            )
+        );
         let held = ["x", "y"];
-        let e = assemble(&Pendulum::default(), state(0.0, &[1.0, 0.0], &[1.0, 0.0]), &held).unwrap_err();
+        let e = assemble(
+            &Pendulum::default(),
+            state(0.0, &[1.0, 0.0], &[1.0, 0.0]),
+            &held,
+        )
+        .unwrap_err();
         assert_eq!(names(e), ("velocity", vec!["rod".into()]));
         let e = assemble(&Pendulum::default(), State::zeros::<Pendulum>(), &["z"]).unwrap_err();
-        assert!(matches!(e, Error::UnknownName { kind: "coordinate", .. }));
+        assert!(matches!(
+            e,
+            Error::UnknownName {
+                kind: "coordinate",
+                ..
+            }
+        ));
         let e = assemble(&Pendulum::default(), state(0.0, &[1.0], &[1.0]), &[]).unwrap_err();
         assert!(matches!(e, Error::WrongLength { what: "q", .. }));
-        let e = assemble(&Pendulum::default(), state(0.0, &[1.0, f64::NAN], &[1.0, 0.0]), &[]).unwrap_err();
-        assert_eq!(e, Error::NonFinite { what: vec!["coordinate y".into()] });
+        let e = assemble(
+            &Pendulum::default(),
+            state(0.0, &[1.0, f64::NAN], &[1.0, 0.0]),
+            &[],
+        )
+        .unwrap_err();
+        assert_eq!(
+            e,
+            Error::NonFinite {
+                what: vec!["coordinate y".into()]
+            }
+        );
     }
 }

@@ -76,7 +76,12 @@ pub(crate) fn offending(spec: &Spec, residual: &[f64], scale: &[f64]) -> Vec<(St
 }
 
 /// An [`Error::NonFinite`] for the state or parameters, if any of those is not finite.
-pub(crate) fn non_finite_input<M: Mechanism>(mech: &M, t: f64, q: &[f64], v: &[f64]) -> Option<Error> {
+pub(crate) fn non_finite_input<M: Mechanism>(
+    mech: &M,
+    t: f64,
+    q: &[f64],
+    v: &[f64],
+) -> Option<Error> {
     let spec = M::SPEC;
     let mut what = Vec::new();
     for (i, p) in spec.params.iter().enumerate() {
@@ -155,6 +160,10 @@ pub(crate) fn check_length(what: &'static str, found: usize, expected: usize) ->
     if found == expected {
         Ok(())
     } else {
-        Err(Error::WrongLength { what, found, expected })
+        Err(Error::WrongLength {
+            what,
+            found,
+            expected,
+        })
     }
 }

@@ -87,10 +87,10 @@ pub enum Error {
 
 impl Error {
     /// An [`Error::UnknownName`] with the nearest of `names`.
-    pub fn unknown_name<'a>(
+    pub fn unknown_name(
         kind: &'static str,
         name: &str,
-        names: &mut dyn Iterator<Item = &'a str>,
+        names: &mut dyn Iterator<Item = &str>,
     ) -> Self {
         let nearest = names
             .map(|n| (distance(name, n), n))
@@ -141,7 +141,11 @@ fn quoted(names: &[String]) -> String {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Error::Underdetermined { coordinates, rank, needed } => write!(
+            Error::Underdetermined {
+                coordinates,
+                rank,
+                needed,
+            } => write!(
                 f,
                 "the motion is not determined: rank [M | Aᵀ] is {rank}, not {needed}; {} can accelerate without mass or constraint; give mass or add a constraint",
                 quoted(coordinates)
@@ -162,14 +166,22 @@ impl fmt::Display for Error {
                 "the mass matrix is not positive semidefinite at {}; masses must not be negative",
                 quoted(coordinates)
             ),
-            Error::UnknownName { kind, name, nearest } => {
+            Error::UnknownName {
+                kind,
+                name,
+                nearest,
+            } => {
                 write!(f, "no {kind} is called `{name}`")?;
                 match nearest {
                     Some(n) => write!(f, "; did you mean `{n}`?"),
                     None => Ok(()),
                 }
             }
-            Error::WrongLength { what, found, expected } => {
+            Error::WrongLength {
+                what,
+                found,
+                expected,
+            } => {
                 write!(f, "`{what}` has length {found}, but {expected} is needed")
             }
             Error::InvalidSetting { what, reason } => write!(f, "`{what}` {reason}"),
@@ -220,7 +232,13 @@ mod tests {
 
     #[test]
     fn distances() {
-        for (a, b, d) in [("", "", 0), ("", "abc", 3), ("kitten", "sitting", 3), ("θ1", "θ2", 1), ("AB", "ab", 0)] {
+        for (a, b, d) in [
+            ("", "", 0),
+            ("", "abc", 3),
+            ("kitten", "sitting", 3),
+            ("θ1", "θ2", 1),
+            ("AB", "ab", 0),
+        ] {
             assert_eq!(distance(a, b), d, "{a} {b}");
             assert_eq!(distance(b, a), d, "{b} {a}");
         }
@@ -228,14 +246,34 @@ mod tests {
 
     #[test]
     fn messages_name_things_and_give_the_remedy() {
-        let message = Error::Inconsistent { constraints: vec![("rod[1]".into(), 0.5), ("copy".into(), -0.5)] }.to_string();
-        assert!(message.contains("`rod[1]` (5.000e-1), `copy` (-5.000e-1)") && message.contains("remove one"));
-        let inner = Error::NonFinite { what: vec!["force on th1".into()] };
-        let outer = Error::At { t: 0.25, q: vec![], v: vec![], source: Box::new(inner.clone()) };
-        assert_eq!(outer.to_string(), "at t = 0.25: not a finite number: force on th1");
+        let message = Error::Inconsistent {
+            constraints: vec![("rod[1]".into(), 0.5), ("copy".into(), -0.5)],
+        }
+        .to_string();
+        assert!(
+            message.contains("`rod[1]` (5.000e-1), `copy` (-5.000e-1)")
+                && message.contains("remove one")
+        );
+        let inner = Error::NonFinite {
+            what: vec!["force on th1".into()],
+        };
+        let outer = Error::At {
+            t: 0.25,
+            q: vec![],
+            v: vec![],
+            source: Box::new(inner.clone()),
+        };
+        assert_eq!(
+            outer.to_string(),
+            "at t = 0.25: not a finite number: force on th1"
+        );
         let source = std::error::Error::source(&outer).map(ToString::to_string);
         assert_eq!(source, Some(inner.to_string()));
-        let message = Error::unknown_name("model", "uchan", &mut ["uchain"].into_iter()).to_string();
-        assert_eq!(message, "no model is called `uchan`; did you mean `uchain`?");
+        let message =
+            Error::unknown_name("model", "uchan", &mut ["uchain"].into_iter()).to_string();
+        assert_eq!(
+            message,
+            "no model is called `uchan`; did you mean `uchain`?"
+        );
     }
 }

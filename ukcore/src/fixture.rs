@@ -55,7 +55,11 @@ impl<T: Toy> Mechanism for T {
         let one = S::from_f64(1.0);
         let still: Vec<Dual<S>> = v.iter().map(|v| Dual::new(*v, zero())).collect();
         let (inner, time) = (along(q, v), Dual::new(t, one));
-        let twice: Vec<Dual<Dual<S>>> = inner.iter().zip(&still).map(|(q, v)| Dual::new(*q, *v)).collect();
+        let twice: Vec<Dual<Dual<S>>> = inner
+            .iter()
+            .zip(&still)
+            .map(|(q, v)| Dual::new(*q, *v))
+            .collect();
         let mut phi = vec![Dual::new(Dual::new(zero::<S>(), zero()), Dual::new(zero(), zero())); h];
         self.phi(Dual::new(time, Dual::new(one, zero())), &twice, &mut phi);
         for (b, phi) in out.rhs.iter_mut().zip(&phi) {
@@ -119,7 +123,10 @@ impl<T: Toy> Mechanism for T {
                 twice = twice + v[i] * mass[j * n + i] * v[j];
             }
         }
-        Energy { kinetic: S::from_f64(0.5) * twice, potential: self.potential(q) }
+        Energy {
+            kinetic: S::from_f64(0.5) * twice,
+            potential: self.potential(q),
+        }
     }
 
     fn outputs<S: Scalar>(&self, _t: S, _q: &[S], _v: &[S], _outputs: &mut [S]) {}
@@ -154,15 +161,30 @@ const EMPTY: Spec = Spec {
             selections: 0,
         },
     },
-    equations: Equations { definitions: &[], mass: &[], force: &[], nonideal: &[], jacobian: &[], rhs: &[] },
+    equations: Equations {
+        definitions: &[],
+        mass: &[],
+        force: &[],
+        nonideal: &[],
+        jacobian: &[],
+        rhs: &[],
+    },
 };
 
 const fn holonomic(name: &'static str) -> ConstraintSpec {
-    ConstraintSpec { name, kind: ConstraintKind::Holonomic, equation: "" }
+    ConstraintSpec {
+        name,
+        kind: ConstraintKind::Holonomic,
+        equation: "",
+    }
 }
 
 const fn param(name: &'static str, default: f64) -> ParamSpec {
-    ParamSpec { name, doc: "", default }
+    ParamSpec {
+        name,
+        doc: "",
+        default,
+    }
 }
 
 /// Declares a toy type: parameters with defaults, facts about it.
@@ -447,7 +469,8 @@ mod tests {
     fn b_and_a_of_the_pendulum() {
         let (q, v) = ([0.6, -0.8], [0.4, 0.3]);
         let mut mass = [0.0; 4];
-        let (mut force, mut nonideal, mut jacobian, mut rhs) = ([0.0; 2], [0.0; 2], [0.0; 2], [0.0]);
+        let (mut force, mut nonideal, mut jacobian, mut rhs) =
+            ([0.0; 2], [0.0; 2], [0.0; 2], [0.0]);
         let mut terms = Terms {
             mass: &mut mass,
             force: &mut force,

@@ -1,4 +1,20 @@
 //! Dynamics of constrained multibody systems after Udwadia and Kalaba.
+//!
+//! A mechanism is declared with [`multibody!`]: coordinates, masses or kinetic energy, forces or potential, and constraints of any
+//! kind. The macro differentiates the constraints and emits straight-line code for M, Q, A and b as an implementation of
+//! [`Mechanism`]. This crate does the rest:
+//!
+//! - [`Solver`]: accelerations, constraint forces and multipliers at a state, for regular and singular M, for redundant
+//!   constraints, with ideal and non-ideal constraint forces. Without heap allocation once it is made.
+//! - [`assemble`](assemble()): a consistent state from a rough guess. [`Projector`]: the nearest consistent state.
+//! - `Simulation` (feature `simulate`, on by default): adaptive integration with projection, events, dense output and named CSV.
+//! - [`equations`]: the formulas as printed, [`pinv`]: the pseudo-inverse under them, [`diagnose`]: rank and redundancy by name.
+//!
+//! Notation is that of Zhao, Zhen & Chen 2013 (DOI 10.3901/CJME.2013.05.839), whose equation numbers the documentation cites:
+//! n coordinates q, m constraints of which the first h are holonomic, M q̈ = Q + Qc (eqs. 1, 13), A q̈ = b (eq. 5).
+//!
+//! What goes wrong is an [`Error`] in the modeller's own names: which coordinates nothing determines, which constraints contradict
+//! each other, what is not a finite number. Redundant constraints are not an error.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

@@ -51,7 +51,10 @@ pub trait Mechanism: Clone + Default + Send + Sync + 'static {
     fn set(&mut self, name: &str, value: f64) -> Result<(), Error> {
         let mut found = false;
         for (i, p) in Self::SPEC.params.iter().enumerate() {
-            if p.name.split_once('[').is_some_and(|(family, _)| family == name) {
+            if p.name
+                .split_once('[')
+                .is_some_and(|(family, _)| family == name)
+            {
                 self.set_parameter(i, value);
                 found = true;
             }
@@ -326,7 +329,11 @@ mod tests {
         let mut mech = Pendulum::default();
         mech.set("l", 2.5).unwrap();
         assert_eq!((mech.get("l"), mech.parameter(1)), (Ok(2.5), 2.5));
-        let error = Error::UnknownName { kind: "parameter", name: "L1".into(), nearest: Some("l".into()) };
+        let error = Error::UnknownName {
+            kind: "parameter",
+            name: "L1".into(),
+            nearest: Some("l".into()),
+        };
         assert_eq!(mech.set("L1", 0.0), Err(error.clone()));
         assert_eq!(mech.get("L1"), Err(error));
     }
@@ -337,7 +344,9 @@ mod tests {
         assert_eq!((spec.n(), spec.m()), (4, 3));
         assert_eq!(spec.coordinate_index("y2"), Ok(3));
         assert_eq!(spec.constraint_index("rod[1]"), Ok(1));
-        assert!(matches!(spec.constraint_index("rod[2]"), Err(Error::UnknownName { nearest: Some(n), .. }) if n == "rod[0]"));
+        assert!(
+            matches!(spec.constraint_index("rod[2]"), Err(Error::UnknownName { nearest: Some(n), .. }) if n == "rod[0]")
+        );
         assert!(spec.output_index("fall").is_err());
     }
 

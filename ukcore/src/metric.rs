@@ -197,13 +197,28 @@ mod tests {
     #[test]
     fn singular_and_indefinite_masses_are_told_apart() {
         let mut full = Metric::new(2, false);
-        assert_eq!(full.factor(&[1.0, 1.0, 1.0, 1.0]), Err(MassFault::Singular(1)));
-        assert_eq!(full.factor(&[1.0, 2.0, 2.0, 1.0]), Err(MassFault::Indefinite(1)));
+        assert_eq!(
+            full.factor(&[1.0, 1.0, 1.0, 1.0]),
+            Err(MassFault::Singular(1))
+        );
+        assert_eq!(
+            full.factor(&[1.0, 2.0, 2.0, 1.0]),
+            Err(MassFault::Indefinite(1))
+        );
         let mut diagonal = Metric::new(2, true);
-        assert_eq!(diagonal.factor(&[1.0, 0.0, 0.0, 0.0]), Err(MassFault::Singular(1)));
-        assert_eq!(diagonal.factor(&[-1.0, 0.0, 0.0, 1.0]), Err(MassFault::Indefinite(0)));
+        assert_eq!(
+            diagonal.factor(&[1.0, 0.0, 0.0, 0.0]),
+            Err(MassFault::Singular(1))
+        );
+        assert_eq!(
+            diagonal.factor(&[-1.0, 0.0, 0.0, 1.0]),
+            Err(MassFault::Indefinite(0))
+        );
         assert_eq!(diagonal.factor(&[1e-30, 0.0, 0.0, 1e30]), Ok(()));
         let no_rows: [f64; 0] = [];
-        assert_eq!(full.scale(&[0.0, 1.0, 1.0, 1.0], &no_rows, 0, 0), Err(MassFault::Indefinite(0)));
+        assert_eq!(
+            full.scale(&[0.0, 1.0, 1.0, 1.0], &no_rows, 0, 0),
+            Err(MassFault::Indefinite(0))
+        );
     }
 }

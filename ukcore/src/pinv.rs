@@ -65,7 +65,10 @@ impl Decomposition {
     /// # Panics
     /// If `m` exceeds what [`Decomposition::new`] was given.
     pub fn load(&mut self, m: usize) -> &mut [f64] {
-        assert!(self.n * m <= self.a.len(), "more rows than there is room for");
+        assert!(
+            self.n * m <= self.a.len(),
+            "more rows than there is room for"
+        );
         self.m = m;
         &mut self.a[..self.n * m]
     }
@@ -121,7 +124,11 @@ impl Decomposition {
         let (n, m) = (self.n, self.m);
         let column = &self.a[k * n..(k + 1) * n];
         let top = (k..n).fold(k, |best, i| {
-            if column[i].abs() > column[best].abs() { i } else { best }
+            if column[i].abs() > column[best].abs() {
+                i
+            } else {
+                best
+            }
         });
         if top != k {
             self.row.swap(k, top);
@@ -207,15 +214,12 @@ impl Decomposition {
     /// Reflection i of Z on `y` (length m).
     fn reflect_z(&self, i: usize, y: &mut [f64]) {
         let (n, r) = (self.n, self.rank);
-        let mut s = y[i];
-        for c in r..self.m {
-            s += self.t[c * n + i] * y[c];
-        }
-        s *= self.zeta[i];
-        y[i] -= s;
-        for c in r..self.m {
-            y[c] -= s * self.t[c * n + i];
-        }
+        let row = || self.t.iter().skip(r * n + i).step_by(n);
+        let (head, tail) = y[..self.m].split_at_mut(r);
+        let sum: f64 = row().zip(&*tail).map(|(v, y)| v * y).sum();
+        let s = self.zeta[i] * (head[i] + sum);
+        head[i] -= s;
+        tail.iter_mut().zip(row()).for_each(|(y, v)| *y -= s * v);
     }
 
     /// Reflection k of Q on `x` (length n, permuted).
@@ -373,7 +377,9 @@ mod tests {
     fn numbers() -> impl FnMut() -> f64 {
         let mut state = 1_u64;
         move || {
-            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            state = state
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
             ((state >> 11) as f64) / ((1_u64 << 52) as f64) - 1.0
         }
     }

@@ -20,11 +20,23 @@ pub(crate) struct Saddle {
 impl Saddle {
     pub(crate) fn new(n: usize, m: usize) -> Self {
         let size = n + m;
-        Saddle { n, m, lu: vec![0.0; size * size], order: vec![0; size], x: vec![0.0; size] }
+        Saddle {
+            n,
+            m,
+            lu: vec![0.0; size * size],
+            order: vec![0; size],
+            x: vec![0.0; size],
+        }
     }
 
     /// Factors; `false` if a pivot is too small.
-    pub(crate) fn factor(&mut self, mass: &[f64], a: Rows<'_>, root: &[f64], row_scale: &[f64]) -> bool {
+    pub(crate) fn factor(
+        &mut self,
+        mass: &[f64],
+        a: Rows<'_>,
+        root: &[f64],
+        row_scale: &[f64],
+    ) -> bool {
         let (n, m) = (self.n, self.m);
         let size = n + m;
         self.lu.fill(0.0);
@@ -32,15 +44,21 @@ impl Saddle {
             for i in 0..n {
                 self.lu[j * size + i] = mass[j * n + i] / (root[i] * root[j]);
             }
-            for c in 0..m {
-                let entry = row_scale[c] * a.jacobian[j * a.stride + c] / root[j];
+            for (c, scale) in row_scale[..m].iter().enumerate() {
+                let entry = scale * a.jacobian[j * a.stride + c] / root[j];
                 self.lu[j * size + n + c] = entry;
                 self.lu[(n + c) * size + j] = entry;
             }
         }
         for k in 0..size {
             let column = &self.lu[k * size..(k + 1) * size];
-            let pivot = (k..size).fold(k, |b, i| if column[i].abs() > column[b].abs() { i } else { b });
+            let pivot = (k..size).fold(k, |b, i| {
+                if column[i].abs() > column[b].abs() {
+                    i
+                } else {
+                    b
+                }
+            });
             if column[pivot].abs() <= PIVOT {
                 return false;
             }
@@ -65,7 +83,14 @@ impl Saddle {
     }
 
     /// q̈ into `out`.
-    pub(crate) fn solve(&mut self, force: &[f64], rhs: &[f64], root: &[f64], row_scale: &[f64], out: &mut [f64]) {
+    pub(crate) fn solve(
+        &mut self,
+        force: &[f64],
+        rhs: &[f64],
+        root: &[f64],
+        row_scale: &[f64],
+        out: &mut [f64],
+    ) {
         let (n, size) = (self.n, self.n + self.m);
         let x = &mut self.x;
         for i in 0..n {
@@ -74,10 +99,17 @@ impl Saddle {
         for (c, b) in rhs.iter().enumerate() {
             x[n + c] = row_scale[c] * b;
         }
-        self.order.iter().enumerate().for_each(|(k, &pivot)| x.swap(k, pivot));
+        self.order
+            .iter()
+            .enumerate()
+            .for_each(|(k, &pivot)| x.swap(k, pivot));
         for k in 0..size {
             let s = x[k];
-            axpy(-s, &self.lu[k * size + k + 1..(k + 1) * size], &mut x[k + 1..]);
+            axpy(
+                -s,
+                &self.lu[k * size + k + 1..(k + 1) * size],
+                &mut x[k + 1..],
+            );
         }
         for k in (0..size).rev() {
             x[k] /= self.lu[k * size + k];

@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A number type for emitted code: `f64`, `f32`, or [`Dual`](crate::Dual) for exact derivatives.
+/// A number type for emitted code: `f64`, `f32`, or [`Dual`] for exact derivatives.
 ///
 /// One straight-line program serves them all; constants enter through [`Scalar::from_f64`], branches through [`Scalar::select_le`].
 pub trait Scalar:
@@ -259,12 +259,7 @@ impl<S: Scalar> Scalar for Dual<S> {
         let base = y.re * self.re.powf(y.re - S::from_f64(1.0)) * self.eps;
         // ln x only counts where the exponent varies, so a negative base with a fixed exponent stays finite.
         let zero = S::from_f64(0.0);
-        let exponent = S::select_le(
-            y.eps.abs(),
-            zero,
-            zero,
-            r * self.re.ln() * y.eps,
-        );
+        let exponent = S::select_le(y.eps.abs(), zero, zero, r * self.re.ln() * y.eps);
         Dual::new(r, base + exponent)
     }
 }
@@ -278,11 +273,20 @@ mod tests {
     /// Derivative of `f` at x against a fourth-order central difference.
     fn check(name: &str, x: f64, dual: fn(D) -> D, plain: fn(f64) -> f64) {
         let result = dual(Dual::new(x, 1.0));
-        assert!((result.re - plain(x)).abs() <= 1e-14 * plain(x).abs().max(1.0), "{name}({x})");
+        assert!(
+            (result.re - plain(x)).abs() <= 1e-14 * plain(x).abs().max(1.0),
+            "{name}({x})"
+        );
         let h = 1e-3 * x.abs().max(0.1);
-        let difference = (8.0 * (plain(x + h) - plain(x - h)) - (plain(x + 2.0 * h) - plain(x - 2.0 * h))) / (12.0 * h);
+        let difference = (8.0 * (plain(x + h) - plain(x - h))
+            - (plain(x + 2.0 * h) - plain(x - 2.0 * h)))
+            / (12.0 * h);
         let size = difference.abs().max(1.0);
-        assert!((result.eps - difference).abs() < 1e-8 * size, "{name}'({x}): {} is not {difference}", result.eps);
+        assert!(
+            (result.eps - difference).abs() < 1e-8 * size,
+            "{name}'({x}): {} is not {difference}",
+            result.eps
+        );
     }
 
     #[test]
@@ -298,17 +302,42 @@ mod tests {
             check("powi 3", x, |x| x.powi(3), |x| Scalar::powi(x, 3));
             check("powi -2", x, |x| x.powi(-2), |x| Scalar::powi(x, -2));
             check("powi 0", x, |x| x.powi(0), |x| Scalar::powi(x, 0));
-            check("atan2 y", x, |x| x.atan2(D::from_f64(-0.8)), |x| x.atan2(-0.8));
-            check("atan2 x", x, |x| D::from_f64(0.6).atan2(x), |x| 0.6_f64.atan2(x));
+            check(
+                "atan2 y",
+                x,
+                |x| x.atan2(D::from_f64(-0.8)),
+                |x| x.atan2(-0.8),
+            );
+            check(
+                "atan2 x",
+                x,
+                |x| D::from_f64(0.6).atan2(x),
+                |x| 0.6_f64.atan2(x),
+            );
             check("hypot", x, |x| x.hypot(D::from_f64(2.0)), |x| x.hypot(2.0));
             check("min", x, |x| x.min(D::from_f64(0.5)), |x| x.min(0.5));
             check("max", x, |x| D::from_f64(0.5).max(x), |x| x.max(0.5));
             check("sin_cos", x, |x| x.sin_cos().0 / x.sin_cos().1, f64::tan);
-            check("arithmetic", x, |x| (x * x - x) / (x * x + D::from_f64(1.0)), |x| (x * x - x) / (x * x + 1.0));
+            check(
+                "arithmetic",
+                x,
+                |x| (x * x - x) / (x * x + D::from_f64(1.0)),
+                |x| (x * x - x) / (x * x + 1.0),
+            );
         }
         for x in [0.3, 2.0] {
-            check("powf base", x, |x| x.powf(D::from_f64(2.5)), |x| x.powf(2.5));
-            check("powf exponent", x, |x| D::from_f64(1.7).powf(x), |x| 1.7_f64.powf(x));
+            check(
+                "powf base",
+                x,
+                |x| x.powf(D::from_f64(2.5)),
+                |x| x.powf(2.5),
+            );
+            check(
+                "powf exponent",
+                x,
+                |x| D::from_f64(1.7).powf(x),
+                |x| 1.7_f64.powf(x),
+            );
         }
     }
 

@@ -19,8 +19,8 @@
 use crate::diagnose::{self, Diagnosis};
 use crate::error::Error;
 use crate::mechanism::Mechanism;
-use crate::saddle::Saddle;
 use crate::metric::MassFault;
+use crate::saddle::Saddle;
 use crate::workspace::{Dense, Evaluated, Owner, Route, Rows};
 
 /// Default of [`SolverOptions::rank_tolerance`].
@@ -68,7 +68,7 @@ pub struct SolverOptions {
     /// The formula.
     pub formula: Formula,
     /// Significance up to which a constraint counts as implied by the others (see the [module](self)); between ε and
-    /// [`RANK_CEILING`], values outside are moved there.
+    /// [`RANK_CEILING`]; values outside are moved there.
     pub rank_tolerance: f64,
     /// Baumgarte's stabilisation, if wanted.
     pub baumgarte: Option<Baumgarte>,
@@ -171,7 +171,10 @@ impl Solver {
         Solver {
             owner: Owner::of::<M>(),
             options: SolverOptions {
-                rank_tolerance: options.rank_tolerance.max(f64::EPSILON).min(RANK_CEILING),
+                rank_tolerance: match options.rank_tolerance {
+                    x if x.is_nan() => RANK_TOLERANCE,
+                    x => x.clamp(f64::EPSILON, RANK_CEILING),
+                },
                 ..options
             },
             work: SolverWork::default(),
@@ -214,7 +217,10 @@ impl Solver {
         let prepared = self.prepare(mech, t, q, v)?;
         if M::SPEC.structure.nonideal {
             let sum = self.here.force.iter().zip(&self.here.nonideal);
-            self.force.iter_mut().zip(sum).for_each(|(f, (a, b))| *f = a + b);
+            self.force
+                .iter_mut()
+                .zip(sum)
+                .for_each(|(f, (a, b))| *f = a + b);
         } else {
             self.force.copy_from_slice(&self.here.force);
         }
@@ -244,21 +250,32 @@ impl Solver {
             force
         } else {
             let mut force = self.mass_times(&ideal);
-            force.iter_mut().zip(&self.here.force).for_each(|(f, q)| *f -= q);
+            force
+                .iter_mut()
+                .zip(&self.here.force)
+                .for_each(|(f, q)| *f -= q);
             force
         };
         let mut acceleration = ideal.clone();
         let mut nonideal_force = vec![0.0; n];
         if M::SPEC.structure.nonideal {
             let sum = self.here.force.iter().zip(&self.here.nonideal);
-            self.force.iter_mut().zip(sum).for_each(|(f, (a, b))| *f = a + b);
+            self.force
+                .iter_mut()
+                .zip(sum)
+                .for_each(|(f, (a, b))| *f = a + b);
             self.solve_for_force(prepared.formula, &mut acceleration);
-            let change: Vec<f64> = acceleration.iter().zip(&ideal).map(|(a, b)| a - b).collect();
+            let change: Vec<f64> = acceleration
+                .iter()
+                .zip(&ideal)
+                .map(|(a, b)| a - b)
+                .collect();
             nonideal_force = self.mass_times(&change);
         }
         self.check(mech, t, q, v, prepared.tolerance, &acceleration)?;
         let mut multipliers = vec![0.0; self.m];
-        self.dense.multipliers(&mut ideal_force.clone(), &mut multipliers);
+        self.dense
+            .multipliers(&mut ideal_force.clone(), &mut multipliers);
         if self.m == 0 {
             ideal_force.fill(0.0);
         }
@@ -347,16 +364,22 @@ impl Solver {
         let floor = self.options.rank_tolerance;
         let a = rows(&self.here, self.m);
         let (route, formula) = match self.options.formula {
-            Formula::Auto if structure.massless.is_empty() => (Route::Regular, Formula::UdwadiaKalaba),
+            Formula::Auto if structure.massless.is_empty() => {
+                (Route::Regular, Formula::UdwadiaKalaba)
+            }
             Formula::UdwadiaKalaba => (Route::Regular, Formula::UdwadiaKalaba),
-            Formula::Auto | Formula::UdwadiaPhohomsiri => (Route::Singular, Formula::UdwadiaPhohomsiri),
+            Formula::Auto | Formula::UdwadiaPhohomsiri => {
+                (Route::Singular, Formula::UdwadiaPhohomsiri)
+            }
             Formula::Kkt => (Route::Singular, Formula::Kkt),
         };
         match self.dense.factor(route, &self.here.mass, a, floor) {
             Ok(()) => Ok(formula),
             Err(MassFault::Singular(_)) if self.options.formula == Formula::Auto => {
                 self.work.fallbacks += 1;
-                let singular = self.dense.factor(Route::Singular, &self.here.mass, a, floor);
+                let singular = self
+                    .dense
+                    .factor(Route::Singular, &self.here.mass, a, floor);
                 singular.map_err(|fault| mass_error::<M>(fault))?;
                 Ok(Formula::UdwadiaPhohomsiri)
             }
@@ -383,7 +406,13 @@ impl Solver {
             for c in 0..self.m {
                 let change = here.row(c).zip(there.row(c)).map(|(a, b)| (a - b).abs());
                 // Not finite: no state worth the name is near.
-                let change = change.fold(0.0, |s: f64, x| if x.is_finite() { s.max(x) } else { f64::INFINITY });
+                let change = change.fold(0.0, |s: f64, x| {
+                    if x.is_finite() {
+                        s.max(x)
+                    } else {
+                        f64::INFINITY
+                    }
+                });
                 if change > 0.0 {
                     tolerance = tolerance.max(DRIFT_FACTOR * change / here.largest(c));
                 }
@@ -398,16 +427,30 @@ impl Solver {
 
     /// The equations one Newton step nearer to the manifold, with the rank in force.
     fn measure_drift<M: Mechanism>(&mut self, mech: &M, t: f64, q: &[f64], v: &[f64]) {
-        let Drift { known, there, q: near_q, v: near_v, correction } = &mut self.drift;
+        let Drift {
+            known,
+            there,
+            q: near_q,
+            v: near_v,
+            correction,
+        } = &mut self.drift;
         *known = true;
         mech.residual(t, q, &mut self.position);
         mech.residual_rate(t, q, v, &mut self.rate);
         self.dense.least_norm(&self.rate, correction);
-        near_v.iter_mut().zip(v).zip(&*correction).for_each(|((x, v), d)| *x = v - d);
+        near_v
+            .iter_mut()
+            .zip(v)
+            .zip(&*correction)
+            .for_each(|((x, v), d)| *x = v - d);
         self.rate.fill(0.0);
         self.rate[..self.position.len()].copy_from_slice(&self.position);
         self.dense.least_norm(&self.rate, correction);
-        near_q.iter_mut().zip(q).zip(&*correction).for_each(|((x, q), d)| *x = q - d);
+        near_q
+            .iter_mut()
+            .zip(q)
+            .zip(&*correction)
+            .for_each(|((x, q), d)| *x = q - d);
         there.dynamics(mech, t, near_q, near_v);
         self.work.evaluations += 1;
     }
@@ -455,9 +498,15 @@ impl Solver {
     ) -> Result<(), Error> {
         let spec = M::SPEC;
         if !acceleration.iter().all(|x| x.is_finite()) {
-            let names = spec.coords.iter().zip(acceleration).filter(|(_, x)| !x.is_finite());
+            let names = spec
+                .coords
+                .iter()
+                .zip(acceleration)
+                .filter(|(_, x)| !x.is_finite());
             return Err(Error::NonFinite {
-                what: names.map(|(name, _)| format!("acceleration of {name}")).collect(),
+                what: names
+                    .map(|(name, _)| format!("acceleration of {name}"))
+                    .collect(),
             });
         }
         if self.dense.cod.rank() == self.m || self.agrees(acceleration, tolerance) {
@@ -470,12 +519,19 @@ impl Solver {
             }
         }
         let a = self.rows();
-        let residual: Vec<f64> =
-            (0..self.m).map(|c| a.product(c, acceleration) - self.rhs[c]).collect();
+        let residual: Vec<f64> = (0..self.m)
+            .map(|c| a.product(c, acceleration) - self.rhs[c])
+            .collect();
         // A row of zeros has no scale: 0 = b.
-        let scale: Vec<f64> =
-            self.dense.row_scale.iter().map(|&s| if s > 0.0 { s } else { 1.0 }).collect();
-        Err(Error::Inconsistent { constraints: diagnose::offending(spec, &residual, &scale) })
+        let scale: Vec<f64> = self
+            .dense
+            .row_scale
+            .iter()
+            .map(|&s| if s > 0.0 { s } else { 1.0 })
+            .collect();
+        Err(Error::Inconsistent {
+            constraints: diagnose::offending(spec, &residual, &scale),
+        })
     }
 
     /// Whether A q̈ = b holds up to `tolerance` and drift.
@@ -509,7 +565,11 @@ impl Solver {
 }
 
 fn rows(terms: &Evaluated, m: usize) -> Rows<'_> {
-    Rows { jacobian: &terms.jacobian, stride: m, rows: m }
+    Rows {
+        jacobian: &terms.jacobian,
+        stride: m,
+        rows: m,
+    }
 }
 
 /// Number of pivots before the first that does not exceed `tolerance`.
@@ -527,7 +587,9 @@ pub(crate) fn mass_error<M: Mechanism>(fault: MassFault) -> Error {
                 name(i)
             ),
         },
-        MassFault::Indefinite(i) => Error::IndefiniteMass { coordinates: vec![name(i).to_owned()] },
+        MassFault::Indefinite(i) => Error::IndefiniteMass {
+            coordinates: vec![name(i).to_owned()],
+        },
     }
 }
 

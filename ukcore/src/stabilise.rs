@@ -175,12 +175,15 @@ impl Projector {
         other: &[f64],
         level: Level,
     ) -> Result<Correction, Error> {
-        let rows = if level == Level::Position { self.holonomic } else { self.m };
+        let rows = if level == Level::Position {
+            self.holonomic
+        } else {
+            self.m
+        };
         let mut correction = Correction::default();
         self.evaluate(mech, t, x, other, level);
-        let mut factored = level == Level::Velocity
-            && self.factored_at == Some(t)
-            && self.factored_q == other;
+        let mut factored =
+            level == Level::Velocity && self.factored_at == Some(t) && self.factored_q == other;
         self.jacobian(mech, t, x, other, level);
         correction.residual = self.largest(rows);
         if !self.finite(rows) {
@@ -191,7 +194,12 @@ impl Projector {
         }
         if !factored {
             self.cautious = true;
-            self.factor(mech, t, if level == Level::Position { x } else { other }, rows)?;
+            self.factor(
+                mech,
+                t,
+                if level == Level::Position { x } else { other },
+                rows,
+            )?;
         }
         self.best.copy_from_slice(x);
         let mut merit = self.merit(x, rows);
@@ -225,7 +233,12 @@ impl Projector {
             }
             factored = false;
             self.jacobian(mech, t, x, other, level);
-            self.factor(mech, t, if level == Level::Position { x } else { other }, rows)?;
+            self.factor(
+                mech,
+                t,
+                if level == Level::Position { x } else { other },
+                rows,
+            )?;
             merit = self.merit(x, rows);
         }
         x.copy_from_slice(&self.best);
@@ -256,26 +269,44 @@ impl Projector {
 
     /// Factors M and the first `rows` rows of A. While `cautious`, rows of a significance below the ceiling are left out: off the
     /// manifold nobody can tell whether they are implied; if they are not, the residual will not fall, and they are taken in.
-    fn factor<M: Mechanism>(&mut self, mech: &M, t: f64, q: &[f64], rows: usize) -> Result<(), Error> {
+    fn factor<M: Mechanism>(
+        &mut self,
+        mech: &M,
+        t: f64,
+        q: &[f64],
+        rows: usize,
+    ) -> Result<(), Error> {
         mech.mass_matrix(t, q, &mut self.mass);
-        if !self.mass.iter().all(|x| x.is_finite()) || !self.jacobian.iter().all(|x| x.is_finite()) {
+        if !self.mass.iter().all(|x| x.is_finite()) || !self.jacobian.iter().all(|x| x.is_finite())
+        {
             let (mass, jacobian) = (&self.mass, &self.jacobian);
             let what = diagnose::non_finite_matrices(M::SPEC, mass, jacobian);
             return Err(Error::NonFinite { what });
         }
         let a = rows_of(&self.jacobian, self.m, rows);
         let massless = !M::SPEC.structure.massless.is_empty();
-        let route = if massless { Route::Singular } else { Route::Regular };
+        let route = if massless {
+            Route::Singular
+        } else {
+            Route::Regular
+        };
         let result = match self.dense.factor(route, &self.mass, a, RANK_TOLERANCE) {
             Err(MassFault::Singular(_)) => {
-                self.dense.factor(Route::Singular, &self.mass, a, RANK_TOLERANCE)
+                self.dense
+                    .factor(Route::Singular, &self.mass, a, RANK_TOLERANCE)
             }
             result => result,
         };
         result.map_err(|fault| mass_error::<M>(fault))?;
         let pivots = self.dense.cod.pivots();
-        let rank = if self.cautious { leading(pivots, RANK_CEILING) } else { pivots.len() };
-        self.dense.set_rank(rank, &self.mass).map_err(|fault| mass_error::<M>(fault))
+        let rank = if self.cautious {
+            leading(pivots, RANK_CEILING)
+        } else {
+            pivots.len()
+        };
+        self.dense
+            .set_rank(rank, &self.mass)
+            .map_err(|fault| mass_error::<M>(fault))
     }
 
     /// Takes in the rows left out so far; `false` if there are none.
@@ -292,7 +323,9 @@ impl Projector {
     /// x ← x + Δ with A Δ = −residual, Δ minimal.
     fn advance(&mut self, x: &mut [f64], rows: usize) {
         let rhs = &mut self.rhs[..rows];
-        rhs.iter_mut().zip(&self.residual).for_each(|(b, r)| *b = -r);
+        rhs.iter_mut()
+            .zip(&self.residual)
+            .for_each(|(b, r)| *b = -r);
         let a = rows_of(&self.jacobian, self.m, rows);
         self.dense.solve(&self.mass, a, None, rhs, &mut self.step);
         x.iter_mut().zip(&self.step).for_each(|(x, d)| *x += d);
@@ -301,12 +334,18 @@ impl Projector {
     /// How far off: |φ_c| / max|A_cj|, the largest over the rows that are not at rounding level yet.
     fn merit(&self, x: &[f64], rows: usize) -> f64 {
         let a = rows_of(&self.jacobian, self.m, rows);
-        (0..rows).filter(|&c| !self.row_at_rounding(a, c, x)).fold(0.0, |s: f64, c| {
-            let largest = a.largest(c);
-            // A row of zeros has no scale.
-            let off = self.residual[c].abs() / if largest > 0.0 { largest } else { 1.0 };
-            if off.is_nan() || s.is_nan() { f64::NAN } else { s.max(off) }
-        })
+        (0..rows)
+            .filter(|&c| !self.row_at_rounding(a, c, x))
+            .fold(0.0, |s: f64, c| {
+                let largest = a.largest(c);
+                // A row of zeros has no scale.
+                let off = self.residual[c].abs() / if largest > 0.0 { largest } else { 1.0 };
+                if off.is_nan() || s.is_nan() {
+                    f64::NAN
+                } else {
+                    s.max(off)
+                }
+            })
     }
 
     fn row_at_rounding(&self, a: Rows<'_>, c: usize, x: &[f64]) -> bool {
@@ -330,7 +369,9 @@ impl Projector {
     }
 
     fn largest(&self, rows: usize) -> f64 {
-        self.residual[..rows].iter().fold(0.0, |s, r| s.max(r.abs()))
+        self.residual[..rows]
+            .iter()
+            .fold(0.0, |s, r| s.max(r.abs()))
     }
 
     fn finite(&self, rows: usize) -> bool {
@@ -346,7 +387,11 @@ impl Projector {
         level: Level,
         rows: usize,
     ) -> Error {
-        let (q, v) = if level == Level::Position { (x, other) } else { (other, x) };
+        let (q, v) = if level == Level::Position {
+            (x, other)
+        } else {
+            (other, x)
+        };
         diagnose::non_finite_input(mech, t, q, v)
             .unwrap_or_else(|| diagnose::non_finite_residual(M::SPEC, &self.residual[..rows]))
     }
@@ -359,8 +404,12 @@ impl Projector {
                 *r = 0.0;
             }
         }
-        let scale: Vec<f64> =
-            self.dense.row_scale.iter().map(|&s| if s > 0.0 { s } else { 1.0 }).collect();
+        let scale: Vec<f64> = self
+            .dense
+            .row_scale
+            .iter()
+            .map(|&s| if s > 0.0 { s } else { 1.0 })
+            .collect();
         Error::OffConstraint {
             level: match level {
                 Level::Position => "position",
@@ -372,7 +421,11 @@ impl Projector {
 }
 
 fn rows_of(jacobian: &[f64], m: usize, rows: usize) -> Rows<'_> {
-    Rows { jacobian, stride: m, rows }
+    Rows {
+        jacobian,
+        stride: m,
+        rows,
+    }
 }
 
 #[cfg(test)]

@@ -30,7 +30,10 @@ pub(crate) struct Owner {
 
 impl Owner {
     pub(crate) fn of<M: Mechanism>() -> Self {
-        Owner { id: TypeId::of::<M>(), name: M::SPEC.name }
+        Owner {
+            id: TypeId::of::<M>(),
+            name: M::SPEC.name,
+        }
     }
 
     pub(crate) fn check<M: Mechanism>(self, what: &str) -> Result<(), Error> {
@@ -39,7 +42,11 @@ impl Owner {
         }
         Err(Error::InvalidSetting {
             what: "mechanism",
-            reason: format!("is a `{}`, but this {what} was made for `{}`", M::SPEC.name, self.name),
+            reason: format!(
+                "is a `{}`, but this {what} was made for `{}`",
+                M::SPEC.name,
+                self.name
+            ),
         })
     }
 }
@@ -89,7 +96,11 @@ pub(crate) struct Rows<'a> {
 impl<'a> Rows<'a> {
     /// Entries of row `c`.
     pub(crate) fn row(self, c: usize) -> impl Iterator<Item = f64> + 'a {
-        self.jacobian.iter().skip(c).step_by(self.stride.max(1)).copied()
+        self.jacobian
+            .iter()
+            .skip(c)
+            .step_by(self.stride.max(1))
+            .copied()
     }
 
     /// (A x)_c.
@@ -191,7 +202,8 @@ impl Dense {
                 self.significance[c] = largest * norm / a.largest(c);
             }
         }
-        self.cod.factor(&self.metric.root, &self.significance[..a.rows], floor);
+        self.cod
+            .factor(&self.metric.root, &self.significance[..a.rows], floor);
         Ok(())
     }
 
@@ -285,7 +297,11 @@ impl Dense {
             }
             y.push(1.0);
             let mut direction = vec![0.0; n];
-            for (y, &o) in y.iter().zip(self.inertia_order[..k].iter().chain([&self.inertia_order[j]])) {
+            for (y, &o) in y.iter().zip(
+                self.inertia_order[..k]
+                    .iter()
+                    .chain([&self.inertia_order[j]]),
+            ) {
                 axpy(*y, &self.basis[o * n..(o + 1) * n], &mut direction);
             }
             let largest = direction.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
@@ -329,8 +345,8 @@ impl Dense {
             }
             None => out.fill(0.0),
         }
-        for c in 0..a.rows {
-            self.scaled_rhs[c] = self.row_scale[c] * (rhs[c] - a.product(c, out));
+        for (c, b) in rhs[..a.rows].iter().enumerate() {
+            self.scaled_rhs[c] = self.row_scale[c] * (b - a.product(c, out));
         }
         self.cod.solve(&self.scaled_rhs, &mut self.reaction);
         self.work.copy_from_slice(&self.reaction);
@@ -338,7 +354,13 @@ impl Dense {
         axpy(1.0, &self.work, out);
     }
 
-    fn solve_singular(&mut self, mass: &[f64], force: Option<&[f64]>, rhs: &[f64], out: &mut [f64]) {
+    fn solve_singular(
+        &mut self,
+        mass: &[f64],
+        force: Option<&[f64]>,
+        rhs: &[f64],
+        out: &mut [f64],
+    ) {
         let (n, k) = (self.n, self.inertia_rank);
         let d = n - self.cod.rank();
         let scaled = self.scaled_rhs.iter_mut().zip(&self.row_scale).zip(rhs);
@@ -348,9 +370,11 @@ impl Dense {
         weigh(mass, &self.metric, out, &mut self.work);
         match force {
             Some(f) => {
-                for i in 0..n {
-                    self.work[i] = f[i] / self.metric.root[i] - self.work[i];
-                }
+                let scaled = f.iter().zip(&self.metric.root).map(|(f, root)| f / root);
+                self.work
+                    .iter_mut()
+                    .zip(scaled)
+                    .for_each(|(x, f)| *x = f - *x);
             }
             None => self.work.iter_mut().for_each(|x| *x = -*x),
         }
@@ -362,15 +386,18 @@ impl Dense {
         for i in 0..k {
             z[i] /= self.inertia[i * d + i];
             let s = z[i];
-            axpy(-s, &self.inertia[i * d + i + 1..i * d + k], &mut z[i + 1..k]);
+            axpy(
+                -s,
+                &self.inertia[i * d + i + 1..i * d + k],
+                &mut z[i + 1..k],
+            );
         }
         for i in (0..k).rev() {
             let s = dot(&self.inertia[i * d + i + 1..i * d + k], &z[i + 1..k]);
             z[i] = (z[i] - s) / self.inertia[i * d + i];
         }
-        for i in 0..k {
-            let o = self.inertia_order[i];
-            axpy(z[i], &self.basis[o * n..(o + 1) * n], out);
+        for (z, &o) in z[..k].iter().zip(&self.inertia_order) {
+            axpy(*z, &self.basis[o * n..(o + 1) * n], out);
         }
         self.metric.divide(out);
     }
@@ -380,7 +407,10 @@ impl Dense {
     pub(crate) fn multipliers(&mut self, f: &mut [f64], lambda: &mut [f64]) {
         self.metric.divide(f);
         self.cod.solve_transposed(f, lambda);
-        lambda.iter_mut().zip(&self.row_scale).for_each(|(l, s)| *l *= s);
+        lambda
+            .iter_mut()
+            .zip(&self.row_scale)
+            .for_each(|(l, s)| *l *= s);
         let m = lambda.len();
         let excess = m - self.cod.rank();
         if excess == 0 {

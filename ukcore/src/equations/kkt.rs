@@ -16,10 +16,15 @@ pub fn solve(
     let mut system = DMatrix::zeros(n + m, n + m);
     system.view_mut((0, 0), (n, n)).copy_from(mass);
     system.view_mut((n, 0), (m, n)).copy_from(jacobian);
-    system.view_mut((0, n), (n, m)).copy_from(&jacobian.transpose());
+    system
+        .view_mut((0, n), (n, m))
+        .copy_from(&jacobian.transpose());
     let mut right = DVector::zeros(n + m);
     right.rows_mut(0, n).copy_from(force);
     right.rows_mut(n, m).copy_from(rhs);
     let solution = system.lu().solve(&right)?;
-    Some((solution.rows(0, n).into_owned(), -solution.rows(n, m).into_owned()))
+    Some((
+        solution.rows(0, n).into_owned(),
+        -solution.rows(n, m).into_owned(),
+    ))
 }

@@ -15,7 +15,8 @@ pub fn square_roots(mass: &DMatrix<f64>) -> Option<(DMatrix<f64>, DMatrix<f64>)>
         return None;
     }
     let u = &eigen.eigenvectors;
-    let build = |f: fn(f64) -> f64| u * DMatrix::from_diagonal(&eigen.eigenvalues.map(f)) * u.transpose();
+    let build =
+        |f: fn(f64) -> f64| u * DMatrix::from_diagonal(&eigen.eigenvalues.map(f)) * u.transpose();
     Some((build(f64::sqrt), build(|x| x.sqrt().recip())))
 }
 
@@ -98,7 +99,12 @@ pub fn equal_masses(
 
 /// Eq. 18: Fc = m A⁺ b, the constraint force where M = m I and Q = 0.
 #[must_use]
-pub fn equal_masses_free(m: f64, jacobian: &DMatrix<f64>, rhs: &DVector<f64>, tolerance: f64) -> DVector<f64> {
+pub fn equal_masses_free(
+    m: f64,
+    jacobian: &DMatrix<f64>,
+    rhs: &DVector<f64>,
+    tolerance: f64,
+) -> DVector<f64> {
     let (a_plus, _) = pseudo_inverse(jacobian, tolerance);
     m * a_plus * rhs
 }

@@ -10,7 +10,9 @@ const TOLERANCE: f64 = 1e-11;
 /// Deterministic numbers in (−1, 1).
 fn numbers(mut state: u64) -> impl FnMut() -> f64 {
     move || {
-        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        state = state
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
         ((state >> 11) as f64) / ((1_u64 << 52) as f64) - 1.0
     }
 }
@@ -38,7 +40,10 @@ fn printed<M: Mechanism>(mech: &M, t: f64, q: &[f64], v: &[f64]) -> Printed {
 }
 
 fn solver<M: Mechanism>(formula: Formula) -> Solver {
-    Solver::new::<M>(SolverOptions { formula, ..SolverOptions::default() })
+    Solver::new::<M>(SolverOptions {
+        formula,
+        ..SolverOptions::default()
+    })
 }
 
 /// A consistent state near (q, v).
@@ -65,15 +70,27 @@ fn agree<M: Mechanism>(mech: &M, t: f64, q: &[f64], v: &[f64]) -> Solution {
     let total = &p.force + &p.nonideal;
     let oracle = up::acceleration(&p.mass, &total, &p.jacobian, &p.rhs, TOLERANCE).unwrap();
     close(&solution.acceleration, oracle.as_slice(), 1e-9, "eq. 19");
-    if let Some(oracle) =
-        uk::acceleration_nonideal(&p.mass, &p.force, &p.nonideal, &p.jacobian, &p.rhs, TOLERANCE)
-    {
-        if p.mass.clone().symmetric_eigenvalues().min() > 1e-9 {
-            close(&solution.acceleration, oracle.as_slice(), 1e-9, "eq. 13");
-            let ideal = uk::ideal_force(&p.mass, &p.force, &p.jacobian, &p.rhs, TOLERANCE).unwrap();
-            close(&solution.ideal_force, ideal.as_slice(), 1e-9, "eq. 11");
-            let nonideal = uk::nonideal_force(&p.mass, &p.nonideal, &p.jacobian, TOLERANCE).unwrap();
-            close(&solution.nonideal_force, nonideal.as_slice(), 1e-9, "eq. 12");
+    if p.mass.clone().symmetric_eigenvalues().min() > 1e-9 {
+        let (c, tol) = (&p.nonideal, TOLERANCE);
+        let x = uk::acceleration_nonideal(&p.mass, &p.force, c, &p.jacobian, &p.rhs, tol).unwrap();
+        close(&solution.acceleration, x.as_slice(), 1e-9, "eq. 13");
+        let ideal = uk::ideal_force(&p.mass, &p.force, &p.jacobian, &p.rhs, tol).unwrap();
+        close(&solution.ideal_force, ideal.as_slice(), 1e-9, "eq. 11");
+        let nonideal = uk::nonideal_force(&p.mass, c, &p.jacobian, tol).unwrap();
+        close(
+            &solution.nonideal_force,
+            nonideal.as_slice(),
+            1e-9,
+            "eq. 12",
+        );
+        if c.amax() == 0.0 {
+            let x = uk::acceleration(&p.mass, &p.force, &p.jacobian, &p.rhs, tol).unwrap();
+            close(&solution.acceleration, x.as_slice(), 1e-9, "eq. 15");
+        }
+        let m = p.mass[(0, 0)];
+        if p.mass == DMatrix::identity(p.mass.nrows(), p.mass.nrows()) * m {
+            let force = uk::equal_masses(m, &p.force, &p.jacobian, &p.rhs, tol);
+            close(&solution.ideal_force, force.as_slice(), 1e-9, "eq. 17");
         }
     }
     let formulas: &[Formula] = match M::SPEC.structure.massless {
@@ -86,16 +103,44 @@ fn agree<M: Mechanism>(mech: &M, t: f64, q: &[f64], v: &[f64]) -> Solution {
         other.acceleration(mech, t, &q, &v, &mut out).unwrap();
         close(&out, &solution.acceleration, 1e-9, "acceleration()");
         let other = other.solve(mech, t, &q, &v).unwrap();
-        close(&other.acceleration, &solution.acceleration, 1e-9, "another formula");
-        close(&other.ideal_force, &solution.ideal_force, 1e-9, "another formula's force");
-        close(&other.multipliers, &solution.multipliers, 1e-9, "another formula's multipliers");
-        assert_eq!((other.rank, &other.redundant), (solution.rank, &solution.redundant));
+        close(
+            &other.acceleration,
+            &solution.acceleration,
+            1e-9,
+            "another formula",
+        );
+        close(
+            &other.ideal_force,
+            &solution.ideal_force,
+            1e-9,
+            "another formula's force",
+        );
+        close(
+            &other.multipliers,
+            &solution.multipliers,
+            1e-9,
+            "another formula's multipliers",
+        );
+        assert_eq!(
+            (other.rank, &other.redundant),
+            (solution.rank, &solution.redundant)
+        );
     }
     if solution.redundant.is_empty() {
         let (x, lambda) = kkt::solve(&p.mass, &total, &p.jacobian, &p.rhs).unwrap();
-        close(x.as_slice(), &solution.acceleration, 1e-9, "dense saddle point");
+        close(
+            x.as_slice(),
+            &solution.acceleration,
+            1e-9,
+            "dense saddle point",
+        );
         if p.nonideal.amax() == 0.0 {
-            close(lambda.as_slice(), &solution.multipliers, 1e-9, "multipliers");
+            close(
+                lambda.as_slice(),
+                &solution.multipliers,
+                1e-9,
+                "multipliers",
+            );
         }
     }
     mechanics(&p, &solution);
@@ -110,13 +155,28 @@ fn mechanics(p: &Printed, s: &Solution) {
     let nonideal = DVector::from_column_slice(&s.nonideal_force);
     let balance = &p.mass * &x - (&p.force + &ideal + &nonideal);
     close(balance.as_slice(), &vec![0.0; n], 1e-9, "M q̈ = Q + Qc");
-    close((&p.jacobian * &x).as_slice(), p.rhs.as_slice(), 1e-9, "A q̈ = b");
+    close(
+        (&p.jacobian * &x).as_slice(),
+        p.rhs.as_slice(),
+        1e-9,
+        "A q̈ = b",
+    );
     let lambda = DVector::from_column_slice(&s.multipliers);
-    close((p.jacobian.transpose() * lambda).as_slice(), &s.ideal_force, 1e-9, "Qc = Aᵀλ");
+    close(
+        (p.jacobian.transpose() * lambda).as_slice(),
+        &s.ideal_force,
+        1e-9,
+        "Qc = Aᵀλ",
+    );
     let (a_plus, rank) = crate::pinv::pseudo_inverse(&p.jacobian, TOLERANCE);
     assert_eq!((rank, n - rank), (s.rank, s.degrees_of_freedom));
     let virtuals = DMatrix::identity(n, n) - a_plus * &p.jacobian;
-    close((&virtuals * &ideal).as_slice(), &vec![0.0; n], 1e-9, "virtual work");
+    close(
+        (&virtuals * &ideal).as_slice(),
+        &vec![0.0; n],
+        1e-9,
+        "virtual work",
+    );
     // Gauss: with Q + c as the given force, (q̈ − a)ᵀ M (q̈ − a) is least among all accelerations the constraints allow.
     let given = &p.force + &p.nonideal;
     let zwang = |x: &DVector<f64>| (x.transpose() * &p.mass * x)[0] - 2.0 * given.dot(x);
@@ -124,19 +184,37 @@ fn mechanics(p: &Printed, s: &Solution) {
     let mut next = numbers(7);
     for _ in 0..10 {
         let other = &x + &virtuals * DVector::from_fn(n, |_, _| next());
-        assert!(zwang(&other) >= least - 1e-9 * least.abs().max(1.0), "Gauss's principle");
+        assert!(
+            zwang(&other) >= least - 1e-9 * least.abs().max(1.0),
+            "Gauss's principle"
+        );
     }
 }
 
 #[test]
 fn all_paths_agree_and_obey_mechanics() {
     agree(&Pendulum::default(), 0.0, &[0.6, -0.8], &[0.4, 0.3]);
-    agree(&Twice::default(), 0.0, &[0.6, -0.8, 1.2, -1.6], &[1.0, 0.0, 0.5, 0.5]);
-    agree(&Parallelogram::default(), 0.0, &[0.6, 0.8, 2.6, 0.8], &[0.8, -0.6, 0.8, -0.6]);
+    agree(
+        &Twice::default(),
+        0.0,
+        &[0.6, -0.8, 1.2, -1.6],
+        &[1.0, 0.0, 0.5, 0.5],
+    );
+    agree(
+        &Parallelogram::default(),
+        0.0,
+        &[0.6, 0.8, 2.6, 0.8],
+        &[0.8, -0.6, 0.8, -0.6],
+    );
     agree(&Springs::default(), 0.0, &[1.0, 0.5], &[0.1, 0.0]);
     agree(&Prescribed::default(), 0.7, &[0.6, 0.0], &[0.0, 1.0]);
     agree(&Skate::default(), 0.0, &[0.0, 0.0, 0.4], &[1.5, 0.5, 0.3]);
-    agree(&Quaternion::default(), 0.0, &[0.5, 0.6, -0.3, 0.5], &[1.0, -2.0, 0.5, 0.2]);
+    agree(
+        &Quaternion::default(),
+        0.0,
+        &[0.5, 0.6, -0.3, 0.5],
+        &[1.0, -2.0, 0.5, 0.2],
+    );
 }
 
 #[test]
@@ -145,16 +223,59 @@ fn pendulum_tension_and_acceleration() {
     let omega = 1.7;
     let mech = Pendulum::default();
     let (q, v) = ([s, -c], [omega * c, omega * s]);
-    let solution = solver::<Pendulum>(Formula::Auto).solve(&mech, 0.0, &q, &v).unwrap();
+    let solution = solver::<Pendulum>(Formula::Auto)
+        .solve(&mech, 0.0, &q, &v)
+        .unwrap();
     // θ̈ = −g sin θ; tension m (g cos θ + ω²) along the rod.
     let alpha = -9.8 * s;
     let expected = [alpha * c - omega * omega * s, alpha * s + omega * omega * c];
     close(&solution.acceleration, &expected, 1e-14, "acceleration");
     let tension = 9.8 * c + omega * omega;
-    close(&solution.ideal_force, &[-tension * s, tension * c], 1e-14, "tension");
+    close(
+        &solution.ideal_force,
+        &[-tension * s, tension * c],
+        1e-14,
+        "tension",
+    );
     assert_eq!(solution.formula, Formula::UdwadiaKalaba);
     assert_eq!((solution.rank, solution.degrees_of_freedom), (1, 1));
     assert!(solution.redundant.is_empty());
+}
+
+#[test]
+fn without_force_and_with_equal_masses() {
+    // Eq. 18: no gravity, so only the centripetal force remains.
+    let mech = Pendulum {
+        params: vec![3.0, 1.0, 0.0],
+    };
+    let (q, v) = ([0.6, -0.8], [1.6, 1.2]);
+    let p = printed(&mech, 0.0, &q, &v);
+    let force = uk::equal_masses_free(3.0, &p.jacobian, &p.rhs, TOLERANCE);
+    let solution = solver::<Pendulum>(Formula::Auto)
+        .solve(&mech, 0.0, &q, &v)
+        .unwrap();
+    close(&solution.ideal_force, force.as_slice(), 1e-14, "eq. 18");
+    close(
+        force.as_slice(),
+        &[-3.0 * 4.0 * 0.6, 3.0 * 4.0 * 0.8],
+        1e-14,
+        "m v²/l",
+    );
+}
+
+#[test]
+fn singular_matrices_give_no_answer_in_the_printed_formulas() {
+    let p = printed(&Springs::default(), 0.0, &[1.0, 0.5], &[0.0; 2]);
+    assert_eq!(
+        uk::acceleration(&p.mass, &p.force, &p.jacobian, &p.rhs, TOLERANCE),
+        None
+    );
+    let p = printed(&Loose::default(), 0.0, &[0.0; 3], &[0.0; 3]);
+    assert_eq!(
+        up::acceleration(&p.mass, &p.force, &p.jacobian, &p.rhs, TOLERANCE),
+        None
+    );
+    assert_eq!(kkt::solve(&p.mass, &p.force, &p.jacobian, &p.rhs), None);
 }
 
 #[test]
@@ -166,7 +287,9 @@ fn springs_in_series_act_as_one() {
     assert_eq!(solution.formula, Formula::UdwadiaPhohomsiri);
     // Mass → 0⁺ tends to that.
     for light in [1e-3, 1e-6, 1e-12, 1e-18, 1e-30, 1e-200] {
-        let mech = Springs { params: vec![2.0, light, 3.0, 5.0] };
+        let mech = Springs {
+            params: vec![2.0, light, 3.0, 5.0],
+        };
         let solution = agree(&mech, 0.0, &[1.0, 5.0 / 8.0], &[0.0, 0.0]);
         assert!((solution.acceleration[0] + k / 2.0).abs() < light + 1e-14);
     }
@@ -175,33 +298,63 @@ fn springs_in_series_act_as_one() {
 #[test]
 fn duplicates_are_redundant_at_any_scale() {
     for scale in [1e-12, 1e-6, 1.0, -3.0, 1e6, 1e12] {
-        let mech = Twice { params: vec![1.0, 2.0, scale, 0.0] };
+        let mech = Twice {
+            params: vec![1.0, 2.0, scale, 0.0],
+        };
         let (q, v) = consistent(&mech, 0.0, &[0.6, -0.8, 1.2, -1.6], &[1.0, 0.0, 0.5, 0.5]);
         for off in [0.0, 1e-9, 1e-3, 0.1] {
-            let q: Vec<f64> = q.iter().zip([1.0, -0.3, 0.2, 0.9]).map(|(q, d)| q + off * d).collect();
-            let solution = solver::<Twice>(Formula::Auto).solve(&mech, 0.0, &q, &v).unwrap();
-            assert_eq!((solution.rank, solution.degrees_of_freedom, &solution.redundant[..]), (3 - 1, 2, &[2][..]));
+            let q: Vec<f64> = q
+                .iter()
+                .zip([1.0, -0.3, 0.2, 0.9])
+                .map(|(q, d)| q + off * d)
+                .collect();
+            let solution = solver::<Twice>(Formula::Auto)
+                .solve(&mech, 0.0, &q, &v)
+                .unwrap();
+            assert_eq!(
+                (
+                    solution.rank,
+                    solution.degrees_of_freedom,
+                    &solution.redundant[..]
+                ),
+                (3 - 1, 2, &[2][..])
+            );
             // Least norm: the force is shared as 1 : scale.
             let l = &solution.multipliers;
             let skew = (l[2] - scale * l[1]).abs() / scale.hypot(1.0);
-            assert!(skew <= 1e-12 * l[0].abs() && l[1].hypot(l[2]) > 0.0, "{l:?}");
+            assert!(
+                skew <= 1e-12 * l[0].abs() && l[1].hypot(l[2]) > 0.0,
+                "{l:?}"
+            );
         }
     }
 }
 
 #[test]
 fn constraint_scaling_changes_nothing() {
-    let state = consistent(&Parallelogram::default(), 0.0, &[0.6, 0.8, 2.6, 0.8], &[0.8, -0.6, 0.8, -0.6]);
+    let state = consistent(
+        &Parallelogram::default(),
+        0.0,
+        &[0.6, 0.8, 2.6, 0.8],
+        &[0.8, -0.6, 0.8, -0.6],
+    );
     let mut reference = vec![0.0; 4];
     for (i, scale) in [1.0, 1e-12, 1e12].into_iter().enumerate() {
-        let mech = Parallelogram { params: vec![scale, 1.0] };
+        let mech = Parallelogram {
+            params: vec![scale, 1.0],
+        };
         let mut solver = solver::<Parallelogram>(Formula::Auto);
         let solution = solver.solve(&mech, 0.0, &state.0, &state.1).unwrap();
         assert_eq!((solution.rank, solution.degrees_of_freedom), (3, 1));
         if i == 0 {
             reference.clone_from(&solution.acceleration);
         }
-        close(&solution.acceleration, &reference, 1e-12, "scaled constraint");
+        close(
+            &solution.acceleration,
+            &reference,
+            1e-12,
+            "scaled constraint",
+        );
     }
 }
 
@@ -216,18 +369,27 @@ fn sets_redundant_only_on_the_manifold_survive_drift() {
         let v = [-omega * s, omega * c, -omega * s, omega * c];
         // Crank: weights at the ends of both arms, no inertia otherwise: θ̈ = −g cos θ.
         let alpha = -9.8 * c;
-        let exact = [-alpha * s - omega * omega * c, alpha * c - omega * omega * s];
+        let exact = [
+            -alpha * s - omega * omega * c,
+            alpha * c - omega * omega * s,
+        ];
         for exponent in 3..=16 {
             let delta = 10_f64.powi(-exponent);
             for formula in [Formula::Auto, Formula::UdwadiaPhohomsiri, Formula::Kkt] {
                 let mut solver = solver::<Parallelogram>(formula);
                 for _ in 0..20 {
-                    let off = |x: &[f64; 4], next: &mut dyn FnMut() -> f64| x.map(|x| x + delta * next());
+                    let off =
+                        |x: &[f64; 4], next: &mut dyn FnMut() -> f64| x.map(|x| x + delta * next());
                     let (q, v) = (off(&q, &mut next), off(&v, &mut next));
                     let mut out = [0.0; 4];
                     solver.acceleration(&mech, 0.0, &q, &v, &mut out).unwrap();
                     let expected = [exact[0], exact[1], exact[0], exact[1]];
-                    close(&out, &expected, 30.0 * delta + 1e-9, &format!("at {angle}, off by {delta:e}"));
+                    close(
+                        &out,
+                        &expected,
+                        30.0 * delta + 1e-9,
+                        &format!("at {angle}, off by {delta:e}"),
+                    );
                 }
             }
         }
@@ -239,17 +401,24 @@ fn contradictions_are_named() {
     let mech = Contradiction::default();
     for (t, expected) in [(0.0, true), (1.0, true)] {
         let x = f64::sin(t);
-        let result = solver::<Contradiction>(Formula::Auto).solve(&mech, t, &[x, 0.0], &[f64::cos(t), 0.0]);
+        let result =
+            solver::<Contradiction>(Formula::Auto).solve(&mech, t, &[x, 0.0], &[f64::cos(t), 0.0]);
         assert_eq!(result.is_err(), expected);
-        let Err(Error::Inconsistent { constraints }) = result else { panic!("{result:?}") };
+        let Err(Error::Inconsistent { constraints }) = result else {
+            panic!("{result:?}")
+        };
         let names: Vec<&str> = constraints.iter().map(|c| c.0.as_str()).collect();
         assert_eq!(names, ["sine", "cosine"]);
     }
     for scale in [1e-9, 1.0, 1e9] {
-        let mech = Twice { params: vec![1.0, 2.0, scale, 1e-6] };
+        let mech = Twice {
+            params: vec![1.0, 2.0, scale, 1e-6],
+        };
         let (q, v) = ([0.6, -0.8, 1.2, -1.6], [0.0; 4]);
         let result = solver::<Twice>(Formula::Auto).solve(&mech, 0.0, &q, &v);
-        let Err(Error::Inconsistent { constraints }) = result else { panic!("{result:?}") };
+        let Err(Error::Inconsistent { constraints }) = result else {
+            panic!("{result:?}")
+        };
         let names: Vec<&str> = constraints.iter().map(|c| c.0.as_str()).collect();
         assert_eq!(names, ["rod[1]", "copy"]);
     }
@@ -259,10 +428,22 @@ fn contradictions_are_named() {
 fn undetermined_coordinates_are_named() {
     for formula in [Formula::Auto, Formula::UdwadiaPhohomsiri, Formula::Kkt] {
         let result = solver::<Loose>(formula).solve(&Loose::default(), 0.0, &[0.0; 3], &[0.0; 3]);
-        let Err(Error::Underdetermined { coordinates, rank, needed }) = result else { panic!("{result:?}") };
-        assert_eq!((coordinates, rank, needed), (vec!["z".into(), "w".into()], 2, 3));
+        let Err(Error::Underdetermined {
+            coordinates,
+            rank,
+            needed,
+        }) = result
+        else {
+            panic!("{result:?}")
+        };
+        assert_eq!(
+            (coordinates, rank, needed),
+            (vec!["z".into(), "w".into()], 2, 3)
+        );
     }
-    let enough = Loose { params: vec![0.0, 0.5] };
+    let enough = Loose {
+        params: vec![0.0, 0.5],
+    };
     agree(&enough, 0.0, &[0.0; 3], &[0.0; 3]);
 }
 
@@ -271,15 +452,45 @@ fn a_mass_that_vanishes_at_run_time() {
     let mech = Prescribed { params: vec![0.0] };
     let mut solver = solver::<Prescribed>(Formula::Auto);
     let mut out = [0.0; 2];
-    solver.acceleration(&mech, 0.5, &[0.5_f64.sin(), 0.0], &[0.5_f64.cos(), 0.0], &mut out).unwrap();
+    solver
+        .acceleration(
+            &mech,
+            0.5,
+            &[0.5_f64.sin(), 0.0],
+            &[0.5_f64.cos(), 0.0],
+            &mut out,
+        )
+        .unwrap();
     close(&out, &[-(0.5_f64.sin()), 3.0], 1e-15, "prescribed");
     assert_eq!(solver.work().fallbacks, 1);
-    let pendulum = Pendulum { params: vec![0.0, 1.0, 9.8] };
-    let result = Solver::new::<Pendulum>(SolverOptions::default()).solve(&pendulum, 0.0, &[1.0, 0.0], &[0.0; 2]);
-    assert!(matches!(&result, Err(Error::Underdetermined { coordinates, .. }) if coordinates == &["y"]), "{result:?}");
-    let negative = Pendulum { params: vec![-1.0, 1.0, 9.8] };
-    let result = Solver::new::<Pendulum>(SolverOptions::default()).solve(&negative, 0.0, &[1.0, 0.0], &[0.0; 2]);
-    assert_eq!(result, Err(Error::IndefiniteMass { coordinates: vec!["x".into()] }));
+    let pendulum = Pendulum {
+        params: vec![0.0, 1.0, 9.8],
+    };
+    let result = Solver::new::<Pendulum>(SolverOptions::default()).solve(
+        &pendulum,
+        0.0,
+        &[1.0, 0.0],
+        &[0.0; 2],
+    );
+    assert!(
+        matches!(&result, Err(Error::Underdetermined { coordinates, .. }) if coordinates == &["y"]),
+        "{result:?}"
+    );
+    let negative = Pendulum {
+        params: vec![-1.0, 1.0, 9.8],
+    };
+    let result = Solver::new::<Pendulum>(SolverOptions::default()).solve(
+        &negative,
+        0.0,
+        &[1.0, 0.0],
+        &[0.0; 2],
+    );
+    assert_eq!(
+        result,
+        Err(Error::IndefiniteMass {
+            coordinates: vec!["x".into()]
+        })
+    );
 }
 
 #[test]
@@ -308,38 +519,86 @@ fn a_quaternion_body_obeys_eulers_equations() {
 
 #[test]
 fn what_is_not_finite_is_named() {
-    let what = |mech: &Skate, t: f64, q: [f64; 3], v: [f64; 3]| {
-        match Solver::new::<Skate>(SolverOptions::default()).solve(mech, t, &q, &v) {
-            Err(Error::NonFinite { what }) => what,
-            other => panic!("{other:?}"),
-        }
+    let what = |mech: &Skate, t: f64, q: [f64; 3], v: [f64; 3]| match Solver::new::<Skate>(
+        SolverOptions::default(),
+    )
+    .solve(mech, t, &q, &v)
+    {
+        Err(Error::NonFinite { what }) => what,
+        other => panic!("{other:?}"),
     };
     let good = Skate::default();
-    let bad = Skate { params: vec![2.0, f64::NAN] };
+    let bad = Skate {
+        params: vec![2.0, f64::NAN],
+    };
     assert_eq!(what(&bad, 0.0, [0.0; 3], [1.0; 3]), ["parameter friction"]);
     assert_eq!(what(&good, f64::NAN, [0.0; 3], [1.0; 3]), ["time t"]);
-    assert_eq!(what(&good, 0.0, [0.0, 0.0, f64::INFINITY], [1.0; 3]), ["coordinate th"]);
-    assert_eq!(what(&good, 0.0, [0.0; 3], [1.0, f64::NAN, 1.0]), ["velocity dot(y)"]);
-    assert_eq!(what(&good, 0.0, [0.0; 3], [1e308, 1.0, 1e10]), ["constraint pace", "constraint edge"]);
-    let light = Pendulum { params: vec![1e-300, 1.0, 1.7e308] };
-    let result = Solver::new::<Pendulum>(SolverOptions::default()).solve(&light, 0.0, &[0.0, 1.0], &[0.0; 2]);
-    assert_eq!(result, Err(Error::NonFinite { what: vec!["acceleration of x".into(), "acceleration of y".into()] }));
-    let heavy = Pendulum { params: vec![1e300, 1.0, 1e300] };
-    let result = Solver::new::<Pendulum>(SolverOptions::default()).solve(&heavy, 0.0, &[1.0, 0.0], &[0.0; 2]);
-    assert_eq!(result, Err(Error::NonFinite { what: vec!["force on y".into()] }));
+    assert_eq!(
+        what(&good, 0.0, [0.0, 0.0, f64::INFINITY], [1.0; 3]),
+        ["coordinate th"]
+    );
+    assert_eq!(
+        what(&good, 0.0, [0.0; 3], [1.0, f64::NAN, 1.0]),
+        ["velocity dot(y)"]
+    );
+    assert_eq!(
+        what(&good, 0.0, [0.0; 3], [1e308, 1.0, 1e10]),
+        ["constraint pace", "constraint edge"]
+    );
+    let light = Pendulum {
+        params: vec![1e-300, 1.0, 1.7e308],
+    };
+    let result = Solver::new::<Pendulum>(SolverOptions::default()).solve(
+        &light,
+        0.0,
+        &[0.0, 1.0],
+        &[0.0; 2],
+    );
+    assert_eq!(
+        result,
+        Err(Error::NonFinite {
+            what: vec!["acceleration of x".into(), "acceleration of y".into()]
+        })
+    );
+    let heavy = Pendulum {
+        params: vec![1e300, 1.0, 1e300],
+    };
+    let result = Solver::new::<Pendulum>(SolverOptions::default()).solve(
+        &heavy,
+        0.0,
+        &[1.0, 0.0],
+        &[0.0; 2],
+    );
+    assert_eq!(
+        result,
+        Err(Error::NonFinite {
+            what: vec!["force on y".into()]
+        })
+    );
 }
 
 #[test]
 fn mass_ratios_do_not_cost_constraints() {
     for exponent in [-12, -6, 6, 12] {
-        let mech = Twice { params: vec![10_f64.powi(exponent), 1.0, 1.0, 0.0] };
+        let mech = Twice {
+            params: vec![10_f64.powi(exponent), 1.0, 1.0, 0.0],
+        };
         for formula in [Formula::Auto, Formula::UdwadiaPhohomsiri] {
             let (q, v) = consistent(&mech, 0.0, &[0.6, -0.8, 1.4, -1.4], &[1.0, 0.0, 0.5, 0.5]);
             let solution = solver::<Twice>(formula).solve(&mech, 0.0, &q, &v).unwrap();
-            assert_eq!((solution.rank, &solution.redundant[..]), (2, &[2][..]), "1e{exponent} {formula:?}");
+            assert_eq!(
+                (solution.rank, &solution.redundant[..]),
+                (2, &[2][..]),
+                "1e{exponent} {formula:?}"
+            );
             let p = printed(&mech, 0.0, &q, &v);
             let x = DVector::from_column_slice(&solution.acceleration);
-            close((&p.jacobian * x).as_slice(), p.rhs.as_slice(), 1e-9, "A q̈ = b");
+            close(
+                (&p.jacobian * x).as_slice(),
+                p.rhs.as_slice(),
+                1e-9,
+                "A q̈ = b",
+            );
         }
     }
 }
@@ -347,8 +606,14 @@ fn mass_ratios_do_not_cost_constraints() {
 #[test]
 fn baumgarte_feeds_the_residuals_back() {
     let mech = Pendulum::default();
-    let baumgarte = Some(Baumgarte { alpha: 5.0, beta: 7.0 });
-    let mut solver = Solver::new::<Pendulum>(SolverOptions { baumgarte, ..SolverOptions::default() });
+    let baumgarte = Some(Baumgarte {
+        alpha: 5.0,
+        beta: 7.0,
+    });
+    let mut solver = Solver::new::<Pendulum>(SolverOptions {
+        baumgarte,
+        ..SolverOptions::default()
+    });
     let (q, v) = ([0.61, -0.83], [0.4, 0.5]);
     let mut out = [0.0; 2];
     for _ in 0..2 {
@@ -365,10 +630,32 @@ fn wrong_uses_are_refused() {
     let mech = Pendulum::default();
     let mut solver = solver::<Pendulum>(Formula::UdwadiaKalaba);
     let wrong = solver.solve(&mech, 0.0, &[0.0; 3], &[0.0; 2]);
-    assert_eq!(wrong, Err(Error::WrongLength { what: "q", found: 3, expected: 2 }));
+    assert_eq!(
+        wrong,
+        Err(Error::WrongLength {
+            what: "q",
+            found: 3,
+            expected: 2
+        })
+    );
     let other = solver.solve(&Springs::default(), 0.0, &[0.0; 2], &[0.0; 2]);
-    assert!(matches!(other, Err(Error::InvalidSetting { what: "mechanism", .. })));
-    let mut solver = Solver::new::<Springs>(SolverOptions { formula: Formula::UdwadiaKalaba, ..SolverOptions::default() });
+    assert!(matches!(
+        other,
+        Err(Error::InvalidSetting {
+            what: "mechanism",
+            ..
+        })
+    ));
+    let mut solver = Solver::new::<Springs>(SolverOptions {
+        formula: Formula::UdwadiaKalaba,
+        ..SolverOptions::default()
+    });
     let singular = solver.solve(&Springs::default(), 0.0, &[0.0; 2], &[0.0; 2]);
-    assert!(matches!(singular, Err(Error::InvalidSetting { what: "formula", .. })));
+    assert!(matches!(
+        singular,
+        Err(Error::InvalidSetting {
+            what: "formula",
+            ..
+        })
+    ));
 }

@@ -3,7 +3,9 @@ use crate::fixture::*;
 
 fn numbers(mut state: u64) -> impl FnMut() -> f64 {
     move || {
-        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        state = state
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
         ((state >> 11) as f64) / ((1_u64 << 52) as f64) - 1.0
     }
 }
@@ -28,11 +30,18 @@ fn project<M: Mechanism>(mech: &M, t: f64, q: &[f64], v: &[f64], off: f64, withi
         let velocity = projector.velocity(mech, t, &q, &mut v).unwrap();
         let (phi, rate) = residuals(mech, t, &q, &v);
         assert_eq!((phi, rate), (position.residual, velocity.residual));
-        assert!(phi <= within && rate <= within, "{} off by {off:e}: {phi:e}, {rate:e}", M::SPEC.name);
+        assert!(
+            phi <= within && rate <= within,
+            "{} off by {off:e}: {phi:e}, {rate:e}",
+            M::SPEC.name
+        );
         most = most.max(position.iterations).max(velocity.iterations);
         let again = projector.position(mech, t, &mut q, &v).unwrap();
         assert_eq!((again.iterations, again.norm), (0, 0.0));
-        assert_eq!(projector.velocity(mech, t, &q, &mut v).unwrap().iterations, 0);
+        assert_eq!(
+            projector.velocity(mech, t, &q, &mut v).unwrap().iterations,
+            0
+        );
     }
     most
 }
@@ -42,23 +51,77 @@ fn to_rounding_in_one_or_two_steps() {
     for (off, steps) in [(1e-14, 2), (1e-9, 2), (1e-6, 3), (1e-3, 7), (0.1, 10)] {
         let within = 5e-14;
         let most = [
-            project(&Pendulum::default(), 0.0, &[0.6, -0.8], &[0.8, 0.6], off, within),
-            project(&Springs::default(), 0.0, &[1.6, 1.0], &[0.8, 0.5], off, within),
-            project(&Prescribed::default(), 0.3, &[0.3_f64.sin(), 0.0], &[0.3_f64.cos(), 1.0], off, within),
-            project(&Skate::default(), 0.0, &[0.0, 1.0, 0.0], &[2.0, 0.0, 0.5], off, within),
-            project(&Quaternion::default(), 0.0, &[0.5, 0.5, -0.5, 0.5], &[1.0, 1.0, -1.0, -1.0], off, within),
+            project(
+                &Pendulum::default(),
+                0.0,
+                &[0.6, -0.8],
+                &[0.8, 0.6],
+                off,
+                within,
+            ),
+            project(
+                &Springs::default(),
+                0.0,
+                &[1.6, 1.0],
+                &[0.8, 0.5],
+                off,
+                within,
+            ),
+            project(
+                &Prescribed::default(),
+                0.3,
+                &[0.3_f64.sin(), 0.0],
+                &[0.3_f64.cos(), 1.0],
+                off,
+                within,
+            ),
+            project(
+                &Skate::default(),
+                0.0,
+                &[0.0, 1.0, 0.0],
+                &[2.0, 0.0, 0.5],
+                off,
+                within,
+            ),
+            project(
+                &Quaternion::default(),
+                0.0,
+                &[0.5, 0.5, -0.5, 0.5],
+                &[1.0, 1.0, -1.0, -1.0],
+                off,
+                within,
+            ),
             // Redundant sets: everywhere, and on the manifold only.
-            project(&Twice::default(), 0.0, &[0.6, -0.8, 1.2, -1.6], &[0.8, 0.6, 1.6, 1.2], off, within),
-            project(&Parallelogram::default(), 0.0, &[0.6, 0.8, 2.6, 0.8], &[0.8, -0.6, 0.8, -0.6], off, within),
+            project(
+                &Twice::default(),
+                0.0,
+                &[0.6, -0.8, 1.2, -1.6],
+                &[0.8, 0.6, 1.6, 1.2],
+                off,
+                within,
+            ),
+            project(
+                &Parallelogram::default(),
+                0.0,
+                &[0.6, 0.8, 2.6, 0.8],
+                &[0.8, -0.6, 0.8, -0.6],
+                off,
+                within,
+            ),
         ];
-        assert!(most.iter().all(|n| *n <= steps), "off by {off:e}: {most:?} steps");
+        assert!(
+            most.iter().all(|n| *n <= steps),
+            "off by {off:e}: {most:?} steps"
+        );
     }
 }
 
 #[test]
 fn the_change_is_minimal_in_the_mass_metric() {
     // Light x1, y1 do the moving.
-    let mech = Twice { params: vec![1e-3, 1.0, 1.0, 0.0] };
+    let mech = Twice {
+        params: vec![1e-3, 1.0, 1.0, 0.0],
+    };
     let mut projector = Projector::new::<Twice>();
     let q0 = [0.6, -0.8001, 1.2, -1.6];
     let mut q = q0;
@@ -67,12 +130,18 @@ fn the_change_is_minimal_in_the_mass_metric() {
     let (mut jacobian, m) = ([0.0; 12], [1e-3, 1e-3, 1.0, 1.0]);
     mech.jacobian(0.0, &q, &[0.0; 4], &mut jacobian);
     let pull: Vec<f64> = (0..4).map(|j| m[j] * (q[j] - q0[j])).collect();
-    let (a, _) = crate::pinv::pseudo_inverse(&nalgebra::DMatrix::from_column_slice(3, 4, &jacobian), 1e-11);
+    let (a, _) = crate::pinv::pseudo_inverse(
+        &nalgebra::DMatrix::from_column_slice(3, 4, &jacobian),
+        1e-11,
+    );
     let pull = nalgebra::DVector::from_vec(pull);
     let jacobian = nalgebra::DMatrix::from_column_slice(3, 4, &jacobian);
     let tangential = &pull - a * jacobian * &pull;
     assert!(tangential.amax() < 1e-3 * pull.amax());
-    let largest = q.iter().zip(q0).fold(0.0_f64, |s, (a, b)| s.max((a - b).abs()));
+    let largest = q
+        .iter()
+        .zip(q0)
+        .fold(0.0_f64, |s, (a, b)| s.max((a - b).abs()));
     assert_eq!(correction.norm, largest);
     assert!((q[2] - 1.2).abs() < 1e-6);
 }
@@ -81,10 +150,17 @@ fn the_change_is_minimal_in_the_mass_metric() {
 fn scaled_constraints_and_masses_project_alike() {
     for scale in [1e-12, 1e12] {
         for m in [1e-12, 1e12] {
-            let mech = Twice { params: vec![m, 1.0, scale, 0.0] };
+            let mech = Twice {
+                params: vec![m, 1.0, scale, 0.0],
+            };
             let mut q = [0.61, -0.83, 1.2, -1.55];
-            Projector::new::<Twice>().position(&mech, 0.0, &mut q, &[0.0; 4]).unwrap();
-            let (a, b) = (q[0].hypot(q[1]) - 1.0, (q[2] - q[0]).hypot(q[3] - q[1]) - 1.0);
+            Projector::new::<Twice>()
+                .position(&mech, 0.0, &mut q, &[0.0; 4])
+                .unwrap();
+            let (a, b) = (
+                q[0].hypot(q[1]) - 1.0,
+                (q[2] - q[0]).hypot(q[3] - q[1]) - 1.0,
+            );
             assert!(a.abs() < 1e-14 && b.abs() < 1e-14, "{a:e} {b:e}");
         }
     }
@@ -96,9 +172,10 @@ fn what_cannot_be_met_is_named_and_the_state_left_alone() {
     let mut projector = Projector::new::<Contradiction>();
     let (mut q, mut v) = ([0.1, 0.2], [0.3, 0.0]);
     let names = |e: Error| match e {
-        Error::OffConstraint { level, constraints } => {
-            (level, constraints.into_iter().map(|c| c.0).collect::<Vec<_>>())
-        }
+        Error::OffConstraint { level, constraints } => (
+            level,
+            constraints.into_iter().map(|c| c.0).collect::<Vec<_>>(),
+        ),
         other => panic!("{other:?}"),
     };
     let position = names(projector.position(&mech, 0.0, &mut q, &v).unwrap_err());
@@ -107,12 +184,26 @@ fn what_cannot_be_met_is_named_and_the_state_left_alone() {
     assert_eq!(velocity, ("velocity", vec!["sine".into(), "cosine".into()]));
     assert_eq!((q, v), ([0.1, 0.2], [0.3, 0.0]));
     // A third crank that is too long for the parallelogram fits only near it, or not at all.
-    let mech = Parallelogram { params: vec![1.0, 4.0] };
+    let mech = Parallelogram {
+        params: vec![1.0, 4.0],
+    };
     let mut q = [0.6, 0.8, 2.6, 0.8];
-    let error = Projector::new::<Parallelogram>().position(&mech, 0.0, &mut q, &[0.0; 4]).unwrap_err();
+    let error = Projector::new::<Parallelogram>()
+        .position(&mech, 0.0, &mut q, &[0.0; 4])
+        .unwrap_err();
     assert_eq!(names(error).0, "position");
-    let bad = Projector::new::<Pendulum>().position(&Pendulum::default(), 0.0, &mut [f64::NAN, 0.0], &[0.0; 2]);
-    assert_eq!(bad, Err(Error::NonFinite { what: vec!["coordinate x".into()] }));
+    let bad = Projector::new::<Pendulum>().position(
+        &Pendulum::default(),
+        0.0,
+        &mut [f64::NAN, 0.0],
+        &[0.0; 2],
+    );
+    assert_eq!(
+        bad,
+        Err(Error::NonFinite {
+            what: vec!["coordinate x".into()]
+        })
+    );
 }
 
 #[test]
@@ -122,7 +213,9 @@ fn through_a_singular_configuration() {
     for angle in [1e-2, 1e-4, 1e-6, 1e-8, 0.0_f64] {
         let (s, c) = angle.sin_cos();
         let mut q = [c + 1e-7, s - 1e-7, 2.0 + c, s + 1e-7];
-        let correction = Projector::new::<Parallelogram>().position(&mech, 0.0, &mut q, &[0.0; 4]).unwrap();
+        let correction = Projector::new::<Parallelogram>()
+            .position(&mech, 0.0, &mut q, &[0.0; 4])
+            .unwrap();
         assert!(correction.residual < 1e-12, "{angle}: {correction:?}");
     }
 }
