@@ -82,18 +82,16 @@ impl Decomposition {
         let (n, m) = (self.n, self.m);
         self.row.iter_mut().enumerate().for_each(|(i, r)| *r = i);
         self.col.iter_mut().enumerate().for_each(|(c, p)| *p = c);
+        self.work_n.copy_from_slice(weight);
+        self.work_m[..m].copy_from_slice(&scale[..m]);
+        for (c, column) in self.a[..n * m].chunks_exact(n).enumerate() {
+            self.significance[c] = scale[c] * largest_product(column, weight);
+        }
         self.steps = 0;
         for k in 0..n.min(m) {
-            let mut best = 0.0_f64;
-            for c in k..m {
-                let column = &self.a[c * n + k..(c + 1) * n];
-                let largest = column
-                    .iter()
-                    .zip(&self.row[k..])
-                    .fold(0.0_f64, |s, (x, &i)| s.max(x.abs() * weight[i]));
-                self.significance[c] = largest * scale[self.col[c]];
-                best = best.max(self.significance[c]);
-            }
+            let best = self.significance[k..m]
+                .iter()
+                .fold(0.0_f64, |s, x| s.max(*x));
             if best <= floor {
                 break;
             }
@@ -114,6 +112,8 @@ impl Decomposition {
         let n = self.n;
         for c in (k..chosen).rev() {
             self.col.swap(c, c + 1);
+            self.significance.swap(c, c + 1);
+            self.work_m.swap(c, c + 1);
             let (left, right) = self.a.split_at_mut((c + 1) * n);
             left[c * n..].swap_with_slice(&mut right[..n]);
         }
@@ -132,13 +132,15 @@ impl Decomposition {
         });
         if top != k {
             self.row.swap(k, top);
+            self.work_n.swap(k, top);
             for c in 0..m {
                 self.a.swap(c * n + k, c * n + top);
             }
         }
     }
 
-    /// Householder reflection of column k, applied to the columns after it.
+    /// Householder reflection of column k, applied to the columns after it; brings their significances up to date, for which
+    /// `work_n` and `work_m` hold weights and scales in the present order. Columns that share no row with column k stay as they are.
     fn reflect(&mut self, k: usize) {
         let n = self.n;
         let (left, right) = self.a.split_at_mut((k + 1) * n);
@@ -146,10 +148,21 @@ impl Decomposition {
         let (beta, tau) = householder(x);
         self.tau[k] = tau;
         let v = &x[1..];
-        for column in right[..(self.m - k - 1) * n].chunks_exact_mut(n) {
-            let s = tau * (column[k] + dot(v, &column[k + 1..]));
-            column[k] -= s;
-            axpy(-s, v, &mut column[k + 1..]);
+        for (i, column) in right[..(self.m - k - 1) * n]
+            .chunks_exact_mut(n)
+            .enumerate()
+        {
+            let (head, tail) = column[k..].split_at_mut(1);
+            let s = tau * (head[0] + dot(v, tail));
+            if s != 0.0 {
+                axpy(-s, v, tail);
+            }
+            if s != 0.0 || head[0] != 0.0 {
+                let c = k + 1 + i;
+                self.significance[c] =
+                    self.work_m[c] * largest_product(tail, &self.work_n[k + 1..]);
+            }
+            head[0] -= s;
         }
         x[0] = beta;
     }
@@ -332,9 +345,45 @@ fn householder(x: &mut [f64]) -> (f64, f64) {
     (beta, (beta - alpha) / beta)
 }
 
-/// Σ aᵢ bᵢ.
+/// Σ aᵢ bᵢ, in four sums at a time, which the processor adds in parallel.
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+    let n = a.len().min(b.len());
+    let (a, b) = (a[..n].chunks_exact(4), b[..n].chunks_exact(4));
+    let rest: f64 = a
+        .remainder()
+        .iter()
+        .zip(b.remainder())
+        .map(|(a, b)| a * b)
+        .sum();
+    let mut sums = [0.0; 4];
+    for (a, b) in a.zip(b) {
+        for ((s, a), b) in sums.iter_mut().zip(a).zip(b) {
+            *s += a * b;
+        }
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+}
+
+/// max |aᵢ| bᵢ.
+fn largest_product(a: &[f64], b: &[f64]) -> f64 {
+    let n = a.len().min(b.len());
+    let (a, b) = (a[..n].chunks_exact(4), b[..n].chunks_exact(4));
+    let larger = |s: f64, a: f64, b: f64| {
+        let x = a.abs() * b;
+        if x > s { x } else { s }
+    };
+    let rest = a
+        .remainder()
+        .iter()
+        .zip(b.remainder())
+        .fold(0.0, |s, (a, b)| larger(s, *a, *b));
+    let mut most = [0.0; 4];
+    for (a, b) in a.zip(b) {
+        for ((s, a), b) in most.iter_mut().zip(a).zip(b) {
+            *s = larger(*s, *a, *b);
+        }
+    }
+    most.into_iter().fold(rest, f64::max)
 }
 
 /// y ← y + s x.
