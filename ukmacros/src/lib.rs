@@ -15,7 +15,86 @@ mod tests;
 
 use proc_macro2::TokenStream;
 
-/// Declares a mechanism; see `ukcore` for the language.
+/// Declares a mechanism and emits its dynamics.
+///
+/// The declaration becomes a struct of its parameters with an implementation of `ukcore::Mechanism`: straight-line code for
+/// M, Q, A, b (and c) of Zhao, Zhen & Chen 2013, eqs. 1, 5 and 8. Constraints are differentiated symbolically, twice, when the
+/// macro runs; the emitted type's own documentation shows the result.
+///
+/// ```text
+/// multibody! {
+///     /// A pendulum of length l hanging from a spring.
+///     pub SpringPendulum {
+///         params {
+///             /// Mass of the bob, kg
+///             m = 1.0,
+///             l = 1.0, g = 9.81, k = 50.0,
+///         }
+///         coords { s, x, y }                                   // support, bob; y points up
+///         mass { s: 0.2 * m, x: m, y: m }
+///         potential { m * g * y, 0.2 * m * g * s, 0.5 * k * sq(s) }
+///         holonomic { rod: sq(x) + sq(y - s) = sq(l) }
+///         output { angle = atan2(x, s - y) }
+///     }
+/// }
+/// ```
+///
+/// # Sections
+///
+/// All are optional but `coords`, and one of `mass`, `kinetic` or `holonomic`. Entries are separated by commas, which may be left out
+/// where the next entry starts with a name. `for i in a..b { … }` repeats entries in every section, and may be nested.
+///
+/// | section | entries | meaning |
+/// | --- | --- | --- |
+/// | `const N: usize = 17;` | | an integer (or `f64`) known at compile time |
+/// | `params` | `m = 1.0`, `k[N] = 2.0` | parameters with defaults; public `f64` fields (arrays for families), changeable at run time |
+/// | `coords` | `x[N]`, `th` | coordinates q: scalars and families; inside a `for`, `x[i]` declares one member |
+/// | `let` | `let d = x - y;`, `let f = \|u, v\| u * v;`, `let { for i in 0..N { d[i] = … } }` | names for values, functions, families of values |
+/// | `mass` | `x: m`, `(x, y): m12` | entries of M(q, t), taken literally as in eq. 1; entries for one place add up |
+/// | `kinetic` | `0.5 * m * sq(dot(x))` | instead of `mass`: terms of T(q, q̇, t); M = ∂²T/∂q̇² and the velocity terms of Lagrange's equations are derived |
+/// | `force` | `x: -c * dot(x)` | generalised forces Q; entries for one coordinate add up |
+/// | `potential` | `m * g * y` | terms of V(q, t); −∂V/∂q goes into Q |
+/// | `holonomic` | `rod: sq(x) + sq(y) = sq(l)`, `joint: [a, b] = [c, d]` | φ(q, t) = 0 (eq. 3); a vector equation gives one constraint for each component |
+/// | `nonholonomic` | `blade: dot(x) * sin(th) = dot(y) * cos(th)` | φ(q, q̇, t) = 0 (eq. 4), linear in q̇ or not |
+/// | `nonideal` | `x: -mu * n * sign(dot(x))` | the force c of eq. 8, which may do work in virtual displacements |
+/// | `output` | `fall = y[0]` | quantities to report, of q, q̇, t |
+///
+/// # Expressions
+///
+/// Rust's grammar. Numbers, `PI`, the time `t`, names, members `x[i + 1]`, `+ - * /`, vectors `[a, b]` (sum, difference, product and quotient
+/// with a number), `dot(q)` for a velocity (of an expression of q and t: its total time derivative), `sum(0..N, |i| …)`, and in function or
+/// method form: `sqrt sin cos tan asin acos atan atan2 sinh cosh tanh exp ln abs sign min max hypot sq powi powf recip`.
+/// A power is `x.powi(2)` or `sq(x)`, never `x ^ 2`. Parentheses around a sum are kept in the emitted arithmetic.
+///
+/// abs and sign have derivative sign and 0 (0 at 0); min and max follow the branch taken. sqrt at 0, asin and acos at ±1, ln and negative
+/// powers at 0, atan2 and hypot at (0, 0) have no finite derivative: evaluating there is reported as an error at run time.
+///
+/// # What is emitted
+///
+/// For `pub T { … }`: `struct T` with its parameters as public fields, `Default`, `Clone`, `Debug`, `PartialEq`; index constants `T::X` for coordinate `x`
+/// (`[usize; N]` for families), `T::ROD` for the row of constraint `rod`, `T::OUT_FALL` for output `fall`, `T::N` for constant `N`;
+/// `impl ukcore::Mechanism for T`.
+///
+/// # Grammar
+///
+/// ```text
+/// declaration = docs, [vis], NAME, "{", { section }, "}" ;
+/// section     = "const", NAME, ":", ("usize" | "f64"), "=", expr, ";"
+///             | "let", NAME, "=", (expr | function), ";"
+///             | "let", block(key, "=", (expr | function))
+///             | "params", block(docs, key, "=", expr)
+///             | "coords", block(docs, key)
+///             | "mass", block((key | "(", key, ",", key, ")"), ":", expr)
+///             | ("kinetic" | "potential"), block(expr)
+///             | ("force" | "nonideal"), block(key, ":", expr)
+///             | ("holonomic" | "nonholonomic"), block(key, ":", expr, "=", expr)
+///             | "output", block(docs, key, "=", expr) ;
+/// block(e)    = "{", { (e | "for", NAME, "in", expr, "..", expr, "{", { e }, "}"), ["," | ";"] }, "}" ;
+/// key         = NAME, ["[", expr, "]"] ;
+/// function    = "|", NAME, { ",", NAME }, "|", expr ;
+/// ```
+///
+/// `expr` is Rust's expression grammar. Errors point at the token at fault; after an error the type still exists, so that one mistake gives one message.
 #[proc_macro]
 pub fn multibody(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
     expand(input.into()).0.into()

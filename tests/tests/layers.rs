@@ -1,0 +1,121 @@
+//! The order of the layers: each module uses only itself and those before it.
+
+use std::path::{Path, PathBuf};
+
+/// All source files below `directory`, tests and test fixtures left out.
+fn sources(directory: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(directory).expect("a source directory") {
+        let path = entry.expect("readable").path();
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if path.is_dir() {
+            if name != "tests" {
+                found.extend(sources(&path));
+            }
+        } else if name.ends_with(".rs") && !["lib.rs", "tests.rs", "fixture.rs"].contains(&name.as_str()) {
+            found.push(path);
+        }
+    }
+    found.sort();
+    found
+}
+
+/// The first path segment below the crate root: the module a file belongs to.
+fn module(root: &Path, file: &Path) -> String {
+    let relative = file.strip_prefix(root).expect("below the root");
+    let first = relative.iter().next().unwrap_or_default().to_string_lossy();
+    first.trim_end_matches(".rs").to_owned()
+}
+
+/// The code of a file without its unit tests.
+fn code(file: &Path) -> String {
+    let text = std::fs::read_to_string(file).expect("readable");
+    let end = text.find("#[cfg(test)]").unwrap_or(text.len());
+    text[..end].to_owned()
+}
+
+/// Modules that `text` names by `crate::…`, groups in braces included.
+fn used(text: &str) -> Vec<String> {
+    let mut out = Vec::new();
+    for part in text.split("crate::").skip(1) {
+        let names: Vec<&str> = match part.strip_prefix('{') {
+            Some(group) => group.split('}').next().unwrap_or("").split(',').collect(),
+            None => vec![part],
+        };
+        for name in names {
+            let name: String = name
+                .trim()
+                .chars()
+                .take_while(|c| c.is_alphanumeric() || *c == '_')
+                .collect();
+            out.push(name);
+        }
+    }
+    out
+}
+
+fn check_order(crate_name: &str, order: &[&str]) {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../{crate_name}/src"));
+    let position = |name: &str| order.iter().position(|m| *m == name);
+    let mut wrong = Vec::new();
+    let files = sources(&root);
+    for file in &files {
+        let own = module(&root, file);
+        let Some(rank) = position(&own) else {
+            wrong.push(format!("`{own}` has no place in the order of {crate_name}"));
+            continue;
+        };
+        for name in used(&code(file)) {
+            // Names of items re-exported at the root (types, macros) are not modules.
+            if position(&name).is_some_and(|other| other > rank) {
+                wrong.push(format!("{}: `{own}` uses `{name}`, which stands above it", file.display()));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    for name in order {
+        assert!(files.iter().any(|f| module(&root, f) == *name), "`{name}` does not exist");
+    }
+}
+
+#[test]
+fn ukmacros() {
+    check_order("ukmacros", &["diag", "parse", "model", "expr", "analysis", "emit"]);
+}
+
+#[test]
+fn ukcore() {
+    check_order(
+        "ukcore",
+        &[
+            "error", "scalar", "mechanism", "pinv", "equations", "metric", "workspace", "saddle", "diagnose", "solver",
+            "stabilise", "assemble", "integrate", "events", "trajectory", "simulate",
+        ],
+    );
+}
+
+#[test]
+fn syntax_is_parsed_in_parse_and_written_in_emit() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../ukmacros/src");
+    for file in sources(&root) {
+        let text = code(&file);
+        let own = module(&root, &file);
+        // `diag` takes over the parser's own errors.
+        let syn = text.replace("syn::Error", "");
+        assert!(own == "parse" || !syn.contains("syn::"), "{}", file.display());
+        assert!(own == "emit" || !text.contains("quote!"), "{}", file.display());
+    }
+}
+
+#[test]
+fn no_unsafe_code_and_no_loose_ends() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    for name in ["ukcore", "ukmacros", "models", "tests"] {
+        for file in sources(&root.join(name).join("src")) {
+            let text = std::fs::read_to_string(&file).expect("readable");
+            for word in [concat!("to", "do!"), concat!("unimpl", "emented!"), concat!("FIX", "ME")] {
+                assert!(!text.contains(word), "{} contains {word}", file.display());
+            }
+        }
+    }
+}
