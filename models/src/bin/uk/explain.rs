@@ -3,12 +3,16 @@
 use std::io::{self, Write};
 
 use models::{Model, Visitor};
-use ukcore::{ConstraintKind, Solution, Solver, SolverOptions, Spec};
+use ukcore::{ConstraintKind, ParamSpec, Solution, Solver, SolverOptions, Spec};
 
 use crate::args::ExplainArgs;
 use crate::failure::Failure;
+use crate::numbers::{fixed, short, width};
 use crate::output;
 use crate::scene::{self, Ready};
+
+/// Decimals of values.
+const DIGITS: usize = 8;
 
 /// Prints all that is known about a model.
 ///
@@ -46,8 +50,9 @@ impl Visitor for Explain<'_> {
             constraints(out, spec)?;
             if !spec.outputs.is_empty() {
                 heading(out, "Outputs")?;
+                let wide = width(spec.outputs.iter().map(|o| o.name));
                 for o in spec.outputs {
-                    writeln!(out, "  {:<12} {}", o.name, o.doc)?;
+                    writeln!(out, "  {:<wide$}  {}", o.name, o.doc.trim())?;
                 }
             }
             structure(out, spec)?;
@@ -74,6 +79,7 @@ fn coordinates<M: Model>(out: &mut dyn Write, ready: &Ready<M>) -> io::Result<()
             ready.start
         ),
     )?;
+    let wide = width(spec.coords.iter().copied());
     for (i, name) in spec.coords.iter().enumerate() {
         let massless = if spec.structure.massless.contains(&i) {
             "  (no mass)"
@@ -82,17 +88,12 @@ fn coordinates<M: Model>(out: &mut dyn Write, ready: &Ready<M>) -> io::Result<()
         };
         writeln!(
             out,
-            "  {name:<10} {:>14.8} {:>14.8}{massless}",
-            tidy(ready.state.q[i]),
-            tidy(ready.state.v[i])
+            "  {name:<wide$} {:>14} {:>14}{massless}",
+            fixed(ready.state.q[i], DIGITS),
+            fixed(ready.state.v[i], DIGITS)
         )?;
     }
     Ok(())
-}
-
-/// Without the sign of zero.
-fn tidy(value: f64) -> f64 {
-    value + 0.0
 }
 
 fn parameters<M: Model>(out: &mut dyn Write, ready: &Ready<M>) -> io::Result<()> {
@@ -100,15 +101,19 @@ fn parameters<M: Model>(out: &mut dyn Write, ready: &Ready<M>) -> io::Result<()>
         return Ok(());
     }
     heading(out, "Parameters")?;
-    for (i, p) in M::SPEC.params.iter().enumerate() {
+    let setting = |(i, p): (usize, &ParamSpec)| {
         let value = ready.mechanism.parameter(i);
-        let was = if value == p.default {
+        let changed = if value == p.default {
             String::new()
         } else {
-            format!(" (default {})", p.default)
+            format!(" (default {})", short(p.default, DIGITS))
         };
-        let setting = format!("{} = {value}{was}", p.name);
-        writeln!(out, "  {setting:<24} {}", p.doc.trim())?;
+        format!("{} = {}{changed}", p.name, short(value, DIGITS))
+    };
+    let settings: Vec<String> = M::SPEC.params.iter().enumerate().map(setting).collect();
+    let wide = width(settings.iter().map(String::as_str));
+    for (setting, p) in settings.iter().zip(M::SPEC.params) {
+        writeln!(out, "  {setting:<wide$}  {}", p.doc.trim())?;
     }
     Ok(())
 }
@@ -237,8 +242,9 @@ fn at_start<M: Model>(
     writeln!(out, "  redundant constraints: {redundant}")?;
     writeln!(out, "  formula: {}", formula_name(solution.formula))?;
     writeln!(out, "  accelerations:")?;
+    let wide = width(spec.coords.iter().copied());
     for (name, value) in spec.coords.iter().zip(&solution.acceleration) {
-        writeln!(out, "    {name:<10} {:>14.8}", tidy(*value))?;
+        writeln!(out, "    {name:<wide$} {:>14}", fixed(*value, DIGITS))?;
     }
     Ok(())
 }

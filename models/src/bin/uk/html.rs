@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use crate::numbers;
+
 /// Text with the characters that HTML reserves replaced.
 pub(crate) fn escape(text: &str) -> String {
     text.replace('&', "&amp;")
@@ -10,14 +12,9 @@ pub(crate) fn escape(text: &str) -> String {
         .replace('"', "&quot;")
 }
 
-/// A number with `digits` decimals and a real minus sign; no "−0".
+/// A number with `digits` decimals and a real minus sign; what rounds to zero has no sign.
 pub(crate) fn fixed(value: f64, digits: usize) -> String {
-    let text = format!("{value:.digits$}");
-    match text.strip_prefix('-') {
-        Some(rest) if rest.bytes().all(|b| b == b'0' || b == b'.') => rest.to_owned(),
-        Some(rest) => format!("−{rest}"),
-        None => text,
-    }
+    numbers::fixed(value, digits).replace('-', "−")
 }
 
 /// A number with its sign.

@@ -8,6 +8,7 @@ mod explain;
 mod failure;
 mod html;
 mod list;
+mod numbers;
 mod output;
 mod paper;
 mod plot;

@@ -10,6 +10,7 @@ use ukcore::{Ending, Trajectory};
 
 use crate::args::RunArgs;
 use crate::drift::Drift;
+use crate::numbers::{fixed, width};
 use crate::scene::Ready;
 
 /// What a run was, what came out and what it cost. SI units.
@@ -148,11 +149,12 @@ impl Summary {
             self.model, self.start, self.method, self.tolerance, self.ending
         )?;
         if let Some(last) = &self.last {
+            let wide = width(last.q.keys().chain(last.outputs.keys()).map(String::as_str));
             writeln!(out, "\nState at t = {} s", last.t)?;
             for ((name, q), v) in last.q.iter().zip(last.v.values()) {
                 writeln!(
                     out,
-                    "  {name:<12} {:>18}   dot {:>18}",
+                    "  {name:<wide$} {:>18}   dot {:>18}",
                     number(q),
                     number(v)
                 )?;
@@ -160,7 +162,7 @@ impl Summary {
             if !last.outputs.is_empty() {
                 writeln!(out, "\nOutputs")?;
                 for (name, value) in &last.outputs {
-                    writeln!(out, "  {name:<12} {:>18}", number(value))?;
+                    writeln!(out, "  {name:<wide$} {:>18}", number(value))?;
                 }
             }
         }
@@ -191,5 +193,5 @@ impl Summary {
 fn number(value: &Value) -> String {
     value
         .as_f64()
-        .map_or_else(|| "not finite".to_owned(), |v| format!("{:.12}", v + 0.0))
+        .map_or_else(|| "not finite".to_owned(), |v| fixed(v, 12))
 }

@@ -13,6 +13,11 @@ use super::motion::{Motion, RunRow, times};
 const TIP_X: usize = UChain::X[0];
 const TIP_Y: usize = UChain::Y[0];
 
+/// The start that reproduces Table 1.
+pub(super) const PAPER_START: &str = "trapezoid";
+/// Another one that comes close and does not.
+pub(super) const OTHER_START: &str = "catenary";
+
 /// End of the runs, s: past the greatest fall of all of them.
 const UNTIL: f64 = 2.0;
 /// Points of a curve: one in a millisecond. The peaks are some ten milliseconds wide.
@@ -84,15 +89,18 @@ pub(super) struct Chain {
 /// Times of the picture, s; the turn comes last.
 const SNAPSHOTS: [f64; 7] = [0.0, 0.6, 0.9, 1.2, 1.4, 1.5, 1.6];
 
-/// Runs the chain with the initial separation `x0`.
+/// Runs the chain from the start `start` with the initial separation `x0`.
 ///
 /// # Errors
 /// [`Failure::Failed`] if the integration fails or the tip does not turn.
-pub(super) fn compute(x0: f64) -> Result<Chain, Failure> {
-    let name = format!("uchain-{x0}");
+pub(super) fn compute(start: &str, x0: f64) -> Result<Chain, Failure> {
+    let name = match start {
+        PAPER_START => format!("uchain-{x0}"),
+        other => format!("uchain-{other}-{x0}"),
+    };
     let mechanism = UChain::default();
     let g = mechanism.g;
-    let start = mechanism.start("trapezoid", &StartOptions::new().with("x0", x0))?;
+    let start = mechanism.start(start, &StartOptions::new().with("x0", x0))?;
     let turn = Event::new("turn", |_, _, v| v[TIP_Y]).direction(Direction::Falling);
     let (mut motion, run) = Motion::new(&name, mechanism.clone(), start, UNTIL, Some(turn))?;
     let hit = motion.trajectory().events("turn").next().ok_or_else(|| {

@@ -9,13 +9,17 @@ use crate::html::fixed;
 use crate::plot::{COLOURS, Chart, Legend, Series, round_range};
 
 use super::chain::Chain;
-use super::fish::Fish;
+use super::fish::{self, Fish};
 use super::published::GRAVITY;
 
 /// File names without ending, and the text of the SVG.
 pub(super) type Figures = BTreeMap<String, String>;
 
 type Curve = Vec<(f64, f64)>;
+/// One of the curves of a fish.
+type Pick = fn(&Fish) -> &Curve;
+/// The name of a fish in a legend.
+type Label = fn(&Fish) -> String;
 
 /// Half a page wide.
 const HALF: (u32, u32) = (560, 360);
@@ -43,7 +47,7 @@ pub(super) fn all(chains: &[Chain], fishes: &[Fish]) -> Result<Figures, Failure>
     charts.push(("chain-fall".to_owned(), fall(chains)));
     charts.extend(by_amplitude(fishes));
     for (k, (name, label)) in SWEEPS.iter().enumerate() {
-        let of = |curve: fn(&Fish) -> &Curve| sweep_curves(fishes, k, curve, *label);
+        let of = |curve: Pick| sweep_curves(fishes, k, curve, *label);
         charts.push((
             format!("fish-{name}-speed"),
             chart(
@@ -125,10 +129,10 @@ fn falling(chain: &Chain) -> Chart {
             )
         });
     }
-    let (x, depth) = ((-1.0, 15.0), 17.0);
+    let (x, depth) = ((-1.0, 17.0), 17.0);
     // The axes' labels and margins take this much of the picture (see `plot`).
     let (frame_x, frame_y) = (92, 66);
-    let width = 560;
+    let width = 600;
     let height = frame_y + (f64::from(width - frame_x) * (depth + 0.5) / (x.1 - x.0)) as u32;
     Chart {
         x_label: "x (m)".to_owned(),
@@ -253,7 +257,7 @@ fn before_turn(chain: &Chain) -> impl Iterator<Item = (f64, f64)> {
     chain.fall.iter().copied().filter(move |(t, _)| *t <= t_max)
 }
 
-const SWEEPS: [(&str, fn(&Fish) -> String); 3] = [
+const SWEEPS: [(&str, Label); 3] = [
     ("amplitude", |f| format!("A3 = {}", f.row.a3)),
     ("frequency", |f| {
         format!("ω = {}π rad/s", f.row.gait.omega_pi)
@@ -261,21 +265,8 @@ const SWEEPS: [(&str, fn(&Fish) -> String); 3] = [
     ("phase", |f| format!("φ = {}°", f.row.phi_deg)),
 ];
 
-/// The gaits of a sweep in order of what is varied.
-pub(super) fn of_sweep(fishes: &[Fish], k: usize) -> Vec<&Fish> {
-    let varied = |f: &Fish| [f.row.a3, f.row.omega, f.row.phi_deg][k];
-    let mut chosen: Vec<&Fish> = fishes.iter().filter(|f| f.row.gait.sweeps()[k]).collect();
-    chosen.sort_by(|a, b| varied(a).total_cmp(&varied(b)));
-    chosen
-}
-
-fn sweep_curves(
-    fishes: &[Fish],
-    k: usize,
-    curve: fn(&Fish) -> &Curve,
-    label: fn(&Fish) -> String,
-) -> Vec<Series> {
-    of_sweep(fishes, k)
+fn sweep_curves(fishes: &[Fish], k: usize, curve: Pick, label: Label) -> Vec<Series> {
+    fish::sweep(fishes, k, |f| &f.row)
         .into_iter()
         .enumerate()
         .map(|(i, f)| Series::new(label(f), i, curve(f).clone()))
@@ -285,9 +276,9 @@ fn sweep_curves(
 /// Figs. 9-12 (forward velocity) and 13-16 (acceleration), each group in one range.
 fn by_amplitude(fishes: &[Fish]) -> Vec<(String, Chart)> {
     let x = (0.0, FISH_TIME);
-    let chosen = of_sweep(fishes, 0);
+    let chosen = fish::sweep(fishes, 0, |f| &f.row);
     let mut charts = Vec::new();
-    let curves: [(usize, &str, fn(&Fish) -> &Curve); 2] = [
+    let curves: [(usize, &str, Pick); 2] = [
         (9, "forward velocity −ẋ1 (m/s)", |f| &f.speed),
         (13, "acceleration ẍ1 (m/s²)", |f| &f.acceleration),
     ];

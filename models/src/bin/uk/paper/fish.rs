@@ -83,6 +83,14 @@ impl Gait {
     }
 }
 
+/// The items of a sweep (0 amplitude, 1 frequency, 2 phase), in order of what is varied.
+pub(super) fn sweep<T>(items: &[T], k: usize, row: impl Fn(&T) -> &FishRow) -> Vec<&T> {
+    let varied = |item: &T| [row(item).a3, row(item).omega, row(item).phi_deg][k];
+    let mut chosen: Vec<&T> = items.iter().filter(|i| row(i).gait.sweeps()[k]).collect();
+    chosen.sort_by(|a, b| varied(a).total_cmp(&varied(b)));
+    chosen
+}
+
 /// The numbers of one gait.
 #[derive(Debug, Clone, Serialize)]
 pub(super) struct FishRow {

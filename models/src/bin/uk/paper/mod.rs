@@ -23,7 +23,7 @@ use crate::output;
 use crate::progress::Progress;
 
 use chain::{Chain, ChainRow};
-use claims::Claim;
+use claims::{Claim, Verdict};
 use fish::{Fish, FishRow, Gait};
 use motion::RunRow;
 
@@ -39,6 +39,8 @@ struct Paper {
     method: &'static str,
     tolerance: f64,
     uchain: Vec<ChainRow>,
+    /// Not the paper's start: the chain hanging in equilibrium before its tip is let go.
+    uchain_catenary: ChainRow,
     fish: Vec<FishRow>,
     claims: Vec<Claim>,
     runs: Vec<RunRow>,
@@ -52,13 +54,21 @@ const SIGNS: &str = "Chain: y points down, peak is the least acceleration of the
 /// One integration to do.
 #[derive(Debug, Clone, Copy)]
 enum Job {
-    Chain(f64),
+    Chain(&'static str, f64),
     Fish(Gait),
 }
 
 enum Outcome {
     Chain(Chain),
     Fish(Fish),
+}
+
+/// All runs.
+struct Results {
+    /// Table 1's, in order of x0.
+    chains: Vec<Chain>,
+    catenary: Chain,
+    fishes: Vec<Fish>,
 }
 
 /// Computes both cases and writes the report to `args.out`.
@@ -68,45 +78,53 @@ enum Outcome {
 /// replaced by files that are each whole, and index.html is written last.
 pub(crate) fn paper(args: &PaperArgs) -> Result<(), Failure> {
     let started = Instant::now();
-    let (chains, fishes) = compute()?;
-    let claims = claims::judge(&rows(&chains, |c| &c.row), &rows(&fishes, |f| &f.row));
-    let figures = figures::all(&chains, &fishes)?;
-    let runs = chains
-        .iter()
-        .map(|c| c.run.clone())
-        .chain(fishes.iter().map(|f| f.run.clone()))
-        .collect();
+    let results = compute()?;
+    let uchain = rows(&results.chains, |c| &c.row);
+    let fish = rows(&results.fishes, |f| &f.row);
+    let figures = figures::all(&results.chains, &results.fishes)?;
     let paper = Paper {
         about: ABOUT,
         signs: SIGNS,
         method: "DOP853 with projection onto the constraints after each step",
         tolerance: TOLERANCE,
-        uchain: rows(&chains, |c| &c.row),
-        fish: rows(&fishes, |f| &f.row),
-        claims,
-        runs,
+        claims: claims::judge(&uchain, &fish),
+        uchain,
+        uchain_catenary: results.catenary.row.clone(),
+        fish,
+        runs: results.samples().map(|(run, _)| run.clone()).collect(),
         seconds: started.elapsed().as_secs_f64(),
     };
-    let out = &args.out;
-    write_all(out, &paper, &figures, &chains, &fishes)?;
-    report(out, &paper)
+    write_all(&args.out, &paper, &figures, &results)?;
+    report(&args.out, &paper)
+}
+
+impl Results {
+    /// Each run with its samples as CSV.
+    fn samples(&self) -> impl Iterator<Item = (&RunRow, &[u8])> {
+        let chains = self.chains.iter().chain([&self.catenary]);
+        let fishes = self.fishes.iter().map(|f| (&f.run, f.csv.as_slice()));
+        chains.map(|c| (&c.run, c.csv.as_slice())).chain(fishes)
+    }
 }
 
 fn rows<T, R: Clone>(items: &[T], row: impl Fn(&T) -> &R) -> Vec<R> {
     items.iter().map(|i| row(i).clone()).collect()
 }
 
-fn compute() -> Result<(Vec<Chain>, Vec<Fish>), Failure> {
-    let jobs: Vec<Job> = TABLE_1
+fn compute() -> Result<Results, Failure> {
+    let table = TABLE_1
         .iter()
-        .map(|row| Job::Chain(row.x0))
+        .map(|row| Job::Chain(chain::PAPER_START, row.x0));
+    let jobs: Vec<Job> = [Job::Chain(chain::OTHER_START, TABLE_1[0].x0)]
+        .into_iter()
+        .chain(table)
         .chain(fish::gaits().into_iter().map(Job::Fish))
         .collect();
     let progress = Progress::new("paper");
     let outcomes = parallel::map(
         &jobs,
         |job| match job {
-            Job::Chain(x0) => chain::compute(*x0).map(Outcome::Chain),
+            Job::Chain(start, x0) => chain::compute(start, *x0).map(Outcome::Chain),
             Job::Fish(gait) => fish::compute(*gait).map(Outcome::Fish),
         },
         |done| {
@@ -117,21 +135,26 @@ fn compute() -> Result<(Vec<Chain>, Vec<Fish>), Failure> {
     );
     progress.finish();
     let (mut chains, mut fishes) = (Vec::new(), Vec::new());
+    // In the order of the jobs: the catenary comes first.
     for outcome in outcomes {
         match outcome? {
             Outcome::Chain(chain) => chains.push(chain),
             Outcome::Fish(fish) => fishes.push(fish),
         }
     }
-    Ok((chains, fishes))
+    let catenary = chains.remove(0);
+    Ok(Results {
+        chains,
+        catenary,
+        fishes,
+    })
 }
 
 fn write_all(
     out: &Path,
     paper: &Paper,
     figures: &figures::Figures,
-    chains: &[Chain],
-    fishes: &[Fish],
+    results: &Results,
 ) -> Result<(), Failure> {
     for dir in ["figures", "csv"] {
         output::create_directory(&out.join(dir))?;
@@ -141,12 +164,8 @@ fn write_all(
             w.write_all(svg.as_bytes())
         })?;
     }
-    let samples = chains
-        .iter()
-        .map(|c| (&c.run.name, &c.csv))
-        .chain(fishes.iter().map(|f| (&f.run.name, &f.csv)));
-    for (name, csv) in samples {
-        output::write_whole(&out.join("csv").join(format!("{name}.csv")), |w| {
+    for (run, csv) in results.samples() {
+        output::write_whole(&out.join("csv").join(format!("{}.csv", run.name)), |w| {
             w.write_all(csv)
         })?;
     }
@@ -160,36 +179,49 @@ fn write_all(
 
 /// What a person at the terminal wants to know at once.
 fn report(out: &Path, paper: &Paper) -> Result<(), Failure> {
+    let count = |verdict| paper.claims.iter().filter(|c| c.verdict == verdict).count();
     output::to_stdout(|w| {
         writeln!(
             w,
-            "U-chain, Table 1                 h_max             t_max       deepest"
+            "Falling U-chain, Table 1: greatest fall of the tip, its time, deepest acceleration"
         )?;
-        writeln!(
-            w,
-            "      x0               paper       uk    paper       uk   tip accel."
-        )?;
-        for row in &paper.uchain {
+        writeln!(w, "   x0      h_max (m)          t_max (s)     tip (m/s²)")?;
+        writeln!(w, "        paper     here     paper    here        here")?;
+        for r in &paper.uchain {
+            let (h, t) = (r.paper.h_max, r.paper.t_max);
             writeln!(
                 w,
-                "      {:<12} {:>11.3} {:>8.3} {:>8.3} {:>8.3} {:>12.1}",
-                row.x0, row.paper.h_max, row.h_max, row.paper.t_max, row.t_max, row.peak
+                "   {:2} {h:8.3} {:8.3}   {t:7.3} {:7.3}    {:8.1}",
+                r.x0, r.h_max, r.t_max, r.peak
             )?;
         }
-        let count = |verdict| paper.claims.iter().filter(|c| c.verdict == verdict).count();
         writeln!(
             w,
-            "Claims of the paper: {} hold, {} nearly, {} do not.",
-            count(claims::Verdict::Holds),
-            count(claims::Verdict::Nearly),
-            count(claims::Verdict::Fails)
+            "Fish robot: start acceleration and mean speed over 3-4 s; negative is forward"
         )?;
+        writeln!(w, "   A3   ω (rad/s)   φ (°)   (m/s²)    (m/s)")?;
+        for r in &paper.fish {
+            writeln!(
+                w,
+                "  {:3.1} {:11.4} {:7} {:8.4} {:8.4}",
+                r.a3, r.omega, r.phi_deg, r.start_acceleration, r.mean_speed
+            )?;
+        }
         writeln!(
             w,
-            "{} runs in {:.1} s. The report is {}",
+            "Claims of the paper: {}; holding: {}, nearly: {}, not: {}",
+            paper.claims.len(),
+            count(Verdict::Holds),
+            count(Verdict::Nearly),
+            count(Verdict::Fails)
+        )?;
+        let index = out.join("index.html");
+        writeln!(
+            w,
+            "{} runs in {:.1} s; the report is {}",
             paper.runs.len(),
             paper.seconds,
-            out.join("index.html").display()
+            index.display()
         )
     })
 }
