@@ -25,10 +25,10 @@ pub mod equations;
 pub mod error;
 #[cfg(feature = "simulate")]
 pub mod events;
-#[cfg(feature = "simulate")]
-pub mod integrate;
 #[cfg(test)]
 mod fixture;
+#[cfg(feature = "simulate")]
+pub mod integrate;
 pub mod mechanism;
 mod metric;
 pub mod pinv;
@@ -38,9 +38,9 @@ pub mod scalar;
 pub mod simulate;
 pub mod solver;
 pub mod stabilise;
-mod workspace;
 #[cfg(feature = "simulate")]
 pub mod trajectory;
+mod workspace;
 
 pub use assemble::{Residuals, State, assemble, residuals};
 pub use error::Error;

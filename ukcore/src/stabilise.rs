@@ -20,6 +20,11 @@ const ROUNDING: f64 = 4.0;
 /// Lengths of links among coordinates thirty times as large still hold to 1e-12.
 const STALLED: f64 = 64.0;
 
+/// The largest coordinate counts into the size of every constraint's terms with this share: a coordinate that the constraints put
+/// to zero takes rounding errors from the others through the solve, and has no size of its own to measure them by. The share is
+/// small because coordinates need not be of one unit.
+const NEIGHBOUR: f64 = 1e-4;
+
 /// Progress: a Newton step that does not divide the residual by this is not converging quadratically.
 const PROGRESS: f64 = 0.1;
 
@@ -74,6 +79,8 @@ pub struct Projector {
     residual: Vec<f64>,
     rhs: Vec<f64>,
     start: Vec<f64>,
+    /// max|x| at the start of the projection.
+    size: f64,
     best: Vec<f64>,
     step: Vec<f64>,
     dense: Dense,
@@ -100,6 +107,7 @@ impl Projector {
             residual: vec![0.0; m],
             rhs: vec![0.0; m],
             start: vec![0.0; n],
+            size: 0.0,
             best: vec![0.0; n],
             step: vec![0.0; n],
             dense: Dense::new(n, m, spec.structure.mass_diagonal),
@@ -181,6 +189,7 @@ impl Projector {
             self.m
         };
         let mut correction = Correction::default();
+        self.size = x.iter().fold(0.0, |s, x| s.max(x.abs()));
         self.evaluate(mech, t, x, other, level);
         let mut factored =
             level == Level::Velocity && self.factored_at == Some(t) && self.factored_q == other;
@@ -349,7 +358,8 @@ impl Projector {
     }
 
     fn row_at_rounding(&self, a: Rows<'_>, c: usize, x: &[f64]) -> bool {
-        self.residual[c].abs() <= ROUNDING * f64::EPSILON * a.magnitude(c, x)
+        let size = a.magnitude(c, x) + NEIGHBOUR * self.size * a.largest(c);
+        self.residual[c].abs() <= ROUNDING * f64::EPSILON * size
     }
 
     fn at_rounding(&self, x: &[f64], rows: usize) -> bool {
@@ -361,7 +371,7 @@ impl Projector {
     fn terms(&self, c: usize, rows: usize, x: &[f64]) -> f64 {
         let a = rows_of(&self.jacobian, self.m, rows);
         let sizes = a.row(c).zip(x).filter(|(a, _)| *a != 0.0);
-        a.largest(c) * sizes.fold(0.0, |s: f64, (_, x)| s.max(x.abs()))
+        a.largest(c) * sizes.fold(NEIGHBOUR * self.size, |s: f64, (_, x)| s.max(x.abs()))
     }
 
     fn acceptable(&self, x: &[f64], rows: usize) -> bool {

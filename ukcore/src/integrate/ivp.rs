@@ -95,6 +95,10 @@ enum Closing {
     Failed,
 }
 
+/// Steps shorter than this share (ε²) of the run are not retried: near s = 0, where no rounding of s stops it, halving could go on
+/// through three hundred decades.
+const SHORTEST: f64 = f64::EPSILON * f64::EPSILON;
+
 /// Why the callback interrupted.
 enum Verdict {
     None,
@@ -260,7 +264,7 @@ impl<P: Problem> Shared<'_, P> {
         let last = (s - self.s_end).abs() <= END_ROUNDING * self.s_end;
         let t_old = self.clock.t(self.s);
         let t = if last { self.t_end } else { self.clock.t(s) };
-        if t == t_old {
+        if t == t_old || s - self.s < SHORTEST * self.s_end {
             return self.interrupt(Verdict::Underflow(s - self.s));
         }
         let states = interpolant.map(|inner| States {
@@ -424,6 +428,9 @@ pub(super) fn run(
             std::mem::replace(&mut shared.verdict, Verdict::None),
             result,
         ) {
+            (Verdict::Redo(step), _) if step < SHORTEST * shared.s_end => {
+                failed(&mut shared, Error::StepTooSmall { step })
+            }
             (Verdict::Redo(step), _) if shared.attempts < settings.max_steps => {
                 first_step = Some(0.5 * step);
                 continue;
