@@ -1,21 +1,58 @@
-//! An independent dense solution of the equations of motion, over nalgebra's singular value decomposition: no code shared with `ukcore`.
+//! An independent dense solution of the equations of motion, by singular values: no code shared with `ukcore`.
 
 use nalgebra::{DMatrix, DVector};
 use ukcore::{Mechanism, State, Terms};
 
 /// Moore-Penrose inverse by singular values; those below `tolerance` times the largest count as zero.
 ///
-/// # Panics
-/// If the decomposition fails, which takes a NaN.
+/// One-sided Jacobi rotations (Hestenes 1958): slow, short, and accurate to rounding also for small singular values.
 #[must_use]
 pub fn pseudo_inverse(matrix: &DMatrix<f64>, tolerance: f64) -> DMatrix<f64> {
-    if matrix.is_empty() {
-        return DMatrix::zeros(matrix.ncols(), matrix.nrows());
+    if matrix.nrows() < matrix.ncols() {
+        return pseudo_inverse(&matrix.transpose(), tolerance).transpose();
     }
-    let svd = matrix.clone().svd(true, true);
-    let cut = tolerance * svd.singular_values.max();
-    svd.pseudo_inverse(cut)
-        .expect("both factors were asked for")
+    let n = matrix.ncols();
+    let mut left = matrix.clone();
+    let mut right = DMatrix::identity(n, n);
+    loop {
+        let mut rotated = false;
+        for i in 0..n {
+            for j in i + 1..n {
+                let (a, b) = (left.column(i).norm_squared(), left.column(j).norm_squared());
+                let c = left.column(i).dot(&left.column(j));
+                // Orthogonal to rounding, or a column that is nothing but rounding.
+                if c.abs() <= f64::EPSILON * (a * b).sqrt() || a.min(b) <= f64::MIN_POSITIVE {
+                    continue;
+                }
+                rotated = true;
+                let zeta = (b - a) / (2.0 * c);
+                let tan = zeta.signum() / (zeta.abs() + 1.0_f64.hypot(zeta));
+                let cos = 1.0 / 1.0_f64.hypot(tan);
+                for matrix in [&mut left, &mut right] {
+                    for k in 0..matrix.nrows() {
+                        let (x, y) = (matrix[(k, i)], matrix[(k, j)]);
+                        matrix[(k, i)] = cos * (x - tan * y);
+                        matrix[(k, j)] = cos * (y + tan * x);
+                    }
+                }
+            }
+        }
+        if !rotated {
+            break;
+        }
+    }
+    // Now left = U Σ, so A⁺ = V Σ⁻² (U Σ)ᵀ on the singular values that count.
+    let sizes: Vec<f64> = left.column_iter().map(|c| c.norm()).collect();
+    let cut = tolerance * sizes.iter().fold(0.0_f64, |s, x| s.max(*x));
+    for (k, size) in sizes.iter().enumerate() {
+        let weight = if *size > cut {
+            1.0 / (size * size)
+        } else {
+            0.0
+        };
+        left.column_mut(k).scale_mut(weight);
+    }
+    right * left.transpose()
 }
 
 /// M, Q, c, A and b of a state, as matrices.
