@@ -65,22 +65,22 @@ fn jacobian_and_rhs_by_dual_numbers() {
                         &along(&state.v, &unit),
                         &mut rate,
                     );
-                    for i in 0..m {
+                    for (i, rate) in rate.iter().enumerate() {
                         assert_close(
                             &format!("{}: A[{i}, {j}]", M::ID),
                             dense.jacobian[(i, j)],
-                            rate[i].eps,
+                            rate.eps,
                             ACCURACY * scale,
                         );
                     }
                     // A = ∂φ/∂q for the holonomic ones.
                     let mut phi = vec![zero; M::SPEC.holonomic];
                     model.residual(Dual::new(state.t, 0.0), &along(&state.q, &unit), &mut phi);
-                    for i in 0..M::SPEC.holonomic {
+                    for (i, phi) in phi.iter().enumerate() {
                         assert_close(
                             &format!("{}: ∂φ[{i}]/∂q[{j}]", M::ID),
                             dense.jacobian[(i, j)],
-                            phi[i].eps,
+                            phi.eps,
                             ACCURACY * scale,
                         );
                     }
@@ -103,11 +103,11 @@ fn jacobian_and_rhs_by_dual_numbers() {
                     &mut rate,
                 );
                 let scale = largest(dense.rhs.iter()).max(1.0);
-                for i in 0..m {
+                for (i, rate) in rate.iter().enumerate() {
                     assert_close(
                         &format!("{}: b[{i}]", M::ID),
                         dense.rhs[i],
-                        -rate[i].eps,
+                        -rate.eps,
                         ACCURACY * scale,
                     );
                 }

@@ -1,12 +1,16 @@
 //! All formulas give one acceleration: eqs. 13 and 19, the saddle-point system, the solver's fast paths, and a dense oracle of the
 //! tests' own.
 
-use models::Model;
+use models::{Model, UChain};
+use nalgebra::DVector;
 use tests::{Check, Dense, Random, assert_close, every_model, largest};
+use ukcore::equations::{kkt, uk, up};
 use ukcore::{Formula, Solver, SolverOptions};
 
 /// Agreement asked for, relative to the largest acceleration.
 const ACCURACY: f64 = 1e-9;
+/// Relative rank tolerance of the printed formulas: above the rounding of projected states, below any dependence in the models.
+const RANK: f64 = 1e-10;
 /// Random consistent states tried per model.
 const STATES: usize = 20;
 
@@ -69,4 +73,108 @@ fn formulas_agree_with_the_oracle() {
         }
     }
     every_model(&Formulas);
+}
+
+#[test]
+fn printed_formulas_agree_with_the_solver() {
+    struct Printed;
+    impl Check for Printed {
+        fn check<M: Model>(&self) {
+            let mut random = Random::new(42);
+            let mut solver = Solver::new::<M>(SolverOptions::default());
+            for _ in 0..STATES {
+                let model = M::default();
+                let state = random.consistent_state(&model, 0.01);
+                let solution = solver
+                    .solve(&model, state.t, &state.q, &state.v)
+                    .unwrap_or_else(|e| panic!("{}: {e}", M::ID));
+                let Dense {
+                    mass,
+                    force,
+                    nonideal,
+                    jacobian,
+                    rhs,
+                } = Dense::of(&model, &state);
+                let expected = DVector::from_vec(solution.acceleration);
+                let scale = largest(expected.iter()).max(1.0);
+                let agrees = |equation: &str, found: &DVector<f64>| {
+                    let off = largest((found - &expected).iter());
+                    assert!(
+                        off <= ACCURACY * scale,
+                        "{}, {equation}: {off:e} off",
+                        M::ID
+                    );
+                };
+                let all = &force + &nonideal;
+                let by_19 = up::acceleration(&mass, &all, &jacobian, &rhs, RANK)
+                    .expect("[M | Aᵀ] has full rank");
+                agrees("eq. 19", &by_19);
+                // The saddle-point matrix is regular only without redundant constraints.
+                if solution.redundant.is_empty() {
+                    let (by_kkt, _) = kkt::solve(&mass, &all, &jacobian, &rhs)
+                        .expect("the saddle-point matrix is regular");
+                    agrees("saddle point", &by_kkt);
+                }
+                if solution.formula != Formula::UdwadiaKalaba {
+                    continue;
+                }
+                let by_13 =
+                    uk::acceleration_nonideal(&mass, &force, &nonideal, &jacobian, &rhs, RANK);
+                agrees("eq. 13", &by_13.expect("M is regular"));
+                if !M::SPEC.structure.nonideal {
+                    let by_15 = uk::acceleration(&mass, &force, &jacobian, &rhs, RANK);
+                    agrees("eq. 15", &by_15.expect("M is regular"));
+                }
+                let ideal =
+                    uk::ideal_force(&mass, &force, &jacobian, &rhs, RANK).expect("M is regular");
+                let nonideal =
+                    uk::nonideal_force(&mass, &nonideal, &jacobian, RANK).expect("M is regular");
+                let size = ideal.norm().max(1.0);
+                for (equation, found, expected) in [
+                    ("eq. 11", ideal, solution.ideal_force),
+                    ("eq. 12", nonideal, solution.nonideal_force),
+                ] {
+                    let off = (found - DVector::from_vec(expected)).norm();
+                    assert!(off <= ACCURACY * size, "{}, {equation}: {off:e} off", M::ID);
+                }
+            }
+        }
+    }
+    every_model(&Printed);
+}
+
+#[test]
+fn equal_masses_have_the_short_formulas() {
+    // Eqs. 17 and 18: the chain has M = m I.
+    let mut random = Random::new(43);
+    for g in [9.8, 0.0] {
+        let chain = UChain {
+            m: 0.3,
+            g,
+            ..UChain::default()
+        };
+        let state = random.consistent_state(&chain, 0.01);
+        let solution = Solver::new::<UChain>(SolverOptions::default())
+            .solve(&chain, state.t, &state.q, &state.v)
+            .expect("the chain's constraints are independent");
+        let Dense {
+            force,
+            jacobian,
+            rhs,
+            ..
+        } = Dense::of(&chain, &state);
+        let expected = DVector::from_vec(solution.ideal_force);
+        let by_17 = uk::equal_masses(chain.m, &force, &jacobian, &rhs, RANK);
+        assert!(
+            (by_17 - &expected).norm() <= ACCURACY * expected.norm(),
+            "eq. 17"
+        );
+        if g == 0.0 {
+            let by_18 = uk::equal_masses_free(chain.m, &jacobian, &rhs, RANK);
+            assert!(
+                (by_18 - &expected).norm() <= ACCURACY * expected.norm(),
+                "eq. 18"
+            );
+        }
+    }
 }
