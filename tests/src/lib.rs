@@ -66,3 +66,8 @@ pub fn assert_all_close(what: &str, found: &[f64], expected: &[f64], tolerance: 
 pub fn largest<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
     values.into_iter().fold(0.0, |a: f64, x| a.max(x.abs()))
 }
+
+/// The README's examples, compiled and run.
+#[doc = include_str!("../../README.md")]
+#[cfg(doctest)]
+pub struct Readme;

@@ -7,12 +7,18 @@ fn sources(directory: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in std::fs::read_dir(directory).expect("a source directory") {
         let path = entry.expect("readable").path();
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let name = path
+            .file_name()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned();
         if path.is_dir() {
             if name != "tests" {
                 found.extend(sources(&path));
             }
-        } else if name.ends_with(".rs") && !["lib.rs", "tests.rs", "fixture.rs"].contains(&name.as_str()) {
+        } else if name.ends_with(".rs")
+            && !["lib.rs", "tests.rs", "fixture.rs"].contains(&name.as_str())
+        {
             found.push(path);
         }
     }
@@ -68,19 +74,28 @@ fn check_order(crate_name: &str, order: &[&str]) {
         for name in used(&code(file)) {
             // Names of items re-exported at the root (types, macros) are not modules.
             if position(&name).is_some_and(|other| other > rank) {
-                wrong.push(format!("{}: `{own}` uses `{name}`, which stands above it", file.display()));
+                wrong.push(format!(
+                    "{}: `{own}` uses `{name}`, which stands above it",
+                    file.display()
+                ));
             }
         }
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
     for name in order {
-        assert!(files.iter().any(|f| module(&root, f) == *name), "`{name}` does not exist");
+        assert!(
+            files.iter().any(|f| module(&root, f) == *name),
+            "`{name}` does not exist"
+        );
     }
 }
 
 #[test]
 fn ukmacros() {
-    check_order("ukmacros", &["diag", "parse", "model", "expr", "analysis", "emit"]);
+    check_order(
+        "ukmacros",
+        &["diag", "parse", "model", "expr", "analysis", "emit"],
+    );
 }
 
 #[test]
@@ -88,8 +103,22 @@ fn ukcore() {
     check_order(
         "ukcore",
         &[
-            "error", "scalar", "mechanism", "pinv", "equations", "metric", "workspace", "saddle", "diagnose", "solver",
-            "stabilise", "assemble", "integrate", "events", "trajectory", "simulate",
+            "error",
+            "scalar",
+            "mechanism",
+            "pinv",
+            "equations",
+            "metric",
+            "workspace",
+            "saddle",
+            "diagnose",
+            "solver",
+            "stabilise",
+            "assemble",
+            "integrate",
+            "events",
+            "trajectory",
+            "simulate",
         ],
     );
 }
@@ -102,8 +131,16 @@ fn syntax_is_parsed_in_parse_and_written_in_emit() {
         let own = module(&root, &file);
         // `diag` takes over the parser's own errors.
         let syn = text.replace("syn::Error", "");
-        assert!(own == "parse" || !syn.contains("syn::"), "{}", file.display());
-        assert!(own == "emit" || !text.contains("quote!"), "{}", file.display());
+        assert!(
+            own == "parse" || !syn.contains("syn::"),
+            "{}",
+            file.display()
+        );
+        assert!(
+            own == "emit" || !text.contains("quote!"),
+            "{}",
+            file.display()
+        );
     }
 }
 
@@ -113,7 +150,11 @@ fn no_unsafe_code_and_no_loose_ends() {
     for name in ["ukcore", "ukmacros", "models", "tests"] {
         for file in sources(&root.join(name).join("src")) {
             let text = std::fs::read_to_string(&file).expect("readable");
-            for word in [concat!("to", "do!"), concat!("unimpl", "emented!"), concat!("FIX", "ME")] {
+            for word in [
+                concat!("to", "do!"),
+                concat!("unimpl", "emented!"),
+                concat!("FIX", "ME"),
+            ] {
                 assert!(!text.contains(word), "{} contains {word}", file.display());
             }
         }

@@ -129,6 +129,8 @@ pub struct Solver {
     owner: Owner,
     options: SolverOptions,
     work: SolverWork,
+    /// M was found singular at run time: Formula::Auto does not try to factor it any more.
+    singular: bool,
     n: usize,
     m: usize,
     here: Evaluated,
@@ -178,6 +180,7 @@ impl Solver {
                 ..options
             },
             work: SolverWork::default(),
+            singular: false,
             n,
             m,
             here: Evaluated::new(n, m),
@@ -364,7 +367,7 @@ impl Solver {
         let floor = self.options.rank_tolerance;
         let a = rows(&self.here, self.m);
         let (route, formula) = match self.options.formula {
-            Formula::Auto if structure.massless.is_empty() => {
+            Formula::Auto if structure.massless.is_empty() && !self.singular => {
                 (Route::Regular, Formula::UdwadiaKalaba)
             }
             Formula::UdwadiaKalaba => (Route::Regular, Formula::UdwadiaKalaba),
@@ -376,6 +379,8 @@ impl Solver {
         match self.dense.factor(route, &self.here.mass, a, floor) {
             Ok(()) => Ok(formula),
             Err(MassFault::Singular(_)) if self.options.formula == Formula::Auto => {
+                // A matrix that is singular once mostly stays so (a quaternion body's always is), and eq. 19 holds for a regular one too.
+                self.singular = true;
                 self.work.fallbacks += 1;
                 let singular = self
                     .dense
