@@ -71,7 +71,7 @@ pub(crate) struct RunArgs {
     #[arg(
         long,
         value_name = "TOL",
-        default_value_t = 1e-10,
+        default_value = "1e-10",
         allow_hyphen_values = true
     )]
     pub(crate) tol: f64,

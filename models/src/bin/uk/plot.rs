@@ -72,6 +72,7 @@ impl Series {
 pub(crate) enum Legend {
     None,
     UpperLeft,
+    UpperMiddle,
     LowerMiddle,
     LowerLeft,
     LowerRight,
@@ -140,6 +141,7 @@ impl Chart {
         let position = match self.legend {
             Legend::None => return Ok(()),
             Legend::UpperLeft => SeriesLabelPosition::UpperLeft,
+            Legend::UpperMiddle => SeriesLabelPosition::UpperMiddle,
             Legend::LowerMiddle => SeriesLabelPosition::LowerMiddle,
             Legend::LowerLeft => SeriesLabelPosition::LowerLeft,
             Legend::LowerRight => SeriesLabelPosition::LowerRight,

@@ -40,13 +40,13 @@ impl Progress {
         if self.started.elapsed() < PATIENCE {
             return;
         }
+        self.bar
+            .set_position((fraction.clamp(0.0, 1.0) * RESOLUTION) as u64);
+        self.bar.set_message(message());
         if self.bar.is_hidden() {
             self.bar
                 .set_draw_target(ProgressDrawTarget::stderr_with_hz(REDRAWS));
         }
-        self.bar.set_message(message());
-        self.bar
-            .set_position((fraction.clamp(0.0, 1.0) * RESOLUTION) as u64);
     }
 
     /// Removes the bar.

@@ -57,15 +57,18 @@ pub(super) fn all(chains: &[Chain], fishes: &[Fish]) -> Result<Figures, Failure>
                 Legend::LowerRight,
             ),
         ));
-        charts.push((
-            format!("fish-{name}-acceleration"),
-            chart(
-                "acceleration ẍ1 (m/s²)",
-                (0.0, FISH_TIME),
-                of(|f| &f.acceleration),
-                Legend::LowerMiddle,
-            ),
-        ));
+        // Those of the amplitude are Figs. 13-16, in one range.
+        if k > 0 {
+            charts.push((
+                format!("fish-{name}-acceleration"),
+                chart(
+                    "acceleration ẍ1 (m/s²)",
+                    (0.0, FISH_TIME),
+                    of(|f| &f.acceleration),
+                    Legend::LowerMiddle,
+                ),
+            ));
+        }
         charts.push((
             format!("fish-{name}-swing"),
             chart(
@@ -129,18 +132,19 @@ fn falling(chain: &Chain) -> Chart {
             )
         });
     }
-    let (x, depth) = ((-1.0, 17.0), 17.0);
+    // The legend stands inside of the first U, with some room above.
+    let (x, depth, above) = ((-1.0, 13.5), 17.0, 1.4);
     // The axes' labels and margins take this much of the picture (see `plot`).
     let (frame_x, frame_y) = (92, 66);
-    let width = 600;
-    let height = frame_y + (f64::from(width - frame_x) * (depth + 0.5) / (x.1 - x.0)) as u32;
+    let width = 560;
+    let height = frame_y + (f64::from(width - frame_x) * (depth + above) / (x.1 - x.0)) as u32;
     Chart {
         x_label: "x (m)".to_owned(),
         y_label: "y, downwards (m)".to_owned(),
         x,
-        y: (depth, -0.5),
+        y: (depth, -above),
         series,
-        legend: Legend::LowerRight,
+        legend: Legend::UpperMiddle,
         size: (width, height),
     }
 }

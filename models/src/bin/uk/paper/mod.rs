@@ -209,7 +209,7 @@ fn report(out: &Path, paper: &Paper) -> Result<(), Failure> {
         }
         writeln!(
             w,
-            "Claims of the paper: {}; holding: {}, nearly: {}, not: {}",
+            "Of {} claims of the paper {} are borne out, {} nearly, {} not",
             paper.claims.len(),
             count(Verdict::Holds),
             count(Verdict::Nearly),

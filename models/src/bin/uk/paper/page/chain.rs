@@ -19,7 +19,7 @@ pub(super) fn section(paper: &Paper) -> String {
         fixed(paper.uchain_catenary.t_max, 3)
     );
     html.push_str("<div class=\"figures\">\n");
-    html.push_str(&figure(
+    let falling = figure(
         "figures/chain-falling.svg",
         "Shapes of the chain from its start to the turn of the tip",
         &format!(
@@ -27,11 +27,17 @@ pub(super) fn section(paper: &Paper) -> String {
              along the dashed path until the straightened chain pulls it round (orange).",
             rows.first().map_or(0.0, |r| r.x0)
         ),
+    );
+    html.push_str(&falling.replacen("<figure>", "<figure class=\"tall\">", 1));
+    html.push_str(&figure(
+        "figures/chain-fall.svg",
+        "Fall of the tip and of a free body",
+        "Fall of the tip up to its turn, and that of a free body. The tip is ahead all the way.",
     ));
     html.push_str(&figure(
         "figures/chain-lead.svg",
         "Fall of the tip less the fall of a free body",
-        "How far the tip is ahead of a body that falls freely, up to its turn. The closer the ends of the chain are at the start, the greater the lead. \
+        "The difference of the two. The closer the ends of the chain are at the start, the greater the lead. \
          It shrinks once the chain pulls the tip back, but is positive still where the curves end, at the turn.",
     ));
     html.push_str("</div>\n");

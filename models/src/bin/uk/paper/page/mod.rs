@@ -40,8 +40,8 @@ fn head(paper: &Paper) -> String {
          Udwadia-Kalaba Theory. Chinese Journal of Mechanical Engineering 26 (2013) 839-850.</p>\n\
          <p>Both mechanisms are declared in a few lines of Rust; constraints are differentiated at compile time, and the equations of \
          Udwadia and Kalaba (regular mass matrix) or Udwadia and Phohomsiri (singular) are integrated with DOP853 at tolerance {}, with \
-         projection onto the constraints after each step. Table 1 is met to {} m. Claims of the paper: {}; holding: {}, \
-         nearly: {}, not: {} (<a href=\"#claims\">each with its number</a>).</p>\n\
+         projection onto the constraints after each step. Table 1 is met to {} m. Of {} claims of the paper \
+         {} are borne out, {} nearly, {} not (<a href=\"#claims\">each with its number</a>).</p>\n\
          <nav><a href=\"#chain\">U-chain</a><a href=\"#fish\">Fish robot</a><a href=\"#claims\">Claims</a>\
          <a href=\"#accuracy\">Accuracy and cost</a><a href=\"paper.json\">All numbers (JSON)</a></nav>\n",
         power_of_ten(paper.tolerance),
