@@ -137,6 +137,11 @@ fn states_agree_with_the_reference() {
             .tolerance(1e-10)
             .until(end)
             .unwrap_or_else(|e| panic!("{}", e.error));
+        assert_eq!(
+            run.work().fallbacks,
+            0,
+            "the straight line serves all the way"
+        );
         let last = run.last().expect("the run has an end");
         let numbers = |key: &str| -> Vec<f64> {
             let list = expected[key].as_array().expect("a list");

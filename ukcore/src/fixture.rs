@@ -141,6 +141,16 @@ const EMPTY: Spec = Spec {
     holonomic: 0,
     outputs: &[],
     structure: Structure {
+        straight_line: false,
+        solve_operations: crate::mechanism::Operations {
+            additions: 0,
+            multiplications: 0,
+            divisions: 0,
+            square_roots: 0,
+            transcendentals: 0,
+            selections: 0,
+        },
+        solve: "",
         mass_pattern: &[],
         jacobian_pattern: &[],
         mass_diagonal: true,

@@ -36,6 +36,19 @@ pub trait Mechanism: Clone + Default + Send + Sync + 'static {
     /// The declared outputs.
     fn outputs<S: Scalar>(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]);
 
+    /// q̈ at (t, q, q̇) by straight-line elimination of [M Aᵀ; A 0], and its certificate: 1 where each pivot d of the elimination keeps a
+    /// safe share d/G of the diagonal G it started from, 0 where M or A is singular or nearly so, and q̈ is not to be used. Exists if
+    /// [`Structure::straight_line`]; else the certificate is 0.
+    fn acceleration<S: Scalar>(&self, t: S, q: &[S], v: &[S], out: &mut [S]) -> S {
+        let _ = (t, q, v, out);
+        S::from_f64(0.0)
+    }
+    /// The smallest Δ in the mass metric with A Δ = −`residual`, and its certificate, as for [`Mechanism::acceleration`].
+    fn correction<S: Scalar>(&self, t: S, q: &[S], v: &[S], residual: &[S], out: &mut [S]) -> S {
+        let _ = (t, q, v, residual, out);
+        S::from_f64(0.0)
+    }
+
     /// Value of the parameter called `name` (`"m"`, `"m[3]"`).
     ///
     /// # Errors
@@ -164,6 +177,10 @@ pub enum ConstraintKind {
 /// What the compiler found out about a mechanism.
 #[derive(Debug)]
 pub struct Structure {
+    /// [`Mechanism::acceleration`] and [`Mechanism::correction`] exist.
+    pub straight_line: bool,
+    /// How q̈ is solved for: the order of the elimination, or why there is none.
+    pub solve: &'static str,
     /// Structural non-zeros (row, column) of M, both triangles.
     pub mass_pattern: &'static [(usize, usize)],
     /// Structural non-zeros (row, column) of A.
@@ -188,6 +205,8 @@ pub struct Structure {
     pub left_out: &'static [&'static str],
     /// Operations in one call of [`Mechanism::dynamics`].
     pub operations: Operations,
+    /// Operations in one call of [`Mechanism::acceleration`]; zero where there is no straight-line solve.
+    pub solve_operations: Operations,
 }
 
 /// Operation counts of emitted code.

@@ -217,6 +217,9 @@ impl Solver {
         out: &mut [f64],
     ) -> Result<(), Error> {
         diagnose::check_length("out", out.len(), self.n)?;
+        if self.straight_line(mech, t, q, v, out)? {
+            return Ok(());
+        }
         let prepared = self.prepare(mech, t, q, v)?;
         if M::SPEC.structure.nonideal {
             let sum = self.here.force.iter().zip(&self.here.nonideal);
@@ -301,6 +304,32 @@ impl Solver {
     #[must_use]
     pub fn work(&self) -> SolverWork {
         self.work
+    }
+
+    /// q̈ by the emitted elimination; `false` where there is none, or its certificate does not hold.
+    fn straight_line<M: Mechanism>(
+        &mut self,
+        mech: &M,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        out: &mut [f64],
+    ) -> Result<bool, Error> {
+        let wanted = self.options.formula == Formula::Auto && self.options.baumgarte.is_none();
+        if !(wanted && M::SPEC.structure.straight_line) || self.singular {
+            return Ok(false);
+        }
+        self.owner.check::<M>("solver")?;
+        diagnose::check_length("q", q.len(), self.n)?;
+        diagnose::check_length("v", v.len(), self.n)?;
+        let safe = mech.acceleration(t, q, v, out) > 0.5;
+        // One value that is not finite makes the sum so.
+        if safe && out.iter().sum::<f64>().is_finite() {
+            self.work.evaluations += 1;
+            return Ok(true);
+        }
+        self.work.fallbacks += 1;
+        Ok(false)
     }
 
     fn rows(&self) -> Rows<'_> {

@@ -34,6 +34,9 @@ const KEEP_FACTORS: f64 = 1e-2;
 /// Newton steps at most. Quadratic convergence needs about six from any useful state; some more for states far off.
 const MAX_STEPS: usize = 40;
 
+/// Newton steps by the emitted elimination before the rank-revealing solve takes over.
+const STRAIGHT_STEPS: usize = 8;
+
 /// Steps without progress before giving up: far from the manifold the residual need not fall at once.
 const MAX_STALLS: usize = 6;
 
@@ -201,6 +204,14 @@ impl Projector {
         if self.at_rounding(x, rows) {
             return Ok(correction);
         }
+        if M::SPEC.structure.straight_line && rows == self.m {
+            if self.straight_line(mech, t, x, other, level, &mut correction) {
+                return Ok(correction);
+            }
+            x.copy_from_slice(&self.start);
+            self.evaluate(mech, t, x, other, level);
+            correction.iterations = 0;
+        }
         if !factored {
             self.cautious = true;
             self.factor(
@@ -259,6 +270,50 @@ impl Projector {
             return Ok(correction);
         }
         Err(self.off_constraint::<M>(x, rows, level))
+    }
+
+    /// Newton's method with the emitted elimination; `false` if its certificate does not hold or it does not converge at once, with
+    /// `x` left somewhere.
+    fn straight_line<M: Mechanism>(
+        &mut self,
+        mech: &M,
+        t: f64,
+        x: &mut [f64],
+        other: &[f64],
+        level: Level,
+        correction: &mut Correction,
+    ) -> bool {
+        let rows = self.m;
+        let mut merit = self.merit(x, rows);
+        while correction.iterations < STRAIGHT_STEPS {
+            correction.iterations += 1;
+            let (q, v) = match level {
+                Level::Position => (&*x, other),
+                Level::Velocity => (other, &*x),
+            };
+            let safe = mech.correction(t, q, v, &self.residual, &mut self.step);
+            if safe <= 0.5 || !self.step.iter().sum::<f64>().is_finite() {
+                return false;
+            }
+            x.iter_mut().zip(&self.step).for_each(|(x, d)| *x += d);
+            self.evaluate(mech, t, x, other, level);
+            let previous = merit;
+            merit = self.merit(x, rows);
+            if merit.is_nan() {
+                return false;
+            }
+            let progress = merit <= PROGRESS * previous;
+            if merit == 0.0 || (!progress && self.acceptable(x, rows)) {
+                correction.residual = self.largest(rows);
+                let changes = x.iter().zip(&self.start);
+                correction.norm = changes.fold(0.0, |s, (x, y)| s.max((x - y).abs()));
+                return true;
+            }
+            if !progress {
+                return false;
+            }
+        }
+        false
     }
 
     /// φ, or φ̇ and ψ, into `residual`.

@@ -150,6 +150,8 @@ impl ::ukcore::Mechanism for DoublePendulum {
             },
         ],
         structure: ::ukcore::Structure {
+            straight_line: true,
+            solve: "by straight-line elimination in the order x2 y2 x1 y1 inner outer",
             mass_pattern: &[(0, 0), (1, 1), (2, 2), (3, 3)],
             jacobian_pattern: &[(0, 0), (0, 1), (1, 0), (1, 1), (1, 2), (1, 3)],
             mass_diagonal: true,
@@ -175,6 +177,14 @@ impl ::ukcore::Mechanism for DoublePendulum {
                 square_roots: 0,
                 transcendentals: 0,
                 selections: 0,
+            },
+            solve_operations: ::ukcore::Operations {
+                additions: 24,
+                multiplications: 43,
+                divisions: 4,
+                square_roots: 0,
+                transcendentals: 0,
+                selections: 4,
             },
         },
         equations: ::ukcore::Equations {
@@ -294,7 +304,7 @@ impl ::ukcore::Mechanism for DoublePendulum {
         phi[0] = x1 * x1 + y1 * y1 - l1 * l1;
         let x1_minus_x2 = x1 - x2;
         let y1_minus_y2 = y1 - y2;
-        phi[1] = x1_minus_x2 * x1_minus_x2 + y1_minus_y2 * y1_minus_y2 - l2 * l2;
+        phi[1] = x1_minus_x2 * x1_minus_x2 - l2 * l2 + y1_minus_y2 * y1_minus_y2;
     }
     fn residual_rate<S: ::ukcore::Scalar>(
         &self,
@@ -337,5 +347,133 @@ impl ::ukcore::Mechanism for DoublePendulum {
         let [x1, y1, x2, y2] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         outputs[0] = x1.atan2(-y1);
         outputs[1] = (x2 - x1).atan2(y1 - y2);
+    }
+    /// 24 additions, 43 multiplications, 4 divisions, 0 square roots, 0 transcendentals, 4 selections.
+    fn acceleration<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        out: &mut [S],
+    ) -> S {
+        let out = ::ukcore::emitted::exact_mut::<S, 4>(out, "out");
+        let [x1, y1, x2, y2] = *::ukcore::emitted::exact::<S, 4>(q, "q");
+        let [dot_x1, dot_y1, dot_x2, dot_y2] = *::ukcore::emitted::exact::<S, 4>(v, "v");
+        let lit = S::from_f64;
+        let m1 = lit(self.m1);
+        let m2 = lit(self.m2);
+        let g = lit(self.g);
+        let per_m1 = m1.recip();
+        let per_m2 = m2.recip();
+        let x1_minus_x2 = x1 - x2;
+        let y1_minus_y2 = y1 - y2;
+        let dot_x1_minus_dot_x2 = dot_x1 - dot_x2;
+        let dot_y1_minus_dot_y2 = dot_y1 - dot_y2;
+        let acceleration_0_part = x1 * x1 + y1 * y1;
+        let per_acceleration_0_part = acceleration_0_part.recip();
+        let acceleration_0_part_2 = (dot_x1 * dot_x1 + dot_y1 * dot_y1) - g * y1;
+        let acceleration_0_part_3 = x1 * x1_minus_x2 + y1 * y1_minus_y2;
+        let pivot_inner = acceleration_0_part * per_m1;
+        let acceleration_0_part_4 = x1_minus_x2 * x1_minus_x2 * per_m2
+            + y1_minus_y2 * y1_minus_y2 * per_m2 + x1_minus_x2 * x1_minus_x2 * per_m1
+            + y1_minus_y2 * y1_minus_y2 * per_m1;
+        let outer_by_inner = acceleration_0_part_3 * per_acceleration_0_part;
+        let pivot_outer = acceleration_0_part_3 * acceleration_0_part_3 * per_m1
+            * per_acceleration_0_part - acceleration_0_part_4;
+        let per_pivot_outer = pivot_outer.recip();
+        let acceleration_0_part_5 = (dot_x1_minus_dot_x2 * dot_x1_minus_dot_x2
+            + dot_y1_minus_dot_y2 * dot_y1_minus_dot_y2)
+            - acceleration_0_part_2 * outer_by_inner;
+        let safe = S::select_le(
+            -pivot_outer,
+            lit(0.0009765625) * acceleration_0_part_4,
+            lit(0.0),
+            S::select_le(
+                pivot_inner,
+                lit(0.0),
+                lit(0.0),
+                S::select_le(
+                    m1,
+                    lit(0.0),
+                    lit(0.0),
+                    S::select_le(m2, lit(0.0), lit(0.0), lit(1.0)),
+                ),
+            ),
+        );
+        let lambda_inner = m1 * acceleration_0_part_2 * per_acceleration_0_part
+            + outer_by_inner * acceleration_0_part_5 * per_pivot_outer;
+        out[2] = -(x1_minus_x2 * per_m2 * acceleration_0_part_5 * per_pivot_outer);
+        out[3] = -g - y1_minus_y2 * per_m2 * acceleration_0_part_5 * per_pivot_outer;
+        out[1] = y1_minus_y2 * per_m1 * acceleration_0_part_5 * per_pivot_outer - g
+            - y1 * per_m1 * lambda_inner;
+        out[0] = -(per_m1
+            * (x1 * lambda_inner
+                - x1_minus_x2 * acceleration_0_part_5 * per_pivot_outer));
+        safe
+    }
+    fn correction<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        residual: &[S],
+        out: &mut [S],
+    ) -> S {
+        let out = ::ukcore::emitted::exact_mut::<S, 4>(out, "out");
+        let [x1, y1, x2, y2] = *::ukcore::emitted::exact::<S, 4>(q, "q");
+        let [residual_0, residual_1] = *::ukcore::emitted::exact::<
+            S,
+            2,
+        >(residual, "residual");
+        let lit = S::from_f64;
+        let m1 = lit(self.m1);
+        let m2 = lit(self.m2);
+        let per_m1 = m1.recip();
+        let per_m2 = m2.recip();
+        let x1_minus_x2 = x1 - x2;
+        let y1_minus_y2 = y1 - y2;
+        let correction_0_part = x1 * x1 + y1 * y1;
+        let per_correction_0_part = correction_0_part.recip();
+        let correction_0_part_2 = x1 * x1_minus_x2 + y1 * y1_minus_y2;
+        let pivot_inner = correction_0_part * per_m1;
+        let correction_0_part_3 = x1_minus_x2 * x1_minus_x2 * per_m2
+            + y1_minus_y2 * y1_minus_y2 * per_m2 + x1_minus_x2 * x1_minus_x2 * per_m1
+            + y1_minus_y2 * y1_minus_y2 * per_m1;
+        let outer_by_inner = correction_0_part_2 * per_correction_0_part;
+        let pivot_outer = correction_0_part_2 * correction_0_part_2 * per_m1
+            * per_correction_0_part - correction_0_part_3;
+        let per_pivot_outer = pivot_outer.recip();
+        let correction_0_part_4 = residual_1 - residual_0 * outer_by_inner;
+        let safe = S::select_le(
+            -pivot_outer,
+            lit(0.0009765625) * correction_0_part_3,
+            lit(0.0),
+            S::select_le(
+                pivot_inner,
+                lit(0.0),
+                lit(0.0),
+                S::select_le(
+                    m1,
+                    lit(0.0),
+                    lit(0.0),
+                    S::select_le(m2, lit(0.0), lit(0.0), lit(1.0)),
+                ),
+            ),
+        );
+        let lambda_inner = m1 * residual_0 * per_correction_0_part
+            + outer_by_inner * correction_0_part_4 * per_pivot_outer;
+        out[2] = lit(-0.5)
+            * (x1_minus_x2 * per_m2 * correction_0_part_4 * per_pivot_outer);
+        out[3] = lit(-0.5)
+            * (y1_minus_y2 * per_m2 * correction_0_part_4 * per_pivot_outer);
+        out[0] = lit(-0.5)
+            * (per_m1
+                * (x1 * lambda_inner
+                    - x1_minus_x2 * correction_0_part_4 * per_pivot_outer));
+        out[1] = lit(-0.5)
+            * (per_m1
+                * (y1 * lambda_inner
+                    - y1_minus_y2 * correction_0_part_4 * per_pivot_outer));
+        safe
     }
 }

@@ -117,6 +117,8 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
             },
         ],
         structure: ::ukcore::Structure {
+            straight_line: true,
+            solve: "by straight-line elimination in the order th1 th2",
             mass_pattern: &[(0, 0), (0, 1), (1, 0), (1, 1)],
             jacobian_pattern: &[],
             mass_diagonal: false,
@@ -139,6 +141,14 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
                 square_roots: 0,
                 transcendentals: 3,
                 selections: 0,
+            },
+            solve_operations: ::ukcore::Operations {
+                additions: 10,
+                multiplications: 49,
+                divisions: 6,
+                square_roots: 0,
+                transcendentals: 3,
+                selections: 2,
             },
         },
         equations: ::ukcore::Equations {
@@ -205,7 +215,8 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         let l2 = lit(self.l2);
         let g = lit(self.g);
         let m1_plus_m2 = m1 + m2;
-        mass[0] = m1_plus_m2 * l1 * l1;
+        let pivot_th1 = l1 * l1 * m1_plus_m2;
+        mass[0] = pivot_th1;
         let th1_minus_th2 = th1 - th2;
         let (sin_th1_minus_th2, cos_th1_minus_th2) = th1_minus_th2.sin_cos();
         let m2_l1_l2_cos_th1_minus_th2 = m2 * l1 * l2 * cos_th1_minus_th2;
@@ -213,12 +224,11 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         mass[2] = m2_l1_l2_cos_th1_minus_th2;
         mass[3] = m2 * l2 * l2;
         let dot_th1_minus_dot_th2 = dot_th1 - dot_th2;
-        let force_0_part_part = m2 * l1 * dot_th1 * l2 * dot_th2 * sin_th1_minus_th2;
+        let force_0_part = m2 * l1 * dot_th1 * l2 * dot_th2 * sin_th1_minus_th2;
         force[0] = m2 * l1 * l2 * dot_th2 * dot_th1_minus_dot_th2 * sin_th1_minus_th2
-            - force_0_part_part - m1_plus_m2 * l1 * g * th1.sin();
-        force[1] = force_0_part_part
-            + m2 * l1 * dot_th1 * l2 * dot_th1_minus_dot_th2 * sin_th1_minus_th2
-            - m2 * l2 * g * th2.sin();
+            - l1 * g * m1_plus_m2 * th1.sin() - force_0_part;
+        force[1] = force_0_part - m2 * l2 * g * th2.sin()
+            + m2 * l1 * dot_th1 * l2 * dot_th1_minus_dot_th2 * sin_th1_minus_th2;
         nonideal[0] = lit(0.0);
         nonideal[1] = lit(0.0);
     }
@@ -230,10 +240,11 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         let m2 = lit(self.m2);
         let l1 = lit(self.l1);
         let l2 = lit(self.l2);
-        mass[0] = (m1 + m2) * l1 * l1;
-        let mass_th2_th1_part = m2 * l1 * l2 * (th1 - th2).cos();
-        mass[1] = mass_th2_th1_part;
-        mass[2] = mass_th2_th1_part;
+        let pivot_th1 = l1 * l1 * (m1 + m2);
+        mass[0] = pivot_th1;
+        let mass_th2_th1 = m2 * l1 * l2 * (th1 - th2).cos();
+        mass[1] = mass_th2_th1;
+        mass[2] = mass_th2_th1;
         mass[3] = m2 * l2 * l2;
     }
     fn jacobian<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
@@ -266,10 +277,10 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         let l2 = lit(self.l2);
         let g = lit(self.g);
         let m1_plus_m2 = m1 + m2;
-        let kinetic = lit(0.5) * (m1_plus_m2 * l1 * l1 * dot_th1 * dot_th1)
-            + lit(0.5) * (m2 * l2 * l2 * dot_th2 * dot_th2)
+        let kinetic = lit(0.5) * (m2 * l2 * l2 * dot_th2 * dot_th2)
+            + lit(0.5) * (l1 * l1 * dot_th1 * dot_th1 * m1_plus_m2)
             + m2 * l1 * dot_th1 * l2 * dot_th2 * (th1 - th2).cos();
-        let potential = -(m1_plus_m2 * l1 * g * th1.cos()) - m2 * l2 * g * th2.cos();
+        let potential = -(l1 * g * m1_plus_m2 * th1.cos()) - m2 * l2 * g * th2.cos();
         ::ukcore::Energy {
             kinetic,
             potential,
@@ -289,5 +300,84 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         let (sin_th2, cos_th2) = th2.sin_cos();
         outputs[2] = l1_sin_th1 + l2 * sin_th2;
         outputs[3] = -l1_cos_th1 - l2 * cos_th2;
+    }
+    /// 10 additions, 49 multiplications, 6 divisions, 0 square roots, 3 transcendentals, 2 selections.
+    fn acceleration<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        out: &mut [S],
+    ) -> S {
+        let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
+        let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
+        let [dot_th1, dot_th2] = *::ukcore::emitted::exact::<S, 2>(v, "v");
+        let lit = S::from_f64;
+        let m1 = lit(self.m1);
+        let m2 = lit(self.m2);
+        let l1 = lit(self.l1);
+        let l2 = lit(self.l2);
+        let g = lit(self.g);
+        let per_m2 = m2.recip();
+        let per_l1 = l1.recip();
+        let m1_plus_m2 = m1 + m2;
+        let th1_minus_th2 = th1 - th2;
+        let dot_th1_minus_dot_th2 = dot_th1 - dot_th2;
+        let per_m1_plus_m2 = m1_plus_m2.recip();
+        let pivot_th1 = l1 * l1 * m1_plus_m2;
+        let (sin_th1_minus_th2, cos_th1_minus_th2) = th1_minus_th2.sin_cos();
+        let acceleration_0_part = m2 * l2 * dot_th2 * dot_th1_minus_dot_th2
+            * sin_th1_minus_th2 - g * m1_plus_m2 * th1.sin()
+            - m2 * dot_th1 * l2 * dot_th2 * sin_th1_minus_th2;
+        let th2_by_th1 = m2 * l2 * per_l1 * per_m1_plus_m2 * cos_th1_minus_th2;
+        let acceleration_0_part_2 = lit(1.0)
+            - m2 * per_m1_plus_m2 * cos_th1_minus_th2 * cos_th1_minus_th2;
+        let per_acceleration_0_part_2 = acceleration_0_part_2.recip();
+        let pivot_th2 = m2 * l2 * l2 * acceleration_0_part_2;
+        let acceleration_0_part_3 = (m2 * l1 * dot_th1 * l2 * dot_th2 * sin_th1_minus_th2
+            - m2 * l2 * g * th2.sin()
+            + m2 * l1 * dot_th1 * l2 * dot_th1_minus_dot_th2 * sin_th1_minus_th2)
+            - l1 * acceleration_0_part * th2_by_th1;
+        let safe = S::select_le(
+            pivot_th2,
+            lit(0.0009765625) * (m2 * l2 * l2),
+            lit(0.0),
+            S::select_le(pivot_th1, lit(0.0), lit(0.0), lit(1.0)),
+        );
+        out[1] = per_m2 * acceleration_0_part_3 * per_acceleration_0_part_2 / (l2 * l2);
+        out[0] = per_l1 * per_m1_plus_m2 * acceleration_0_part
+            - per_m2 * th2_by_th1 * acceleration_0_part_3 * per_acceleration_0_part_2
+                / (l2 * l2);
+        safe
+    }
+    fn correction<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        residual: &[S],
+        out: &mut [S],
+    ) -> S {
+        let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
+        let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
+        let lit = S::from_f64;
+        let m1 = lit(self.m1);
+        let m2 = lit(self.m2);
+        let l1 = lit(self.l1);
+        let l2 = lit(self.l2);
+        out[0] = lit(0.0);
+        out[1] = lit(0.0);
+        let m1_plus_m2 = m1 + m2;
+        let pivot_th1 = l1 * l1 * m1_plus_m2;
+        let safe_part = (th1 - th2).cos();
+        let pivot_th2 = m2 * l2 * l2
+            * (lit(1.0) - m2 * safe_part * safe_part / m1_plus_m2);
+        let safe = S::select_le(
+            pivot_th2,
+            lit(0.0009765625) * (m2 * l2 * l2),
+            lit(0.0),
+            S::select_le(pivot_th1, lit(0.0), lit(0.0), lit(1.0)),
+        );
+        safe
     }
 }

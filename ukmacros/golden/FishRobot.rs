@@ -343,6 +343,8 @@ impl ::ukcore::Mechanism for FishRobot {
             },
         ],
         structure: ::ukcore::Structure {
+            straight_line: true,
+            solve: "by straight-line elimination in the order (th2, peduncle) (th3, fin) x1 y1 x3 y3 th1 x2 y2 joint2[0] joint2[1] joint1[0] joint1[1]",
             mass_pattern: &[(0, 0), (1, 1), (2, 2), (3, 3), (4, 4), (6, 6), (7, 7)],
             jacobian_pattern: &[
                 (0, 0),
@@ -385,6 +387,14 @@ impl ::ukcore::Mechanism for FishRobot {
                 square_roots: 0,
                 transcendentals: 5,
                 selections: 4,
+            },
+            solve_operations: ::ukcore::Operations {
+                additions: 49,
+                multiplications: 164,
+                divisions: 7,
+                square_roots: 0,
+                transcendentals: 5,
+                selections: 11,
             },
         },
         equations: ::ukcore::Equations {
@@ -567,29 +577,29 @@ impl ::ukcore::Mechanism for FishRobot {
         jacobian[12] = -(a * sin_th1);
         jacobian[18] = lit(-1.0);
         let (sin_th2, cos_th2) = th2.sin_cos();
-        let a_joint1_0_part = lit(-0.5) * (l2 * sin_th2);
-        jacobian[30] = a_joint1_0_part;
+        let a_joint1_0 = lit(-0.5) * (l2 * sin_th2);
+        jacobian[30] = a_joint1_0;
         jacobian[7] = lit(1.0);
         jacobian[13] = a * cos_th1;
         jacobian[25] = lit(-1.0);
-        let a_joint1_1_part = lit(0.5) * (l2 * cos_th2);
-        jacobian[31] = a_joint1_1_part;
+        let a_joint1_1 = lit(0.5) * (l2 * cos_th2);
+        jacobian[31] = a_joint1_1;
         jacobian[20] = lit(1.0);
-        jacobian[32] = a_joint1_0_part;
+        jacobian[32] = a_joint1_0;
         jacobian[38] = lit(-1.0);
-        jacobian[50] = -(sin_th3 * b);
+        jacobian[50] = -(b * sin_th3);
         jacobian[27] = lit(1.0);
-        jacobian[33] = a_joint1_1_part;
+        jacobian[33] = a_joint1_1;
         jacobian[45] = lit(-1.0);
-        jacobian[51] = cos_th3 * b;
+        jacobian[51] = b * cos_th3;
         jacobian[34] = lit(1.0);
         jacobian[53] = lit(1.0);
-        let l2_cos_th2_sq_dot_th2 = l2 * cos_th2 * dot_th2 * dot_th2;
-        rhs[0] = a * cos_th1 * dot_th1 * dot_th1 + lit(0.5) * l2_cos_th2_sq_dot_th2;
-        let l2_sin_th2_sq_dot_th2 = l2 * sin_th2 * dot_th2 * dot_th2;
-        rhs[1] = a * sin_th1 * dot_th1 * dot_th1 + lit(0.5) * l2_sin_th2_sq_dot_th2;
-        rhs[2] = lit(0.5) * l2_cos_th2_sq_dot_th2 + cos_th3 * b * dot_th3 * dot_th3;
-        rhs[3] = lit(0.5) * l2_sin_th2_sq_dot_th2 + sin_th3 * b * dot_th3 * dot_th3;
+        let l2_cos_th2_sq_dot_th2 = l2 * dot_th2 * dot_th2 * cos_th2;
+        rhs[0] = a * dot_th1 * dot_th1 * cos_th1 + lit(0.5) * l2_cos_th2_sq_dot_th2;
+        let l2_sin_th2_sq_dot_th2 = l2 * dot_th2 * dot_th2 * sin_th2;
+        rhs[1] = a * dot_th1 * dot_th1 * sin_th1 + lit(0.5) * l2_sin_th2_sq_dot_th2;
+        rhs[2] = lit(0.5) * l2_cos_th2_sq_dot_th2 + b * dot_th3 * dot_th3 * cos_th3;
+        rhs[3] = lit(0.5) * l2_sin_th2_sq_dot_th2 + b * dot_th3 * dot_th3 * sin_th3;
         let w_t = w * t;
         rhs[4] = -(a2 * w * w * w_t.sin());
         rhs[5] = -(w * w * a3 * (w_t - phi_2).sin());
@@ -624,22 +634,22 @@ impl ::ukcore::Mechanism for FishRobot {
         jacobian[12] = -(a * sin_th1);
         jacobian[18] = lit(-1.0);
         let (sin_th2, cos_th2) = th2.sin_cos();
-        let a_joint1_0_part = lit(-0.5) * (l2 * sin_th2);
-        jacobian[30] = a_joint1_0_part;
+        let a_joint1_0 = lit(-0.5) * (l2 * sin_th2);
+        jacobian[30] = a_joint1_0;
         jacobian[7] = lit(1.0);
         jacobian[13] = a * cos_th1;
         jacobian[25] = lit(-1.0);
-        let a_joint1_1_part = lit(0.5) * (l2 * cos_th2);
-        jacobian[31] = a_joint1_1_part;
+        let a_joint1_1 = lit(0.5) * (l2 * cos_th2);
+        jacobian[31] = a_joint1_1;
         jacobian[20] = lit(1.0);
-        jacobian[32] = a_joint1_0_part;
+        jacobian[32] = a_joint1_0;
         jacobian[38] = lit(-1.0);
         let (sin_th3, cos_th3) = th3.sin_cos();
-        jacobian[50] = -(sin_th3 * b);
+        jacobian[50] = -(b * sin_th3);
         jacobian[27] = lit(1.0);
-        jacobian[33] = a_joint1_1_part;
+        jacobian[33] = a_joint1_1;
         jacobian[45] = lit(-1.0);
-        jacobian[51] = cos_th3 * b;
+        jacobian[51] = b * cos_th3;
         jacobian[34] = lit(1.0);
         jacobian[53] = lit(1.0);
     }
@@ -660,12 +670,12 @@ impl ::ukcore::Mechanism for FishRobot {
         let (sin_th1, cos_th1) = th1.sin_cos();
         let (sin_th2, cos_th2) = th2.sin_cos();
         let l2_cos_th2 = l2 * cos_th2;
-        phi[0] = x1 + a * cos_th1 + lit(0.5) * l2_cos_th2 - x2;
+        phi[0] = x1 - x2 + a * cos_th1 + lit(0.5) * l2_cos_th2;
         let l2_sin_th2 = l2 * sin_th2;
-        phi[1] = y1 + a * sin_th1 + lit(0.5) * l2_sin_th2 - y2;
+        phi[1] = y1 - y2 + a * sin_th1 + lit(0.5) * l2_sin_th2;
         let (sin_th3, cos_th3) = th3.sin_cos();
-        phi[2] = x2 + lit(0.5) * l2_cos_th2 + cos_th3 * b - x3;
-        phi[3] = y2 + lit(0.5) * l2_sin_th2 + sin_th3 * b - y3;
+        phi[2] = x2 - x3 + lit(0.5) * l2_cos_th2 + b * cos_th3;
+        phi[3] = y2 - y3 + lit(0.5) * l2_sin_th2 + b * sin_th3;
         let w_t = w * t;
         phi[4] = th2 - a2 * w_t.sin();
         phi[5] = th3 - a3 * (w_t - phi_2).sin();
@@ -694,17 +704,17 @@ impl ::ukcore::Mechanism for FishRobot {
         let phi_2 = lit(self.phi);
         let (sin_th1, cos_th1) = th1.sin_cos();
         let (sin_th2, cos_th2) = th2.sin_cos();
-        let l2_sin_th2_dot_th2 = l2 * sin_th2 * dot_th2;
-        rate[0] = dot_x1 - dot_x2 - a * sin_th1 * dot_th1
+        let l2_sin_th2_dot_th2 = l2 * dot_th2 * sin_th2;
+        rate[0] = dot_x1 - dot_x2 - a * dot_th1 * sin_th1
             - lit(0.5) * l2_sin_th2_dot_th2;
-        let l2_cos_th2_dot_th2 = l2 * cos_th2 * dot_th2;
-        rate[1] = dot_y1 + a * cos_th1 * dot_th1 + lit(0.5) * l2_cos_th2_dot_th2
-            - dot_y2;
+        let l2_cos_th2_dot_th2 = l2 * dot_th2 * cos_th2;
+        rate[1] = dot_y1 - dot_y2 + a * dot_th1 * cos_th1
+            + lit(0.5) * l2_cos_th2_dot_th2;
         let (sin_th3, cos_th3) = th3.sin_cos();
         rate[2] = dot_x2 - dot_x3 - lit(0.5) * l2_sin_th2_dot_th2
-            - sin_th3 * b * dot_th3;
-        rate[3] = dot_y2 + lit(0.5) * l2_cos_th2_dot_th2 + cos_th3 * b * dot_th3
-            - dot_y3;
+            - b * dot_th3 * sin_th3;
+        rate[3] = dot_y2 - dot_y3 + lit(0.5) * l2_cos_th2_dot_th2
+            + b * dot_th3 * cos_th3;
         let w_t = w * t;
         rate[4] = dot_th2 - a2 * w * w_t.cos();
         rate[5] = dot_th3 - w * a3 * (w_t - phi_2).cos();
@@ -758,7 +768,263 @@ impl ::ukcore::Mechanism for FishRobot {
         outputs[3] = lit(::core::f64::consts::TAU)
             * (rho * span * half_chord
                 * (dot_x3 * dot_y3 * cos_th3 - dot_x3 * dot_x3 * sin_th3));
-        outputs[4] = x3 + cos_th3 * b;
-        outputs[5] = y3 + sin_th3 * b;
+        outputs[4] = x3 + b * cos_th3;
+        outputs[5] = y3 + b * sin_th3;
+    }
+    /// 49 additions, 164 multiplications, 7 divisions, 0 square roots, 5 transcendentals, 11 selections.
+    fn acceleration<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        out: &mut [S],
+    ) -> S {
+        let out = ::ukcore::emitted::exact_mut::<S, 9>(out, "out");
+        let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
+            S,
+            9,
+        >(q, "q");
+        let [dot_x1, dot_y1, dot_th1, _, dot_y2, dot_th2, dot_x3, dot_y3, dot_th3] = *::ukcore::emitted::exact::<
+            S,
+            9,
+        >(v, "v");
+        let lit = S::from_f64;
+        let m1 = lit(self.m1);
+        let i1 = lit(self.i1);
+        let a = lit(self.a);
+        let s = lit(self.s);
+        let s1 = lit(self.s1);
+        let m2 = lit(self.m2);
+        let l2 = lit(self.l2);
+        let s2 = lit(self.s2);
+        let m3 = lit(self.m3);
+        let b = lit(self.b);
+        let s3 = lit(self.s3);
+        let rho = lit(self.rho);
+        let cd = lit(self.cd);
+        let span = lit(self.span);
+        let half_chord = lit(self.half_chord);
+        let a2 = lit(self.a2);
+        let a3 = lit(self.a3);
+        let w = lit(self.w);
+        let phi_2 = lit(self.phi);
+        let per_m1 = m1.recip();
+        let per_i1 = i1.recip();
+        let per_m2 = m2.recip();
+        let per_m3 = m3.recip();
+        let abs_dot_x1 = dot_x1.abs();
+        let abs_dot_y1 = dot_y1.abs();
+        let abs_dot_y2 = dot_y2.abs();
+        let w_t = w * t;
+        let acceleration_0_part = rho * cd * s2 * dot_y2 * abs_dot_y2 * per_m2;
+        let pivot_joint2_0 = per_m3 + per_m2;
+        let per_pivot_joint2_0 = pivot_joint2_0.recip();
+        let joint1_0_by_joint2_0 = per_m2 * per_pivot_joint2_0;
+        let acceleration_0_part_2 = per_pivot_joint2_0 / (m2 * m2);
+        let (sin_th3, cos_th3) = th3.sin_cos();
+        let (sin_th1, cos_th1) = th1.sin_cos();
+        let (sin_th2, cos_th2) = th2.sin_cos();
+        let sin_w_t = w_t.sin();
+        let l2_cos_th2_sq_dot_th2 = l2 * dot_th2 * dot_th2 * cos_th2;
+        let l2_sin_th2_sq_dot_th2 = l2 * dot_th2 * dot_th2 * sin_th2;
+        let acceleration_0_part_3 = dot_x3 * dot_y3 * sin_th3
+            - dot_y3 * dot_y3 * cos_th3;
+        let acceleration_0_part_4 = (w_t - phi_2).sin();
+        let l2_sin_th2_a2_sq_w_sin_w_t = l2 * a2 * w * w * sin_th2 * sin_w_t;
+        let l2_cos_th2_a2_sq_w_sin_w_t = l2 * a2 * w * w * cos_th2 * sin_w_t;
+        out[5] = -(a2 * w * w * sin_w_t);
+        let acceleration_6_part = lit(::core::f64::consts::TAU)
+            * (span * half_chord
+                * (dot_x3 * dot_y3 * cos_th3 - dot_x3 * dot_x3 * sin_th3))
+            - lit(0.5) * (dot_y3 * cd * s3 * dot_y3.abs());
+        out[8] = -(w * w * a3 * acceleration_0_part_4);
+        let safe_part = per_m1 + per_m2 + a * a * per_i1 * sin_th1 * sin_th1;
+        let safe_part_2 = per_m1 + per_m2 + a * a * per_i1 * cos_th1 * cos_th1;
+        let pivot_joint1_0 = acceleration_0_part_2 - safe_part;
+        let per_pivot_joint1_0 = pivot_joint1_0.recip();
+        let safe_part_3 = (lit(0.5) * l2_cos_th2_sq_dot_th2
+            + b * dot_th3 * dot_th3 * cos_th3) - lit(0.5) * l2_sin_th2_a2_sq_w_sin_w_t
+            - b * w * w * a3 * sin_th3 * acceleration_0_part_4
+            + lit(::core::f64::consts::TAU)
+                * (rho * span * half_chord * per_m3 * acceleration_0_part_3);
+        let safe_part_4 = lit(0.5) * acceleration_0_part
+            + (lit(0.5) * l2_sin_th2_sq_dot_th2 + b * dot_th3 * dot_th3 * sin_th3)
+            + lit(0.5) * l2_cos_th2_a2_sq_w_sin_w_t
+            + b * w * w * a3 * cos_th3 * acceleration_0_part_4
+            + rho * per_m3 * acceleration_6_part;
+        let safe_part_5 = (lit(0.5) * (rho * s * dot_x1 * cd * abs_dot_x1 * per_m1)
+            + (a * dot_th1 * dot_th1 * cos_th1 + lit(0.5) * l2_cos_th2_sq_dot_th2)
+            - lit(0.5) * l2_sin_th2_a2_sq_w_sin_w_t)
+            + joint1_0_by_joint2_0 * safe_part_3;
+        let joint1_1_by_joint1_0 = a * a * per_i1 * cos_th1 * sin_th1
+            * per_pivot_joint1_0;
+        let pivot_joint1_1 = acceleration_0_part_2 - safe_part_2
+            - a.powi(4) * cos_th1 * cos_th1 * sin_th1 * sin_th1 * per_pivot_joint1_0
+                / (i1 * i1);
+        let per_pivot_joint1_1 = pivot_joint1_1.recip();
+        let safe_part_6 = (lit(0.5) * (rho * cd * s1 * dot_y1 * abs_dot_y1 * per_m1)
+            - lit(0.5) * acceleration_0_part
+            + (a * dot_th1 * dot_th1 * sin_th1 + lit(0.5) * l2_sin_th2_sq_dot_th2)
+            + lit(0.5) * l2_cos_th2_a2_sq_w_sin_w_t) + joint1_0_by_joint2_0 * safe_part_4
+            - safe_part_5 * joint1_1_by_joint1_0;
+        let safe = S::select_le(
+            -pivot_joint1_1,
+            lit(0.0009765625) * safe_part_2,
+            lit(0.0),
+            S::select_le(
+                -pivot_joint1_0,
+                lit(0.0009765625) * safe_part,
+                lit(0.0),
+                S::select_le(
+                    pivot_joint2_0,
+                    lit(0.0),
+                    lit(0.0),
+                    S::select_le(
+                        m2,
+                        lit(0.0),
+                        lit(0.0),
+                        S::select_le(
+                            i1,
+                            lit(0.0),
+                            lit(0.0),
+                            S::select_le(
+                                m3,
+                                lit(0.0),
+                                lit(0.0),
+                                S::select_le(m1, lit(0.0), lit(0.0), lit(1.0)),
+                            ),
+                        ),
+                    ),
+                ),
+            ),
+        );
+        let lambda_joint1_1 = safe_part_6 * per_pivot_joint1_1;
+        let lambda_joint1_0 = safe_part_5 * per_pivot_joint1_0
+            - joint1_1_by_joint1_0 * safe_part_6 * per_pivot_joint1_1;
+        let lambda_joint2_1 = per_pivot_joint2_0 * safe_part_4
+            - joint1_0_by_joint2_0 * safe_part_6 * per_pivot_joint1_1;
+        let lambda_joint2_0 = per_pivot_joint2_0 * safe_part_3
+            - joint1_0_by_joint2_0 * lambda_joint1_0;
+        out[1] = -(per_m1
+            * (lit(0.5) * (rho * cd * s1 * dot_y1 * abs_dot_y1) + lambda_joint1_1));
+        out[7] = per_m3 * (rho * acceleration_6_part - lambda_joint2_1);
+        out[0] = -(per_m1
+            * (lit(0.5) * (rho * s * dot_x1 * cd * abs_dot_x1) + lambda_joint1_0));
+        out[2] = a * per_i1
+            * (sin_th1 * lambda_joint1_0 - cos_th1 * safe_part_6 * per_pivot_joint1_1);
+        out[4] = -(per_m2
+            * (lit(0.5) * (rho * cd * s2 * dot_y2 * abs_dot_y2) - lambda_joint1_1
+                - lambda_joint2_1));
+        out[3] = per_m2 * (lambda_joint1_0 + lambda_joint2_0);
+        out[6] = per_m3
+            * (lit(::core::f64::consts::TAU)
+                * (rho * span * half_chord * acceleration_0_part_3) - lambda_joint2_0);
+        safe
+    }
+    fn correction<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        residual: &[S],
+        out: &mut [S],
+    ) -> S {
+        let out = ::ukcore::emitted::exact_mut::<S, 9>(out, "out");
+        let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
+            S,
+            9,
+        >(q, "q");
+        let [residual_0, residual_1, residual_2, residual_3, residual_4, residual_5] = *::ukcore::emitted::exact::<
+            S,
+            6,
+        >(residual, "residual");
+        let lit = S::from_f64;
+        let m1 = lit(self.m1);
+        let i1 = lit(self.i1);
+        let a = lit(self.a);
+        let m2 = lit(self.m2);
+        let l2 = lit(self.l2);
+        let m3 = lit(self.m3);
+        let b = lit(self.b);
+        let per_m1 = m1.recip();
+        let per_i1 = i1.recip();
+        let per_m2 = m2.recip();
+        let per_m3 = m3.recip();
+        out[5] = -residual_4;
+        out[8] = -residual_5;
+        let pivot_joint2_0 = per_m3 + per_m2;
+        let per_pivot_joint2_0 = pivot_joint2_0.recip();
+        let joint1_0_by_joint2_0 = per_m2 * per_pivot_joint2_0;
+        let safe_part = per_pivot_joint2_0 / (m2 * m2);
+        let (sin_th3, cos_th3) = th3.sin_cos();
+        let (sin_th1, cos_th1) = th1.sin_cos();
+        let (sin_th2, cos_th2) = th2.sin_cos();
+        let l2_sin_th2_residual_4 = l2 * residual_4 * sin_th2;
+        let l2_cos_th2_residual_4 = l2 * residual_4 * cos_th2;
+        let safe_part_2 = residual_2 + lit(0.5) * l2_sin_th2_residual_4
+            + b * residual_5 * sin_th3;
+        let safe_part_3 = residual_3 - lit(0.5) * l2_cos_th2_residual_4
+            - b * residual_5 * cos_th3;
+        let safe_part_4 = (residual_0 + lit(0.5) * l2_sin_th2_residual_4)
+            + joint1_0_by_joint2_0 * safe_part_2;
+        let safe_part_5 = per_m1 + per_m2 + a * a * per_i1 * sin_th1 * sin_th1;
+        let safe_part_6 = per_m1 + per_m2 + a * a * per_i1 * cos_th1 * cos_th1;
+        let pivot_joint1_0 = safe_part - safe_part_5;
+        let per_pivot_joint1_0 = pivot_joint1_0.recip();
+        let joint1_1_by_joint1_0 = a * a * per_i1 * cos_th1 * sin_th1
+            * per_pivot_joint1_0;
+        let pivot_joint1_1 = safe_part - safe_part_6
+            - a.powi(4) * cos_th1 * cos_th1 * sin_th1 * sin_th1 * per_pivot_joint1_0
+                / (i1 * i1);
+        let per_pivot_joint1_1 = pivot_joint1_1.recip();
+        let safe_part_7 = (residual_1 - lit(0.5) * l2_cos_th2_residual_4)
+            + joint1_0_by_joint2_0 * safe_part_3 - safe_part_4 * joint1_1_by_joint1_0;
+        let safe = S::select_le(
+            -pivot_joint1_1,
+            lit(0.0009765625) * safe_part_6,
+            lit(0.0),
+            S::select_le(
+                -pivot_joint1_0,
+                lit(0.0009765625) * safe_part_5,
+                lit(0.0),
+                S::select_le(
+                    pivot_joint2_0,
+                    lit(0.0),
+                    lit(0.0),
+                    S::select_le(
+                        m2,
+                        lit(0.0),
+                        lit(0.0),
+                        S::select_le(
+                            i1,
+                            lit(0.0),
+                            lit(0.0),
+                            S::select_le(
+                                m3,
+                                lit(0.0),
+                                lit(0.0),
+                                S::select_le(m1, lit(0.0), lit(0.0), lit(1.0)),
+                            ),
+                        ),
+                    ),
+                ),
+            ),
+        );
+        let lambda_joint1_1 = safe_part_7 * per_pivot_joint1_1;
+        out[1] = per_m1 * safe_part_7 * per_pivot_joint1_1;
+        let lambda_joint1_0 = safe_part_4 * per_pivot_joint1_0
+            - joint1_1_by_joint1_0 * safe_part_7 * per_pivot_joint1_1;
+        let lambda_joint2_1 = per_pivot_joint2_0 * safe_part_3
+            - joint1_0_by_joint2_0 * safe_part_7 * per_pivot_joint1_1;
+        let lambda_joint2_0 = per_pivot_joint2_0 * safe_part_2
+            - joint1_0_by_joint2_0 * lambda_joint1_0;
+        out[0] = per_m1 * lambda_joint1_0;
+        out[7] = per_m3 * lambda_joint2_1;
+        out[4] = -(per_m2 * (lambda_joint1_1 + lambda_joint2_1));
+        out[6] = per_m3 * lambda_joint2_0;
+        out[2] = -(a * per_i1
+            * (sin_th1 * lambda_joint1_0 - cos_th1 * safe_part_7 * per_pivot_joint1_1));
+        out[3] = -(per_m2 * (lambda_joint1_0 + lambda_joint2_0));
+        safe
     }
 }

@@ -137,6 +137,8 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
             },
         ],
         structure: ::ukcore::Structure {
+            straight_line: true,
+            solve: "by straight-line elimination in the order x y rod",
             mass_pattern: &[(0, 0), (1, 1)],
             jacobian_pattern: &[(0, 0), (0, 1)],
             mass_diagonal: true,
@@ -160,6 +162,14 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
                 square_roots: 0,
                 transcendentals: 1,
                 selections: 0,
+            },
+            solve_operations: ::ukcore::Operations {
+                additions: 9,
+                multiplications: 17,
+                divisions: 2,
+                square_roots: 0,
+                transcendentals: 1,
+                selections: 2,
             },
         },
         equations: ::ukcore::Equations {
@@ -228,9 +238,9 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         let pivot = a * cos_w_t;
         let pivot_minus_y = pivot - y;
         jacobian[1] = lit(-2.0) * pivot_minus_y;
-        let b_0_part_part = dot_y + a * w * sin_w_t;
+        let b_0_part = dot_y + a * w * sin_w_t;
         rhs[0] = lit(-2.0)
-            * (dot_x * dot_x + b_0_part_part * b_0_part_part
+            * (dot_x * dot_x + b_0_part * b_0_part
                 - a * w * w * cos_w_t * pivot_minus_y);
     }
     fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) {
@@ -259,7 +269,7 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         let w = lit(self.w);
         let pivot = a * (w * t).cos();
         let pivot_minus_y = pivot - y;
-        phi[0] = x * x + pivot_minus_y * pivot_minus_y - l * l;
+        phi[0] = x * x - l * l + pivot_minus_y * pivot_minus_y;
     }
     fn residual_rate<S: ::ukcore::Scalar>(
         &self,
@@ -306,5 +316,72 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         let pivot = a * (w * t).cos();
         outputs[0] = x.atan2(y - pivot);
         outputs[1] = pivot;
+    }
+    /// 9 additions, 17 multiplications, 2 divisions, 0 square roots, 1 transcendentals, 2 selections.
+    fn acceleration<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        out: &mut [S],
+    ) -> S {
+        let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
+        let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
+        let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
+        let lit = S::from_f64;
+        let m = lit(self.m);
+        let g = lit(self.g);
+        let a = lit(self.a);
+        let w = lit(self.w);
+        let w_t = w * t;
+        let (sin_w_t, cos_w_t) = w_t.sin_cos();
+        let pivot = a * cos_w_t;
+        let pivot_minus_y = pivot - y;
+        let acceleration_0_part = dot_y + a * w * sin_w_t;
+        let acceleration_0_part_2 = x * x + pivot_minus_y * pivot_minus_y;
+        let per_acceleration_0_part_2 = acceleration_0_part_2.recip();
+        let acceleration_0_part_3 = g * pivot_minus_y
+            + (dot_x * dot_x + acceleration_0_part * acceleration_0_part
+                - a * w * w * cos_w_t * pivot_minus_y);
+        let pivot_rod = acceleration_0_part_2 / m;
+        let safe = S::select_le(
+            pivot_rod,
+            lit(0.0),
+            lit(0.0),
+            S::select_le(m, lit(0.0), lit(0.0), lit(1.0)),
+        );
+        out[0] = -(x * acceleration_0_part_3 * per_acceleration_0_part_2);
+        out[1] = pivot_minus_y * acceleration_0_part_3 * per_acceleration_0_part_2 - g;
+        safe
+    }
+    fn correction<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        residual: &[S],
+        out: &mut [S],
+    ) -> S {
+        let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
+        let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
+        let [residual_0] = *::ukcore::emitted::exact::<S, 1>(residual, "residual");
+        let lit = S::from_f64;
+        let m = lit(self.m);
+        let a = lit(self.a);
+        let w = lit(self.w);
+        let pivot = a * (w * t).cos();
+        let pivot_minus_y = pivot - y;
+        let correction_0_part = x * x + pivot_minus_y * pivot_minus_y;
+        let per_correction_0_part = correction_0_part.recip();
+        let pivot_rod = correction_0_part / m;
+        out[0] = lit(-0.5) * (x * residual_0 * per_correction_0_part);
+        out[1] = lit(0.5) * (residual_0 * pivot_minus_y * per_correction_0_part);
+        let safe = S::select_le(
+            pivot_rod,
+            lit(0.0),
+            lit(0.0),
+            S::select_le(m, lit(0.0), lit(0.0), lit(1.0)),
+        );
+        safe
     }
 }

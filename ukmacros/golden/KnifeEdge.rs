@@ -126,6 +126,8 @@ impl ::ukcore::Mechanism for KnifeEdge {
             },
         ],
         structure: ::ukcore::Structure {
+            straight_line: true,
+            solve: "by straight-line elimination in the order th x y edge",
             mass_pattern: &[(0, 0), (1, 1), (2, 2)],
             jacobian_pattern: &[(0, 0), (0, 1)],
             mass_diagonal: true,
@@ -151,6 +153,14 @@ impl ::ukcore::Mechanism for KnifeEdge {
                 square_roots: 0,
                 transcendentals: 2,
                 selections: 0,
+            },
+            solve_operations: ::ukcore::Operations {
+                additions: 4,
+                multiplications: 13,
+                divisions: 2,
+                square_roots: 0,
+                transcendentals: 2,
+                selections: 3,
             },
         },
         equations: ::ukcore::Equations {
@@ -212,7 +222,7 @@ impl ::ukcore::Mechanism for KnifeEdge {
         let (sin_th, cos_th) = th.sin_cos();
         jacobian[0] = sin_th;
         jacobian[1] = -cos_th;
-        rhs[0] = -(dot_x * cos_th * dot_th) - sin_th * dot_y * dot_th;
+        rhs[0] = -(dot_x * dot_th * cos_th) - dot_y * dot_th * sin_th;
     }
     fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 9>(mass, "mass");
@@ -261,7 +271,7 @@ impl ::ukcore::Mechanism for KnifeEdge {
         let slope = lit(self.slope);
         let kinetic = lit(0.5)
             * (m * dot_x * dot_x + m * dot_y * dot_y + i * dot_th * dot_th);
-        let potential = -(m * g * slope.sin() * x);
+        let potential = -(m * g * x * slope.sin());
         ::ukcore::Energy {
             kinetic,
             potential,
@@ -272,7 +282,80 @@ impl ::ukcore::Mechanism for KnifeEdge {
         let [_, _, th] = *::ukcore::emitted::exact::<S, 3>(q, "q");
         let [dot_x, dot_y, dot_th] = *::ukcore::emitted::exact::<S, 3>(v, "v");
         let (sin_th, cos_th) = th.sin_cos();
-        outputs[0] = dot_x * cos_th + sin_th * dot_y;
+        outputs[0] = dot_x * cos_th + dot_y * sin_th;
         outputs[1] = dot_th;
+    }
+    /// 4 additions, 13 multiplications, 2 divisions, 0 square roots, 2 transcendentals, 3 selections.
+    fn acceleration<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        out: &mut [S],
+    ) -> S {
+        let out = ::ukcore::emitted::exact_mut::<S, 3>(out, "out");
+        let [_, _, th] = *::ukcore::emitted::exact::<S, 3>(q, "q");
+        let [dot_x, dot_y, dot_th] = *::ukcore::emitted::exact::<S, 3>(v, "v");
+        let lit = S::from_f64;
+        let m = lit(self.m);
+        let i = lit(self.i);
+        let g = lit(self.g);
+        let slope = lit(self.slope);
+        out[2] = lit(0.0);
+        let sin_slope = slope.sin();
+        let (sin_th, cos_th) = th.sin_cos();
+        let safe_part = sin_th * sin_th + cos_th * cos_th;
+        let per_safe_part = safe_part.recip();
+        let safe_part_2 = g * sin_slope * sin_th
+            + (dot_x * dot_th * cos_th + dot_y * dot_th * sin_th);
+        let pivot_edge = safe_part / m;
+        out[1] = cos_th * safe_part_2 * per_safe_part;
+        let safe = S::select_le(
+            pivot_edge,
+            lit(0.0),
+            lit(0.0),
+            S::select_le(
+                m,
+                lit(0.0),
+                lit(0.0),
+                S::select_le(i, lit(0.0), lit(0.0), lit(1.0)),
+            ),
+        );
+        out[0] = g * sin_slope - sin_th * safe_part_2 * per_safe_part;
+        safe
+    }
+    fn correction<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        residual: &[S],
+        out: &mut [S],
+    ) -> S {
+        let out = ::ukcore::emitted::exact_mut::<S, 3>(out, "out");
+        let [_, _, th] = *::ukcore::emitted::exact::<S, 3>(q, "q");
+        let [residual_0] = *::ukcore::emitted::exact::<S, 1>(residual, "residual");
+        let lit = S::from_f64;
+        let m = lit(self.m);
+        let i = lit(self.i);
+        out[2] = lit(0.0);
+        let (sin_th, cos_th) = th.sin_cos();
+        let safe_part = sin_th * sin_th + cos_th * cos_th;
+        let per_safe_part = safe_part.recip();
+        let pivot_edge = safe_part / m;
+        out[1] = residual_0 * cos_th * per_safe_part;
+        out[0] = -(residual_0 * sin_th * per_safe_part);
+        let safe = S::select_le(
+            pivot_edge,
+            lit(0.0),
+            lit(0.0),
+            S::select_le(
+                m,
+                lit(0.0),
+                lit(0.0),
+                S::select_le(i, lit(0.0), lit(0.0), lit(1.0)),
+            ),
+        );
+        safe
     }
 }

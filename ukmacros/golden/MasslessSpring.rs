@@ -104,6 +104,8 @@ impl ::ukcore::Mechanism for MasslessSpring {
             },
         ],
         structure: ::ukcore::Structure {
+            straight_line: false,
+            solve: "by the rank-revealing solve, since a massless coordinate has no constraint in which its coefficient is a number",
             mass_pattern: &[(1, 1)],
             jacobian_pattern: &[(0, 0), (0, 1)],
             mass_diagonal: true,
@@ -123,6 +125,14 @@ impl ::ukcore::Mechanism for MasslessSpring {
             operations: ::ukcore::Operations {
                 additions: 5,
                 multiplications: 2,
+                divisions: 0,
+                square_roots: 0,
+                transcendentals: 0,
+                selections: 0,
+            },
+            solve_operations: ::ukcore::Operations {
+                additions: 0,
+                multiplications: 0,
                 divisions: 0,
                 square_roots: 0,
                 transcendentals: 0,
@@ -173,9 +183,9 @@ impl ::ukcore::Mechanism for MasslessSpring {
         let k1 = lit(self.k1);
         let k2 = lit(self.k2);
         mass[3] = m;
-        let force_0_part_part = k2 * (joint - x);
-        force[0] = -(k1 * joint) - force_0_part_part;
-        force[1] = force_0_part_part;
+        let force_0_part = k2 * (joint - x);
+        force[0] = -(k1 * joint) - force_0_part;
+        force[1] = force_0_part;
         nonideal[0] = lit(0.0);
         nonideal[1] = lit(0.0);
         jacobian[0] = k1 + k2;

@@ -11,12 +11,13 @@
 /// s1 = e1*dot(e0) + e2*dot(e3) - e0*dot(e1) - e3*dot(e2)
 /// s2 = dot(e0)*e2 + dot(e1)*e3 - e0*dot(e2) - e1*dot(e3)
 /// s3 = dot(e0)*e3 + e1*dot(e2) - dot(e1)*e2 - e0*dot(e3)
+/// pivot_e0 = sq(e1)*i1 + sq(e2)*i2 + sq(e3)*i3
 /// ```
 ///
 /// Mass matrix M (lower triangle), eq. 1:
 ///
 /// ```text
-/// M[e0, e0] = 4*(sq(e1)*i1 + sq(e2)*i2 + sq(e3)*i3)
+/// M[e0, e0] = 4*pivot_e0
 /// M[e1, e0] = 4*(e3*e2*i2 - e1*e0*i1 - e3*e2*i3)
 /// M[e1, e1] = 4*(sq(e0)*i1 + sq(e3)*i2 + sq(e2)*i3)
 /// M[e2, e0] = 4*(e1*e3*i3 - e1*e3*i1 - e0*e2*i2)
@@ -164,6 +165,8 @@ impl ::ukcore::Mechanism for RigidBody {
             },
         ],
         structure: ::ukcore::Structure {
+            straight_line: true,
+            solve: "by straight-line elimination in the order e0 e1 e2 e3 unit",
             mass_pattern: &[
                 (0, 0),
                 (0, 1),
@@ -203,15 +206,24 @@ impl ::ukcore::Mechanism for RigidBody {
                 transcendentals: 0,
                 selections: 0,
             },
+            solve_operations: ::ukcore::Operations {
+                additions: 81,
+                multiplications: 187,
+                divisions: 5,
+                square_roots: 0,
+                transcendentals: 0,
+                selections: 5,
+            },
         },
         equations: ::ukcore::Equations {
             definitions: &[
                 ("s1", "e1*dot(e0) + e2*dot(e3) - e0*dot(e1) - e3*dot(e2)"),
                 ("s2", "dot(e0)*e2 + dot(e1)*e3 - e0*dot(e2) - e1*dot(e3)"),
                 ("s3", "dot(e0)*e3 + e1*dot(e2) - dot(e1)*e2 - e0*dot(e3)"),
+                ("pivot_e0", "sq(e1)*i1 + sq(e2)*i2 + sq(e3)*i3"),
             ],
             mass: &[
-                (0, 0, "4*(sq(e1)*i1 + sq(e2)*i2 + sq(e3)*i3)"),
+                (0, 0, "4*pivot_e0"),
                 (1, 0, "4*(e3*e2*i2 - e1*e0*i1 - e3*e2*i3)"),
                 (1, 1, "4*(sq(e0)*i1 + sq(e3)*i2 + sq(e2)*i3)"),
                 (2, 0, "4*(e1*e3*i3 - e1*e3*i1 - e0*e2*i2)"),
@@ -268,43 +280,44 @@ impl ::ukcore::Mechanism for RigidBody {
         let i1 = lit(self.i1);
         let i2 = lit(self.i2);
         let i3 = lit(self.i3);
-        mass[0] = lit(4.0) * (e1 * e1 * i1 + e2 * e2 * i2 + e3 * e3 * i3);
-        let mass_e1_e0_part = lit(-4.0) * (e1 * e0 * i1 + e3 * e2 * i3 - e3 * e2 * i2);
-        mass[1] = mass_e1_e0_part;
-        let mass_e2_e0_part = lit(-4.0) * (e1 * e3 * i1 + e0 * e2 * i2 - e1 * e3 * i3);
-        mass[2] = mass_e2_e0_part;
-        let mass_e3_e0_part = lit(4.0) * (e1 * e2 * i1 - e1 * e2 * i2 - e0 * e3 * i3);
-        mass[3] = mass_e3_e0_part;
-        mass[4] = mass_e1_e0_part;
+        let pivot_e0 = e1 * e1 * i1 + e2 * e2 * i2 + e3 * e3 * i3;
+        mass[0] = lit(4.0) * pivot_e0;
+        let mass_e1_e0 = lit(-4.0) * (e1 * e0 * i1 - e3 * e2 * i2 + e3 * e2 * i3);
+        mass[1] = mass_e1_e0;
+        let mass_e2_e0 = lit(-4.0) * (e1 * e3 * i1 + e0 * e2 * i2 - e1 * e3 * i3);
+        mass[2] = mass_e2_e0;
+        let mass_e3_e0 = lit(4.0) * (e1 * e2 * i1 - e1 * e2 * i2 - e0 * e3 * i3);
+        mass[3] = mass_e3_e0;
+        mass[4] = mass_e1_e0;
         mass[5] = lit(4.0) * (e0 * e0 * i1 + e3 * e3 * i2 + e2 * e2 * i3);
-        let mass_e2_e1_part = lit(4.0) * (e0 * e3 * i1 - e0 * e3 * i2 - e1 * e2 * i3);
-        mass[6] = mass_e2_e1_part;
-        let mass_e3_e1_part = lit(-4.0) * (e0 * e2 * i1 + e1 * e3 * i2 - e0 * e2 * i3);
-        mass[7] = mass_e3_e1_part;
-        mass[8] = mass_e2_e0_part;
-        mass[9] = mass_e2_e1_part;
+        let mass_e2_e1 = lit(4.0) * (e0 * e3 * i1 - e0 * e3 * i2 - e1 * e2 * i3);
+        mass[6] = mass_e2_e1;
+        let mass_e3_e1 = lit(-4.0) * (e0 * e2 * i1 + e1 * e3 * i2 - e0 * e2 * i3);
+        mass[7] = mass_e3_e1;
+        mass[8] = mass_e2_e0;
+        mass[9] = mass_e2_e1;
         mass[10] = lit(4.0) * (e3 * e3 * i1 + e0 * e0 * i2 + e1 * e1 * i3);
-        let mass_e3_e2_part = lit(-4.0) * (e3 * e2 * i1 + e1 * e0 * i3 - e1 * e0 * i2);
-        mass[11] = mass_e3_e2_part;
-        mass[12] = mass_e3_e0_part;
-        mass[13] = mass_e3_e1_part;
-        mass[14] = mass_e3_e2_part;
+        let mass_e3_e2 = lit(-4.0) * (e3 * e2 * i1 - e1 * e0 * i2 + e1 * e0 * i3);
+        mass[11] = mass_e3_e2;
+        mass[12] = mass_e3_e0;
+        mass[13] = mass_e3_e1;
+        mass[14] = mass_e3_e2;
         mass[15] = lit(4.0) * (e2 * e2 * i1 + e1 * e1 * i2 + e0 * e0 * i3);
-        let force_0_part_part = e1 * dot_e0 + e2 * dot_e3 - e0 * dot_e1 - e3 * dot_e2;
-        let force_0_part_part_2 = dot_e0 * e2 + dot_e1 * e3 - e0 * dot_e2 - e1 * dot_e3;
-        let force_0_part_part_3 = dot_e0 * e3 + e1 * dot_e2 - dot_e1 * e2 - e0 * dot_e3;
+        let force_0_part = e1 * dot_e0 - e0 * dot_e1 - e3 * dot_e2 + e2 * dot_e3;
+        let force_0_part_2 = dot_e0 * e2 + dot_e1 * e3 - e0 * dot_e2 - e1 * dot_e3;
+        let force_0_part_3 = dot_e0 * e3 - dot_e1 * e2 + e1 * dot_e2 - e0 * dot_e3;
         force[0] = lit(-8.0)
-            * (dot_e1 * force_0_part_part * i1 + dot_e2 * force_0_part_part_2 * i2
-                + dot_e3 * force_0_part_part_3 * i3);
+            * (dot_e1 * i1 * force_0_part + dot_e2 * i2 * force_0_part_2
+                + dot_e3 * i3 * force_0_part_3);
         force[1] = lit(8.0)
-            * (dot_e0 * force_0_part_part * i1 + dot_e2 * force_0_part_part_3 * i3
-                - dot_e3 * force_0_part_part_2 * i2);
+            * (dot_e0 * i1 * force_0_part - dot_e3 * i2 * force_0_part_2
+                + dot_e2 * i3 * force_0_part_3);
         force[2] = lit(8.0)
-            * (dot_e3 * force_0_part_part * i1 + dot_e0 * force_0_part_part_2 * i2
-                - dot_e1 * force_0_part_part_3 * i3);
+            * (dot_e3 * i1 * force_0_part + dot_e0 * i2 * force_0_part_2
+                - dot_e1 * i3 * force_0_part_3);
         force[3] = lit(-8.0)
-            * (dot_e2 * force_0_part_part * i1 - dot_e1 * force_0_part_part_2 * i2
-                - dot_e0 * force_0_part_part_3 * i3);
+            * (dot_e2 * i1 * force_0_part - dot_e1 * i2 * force_0_part_2
+                - dot_e0 * i3 * force_0_part_3);
         nonideal[0] = lit(0.0);
         nonideal[1] = lit(0.0);
         nonideal[2] = lit(0.0);
@@ -323,27 +336,28 @@ impl ::ukcore::Mechanism for RigidBody {
         let i1 = lit(self.i1);
         let i2 = lit(self.i2);
         let i3 = lit(self.i3);
-        mass[0] = lit(4.0) * (e1 * e1 * i1 + e2 * e2 * i2 + e3 * e3 * i3);
-        let mass_e1_e0_part = lit(-4.0) * (e1 * e0 * i1 + e3 * e2 * i3 - e3 * e2 * i2);
-        mass[1] = mass_e1_e0_part;
-        let mass_e2_e0_part = lit(-4.0) * (e1 * e3 * i1 + e0 * e2 * i2 - e1 * e3 * i3);
-        mass[2] = mass_e2_e0_part;
-        let mass_e3_e0_part = lit(4.0) * (e1 * e2 * i1 - e1 * e2 * i2 - e0 * e3 * i3);
-        mass[3] = mass_e3_e0_part;
-        mass[4] = mass_e1_e0_part;
+        let pivot_e0 = e1 * e1 * i1 + e2 * e2 * i2 + e3 * e3 * i3;
+        mass[0] = lit(4.0) * pivot_e0;
+        let mass_e1_e0 = lit(-4.0) * (e1 * e0 * i1 - e3 * e2 * i2 + e3 * e2 * i3);
+        mass[1] = mass_e1_e0;
+        let mass_e2_e0 = lit(-4.0) * (e1 * e3 * i1 + e0 * e2 * i2 - e1 * e3 * i3);
+        mass[2] = mass_e2_e0;
+        let mass_e3_e0 = lit(4.0) * (e1 * e2 * i1 - e1 * e2 * i2 - e0 * e3 * i3);
+        mass[3] = mass_e3_e0;
+        mass[4] = mass_e1_e0;
         mass[5] = lit(4.0) * (e0 * e0 * i1 + e3 * e3 * i2 + e2 * e2 * i3);
-        let mass_e2_e1_part = lit(4.0) * (e0 * e3 * i1 - e0 * e3 * i2 - e1 * e2 * i3);
-        mass[6] = mass_e2_e1_part;
-        let mass_e3_e1_part = lit(-4.0) * (e0 * e2 * i1 + e1 * e3 * i2 - e0 * e2 * i3);
-        mass[7] = mass_e3_e1_part;
-        mass[8] = mass_e2_e0_part;
-        mass[9] = mass_e2_e1_part;
+        let mass_e2_e1 = lit(4.0) * (e0 * e3 * i1 - e0 * e3 * i2 - e1 * e2 * i3);
+        mass[6] = mass_e2_e1;
+        let mass_e3_e1 = lit(-4.0) * (e0 * e2 * i1 + e1 * e3 * i2 - e0 * e2 * i3);
+        mass[7] = mass_e3_e1;
+        mass[8] = mass_e2_e0;
+        mass[9] = mass_e2_e1;
         mass[10] = lit(4.0) * (e3 * e3 * i1 + e0 * e0 * i2 + e1 * e1 * i3);
-        let mass_e3_e2_part = lit(-4.0) * (e3 * e2 * i1 + e1 * e0 * i3 - e1 * e0 * i2);
-        mass[11] = mass_e3_e2_part;
-        mass[12] = mass_e3_e0_part;
-        mass[13] = mass_e3_e1_part;
-        mass[14] = mass_e3_e2_part;
+        let mass_e3_e2 = lit(-4.0) * (e3 * e2 * i1 - e1 * e0 * i2 + e1 * e0 * i3);
+        mass[11] = mass_e3_e2;
+        mass[12] = mass_e3_e0;
+        mass[13] = mass_e3_e1;
+        mass[14] = mass_e3_e2;
         mass[15] = lit(4.0) * (e2 * e2 * i1 + e1 * e1 * i2 + e0 * e0 * i3);
     }
     fn jacobian<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
@@ -386,13 +400,12 @@ impl ::ukcore::Mechanism for RigidBody {
         let i1 = lit(self.i1);
         let i2 = lit(self.i2);
         let i3 = lit(self.i3);
-        let kinetic_part_part = e1 * dot_e0 + e2 * dot_e3 - e0 * dot_e1 - e3 * dot_e2;
-        let kinetic_part_part_2 = dot_e0 * e2 + dot_e1 * e3 - e0 * dot_e2 - e1 * dot_e3;
-        let kinetic_part_part_3 = dot_e0 * e3 + e1 * dot_e2 - dot_e1 * e2 - e0 * dot_e3;
+        let kinetic_part = e1 * dot_e0 - e0 * dot_e1 - e3 * dot_e2 + e2 * dot_e3;
+        let kinetic_part_2 = dot_e0 * e2 + dot_e1 * e3 - e0 * dot_e2 - e1 * dot_e3;
+        let kinetic_part_3 = dot_e0 * e3 - dot_e1 * e2 + e1 * dot_e2 - e0 * dot_e3;
         let kinetic = lit(2.0)
-            * (kinetic_part_part * kinetic_part_part * i1
-                + kinetic_part_part_2 * kinetic_part_part_2 * i2
-                + kinetic_part_part_3 * kinetic_part_part_3 * i3);
+            * (i1 * kinetic_part * kinetic_part + i2 * kinetic_part_2 * kinetic_part_2
+                + i3 * kinetic_part_3 * kinetic_part_3);
         let potential = lit(0.0);
         ::ukcore::Energy {
             kinetic,
@@ -407,32 +420,247 @@ impl ::ukcore::Mechanism for RigidBody {
         let i1 = lit(self.i1);
         let i2 = lit(self.i2);
         let i3 = lit(self.i3);
-        let output_0_part_part = e1 * dot_e0 + e2 * dot_e3 - e0 * dot_e1 - e3 * dot_e2;
-        outputs[0] = lit(-2.0) * output_0_part_part;
-        let output_1_part_part = dot_e0 * e2 + dot_e1 * e3 - e0 * dot_e2 - e1 * dot_e3;
-        outputs[1] = lit(-2.0) * output_1_part_part;
-        let output_2_part_part = dot_e0 * e3 + e1 * dot_e2 - dot_e1 * e2 - e0 * dot_e3;
-        outputs[2] = lit(-2.0) * output_2_part_part;
+        let output_0_part = e1 * dot_e0 - e0 * dot_e1 - e3 * dot_e2 + e2 * dot_e3;
+        outputs[0] = lit(-2.0) * output_0_part;
+        let output_1_part = dot_e0 * e2 + dot_e1 * e3 - e0 * dot_e2 - e1 * dot_e3;
+        outputs[1] = lit(-2.0) * output_1_part;
+        let output_2_part = dot_e0 * e3 - dot_e1 * e2 + e1 * dot_e2 - e0 * dot_e3;
+        outputs[2] = lit(-2.0) * output_2_part;
         let sq_e2 = e2 * e2;
         let sq_e3 = e3 * e3;
         let e1_e2 = e1 * e2;
         let e0_e3 = e0 * e3;
         let e1_e3 = e1 * e3;
         let e0_e2 = e0 * e2;
-        outputs[3] = lit(-2.0)
-            * (output_0_part_part * i1 * (lit(1.0) - lit(2.0) * (sq_e2 + sq_e3)))
-            - lit(4.0) * (output_1_part_part * i2 * (e1_e2 - e0_e3))
-            - lit(4.0) * (output_2_part_part * i3 * (e1_e3 + e0_e2));
+        outputs[3] = lit(-4.0) * (i2 * output_1_part * (e1_e2 - e0_e3))
+            - lit(4.0) * (i3 * output_2_part * (e1_e3 + e0_e2))
+            - lit(2.0) * (i1 * output_0_part * (lit(1.0) - lit(2.0) * (sq_e2 + sq_e3)));
         let sq_e1 = e1 * e1;
         let e3_e2 = e3 * e2;
         let e1_e0 = e1 * e0;
-        outputs[4] = lit(-4.0) * (output_0_part_part * i1 * (e1_e2 + e0_e3))
+        outputs[4] = lit(-4.0) * (i1 * output_0_part * (e1_e2 + e0_e3))
+            - lit(4.0) * (i3 * output_2_part * (e3_e2 - e1_e0))
+            - lit(2.0) * (i2 * output_1_part * (lit(1.0) - lit(2.0) * (sq_e1 + sq_e3)));
+        outputs[5] = lit(-4.0) * (i1 * output_0_part * (e1_e3 - e0_e2))
+            - lit(4.0) * (i2 * output_1_part * (e3_e2 + e1_e0))
+            - lit(2.0) * (i3 * output_2_part * (lit(1.0) - lit(2.0) * (sq_e1 + sq_e2)));
+    }
+    /// 81 additions, 187 multiplications, 5 divisions, 0 square roots, 0 transcendentals, 5 selections.
+    fn acceleration<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        out: &mut [S],
+    ) -> S {
+        let out = ::ukcore::emitted::exact_mut::<S, 4>(out, "out");
+        let [e0, e1, e2, e3] = *::ukcore::emitted::exact::<S, 4>(q, "q");
+        let [dot_e0, dot_e1, dot_e2, dot_e3] = *::ukcore::emitted::exact::<S, 4>(v, "v");
+        let lit = S::from_f64;
+        let i1 = lit(self.i1);
+        let i2 = lit(self.i2);
+        let i3 = lit(self.i3);
+        let acceleration_0_part = e1 * dot_e0 - e0 * dot_e1 - e3 * dot_e2 + e2 * dot_e3;
+        let acceleration_0_part_2 = dot_e0 * e2 + dot_e1 * e3 - e0 * dot_e2
+            - e1 * dot_e3;
+        let acceleration_0_part_3 = dot_e0 * e3 - dot_e1 * e2 + e1 * dot_e2
+            - e0 * dot_e3;
+        let pivot_e0 = e1 * e1 * i1 + e2 * e2 * i2 + e3 * e3 * i3;
+        let acceleration_0_part_4 = e1 * e0 * i1 - e3 * e2 * i2 + e3 * e2 * i3;
+        let acceleration_0_part_5 = e0 * e0 * i1 + e3 * e3 * i2 + e2 * e2 * i3;
+        let acceleration_0_part_6 = e1 * e3 * i1 + e0 * e2 * i2 - e1 * e3 * i3;
+        let acceleration_0_part_7 = e3 * e3 * i1 + e0 * e0 * i2 + e1 * e1 * i3;
+        let acceleration_0_part_8 = e1 * e2 * i1 - e1 * e2 * i2 - e0 * e3 * i3;
+        let acceleration_0_part_9 = e2 * e2 * i1 + e1 * e1 * i2 + e0 * e0 * i3;
+        let per_pivot_e0 = pivot_e0.recip();
+        let acceleration_0_part_10 = dot_e1 * i1 * acceleration_0_part
+            + dot_e2 * i2 * acceleration_0_part_2 + dot_e3 * i3 * acceleration_0_part_3;
+        let e1_by_e0 = acceleration_0_part_4 * per_pivot_e0;
+        let e2_by_e0 = acceleration_0_part_6 * per_pivot_e0;
+        let e3_by_e0 = acceleration_0_part_8 * per_pivot_e0;
+        let unit_by_e0 = e0 * per_pivot_e0;
+        let pivot_e1 = acceleration_0_part_5
+            - acceleration_0_part_4 * acceleration_0_part_4 * per_pivot_e0;
+        let per_pivot_e1 = pivot_e1.recip();
+        let acceleration_0_part_11 = (dot_e0 * i1 * acceleration_0_part
+            - dot_e3 * i2 * acceleration_0_part_2 + dot_e2 * i3 * acceleration_0_part_3)
+            - acceleration_0_part_10 * e1_by_e0;
+        let acceleration_0_part_12 = (e0 * e3 * i1 - e0 * e3 * i2 - e1 * e2 * i3)
+            - acceleration_0_part_4 * e2_by_e0;
+        let acceleration_0_part_13 = (e0 * e2 * i1 + e1 * e3 * i2 - e0 * e2 * i3)
+            - acceleration_0_part_4 * e3_by_e0;
+        let acceleration_0_part_14 = e1 + acceleration_0_part_4 * unit_by_e0;
+        let e2_by_e1 = acceleration_0_part_12 * per_pivot_e1;
+        let e3_by_e1 = acceleration_0_part_13 * per_pivot_e1;
+        let unit_by_e1 = acceleration_0_part_14 * per_pivot_e1;
+        let pivot_e2 = acceleration_0_part_7
+            - acceleration_0_part_6 * acceleration_0_part_6 * per_pivot_e0
+            - acceleration_0_part_12 * acceleration_0_part_12 * per_pivot_e1;
+        let per_pivot_e2 = pivot_e2.recip();
+        let acceleration_0_part_15 = (dot_e3 * i1 * acceleration_0_part
+            + dot_e0 * i2 * acceleration_0_part_2 - dot_e1 * i3 * acceleration_0_part_3)
+            - acceleration_0_part_10 * e2_by_e0 - acceleration_0_part_11 * e2_by_e1;
+        let acceleration_0_part_16 = (e3 * e2 * i1 - e1 * e0 * i2 + e1 * e0 * i3)
+            - acceleration_0_part_6 * e3_by_e0 - acceleration_0_part_12 * e3_by_e1;
+        let acceleration_0_part_17 = e2 + acceleration_0_part_6 * unit_by_e0
+            - acceleration_0_part_12 * unit_by_e1;
+        let e3_by_e2 = acceleration_0_part_16 * per_pivot_e2;
+        let unit_by_e2 = acceleration_0_part_17 * per_pivot_e2;
+        let pivot_e3 = acceleration_0_part_9
+            - acceleration_0_part_8 * acceleration_0_part_8 * per_pivot_e0
+            - acceleration_0_part_13 * acceleration_0_part_13 * per_pivot_e1
+            - acceleration_0_part_16 * acceleration_0_part_16 * per_pivot_e2;
+        let per_pivot_e3 = pivot_e3.recip();
+        let acceleration_0_part_18 = (dot_e2 * i1 * acceleration_0_part
+            - dot_e1 * i2 * acceleration_0_part_2 - dot_e0 * i3 * acceleration_0_part_3)
+            - acceleration_0_part_10 * e3_by_e0 - acceleration_0_part_11 * e3_by_e1
+            - acceleration_0_part_15 * e3_by_e2;
+        let acceleration_0_part_19 = e3 - acceleration_0_part_8 * unit_by_e0
+            + acceleration_0_part_13 * unit_by_e1 + acceleration_0_part_16 * unit_by_e2;
+        let pivot_unit = e0 * e0 * per_pivot_e0
+            + acceleration_0_part_14 * acceleration_0_part_14 * per_pivot_e1
+            + acceleration_0_part_17 * acceleration_0_part_17 * per_pivot_e2
+            + acceleration_0_part_19 * acceleration_0_part_19 * per_pivot_e3;
+        let acceleration_0_part_20 = (dot_e0 * dot_e0 + dot_e1 * dot_e1 + dot_e2 * dot_e2
+            + dot_e3 * dot_e3) - lit(2.0) * (acceleration_0_part_10 * unit_by_e0)
+            + lit(2.0) * (acceleration_0_part_11 * unit_by_e1)
+            + lit(2.0) * (acceleration_0_part_15 * unit_by_e2)
             - lit(2.0)
-                * (output_1_part_part * i2 * (lit(1.0) - lit(2.0) * (sq_e1 + sq_e3)))
-            - lit(4.0) * (output_2_part_part * i3 * (e3_e2 - e1_e0));
-        outputs[5] = lit(-4.0) * (output_0_part_part * i1 * (e1_e3 - e0_e2))
-            - lit(4.0) * (output_1_part_part * i2 * (e3_e2 + e1_e0))
-            - lit(2.0)
-                * (output_2_part_part * i3 * (lit(1.0) - lit(2.0) * (sq_e1 + sq_e2)));
+                * (acceleration_0_part_18 * acceleration_0_part_19 * per_pivot_e3);
+        let per_pivot_unit = pivot_unit.recip();
+        let safe = S::select_le(
+            lit(0.25) * pivot_unit,
+            lit(0.0),
+            lit(0.0),
+            S::select_le(
+                lit(4.0) * pivot_e3,
+                lit(0.00390625) * acceleration_0_part_9,
+                lit(0.0),
+                S::select_le(
+                    lit(4.0) * pivot_e2,
+                    lit(0.00390625) * acceleration_0_part_7,
+                    lit(0.0),
+                    S::select_le(
+                        lit(4.0) * pivot_e1,
+                        lit(0.00390625) * acceleration_0_part_5,
+                        lit(0.0),
+                        S::select_le(lit(4.0) * pivot_e0, lit(0.0), lit(0.0), lit(1.0)),
+                    ),
+                ),
+            ),
+        );
+        let safe_part = lit(2.0) * acceleration_0_part_18
+            + acceleration_0_part_19 * acceleration_0_part_20 * per_pivot_unit;
+        let safe_part_2 = lit(2.0) * (acceleration_0_part_15 * per_pivot_e2)
+            - unit_by_e2 * acceleration_0_part_20 * per_pivot_unit
+            - e3_by_e2 * per_pivot_e3 * safe_part;
+        out[2] = safe_part_2;
+        out[3] = -(per_pivot_e3 * safe_part);
+        let safe_part_3 = lit(2.0) * (acceleration_0_part_11 * per_pivot_e1)
+            - unit_by_e1 * acceleration_0_part_20 * per_pivot_unit
+            - e3_by_e1 * per_pivot_e3 * safe_part - e2_by_e1 * safe_part_2;
+        out[1] = safe_part_3;
+        out[0] = e3_by_e0 * per_pivot_e3 * safe_part
+            - lit(2.0) * (acceleration_0_part_10 * per_pivot_e0)
+            - unit_by_e0 * acceleration_0_part_20 * per_pivot_unit
+            + e2_by_e0 * safe_part_2 + e1_by_e0 * safe_part_3;
+        safe
+    }
+    fn correction<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        residual: &[S],
+        out: &mut [S],
+    ) -> S {
+        let out = ::ukcore::emitted::exact_mut::<S, 4>(out, "out");
+        let [e0, e1, e2, e3] = *::ukcore::emitted::exact::<S, 4>(q, "q");
+        let [residual_0] = *::ukcore::emitted::exact::<S, 1>(residual, "residual");
+        let lit = S::from_f64;
+        let i1 = lit(self.i1);
+        let i2 = lit(self.i2);
+        let i3 = lit(self.i3);
+        let pivot_e0 = e1 * e1 * i1 + e2 * e2 * i2 + e3 * e3 * i3;
+        let correction_0_part = e1 * e0 * i1 - e3 * e2 * i2 + e3 * e2 * i3;
+        let correction_0_part_2 = e0 * e0 * i1 + e3 * e3 * i2 + e2 * e2 * i3;
+        let correction_0_part_3 = e1 * e3 * i1 + e0 * e2 * i2 - e1 * e3 * i3;
+        let correction_0_part_4 = e3 * e3 * i1 + e0 * e0 * i2 + e1 * e1 * i3;
+        let correction_0_part_5 = e1 * e2 * i1 - e1 * e2 * i2 - e0 * e3 * i3;
+        let correction_0_part_6 = e2 * e2 * i1 + e1 * e1 * i2 + e0 * e0 * i3;
+        let per_pivot_e0 = pivot_e0.recip();
+        let e1_by_e0 = correction_0_part * per_pivot_e0;
+        let e2_by_e0 = correction_0_part_3 * per_pivot_e0;
+        let e3_by_e0 = correction_0_part_5 * per_pivot_e0;
+        let unit_by_e0 = e0 * per_pivot_e0;
+        let pivot_e1 = correction_0_part_2
+            - correction_0_part * correction_0_part * per_pivot_e0;
+        let per_pivot_e1 = pivot_e1.recip();
+        let correction_0_part_7 = (e0 * e3 * i1 - e0 * e3 * i2 - e1 * e2 * i3)
+            - correction_0_part * e2_by_e0;
+        let correction_0_part_8 = (e0 * e2 * i1 + e1 * e3 * i2 - e0 * e2 * i3)
+            - correction_0_part * e3_by_e0;
+        let correction_0_part_9 = e1 + correction_0_part * unit_by_e0;
+        let e2_by_e1 = correction_0_part_7 * per_pivot_e1;
+        let e3_by_e1 = correction_0_part_8 * per_pivot_e1;
+        let unit_by_e1 = correction_0_part_9 * per_pivot_e1;
+        let pivot_e2 = correction_0_part_4
+            - correction_0_part_3 * correction_0_part_3 * per_pivot_e0
+            - correction_0_part_7 * correction_0_part_7 * per_pivot_e1;
+        let per_pivot_e2 = pivot_e2.recip();
+        let correction_0_part_10 = (e3 * e2 * i1 - e1 * e0 * i2 + e1 * e0 * i3)
+            - correction_0_part_3 * e3_by_e0 - correction_0_part_7 * e3_by_e1;
+        let correction_0_part_11 = e2 + correction_0_part_3 * unit_by_e0
+            - correction_0_part_7 * unit_by_e1;
+        let e3_by_e2 = correction_0_part_10 * per_pivot_e2;
+        let unit_by_e2 = correction_0_part_11 * per_pivot_e2;
+        let pivot_e3 = correction_0_part_6
+            - correction_0_part_5 * correction_0_part_5 * per_pivot_e0
+            - correction_0_part_8 * correction_0_part_8 * per_pivot_e1
+            - correction_0_part_10 * correction_0_part_10 * per_pivot_e2;
+        let per_pivot_e3 = pivot_e3.recip();
+        let correction_0_part_12 = e3 - correction_0_part_5 * unit_by_e0
+            + correction_0_part_8 * unit_by_e1 + correction_0_part_10 * unit_by_e2;
+        let pivot_unit = e0 * e0 * per_pivot_e0
+            + correction_0_part_9 * correction_0_part_9 * per_pivot_e1
+            + correction_0_part_11 * correction_0_part_11 * per_pivot_e2
+            + correction_0_part_12 * correction_0_part_12 * per_pivot_e3;
+        let correction_0_part_13 = unit_by_e2
+            + e3_by_e2 * correction_0_part_12 * per_pivot_e3;
+        let per_pivot_unit = pivot_unit.recip();
+        let correction_0_part_14 = unit_by_e1
+            + e3_by_e1 * correction_0_part_12 * per_pivot_e3
+            - e2_by_e1 * correction_0_part_13;
+        let safe = S::select_le(
+            lit(0.25) * pivot_unit,
+            lit(0.0),
+            lit(0.0),
+            S::select_le(
+                lit(4.0) * pivot_e3,
+                lit(0.00390625) * correction_0_part_6,
+                lit(0.0),
+                S::select_le(
+                    lit(4.0) * pivot_e2,
+                    lit(0.00390625) * correction_0_part_4,
+                    lit(0.0),
+                    S::select_le(
+                        lit(4.0) * pivot_e1,
+                        lit(0.00390625) * correction_0_part_2,
+                        lit(0.0),
+                        S::select_le(lit(4.0) * pivot_e0, lit(0.0), lit(0.0), lit(1.0)),
+                    ),
+                ),
+            ),
+        );
+        out[2] = lit(-0.5) * (residual_0 * correction_0_part_13 * per_pivot_unit);
+        out[3] = lit(-0.5)
+            * (residual_0 * correction_0_part_12 * per_pivot_e3 * per_pivot_unit);
+        out[1] = lit(-0.5) * (residual_0 * correction_0_part_14 * per_pivot_unit);
+        out[0] = lit(-0.5)
+            * (residual_0 * per_pivot_unit
+                * (unit_by_e0 - e3_by_e0 * correction_0_part_12 * per_pivot_e3
+                    + e2_by_e0 * correction_0_part_13
+                    + e1_by_e0 * correction_0_part_14));
+        safe
     }
 }

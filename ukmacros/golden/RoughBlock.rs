@@ -137,6 +137,8 @@ impl ::ukcore::Mechanism for RoughBlock {
             },
         ],
         structure: ::ukcore::Structure {
+            straight_line: true,
+            solve: "by straight-line elimination in the order x y plane",
             mass_pattern: &[(0, 0), (1, 1)],
             jacobian_pattern: &[(0, 0), (0, 1)],
             mass_diagonal: true,
@@ -161,6 +163,14 @@ impl ::ukcore::Mechanism for RoughBlock {
                 square_roots: 0,
                 transcendentals: 1,
                 selections: 1,
+            },
+            solve_operations: ::ukcore::Operations {
+                additions: 8,
+                multiplications: 17,
+                divisions: 2,
+                square_roots: 0,
+                transcendentals: 1,
+                selections: 3,
             },
         },
         equations: ::ukcore::Equations {
@@ -219,8 +229,8 @@ impl ::ukcore::Mechanism for RoughBlock {
         let (sin_slope, cos_slope) = slope.sin_cos();
         let speed_down = dot_x * cos_slope - dot_y * sin_slope;
         let sign_speed_down = speed_down.sign();
-        nonideal[0] = -(cos_slope * cos_slope * mu * m * g * sign_speed_down);
-        nonideal[1] = cos_slope * sin_slope * mu * m * g * sign_speed_down;
+        nonideal[0] = -(mu * m * g * cos_slope * cos_slope * sign_speed_down);
+        nonideal[1] = mu * m * g * cos_slope * sin_slope * sign_speed_down;
         jacobian[0] = sin_slope;
         jacobian[1] = cos_slope;
         rhs[0] = lit(0.0);
@@ -246,7 +256,7 @@ impl ::ukcore::Mechanism for RoughBlock {
         let lit = S::from_f64;
         let slope = lit(self.slope);
         let (sin_slope, cos_slope) = slope.sin_cos();
-        phi[0] = x * sin_slope + cos_slope * y;
+        phi[0] = x * sin_slope + y * cos_slope;
     }
     fn residual_rate<S: ::ukcore::Scalar>(
         &self,
@@ -260,7 +270,7 @@ impl ::ukcore::Mechanism for RoughBlock {
         let lit = S::from_f64;
         let slope = lit(self.slope);
         let (sin_slope, cos_slope) = slope.sin_cos();
-        rate[0] = dot_x * sin_slope + cos_slope * dot_y;
+        rate[0] = dot_x * sin_slope + dot_y * cos_slope;
     }
     fn energy<S: ::ukcore::Scalar>(
         &self,
@@ -293,7 +303,73 @@ impl ::ukcore::Mechanism for RoughBlock {
         outputs[0] = x * cos_slope - y * sin_slope;
         let speed_down = dot_x * cos_slope - dot_y * sin_slope;
         outputs[1] = speed_down;
-        let neg_friction = cos_slope * mu * m * g * speed_down.sign();
+        let neg_friction = mu * m * g * cos_slope * speed_down.sign();
         outputs[2] = -neg_friction;
+    }
+    /// 8 additions, 17 multiplications, 2 divisions, 0 square roots, 1 transcendentals, 3 selections.
+    fn acceleration<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        out: &mut [S],
+    ) -> S {
+        let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
+        let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
+        let lit = S::from_f64;
+        let m = lit(self.m);
+        let g = lit(self.g);
+        let slope = lit(self.slope);
+        let mu = lit(self.mu);
+        let (sin_slope, cos_slope) = slope.sin_cos();
+        let speed_down = dot_x * cos_slope - dot_y * sin_slope;
+        let acceleration_0_part = sin_slope * sin_slope + cos_slope * cos_slope;
+        let per_acceleration_0_part = acceleration_0_part.recip();
+        let sign_speed_down = speed_down.sign();
+        let acceleration_0_part_2 = mu * cos_slope * sin_slope * sign_speed_down;
+        let acceleration_0_part_3 = lit(1.0) - acceleration_0_part_2;
+        let acceleration_0_part_4 = acceleration_0_part_2 + acceleration_0_part_3;
+        let pivot_plane = acceleration_0_part / m;
+        let safe = S::select_le(
+            pivot_plane,
+            lit(0.0),
+            lit(0.0),
+            S::select_le(m, lit(0.0), lit(0.0), lit(1.0)),
+        );
+        out[0] = -(g * cos_slope
+            * (mu * cos_slope * sign_speed_down
+                - sin_slope * per_acceleration_0_part * acceleration_0_part_4));
+        out[1] = -(g
+            * (acceleration_0_part_3
+                - cos_slope * cos_slope * per_acceleration_0_part
+                    * acceleration_0_part_4));
+        safe
+    }
+    fn correction<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        residual: &[S],
+        out: &mut [S],
+    ) -> S {
+        let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
+        let [residual_0] = *::ukcore::emitted::exact::<S, 1>(residual, "residual");
+        let lit = S::from_f64;
+        let m = lit(self.m);
+        let slope = lit(self.slope);
+        let (sin_slope, cos_slope) = slope.sin_cos();
+        let correction_0_part = sin_slope * sin_slope + cos_slope * cos_slope;
+        let per_correction_0_part = correction_0_part.recip();
+        let pivot_plane = correction_0_part / m;
+        out[0] = -(residual_0 * sin_slope * per_correction_0_part);
+        out[1] = -(residual_0 * cos_slope * per_correction_0_part);
+        let safe = S::select_le(
+            pivot_plane,
+            lit(0.0),
+            lit(0.0),
+            S::select_le(m, lit(0.0), lit(0.0), lit(1.0)),
+        );
+        safe
     }
 }

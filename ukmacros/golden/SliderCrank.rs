@@ -264,6 +264,8 @@ impl ::ukcore::Mechanism for SliderCrank {
             },
         ],
         structure: ::ukcore::Structure {
+            straight_line: true,
+            solve: "by straight-line elimination in the order (y3, guide[0]) (th3, guide[1]) x3 x1 y1 x2 y2 th1 th2 bearing[0] bearing[1] wrist_pin[0] wrist_pin[1] crank_pin[0] crank_pin[1]",
             mass_pattern: &[
                 (0, 0),
                 (1, 1),
@@ -321,6 +323,14 @@ impl ::ukcore::Mechanism for SliderCrank {
                 square_roots: 0,
                 transcendentals: 2,
                 selections: 0,
+            },
+            solve_operations: ::ukcore::Operations {
+                additions: 86,
+                multiplications: 249,
+                divisions: 11,
+                square_roots: 0,
+                transcendentals: 2,
+                selections: 11,
             },
         },
         equations: ::ukcore::Equations {
@@ -467,28 +477,28 @@ impl ::ukcore::Mechanism for SliderCrank {
         jacobian[18] = lit(-0.5) * r_sin_th1;
         jacobian[26] = lit(-1.0);
         let (sin_th2, cos_th2) = th2.sin_cos();
-        let a_crank_pin_0_part = lit(-0.5) * (l * sin_th2);
-        jacobian[42] = a_crank_pin_0_part;
+        let a_crank_pin_0 = lit(-0.5) * (l * sin_th2);
+        jacobian[42] = a_crank_pin_0;
         jacobian[11] = lit(1.0);
         jacobian[19] = lit(0.5) * r_cos_th1;
         jacobian[35] = lit(-1.0);
-        let a_crank_pin_1_part = lit(0.5) * (l * cos_th2);
-        jacobian[43] = a_crank_pin_1_part;
+        let a_crank_pin_1 = lit(0.5) * (l * cos_th2);
+        jacobian[43] = a_crank_pin_1;
         jacobian[28] = lit(1.0);
-        jacobian[44] = a_crank_pin_0_part;
+        jacobian[44] = a_crank_pin_0;
         jacobian[52] = lit(-1.0);
         jacobian[37] = lit(1.0);
-        jacobian[45] = a_crank_pin_1_part;
+        jacobian[45] = a_crank_pin_1;
         jacobian[61] = lit(-1.0);
         jacobian[62] = lit(1.0);
         jacobian[71] = lit(1.0);
-        let r_cos_th1_sq_dot_th1 = r * cos_th1 * dot_th1 * dot_th1;
+        let r_cos_th1_sq_dot_th1 = r * dot_th1 * dot_th1 * cos_th1;
         rhs[0] = lit(-0.5) * r_cos_th1_sq_dot_th1;
-        let r_sin_th1_sq_dot_th1 = r * sin_th1 * dot_th1 * dot_th1;
+        let r_sin_th1_sq_dot_th1 = r * dot_th1 * dot_th1 * sin_th1;
         rhs[1] = lit(-0.5) * r_sin_th1_sq_dot_th1;
-        let l_cos_th2_sq_dot_th2 = l * cos_th2 * dot_th2 * dot_th2;
+        let l_cos_th2_sq_dot_th2 = l * dot_th2 * dot_th2 * cos_th2;
         rhs[2] = lit(0.5) * (r_cos_th1_sq_dot_th1 + l_cos_th2_sq_dot_th2);
-        let l_sin_th2_sq_dot_th2 = l * sin_th2 * dot_th2 * dot_th2;
+        let l_sin_th2_sq_dot_th2 = l * dot_th2 * dot_th2 * sin_th2;
         rhs[3] = lit(0.5) * (r_sin_th1_sq_dot_th1 + l_sin_th2_sq_dot_th2);
         rhs[4] = lit(0.5) * l_cos_th2_sq_dot_th2;
         rhs[5] = lit(0.5) * l_sin_th2_sq_dot_th2;
@@ -531,18 +541,18 @@ impl ::ukcore::Mechanism for SliderCrank {
         jacobian[18] = lit(-0.5) * r_sin_th1;
         jacobian[26] = lit(-1.0);
         let (sin_th2, cos_th2) = th2.sin_cos();
-        let a_crank_pin_0_part = lit(-0.5) * (l * sin_th2);
-        jacobian[42] = a_crank_pin_0_part;
+        let a_crank_pin_0 = lit(-0.5) * (l * sin_th2);
+        jacobian[42] = a_crank_pin_0;
         jacobian[11] = lit(1.0);
         jacobian[19] = lit(0.5) * r_cos_th1;
         jacobian[35] = lit(-1.0);
-        let a_crank_pin_1_part = lit(0.5) * (l * cos_th2);
-        jacobian[43] = a_crank_pin_1_part;
+        let a_crank_pin_1 = lit(0.5) * (l * cos_th2);
+        jacobian[43] = a_crank_pin_1;
         jacobian[28] = lit(1.0);
-        jacobian[44] = a_crank_pin_0_part;
+        jacobian[44] = a_crank_pin_0;
         jacobian[52] = lit(-1.0);
         jacobian[37] = lit(1.0);
-        jacobian[45] = a_crank_pin_1_part;
+        jacobian[45] = a_crank_pin_1;
         jacobian[61] = lit(-1.0);
         jacobian[62] = lit(1.0);
         jacobian[71] = lit(1.0);
@@ -563,11 +573,11 @@ impl ::ukcore::Mechanism for SliderCrank {
         phi[1] = y1 - lit(0.5) * r_sin_th1;
         let (sin_th2, cos_th2) = th2.sin_cos();
         let l_cos_th2 = l * cos_th2;
-        phi[2] = x1 + lit(0.5) * r_cos_th1 + lit(0.5) * l_cos_th2 - x2;
+        phi[2] = x1 - x2 + lit(0.5) * r_cos_th1 + lit(0.5) * l_cos_th2;
         let l_sin_th2 = l * sin_th2;
-        phi[3] = y1 + lit(0.5) * r_sin_th1 + lit(0.5) * l_sin_th2 - y2;
-        phi[4] = x2 + lit(0.5) * l_cos_th2 - x3;
-        phi[5] = y2 + lit(0.5) * l_sin_th2 - y3;
+        phi[3] = y1 - y2 + lit(0.5) * r_sin_th1 + lit(0.5) * l_sin_th2;
+        phi[4] = x2 - x3 + lit(0.5) * l_cos_th2;
+        phi[5] = y2 - y3 + lit(0.5) * l_sin_th2;
         phi[6] = y3;
         phi[7] = th3;
     }
@@ -586,19 +596,19 @@ impl ::ukcore::Mechanism for SliderCrank {
         let r = lit(self.r);
         let l = lit(self.l);
         let (sin_th1, cos_th1) = th1.sin_cos();
-        let r_sin_th1_dot_th1 = r * sin_th1 * dot_th1;
+        let r_sin_th1_dot_th1 = r * dot_th1 * sin_th1;
         rate[0] = dot_x1 + lit(0.5) * r_sin_th1_dot_th1;
-        let r_cos_th1_dot_th1 = r * cos_th1 * dot_th1;
+        let r_cos_th1_dot_th1 = r * dot_th1 * cos_th1;
         rate[1] = dot_y1 - lit(0.5) * r_cos_th1_dot_th1;
         let (sin_th2, cos_th2) = th2.sin_cos();
-        let l_sin_th2_dot_th2 = l * sin_th2 * dot_th2;
+        let l_sin_th2_dot_th2 = l * dot_th2 * sin_th2;
         rate[2] = dot_x1 - dot_x2 - lit(0.5) * r_sin_th1_dot_th1
             - lit(0.5) * l_sin_th2_dot_th2;
-        let l_cos_th2_dot_th2 = l * cos_th2 * dot_th2;
-        rate[3] = dot_y1 + lit(0.5) * r_cos_th1_dot_th1 + lit(0.5) * l_cos_th2_dot_th2
-            - dot_y2;
+        let l_cos_th2_dot_th2 = l * dot_th2 * cos_th2;
+        rate[3] = dot_y1 - dot_y2 + lit(0.5) * r_cos_th1_dot_th1
+            + lit(0.5) * l_cos_th2_dot_th2;
         rate[4] = dot_x2 - dot_x3 - lit(0.5) * l_sin_th2_dot_th2;
-        rate[5] = dot_y2 + lit(0.5) * l_cos_th2_dot_th2 - dot_y3;
+        rate[5] = dot_y2 - dot_y3 + lit(0.5) * l_cos_th2_dot_th2;
         rate[6] = dot_y3;
         rate[7] = dot_th3;
     }
@@ -637,5 +647,409 @@ impl ::ukcore::Mechanism for SliderCrank {
         outputs[0] = th1;
         outputs[1] = x3;
         outputs[2] = dot_x3;
+    }
+    /// 86 additions, 249 multiplications, 11 divisions, 0 square roots, 2 transcendentals, 11 selections.
+    fn acceleration<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        out: &mut [S],
+    ) -> S {
+        let out = ::ukcore::emitted::exact_mut::<S, 9>(out, "out");
+        let [_, _, th1, _, _, th2, _, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
+        let [_, _, dot_th1, _, _, dot_th2, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            9,
+        >(v, "v");
+        let lit = S::from_f64;
+        let r = lit(self.r);
+        let l = lit(self.l);
+        let m1 = lit(self.m1);
+        let m2 = lit(self.m2);
+        let m3 = lit(self.m3);
+        let i1 = lit(self.i1);
+        let i2 = lit(self.i2);
+        let g = lit(self.g);
+        let torque = lit(self.torque);
+        let per_m1 = m1.recip();
+        let per_i1 = i1.recip();
+        let per_m2 = m2.recip();
+        let per_i2 = i2.recip();
+        let per_m3 = m3.recip();
+        out[7] = lit(0.0);
+        out[8] = lit(0.0);
+        let (sin_th1, cos_th1) = th1.sin_cos();
+        let (sin_th2, cos_th2) = th2.sin_cos();
+        let r_sin_th1_sq_dot_th1 = r * dot_th1 * dot_th1 * sin_th1;
+        let l_sin_th2_sq_dot_th2 = l * dot_th2 * dot_th2 * sin_th2;
+        let per_i1_sq_r_sq_sin_th1 = r * r * per_i1 * sin_th1 * sin_th1;
+        let per_i1_sq_r_sq_cos_th1 = r * r * per_i1 * cos_th1 * cos_th1;
+        let per_i1_torque_r_cos_th1 = torque * r * per_i1 * cos_th1;
+        let per_i2_sq_l_sq_sin_th2 = l * l * per_i2 * sin_th2 * sin_th2;
+        let per_i2_sq_l_cos_th2_sin_th2 = l * l * per_i2 * cos_th2 * sin_th2;
+        let per_i2_sq_l_sq_cos_th2 = l * l * per_i2 * cos_th2 * cos_th2;
+        let pivot_bearing_0 = per_m1 + lit(0.25) * per_i1_sq_r_sq_sin_th1;
+        let safe_part = dot_th1 * dot_th1 * cos_th1 + torque * per_i1 * sin_th1;
+        let safe_part_2 = per_m1 - lit(0.25) * per_i1_sq_r_sq_sin_th1;
+        let safe_part_3 = per_m1 + lit(0.25) * per_i1_sq_r_sq_cos_th1;
+        let pivot_wrist_pin_0 = per_m3 + per_m2 + lit(0.25) * per_i2_sq_l_sq_sin_th2;
+        let safe_part_4 = per_m2 - lit(0.25) * per_i2_sq_l_sq_sin_th2;
+        let safe_part_5 = per_m2 + lit(0.25) * per_i2_sq_l_sq_cos_th2;
+        let safe_part_6 = per_m1 + per_m2 + lit(0.25) * per_i1_sq_r_sq_sin_th1
+            + lit(0.25) * per_i2_sq_l_sq_sin_th2;
+        let safe_part_7 = per_m1 + per_m2 + lit(0.25) * per_i1_sq_r_sq_cos_th1
+            + lit(0.25) * per_i2_sq_l_sq_cos_th2;
+        let per_pivot_bearing_0 = pivot_bearing_0.recip();
+        let per_pivot_wrist_pin_0 = pivot_wrist_pin_0.recip();
+        let bearing_1_by_bearing_0 = r * r * per_i1 * cos_th1 * sin_th1
+            * per_pivot_bearing_0;
+        let crank_pin_0_by_bearing_0 = safe_part_2 * per_pivot_bearing_0;
+        let safe_part_8 = r.powi(4) * cos_th1 * cos_th1 * sin_th1 * sin_th1
+            * per_pivot_bearing_0 / (i1 * i1);
+        let crank_pin_0_by_wrist_pin_0 = safe_part_4 * per_pivot_wrist_pin_0;
+        let crank_pin_1_by_wrist_pin_0 = l * l * per_i2 * cos_th2 * sin_th2
+            * per_pivot_wrist_pin_0;
+        let safe_part_9 = l.powi(4) * cos_th2 * cos_th2 * sin_th2 * sin_th2
+            * per_pivot_wrist_pin_0 / (i2 * i2);
+        let safe_part_10 = r * safe_part * bearing_1_by_bearing_0;
+        let pivot_bearing_1 = lit(0.0625) * safe_part_8 - safe_part_3;
+        let safe_part_11 = lit(1.0) + crank_pin_0_by_bearing_0;
+        let safe_part_12 = safe_part_4 * crank_pin_1_by_wrist_pin_0;
+        let safe_part_13 = l * dot_th2 * dot_th2 * cos_th2 * crank_pin_1_by_wrist_pin_0;
+        let pivot_wrist_pin_1 = lit(0.0625) * safe_part_9 - safe_part_5;
+        let per_pivot_bearing_1 = pivot_bearing_1.recip();
+        let per_pivot_wrist_pin_1 = pivot_wrist_pin_1.recip();
+        let safe_part_14 = lit(0.125) * safe_part_10
+            - (g - lit(0.5) * r_sin_th1_sq_dot_th1 + lit(0.5) * per_i1_torque_r_cos_th1);
+        let safe_part_15 = (g + lit(0.5) * l_sin_th2_sq_dot_th2)
+            + lit(0.125) * safe_part_13;
+        let safe_part_16 = per_i2_sq_l_cos_th2_sin_th2 + safe_part_12;
+        let safe_part_17 = (per_m1 - lit(0.25) * per_i1_sq_r_sq_cos_th1)
+            + lit(0.0625)
+                * (r * r * per_i1 * cos_th1 * sin_th1 * bearing_1_by_bearing_0);
+        let crank_pin_0_by_bearing_1 = r * r * per_i1 * cos_th1 * sin_th1 * safe_part_11
+            * per_pivot_bearing_1;
+        let safe_part_18 = (per_m2 - lit(0.25) * per_i2_sq_l_sq_cos_th2)
+            + lit(0.0625)
+                * (l * l * per_i2 * cos_th2 * sin_th2 * crank_pin_1_by_wrist_pin_0);
+        let crank_pin_0_by_wrist_pin_1 = safe_part_16 * per_pivot_wrist_pin_1;
+        let pivot_crank_pin_0 = safe_part_2 * safe_part_2 * per_pivot_bearing_0
+            - safe_part_6 + safe_part_4 * safe_part_4 * per_pivot_wrist_pin_0
+            - lit(0.0625)
+                * (r.powi(4) * cos_th1 * cos_th1 * sin_th1 * sin_th1 * safe_part_11
+                    * safe_part_11 * per_pivot_bearing_1 / (i1 * i1))
+            - lit(0.0625) * (safe_part_16 * safe_part_16 * per_pivot_wrist_pin_1);
+        let per_pivot_crank_pin_0 = pivot_crank_pin_0.recip();
+        let safe_part_19 = lit(0.5)
+            * ((r * dot_th1 * dot_th1 * cos_th1 + l * dot_th2 * dot_th2 * cos_th2)
+                + torque * r * per_i1 * sin_th1)
+            + lit(0.5) * (r * safe_part * crank_pin_0_by_bearing_0)
+            + lit(0.5) * (l * dot_th2 * dot_th2 * cos_th2 * crank_pin_0_by_wrist_pin_0)
+            - lit(0.25) * (safe_part_14 * crank_pin_0_by_bearing_1)
+            - lit(0.25) * (safe_part_15 * crank_pin_0_by_wrist_pin_1);
+        let crank_pin_1_by_bearing_1 = per_pivot_bearing_1 * safe_part_17;
+        let crank_pin_1_by_wrist_pin_1 = per_pivot_wrist_pin_1 * safe_part_18;
+        let safe_part_20 = (r * r * per_i1 * cos_th1 * sin_th1
+            + per_i2_sq_l_cos_th2_sin_th2) + safe_part_2 * bearing_1_by_bearing_0
+            + safe_part_12 - safe_part_16 * crank_pin_1_by_wrist_pin_1
+            - r * r * per_i1 * cos_th1 * sin_th1 * safe_part_11
+                * crank_pin_1_by_bearing_1;
+        let crank_pin_1_by_crank_pin_0 = per_pivot_crank_pin_0 * safe_part_20;
+        let pivot_crank_pin_1 = lit(0.0625) * safe_part_8 - safe_part_7
+            + lit(0.0625) * safe_part_9
+            - per_pivot_bearing_1 * safe_part_17 * safe_part_17
+            - per_pivot_wrist_pin_1 * safe_part_18 * safe_part_18
+            - lit(0.0625) * (per_pivot_crank_pin_0 * safe_part_20 * safe_part_20);
+        let per_pivot_crank_pin_1 = pivot_crank_pin_1.recip();
+        let safe_part_21 = lit(0.5)
+            * ((r_sin_th1_sq_dot_th1 + l_sin_th2_sq_dot_th2) - per_i1_torque_r_cos_th1)
+            + lit(0.125) * safe_part_10 + lit(0.125) * safe_part_13
+            - safe_part_14 * crank_pin_1_by_bearing_1
+            - safe_part_15 * crank_pin_1_by_wrist_pin_1
+            - lit(0.25) * (safe_part_19 * crank_pin_1_by_crank_pin_0);
+        let safe = S::select_le(
+            -pivot_crank_pin_1,
+            lit(0.0009765625) * safe_part_7,
+            lit(0.0),
+            S::select_le(
+                -pivot_crank_pin_0,
+                lit(0.0009765625) * safe_part_6,
+                lit(0.0),
+                S::select_le(
+                    -pivot_wrist_pin_1,
+                    lit(0.0009765625) * safe_part_5,
+                    lit(0.0),
+                    S::select_le(
+                        pivot_wrist_pin_0,
+                        lit(0.0),
+                        lit(0.0),
+                        S::select_le(
+                            -pivot_bearing_1,
+                            lit(0.0009765625) * safe_part_3,
+                            lit(0.0),
+                            S::select_le(
+                                pivot_bearing_0,
+                                lit(0.0),
+                                lit(0.0),
+                                S::select_le(
+                                    i2,
+                                    lit(0.0),
+                                    lit(0.0),
+                                    S::select_le(
+                                        i1,
+                                        lit(0.0),
+                                        lit(0.0),
+                                        S::select_le(
+                                            m2,
+                                            lit(0.0),
+                                            lit(0.0),
+                                            S::select_le(
+                                                m1,
+                                                lit(0.0),
+                                                lit(0.0),
+                                                S::select_le(m3, lit(0.0), lit(0.0), lit(1.0)),
+                                            ),
+                                        ),
+                                    ),
+                                ),
+                            ),
+                        ),
+                    ),
+                ),
+            ),
+        );
+        let lambda_crank_pin_0 = safe_part_19 * per_pivot_crank_pin_0
+            - lit(0.25)
+                * (crank_pin_1_by_crank_pin_0 * safe_part_21 * per_pivot_crank_pin_1);
+        let lambda_wrist_pin_1 = safe_part_15 * per_pivot_wrist_pin_1
+            - crank_pin_1_by_wrist_pin_1 * safe_part_21 * per_pivot_crank_pin_1
+            - lit(0.25) * (crank_pin_0_by_wrist_pin_1 * lambda_crank_pin_0);
+        let lambda_bearing_1 = safe_part_14 * per_pivot_bearing_1
+            - crank_pin_1_by_bearing_1 * safe_part_21 * per_pivot_crank_pin_1
+            - lit(0.25) * (crank_pin_0_by_bearing_1 * lambda_crank_pin_0);
+        let lambda_wrist_pin_0 = lit(0.5)
+            * (l * dot_th2 * dot_th2 * cos_th2 * per_pivot_wrist_pin_0)
+            - lit(0.25)
+                * (crank_pin_1_by_wrist_pin_0 * safe_part_21 * per_pivot_crank_pin_1)
+            - crank_pin_0_by_wrist_pin_0 * lambda_crank_pin_0
+            - lit(0.25) * (crank_pin_1_by_wrist_pin_0 * lambda_wrist_pin_1);
+        let lambda_bearing_0 = lit(0.5) * (r * safe_part * per_pivot_bearing_0)
+            - lit(0.25) * (bearing_1_by_bearing_0 * safe_part_21 * per_pivot_crank_pin_1)
+            - crank_pin_0_by_bearing_0 * lambda_crank_pin_0
+            - lit(0.25) * (bearing_1_by_bearing_0 * lambda_bearing_1);
+        out[1] = per_m1 * lambda_bearing_1 - g
+            - per_m1 * safe_part_21 * per_pivot_crank_pin_1;
+        out[4] = per_m2 * safe_part_21 * per_pivot_crank_pin_1 - g
+            - per_m2 * lambda_wrist_pin_1;
+        out[3] = per_m2 * (lambda_crank_pin_0 + lambda_wrist_pin_0);
+        out[6] = -(per_m3 * lambda_wrist_pin_0);
+        out[0] = -(per_m1 * (lambda_crank_pin_0 + lambda_bearing_0));
+        out[2] = per_i1
+            * (torque - lit(0.5) * (r * cos_th1 * safe_part_21 * per_pivot_crank_pin_1)
+                + lit(0.5) * (r * sin_th1 * lambda_crank_pin_0)
+                - lit(0.5) * (r * cos_th1 * lambda_bearing_1)
+                - lit(0.5) * (r * sin_th1 * lambda_bearing_0));
+        out[5] = lit(0.5)
+            * (l * per_i2
+                * (sin_th2 * lambda_crank_pin_0
+                    - cos_th2 * safe_part_21 * per_pivot_crank_pin_1
+                    - cos_th2 * lambda_wrist_pin_1 - sin_th2 * lambda_wrist_pin_0));
+        safe
+    }
+    fn correction<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        residual: &[S],
+        out: &mut [S],
+    ) -> S {
+        let out = ::ukcore::emitted::exact_mut::<S, 9>(out, "out");
+        let [_, _, th1, _, _, th2, _, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
+        let [residual_0, residual_1, residual_2, residual_3, residual_4, residual_5,
+        residual_6, residual_7] = *::ukcore::emitted::exact::<
+            S,
+            8,
+        >(residual, "residual");
+        let lit = S::from_f64;
+        let r = lit(self.r);
+        let l = lit(self.l);
+        let m1 = lit(self.m1);
+        let m2 = lit(self.m2);
+        let m3 = lit(self.m3);
+        let i1 = lit(self.i1);
+        let i2 = lit(self.i2);
+        let per_m1 = m1.recip();
+        let per_i1 = i1.recip();
+        let per_m2 = m2.recip();
+        let per_i2 = i2.recip();
+        let per_m3 = m3.recip();
+        out[7] = -residual_6;
+        out[8] = -residual_7;
+        let (sin_th1, cos_th1) = th1.sin_cos();
+        let (sin_th2, cos_th2) = th2.sin_cos();
+        let per_i1_sq_r_sq_sin_th1 = r * r * per_i1 * sin_th1 * sin_th1;
+        let per_i1_sq_r_sq_cos_th1 = r * r * per_i1 * cos_th1 * cos_th1;
+        let per_i2_sq_l_sq_sin_th2 = l * l * per_i2 * sin_th2 * sin_th2;
+        let per_i2_sq_l_cos_th2_sin_th2 = l * l * per_i2 * cos_th2 * sin_th2;
+        let per_i2_sq_l_sq_cos_th2 = l * l * per_i2 * cos_th2 * cos_th2;
+        let pivot_bearing_0 = per_m1 + lit(0.25) * per_i1_sq_r_sq_sin_th1;
+        let safe_part = per_m1 - lit(0.25) * per_i1_sq_r_sq_sin_th1;
+        let safe_part_2 = per_m1 + lit(0.25) * per_i1_sq_r_sq_cos_th1;
+        let pivot_wrist_pin_0 = per_m3 + per_m2 + lit(0.25) * per_i2_sq_l_sq_sin_th2;
+        let safe_part_3 = per_m2 - lit(0.25) * per_i2_sq_l_sq_sin_th2;
+        let safe_part_4 = per_m2 + lit(0.25) * per_i2_sq_l_sq_cos_th2;
+        let safe_part_5 = per_m1 + per_m2 + lit(0.25) * per_i1_sq_r_sq_sin_th1
+            + lit(0.25) * per_i2_sq_l_sq_sin_th2;
+        let safe_part_6 = per_m1 + per_m2 + lit(0.25) * per_i1_sq_r_sq_cos_th1
+            + lit(0.25) * per_i2_sq_l_sq_cos_th2;
+        let per_pivot_bearing_0 = pivot_bearing_0.recip();
+        let per_pivot_wrist_pin_0 = pivot_wrist_pin_0.recip();
+        let bearing_1_by_bearing_0 = r * r * per_i1 * cos_th1 * sin_th1
+            * per_pivot_bearing_0;
+        let crank_pin_0_by_bearing_0 = safe_part * per_pivot_bearing_0;
+        let safe_part_7 = r.powi(4) * cos_th1 * cos_th1 * sin_th1 * sin_th1
+            * per_pivot_bearing_0 / (i1 * i1);
+        let crank_pin_0_by_wrist_pin_0 = safe_part_3 * per_pivot_wrist_pin_0;
+        let crank_pin_1_by_wrist_pin_0 = l * l * per_i2 * cos_th2 * sin_th2
+            * per_pivot_wrist_pin_0;
+        let safe_part_8 = l.powi(4) * cos_th2 * cos_th2 * sin_th2 * sin_th2
+            * per_pivot_wrist_pin_0 / (i2 * i2);
+        let pivot_bearing_1 = lit(0.0625) * safe_part_7 - safe_part_2;
+        let safe_part_9 = lit(1.0) + crank_pin_0_by_bearing_0;
+        let safe_part_10 = safe_part_3 * crank_pin_1_by_wrist_pin_0;
+        let pivot_wrist_pin_1 = lit(0.0625) * safe_part_8 - safe_part_4;
+        let safe_part_11 = residual_0 * bearing_1_by_bearing_0;
+        let safe_part_12 = residual_4 * crank_pin_1_by_wrist_pin_0;
+        let per_pivot_bearing_1 = pivot_bearing_1.recip();
+        let per_pivot_wrist_pin_1 = pivot_wrist_pin_1.recip();
+        let safe_part_13 = per_i2_sq_l_cos_th2_sin_th2 + safe_part_10;
+        let safe_part_14 = residual_1 + lit(0.25) * safe_part_11;
+        let safe_part_15 = (residual_5 + residual_6) + lit(0.25) * safe_part_12;
+        let safe_part_16 = (per_m1 - lit(0.25) * per_i1_sq_r_sq_cos_th1)
+            + lit(0.0625)
+                * (r * r * per_i1 * cos_th1 * sin_th1 * bearing_1_by_bearing_0);
+        let crank_pin_0_by_bearing_1 = r * r * per_i1 * cos_th1 * sin_th1 * safe_part_9
+            * per_pivot_bearing_1;
+        let safe_part_17 = (per_m2 - lit(0.25) * per_i2_sq_l_sq_cos_th2)
+            + lit(0.0625)
+                * (l * l * per_i2 * cos_th2 * sin_th2 * crank_pin_1_by_wrist_pin_0);
+        let crank_pin_0_by_wrist_pin_1 = safe_part_13 * per_pivot_wrist_pin_1;
+        let pivot_crank_pin_0 = safe_part * safe_part * per_pivot_bearing_0 - safe_part_5
+            + safe_part_3 * safe_part_3 * per_pivot_wrist_pin_0
+            - lit(0.0625)
+                * (r.powi(4) * cos_th1 * cos_th1 * sin_th1 * sin_th1 * safe_part_9
+                    * safe_part_9 * per_pivot_bearing_1 / (i1 * i1))
+            - lit(0.0625) * (safe_part_13 * safe_part_13 * per_pivot_wrist_pin_1);
+        let per_pivot_crank_pin_0 = pivot_crank_pin_0.recip();
+        let safe_part_18 = residual_2 - residual_0 * crank_pin_0_by_bearing_0
+            + residual_4 * crank_pin_0_by_wrist_pin_0
+            + lit(0.25) * (safe_part_14 * crank_pin_0_by_bearing_1)
+            - lit(0.25) * (safe_part_15 * crank_pin_0_by_wrist_pin_1);
+        let crank_pin_1_by_bearing_1 = per_pivot_bearing_1 * safe_part_16;
+        let crank_pin_1_by_wrist_pin_1 = per_pivot_wrist_pin_1 * safe_part_17;
+        let safe_part_19 = (r * r * per_i1 * cos_th1 * sin_th1
+            + per_i2_sq_l_cos_th2_sin_th2) + safe_part * bearing_1_by_bearing_0
+            + safe_part_10 - safe_part_13 * crank_pin_1_by_wrist_pin_1
+            - r * r * per_i1 * cos_th1 * sin_th1 * safe_part_9
+                * crank_pin_1_by_bearing_1;
+        let crank_pin_1_by_crank_pin_0 = per_pivot_crank_pin_0 * safe_part_19;
+        let pivot_crank_pin_1 = lit(0.0625) * safe_part_7 - safe_part_6
+            + lit(0.0625) * safe_part_8
+            - per_pivot_bearing_1 * safe_part_16 * safe_part_16
+            - per_pivot_wrist_pin_1 * safe_part_17 * safe_part_17
+            - lit(0.0625) * (per_pivot_crank_pin_0 * safe_part_19 * safe_part_19);
+        let per_pivot_crank_pin_1 = pivot_crank_pin_1.recip();
+        let safe_part_20 = residual_3 - lit(0.25) * safe_part_11
+            + lit(0.25) * safe_part_12 + safe_part_14 * crank_pin_1_by_bearing_1
+            - safe_part_15 * crank_pin_1_by_wrist_pin_1
+            - lit(0.25) * (safe_part_18 * crank_pin_1_by_crank_pin_0);
+        let safe = S::select_le(
+            -pivot_crank_pin_1,
+            lit(0.0009765625) * safe_part_6,
+            lit(0.0),
+            S::select_le(
+                -pivot_crank_pin_0,
+                lit(0.0009765625) * safe_part_5,
+                lit(0.0),
+                S::select_le(
+                    -pivot_wrist_pin_1,
+                    lit(0.0009765625) * safe_part_4,
+                    lit(0.0),
+                    S::select_le(
+                        pivot_wrist_pin_0,
+                        lit(0.0),
+                        lit(0.0),
+                        S::select_le(
+                            -pivot_bearing_1,
+                            lit(0.0009765625) * safe_part_2,
+                            lit(0.0),
+                            S::select_le(
+                                pivot_bearing_0,
+                                lit(0.0),
+                                lit(0.0),
+                                S::select_le(
+                                    i2,
+                                    lit(0.0),
+                                    lit(0.0),
+                                    S::select_le(
+                                        i1,
+                                        lit(0.0),
+                                        lit(0.0),
+                                        S::select_le(
+                                            m2,
+                                            lit(0.0),
+                                            lit(0.0),
+                                            S::select_le(
+                                                m1,
+                                                lit(0.0),
+                                                lit(0.0),
+                                                S::select_le(m3, lit(0.0), lit(0.0), lit(1.0)),
+                                            ),
+                                        ),
+                                    ),
+                                ),
+                            ),
+                        ),
+                    ),
+                ),
+            ),
+        );
+        let lambda_crank_pin_1 = safe_part_20 * per_pivot_crank_pin_1;
+        let lambda_crank_pin_0 = safe_part_18 * per_pivot_crank_pin_0
+            - lit(0.25)
+                * (crank_pin_1_by_crank_pin_0 * safe_part_20 * per_pivot_crank_pin_1);
+        let lambda_wrist_pin_1 = safe_part_15 * per_pivot_wrist_pin_1
+            - crank_pin_1_by_wrist_pin_1 * safe_part_20 * per_pivot_crank_pin_1
+            - lit(0.25) * (crank_pin_0_by_wrist_pin_1 * lambda_crank_pin_0);
+        let lambda_bearing_1 = safe_part_14 * per_pivot_bearing_1
+            + crank_pin_1_by_bearing_1 * safe_part_20 * per_pivot_crank_pin_1
+            + lit(0.25) * (crank_pin_0_by_bearing_1 * lambda_crank_pin_0);
+        let lambda_wrist_pin_0 = residual_4 * per_pivot_wrist_pin_0
+            - lit(0.25)
+                * (crank_pin_1_by_wrist_pin_0 * safe_part_20 * per_pivot_crank_pin_1)
+            - crank_pin_0_by_wrist_pin_0 * lambda_crank_pin_0
+            - lit(0.25) * (crank_pin_1_by_wrist_pin_0 * lambda_wrist_pin_1);
+        let lambda_bearing_0 = residual_0 * per_pivot_bearing_0
+            + lit(0.25) * (bearing_1_by_bearing_0 * safe_part_20 * per_pivot_crank_pin_1)
+            + crank_pin_0_by_bearing_0 * lambda_crank_pin_0
+            - lit(0.25) * (bearing_1_by_bearing_0 * lambda_bearing_1);
+        out[1] = per_m1 * (lambda_crank_pin_1 + lambda_bearing_1);
+        out[4] = -(per_m2 * (lambda_crank_pin_1 - lambda_wrist_pin_1));
+        out[6] = per_m3 * lambda_wrist_pin_0;
+        out[0] = per_m1 * (lambda_crank_pin_0 - lambda_bearing_0);
+        out[3] = -(per_m2 * (lambda_crank_pin_0 + lambda_wrist_pin_0));
+        out[2] = lit(-0.5)
+            * (r * per_i1
+                * (sin_th1 * lambda_crank_pin_0
+                    - cos_th1 * safe_part_20 * per_pivot_crank_pin_1
+                    + cos_th1 * lambda_bearing_1 + sin_th1 * lambda_bearing_0));
+        out[5] = lit(-0.5)
+            * (l * per_i2
+                * (sin_th2 * lambda_crank_pin_0
+                    - cos_th2 * safe_part_20 * per_pivot_crank_pin_1
+                    - cos_th2 * lambda_wrist_pin_1 - sin_th2 * lambda_wrist_pin_0));
+        safe
     }
 }

@@ -294,6 +294,8 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
             },
         ],
         structure: ::ukcore::Structure {
+            straight_line: false,
+            solve: "by the rank-revealing solve, since a pivot vanished",
             mass_pattern: &[
                 (0, 0),
                 (1, 1),
@@ -358,6 +360,14 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
                 divisions: 0,
                 square_roots: 0,
                 transcendentals: 3,
+                selections: 0,
+            },
+            solve_operations: ::ukcore::Operations {
+                additions: 0,
+                multiplications: 0,
+                divisions: 0,
+                square_roots: 0,
+                transcendentals: 0,
                 selections: 0,
             },
         },
@@ -529,18 +539,18 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         jacobian[22] = lit(-0.5) * r_sin_th1;
         jacobian[32] = lit(-1.0);
         let (sin_th2, cos_th2) = th2.sin_cos();
-        let a_crank_pin_0_part = lit(-0.5) * (l * sin_th2);
-        jacobian[52] = a_crank_pin_0_part;
+        let a_crank_pin_0 = lit(-0.5) * (l * sin_th2);
+        jacobian[52] = a_crank_pin_0;
         jacobian[13] = lit(1.0);
         jacobian[23] = lit(0.5) * r_cos_th1;
         jacobian[43] = lit(-1.0);
-        let a_crank_pin_1_part = lit(0.5) * (l * cos_th2);
-        jacobian[53] = a_crank_pin_1_part;
+        let a_crank_pin_1 = lit(0.5) * (l * cos_th2);
+        jacobian[53] = a_crank_pin_1;
         jacobian[34] = lit(1.0);
-        jacobian[54] = a_crank_pin_0_part;
+        jacobian[54] = a_crank_pin_0;
         jacobian[64] = lit(-1.0);
         jacobian[45] = lit(1.0);
-        jacobian[55] = a_crank_pin_1_part;
+        jacobian[55] = a_crank_pin_1;
         jacobian[75] = lit(-1.0);
         jacobian[86] = lit(1.0);
         jacobian[77] = lit(1.0);
@@ -549,37 +559,37 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         jacobian[87] = c_cos_th3;
         jacobian[78] = lit(1.0);
         jacobian[88] = -c_cos_th3;
-        let a_second_rod_part = lit(2.0) * x1 + r_cos_th1 - lit(2.0) * x3;
-        jacobian[9] = a_second_rod_part;
-        let a_second_rod_part_2 = lit(2.0) * y1 + r_sin_th1 - lit(2.0) * y3;
-        jacobian[19] = a_second_rod_part_2;
-        let a_second_rod_part_part = x1 + lit(0.5) * r_cos_th1 - x3;
-        let a_second_rod_part_part_2 = y1 + lit(0.5) * r_sin_th1 - y3;
-        jacobian[29] = r * cos_th1 * a_second_rod_part_part_2
-            - r * sin_th1 * a_second_rod_part_part;
-        jacobian[69] = -a_second_rod_part;
-        jacobian[79] = -a_second_rod_part_2;
-        let r_cos_th1_sq_dot_th1 = r * cos_th1 * dot_th1 * dot_th1;
+        let a_second_rod = lit(2.0) * x1 - lit(2.0) * x3 + r_cos_th1;
+        jacobian[9] = a_second_rod;
+        let a_second_rod_2 = lit(2.0) * y1 - lit(2.0) * y3 + r_sin_th1;
+        jacobian[19] = a_second_rod_2;
+        let a_second_rod_part = x1 - x3 + lit(0.5) * r_cos_th1;
+        let a_second_rod_part_2 = y1 - y3 + lit(0.5) * r_sin_th1;
+        jacobian[29] = r * cos_th1 * a_second_rod_part_2
+            - r * sin_th1 * a_second_rod_part;
+        jacobian[69] = -a_second_rod;
+        jacobian[79] = -a_second_rod_2;
+        let r_cos_th1_sq_dot_th1 = r * dot_th1 * dot_th1 * cos_th1;
         rhs[0] = lit(-0.5) * r_cos_th1_sq_dot_th1;
-        let r_sin_th1_sq_dot_th1 = r * sin_th1 * dot_th1 * dot_th1;
+        let r_sin_th1_sq_dot_th1 = r * dot_th1 * dot_th1 * sin_th1;
         rhs[1] = lit(-0.5) * r_sin_th1_sq_dot_th1;
-        let l_cos_th2_sq_dot_th2 = l * cos_th2 * dot_th2 * dot_th2;
+        let l_cos_th2_sq_dot_th2 = l * dot_th2 * dot_th2 * cos_th2;
         rhs[2] = lit(0.5) * (r_cos_th1_sq_dot_th1 + l_cos_th2_sq_dot_th2);
-        let l_sin_th2_sq_dot_th2 = l * sin_th2 * dot_th2 * dot_th2;
+        let l_sin_th2_sq_dot_th2 = l * dot_th2 * dot_th2 * sin_th2;
         rhs[3] = lit(0.5) * (r_sin_th1_sq_dot_th1 + l_sin_th2_sq_dot_th2);
         rhs[4] = lit(0.5) * l_cos_th2_sq_dot_th2;
         rhs[5] = lit(0.5) * l_sin_th2_sq_dot_th2;
         rhs[6] = lit(0.0);
-        let c_sin_th3_sq_dot_th3 = c * sin_th3 * dot_th3 * dot_th3;
+        let c_sin_th3_sq_dot_th3 = c * dot_th3 * dot_th3 * sin_th3;
         rhs[7] = c_sin_th3_sq_dot_th3;
         rhs[8] = -c_sin_th3_sq_dot_th3;
-        let b_9_part_part = dot_x3 + lit(0.5) * (r * sin_th1 * dot_th1) - dot_x1;
-        let b_9_part_part_2 = dot_y1 + lit(0.5) * (r * cos_th1 * dot_th1) - dot_y3;
+        let b_9_part = dot_x3 - dot_x1 + lit(0.5) * (r * dot_th1 * sin_th1);
+        let b_9_part_2 = dot_y1 - dot_y3 + lit(0.5) * (r * dot_th1 * cos_th1);
         rhs[9] = lit(-2.0)
-            * (b_9_part_part * b_9_part_part + b_9_part_part_2 * b_9_part_part_2
-                - lit(0.5) * (r * cos_th1 * a_second_rod_part_part * dot_th1 * dot_th1)
-                - lit(0.5)
-                    * (r * sin_th1 * a_second_rod_part_part_2 * dot_th1 * dot_th1));
+            * (b_9_part * b_9_part
+                - lit(0.5) * (r * dot_th1 * dot_th1 * cos_th1 * a_second_rod_part)
+                + b_9_part_2 * b_9_part_2
+                - lit(0.5) * (r * dot_th1 * dot_th1 * sin_th1 * a_second_rod_part_2));
     }
     fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 81>(mass, "mass");
@@ -621,33 +631,33 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         jacobian[22] = lit(-0.5) * r_sin_th1;
         jacobian[32] = lit(-1.0);
         let (sin_th2, cos_th2) = th2.sin_cos();
-        let a_crank_pin_0_part = lit(-0.5) * (l * sin_th2);
-        jacobian[52] = a_crank_pin_0_part;
+        let a_crank_pin_0 = lit(-0.5) * (l * sin_th2);
+        jacobian[52] = a_crank_pin_0;
         jacobian[13] = lit(1.0);
         jacobian[23] = lit(0.5) * r_cos_th1;
         jacobian[43] = lit(-1.0);
-        let a_crank_pin_1_part = lit(0.5) * (l * cos_th2);
-        jacobian[53] = a_crank_pin_1_part;
+        let a_crank_pin_1 = lit(0.5) * (l * cos_th2);
+        jacobian[53] = a_crank_pin_1;
         jacobian[34] = lit(1.0);
-        jacobian[54] = a_crank_pin_0_part;
+        jacobian[54] = a_crank_pin_0;
         jacobian[64] = lit(-1.0);
         jacobian[45] = lit(1.0);
-        jacobian[55] = a_crank_pin_1_part;
+        jacobian[55] = a_crank_pin_1;
         jacobian[75] = lit(-1.0);
         jacobian[86] = lit(1.0);
         jacobian[77] = lit(1.0);
-        let a_front_shoe_part = c * th3.cos();
-        jacobian[87] = a_front_shoe_part;
+        let a_front_shoe = c * th3.cos();
+        jacobian[87] = a_front_shoe;
         jacobian[78] = lit(1.0);
-        jacobian[88] = -a_front_shoe_part;
-        let a_second_rod_part = lit(2.0) * x1 + r_cos_th1 - lit(2.0) * x3;
-        jacobian[9] = a_second_rod_part;
-        let a_second_rod_part_2 = lit(2.0) * y1 + r_sin_th1 - lit(2.0) * y3;
-        jacobian[19] = a_second_rod_part_2;
-        jacobian[29] = r * cos_th1 * (y1 + lit(0.5) * r_sin_th1 - y3)
-            - r * sin_th1 * (x1 + lit(0.5) * r_cos_th1 - x3);
-        jacobian[69] = -a_second_rod_part;
-        jacobian[79] = -a_second_rod_part_2;
+        jacobian[88] = -a_front_shoe;
+        let a_second_rod = lit(2.0) * x1 - lit(2.0) * x3 + r_cos_th1;
+        jacobian[9] = a_second_rod;
+        let a_second_rod_2 = lit(2.0) * y1 - lit(2.0) * y3 + r_sin_th1;
+        jacobian[19] = a_second_rod_2;
+        jacobian[29] = r * cos_th1 * (y1 - y3 + lit(0.5) * r_sin_th1)
+            - r * sin_th1 * (x1 - x3 + lit(0.5) * r_cos_th1);
+        jacobian[69] = -a_second_rod;
+        jacobian[79] = -a_second_rod_2;
     }
     fn residual<S: ::ukcore::Scalar>(&self, t: S, q: &[S], phi: &mut [S]) {
         let phi = ::ukcore::emitted::exact_mut::<S, 10>(phi, "phi");
@@ -666,19 +676,18 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         phi[1] = y1 - lit(0.5) * r_sin_th1;
         let (sin_th2, cos_th2) = th2.sin_cos();
         let l_cos_th2 = l * cos_th2;
-        phi[2] = x1 + lit(0.5) * r_cos_th1 + lit(0.5) * l_cos_th2 - x2;
+        phi[2] = x1 - x2 + lit(0.5) * r_cos_th1 + lit(0.5) * l_cos_th2;
         let l_sin_th2 = l * sin_th2;
-        phi[3] = y1 + lit(0.5) * r_sin_th1 + lit(0.5) * l_sin_th2 - y2;
-        phi[4] = x2 + lit(0.5) * l_cos_th2 - x3;
-        phi[5] = y2 + lit(0.5) * l_sin_th2 - y3;
+        phi[3] = y1 - y2 + lit(0.5) * r_sin_th1 + lit(0.5) * l_sin_th2;
+        phi[4] = x2 - x3 + lit(0.5) * l_cos_th2;
+        phi[5] = y2 - y3 + lit(0.5) * l_sin_th2;
         phi[6] = th3;
-        let phi_7_part_part = c * th3.sin();
-        phi[7] = y3 + phi_7_part_part;
-        phi[8] = y3 - phi_7_part_part;
-        let phi_9_part_part = x1 + lit(0.5) * r_cos_th1 - x3;
-        let phi_9_part_part_2 = y1 + lit(0.5) * r_sin_th1 - y3;
-        phi[9] = phi_9_part_part * phi_9_part_part
-            + phi_9_part_part_2 * phi_9_part_part_2 - l * l;
+        let phi_7_part = c * th3.sin();
+        phi[7] = y3 + phi_7_part;
+        phi[8] = y3 - phi_7_part;
+        let phi_9_part = x1 - x3 + lit(0.5) * r_cos_th1;
+        let phi_9_part_2 = y1 - y3 + lit(0.5) * r_sin_th1;
+        phi[9] = phi_9_part * phi_9_part - l * l + phi_9_part_2 * phi_9_part_2;
     }
     fn residual_rate<S: ::ukcore::Scalar>(
         &self,
@@ -699,28 +708,28 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         let l = lit(self.l);
         let c = lit(self.c);
         let (sin_th1, cos_th1) = th1.sin_cos();
-        let r_sin_th1_dot_th1 = r * sin_th1 * dot_th1;
+        let r_sin_th1_dot_th1 = r * dot_th1 * sin_th1;
         rate[0] = dot_x1 + lit(0.5) * r_sin_th1_dot_th1;
-        let r_cos_th1_dot_th1 = r * cos_th1 * dot_th1;
+        let r_cos_th1_dot_th1 = r * dot_th1 * cos_th1;
         rate[1] = dot_y1 - lit(0.5) * r_cos_th1_dot_th1;
         let (sin_th2, cos_th2) = th2.sin_cos();
-        let l_sin_th2_dot_th2 = l * sin_th2 * dot_th2;
+        let l_sin_th2_dot_th2 = l * dot_th2 * sin_th2;
         rate[2] = dot_x1 - dot_x2 - lit(0.5) * r_sin_th1_dot_th1
             - lit(0.5) * l_sin_th2_dot_th2;
-        let l_cos_th2_dot_th2 = l * cos_th2 * dot_th2;
-        rate[3] = dot_y1 + lit(0.5) * r_cos_th1_dot_th1 + lit(0.5) * l_cos_th2_dot_th2
-            - dot_y2;
+        let l_cos_th2_dot_th2 = l * dot_th2 * cos_th2;
+        rate[3] = dot_y1 - dot_y2 + lit(0.5) * r_cos_th1_dot_th1
+            + lit(0.5) * l_cos_th2_dot_th2;
         rate[4] = dot_x2 - dot_x3 - lit(0.5) * l_sin_th2_dot_th2;
-        rate[5] = dot_y2 + lit(0.5) * l_cos_th2_dot_th2 - dot_y3;
+        rate[5] = dot_y2 - dot_y3 + lit(0.5) * l_cos_th2_dot_th2;
         rate[6] = dot_th3;
-        let rate_7_part_part = c * dot_th3 * th3.cos();
-        rate[7] = dot_y3 + rate_7_part_part;
-        rate[8] = dot_y3 - rate_7_part_part;
+        let rate_7_part = c * dot_th3 * th3.cos();
+        rate[7] = dot_y3 + rate_7_part;
+        rate[8] = dot_y3 - rate_7_part;
         rate[9] = lit(-2.0)
-            * ((x1 + lit(0.5) * (r * cos_th1) - x3)
-                * (dot_x3 + lit(0.5) * r_sin_th1_dot_th1 - dot_x1)
-                - (y1 + lit(0.5) * (r * sin_th1) - y3)
-                    * (dot_y1 + lit(0.5) * r_cos_th1_dot_th1 - dot_y3));
+            * ((x1 - x3 + lit(0.5) * (r * cos_th1))
+                * (dot_x3 - dot_x1 + lit(0.5) * r_sin_th1_dot_th1)
+                - (y1 - y3 + lit(0.5) * (r * sin_th1))
+                    * (dot_y1 - dot_y3 + lit(0.5) * r_cos_th1_dot_th1));
     }
     fn energy<S: ::ukcore::Scalar>(
         &self,

@@ -293,6 +293,8 @@ impl ::ukcore::Mechanism for UChain {
             },
         ],
         structure: ::ukcore::Structure {
+            straight_line: true,
+            solve: "by straight-line elimination in the order x[0] y[0] x[1] x[2] x[3] x[4] x[5] x[6] x[7] x[8] x[9] x[10] x[11] x[12] x[13] x[14] x[15] x[16] y[1] y[2] y[3] y[4] y[5] y[6] y[7] y[8] y[9] y[10] y[11] y[12] y[13] y[14] y[15] y[16] link[0] support link[1] link[15] link[2] link[14] link[3] link[13] link[4] link[12] link[5] link[11] link[6] link[10] link[7] link[9] link[8]",
             mass_pattern: &[
                 (0, 0),
                 (1, 1),
@@ -420,6 +422,14 @@ impl ::ukcore::Mechanism for UChain {
                 square_roots: 0,
                 transcendentals: 0,
                 selections: 0,
+            },
+            solve_operations: ::ukcore::Operations {
+                additions: 227,
+                multiplications: 304,
+                divisions: 18,
+                square_roots: 0,
+                transcendentals: 0,
+                selections: 18,
             },
         },
         equations: ::ukcore::Equations {
@@ -1046,60 +1056,60 @@ impl ::ukcore::Mechanism for UChain {
         let x_1_minus_x_0 = x_1 - x_0;
         let y_0_minus_y_1 = y_0 - y_1;
         let sq_l = l * l;
-        phi[0] = x_1_minus_x_0 * x_1_minus_x_0 + y_0_minus_y_1 * y_0_minus_y_1 - sq_l;
+        phi[0] = x_1_minus_x_0 * x_1_minus_x_0 - sq_l + y_0_minus_y_1 * y_0_minus_y_1;
         let x_1_minus_x_2 = x_1 - x_2;
         let y_1_minus_y_2 = y_1 - y_2;
-        phi[1] = x_1_minus_x_2 * x_1_minus_x_2 + y_1_minus_y_2 * y_1_minus_y_2 - sq_l;
+        phi[1] = x_1_minus_x_2 * x_1_minus_x_2 - sq_l + y_1_minus_y_2 * y_1_minus_y_2;
         let x_2_minus_x_3 = x_2 - x_3;
         let y_2_minus_y_3 = y_2 - y_3;
-        phi[2] = x_2_minus_x_3 * x_2_minus_x_3 + y_2_minus_y_3 * y_2_minus_y_3 - sq_l;
+        phi[2] = x_2_minus_x_3 * x_2_minus_x_3 - sq_l + y_2_minus_y_3 * y_2_minus_y_3;
         let x_3_minus_x_4 = x_3 - x_4;
         let y_3_minus_y_4 = y_3 - y_4;
-        phi[3] = x_3_minus_x_4 * x_3_minus_x_4 + y_3_minus_y_4 * y_3_minus_y_4 - sq_l;
+        phi[3] = x_3_minus_x_4 * x_3_minus_x_4 - sq_l + y_3_minus_y_4 * y_3_minus_y_4;
         let x_4_minus_x_5 = x_4 - x_5;
         let y_4_minus_y_5 = y_4 - y_5;
-        phi[4] = x_4_minus_x_5 * x_4_minus_x_5 + y_4_minus_y_5 * y_4_minus_y_5 - sq_l;
+        phi[4] = x_4_minus_x_5 * x_4_minus_x_5 - sq_l + y_4_minus_y_5 * y_4_minus_y_5;
         let x_5_minus_x_6 = x_5 - x_6;
         let y_5_minus_y_6 = y_5 - y_6;
-        phi[5] = x_5_minus_x_6 * x_5_minus_x_6 + y_5_minus_y_6 * y_5_minus_y_6 - sq_l;
+        phi[5] = x_5_minus_x_6 * x_5_minus_x_6 - sq_l + y_5_minus_y_6 * y_5_minus_y_6;
         let x_6_minus_x_7 = x_6 - x_7;
         let y_6_minus_y_7 = y_6 - y_7;
-        phi[6] = x_6_minus_x_7 * x_6_minus_x_7 + y_6_minus_y_7 * y_6_minus_y_7 - sq_l;
+        phi[6] = x_6_minus_x_7 * x_6_minus_x_7 - sq_l + y_6_minus_y_7 * y_6_minus_y_7;
         let x_7_minus_x_8 = x_7 - x_8;
         let y_7_minus_y_8 = y_7 - y_8;
-        phi[7] = x_7_minus_x_8 * x_7_minus_x_8 + y_7_minus_y_8 * y_7_minus_y_8 - sq_l;
+        phi[7] = x_7_minus_x_8 * x_7_minus_x_8 - sq_l + y_7_minus_y_8 * y_7_minus_y_8;
         let x_8_minus_x_9 = x_8 - x_9;
         let y_8_minus_y_9 = y_8 - y_9;
-        phi[8] = x_8_minus_x_9 * x_8_minus_x_9 + y_8_minus_y_9 * y_8_minus_y_9 - sq_l;
+        phi[8] = x_8_minus_x_9 * x_8_minus_x_9 - sq_l + y_8_minus_y_9 * y_8_minus_y_9;
         let x_9_minus_x_10 = x_9 - x_10;
         let y_9_minus_y_10 = y_9 - y_10;
-        phi[9] = x_9_minus_x_10 * x_9_minus_x_10 + y_9_minus_y_10 * y_9_minus_y_10
-            - sq_l;
+        phi[9] = x_9_minus_x_10 * x_9_minus_x_10 - sq_l
+            + y_9_minus_y_10 * y_9_minus_y_10;
         let x_10_minus_x_11 = x_10 - x_11;
         let y_10_minus_y_11 = y_10 - y_11;
-        phi[10] = x_10_minus_x_11 * x_10_minus_x_11 + y_10_minus_y_11 * y_10_minus_y_11
-            - sq_l;
+        phi[10] = x_10_minus_x_11 * x_10_minus_x_11 - sq_l
+            + y_10_minus_y_11 * y_10_minus_y_11;
         let x_11_minus_x_12 = x_11 - x_12;
         let y_11_minus_y_12 = y_11 - y_12;
-        phi[11] = x_11_minus_x_12 * x_11_minus_x_12 + y_11_minus_y_12 * y_11_minus_y_12
-            - sq_l;
+        phi[11] = x_11_minus_x_12 * x_11_minus_x_12 - sq_l
+            + y_11_minus_y_12 * y_11_minus_y_12;
         let x_12_minus_x_13 = x_12 - x_13;
         let y_12_minus_y_13 = y_12 - y_13;
-        phi[12] = x_12_minus_x_13 * x_12_minus_x_13 + y_12_minus_y_13 * y_12_minus_y_13
-            - sq_l;
+        phi[12] = x_12_minus_x_13 * x_12_minus_x_13 - sq_l
+            + y_12_minus_y_13 * y_12_minus_y_13;
         let x_13_minus_x_14 = x_13 - x_14;
         let y_13_minus_y_14 = y_13 - y_14;
-        phi[13] = x_13_minus_x_14 * x_13_minus_x_14 + y_13_minus_y_14 * y_13_minus_y_14
-            - sq_l;
+        phi[13] = x_13_minus_x_14 * x_13_minus_x_14 - sq_l
+            + y_13_minus_y_14 * y_13_minus_y_14;
         let x_14_minus_x_15 = x_14 - x_15;
         let y_14_minus_y_15 = y_14 - y_15;
-        phi[14] = x_14_minus_x_15 * x_14_minus_x_15 + y_14_minus_y_15 * y_14_minus_y_15
-            - sq_l;
+        phi[14] = x_14_minus_x_15 * x_14_minus_x_15 - sq_l
+            + y_14_minus_y_15 * y_14_minus_y_15;
         let x_15_minus_x_16 = x_15 - x_16;
         let y_15_minus_y_16 = y_15 - y_16;
-        phi[15] = x_15_minus_x_16 * x_15_minus_x_16 + y_15_minus_y_16 * y_15_minus_y_16
-            - sq_l;
-        phi[16] = x_16 * x_16 + y_16 * y_16 - sq_l;
+        phi[15] = x_15_minus_x_16 * x_15_minus_x_16 - sq_l
+            + y_15_minus_y_16 * y_15_minus_y_16;
+        phi[16] = x_16 * x_16 - sq_l + y_16 * y_16;
     }
     fn residual_rate<S: ::ukcore::Scalar>(
         &self,
@@ -1217,5 +1227,909 @@ impl ::ukcore::Mechanism for UChain {
         outputs[2] = lit(0.058823529411764705)
             * (y_0 + y_1 + y_2 + y_3 + y_4 + y_5 + y_6 + y_7 + y_8 + y_9 + y_10 + y_11
                 + y_12 + y_13 + y_14 + y_15 + y_16);
+    }
+    /// 227 additions, 304 multiplications, 18 divisions, 0 square roots, 0 transcendentals, 18 selections.
+    fn acceleration<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        out: &mut [S],
+    ) -> S {
+        let out = ::ukcore::emitted::exact_mut::<S, 34>(out, "out");
+        let [x_0, x_1, x_2, x_3, x_4, x_5, x_6, x_7, x_8, x_9, x_10, x_11, x_12, x_13,
+        x_14, x_15, x_16, y_0, y_1, y_2, y_3, y_4, y_5, y_6, y_7, y_8, y_9, y_10, y_11,
+        y_12, y_13, y_14, y_15, y_16] = *::ukcore::emitted::exact::<S, 34>(q, "q");
+        let [dot_x_0, dot_x_1, dot_x_2, dot_x_3, dot_x_4, dot_x_5, dot_x_6, dot_x_7,
+        dot_x_8, dot_x_9, dot_x_10, dot_x_11, dot_x_12, dot_x_13, dot_x_14, dot_x_15,
+        dot_x_16, dot_y_0, dot_y_1, dot_y_2, dot_y_3, dot_y_4, dot_y_5, dot_y_6, dot_y_7,
+        dot_y_8, dot_y_9, dot_y_10, dot_y_11, dot_y_12, dot_y_13, dot_y_14, dot_y_15,
+        dot_y_16] = *::ukcore::emitted::exact::<S, 34>(v, "v");
+        let lit = S::from_f64;
+        let m = lit(self.m);
+        let g = lit(self.g);
+        let per_m = m.recip();
+        let x_1_minus_x_0 = x_1 - x_0;
+        let y_0_minus_y_1 = y_0 - y_1;
+        let x_1_minus_x_2 = x_1 - x_2;
+        let y_1_minus_y_2 = y_1 - y_2;
+        let x_2_minus_x_3 = x_2 - x_3;
+        let y_2_minus_y_3 = y_2 - y_3;
+        let x_3_minus_x_4 = x_3 - x_4;
+        let y_3_minus_y_4 = y_3 - y_4;
+        let x_4_minus_x_5 = x_4 - x_5;
+        let y_4_minus_y_5 = y_4 - y_5;
+        let x_5_minus_x_6 = x_5 - x_6;
+        let y_5_minus_y_6 = y_5 - y_6;
+        let x_6_minus_x_7 = x_6 - x_7;
+        let y_6_minus_y_7 = y_6 - y_7;
+        let x_7_minus_x_8 = x_7 - x_8;
+        let y_7_minus_y_8 = y_7 - y_8;
+        let x_8_minus_x_9 = x_8 - x_9;
+        let y_8_minus_y_9 = y_8 - y_9;
+        let x_9_minus_x_10 = x_9 - x_10;
+        let y_9_minus_y_10 = y_9 - y_10;
+        let x_10_minus_x_11 = x_10 - x_11;
+        let y_10_minus_y_11 = y_10 - y_11;
+        let x_11_minus_x_12 = x_11 - x_12;
+        let y_11_minus_y_12 = y_11 - y_12;
+        let x_12_minus_x_13 = x_12 - x_13;
+        let y_12_minus_y_13 = y_12 - y_13;
+        let x_13_minus_x_14 = x_13 - x_14;
+        let y_13_minus_y_14 = y_13 - y_14;
+        let x_14_minus_x_15 = x_14 - x_15;
+        let y_14_minus_y_15 = y_14 - y_15;
+        let x_15_minus_x_16 = x_15 - x_16;
+        let y_15_minus_y_16 = y_15 - y_16;
+        let dot_x_0_minus_dot_x_1 = dot_x_0 - dot_x_1;
+        let dot_y_0_minus_dot_y_1 = dot_y_0 - dot_y_1;
+        let dot_x_1_minus_dot_x_2 = dot_x_1 - dot_x_2;
+        let dot_y_1_minus_dot_y_2 = dot_y_1 - dot_y_2;
+        let dot_x_2_minus_dot_x_3 = dot_x_2 - dot_x_3;
+        let dot_y_2_minus_dot_y_3 = dot_y_2 - dot_y_3;
+        let dot_x_3_minus_dot_x_4 = dot_x_3 - dot_x_4;
+        let dot_y_3_minus_dot_y_4 = dot_y_3 - dot_y_4;
+        let dot_x_4_minus_dot_x_5 = dot_x_4 - dot_x_5;
+        let dot_y_4_minus_dot_y_5 = dot_y_4 - dot_y_5;
+        let dot_x_5_minus_dot_x_6 = dot_x_5 - dot_x_6;
+        let dot_y_5_minus_dot_y_6 = dot_y_5 - dot_y_6;
+        let dot_x_6_minus_dot_x_7 = dot_x_6 - dot_x_7;
+        let dot_y_6_minus_dot_y_7 = dot_y_6 - dot_y_7;
+        let dot_x_7_minus_dot_x_8 = dot_x_7 - dot_x_8;
+        let dot_y_7_minus_dot_y_8 = dot_y_7 - dot_y_8;
+        let dot_x_8_minus_dot_x_9 = dot_x_8 - dot_x_9;
+        let dot_y_8_minus_dot_y_9 = dot_y_8 - dot_y_9;
+        let dot_x_9_minus_dot_x_10 = dot_x_9 - dot_x_10;
+        let dot_y_9_minus_dot_y_10 = dot_y_9 - dot_y_10;
+        let dot_x_10_minus_dot_x_11 = dot_x_10 - dot_x_11;
+        let dot_y_10_minus_dot_y_11 = dot_y_10 - dot_y_11;
+        let dot_x_11_minus_dot_x_12 = dot_x_11 - dot_x_12;
+        let dot_y_11_minus_dot_y_12 = dot_y_11 - dot_y_12;
+        let dot_x_12_minus_dot_x_13 = dot_x_12 - dot_x_13;
+        let dot_y_12_minus_dot_y_13 = dot_y_12 - dot_y_13;
+        let dot_x_13_minus_dot_x_14 = dot_x_13 - dot_x_14;
+        let dot_y_13_minus_dot_y_14 = dot_y_13 - dot_y_14;
+        let dot_x_14_minus_dot_x_15 = dot_x_14 - dot_x_15;
+        let dot_y_14_minus_dot_y_15 = dot_y_14 - dot_y_15;
+        let dot_x_15_minus_dot_x_16 = dot_x_15 - dot_x_16;
+        let dot_y_15_minus_dot_y_16 = dot_y_15 - dot_y_16;
+        let acceleration_0_part = x_16 * x_16 + y_16 * y_16;
+        let per_acceleration_0_part = acceleration_0_part.recip();
+        let acceleration_0_part_2 = dot_x_0_minus_dot_x_1 * dot_x_0_minus_dot_x_1
+            + dot_y_0_minus_dot_y_1 * dot_y_0_minus_dot_y_1;
+        let acceleration_0_part_3 = x_1_minus_x_0 * x_1_minus_x_0
+            + y_0_minus_y_1 * y_0_minus_y_1;
+        let acceleration_0_part_4 = x_1_minus_x_0 * x_1_minus_x_2
+            - y_0_minus_y_1 * y_1_minus_y_2;
+        let acceleration_0_part_5 = g * y_16
+            + (dot_x_16 * dot_x_16 + dot_y_16 * dot_y_16);
+        let acceleration_0_part_6 = x_16 * x_15_minus_x_16 + y_16 * y_15_minus_y_16;
+        let acceleration_0_part_7 = x_1_minus_x_2 * x_1_minus_x_2
+            + y_1_minus_y_2 * y_1_minus_y_2;
+        let acceleration_0_part_8 = x_1_minus_x_2 * x_2_minus_x_3
+            + y_1_minus_y_2 * y_2_minus_y_3;
+        let acceleration_0_part_9 = x_15_minus_x_16 * x_15_minus_x_16
+            + y_15_minus_y_16 * y_15_minus_y_16;
+        let acceleration_0_part_10 = x_14_minus_x_15 * x_15_minus_x_16
+            + y_14_minus_y_15 * y_15_minus_y_16;
+        let acceleration_0_part_11 = x_2_minus_x_3 * x_2_minus_x_3
+            + y_2_minus_y_3 * y_2_minus_y_3;
+        let acceleration_0_part_12 = x_2_minus_x_3 * x_3_minus_x_4
+            + y_2_minus_y_3 * y_3_minus_y_4;
+        let acceleration_0_part_13 = x_14_minus_x_15 * x_14_minus_x_15
+            + y_14_minus_y_15 * y_14_minus_y_15;
+        let acceleration_0_part_14 = x_13_minus_x_14 * x_14_minus_x_15
+            + y_13_minus_y_14 * y_14_minus_y_15;
+        let acceleration_0_part_15 = x_3_minus_x_4 * x_3_minus_x_4
+            + y_3_minus_y_4 * y_3_minus_y_4;
+        let acceleration_0_part_16 = x_3_minus_x_4 * x_4_minus_x_5
+            + y_3_minus_y_4 * y_4_minus_y_5;
+        let acceleration_0_part_17 = x_13_minus_x_14 * x_13_minus_x_14
+            + y_13_minus_y_14 * y_13_minus_y_14;
+        let acceleration_0_part_18 = x_12_minus_x_13 * x_13_minus_x_14
+            + y_12_minus_y_13 * y_13_minus_y_14;
+        let acceleration_0_part_19 = x_4_minus_x_5 * x_4_minus_x_5
+            + y_4_minus_y_5 * y_4_minus_y_5;
+        let acceleration_0_part_20 = x_4_minus_x_5 * x_5_minus_x_6
+            + y_4_minus_y_5 * y_5_minus_y_6;
+        let acceleration_0_part_21 = x_12_minus_x_13 * x_12_minus_x_13
+            + y_12_minus_y_13 * y_12_minus_y_13;
+        let acceleration_0_part_22 = x_11_minus_x_12 * x_12_minus_x_13
+            + y_11_minus_y_12 * y_12_minus_y_13;
+        let acceleration_0_part_23 = x_5_minus_x_6 * x_5_minus_x_6
+            + y_5_minus_y_6 * y_5_minus_y_6;
+        let acceleration_0_part_24 = x_5_minus_x_6 * x_6_minus_x_7
+            + y_5_minus_y_6 * y_6_minus_y_7;
+        let acceleration_0_part_25 = x_11_minus_x_12 * x_11_minus_x_12
+            + y_11_minus_y_12 * y_11_minus_y_12;
+        let acceleration_0_part_26 = x_10_minus_x_11 * x_11_minus_x_12
+            + y_10_minus_y_11 * y_11_minus_y_12;
+        let acceleration_0_part_27 = x_6_minus_x_7 * x_6_minus_x_7
+            + y_6_minus_y_7 * y_6_minus_y_7;
+        let acceleration_0_part_28 = x_6_minus_x_7 * x_7_minus_x_8
+            + y_6_minus_y_7 * y_7_minus_y_8;
+        let acceleration_0_part_29 = x_10_minus_x_11 * x_10_minus_x_11
+            + y_10_minus_y_11 * y_10_minus_y_11;
+        let acceleration_0_part_30 = x_9_minus_x_10 * x_10_minus_x_11
+            + y_9_minus_y_10 * y_10_minus_y_11;
+        let acceleration_0_part_31 = x_7_minus_x_8 * x_7_minus_x_8
+            + y_7_minus_y_8 * y_7_minus_y_8;
+        let acceleration_0_part_32 = x_7_minus_x_8 * x_8_minus_x_9
+            + y_7_minus_y_8 * y_8_minus_y_9;
+        let acceleration_0_part_33 = x_9_minus_x_10 * x_9_minus_x_10
+            + y_9_minus_y_10 * y_9_minus_y_10;
+        let acceleration_0_part_34 = x_8_minus_x_9 * x_9_minus_x_10
+            + y_8_minus_y_9 * y_9_minus_y_10;
+        let acceleration_0_part_35 = x_8_minus_x_9 * x_8_minus_x_9
+            + y_8_minus_y_9 * y_8_minus_y_9;
+        let per_acceleration_0_part_3 = acceleration_0_part_3.recip();
+        let pivot_support = acceleration_0_part * per_m;
+        let pivot_link_0 = acceleration_0_part_3 * per_m;
+        let link_1_by_link_0 = acceleration_0_part_4 * per_acceleration_0_part_3;
+        let link_15_by_support = acceleration_0_part_6 * per_acceleration_0_part;
+        let acceleration_0_part_36 = lit(2.0) * acceleration_0_part_7
+            - lit(0.5)
+                * (acceleration_0_part_4 * acceleration_0_part_4
+                    * per_acceleration_0_part_3);
+        let acceleration_0_part_37 = lit(2.0) * acceleration_0_part_9
+            - acceleration_0_part_6 * acceleration_0_part_6 * per_acceleration_0_part;
+        let per_acceleration_0_part_36 = acceleration_0_part_36.recip();
+        let per_acceleration_0_part_37 = acceleration_0_part_37.recip();
+        let acceleration_0_part_38 = (dot_x_1_minus_dot_x_2 * dot_x_1_minus_dot_x_2
+            + dot_y_1_minus_dot_y_2 * dot_y_1_minus_dot_y_2)
+            - lit(0.5) * (acceleration_0_part_2 * link_1_by_link_0);
+        let acceleration_0_part_39 = (dot_x_15_minus_dot_x_16 * dot_x_15_minus_dot_x_16
+            + dot_y_15_minus_dot_y_16 * dot_y_15_minus_dot_y_16)
+            + acceleration_0_part_5 * link_15_by_support;
+        let pivot_link_1 = per_m * acceleration_0_part_36;
+        let link_2_by_link_1 = acceleration_0_part_8 * per_acceleration_0_part_36;
+        let pivot_link_15 = per_m * acceleration_0_part_37;
+        let link_14_by_link_15 = acceleration_0_part_10 * per_acceleration_0_part_37;
+        let acceleration_0_part_40 = lit(2.0) * acceleration_0_part_11
+            - acceleration_0_part_8 * acceleration_0_part_8 * per_acceleration_0_part_36;
+        let acceleration_0_part_41 = lit(2.0) * acceleration_0_part_13
+            - acceleration_0_part_10 * acceleration_0_part_10
+                * per_acceleration_0_part_37;
+        let per_acceleration_0_part_40 = acceleration_0_part_40.recip();
+        let per_acceleration_0_part_41 = acceleration_0_part_41.recip();
+        let acceleration_0_part_42 = (dot_x_2_minus_dot_x_3 * dot_x_2_minus_dot_x_3
+            + dot_y_2_minus_dot_y_3 * dot_y_2_minus_dot_y_3)
+            + acceleration_0_part_38 * link_2_by_link_1;
+        let acceleration_0_part_43 = (dot_x_14_minus_dot_x_15 * dot_x_14_minus_dot_x_15
+            + dot_y_14_minus_dot_y_15 * dot_y_14_minus_dot_y_15)
+            + acceleration_0_part_39 * link_14_by_link_15;
+        let pivot_link_2 = per_m * acceleration_0_part_40;
+        let link_3_by_link_2 = acceleration_0_part_12 * per_acceleration_0_part_40;
+        let pivot_link_14 = per_m * acceleration_0_part_41;
+        let link_13_by_link_14 = acceleration_0_part_14 * per_acceleration_0_part_41;
+        let acceleration_0_part_44 = lit(2.0) * acceleration_0_part_15
+            - acceleration_0_part_12 * acceleration_0_part_12
+                * per_acceleration_0_part_40;
+        let acceleration_0_part_45 = lit(2.0) * acceleration_0_part_17
+            - acceleration_0_part_14 * acceleration_0_part_14
+                * per_acceleration_0_part_41;
+        let per_acceleration_0_part_44 = acceleration_0_part_44.recip();
+        let per_acceleration_0_part_45 = acceleration_0_part_45.recip();
+        let acceleration_0_part_46 = (dot_x_3_minus_dot_x_4 * dot_x_3_minus_dot_x_4
+            + dot_y_3_minus_dot_y_4 * dot_y_3_minus_dot_y_4)
+            + acceleration_0_part_42 * link_3_by_link_2;
+        let acceleration_0_part_47 = (dot_x_13_minus_dot_x_14 * dot_x_13_minus_dot_x_14
+            + dot_y_13_minus_dot_y_14 * dot_y_13_minus_dot_y_14)
+            + acceleration_0_part_43 * link_13_by_link_14;
+        let pivot_link_3 = per_m * acceleration_0_part_44;
+        let link_4_by_link_3 = acceleration_0_part_16 * per_acceleration_0_part_44;
+        let pivot_link_13 = per_m * acceleration_0_part_45;
+        let link_12_by_link_13 = acceleration_0_part_18 * per_acceleration_0_part_45;
+        let acceleration_0_part_48 = lit(2.0) * acceleration_0_part_19
+            - acceleration_0_part_16 * acceleration_0_part_16
+                * per_acceleration_0_part_44;
+        let acceleration_0_part_49 = lit(2.0) * acceleration_0_part_21
+            - acceleration_0_part_18 * acceleration_0_part_18
+                * per_acceleration_0_part_45;
+        let per_acceleration_0_part_48 = acceleration_0_part_48.recip();
+        let per_acceleration_0_part_49 = acceleration_0_part_49.recip();
+        let acceleration_0_part_50 = (dot_x_4_minus_dot_x_5 * dot_x_4_minus_dot_x_5
+            + dot_y_4_minus_dot_y_5 * dot_y_4_minus_dot_y_5)
+            + acceleration_0_part_46 * link_4_by_link_3;
+        let acceleration_0_part_51 = (dot_x_12_minus_dot_x_13 * dot_x_12_minus_dot_x_13
+            + dot_y_12_minus_dot_y_13 * dot_y_12_minus_dot_y_13)
+            + acceleration_0_part_47 * link_12_by_link_13;
+        let pivot_link_4 = per_m * acceleration_0_part_48;
+        let link_5_by_link_4 = acceleration_0_part_20 * per_acceleration_0_part_48;
+        let pivot_link_12 = per_m * acceleration_0_part_49;
+        let link_11_by_link_12 = acceleration_0_part_22 * per_acceleration_0_part_49;
+        let acceleration_0_part_52 = lit(2.0) * acceleration_0_part_23
+            - acceleration_0_part_20 * acceleration_0_part_20
+                * per_acceleration_0_part_48;
+        let acceleration_0_part_53 = lit(2.0) * acceleration_0_part_25
+            - acceleration_0_part_22 * acceleration_0_part_22
+                * per_acceleration_0_part_49;
+        let per_acceleration_0_part_52 = acceleration_0_part_52.recip();
+        let per_acceleration_0_part_53 = acceleration_0_part_53.recip();
+        let acceleration_0_part_54 = (dot_x_5_minus_dot_x_6 * dot_x_5_minus_dot_x_6
+            + dot_y_5_minus_dot_y_6 * dot_y_5_minus_dot_y_6)
+            + acceleration_0_part_50 * link_5_by_link_4;
+        let acceleration_0_part_55 = (dot_x_11_minus_dot_x_12 * dot_x_11_minus_dot_x_12
+            + dot_y_11_minus_dot_y_12 * dot_y_11_minus_dot_y_12)
+            + acceleration_0_part_51 * link_11_by_link_12;
+        let pivot_link_5 = per_m * acceleration_0_part_52;
+        let link_6_by_link_5 = acceleration_0_part_24 * per_acceleration_0_part_52;
+        let pivot_link_11 = per_m * acceleration_0_part_53;
+        let link_10_by_link_11 = acceleration_0_part_26 * per_acceleration_0_part_53;
+        let acceleration_0_part_56 = lit(2.0) * acceleration_0_part_27
+            - acceleration_0_part_24 * acceleration_0_part_24
+                * per_acceleration_0_part_52;
+        let acceleration_0_part_57 = lit(2.0) * acceleration_0_part_29
+            - acceleration_0_part_26 * acceleration_0_part_26
+                * per_acceleration_0_part_53;
+        let per_acceleration_0_part_56 = acceleration_0_part_56.recip();
+        let per_acceleration_0_part_57 = acceleration_0_part_57.recip();
+        let acceleration_0_part_58 = (dot_x_6_minus_dot_x_7 * dot_x_6_minus_dot_x_7
+            + dot_y_6_minus_dot_y_7 * dot_y_6_minus_dot_y_7)
+            + acceleration_0_part_54 * link_6_by_link_5;
+        let acceleration_0_part_59 = (dot_x_10_minus_dot_x_11 * dot_x_10_minus_dot_x_11
+            + dot_y_10_minus_dot_y_11 * dot_y_10_minus_dot_y_11)
+            + acceleration_0_part_55 * link_10_by_link_11;
+        let pivot_link_6 = per_m * acceleration_0_part_56;
+        let link_7_by_link_6 = acceleration_0_part_28 * per_acceleration_0_part_56;
+        let pivot_link_10 = per_m * acceleration_0_part_57;
+        let link_9_by_link_10 = acceleration_0_part_30 * per_acceleration_0_part_57;
+        let acceleration_0_part_60 = lit(2.0) * acceleration_0_part_31
+            - acceleration_0_part_28 * acceleration_0_part_28
+                * per_acceleration_0_part_56;
+        let acceleration_0_part_61 = lit(2.0) * acceleration_0_part_33
+            - acceleration_0_part_30 * acceleration_0_part_30
+                * per_acceleration_0_part_57;
+        let per_acceleration_0_part_60 = acceleration_0_part_60.recip();
+        let per_acceleration_0_part_61 = acceleration_0_part_61.recip();
+        let acceleration_0_part_62 = (dot_x_7_minus_dot_x_8 * dot_x_7_minus_dot_x_8
+            + dot_y_7_minus_dot_y_8 * dot_y_7_minus_dot_y_8)
+            + acceleration_0_part_58 * link_7_by_link_6;
+        let acceleration_0_part_63 = (dot_x_9_minus_dot_x_10 * dot_x_9_minus_dot_x_10
+            + dot_y_9_minus_dot_y_10 * dot_y_9_minus_dot_y_10)
+            + acceleration_0_part_59 * link_9_by_link_10;
+        let pivot_link_7 = per_m * acceleration_0_part_60;
+        let link_8_by_link_7 = acceleration_0_part_32 * per_acceleration_0_part_60;
+        let pivot_link_9 = per_m * acceleration_0_part_61;
+        let link_8_by_link_9 = acceleration_0_part_34 * per_acceleration_0_part_61;
+        let acceleration_0_part_64 = lit(2.0) * acceleration_0_part_35
+            - acceleration_0_part_32 * acceleration_0_part_32
+                * per_acceleration_0_part_60
+            - acceleration_0_part_34 * acceleration_0_part_34
+                * per_acceleration_0_part_61;
+        let per_acceleration_0_part_64 = acceleration_0_part_64.recip();
+        let acceleration_0_part_65 = (dot_x_8_minus_dot_x_9 * dot_x_8_minus_dot_x_9
+            + dot_y_8_minus_dot_y_9 * dot_y_8_minus_dot_y_9)
+            + acceleration_0_part_62 * link_8_by_link_7
+            + acceleration_0_part_63 * link_8_by_link_9;
+        let pivot_link_8 = per_m * acceleration_0_part_64;
+        let acceleration_0_part_66 = y_8_minus_y_9 * acceleration_0_part_65
+            * per_acceleration_0_part_64;
+        let acceleration_0_part_67 = x_8_minus_x_9 * acceleration_0_part_65
+            * per_acceleration_0_part_64;
+        let safe = S::select_le(
+            pivot_link_8,
+            lit(0.001953125) * (acceleration_0_part_35 * per_m),
+            lit(0.0),
+            S::select_le(
+                pivot_link_9,
+                lit(0.001953125) * (acceleration_0_part_33 * per_m),
+                lit(0.0),
+                S::select_le(
+                    pivot_link_7,
+                    lit(0.001953125) * (acceleration_0_part_31 * per_m),
+                    lit(0.0),
+                    S::select_le(
+                        pivot_link_10,
+                        lit(0.001953125) * (acceleration_0_part_29 * per_m),
+                        lit(0.0),
+                        S::select_le(
+                            pivot_link_6,
+                            lit(0.001953125) * (acceleration_0_part_27 * per_m),
+                            lit(0.0),
+                            S::select_le(
+                                pivot_link_11,
+                                lit(0.001953125) * (acceleration_0_part_25 * per_m),
+                                lit(0.0),
+                                S::select_le(
+                                    pivot_link_5,
+                                    lit(0.001953125) * (acceleration_0_part_23 * per_m),
+                                    lit(0.0),
+                                    S::select_le(
+                                        pivot_link_12,
+                                        lit(0.001953125) * (acceleration_0_part_21 * per_m),
+                                        lit(0.0),
+                                        S::select_le(
+                                            pivot_link_4,
+                                            lit(0.001953125) * (acceleration_0_part_19 * per_m),
+                                            lit(0.0),
+                                            S::select_le(
+                                                pivot_link_13,
+                                                lit(0.001953125) * (acceleration_0_part_17 * per_m),
+                                                lit(0.0),
+                                                S::select_le(
+                                                    pivot_link_3,
+                                                    lit(0.001953125) * (acceleration_0_part_15 * per_m),
+                                                    lit(0.0),
+                                                    S::select_le(
+                                                        pivot_link_14,
+                                                        lit(0.001953125) * (acceleration_0_part_13 * per_m),
+                                                        lit(0.0),
+                                                        S::select_le(
+                                                            pivot_link_2,
+                                                            lit(0.001953125) * (acceleration_0_part_11 * per_m),
+                                                            lit(0.0),
+                                                            S::select_le(
+                                                                pivot_link_15,
+                                                                lit(0.001953125) * (acceleration_0_part_9 * per_m),
+                                                                lit(0.0),
+                                                                S::select_le(
+                                                                    pivot_link_1,
+                                                                    lit(0.001953125) * (acceleration_0_part_7 * per_m),
+                                                                    lit(0.0),
+                                                                    S::select_le(
+                                                                        pivot_support,
+                                                                        lit(0.0),
+                                                                        lit(0.0),
+                                                                        S::select_le(
+                                                                            lit(2.0) * pivot_link_0,
+                                                                            lit(0.0),
+                                                                            lit(0.0),
+                                                                            S::select_le(m, lit(0.0), lit(0.0), lit(1.0)),
+                                                                        ),
+                                                                    ),
+                                                                ),
+                                                            ),
+                                                        ),
+                                                    ),
+                                                ),
+                                            ),
+                                        ),
+                                    ),
+                                ),
+                            ),
+                        ),
+                    ),
+                ),
+            ),
+        );
+        let safe_part = acceleration_0_part_63 * per_acceleration_0_part_61
+            + link_8_by_link_9 * acceleration_0_part_65 * per_acceleration_0_part_64;
+        let safe_part_2 = acceleration_0_part_62 * per_acceleration_0_part_60
+            + link_8_by_link_7 * acceleration_0_part_65 * per_acceleration_0_part_64;
+        let y_9_minus_y_10_safe_part = y_9_minus_y_10 * safe_part;
+        let y_7_minus_y_8_safe_part_2 = y_7_minus_y_8 * safe_part_2;
+        let x_9_minus_x_10_safe_part = x_9_minus_x_10 * safe_part;
+        let x_7_minus_x_8_safe_part_2 = x_7_minus_x_8 * safe_part_2;
+        let safe_part_3 = acceleration_0_part_59 * per_acceleration_0_part_57
+            + link_9_by_link_10 * safe_part;
+        let safe_part_4 = acceleration_0_part_58 * per_acceleration_0_part_56
+            + link_7_by_link_6 * safe_part_2;
+        out[25] = g - acceleration_0_part_66 + y_7_minus_y_8_safe_part_2;
+        out[26] = g + acceleration_0_part_66 - y_9_minus_y_10_safe_part;
+        let y_10_minus_y_11_safe_part_3 = y_10_minus_y_11 * safe_part_3;
+        let y_6_minus_y_7_safe_part_4 = y_6_minus_y_7 * safe_part_4;
+        let x_10_minus_x_11_safe_part_3 = x_10_minus_x_11 * safe_part_3;
+        let x_6_minus_x_7_safe_part_4 = x_6_minus_x_7 * safe_part_4;
+        out[8] = x_7_minus_x_8_safe_part_2 - acceleration_0_part_67;
+        out[9] = acceleration_0_part_67 - x_9_minus_x_10_safe_part;
+        let acceleration_10_part = acceleration_0_part_55 * per_acceleration_0_part_53
+            + link_10_by_link_11 * safe_part_3;
+        let acceleration_10_part_2 = acceleration_0_part_54 * per_acceleration_0_part_52
+            + link_6_by_link_5 * safe_part_4;
+        out[24] = g - y_7_minus_y_8_safe_part_2 + y_6_minus_y_7_safe_part_4;
+        out[27] = g + y_9_minus_y_10_safe_part - y_10_minus_y_11_safe_part_3;
+        let acceleration_28_part = y_11_minus_y_12 * acceleration_10_part;
+        let acceleration_28_part_2 = y_5_minus_y_6 * acceleration_10_part_2;
+        let acceleration_28_part_3 = x_11_minus_x_12 * acceleration_10_part;
+        let acceleration_28_part_4 = x_5_minus_x_6 * acceleration_10_part_2;
+        out[7] = x_6_minus_x_7_safe_part_4 - x_7_minus_x_8_safe_part_2;
+        out[10] = x_9_minus_x_10_safe_part - x_10_minus_x_11_safe_part_3;
+        let acceleration_11_part = acceleration_0_part_51 * per_acceleration_0_part_49
+            + link_11_by_link_12 * acceleration_10_part;
+        let acceleration_11_part_2 = acceleration_0_part_50 * per_acceleration_0_part_48
+            + link_5_by_link_4 * acceleration_10_part_2;
+        out[23] = g - y_6_minus_y_7_safe_part_4 + acceleration_28_part_2;
+        out[28] = g + y_10_minus_y_11_safe_part_3 - acceleration_28_part;
+        let acceleration_29_part = y_12_minus_y_13 * acceleration_11_part;
+        let acceleration_29_part_2 = y_4_minus_y_5 * acceleration_11_part_2;
+        let acceleration_29_part_3 = x_12_minus_x_13 * acceleration_11_part;
+        let acceleration_29_part_4 = x_4_minus_x_5 * acceleration_11_part_2;
+        out[6] = acceleration_28_part_4 - x_6_minus_x_7_safe_part_4;
+        out[11] = x_10_minus_x_11_safe_part_3 - acceleration_28_part_3;
+        let acceleration_12_part = acceleration_0_part_47 * per_acceleration_0_part_45
+            + link_12_by_link_13 * acceleration_11_part;
+        let acceleration_12_part_2 = acceleration_0_part_46 * per_acceleration_0_part_44
+            + link_4_by_link_3 * acceleration_11_part_2;
+        out[22] = g - acceleration_28_part_2 + acceleration_29_part_2;
+        out[29] = g + acceleration_28_part - acceleration_29_part;
+        let acceleration_30_part = y_13_minus_y_14 * acceleration_12_part;
+        let acceleration_30_part_2 = y_3_minus_y_4 * acceleration_12_part_2;
+        let acceleration_30_part_3 = x_13_minus_x_14 * acceleration_12_part;
+        let acceleration_30_part_4 = x_3_minus_x_4 * acceleration_12_part_2;
+        out[5] = acceleration_29_part_4 - acceleration_28_part_4;
+        out[12] = acceleration_28_part_3 - acceleration_29_part_3;
+        let acceleration_13_part = acceleration_0_part_43 * per_acceleration_0_part_41
+            + link_13_by_link_14 * acceleration_12_part;
+        let acceleration_13_part_2 = acceleration_0_part_42 * per_acceleration_0_part_40
+            + link_3_by_link_2 * acceleration_12_part_2;
+        out[21] = g - acceleration_29_part_2 + acceleration_30_part_2;
+        out[30] = g + acceleration_29_part - acceleration_30_part;
+        let acceleration_31_part = y_14_minus_y_15 * acceleration_13_part;
+        let acceleration_31_part_2 = y_2_minus_y_3 * acceleration_13_part_2;
+        let acceleration_31_part_3 = x_14_minus_x_15 * acceleration_13_part;
+        let acceleration_31_part_4 = x_2_minus_x_3 * acceleration_13_part_2;
+        out[4] = acceleration_30_part_4 - acceleration_29_part_4;
+        out[13] = acceleration_29_part_3 - acceleration_30_part_3;
+        let acceleration_14_part = acceleration_0_part_39 * per_acceleration_0_part_37
+            + link_14_by_link_15 * acceleration_13_part;
+        let acceleration_14_part_2 = acceleration_0_part_38 * per_acceleration_0_part_36
+            + link_2_by_link_1 * acceleration_13_part_2;
+        out[20] = g - acceleration_30_part_2 + acceleration_31_part_2;
+        out[31] = g + acceleration_30_part - acceleration_31_part;
+        let acceleration_32_part = y_15_minus_y_16 * acceleration_14_part;
+        let acceleration_32_part_2 = y_1_minus_y_2 * acceleration_14_part_2;
+        let acceleration_32_part_3 = x_15_minus_x_16 * acceleration_14_part;
+        let acceleration_32_part_4 = x_1_minus_x_2 * acceleration_14_part_2;
+        out[3] = acceleration_31_part_4 - acceleration_30_part_4;
+        out[14] = acceleration_30_part_3 - acceleration_31_part_3;
+        let acceleration_15_part = acceleration_0_part_5 * per_acceleration_0_part
+            + link_15_by_support * acceleration_14_part;
+        let acceleration_15_part_2 = acceleration_0_part_2 * per_acceleration_0_part_3
+            - link_1_by_link_0 * acceleration_14_part_2;
+        out[19] = g - acceleration_31_part_2 + acceleration_32_part_2;
+        out[32] = g + acceleration_31_part - acceleration_32_part;
+        let acceleration_33_part = y_0_minus_y_1 * acceleration_15_part_2;
+        let acceleration_33_part_2 = x_1_minus_x_0 * acceleration_15_part_2;
+        out[2] = acceleration_32_part_4 - acceleration_31_part_4;
+        out[15] = acceleration_31_part_3 - acceleration_32_part_3;
+        out[0] = lit(0.5) * acceleration_33_part_2;
+        out[16] = acceleration_32_part_3 - x_16 * acceleration_15_part;
+        out[17] = g - lit(0.5) * acceleration_33_part;
+        out[18] = g - acceleration_32_part_2 + lit(0.5) * acceleration_33_part;
+        out[33] = g + acceleration_32_part - y_16 * acceleration_15_part;
+        out[1] = -acceleration_32_part_4 - lit(0.5) * acceleration_33_part_2;
+        safe
+    }
+    fn correction<S: ::ukcore::Scalar>(
+        &self,
+        t: S,
+        q: &[S],
+        v: &[S],
+        residual: &[S],
+        out: &mut [S],
+    ) -> S {
+        let out = ::ukcore::emitted::exact_mut::<S, 34>(out, "out");
+        let [x_0, x_1, x_2, x_3, x_4, x_5, x_6, x_7, x_8, x_9, x_10, x_11, x_12, x_13,
+        x_14, x_15, x_16, y_0, y_1, y_2, y_3, y_4, y_5, y_6, y_7, y_8, y_9, y_10, y_11,
+        y_12, y_13, y_14, y_15, y_16] = *::ukcore::emitted::exact::<S, 34>(q, "q");
+        let [residual_0, residual_1, residual_2, residual_3, residual_4, residual_5,
+        residual_6, residual_7, residual_8, residual_9, residual_10, residual_11,
+        residual_12, residual_13, residual_14, residual_15, residual_16] = *::ukcore::emitted::exact::<
+            S,
+            17,
+        >(residual, "residual");
+        let lit = S::from_f64;
+        let m = lit(self.m);
+        let per_m = m.recip();
+        let x_1_minus_x_0 = x_1 - x_0;
+        let y_0_minus_y_1 = y_0 - y_1;
+        let x_1_minus_x_2 = x_1 - x_2;
+        let y_1_minus_y_2 = y_1 - y_2;
+        let x_2_minus_x_3 = x_2 - x_3;
+        let y_2_minus_y_3 = y_2 - y_3;
+        let x_3_minus_x_4 = x_3 - x_4;
+        let y_3_minus_y_4 = y_3 - y_4;
+        let x_4_minus_x_5 = x_4 - x_5;
+        let y_4_minus_y_5 = y_4 - y_5;
+        let x_5_minus_x_6 = x_5 - x_6;
+        let y_5_minus_y_6 = y_5 - y_6;
+        let x_6_minus_x_7 = x_6 - x_7;
+        let y_6_minus_y_7 = y_6 - y_7;
+        let x_7_minus_x_8 = x_7 - x_8;
+        let y_7_minus_y_8 = y_7 - y_8;
+        let x_8_minus_x_9 = x_8 - x_9;
+        let y_8_minus_y_9 = y_8 - y_9;
+        let x_9_minus_x_10 = x_9 - x_10;
+        let y_9_minus_y_10 = y_9 - y_10;
+        let x_10_minus_x_11 = x_10 - x_11;
+        let y_10_minus_y_11 = y_10 - y_11;
+        let x_11_minus_x_12 = x_11 - x_12;
+        let y_11_minus_y_12 = y_11 - y_12;
+        let x_12_minus_x_13 = x_12 - x_13;
+        let y_12_minus_y_13 = y_12 - y_13;
+        let x_13_minus_x_14 = x_13 - x_14;
+        let y_13_minus_y_14 = y_13 - y_14;
+        let x_14_minus_x_15 = x_14 - x_15;
+        let y_14_minus_y_15 = y_14 - y_15;
+        let x_15_minus_x_16 = x_15 - x_16;
+        let y_15_minus_y_16 = y_15 - y_16;
+        let correction_0_part = x_16 * x_16 + y_16 * y_16;
+        let per_correction_0_part = correction_0_part.recip();
+        let correction_0_part_2 = x_1_minus_x_0 * x_1_minus_x_0
+            + y_0_minus_y_1 * y_0_minus_y_1;
+        let correction_0_part_3 = x_1_minus_x_0 * x_1_minus_x_2
+            - y_0_minus_y_1 * y_1_minus_y_2;
+        let correction_0_part_4 = x_16 * x_15_minus_x_16 + y_16 * y_15_minus_y_16;
+        let correction_0_part_5 = x_1_minus_x_2 * x_1_minus_x_2
+            + y_1_minus_y_2 * y_1_minus_y_2;
+        let correction_0_part_6 = x_1_minus_x_2 * x_2_minus_x_3
+            + y_1_minus_y_2 * y_2_minus_y_3;
+        let correction_0_part_7 = x_15_minus_x_16 * x_15_minus_x_16
+            + y_15_minus_y_16 * y_15_minus_y_16;
+        let correction_0_part_8 = x_14_minus_x_15 * x_15_minus_x_16
+            + y_14_minus_y_15 * y_15_minus_y_16;
+        let correction_0_part_9 = x_2_minus_x_3 * x_2_minus_x_3
+            + y_2_minus_y_3 * y_2_minus_y_3;
+        let correction_0_part_10 = x_2_minus_x_3 * x_3_minus_x_4
+            + y_2_minus_y_3 * y_3_minus_y_4;
+        let correction_0_part_11 = x_14_minus_x_15 * x_14_minus_x_15
+            + y_14_minus_y_15 * y_14_minus_y_15;
+        let correction_0_part_12 = x_13_minus_x_14 * x_14_minus_x_15
+            + y_13_minus_y_14 * y_14_minus_y_15;
+        let correction_0_part_13 = x_3_minus_x_4 * x_3_minus_x_4
+            + y_3_minus_y_4 * y_3_minus_y_4;
+        let correction_0_part_14 = x_3_minus_x_4 * x_4_minus_x_5
+            + y_3_minus_y_4 * y_4_minus_y_5;
+        let correction_0_part_15 = x_13_minus_x_14 * x_13_minus_x_14
+            + y_13_minus_y_14 * y_13_minus_y_14;
+        let correction_0_part_16 = x_12_minus_x_13 * x_13_minus_x_14
+            + y_12_minus_y_13 * y_13_minus_y_14;
+        let correction_0_part_17 = x_4_minus_x_5 * x_4_minus_x_5
+            + y_4_minus_y_5 * y_4_minus_y_5;
+        let correction_0_part_18 = x_4_minus_x_5 * x_5_minus_x_6
+            + y_4_minus_y_5 * y_5_minus_y_6;
+        let correction_0_part_19 = x_12_minus_x_13 * x_12_minus_x_13
+            + y_12_minus_y_13 * y_12_minus_y_13;
+        let correction_0_part_20 = x_11_minus_x_12 * x_12_minus_x_13
+            + y_11_minus_y_12 * y_12_minus_y_13;
+        let correction_0_part_21 = x_5_minus_x_6 * x_5_minus_x_6
+            + y_5_minus_y_6 * y_5_minus_y_6;
+        let correction_0_part_22 = x_5_minus_x_6 * x_6_minus_x_7
+            + y_5_minus_y_6 * y_6_minus_y_7;
+        let correction_0_part_23 = x_11_minus_x_12 * x_11_minus_x_12
+            + y_11_minus_y_12 * y_11_minus_y_12;
+        let correction_0_part_24 = x_10_minus_x_11 * x_11_minus_x_12
+            + y_10_minus_y_11 * y_11_minus_y_12;
+        let correction_0_part_25 = x_6_minus_x_7 * x_6_minus_x_7
+            + y_6_minus_y_7 * y_6_minus_y_7;
+        let correction_0_part_26 = x_6_minus_x_7 * x_7_minus_x_8
+            + y_6_minus_y_7 * y_7_minus_y_8;
+        let correction_0_part_27 = x_10_minus_x_11 * x_10_minus_x_11
+            + y_10_minus_y_11 * y_10_minus_y_11;
+        let correction_0_part_28 = x_9_minus_x_10 * x_10_minus_x_11
+            + y_9_minus_y_10 * y_10_minus_y_11;
+        let correction_0_part_29 = x_7_minus_x_8 * x_7_minus_x_8
+            + y_7_minus_y_8 * y_7_minus_y_8;
+        let correction_0_part_30 = x_7_minus_x_8 * x_8_minus_x_9
+            + y_7_minus_y_8 * y_8_minus_y_9;
+        let correction_0_part_31 = x_9_minus_x_10 * x_9_minus_x_10
+            + y_9_minus_y_10 * y_9_minus_y_10;
+        let correction_0_part_32 = x_8_minus_x_9 * x_9_minus_x_10
+            + y_8_minus_y_9 * y_9_minus_y_10;
+        let correction_0_part_33 = x_8_minus_x_9 * x_8_minus_x_9
+            + y_8_minus_y_9 * y_8_minus_y_9;
+        let per_correction_0_part_2 = correction_0_part_2.recip();
+        let pivot_support = correction_0_part * per_m;
+        let pivot_link_0 = correction_0_part_2 * per_m;
+        let link_1_by_link_0 = correction_0_part_3 * per_correction_0_part_2;
+        let link_15_by_support = correction_0_part_4 * per_correction_0_part;
+        let correction_0_part_34 = lit(2.0) * correction_0_part_5
+            - lit(0.5)
+                * (correction_0_part_3 * correction_0_part_3 * per_correction_0_part_2);
+        let correction_0_part_35 = lit(2.0) * correction_0_part_7
+            - correction_0_part_4 * correction_0_part_4 * per_correction_0_part;
+        let per_correction_0_part_34 = correction_0_part_34.recip();
+        let per_correction_0_part_35 = correction_0_part_35.recip();
+        let correction_0_part_36 = lit(0.5) * residual_1
+            - lit(0.25) * (residual_0 * link_1_by_link_0);
+        let correction_0_part_37 = residual_15 + residual_16 * link_15_by_support;
+        let pivot_link_1 = per_m * correction_0_part_34;
+        let link_2_by_link_1 = correction_0_part_6 * per_correction_0_part_34;
+        let pivot_link_15 = per_m * correction_0_part_35;
+        let link_14_by_link_15 = correction_0_part_8 * per_correction_0_part_35;
+        let correction_0_part_38 = lit(2.0) * correction_0_part_9
+            - correction_0_part_6 * correction_0_part_6 * per_correction_0_part_34;
+        let correction_0_part_39 = lit(2.0) * correction_0_part_11
+            - correction_0_part_8 * correction_0_part_8 * per_correction_0_part_35;
+        let per_correction_0_part_38 = correction_0_part_38.recip();
+        let per_correction_0_part_39 = correction_0_part_39.recip();
+        let correction_0_part_40 = lit(0.5) * residual_2
+            + correction_0_part_36 * link_2_by_link_1;
+        let correction_0_part_41 = residual_14
+            + correction_0_part_37 * link_14_by_link_15;
+        let pivot_link_2 = per_m * correction_0_part_38;
+        let link_3_by_link_2 = correction_0_part_10 * per_correction_0_part_38;
+        let pivot_link_14 = per_m * correction_0_part_39;
+        let link_13_by_link_14 = correction_0_part_12 * per_correction_0_part_39;
+        let correction_0_part_42 = lit(2.0) * correction_0_part_13
+            - correction_0_part_10 * correction_0_part_10 * per_correction_0_part_38;
+        let correction_0_part_43 = lit(2.0) * correction_0_part_15
+            - correction_0_part_12 * correction_0_part_12 * per_correction_0_part_39;
+        let per_correction_0_part_42 = correction_0_part_42.recip();
+        let per_correction_0_part_43 = correction_0_part_43.recip();
+        let correction_0_part_44 = lit(0.5) * residual_3
+            + correction_0_part_40 * link_3_by_link_2;
+        let correction_0_part_45 = residual_13
+            + correction_0_part_41 * link_13_by_link_14;
+        let pivot_link_3 = per_m * correction_0_part_42;
+        let link_4_by_link_3 = correction_0_part_14 * per_correction_0_part_42;
+        let pivot_link_13 = per_m * correction_0_part_43;
+        let link_12_by_link_13 = correction_0_part_16 * per_correction_0_part_43;
+        let correction_0_part_46 = lit(2.0) * correction_0_part_17
+            - correction_0_part_14 * correction_0_part_14 * per_correction_0_part_42;
+        let correction_0_part_47 = lit(2.0) * correction_0_part_19
+            - correction_0_part_16 * correction_0_part_16 * per_correction_0_part_43;
+        let per_correction_0_part_46 = correction_0_part_46.recip();
+        let per_correction_0_part_47 = correction_0_part_47.recip();
+        let correction_0_part_48 = lit(0.5) * residual_4
+            + correction_0_part_44 * link_4_by_link_3;
+        let correction_0_part_49 = residual_12
+            + correction_0_part_45 * link_12_by_link_13;
+        let pivot_link_4 = per_m * correction_0_part_46;
+        let link_5_by_link_4 = correction_0_part_18 * per_correction_0_part_46;
+        let pivot_link_12 = per_m * correction_0_part_47;
+        let link_11_by_link_12 = correction_0_part_20 * per_correction_0_part_47;
+        let correction_0_part_50 = lit(2.0) * correction_0_part_21
+            - correction_0_part_18 * correction_0_part_18 * per_correction_0_part_46;
+        let correction_0_part_51 = lit(2.0) * correction_0_part_23
+            - correction_0_part_20 * correction_0_part_20 * per_correction_0_part_47;
+        let per_correction_0_part_50 = correction_0_part_50.recip();
+        let per_correction_0_part_51 = correction_0_part_51.recip();
+        let correction_0_part_52 = lit(0.5) * residual_5
+            + correction_0_part_48 * link_5_by_link_4;
+        let correction_0_part_53 = residual_11
+            + correction_0_part_49 * link_11_by_link_12;
+        let pivot_link_5 = per_m * correction_0_part_50;
+        let link_6_by_link_5 = correction_0_part_22 * per_correction_0_part_50;
+        let pivot_link_11 = per_m * correction_0_part_51;
+        let link_10_by_link_11 = correction_0_part_24 * per_correction_0_part_51;
+        let correction_0_part_54 = lit(2.0) * correction_0_part_25
+            - correction_0_part_22 * correction_0_part_22 * per_correction_0_part_50;
+        let correction_0_part_55 = lit(2.0) * correction_0_part_27
+            - correction_0_part_24 * correction_0_part_24 * per_correction_0_part_51;
+        let per_correction_0_part_54 = correction_0_part_54.recip();
+        let per_correction_0_part_55 = correction_0_part_55.recip();
+        let correction_0_part_56 = lit(0.5) * residual_6
+            + correction_0_part_52 * link_6_by_link_5;
+        let correction_0_part_57 = residual_10
+            + correction_0_part_53 * link_10_by_link_11;
+        let pivot_link_6 = per_m * correction_0_part_54;
+        let link_7_by_link_6 = correction_0_part_26 * per_correction_0_part_54;
+        let pivot_link_10 = per_m * correction_0_part_55;
+        let link_9_by_link_10 = correction_0_part_28 * per_correction_0_part_55;
+        let correction_0_part_58 = lit(2.0) * correction_0_part_29
+            - correction_0_part_26 * correction_0_part_26 * per_correction_0_part_54;
+        let correction_0_part_59 = lit(2.0) * correction_0_part_31
+            - correction_0_part_28 * correction_0_part_28 * per_correction_0_part_55;
+        let per_correction_0_part_58 = correction_0_part_58.recip();
+        let per_correction_0_part_59 = correction_0_part_59.recip();
+        let correction_0_part_60 = lit(0.5) * residual_7
+            + correction_0_part_56 * link_7_by_link_6;
+        let correction_0_part_61 = residual_9 + correction_0_part_57 * link_9_by_link_10;
+        let pivot_link_7 = per_m * correction_0_part_58;
+        let link_8_by_link_7 = correction_0_part_30 * per_correction_0_part_58;
+        let pivot_link_9 = per_m * correction_0_part_59;
+        let link_8_by_link_9 = correction_0_part_32 * per_correction_0_part_59;
+        let correction_0_part_62 = lit(2.0) * correction_0_part_33
+            - correction_0_part_30 * correction_0_part_30 * per_correction_0_part_58
+            - correction_0_part_32 * correction_0_part_32 * per_correction_0_part_59;
+        let per_correction_0_part_62 = correction_0_part_62.recip();
+        let correction_0_part_63 = lit(0.5) * residual_8
+            + correction_0_part_60 * link_8_by_link_7
+            + lit(0.5) * (correction_0_part_61 * link_8_by_link_9);
+        let pivot_link_8 = per_m * correction_0_part_62;
+        let correction_0_part_64 = y_8_minus_y_9 * correction_0_part_63
+            * per_correction_0_part_62;
+        let correction_0_part_65 = x_8_minus_x_9 * correction_0_part_63
+            * per_correction_0_part_62;
+        let safe = S::select_le(
+            pivot_link_8,
+            lit(0.001953125) * (correction_0_part_33 * per_m),
+            lit(0.0),
+            S::select_le(
+                pivot_link_9,
+                lit(0.001953125) * (correction_0_part_31 * per_m),
+                lit(0.0),
+                S::select_le(
+                    pivot_link_7,
+                    lit(0.001953125) * (correction_0_part_29 * per_m),
+                    lit(0.0),
+                    S::select_le(
+                        pivot_link_10,
+                        lit(0.001953125) * (correction_0_part_27 * per_m),
+                        lit(0.0),
+                        S::select_le(
+                            pivot_link_6,
+                            lit(0.001953125) * (correction_0_part_25 * per_m),
+                            lit(0.0),
+                            S::select_le(
+                                pivot_link_11,
+                                lit(0.001953125) * (correction_0_part_23 * per_m),
+                                lit(0.0),
+                                S::select_le(
+                                    pivot_link_5,
+                                    lit(0.001953125) * (correction_0_part_21 * per_m),
+                                    lit(0.0),
+                                    S::select_le(
+                                        pivot_link_12,
+                                        lit(0.001953125) * (correction_0_part_19 * per_m),
+                                        lit(0.0),
+                                        S::select_le(
+                                            pivot_link_4,
+                                            lit(0.001953125) * (correction_0_part_17 * per_m),
+                                            lit(0.0),
+                                            S::select_le(
+                                                pivot_link_13,
+                                                lit(0.001953125) * (correction_0_part_15 * per_m),
+                                                lit(0.0),
+                                                S::select_le(
+                                                    pivot_link_3,
+                                                    lit(0.001953125) * (correction_0_part_13 * per_m),
+                                                    lit(0.0),
+                                                    S::select_le(
+                                                        pivot_link_14,
+                                                        lit(0.001953125) * (correction_0_part_11 * per_m),
+                                                        lit(0.0),
+                                                        S::select_le(
+                                                            pivot_link_2,
+                                                            lit(0.001953125) * (correction_0_part_9 * per_m),
+                                                            lit(0.0),
+                                                            S::select_le(
+                                                                pivot_link_15,
+                                                                lit(0.001953125) * (correction_0_part_7 * per_m),
+                                                                lit(0.0),
+                                                                S::select_le(
+                                                                    pivot_link_1,
+                                                                    lit(0.001953125) * (correction_0_part_5 * per_m),
+                                                                    lit(0.0),
+                                                                    S::select_le(
+                                                                        pivot_support,
+                                                                        lit(0.0),
+                                                                        lit(0.0),
+                                                                        S::select_le(
+                                                                            lit(2.0) * pivot_link_0,
+                                                                            lit(0.0),
+                                                                            lit(0.0),
+                                                                            S::select_le(m, lit(0.0), lit(0.0), lit(1.0)),
+                                                                        ),
+                                                                    ),
+                                                                ),
+                                                            ),
+                                                        ),
+                                                    ),
+                                                ),
+                                            ),
+                                        ),
+                                    ),
+                                ),
+                            ),
+                        ),
+                    ),
+                ),
+            ),
+        );
+        let safe_part = lit(0.5) * (correction_0_part_61 * per_correction_0_part_59)
+            + link_8_by_link_9 * correction_0_part_63 * per_correction_0_part_62;
+        let safe_part_2 = correction_0_part_60 * per_correction_0_part_58
+            + link_8_by_link_7 * correction_0_part_63 * per_correction_0_part_62;
+        let y_9_minus_y_10_safe_part = y_9_minus_y_10 * safe_part;
+        let y_7_minus_y_8_safe_part_2 = y_7_minus_y_8 * safe_part_2;
+        let x_9_minus_x_10_safe_part = x_9_minus_x_10 * safe_part;
+        let x_7_minus_x_8_safe_part_2 = x_7_minus_x_8 * safe_part_2;
+        let safe_part_3 = lit(0.5) * (correction_0_part_57 * per_correction_0_part_55)
+            + link_9_by_link_10 * safe_part;
+        let safe_part_4 = correction_0_part_56 * per_correction_0_part_54
+            + link_7_by_link_6 * safe_part_2;
+        let y_10_minus_y_11_safe_part_3 = y_10_minus_y_11 * safe_part_3;
+        let y_6_minus_y_7_safe_part_4 = y_6_minus_y_7 * safe_part_4;
+        let x_10_minus_x_11_safe_part_3 = x_10_minus_x_11 * safe_part_3;
+        let x_6_minus_x_7_safe_part_4 = x_6_minus_x_7 * safe_part_4;
+        out[8] = x_7_minus_x_8_safe_part_2 - correction_0_part_65;
+        out[9] = correction_0_part_65 - x_9_minus_x_10_safe_part;
+        out[25] = y_7_minus_y_8_safe_part_2 - correction_0_part_64;
+        out[26] = correction_0_part_64 - y_9_minus_y_10_safe_part;
+        let correction_27_part = lit(0.5)
+            * (correction_0_part_53 * per_correction_0_part_51)
+            + link_10_by_link_11 * safe_part_3;
+        let correction_27_part_2 = correction_0_part_52 * per_correction_0_part_50
+            + link_6_by_link_5 * safe_part_4;
+        let correction_27_part_3 = y_11_minus_y_12 * correction_27_part;
+        let correction_27_part_4 = y_5_minus_y_6 * correction_27_part_2;
+        let correction_27_part_5 = x_11_minus_x_12 * correction_27_part;
+        let correction_27_part_6 = x_5_minus_x_6 * correction_27_part_2;
+        out[7] = x_6_minus_x_7_safe_part_4 - x_7_minus_x_8_safe_part_2;
+        out[10] = x_9_minus_x_10_safe_part - x_10_minus_x_11_safe_part_3;
+        out[24] = y_6_minus_y_7_safe_part_4 - y_7_minus_y_8_safe_part_2;
+        out[27] = y_9_minus_y_10_safe_part - y_10_minus_y_11_safe_part_3;
+        let correction_28_part = lit(0.5)
+            * (correction_0_part_49 * per_correction_0_part_47)
+            + link_11_by_link_12 * correction_27_part;
+        let correction_28_part_2 = correction_0_part_48 * per_correction_0_part_46
+            + link_5_by_link_4 * correction_27_part_2;
+        let correction_28_part_3 = y_12_minus_y_13 * correction_28_part;
+        let correction_28_part_4 = y_4_minus_y_5 * correction_28_part_2;
+        let correction_28_part_5 = x_12_minus_x_13 * correction_28_part;
+        let correction_28_part_6 = x_4_minus_x_5 * correction_28_part_2;
+        out[6] = correction_27_part_6 - x_6_minus_x_7_safe_part_4;
+        out[11] = x_10_minus_x_11_safe_part_3 - correction_27_part_5;
+        out[23] = correction_27_part_4 - y_6_minus_y_7_safe_part_4;
+        out[28] = y_10_minus_y_11_safe_part_3 - correction_27_part_3;
+        let correction_29_part = lit(0.5)
+            * (correction_0_part_45 * per_correction_0_part_43)
+            + link_12_by_link_13 * correction_28_part;
+        let correction_29_part_2 = correction_0_part_44 * per_correction_0_part_42
+            + link_4_by_link_3 * correction_28_part_2;
+        let correction_29_part_3 = y_13_minus_y_14 * correction_29_part;
+        let correction_29_part_4 = y_3_minus_y_4 * correction_29_part_2;
+        let correction_29_part_5 = x_13_minus_x_14 * correction_29_part;
+        let correction_29_part_6 = x_3_minus_x_4 * correction_29_part_2;
+        out[5] = correction_28_part_6 - correction_27_part_6;
+        out[12] = correction_27_part_5 - correction_28_part_5;
+        out[22] = correction_28_part_4 - correction_27_part_4;
+        out[29] = correction_27_part_3 - correction_28_part_3;
+        let correction_30_part = lit(0.5)
+            * (correction_0_part_41 * per_correction_0_part_39)
+            + link_13_by_link_14 * correction_29_part;
+        let correction_30_part_2 = correction_0_part_40 * per_correction_0_part_38
+            + link_3_by_link_2 * correction_29_part_2;
+        let correction_30_part_3 = y_14_minus_y_15 * correction_30_part;
+        let correction_30_part_4 = y_2_minus_y_3 * correction_30_part_2;
+        let correction_30_part_5 = x_14_minus_x_15 * correction_30_part;
+        let correction_30_part_6 = x_2_minus_x_3 * correction_30_part_2;
+        out[4] = correction_29_part_6 - correction_28_part_6;
+        out[13] = correction_28_part_5 - correction_29_part_5;
+        out[21] = correction_29_part_4 - correction_28_part_4;
+        out[30] = correction_28_part_3 - correction_29_part_3;
+        let correction_31_part = lit(0.5)
+            * (correction_0_part_37 * per_correction_0_part_35)
+            + link_14_by_link_15 * correction_30_part;
+        let correction_31_part_2 = correction_0_part_36 * per_correction_0_part_34
+            + link_2_by_link_1 * correction_30_part_2;
+        let correction_31_part_3 = y_15_minus_y_16 * correction_31_part;
+        let correction_31_part_4 = y_1_minus_y_2 * correction_31_part_2;
+        let correction_31_part_5 = x_15_minus_x_16 * correction_31_part;
+        let correction_31_part_6 = x_1_minus_x_2 * correction_31_part_2;
+        out[3] = correction_30_part_6 - correction_29_part_6;
+        out[14] = correction_29_part_5 - correction_30_part_5;
+        out[20] = correction_30_part_4 - correction_29_part_4;
+        out[31] = correction_29_part_3 - correction_30_part_3;
+        let correction_32_part = lit(0.5) * (residual_16 * per_correction_0_part)
+            + link_15_by_support * correction_31_part;
+        let correction_32_part_2 = lit(0.25) * (residual_0 * per_correction_0_part_2)
+            - lit(0.5) * (link_1_by_link_0 * correction_31_part_2);
+        let correction_32_part_3 = y_0_minus_y_1 * correction_32_part_2;
+        let correction_32_part_4 = x_1_minus_x_0 * correction_32_part_2;
+        out[0] = correction_32_part_4;
+        out[2] = correction_31_part_6 - correction_30_part_6;
+        out[15] = correction_30_part_5 - correction_31_part_5;
+        out[19] = correction_31_part_4 - correction_30_part_4;
+        out[32] = correction_30_part_3 - correction_31_part_3;
+        out[16] = correction_31_part_5 - x_16 * correction_32_part;
+        out[17] = -correction_32_part_3;
+        out[33] = correction_31_part_3 - y_16 * correction_32_part;
+        out[1] = -correction_31_part_6 - correction_32_part_4;
+        out[18] = correction_32_part_3 - correction_31_part_4;
+        safe
     }
 }

@@ -118,7 +118,12 @@ fn expand(input: TokenStream) -> (TokenStream, diag::Diagnostics) {
                 }
             }
             let structure = analysis::structure(&mut system, &dynamics);
-            let code = emit::emit(&decl, &model, &system, &dynamics, &structure);
+            let coordinates = model.coord_elements.iter().map(|c| c.name.clone());
+            let constraints = system.constraints.iter().map(|c| c.item.text());
+            let names: Vec<String> = coordinates.chain(constraints).collect();
+            let straight = analysis::eliminate(&dynamics, &names, &mut system.graph)
+                .map(|elimination| analysis::Straight::new(elimination, &mut system));
+            let code = emit::emit(&decl, &model, &system, &dynamics, &structure, &straight);
             if diag.is_empty() {
                 return (code, diag);
             }

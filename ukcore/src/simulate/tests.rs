@@ -54,6 +54,16 @@ static SPEC: Spec = Spec {
         doc: "",
     }],
     structure: Structure {
+        straight_line: false,
+        solve_operations: crate::mechanism::Operations {
+            additions: 0,
+            multiplications: 0,
+            divisions: 0,
+            square_roots: 0,
+            transcendentals: 0,
+            selections: 0,
+        },
+        solve: "",
         mass_pattern: &[(0, 0), (1, 1)],
         jacobian_pattern: &[(0, 0), (0, 1)],
         mass_diagonal: true,

@@ -14,12 +14,15 @@ pub(crate) struct Operations {
     pub(crate) selections: usize,
 }
 
-/// Counts the operations of the nodes `needed`.
-pub(crate) fn count(g: &Graph, needed: &HashSet<Id>) -> Operations {
-    let mut n = Operations::default();
+/// Counts the operations of the nodes `needed`, where each of `reciprocals` is taken once.
+pub(crate) fn count(g: &Graph, needed: &HashSet<Id>, reciprocals: &HashSet<Id>) -> Operations {
+    let mut n = Operations {
+        divisions: reciprocals.len(),
+        ..Operations::default()
+    };
     for id in needed {
         match g.node(*id) {
-            Node::Const(_) | Node::Symbol(_) => {}
+            Node::Const(_) | Node::Symbol(_) | Node::Held(_) => {}
             Node::Sum(c, terms) => {
                 n.additions += terms.len() - 1 + usize::from(c.get() != 0.0);
                 n.multiplications += terms.iter().filter(|(k, _)| k.get().abs() != 1.0).count();
@@ -27,7 +30,8 @@ pub(crate) fn count(g: &Graph, needed: &HashSet<Id>) -> Operations {
             Node::Scale(c, _) if c.get() == -1.0 => n.additions += 1,
             Node::Scale(..) => n.multiplications += 1,
             Node::Product(factors) => {
-                let (above, below): (Vec<_>, Vec<_>) = factors.iter().partition(|(_, e)| *e > 0);
+                let above = |(base, e): &&(Id, i32)| *e > 0 || reciprocals.contains(base);
+                let (above, below): (Vec<_>, Vec<_>) = factors.iter().partition(above);
                 for side in [&above, &below] {
                     n.multiplications += side.len().saturating_sub(1);
                     n.multiplications += side.iter().map(|(_, e)| power_cost(*e)).sum::<usize>();

@@ -3,6 +3,7 @@
 mod check;
 mod cost;
 mod dynamics;
+mod elimination;
 mod schedule;
 mod sparsity;
 mod structure;
@@ -11,6 +12,7 @@ mod verify;
 pub(crate) use check::check;
 pub(crate) use cost::{Operations, count};
 pub(crate) use dynamics::{Dynamics, derive};
-pub(crate) use schedule::{Program, Step, schedule};
+pub(crate) use elimination::{Pivoting, Straight, eliminate};
+pub(crate) use schedule::{Program, Sequence, Step, schedule};
 pub(crate) use structure::{Structure, structure};
 pub(crate) use verify::verify;

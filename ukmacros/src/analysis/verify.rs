@@ -66,6 +66,7 @@ impl Motion<'_> {
             q: &self.q,
             v: &self.v,
             t: self.t,
+            residual: &[],
         };
         let places = dynamics.jacobian.keys();
         let entries: Vec<Id> = dynamics.jacobian.values().copied().collect();
@@ -114,6 +115,7 @@ impl Motion<'_> {
             Node::Symbol(Symbol::Coord(i)) => Jet(self.q[*i], self.v[*i], self.a[*i]),
             Node::Symbol(Symbol::Velocity(i)) => Jet(self.v[*i], self.a[*i], 0.0),
             Node::Symbol(Symbol::Time) => Jet(self.t, 1.0, 0.0),
+            Node::Symbol(Symbol::Residual(_)) => Jet(0.0, 0.0, 0.0),
             Node::Sum(c, terms) => terms.iter().fold(Jet(c.get(), 0.0, 0.0), |sum, (k, t)| {
                 sum.plus(at(t).times(Jet(k.get(), 0.0, 0.0)))
             }),
@@ -128,6 +130,7 @@ impl Motion<'_> {
                         product.times(u.chain(u.0.powi(e), slope, bend))
                     })
             }
+            Node::Held(inner) => at(inner),
             Node::Call(func, args) => call(*func, at(&args[0]), args.get(1).map(at)),
             Node::Select {
                 a,

@@ -1,7 +1,7 @@
 //! Statements of one emitted function.
 
 use super::names::Namer;
-use crate::analysis::{Operations, Program, Step, count, schedule};
+use crate::analysis::{Operations, Program, Sequence, Step, count, schedule};
 use crate::expr::{Graph, Id, Node, Symbol, System};
 use crate::model::Model;
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -21,15 +21,15 @@ pub(super) struct Body {
 }
 
 /// Writes straight-line code for `roots`, with the coordinates, velocities and parameters that it reads.
-pub(super) fn body(system: &System, model: &Model, roots: &[Root]) -> Body {
+pub(super) fn body(system: &System, model: &Model, roots: &[Root], sequence: Sequence) -> Body {
     let g = &system.graph;
     let ids: Vec<Id> = roots.iter().map(|r| r.id).collect();
-    let program = schedule(g, &ids, &system.hints);
+    let program = schedule(g, &ids, &system.hints, sequence);
     let mut writer = Writer {
         graph: g,
-        namer: Namer::new(g, model, &system.hints),
+        namer: Namer::new(g, model, system.constraints.len(), &system.hints),
     };
-    let inputs = writer.inputs(model, &program);
+    let inputs = writer.inputs(model, system.constraints.len(), &program);
     let mut statements = TokenStream::new();
     // Helpers are named for the value whose computation needs them first: the next one stored.
     let mut next = 0;
@@ -45,6 +45,11 @@ pub(super) fn body(system: &System, model: &Model, roots: &[Root]) -> Body {
                 };
                 let name = writer.namer.declare(id, &purpose);
                 statements.extend(quote! { let #name = #value; });
+            }
+            Step::Reciprocal(id) => {
+                let receiver = writer.receiver(id);
+                let name = writer.namer.declare_reciprocal(id, &roots[next].purpose);
+                statements.extend(quote! { let #name = #receiver.recip(); });
             }
             Step::SinCos { sin, cos } => {
                 let argument = g.operands(sin)[0];
@@ -63,7 +68,7 @@ pub(super) fn body(system: &System, model: &Model, roots: &[Root]) -> Body {
     }
     Body {
         tokens: quote! { #inputs #statements },
-        operations: count(g, &program.needed),
+        operations: count(g, &program.needed, &program.reciprocals),
     }
 }
 
@@ -83,7 +88,7 @@ struct Writer<'a> {
 
 impl Writer<'_> {
     /// `lit`, and the inputs that the program reads.
-    fn inputs(&self, model: &Model, program: &Program) -> TokenStream {
+    fn inputs(&self, model: &Model, constraints: usize, program: &Program) -> TokenStream {
         let used = |symbol: Symbol| {
             let node = program.needed.iter();
             let mut nodes = node.map(|id| self.graph.node(*id));
@@ -91,14 +96,12 @@ impl Writer<'_> {
         };
         let mut out = TokenStream::new();
         let n = model.coord_elements.len();
-        for (slice, text, symbol) in [
-            (
-                format_ident!("q"),
-                "q",
-                Symbol::Coord as fn(usize) -> Symbol,
-            ),
-            (format_ident!("v"), "v", Symbol::Velocity),
+        for (text, n, symbol) in [
+            ("q", n, Symbol::Coord as fn(usize) -> Symbol),
+            ("v", n, Symbol::Velocity),
+            ("residual", constraints, Symbol::Residual),
         ] {
+            let slice = format_ident!("{text}");
             let names: Vec<Option<Ident>> = (0..n)
                 .map(|i| used(symbol(i)).then(|| self.namer.symbol(symbol(i))))
                 .collect();
@@ -186,6 +189,7 @@ impl Writer<'_> {
             }
             Node::Scale(c, inner) => self.scale(c.get(), *inner),
             Node::Product(factors) => self.product(factors),
+            Node::Held(inner) => self.write(*inner),
             Node::Call(func, args) => {
                 let receiver = self.receiver(args[0]);
                 let name = format_ident!("{}", func.name());
@@ -204,35 +208,42 @@ impl Writer<'_> {
         }
     }
 
-    /// A positive term first, so that a difference needs no negation.
+    /// What is known first is added first, behind a positive term, so that a difference needs no negation.
     fn sum(&self, c: f64, terms: &[(f64, Id)]) -> TokenStream {
-        let positive = terms.iter().filter(|(k, _)| *k > 0.0);
-        let negative = terms.iter().filter(|(k, _)| *k <= 0.0);
+        let mut terms = terms.to_vec();
+        terms.sort_by_key(|(_, term)| self.graph.latency(*term));
+        let first = terms.iter().position(|(k, _)| *k > 0.0);
+        if let Some(first) = first {
+            terms[..=first].rotate_right(1);
+        }
         let mut out = TokenStream::new();
-        if c > 0.0 || (c != 0.0 && terms.iter().all(|(k, _)| *k < 0.0)) {
+        let leading = c != 0.0 && (c > 0.0 || first.is_none());
+        if leading {
             out = constant(c);
         }
-        let leading = !out.is_empty();
-        for (k, term) in positive.chain(negative) {
-            let magnitude = if k.abs() == 1.0 {
-                let (tokens, binding) = self.write(*term);
-                wrap((tokens, binding), Binding::Product)
-            } else {
-                let (value, factor) = (constant(k.abs()), self.wrapped(*term, Binding::Sign));
+        for (k, term) in &terms {
+            let factor = |least| self.wrapped(*term, least);
+            let magnitude = |k: f64| {
+                if k == 1.0 {
+                    return factor(Binding::Product);
+                }
+                let (value, factor) = (constant(k), factor(Binding::Sign));
                 quote! { #value * #factor }
             };
-            out = match (out.is_empty(), *k < 0.0) {
-                (true, false) => magnitude,
-                (true, true) if k.abs() == 1.0 => {
-                    let factor = self.wrapped(*term, Binding::Call);
+            out = match (out.is_empty(), *k) {
+                (true, -1.0) => {
+                    let factor = factor(Binding::Call);
                     quote! { -#factor }
                 }
-                (true, true) => {
-                    let (value, factor) = (constant(*k), self.wrapped(*term, Binding::Sign));
-                    quote! { #value * #factor }
+                (true, k) => magnitude(k),
+                (false, k) if k < 0.0 => {
+                    let term = magnitude(-k);
+                    quote! { #out - #term }
                 }
-                (false, false) => quote! { #out + #magnitude },
-                (false, true) => quote! { #out - #magnitude },
+                (false, k) => {
+                    let term = magnitude(k);
+                    quote! { #out + #term }
+                }
             };
         }
         if c != 0.0 && !leading {
@@ -264,8 +275,14 @@ impl Writer<'_> {
     }
 
     fn product(&self, factors: &[(Id, i32)]) -> (TokenStream, Binding) {
-        let above = self.powers(factors.iter().filter(|(_, e)| *e > 0));
-        let below = self.powers(factors.iter().filter(|(_, e)| *e < 0));
+        // What is known first is multiplied first.
+        let mut factors = factors.to_vec();
+        factors.sort_by_key(|(base, e)| self.graph.latency(*base) + if *e < 0 { 14 } else { 0 });
+        let factors = factors.as_slice();
+        let by_variable =
+            |(base, e): &(Id, i32)| *e == -1 && self.namer.reciprocal(*base).is_some();
+        let above = self.powers(factors.iter().filter(|f| f.1 > 0 || by_variable(f)));
+        let below = self.powers(factors.iter().filter(|f| f.1 < 0 && !by_variable(f)));
         let (top, bottom) = (join(&above), join(&below));
         match (above.is_empty(), below.is_empty()) {
             (_, true) => (top, Binding::Product),
@@ -285,6 +302,11 @@ impl Writer<'_> {
     fn powers<'f>(&self, factors: impl Iterator<Item = &'f (Id, i32)>) -> Vec<TokenStream> {
         factors
             .map(|(base, exponent)| {
+                if *exponent == -1
+                    && let Some(name) = self.namer.reciprocal(*base)
+                {
+                    return quote! { #name };
+                }
                 let n = exponent.unsigned_abs();
                 if n > 3 {
                     let receiver = self.receiver(*base);

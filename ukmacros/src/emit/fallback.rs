@@ -31,6 +31,8 @@ pub(crate) fn fallback(decl: &Declaration, model: &Model, system: &System) -> To
                 holonomic: 0,
                 outputs: &[],
                 structure: ::ukcore::Structure {
+                    straight_line: false,
+                    solve: "",
                     mass_pattern: &[],
                     jacobian_pattern: &[],
                     mass_diagonal: false,
@@ -43,6 +45,7 @@ pub(crate) fn fallback(decl: &Declaration, model: &Model, system: &System) -> To
                     conservative: false,
                     left_out: &[],
                     operations: #operations,
+                    solve_operations: #operations,
                 },
                 equations: ::ukcore::Equations {
                     definitions: &[],

@@ -3,7 +3,7 @@
 use super::body::{Body, Root, body, float};
 use super::docs::{Listing, listing};
 use super::names::{constant, plain};
-use crate::analysis::{Dynamics, Operations, Structure};
+use crate::analysis::{Dynamics, Operations, Pivoting, Sequence, Straight, Structure};
 use crate::expr::{ConstraintRef, Id, Kind, System};
 use crate::model::Model;
 use crate::parse::Declaration;
@@ -17,6 +17,7 @@ pub(crate) fn emit(
     system: &System,
     dynamics: &Dynamics,
     structure: &Structure,
+    straight: &Result<Straight, String>,
 ) -> TokenStream {
     let listing = listing(system, dynamics, model);
     let heading = "# Equations of motion\n\nDerived from the declaration at compile time, in the notation of Zhao, Zhen & Chen 2013: \
@@ -28,6 +29,7 @@ pub(crate) fn emit(
         system,
         model,
         dynamics,
+        straight,
     };
     let implementation = functions.implementation(decl, structure, &listing);
     quote! {
@@ -221,6 +223,7 @@ struct Functions<'a> {
     system: &'a System,
     model: &'a Model,
     dynamics: &'a Dynamics,
+    straight: &'a Result<Straight, String>,
 }
 
 impl Functions<'_> {
@@ -233,7 +236,7 @@ impl Functions<'_> {
     }
 
     fn body(&self, roots: &[Root]) -> Body {
-        body(self.system, self.model, roots)
+        body(self.system, self.model, roots, Sequence::Roots)
     }
 
     fn implementation(
@@ -244,7 +247,13 @@ impl Functions<'_> {
     ) -> TokenStream {
         let name = &decl.name;
         let dynamics = self.dynamics_body();
-        let spec = self.spec(decl, structure, listing, dynamics.operations);
+        let (solve, solve_operations) = self.solve();
+        let spec = self.spec(
+            decl,
+            structure,
+            listing,
+            [dynamics.operations, solve_operations],
+        );
         let parameters = parameters(self.model);
         let tokens = &dynamics.tokens;
         let counts = operations_doc(dynamics.operations);
@@ -302,6 +311,65 @@ impl Functions<'_> {
                     ::ukcore::Energy { kinetic, potential }
                 }
                 fn outputs<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) { #outputs }
+                #solve
+            }
+        }
+    }
+
+    /// The straight-line solves, where there are any.
+    fn solve(&self) -> (TokenStream, Operations) {
+        let Ok(straight) = self.straight else {
+            return (TokenStream::new(), Operations::default());
+        };
+        let n = Literal::usize_unsuffixed(self.n());
+        let function = |ids: &[Id], purpose: &str| {
+            let mut roots = vector("out", purpose, ids);
+            roots.push(Root {
+                id: straight.certificate,
+                place: quote! { let safe },
+                purpose: "safe".to_owned(),
+            });
+            body(self.system, self.model, &roots, Sequence::Latency)
+        };
+        let acceleration = function(&straight.elimination.acceleration, "acceleration");
+        let operations = acceleration.operations;
+        let counts = operations_doc(operations);
+        let acceleration = acceleration.tokens;
+        let correction = function(&straight.elimination.correction, "correction").tokens;
+        let tokens = quote! {
+            #counts
+            fn acceleration<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], out: &mut [S]) -> S {
+                let out = ::ukcore::emitted::exact_mut::<S, #n>(out, "out");
+                #acceleration
+                safe
+            }
+            fn correction<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], residual: &[S], out: &mut [S]) -> S {
+                let out = ::ukcore::emitted::exact_mut::<S, #n>(out, "out");
+                #correction
+                safe
+            }
+        };
+        (tokens, operations)
+    }
+
+    /// How q̈ is solved for, in a sentence.
+    fn plan(&self) -> String {
+        let name = |k: usize| match k.checked_sub(self.n()) {
+            None => self.model.coord_elements[k].name.clone(),
+            Some(row) => self.system.constraints[row].item.text(),
+        };
+        match self.straight {
+            Err(reason) => format!("by the rank-revealing solve, since {reason}"),
+            Ok(straight) => {
+                let steps = straight.elimination.order.iter().map(|step| match *step {
+                    Pivoting::One(k) => name(k),
+                    Pivoting::Two(j, c) => format!("({}, {})", name(j), name(c)),
+                });
+                let steps: Vec<String> = steps.collect();
+                format!(
+                    "by straight-line elimination in the order {}",
+                    steps.join(" ")
+                )
             }
         }
     }
@@ -377,7 +445,7 @@ impl Functions<'_> {
         decl: &Declaration,
         structure: &Structure,
         listing: &Listing,
-        operations: Operations,
+        operations: [Operations; 2],
     ) -> TokenStream {
         let name = decl.name.to_string();
         let docs = decl.docs.join("\n");
@@ -417,7 +485,7 @@ impl Functions<'_> {
         }
     }
 
-    fn structure(&self, s: &Structure, operations: Operations) -> TokenStream {
+    fn structure(&self, s: &Structure, operations: [Operations; 2]) -> TokenStream {
         let pair = |i: usize, j: usize| {
             let (i, j) = (Literal::usize_unsuffixed(i), Literal::usize_unsuffixed(j));
             quote! { (#i, #j) }
@@ -444,9 +512,13 @@ impl Functions<'_> {
             conservative,
             ..
         } = s;
-        let operations = operations_literal(operations);
+        let [operations, solve_operations] = operations.map(operations_literal);
+        let straight_line = self.straight.is_ok();
+        let solve = self.plan();
         quote! {
             ::ukcore::Structure {
+                straight_line: #straight_line,
+                solve: #solve,
                 mass_pattern: &[#(#mass),*],
                 jacobian_pattern: &[#(#jacobian),*],
                 mass_diagonal: #mass_diagonal,
@@ -459,6 +531,7 @@ impl Functions<'_> {
                 conservative: #conservative,
                 left_out: &[#(#left_out),*],
                 operations: #operations,
+                solve_operations: #solve_operations,
             }
         }
     }

@@ -106,16 +106,23 @@ pub(super) struct Namer<'a> {
     hints: &'a HashMap<Id, String>,
     symbols: HashMap<Symbol, String>,
     variables: HashMap<Id, String>,
+    reciprocals: HashMap<Id, String>,
     taken: HashSet<String>,
 }
 
 impl<'a> Namer<'a> {
-    pub(super) fn new(graph: &'a Graph, model: &Model, hints: &'a HashMap<Id, String>) -> Self {
+    pub(super) fn new(
+        graph: &'a Graph,
+        model: &Model,
+        constraints: usize,
+        hints: &'a HashMap<Id, String>,
+    ) -> Self {
         let mut namer = Namer {
             graph,
             hints,
             symbols: HashMap::new(),
             variables: HashMap::new(),
+            reciprocals: HashMap::new(),
             taken: TAKEN.iter().map(|s| (*s).to_owned()).collect(),
         };
         namer.symbols.insert(Symbol::Time, "t".to_owned());
@@ -128,6 +135,9 @@ impl<'a> Namer<'a> {
         }
         for (i, coordinate) in model.coord_elements.iter().enumerate() {
             enter(Symbol::Velocity(i), &format!("dot_{}", coordinate.name));
+        }
+        for i in 0..constraints {
+            enter(Symbol::Residual(i), &format!("residual_{i}"));
         }
         for (i, parameter) in model.param_elements.iter().enumerate() {
             enter(Symbol::Param(i), &parameter.name);
@@ -158,12 +168,23 @@ impl<'a> Namer<'a> {
     pub(super) fn declare(&mut self, id: Id, purpose: &str) -> Ident {
         let wish = match self.hints.get(&id) {
             Some(hint) => snake(hint),
-            None => self
-                .compose(id)
-                .unwrap_or_else(|| format!("{purpose}_part")),
+            None => self.compose(id).unwrap_or_else(|| purpose.to_owned()),
         };
         let name = self.fresh(&wish);
         self.variables.insert(id, name.clone());
+        format_ident!("{name}")
+    }
+
+    /// The variable that holds 1/`id`, if there is one.
+    pub(super) fn reciprocal(&self, id: Id) -> Option<Ident> {
+        self.reciprocals.get(&id).map(|n| format_ident!("{n}"))
+    }
+
+    /// Makes a variable for 1/`id`.
+    pub(super) fn declare_reciprocal(&mut self, id: Id, purpose: &str) -> Ident {
+        let of = self.atom(id).unwrap_or_else(|| purpose.to_owned());
+        let name = self.fresh(&format!("per_{of}"));
+        self.reciprocals.insert(id, name.clone());
         format_ident!("{name}")
     }
 

@@ -54,6 +54,7 @@ impl Derivative {
             Seed::Partial(s @ (Symbol::Coord(_) | Symbol::Velocity(_))) => !g.depends(id, s),
             Seed::Partial(Symbol::Time) => !uses.time,
             Seed::Partial(Symbol::Param(_)) => !uses.param,
+            Seed::Partial(Symbol::Residual(_)) => !uses.residual,
             Seed::Total => !(uses.coord || uses.time),
         }
     }
@@ -103,6 +104,7 @@ impl Derivative {
                 g.sum(&terms)
             }
             Node::Call(func, args) => self.of_call(func, &args, id, g),
+            Node::Held(inner) => self.of(inner, g),
             Node::Select {
                 a,
                 b,

@@ -64,6 +64,7 @@ impl Printer<'_> {
             }
             Node::Scale(c, inner) => self.scale(c.get(), *inner),
             Node::Product(factors) => self.product(1.0, factors),
+            Node::Held(inner) => self.print(*inner, by_name),
             Node::Call(func, args) => {
                 let args: Vec<String> = args.iter().map(|a| self.text(*a)).collect();
                 let name = match func {
@@ -97,6 +98,7 @@ impl Printer<'_> {
             Symbol::Coord(i) => self.coords[i].clone(),
             Symbol::Velocity(i) => format!("dot({})", self.coords[i]),
             Symbol::Time => "t".to_owned(),
+            Symbol::Residual(i) => format!("residual[{i}]"),
         }
     }
 

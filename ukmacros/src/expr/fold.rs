@@ -86,6 +86,54 @@ impl Graph {
         self.scale(factor, sum)
     }
 
+    /// Σ coefficient · term with the factors that all terms share in front: f·a + f·b is f·(a + b).
+    pub(crate) fn factored_sum(&mut self, terms: &[(f64, Id)]) -> Id {
+        let whole = self.sum(terms);
+        let (c, inner) = self.unscaled(whole);
+        let Node::Sum(constant, parts) = self.node(inner).clone() else {
+            return whole;
+        };
+        if constant.get() != 0.0 {
+            return whole;
+        }
+        let factors_of = |g: &Graph, id: Id| match g.node(id) {
+            Node::Product(factors) => factors.clone(),
+            _ => vec![(id, 1)],
+        };
+        let mut common = factors_of(self, parts[0].1);
+        for (_, part) in &parts[1..] {
+            let factors = factors_of(self, *part);
+            common.retain_mut(|(base, e)| {
+                let Some((_, other)) = factors.iter().find(|(b, _)| b == base) else {
+                    return false;
+                };
+                // The power that both have: only of one sign.
+                let alike = (*e > 0) == (*other > 0);
+                *e = if *e > 0 {
+                    (*e).min(*other)
+                } else {
+                    (*e).max(*other)
+                };
+                alike
+            });
+        }
+        if common.is_empty() {
+            return whole;
+        }
+        let inverse: Vec<(Id, i32)> = common.iter().map(|(base, e)| (*base, -e)).collect();
+        let mut reduced = Vec::with_capacity(parts.len());
+        for (k, part) in &parts {
+            let mut factors = inverse.clone();
+            factors.push((*part, 1));
+            reduced.push((k.get(), self.product(&factors)));
+        }
+        let sum = self.sum(&reduced);
+        let mut factors = common;
+        factors.push((sum, 1));
+        let product = self.product(&factors);
+        self.scale(c, product)
+    }
+
     /// c · id as terms of a sum: a sum is opened. For what the compiler derives, not for what a user grouped.
     pub(crate) fn open(&mut self, c: f64, id: Id) -> Vec<(f64, Id)> {
         let (k, inner) = self.unscaled(id);
@@ -240,6 +288,16 @@ impl Graph {
             _ => vec![a, b],
         };
         self.intern(Node::Call(func, args))
+    }
+
+    /// `id`, kept whole in products. Only what products would open needs it.
+    pub(crate) fn hold(&mut self, id: Id) -> Id {
+        let (c, inner) = self.unscaled(id);
+        if !matches!(self.node(inner), Node::Product(_)) {
+            return id;
+        }
+        let held = self.intern(Node::Held(inner));
+        self.scale(c, held)
     }
 
     /// `then` where a ≤ b, else `otherwise`.

@@ -45,6 +45,8 @@ pub(crate) enum Symbol {
     Velocity(usize),
     /// Time t.
     Time,
+    /// Residual of a constraint, by its position.
+    Residual(usize),
 }
 
 /// A function of one or two arguments.
@@ -140,6 +142,8 @@ pub(crate) enum Node {
     /// Π factor^exponent, exponents not zero.
     Product(Vec<(Id, i32)>),
     Call(Func, Vec<Id>),
+    /// The node itself, kept whole: products do not open it, so that it is computed once for all its users.
+    Held(Id),
     /// `then` where a ≤ b, else `otherwise`.
     Select {
         a: Id,
@@ -156,6 +160,7 @@ pub(crate) struct Uses {
     pub(crate) coord: bool,
     pub(crate) velocity: bool,
     pub(crate) time: bool,
+    pub(crate) residual: bool,
 }
 
 impl Uses {
@@ -165,12 +170,13 @@ impl Uses {
             coord: self.coord | o.coord,
             velocity: self.velocity | o.velocity,
             time: self.time | o.time,
+            residual: self.residual | o.residual,
         }
     }
 
     /// Neither q, q̇ nor t: fixed once the parameters are.
     pub(crate) fn constant(self) -> bool {
-        !(self.coord || self.velocity || self.time)
+        !(self.coord || self.velocity || self.time || self.residual)
     }
 }
 
@@ -179,6 +185,8 @@ impl Uses {
 pub(crate) struct Graph {
     nodes: Vec<Node>,
     uses: Vec<Uses>,
+    /// Estimated latency of each node, in cycles: its place on the critical path.
+    latency: Vec<u32>,
     /// Coordinates and velocities below each node, sorted.
     support: Vec<Vec<Symbol>>,
     known: HashMap<Node, Id>,
@@ -203,6 +211,11 @@ impl Graph {
         self.support[id.index()].binary_search(&symbol).is_ok()
     }
 
+    /// Estimated cycles until `id` is known.
+    pub(crate) fn latency(&self, id: Id) -> u32 {
+        self.latency[id.index()]
+    }
+
     /// Coordinates and velocities that `id` depends on.
     pub(crate) fn support(&self, id: Id) -> &[Symbol] {
         &self.support[id.index()]
@@ -214,6 +227,10 @@ impl Graph {
             return *id;
         }
         let id = Id(u32::try_from(self.nodes.len()).unwrap_or(u32::MAX));
+        let operands = operands(&node);
+        let slowest = operands.iter().map(|o| self.latency[o.index()]).max();
+        let latency = slowest.unwrap_or(0) + own_latency(&node);
+        self.latency.push(latency);
         let mut uses = Uses::default();
         let mut support = Vec::new();
         if let Node::Symbol(s) = node {
@@ -222,12 +239,13 @@ impl Graph {
                 Symbol::Coord(_) => uses.coord = true,
                 Symbol::Velocity(_) => uses.velocity = true,
                 Symbol::Time => uses.time = true,
+                Symbol::Residual(_) => uses.residual = true,
             }
             if uses.coord || uses.velocity {
                 support.push(s);
             }
         }
-        for operand in operands(&node) {
+        for operand in operands {
             uses = uses.join(self.uses[operand.index()]);
             support.extend_from_slice(&self.support[operand.index()]);
         }
@@ -271,11 +289,24 @@ impl Graph {
     }
 }
 
+/// Cycles of the last operations of a node, roughly as on current processors; only comparisons matter.
+fn own_latency(node: &Node) -> u32 {
+    match node {
+        Node::Const(_) | Node::Symbol(_) | Node::Held(_) => 0,
+        Node::Sum(..) | Node::Scale(..) => 4,
+        Node::Product(factors) if factors.iter().any(|(_, e)| *e < 0) => 18,
+        Node::Product(_) => 4,
+        Node::Call(Func::Abs | Func::Sign | Func::Min | Func::Max, _) | Node::Select { .. } => 4,
+        Node::Call(Func::Sqrt, _) => 18,
+        Node::Call(..) => 50,
+    }
+}
+
 fn operands(node: &Node) -> Vec<Id> {
     match node {
         Node::Const(_) | Node::Symbol(_) => Vec::new(),
         Node::Sum(_, terms) => terms.iter().map(|(_, id)| *id).collect(),
-        Node::Scale(_, inner) => vec![*inner],
+        Node::Scale(_, inner) | Node::Held(inner) => vec![*inner],
         Node::Product(factors) => factors.iter().map(|(id, _)| *id).collect(),
         Node::Call(_, args) => args.clone(),
         Node::Select {

@@ -12,6 +12,7 @@ fn at(g: &Graph, id: Id, x: f64, y: f64) -> f64 {
         q: &[x, y],
         v: &[0.3, -0.7],
         t: 0.4,
+        residual: &[],
     };
     eval(g, &[id], &point)[0]
 }

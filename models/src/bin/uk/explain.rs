@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use models::{Model, Visitor};
-use ukcore::{ConstraintKind, ParamSpec, Solution, Solver, SolverOptions, Spec};
+use ukcore::{ConstraintKind, Operations, ParamSpec, Solution, Solver, SolverOptions, Spec};
 
 use crate::args::ExplainArgs;
 use crate::failure::Failure;
@@ -170,6 +170,18 @@ fn constraints(out: &mut dyn Write, spec: &Spec) -> io::Result<()> {
     Ok(())
 }
 
+fn counts(o: &Operations) -> String {
+    format!(
+        "{} additions, {} multiplications, {} divisions, {} square roots, {} transcendental functions, {} selections",
+        o.additions,
+        o.multiplications,
+        o.divisions,
+        o.square_roots,
+        o.transcendentals,
+        o.selections
+    )
+}
+
 fn structure(out: &mut dyn Write, spec: &Spec) -> io::Result<()> {
     let s = &spec.structure;
     let (n, m) = (spec.n(), spec.m());
@@ -197,17 +209,19 @@ fn structure(out: &mut dyn Write, spec: &Spec) -> io::Result<()> {
         let names: Vec<&str> = s.massless.iter().map(|&i| spec.coords[i]).collect();
         writeln!(out, "  without mass: {}", names.join(", "))?;
     }
-    let o = &s.operations;
     writeln!(
         out,
-        "  one evaluation of M, Q, A and b: {} additions, {} multiplications, {} divisions, {} square roots, {} transcendental functions, {} selections",
-        o.additions,
-        o.multiplications,
-        o.divisions,
-        o.square_roots,
-        o.transcendentals,
-        o.selections
+        "  one evaluation of M, Q, A and b: {}",
+        counts(&s.operations)
     )?;
+    writeln!(out, "  q̈ {}", s.solve)?;
+    if s.straight_line {
+        writeln!(
+            out,
+            "  one acceleration, solve included: {}",
+            counts(&s.solve_operations)
+        )?;
+    }
     if !s.left_out.is_empty() {
         heading(out, "Left out")?;
         for reason in s.left_out {

@@ -243,6 +243,7 @@ impl<'m> Lowering<'m> {
                     q: &[],
                     v: &[],
                     t: 0.0,
+                    residual: &[],
                 };
                 value = eval(&self.graph, &[id], &point)[0];
                 if !value.is_finite() && self.diag.is_empty() {

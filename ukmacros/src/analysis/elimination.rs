@@ -1,0 +1,549 @@
+//! The constrained solve as part of the graph: [M Aᵀ; A 0] [q̈; −λ] = [Q; b] eliminated symbolically, in an order chosen here.
+//!
+//! Pivots, in this order of preference:
+//! 1. A massless coordinate, or one that a constraint prescribes alone, together with a constraint in which its coefficient is a
+//!    number: the 2 × 2 pivot [μ a; a 0] with a ≠ 0 is safe whatever the state.
+//! 2. Coordinates with inertia, and constraints all of whose coordinates are eliminated: definite 1 × 1 pivots. Coordinates that share
+//!    no inertia with others come first; then what has the fewest neighbours (least fill); among equals what waits for the
+//!    shortest chain of divisions, so that a chain of links is taken from both ends at once.
+//!
+//! Every 1 × 1 pivot is compared at run time with the diagonal it started from: see `Mechanism::acceleration`.
+
+use super::dynamics::Dynamics;
+use crate::expr::{Graph, Id, Symbol, System};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A 1 × 1 pivot d and the diagonal G it started from: rank is lost where d/G falls to rounding.
+#[derive(Clone, Copy)]
+pub(crate) struct Pivot {
+    pub(crate) value: Id,
+    pub(crate) reference: Id,
+}
+
+/// The straight-line solve.
+pub(crate) struct Elimination {
+    /// q̈.
+    pub(crate) acceleration: Vec<Id>,
+    /// Δ of least M-norm with A Δ = −residual (residuals are [`Symbol::Residual`]).
+    pub(crate) correction: Vec<Id>,
+    pub(crate) pivots: Vec<Pivot>,
+    /// The order: names of coordinates (positions below n) and constraints (n + row); pairs for 2 × 2 pivots.
+    pub(crate) order: Vec<Pivoting>,
+    /// Names of pivots, factors and multipliers.
+    pub(crate) hints: Vec<(Id, String)>,
+}
+
+/// One pivot of the order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Pivoting {
+    One(usize),
+    /// Coordinate and constraint.
+    Two(usize, usize),
+}
+
+/// The least share d/G of a pivot that the straight line accepts: the square of `ukcore::solver::RANK_CEILING` (G = A M⁻¹ Aᵀ squares
+/// the distance to rank loss). Above it the rank is beyond doubt even for states off the constraints; errors grow by less than 1/share
+/// from one such pivot to the next, so that a diagonal that ought to vanish stays far below. Where it does not hold the
+/// rank-revealing solve takes over, which works on A itself and keeps twice the digits.
+const SAFE_SHARE: f64 = 1.0 / 1024.0;
+
+/// Programs larger than this are not worth their compile time: the solve is then left to the runtime.
+const MAX_ENTRIES: usize = 20_000;
+
+/// Eliminates; or says why the structure does not allow it.
+pub(crate) fn eliminate(
+    d: &Dynamics,
+    names: &[String],
+    g: &mut Graph,
+) -> Result<Elimination, String> {
+    let n = d.force.len();
+    let order = order(d, g)?;
+    let zero = g.zero();
+    let mut pivots = Vec::new();
+    let force: Vec<Id> = (0..n).map(|i| g.add(d.force[i], d.nonideal[i])).collect();
+    // A constraint may be divided by a number: one that all its coefficients share would be multiplied through everything.
+    let scales: Vec<f64> = (0..d.rhs.len()).map(|row| share(d, row, g)).collect();
+    let scaled = |ids: &[Id], g: &mut Graph| -> Vec<Id> {
+        let rows = ids.iter().zip(&scales);
+        rows.map(|(id, s)| g.scale(1.0 / s, *id)).collect()
+    };
+    let mut jacobian = d.jacobian.clone();
+    for ((row, _), a) in &mut jacobian {
+        *a = g.scale(1.0 / scales[*row], *a);
+    }
+    let rhs = scaled(&d.rhs, g);
+    let mut system = Matrix::new(d, &jacobian, g);
+    system.load(&force, &rhs);
+    let mut hints = Vec::new();
+    let acceleration = system.solve(&order, names, g, &mut hints, Some(&mut pivots))?;
+    let residuals: Vec<Id> = (0..d.rhs.len())
+        .map(|i| {
+            let r = g.symbol(Symbol::Residual(i));
+            g.neg(r)
+        })
+        .collect();
+    let residuals = scaled(&residuals, g);
+    let mut system = Matrix::new(d, &jacobian, g);
+    system.load(&vec![zero; n], &residuals);
+    let correction = system.solve(&order, names, g, &mut hints, None)?;
+    Ok(Elimination {
+        acceleration,
+        correction,
+        pivots,
+        order,
+        hints,
+    })
+}
+
+/// The magnitude that the coefficients of all entries of a row of A share, if it is a power of two (so that dividing is exact); else 1.
+fn share(d: &Dynamics, row: usize, g: &Graph) -> f64 {
+    let mut sizes = d
+        .jacobian
+        .range((row, 0)..(row + 1, 0))
+        .map(|(_, a)| match g.as_const(*a) {
+            Some(x) => x.abs(),
+            None => g.unscaled(*a).0.abs(),
+        });
+    let Some(first) = sizes.next() else {
+        return 1.0;
+    };
+    let power = first.is_normal() && first.to_bits().trailing_zeros() >= 52;
+    if power && sizes.all(|s| s == first) {
+        first
+    } else {
+        1.0
+    }
+}
+
+/// An elimination with its certificate.
+pub(crate) struct Straight {
+    pub(crate) elimination: Elimination,
+    /// 1 where every pivot is safe, 0 where one is not.
+    pub(crate) certificate: Id,
+}
+
+impl Straight {
+    /// Adds the certificate, and enters the names.
+    pub(crate) fn new(mut elimination: Elimination, system: &mut System) -> Self {
+        let g = &mut system.graph;
+        let certificate = elimination.certificate(g);
+        for (id, name) in std::mem::take(&mut elimination.hints) {
+            let (_, inner) = g.unscaled(id);
+            if !g.operands(inner).is_empty() {
+                system.hints.entry(inner).or_insert(name);
+            }
+        }
+        Straight {
+            elimination,
+            certificate,
+        }
+    }
+}
+
+impl Elimination {
+    /// 1 where every pivot is safe, 0 where one is not, as a chain of selections.
+    fn certificate(&self, g: &mut Graph) -> Id {
+        let zero = g.zero();
+        let mut safe = g.one();
+        let mut seen: Vec<(Id, Id)> = Vec::new();
+        for Pivot { value, reference } in &self.pivots {
+            let positive = g.as_const(*value).is_some_and(|x| x > 0.0);
+            if seen.contains(&(*value, *reference)) || (positive && value == reference) {
+                continue;
+            }
+            seen.push((*value, *reference));
+            let least = if value == reference {
+                zero
+            } else {
+                g.scale(SAFE_SHARE, *reference)
+            };
+            safe = g.select(*value, least, zero, safe);
+        }
+        safe
+    }
+}
+
+/// Adjacency of K = [M Aᵀ; A 0]: coordinates 0..n, constraints n..n + m.
+fn adjacency(d: &Dynamics) -> Vec<BTreeSet<usize>> {
+    let n = d.force.len();
+    let mut near = vec![BTreeSet::new(); n + d.rhs.len()];
+    let mut join = |a: usize, b: usize| {
+        if a != b {
+            near[a].insert(b);
+            near[b].insert(a);
+        }
+    };
+    for (i, j) in d.mass.keys() {
+        join(*i, *j);
+    }
+    for (row, column) in d.jacobian.keys() {
+        join(n + row, *column);
+    }
+    near
+}
+
+fn order(d: &Dynamics, g: &Graph) -> Result<Vec<Pivoting>, String> {
+    let n = d.force.len();
+    let mut near = adjacency(d);
+    let mut inertia: Vec<bool> = (0..n).map(|i| d.mass.contains_key(&(i, i))).collect();
+    let mut alive: BTreeSet<usize> = (0..near.len()).collect();
+    let mut depth = vec![0_usize; near.len()];
+    let mut order = Vec::new();
+    let number = |row: usize, j: usize| d.jacobian.get(&(row, j)).and_then(|a| g.as_const(*a));
+    // Prescribed and massless coordinates. A substitution that is not trivial gives its neighbours new entries, so that later
+    // coefficients are no longer those of A: only untouched rows and columns are taken.
+    let mut touched: BTreeSet<usize> = BTreeSet::new();
+    loop {
+        let candidate = (0..n)
+            .filter(|j| alive.contains(j) && !touched.contains(j))
+            .find_map(|j| {
+                let rows = near[j]
+                    .iter()
+                    .copied()
+                    .filter(|c| *c >= n && !touched.contains(c));
+                let fit = rows.filter(|c| number(c - n, j).is_some_and(|a| a != 0.0));
+                // Prescribed: the constraint contains nothing else that is alive.
+                let alone = |c: usize| near[c].len() == 1;
+                let massless = !inertia[j];
+                fit.filter(|c| massless || alone(*c))
+                    .min_by_key(|c| near[*c].len())
+                    .map(|c| (j, c))
+            });
+        let Some((j, c)) = candidate else { break };
+        order.push(Pivoting::Two(j, c));
+        let (of_j, of_c) = (near[j].clone(), near[c].clone());
+        for r in of_j
+            .iter()
+            .chain(&of_c)
+            .copied()
+            .filter(|r| *r != j && *r != c)
+        {
+            near[r].remove(&j);
+            near[r].remove(&c);
+        }
+        alive.remove(&j);
+        alive.remove(&c);
+        let massive = inertia[j];
+        // The update couples the neighbours of one with those of the other, and, if j has inertia, those of c among themselves.
+        let mut couple = |a: usize, b: usize| {
+            if a == b {
+                if a < n {
+                    inertia[a] = true;
+                }
+            } else {
+                near[a].insert(b);
+                near[b].insert(a);
+            }
+            touched.insert(a);
+            touched.insert(b);
+        };
+        for a in of_j.iter().copied().filter(|r| *r != c) {
+            for b in of_c.iter().copied().filter(|r| *r != j) {
+                couple(a, b);
+            }
+        }
+        if massive {
+            for a in of_c.iter().copied().filter(|r| *r != j) {
+                for b in of_c.iter().copied().filter(|r| *r != j) {
+                    couple(a, b);
+                }
+            }
+        }
+    }
+    if (0..n).any(|j| alive.contains(&j) && !inertia[j]) {
+        return Err(
+            "a massless coordinate has no constraint in which its coefficient is a number"
+                .to_owned(),
+        );
+    }
+    // Definite pivots.
+    let mut entries = 0;
+    while !alive.is_empty() {
+        let ready = |k: &usize| *k < n || near[*k].iter().all(|r| *r >= n);
+        // A coordinate that shares no inertia comes first: the constraints on it must wait for it in any case.
+        let single = |k: usize| k < n && near[k].iter().all(|r| *r >= n);
+        let candidates = alive.iter().copied().filter(ready);
+        let next = candidates.min_by_key(|k| (!single(*k), near[*k].len(), depth[*k], *k));
+        let Some(k) = next else {
+            return Err("no definite pivot is left".to_owned());
+        };
+        order.push(Pivoting::One(k));
+        alive.remove(&k);
+        let neighbours: Vec<usize> = near[k].iter().copied().collect();
+        // Only constraints divide on the critical path; coordinates with constant inertia do not.
+        let later = depth[k] + usize::from(k >= n);
+        for (p, a) in neighbours.iter().enumerate() {
+            near[*a].remove(&k);
+            depth[*a] = depth[*a].max(later);
+            for b in &neighbours[p + 1..] {
+                near[*a].insert(*b);
+                near[*b].insert(*a);
+            }
+            entries += neighbours.len();
+        }
+        if entries > MAX_ENTRIES {
+            return Err("its elimination would fill in too much".to_owned());
+        }
+    }
+    Ok(order)
+}
+
+/// K and its right-hand side, with entries that are sums still open.
+struct Matrix {
+    n: usize,
+    /// (row ≥ column) → terms.
+    entries: BTreeMap<(usize, usize), Entry>,
+    rows: Vec<BTreeSet<usize>>,
+    rhs: Vec<Entry>,
+}
+
+/// Σ gram + Σ schur: what makes up an entry of M or G, and what elimination takes off it.
+#[derive(Clone, Default)]
+struct Entry {
+    gram: Vec<(f64, Id)>,
+    schur: Vec<(f64, Id)>,
+}
+
+impl Entry {
+    fn of(id: Id, g: &Graph) -> Self {
+        let gram = if g.is_zero(id) {
+            Vec::new()
+        } else {
+            vec![(1.0, id)]
+        };
+        Entry {
+            gram,
+            schur: Vec::new(),
+        }
+    }
+
+    /// The value before and after the terms of constraints.
+    fn values(&self, g: &mut Graph) -> (Id, Id) {
+        let gram = g.factored_sum(&self.gram);
+        if self.schur.is_empty() {
+            return (gram, gram);
+        }
+        let mut terms = vec![(1.0, gram)];
+        terms.extend(&self.schur);
+        (gram, g.factored_sum(&terms))
+    }
+}
+
+impl Matrix {
+    fn new(d: &Dynamics, jacobian: &BTreeMap<(usize, usize), Id>, g: &Graph) -> Self {
+        let n = d.force.len();
+        let mut entries = BTreeMap::new();
+        for (at, m) in &d.mass {
+            entries.insert(*at, Entry::of(*m, g));
+        }
+        for ((row, column), a) in jacobian {
+            entries.insert((n + row, *column), Entry::of(*a, g));
+        }
+        let mut rows = vec![BTreeSet::new(); n + d.rhs.len()];
+        for (a, b) in entries.keys().filter(|(a, b)| a != b) {
+            rows[*a].insert(*b);
+            rows[*b].insert(*a);
+        }
+        Matrix {
+            n,
+            entries,
+            rows,
+            rhs: Vec::new(),
+        }
+    }
+
+    fn load(&mut self, force: &[Id], rhs: &[Id]) {
+        let all = force.iter().chain(rhs);
+        self.rhs = all
+            .map(|id| Entry {
+                gram: vec![(1.0, *id)],
+                schur: Vec::new(),
+            })
+            .collect();
+    }
+
+    fn value(&self, a: usize, b: usize, g: &mut Graph) -> Id {
+        match self.entries.get(&(a.max(b), a.min(b))) {
+            Some(entry) => entry.values(g).1,
+            None => g.zero(),
+        }
+    }
+
+    fn update(&mut self, a: usize, b: usize, reduces: bool, term: Id, g: &Graph) {
+        if g.is_zero(term) {
+            return;
+        }
+        let entry = self.entries.entry((a.max(b), a.min(b))).or_default();
+        if reduces {
+            entry.schur.push((-1.0, term));
+        } else {
+            entry.gram.push((-1.0, term));
+        }
+        if a != b {
+            self.rows[a].insert(b);
+            self.rows[b].insert(a);
+        }
+    }
+
+    fn update_rhs(&mut self, a: usize, reduces: bool, term: Id, g: &Graph) {
+        if g.is_zero(term) {
+            return;
+        }
+        let list = if reduces {
+            &mut self.rhs[a].schur
+        } else {
+            &mut self.rhs[a].gram
+        };
+        list.push((-1.0, term));
+    }
+
+    /// Neighbours of `k`, which leaves the matrix.
+    fn take(&mut self, k: usize) -> Vec<usize> {
+        let neighbours: Vec<usize> = std::mem::take(&mut self.rows[k]).into_iter().collect();
+        for a in &neighbours {
+            self.rows[*a].remove(&k);
+        }
+        neighbours
+    }
+
+    /// Forward elimination and back substitution; the coordinates' part of the solution.
+    fn solve(
+        mut self,
+        order: &[Pivoting],
+        names: &[String],
+        g: &mut Graph,
+        hints: &mut Vec<(Id, String)>,
+        mut pivots: Option<&mut Vec<Pivot>>,
+    ) -> Result<Vec<Id>, String> {
+        let size = self.rows.len();
+        // For back substitution, each divided by the pivot: the row's entries, the right-hand side.
+        let mut eliminated: Vec<(Vec<(usize, Id)>, Id)> = Vec::new();
+        for step in order {
+            match *step {
+                Pivoting::One(k) => {
+                    let (reference, pivot) = match self.entries.get(&(k, k)) {
+                        Some(entry) => entry.values(g),
+                        None => return Err("a pivot vanished".to_owned()),
+                    };
+                    if g.is_zero(pivot) {
+                        return Err("a pivot vanished".to_owned());
+                    }
+                    if let Some(pivots) = pivots.as_deref_mut() {
+                        // Constraint pivots are negative in K.
+                        let sign = if k < self.n { 1.0 } else { -1.0 };
+                        pivots.push(Pivot {
+                            value: g.scale(sign, pivot),
+                            reference: g.scale(sign, reference),
+                        });
+                    }
+                    let constraint = k >= self.n;
+                    hints.push((pivot, format!("pivot_{}", names[k])));
+                    let right = self.rhs[k].values(g).1;
+                    let neighbours = self.take(k);
+                    let row: Vec<(usize, Id)> = neighbours
+                        .iter()
+                        .map(|a| (*a, self.value(*a, k, g)))
+                        .collect();
+                    // What constraints or shared inertia divide by is computed once; for a coordinate that shares none, the product is
+                    // left open, so that terms of different coordinates can be collected.
+                    let shared = constraint || neighbours.iter().any(|a| *a < self.n);
+                    let factors: Vec<(usize, Id)> = row
+                        .iter()
+                        .map(|(a, ka)| {
+                            let factor = g.div(*ka, pivot);
+                            let factor = if shared { g.hold(factor) } else { factor };
+                            if shared {
+                                hints.push((factor, format!("{}_by_{}", names[*a], names[k])));
+                            }
+                            (*a, factor)
+                        })
+                        .collect();
+                    for (p, (a, factor)) in factors.iter().enumerate() {
+                        for (b, kb) in &row[..=p] {
+                            // The square is known before the pivot is: one multiplication less on the critical path.
+                            let term = if a == b {
+                                g.product(&[(*kb, 2), (pivot, -1)])
+                            } else {
+                                g.mul(*factor, *kb)
+                            };
+                            // What a coordinate adds to constraints makes up G; all else is taken off a diagonal that stood before.
+                            self.update(*a, *b, constraint || *a < self.n, term, g);
+                        }
+                        let term = g.mul(*factor, right);
+                        self.update_rhs(*a, constraint, term, g);
+                    }
+                    let right = g.div(right, pivot);
+                    eliminated.push((factors, right));
+                }
+                Pivoting::Two(j, c) => {
+                    let a = self.value(j, c, g);
+                    let mu = self.value(j, j, g);
+                    let (fj, fc) = (self.rhs[j].values(g).1, self.rhs[c].values(g).1);
+                    let of_j = self.take(j);
+                    let of_c = self.take(c);
+                    let row =
+                        |list: &[usize], k: usize, m: &Matrix, g: &mut Graph| -> Vec<(usize, Id)> {
+                            let others = list.iter().filter(|r| **r != j && **r != c);
+                            others.map(|r| (*r, m.value(*r, k, g))).collect()
+                        };
+                    let row_j = row(&of_j, j, &self, g);
+                    let row_c = row(&of_c, c, &self, g);
+                    // P⁻¹ = [0 1/a; 1/a −μ/a²].
+                    let touched: BTreeSet<usize> =
+                        row_j.iter().chain(&row_c).map(|(r, _)| *r).collect();
+                    let entry = |list: &[(usize, Id)], r: usize, g: &mut Graph| {
+                        list.iter()
+                            .find(|(k, _)| *k == r)
+                            .map_or(g.zero(), |(_, id)| *id)
+                    };
+                    for &r in &touched {
+                        let (rj, rc) = (entry(&row_j, r, g), entry(&row_c, r, g));
+                        for &s in touched.range(..=r) {
+                            let (sj, sc) = (entry(&row_j, s, g), entry(&row_c, s, g));
+                            let first = g.product(&[(rj, 1), (sc, 1), (a, -1)]);
+                            let second = g.product(&[(rc, 1), (sj, 1), (a, -1)]);
+                            let third = g.product(&[(rc, 1), (sc, 1), (mu, 1), (a, -2)]);
+                            let third = g.neg(third);
+                            for term in [first, second, third] {
+                                self.update(r, s, false, term, g);
+                            }
+                        }
+                        let first = g.product(&[(rj, 1), (fc, 1), (a, -1)]);
+                        let second = g.product(&[(rc, 1), (fj, 1), (a, -1)]);
+                        let third = g.product(&[(rc, 1), (fc, 1), (mu, 1), (a, -2)]);
+                        let third = g.neg(third);
+                        for term in [first, second, third] {
+                            self.update_rhs(r, false, term, g);
+                        }
+                    }
+                    // q̈_j follows from the constraint's row alone.
+                    let factors = row_c.iter().map(|(r, id)| (*r, g.div(*id, a))).collect();
+                    eliminated.push((factors, g.div(fc, a)));
+                }
+            }
+        }
+        let mut solution: Vec<Option<Id>> = vec![None; size];
+        for (step, (row, right)) in order.iter().zip(&eliminated).rev() {
+            let unknown = match *step {
+                Pivoting::One(k) => k,
+                Pivoting::Two(j, _) => j,
+            };
+            let mut terms = vec![(1.0, *right)];
+            for (other, factor) in row {
+                // A multiplier that no coordinate left needs (of a 2 × 2 pivot) is not computed.
+                let Some(x) = solution[*other] else {
+                    return Err("a multiplier is needed that the order leaves out".to_owned());
+                };
+                terms.push((-1.0, g.mul(*factor, x)));
+            }
+            let x = g.factored_sum(&terms);
+            if unknown >= self.n {
+                hints.push((x, format!("lambda_{}", names[unknown])));
+            }
+            solution[unknown] = Some(x);
+        }
+        let n = self.n;
+        let coordinates: Option<Vec<Id>> = solution[..n].iter().copied().collect();
+        coordinates.ok_or_else(|| "a coordinate was left over".to_owned())
+    }
+}
