@@ -568,10 +568,13 @@ impl Solver {
         })
     }
 
-    /// Whether A q̈ = b holds up to `tolerance` and drift.
+    /// Whether A q̈ = b holds up to `tolerance` and drift. At rest q̈ is the difference of what the forces and what the constraints
+    /// do, so the tolerance refers to these.
     fn agrees(&self, acceleration: &[f64], tolerance: f64) -> bool {
         let a = self.rows();
-        let size = |c: usize| self.rhs[c].abs() + a.magnitude(c, acceleration);
+        let free = &self.dense.unconstrained;
+        let size =
+            |c: usize| self.rhs[c].abs() + a.magnitude(c, acceleration) + a.magnitude(c, free);
         let scale = &self.dense.row_scale;
         let largest = (0..self.m).map(|c| scale[c] * size(c)).fold(0.0, f64::max);
         let rounding = DRIFT_FACTOR * tolerance.min(RANK_CEILING) * largest;

@@ -146,6 +146,9 @@ pub(crate) struct Dense {
     scaled_rhs: Vec<f64>,
     /// The part of x = Lᵀ q̈ that the constraints contribute (regular M), after [`Dense::solve`].
     pub(crate) reaction: Vec<f64>,
+    /// M⁻¹ f, what the constraints' part is added to (regular M; 0 on the singular route), after [`Dense::solve`]: where the two
+    /// cancel, rounding of q̈ is that of these, not that of q̈.
+    pub(crate) unconstrained: Vec<f64>,
     work: Vec<f64>,
     reduced: Vec<f64>,
 }
@@ -165,6 +168,7 @@ impl Dense {
             inertia_rank: 0,
             scaled_rhs: vec![0.0; m],
             reaction: vec![0.0; n],
+            unconstrained: vec![0.0; n],
             work: vec![0.0; n],
             reduced: vec![0.0; n],
         }
@@ -345,6 +349,7 @@ impl Dense {
             }
             None => out.fill(0.0),
         }
+        self.unconstrained.copy_from_slice(out);
         for (c, b) in rhs[..a.rows].iter().enumerate() {
             self.scaled_rhs[c] = self.row_scale[c] * (b - a.product(c, out));
         }
@@ -363,6 +368,7 @@ impl Dense {
     ) {
         let (n, k) = (self.n, self.inertia_rank);
         let d = n - self.cod.rank();
+        self.unconstrained.fill(0.0);
         let scaled = self.scaled_rhs.iter_mut().zip(&self.row_scale).zip(rhs);
         scaled.for_each(|((x, s), b)| *x = s * b);
         self.cod.solve(&self.scaled_rhs, out);
