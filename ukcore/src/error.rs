@@ -3,7 +3,7 @@
 use std::fmt;
 
 /// What can go wrong in solving, assembling and integrating a mechanism.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Error {
     /// rank [M | Aᵀ] < n (the condition of eq. 19): these coordinates have neither mass nor constraint in some direction.
@@ -193,8 +193,18 @@ impl fmt::Display for Error {
                 f,
                 "{steps} steps were not enough; raise `max_steps`, loosen the tolerance, or soften stiff forces"
             ),
+            Error::At { t, source, .. } if *t != 0.0 && t.abs() < 1e-4 => {
+                write!(f, "at t = {t:e}: {source}")
+            }
             Error::At { t, source, .. } => write!(f, "at t = {t}: {source}"),
         }
+    }
+}
+
+/// As `Display`: `main` prints the error it returns by `Debug`.
+impl fmt::Debug for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
     }
 }
 

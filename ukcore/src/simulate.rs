@@ -401,12 +401,10 @@ impl<M: Mechanism> fmt::Debug for Simulation<M> {
     }
 }
 
+/// As `Display`: `main` prints the error it returns by `Debug`.
 impl<M: Mechanism> fmt::Debug for Failure<M> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Failure")
-            .field("error", &self.error)
-            .field("trajectory", &self.trajectory)
-            .finish()
+        fmt::Display::fmt(self, f)
     }
 }
 

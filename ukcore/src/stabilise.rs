@@ -422,11 +422,12 @@ impl Projector {
         (0..rows).all(|c| self.row_at_rounding(a, c, x))
     }
 
-    /// The size that [`STALLED`] refers to.
+    /// The size that [`STALLED`] refers to. All coordinates count: a redundant row is left out of the solve and inherits what rounding
+    /// leaves of the others, however small its own coordinates are.
     fn terms(&self, c: usize, rows: usize, x: &[f64]) -> f64 {
         let a = rows_of(&self.jacobian, self.m, rows);
         let sizes = a.row(c).zip(x).filter(|(a, _)| *a != 0.0);
-        a.largest(c) * sizes.fold(NEIGHBOUR * self.size, |s: f64, (_, x)| s.max(x.abs()))
+        a.largest(c) * sizes.fold(self.size, |s: f64, (_, x)| s.max(x.abs()))
     }
 
     fn acceptable(&self, x: &[f64], rows: usize) -> bool {
