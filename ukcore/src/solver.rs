@@ -322,7 +322,9 @@ impl Solver {
         self.owner.check::<M>("solver")?;
         diagnose::check_length("q", q.len(), self.n)?;
         diagnose::check_length("v", v.len(), self.n)?;
-        let safe = mech.acceleration(t, q, v, out) > 0.5;
+        // A coordinate that no equation contains must not hide that it is not a number.
+        let given = t + q.iter().sum::<f64>() + v.iter().sum::<f64>();
+        let safe = given.is_finite() && mech.acceleration(t, q, v, out) > 0.5;
         // One value that is not finite makes the sum so.
         if safe && out.iter().sum::<f64>().is_finite() {
             self.work.evaluations += 1;
