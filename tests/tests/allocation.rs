@@ -43,8 +43,15 @@ fn evaluation_and_projection_allocate_nothing() {
             let mut phi = vec![0.0; M::SPEC.holonomic];
             let mut rate = vec![0.0; M::SPEC.m()];
             let mut outputs = vec![0.0; M::SPEC.outputs.len()];
+            let mut steps = 0;
             let count = allocation_counter::measure(|| {
-                for _ in 0..3 {
+                for k in 0..3 {
+                    // Off the constraints, so that there is something to project.
+                    for (j, (q, v)) in state.q.iter_mut().zip(&mut state.v).enumerate() {
+                        let off = 1e-6 * f64::from(k + 1) * (j as f64 + 1.0).sin();
+                        *q += off;
+                        *v -= off;
+                    }
                     model.residual(state.t, &state.q, &mut phi);
                     model.residual_rate(state.t, &state.q, &state.v, &mut rate);
                     model.outputs(state.t, &state.q, &state.v, &mut outputs);
@@ -53,8 +60,16 @@ fn evaluation_and_projection_allocate_nothing() {
                     let position = projector.position(&model, state.t, &mut state.q, &state.v);
                     let velocity = projector.velocity(&model, state.t, &state.q, &mut state.v);
                     assert!(position.is_ok() && velocity.is_ok(), "{}", M::ID);
+                    for correction in [position, velocity] {
+                        steps += correction.map_or(0, |c| c.iterations);
+                    }
                 }
             });
+            assert!(
+                M::SPEC.m() == 0 || steps > 0,
+                "{}: nothing was projected",
+                M::ID
+            );
             assert_eq!(count.count_total, 0, "{}: {count:?}", M::ID);
         }
     }
