@@ -53,6 +53,9 @@ pub struct Simulation<M> {
     progress: Option<Progress>,
 }
 
+/// Most samples of [`Simulation::every`]: a slip in its unit must not fill the memory.
+const MAX_SAMPLES: f64 = 1e8;
+
 /// A run that failed: why, and the motion up to there.
 pub struct Failure<M> {
     /// What happened; [`Error::At`] with time and state if it happened on the way.
@@ -277,7 +280,7 @@ impl<M: Mechanism> Simulation<M> {
             Sampling::Steps | Sampling::At(_) => None,
         };
         let first = ("first_step", self.first_step);
-        for (what, size) in [("dt", dt), ("max_step", self.max_step), first] {
+        for (what, size) in [("every", dt), ("max_step", self.max_step), first] {
             if let Some(size) = size
                 && !(size.is_finite() && size > 0.0)
             {
@@ -307,7 +310,14 @@ impl<M: Mechanism> Simulation<M> {
             let rounding = f64::EPSILON * start.t.abs().max(t_end.abs());
             if dt <= rounding {
                 let reason = format!("is {dt:?}, which is below the rounding of the times");
-                return invalid("dt", reason);
+                return invalid("every", reason);
+            }
+            let samples = (t_end - start.t).abs() / dt;
+            if samples > MAX_SAMPLES {
+                let reason = format!(
+                    "is {dt:?}, which asks for {samples:.1e} samples; at most {MAX_SAMPLES:.0e} are kept"
+                );
+                return invalid("every", reason);
             }
         }
         if let Sampling::At(times) = &self.sampling {

@@ -526,9 +526,10 @@ fn settings_are_checked() {
     }
     check("t_end", |s| s, f64::NAN);
     check("t_end", |s| s, f64::INFINITY);
-    check("dt", |s| s.every(0.0), 1.0);
-    check("dt", |s| s.every(-0.1), 1.0);
-    check("dt", |s| s.every(1e-17), 1.0);
+    check("every", |s| s.every(0.0), 1.0);
+    check("every", |s| s.every(-0.1), 1.0);
+    check("every", |s| s.every(1e-17), 1.0);
+    check("every", |s| s.every(1e-12), 1.0);
     check("max_step", |s| s.max_step(f64::NAN), 1.0);
     check("first_step", |s| s.first_step(0.0), 1.0);
     check("max_steps", |s| s.max_steps(0), 1.0);
