@@ -1,7 +1,8 @@
-//! Redundant constraints at rest: what the forces and what the constraints do cancel, and the rounding that is left is no contradiction.
+//! States where everything cancels, and the rounding that is left is neither a contradiction nor a violation: redundant constraints
+//! at rest, and coordinates that are zero.
 
 use tests::{Random, assert_all_close, largest};
-use ukcore::{Formula, Simulation, Solver, SolverOptions, State};
+use ukcore::{Formula, Simulation, Solver, SolverOptions, State, assemble};
 
 ukcore::multibody! {
     /// A particle on three rods in a plane, one more than hold it.
@@ -91,5 +92,47 @@ fn a_swing_rests_and_swings() {
         assert!(last.q[Swing::TH].abs() < 1e-9, "{last:?}");
         let off = largest(run.residuals().iter().map(|r| &r.position));
         assert!(off < 1e-12, "{off:e} off the constraints");
+    }
+}
+
+ukcore::multibody! {
+    /// A pendulum whose coordinates are measured from where it starts, so that they are zero there.
+    pub Displaced {
+        params { m = 1.0, g = 9.81, ax = 1.3, ay = 0.7 }
+        coords { x, y }
+        mass { x: m, y: m }
+        force { y: -m * g }
+        holonomic { rod: sq(x - ax) + sq(y - ay) = sq(ax) + sq(ay) }
+    }
+}
+
+#[test]
+fn coordinates_may_be_zero() {
+    let mut random = Random::new(52);
+    for _ in 0..200 {
+        let pendulum = Displaced {
+            ax: 3.0 * random.signed(),
+            ay: 3.0 * random.signed(),
+            ..Displaced::default()
+        };
+        for displacement in [0.0, 1e-300, 1e-17, 1e-9] {
+            // Along the circle, to first order.
+            let size = pendulum.ax.hypot(pendulum.ay);
+            let q = [-pendulum.ay, pendulum.ax].map(|d| displacement * d / size);
+            let state = State {
+                t: 0.0,
+                q: q.to_vec(),
+                v: vec![0.0; 2],
+            };
+            let state = assemble(&pendulum, state, &[])
+                .unwrap_or_else(|e| panic!("{pendulum:?} at {q:?}: {e}"));
+            assert_all_close("q", &state.q, &q, 1e-14 + displacement * displacement);
+            let run = Simulation::new(pendulum.clone())
+                .start(state)
+                .until(0.5)
+                .unwrap_or_else(|e| panic!("{pendulum:?} at {q:?}: {}", e.error));
+            let off = largest(run.residuals().iter().map(|r| &r.position));
+            assert!(off < 1e-13, "{off:e} off the rod");
+        }
     }
 }

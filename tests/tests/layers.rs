@@ -105,6 +105,7 @@ fn ukcore() {
         &[
             "error",
             "scalar",
+            "rounding",
             "mechanism",
             "pinv",
             "equations",

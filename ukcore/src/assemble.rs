@@ -11,10 +11,12 @@ use crate::diagnose;
 use crate::error::Error;
 use crate::mechanism::Mechanism;
 use crate::pinv::Decomposition;
+use crate::rounding::Rounded;
+use crate::scalar::Scalar;
 use crate::solver::RANK_TOLERANCE;
 
-/// A residual counts as zero below this many ε of the size Σ|A_ij q_j| of its terms; see `stabilise`, whose projection does the
-/// last digits where nothing is held.
+/// A residual counts as zero below this many ε of the rounding that its evaluation carries to first order; see `stabilise`, whose
+/// projection does the last digits where nothing is held.
 const ROUNDING: f64 = 64.0;
 
 /// Steps at most from one guess. Levenberg-Marquardt converges quadratically at the end; a long chain laid out wrongly takes some
@@ -154,8 +156,8 @@ struct Problem<'a, M> {
 struct Point {
     x: Vec<f64>,
     residual: Vec<f64>,
-    /// Σ|A_ij x_j| a row.
-    terms: Vec<f64>,
+    /// What rounding each residual carries, in units of ε.
+    rounding: Vec<f64>,
     /// 1/‖row‖ over the free coordinates; over all where that is zero.
     row_scale: Vec<f64>,
     /// Rows scaled, columns scaled, free columns only.
@@ -173,7 +175,7 @@ impl Point {
     }
 
     fn met(&self, c: usize) -> bool {
-        self.residual[c].abs() <= ROUNDING * f64::EPSILON * self.terms[c]
+        self.residual[c].abs() <= ROUNDING * f64::EPSILON * self.rounding[c]
     }
 
     fn all_met(&self) -> bool {
@@ -211,17 +213,17 @@ impl<'a, M: Mechanism> Problem<'a, M> {
         }
     }
 
-    fn residual(&self, level: Level, x: &[f64], other: &[f64]) -> Vec<f64> {
-        let spec = M::SPEC;
+    fn residual<S: Scalar>(&self, level: Level, x: &[S], other: &[S]) -> Vec<S> {
+        let (spec, t, zero) = (M::SPEC, S::from_f64(self.t), S::from_f64(0.0));
         match level {
             Level::Position => {
-                let mut phi = vec![0.0; spec.holonomic];
-                self.mech.residual(self.t, x, &mut phi);
+                let mut phi = vec![zero; spec.holonomic];
+                self.mech.residual(t, x, &mut phi);
                 phi
             }
             Level::Velocity => {
-                let mut rate = vec![0.0; spec.m()];
-                self.mech.residual_rate(self.t, other, x, &mut rate);
+                let mut rate = vec![zero; spec.m()];
+                self.mech.residual_rate(t, other, x, &mut rate);
                 rate
             }
         }
@@ -243,9 +245,7 @@ impl<'a, M: Mechanism> Problem<'a, M> {
             }
         }
         let mut row_scale = vec![1.0; rows];
-        let mut terms = vec![0.0; rows];
         for c in 0..rows {
-            terms[c] = (0..n).map(|j| (a[j * m + c] * x[j]).abs()).sum();
             let norm = matrix.row(c).norm();
             let whole = (0..n).map(|j| a[j * m + c].powi(2)).sum::<f64>().sqrt();
             if norm > 0.0 || whole > 0.0 {
@@ -253,10 +253,13 @@ impl<'a, M: Mechanism> Problem<'a, M> {
             }
             matrix.row_mut(c).scale_mut(row_scale[c]);
         }
+        let fixed: Vec<Rounded> = other.iter().map(|x| Rounded::exact(*x)).collect();
+        let given: Vec<Rounded> = x.iter().map(|x| Rounded::unknown(*x)).collect();
+        let rounded = self.residual(level, &given, &fixed);
         Point {
             x,
             residual,
-            terms,
+            rounding: rounded.iter().map(|r| r.bound()).collect(),
             row_scale,
             matrix,
         }

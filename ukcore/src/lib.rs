@@ -32,6 +32,7 @@ pub mod integrate;
 pub mod mechanism;
 mod metric;
 pub mod pinv;
+mod rounding;
 mod saddle;
 pub mod scalar;
 #[cfg(feature = "simulate")]

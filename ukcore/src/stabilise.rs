@@ -8,6 +8,7 @@ use crate::diagnose;
 use crate::error::Error;
 use crate::mechanism::Mechanism;
 use crate::metric::MassFault;
+use crate::rounding::Rounded;
 use crate::solver::{Baumgarte, RANK_CEILING, RANK_TOLERANCE, leading, mass_error};
 use crate::workspace::{Dense, Owner, Route, Rows};
 
@@ -16,7 +17,7 @@ use crate::workspace::{Dense, Owner, Route, Rows};
 const ROUNDING: f64 = 4.0;
 
 /// A projection that has stopped making progress is accepted if no residual exceeds this many ε of max|A_ij| max|q_j| over the
-/// coordinates of its constraint: terms that cancel, or constraints that nearly lose rank, can keep it above [`ROUNDING`].
+/// coordinates of its constraint, or of the rounding that evaluating it carries where that is more: terms that cancel, or constraints that nearly lose rank, can keep it above [`ROUNDING`].
 /// Lengths of links among coordinates thirty times as large still hold to 1e-12.
 const STALLED: f64 = 64.0;
 
@@ -86,6 +87,9 @@ pub struct Projector {
     size: f64,
     best: Vec<f64>,
     step: Vec<f64>,
+    /// What rounding the evaluation of each constraint carries, in units of ε; 0 until it is needed.
+    rounding: Vec<f64>,
+    rounded: [Vec<Rounded>; 3],
     dense: Dense,
     /// Position up to which the factors in `dense` hold all rows of A, for the velocity projection that follows.
     factored_at: Option<f64>,
@@ -113,6 +117,8 @@ impl Projector {
             size: 0.0,
             best: vec![0.0; n],
             step: vec![0.0; n],
+            rounding: vec![0.0; m],
+            rounded: [n, n, m].map(|len| vec![Rounded::exact(0.0); len]),
             dense: Dense::new(n, m, spec.structure.mass_diagonal),
             factored_at: None,
             factored_q: vec![0.0; n],
@@ -193,6 +199,7 @@ impl Projector {
         };
         let mut correction = Correction::default();
         self.size = x.iter().fold(0.0, |s, x| s.max(x.abs()));
+        self.rounding.fill(0.0);
         self.evaluate(mech, t, x, other, level);
         let mut factored =
             level == Level::Velocity && self.factored_at == Some(t) && self.factored_q == other;
@@ -247,6 +254,7 @@ impl Projector {
                     continue;
                 }
                 stalls += 1;
+                self.measure_rounding(mech, t, x, other, level);
                 if self.acceptable(x, rows) || stalls > MAX_STALLS || !merit.is_finite() {
                     break;
                 }
@@ -266,6 +274,7 @@ impl Projector {
         correction.residual = self.largest(rows);
         let changes = x.iter().zip(&self.start);
         correction.norm = changes.fold(0.0, |s, (x, y)| s.max((x - y).abs()));
+        self.measure_rounding(mech, t, x, other, level);
         if self.at_rounding(x, rows) || self.acceptable(x, rows) {
             return Ok(correction);
         }
@@ -303,6 +312,9 @@ impl Projector {
                 return false;
             }
             let progress = merit <= PROGRESS * previous;
+            if !progress {
+                self.measure_rounding(mech, t, x, other, level);
+            }
             if merit == 0.0 || (!progress && self.acceptable(x, rows)) {
                 correction.residual = self.largest(rows);
                 let changes = x.iter().zip(&self.start);
@@ -321,6 +333,41 @@ impl Projector {
         match level {
             Level::Position => mech.residual(t, x, &mut self.residual[..self.holonomic]),
             Level::Velocity => mech.residual_rate(t, other, x, &mut self.residual),
+        }
+    }
+
+    /// What rounding the residuals at `x` carry. Where coordinates are small beside the lengths in a constraint (measured from the
+    /// state at rest, say), this is far more than their own rounding makes of it.
+    fn measure_rounding<M: Mechanism>(
+        &mut self,
+        mech: &M,
+        t: f64,
+        x: &[f64],
+        other: &[f64],
+        level: Level,
+    ) {
+        let [given, fixed, residual] = &mut self.rounded;
+        given
+            .iter_mut()
+            .zip(x)
+            .for_each(|(r, x)| *r = Rounded::unknown(*x));
+        fixed
+            .iter_mut()
+            .zip(other)
+            .for_each(|(r, x)| *r = Rounded::exact(*x));
+        let t = Rounded::exact(t);
+        let rows = match level {
+            Level::Position => {
+                mech.residual(t, given, &mut residual[..self.holonomic]);
+                self.holonomic
+            }
+            Level::Velocity => {
+                mech.residual_rate(t, fixed, given, residual);
+                self.m
+            }
+        };
+        for (size, r) in self.rounding.iter_mut().zip(&residual[..rows]) {
+            *size = r.bound();
         }
     }
 
@@ -427,7 +474,8 @@ impl Projector {
     fn terms(&self, c: usize, rows: usize, x: &[f64]) -> f64 {
         let a = rows_of(&self.jacobian, self.m, rows);
         let sizes = a.row(c).zip(x).filter(|(a, _)| *a != 0.0);
-        a.largest(c) * sizes.fold(self.size, |s: f64, (_, x)| s.max(x.abs()))
+        let size = a.largest(c) * sizes.fold(self.size, |s: f64, (_, x)| s.max(x.abs()));
+        size.max(self.rounding[c])
     }
 
     fn acceptable(&self, x: &[f64], rows: usize) -> bool {
