@@ -33,10 +33,10 @@ fn module(root: &Path, file: &Path) -> String {
     first.trim_end_matches(".rs").to_owned()
 }
 
-/// The code of a file without its unit tests.
+/// The code of a file without its unit tests, which stand at its end. (`mod tests;` may stand anywhere.)
 fn code(file: &Path) -> String {
     let text = std::fs::read_to_string(file).expect("readable");
-    let end = text.find("#[cfg(test)]").unwrap_or(text.len());
+    let end = text.find("#[cfg(test)]\nmod tests {").unwrap_or(text.len());
     text[..end].to_owned()
 }
 
