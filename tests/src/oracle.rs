@@ -93,7 +93,9 @@ impl Dense {
             jacobian: dense.jacobian.as_mut_slice(),
             rhs: dense.rhs.as_mut_slice(),
         };
-        mechanism.dynamics(state.t, &state.q, &state.v, &mut terms);
+        mechanism
+            .prepared()
+            .dynamics(state.t, &state.q, &state.v, &mut terms);
         dense
     }
 

@@ -64,10 +64,10 @@ impl Random {
         let mut state = self.state(mechanism, spread);
         let mut projector = Projector::new::<M>();
         projector
-            .position(mechanism, state.t, &mut state.q, &state.v)
+            .position(&mechanism.prepared(), state.t, &mut state.q, &state.v)
             .unwrap_or_else(|e| panic!("{}: {e}", M::ID));
         projector
-            .velocity(mechanism, state.t, &state.q, &mut state.v)
+            .velocity(&mechanism.prepared(), state.t, &state.q, &mut state.v)
             .unwrap_or_else(|e| panic!("{}: {e}", M::ID));
         state
     }

@@ -21,7 +21,8 @@ fn acceleration_allocates_nothing() {
                 let count = allocation_counter::measure(|| {
                     for k in 0..10 {
                         let t = state.t + 1e-3 * f64::from(k);
-                        let result = solver.acceleration(&model, t, &state.q, &state.v, &mut out);
+                        let result =
+                            solver.acceleration(&model.prepared(), t, &state.q, &state.v, &mut out);
                         assert!(result.is_ok(), "{}: {result:?}", M::ID);
                     }
                 });
@@ -52,13 +53,19 @@ fn evaluation_and_projection_allocate_nothing() {
                         *q += off;
                         *v -= off;
                     }
-                    model.residual(state.t, &state.q, &mut phi);
-                    model.residual_rate(state.t, &state.q, &state.v, &mut rate);
-                    model.outputs(state.t, &state.q, &state.v, &mut outputs);
-                    let energy = model.energy(state.t, &state.q, &state.v);
+                    model.prepared().residual(state.t, &state.q, &mut phi);
+                    model
+                        .prepared()
+                        .residual_rate(state.t, &state.q, &state.v, &mut rate);
+                    model
+                        .prepared()
+                        .outputs(state.t, &state.q, &state.v, &mut outputs);
+                    let energy = model.prepared().energy(state.t, &state.q, &state.v);
                     assert!(energy.total().is_finite(), "{}", M::ID);
-                    let position = projector.position(&model, state.t, &mut state.q, &state.v);
-                    let velocity = projector.velocity(&model, state.t, &state.q, &mut state.v);
+                    let position =
+                        projector.position(&model.prepared(), state.t, &mut state.q, &state.v);
+                    let velocity =
+                        projector.velocity(&model.prepared(), state.t, &state.q, &mut state.v);
                     assert!(position.is_ok() && velocity.is_ok(), "{}", M::ID);
                     for correction in [position, velocity] {
                         steps += correction.map_or(0, |c| c.iterations);

@@ -74,7 +74,7 @@ fn pendulum_reference() {
             10.0 * accuracy,
         );
         let mut outputs = vec![0.0; Pendulum::SPEC.outputs.len()];
-        pendulum.outputs(t, &q, &v, &mut outputs);
+        pendulum.prepared().outputs(t, &q, &v, &mut outputs);
         assert_close(
             "tension",
             outputs[Pendulum::OUT_TENSION],
@@ -165,12 +165,12 @@ fn double_pendulum_accelerates_alike_in_both_formulations() {
         let (u, w) = (3.0 * random.signed(), 3.0 * random.signed());
         let mut angular = vec![0.0; 2];
         Solver::new::<DoublePendulumAngles>(SolverOptions::default())
-            .acceleration(&angles, 0.0, &[a, b], &[u, w], &mut angular)
+            .acceleration(&angles.prepared(), 0.0, &[a, b], &[u, w], &mut angular)
             .expect("regular");
         let (q, v) = cartesian.at_angles([a, b], [u, w]);
         let mut found = vec![0.0; 4];
         Solver::new::<DoublePendulum>(SolverOptions::default())
-            .acceleration(&cartesian, 0.0, &q, &v, &mut found)
+            .acceleration(&cartesian.prepared(), 0.0, &q, &v, &mut found)
             .expect("regular");
         let rod = |l: f64, angle: f64, rate: f64, acceleration: f64| {
             let (sin, cos) = angle.sin_cos();
@@ -240,7 +240,7 @@ fn kapitza_in_its_angle() {
         let (q, v) = pendulum.at_angle(t, angle, rate);
         let mut found = vec![0.0; 2];
         solver
-            .acceleration(&pendulum, t, &q, &v, &mut found)
+            .acceleration(&pendulum.prepared(), t, &q, &v, &mut found)
             .expect("regular");
         let acceleration = pendulum.angular_acceleration(t, angle);
         let (sin, cos) = angle.sin_cos();
@@ -319,7 +319,7 @@ fn slider_crank_with_one_degree_of_freedom() {
         assert_all_close("q̇", sample.v, &expected.v, 1e-8);
     }
     let solution = Solver::new::<SliderCrank>(SolverOptions::default())
-        .solve(&crank, start.t, &start.q, &start.v)
+        .solve(&crank.prepared(), start.t, &start.q, &start.v)
         .expect("regular");
     assert_eq!((solution.rank, solution.degrees_of_freedom), (8, 1));
     assert!(solution.redundant.is_empty());
@@ -388,7 +388,7 @@ fn block_slides_by_coulomb() {
     // The normal force is ideal, friction is not, and neither contains the other.
     let start = block.default_start().expect("a start");
     let solution = Solver::new::<RoughBlock>(SolverOptions::default())
-        .solve(&block, start.t, &start.q, &start.v)
+        .solve(&block.prepared(), start.t, &start.q, &start.v)
         .expect("regular");
     let size = |force: &[f64]| force[0].hypot(force[1]);
     let normal = block.m * block.g * block.slope.cos();

@@ -30,7 +30,7 @@ fn twice_along(x: f64, d: f64) -> Dual2 {
 /// φ̇ and ψ at velocity `v`.
 fn rates<M: Mechanism>(model: &M, t: f64, q: &[f64], v: &[f64]) -> Vec<f64> {
     let mut rate = vec![0.0; M::SPEC.m()];
-    model.residual_rate(t, q, v, &mut rate);
+    model.prepared().residual_rate(t, q, v, &mut rate);
     rate
 }
 
@@ -59,7 +59,7 @@ fn jacobian_and_rhs_by_dual_numbers() {
                     unit[j] = 1.0;
                     // A = ∂φ̇/∂q̇ = ∂ψ/∂q̇.
                     let mut rate = vec![zero; m];
-                    model.residual_rate(
+                    model.prepared().residual_rate(
                         Dual::new(state.t, 0.0),
                         &constants(&state.q),
                         &along(&state.v, &unit),
@@ -75,7 +75,11 @@ fn jacobian_and_rhs_by_dual_numbers() {
                     }
                     // A = ∂φ/∂q for the holonomic ones.
                     let mut phi = vec![zero; M::SPEC.holonomic];
-                    model.residual(Dual::new(state.t, 0.0), &along(&state.q, &unit), &mut phi);
+                    model.prepared().residual(
+                        Dual::new(state.t, 0.0),
+                        &along(&state.q, &unit),
+                        &mut phi,
+                    );
                     for (i, phi) in phi.iter().enumerate() {
                         assert_close(
                             &format!("{}: ∂φ[{i}]/∂q[{j}]", M::ID),
@@ -86,7 +90,9 @@ fn jacobian_and_rhs_by_dual_numbers() {
                     }
                 }
                 let mut jacobian = vec![0.0; m * n];
-                model.jacobian(state.t, &state.q, &state.v, &mut jacobian);
+                model
+                    .prepared()
+                    .jacobian(state.t, &state.q, &state.v, &mut jacobian);
                 assert_eq!(
                     jacobian,
                     dense.jacobian.as_slice(),
@@ -96,7 +102,7 @@ fn jacobian_and_rhs_by_dual_numbers() {
 
                 // b = −d/dt (φ̇, ψ) along q̈ = 0.
                 let mut rate = vec![zero; m];
-                model.residual_rate(
+                model.prepared().residual_rate(
                     Dual::new(state.t, 1.0),
                     &along(&state.q, &state.v),
                     &constants(&state.v),
@@ -120,7 +126,9 @@ fn jacobian_and_rhs_by_dual_numbers() {
                     .map(|(q, v)| twice_along(*q, *v))
                     .collect();
                 let mut phi = vec![twice_along(0.0, 0.0); M::SPEC.holonomic];
-                model.residual(twice_along(state.t, 1.0), &q, &mut phi);
+                model
+                    .prepared()
+                    .residual(twice_along(state.t, 1.0), &q, &mut phi);
                 for (i, phi) in phi.iter().enumerate() {
                     assert_close(
                         &format!("{}: φ̇[{i}]", M::ID),
@@ -168,7 +176,9 @@ fn jacobian_and_rhs_by_differences() {
                     unit[j] = 1.0;
                     let column = difference(|h| {
                         let mut phi = vec![0.0; M::SPEC.holonomic];
-                        model.residual(state.t, &moved(&state.q, &unit, h), &mut phi);
+                        model
+                            .prepared()
+                            .residual(state.t, &moved(&state.q, &unit, h), &mut phi);
                         phi
                     });
                     for (i, slope) in column.iter().enumerate() {
@@ -224,7 +234,7 @@ fn mass_is_the_hessian_of_the_kinetic_energy() {
                         let mut v: Vec<Dual2> = state.v.iter().map(|v| constant(*v)).collect();
                         v[i].re.eps = 1.0;
                         v[j].eps.re = 1.0;
-                        let energy = model.energy(constant(state.t), &q, &v);
+                        let energy = model.prepared().energy(constant(state.t), &q, &v);
                         let entry = energy.kinetic.eps.eps;
                         assert_close(
                             &format!("{}: M[{i}, {j}]", M::ID),
@@ -235,7 +245,7 @@ fn mass_is_the_hessian_of_the_kinetic_energy() {
                     }
                 }
                 let mut mass = vec![0.0; n * n];
-                model.mass_matrix(state.t, &state.q, &mut mass);
+                model.prepared().mass_matrix(state.t, &state.q, &mut mass);
                 assert_eq!(
                     mass,
                     dense.mass.as_slice(),
@@ -264,7 +274,7 @@ fn force_is_lagrange() {
                     let mut unit = vec![0.0; M::SPEC.n()];
                     unit[i] = 1.0;
                     // ∂(T − V)/∂q_i.
-                    let energy = model.energy(
+                    let energy = model.prepared().energy(
                         Dual::new(state.t, 0.0),
                         &along(&state.q, &unit),
                         &constants(&state.v),
@@ -284,7 +294,7 @@ fn force_is_lagrange() {
                         .map(|(v, u)| Dual::new(Dual::new(*v, 0.0), Dual::new(*u, 0.0)))
                         .collect();
                     let t = Dual::new(Dual::new(state.t, 1.0), Dual::new(0.0, 0.0));
-                    let momentum_rate = model.energy(t, &q, &v).kinetic.eps.eps;
+                    let momentum_rate = model.prepared().energy(t, &q, &v).kinetic.eps.eps;
                     assert_close(
                         &format!("{}: Q[{i}]", M::ID),
                         dense.force[i],

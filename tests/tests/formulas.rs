@@ -5,7 +5,7 @@ use models::{Model, UChain};
 use nalgebra::DVector;
 use tests::{Check, Dense, Random, assert_close, every_model, largest};
 use ukcore::equations::{kkt, uk, up};
-use ukcore::{Formula, Solver, SolverOptions};
+use ukcore::{Formula, Mechanism as _, Solver, SolverOptions};
 
 /// Agreement asked for, relative to the largest acceleration.
 const ACCURACY: f64 = 1e-9;
@@ -44,11 +44,11 @@ fn formulas_agree_with_the_oracle() {
                     };
                     let mut solver = Solver::new::<M>(options);
                     let solution = solver
-                        .solve(&model, state.t, &state.q, &state.v)
+                        .solve(&model.prepared(), state.t, &state.q, &state.v)
                         .unwrap_or_else(|e| panic!("{}, {formula:?}: {e}", M::ID));
                     let mut fast = vec![0.0; M::SPEC.n()];
                     solver
-                        .acceleration(&model, state.t, &state.q, &state.v, &mut fast)
+                        .acceleration(&model.prepared(), state.t, &state.q, &state.v, &mut fast)
                         .unwrap_or_else(|e| panic!("{}, {formula:?}: {e}", M::ID));
                     for i in 0..M::SPEC.n() {
                         let what = format!("{}, {formula:?}, {}", M::ID, M::SPEC.coords[i]);
@@ -86,7 +86,7 @@ fn printed_formulas_agree_with_the_solver() {
                 let model = M::default();
                 let state = random.consistent_state(&model, 0.01);
                 let solution = solver
-                    .solve(&model, state.t, &state.q, &state.v)
+                    .solve(&model.prepared(), state.t, &state.q, &state.v)
                     .unwrap_or_else(|e| panic!("{}: {e}", M::ID));
                 let Dense {
                     mass,
@@ -155,7 +155,7 @@ fn equal_masses_have_the_short_formulas() {
         };
         let state = random.consistent_state(&chain, 0.01);
         let solution = Solver::new::<UChain>(SolverOptions::default())
-            .solve(&chain, state.t, &state.q, &state.v)
+            .solve(&chain.prepared(), state.t, &state.q, &state.v)
             .expect("the chain's constraints are independent");
         let Dense {
             force,

@@ -56,7 +56,7 @@ fn ideal_forces_do_no_virtual_work() {
                 let model = M::default();
                 let state = random.consistent_state(&model, 0.01);
                 let solution = solver
-                    .solve(&model, state.t, &state.q, &state.v)
+                    .solve(&model.prepared(), state.t, &state.q, &state.v)
                     .unwrap_or_else(|e| panic!("{}: {e}", M::ID));
                 let dense = Dense::of(&model, &state);
                 let force = DVector::from_vec(solution.ideal_force.clone());
@@ -126,7 +126,7 @@ fn gauss_principle() {
                 let state = random.consistent_state(&model, 0.01);
                 let mut actual = vec![0.0; M::SPEC.n()];
                 solver
-                    .acceleration(&model, state.t, &state.q, &state.v, &mut actual)
+                    .acceleration(&model.prepared(), state.t, &state.q, &state.v, &mut actual)
                     .unwrap_or_else(|e| panic!("{}: {e}", M::ID));
                 let actual = DVector::from_vec(actual);
                 let dense = Dense::of(&model, &state);

@@ -94,7 +94,7 @@ fn every_function_is_emitted_as_it_is_written() {
             );
         };
         let mut phi = [0.0; 8];
-        mechanism.residual(t, &q, &mut phi);
+        mechanism.prepared().residual(t, &q, &mut phi);
         // φ, φ̇ and φ̈ along q + v s, t + s.
         let first = Dual::new(t, 1.0);
         let along: Vec<Dual<Dual<f64>>> = q
@@ -104,7 +104,7 @@ fn every_function_is_emitted_as_it_is_written() {
             .collect();
         let twice = mechanism.by_hand(Dual::new(first, Dual::new(1.0, 0.0)), &along);
         let mut rate = [0.0; 8];
-        mechanism.residual_rate(t, &q, &v, &mut rate);
+        mechanism.prepared().residual_rate(t, &q, &v, &mut rate);
         for (row, by_hand) in twice.iter().enumerate() {
             close("φ", row, phi[row], by_hand.re.re);
             close("φ̇", row, rate[row], by_hand.re.eps);
@@ -235,7 +235,7 @@ fn loops_and_families_serve_in_every_section() {
         assert_all_close("Q", dense.force.as_slice(), &force, 1e-14);
         assert_all_close("c", dense.nonideal.as_slice(), &nonideal, 1e-14);
         let mut rate = [0.0; 5];
-        mechanism.residual_rate(t, &q, &v, &mut rate);
+        mechanism.prepared().residual_rate(t, &q, &v, &mut rate);
         let roll = 2.0 * (x[0] * v[0] + y[0] * v[1]) + v[6] * v[6] - t.cos() * v[5];
         let expected = [
             v[0] - v[2] - v[6],
@@ -246,7 +246,7 @@ fn loops_and_families_serve_in_every_section() {
         ];
         assert_all_close("rates", &rate, &expected, 1e-14);
         let mut phi = [0.0; 4];
-        mechanism.residual(t, &q, &mut phi);
+        mechanism.prepared().residual(t, &q, &mut phi);
         let second = |i: usize| y[i] - y[i + 1] - i as f64 + t.sin();
         assert_all_close(
             "φ",
@@ -266,7 +266,7 @@ fn loops_and_families_serve_in_every_section() {
         let row: Vec<f64> = dense.jacobian.row(4).iter().copied().collect();
         assert_all_close("A of `roll`", &row, &roll, 1e-14);
         let mut outputs = [0.0; 9];
-        mechanism.outputs(t, &q, &v, &mut outputs);
+        mechanism.prepared().outputs(t, &q, &v, &mut outputs);
         let total: f64 = (0..3).map(|i| m[i] * (x[i] * x[i] + y[i] * y[i])).sum();
         let mut expected: Vec<f64> = q[..6].iter().map(|q| 2.0 * q).collect();
         expected.extend([total / 3.0, v[2], v[3]]);
@@ -318,7 +318,7 @@ fn lagrange_with_time_in_the_kinetic_energy() {
                 v: v.clone(),
             },
         );
-        let energy = hoop.energy(t, &q, &v);
+        let energy = hoop.prepared().energy(t, &q, &v);
         let by_hand = kinetic(number(t), at(&q), at(&v)).re.re;
         assert_close("T", energy.kinetic, by_hand, 1e-13 * by_hand.abs().max(1.0));
         for i in 0..2 {
@@ -366,7 +366,7 @@ fn acceleration<M: Mechanism>(
     };
     let mut out = vec![0.0; M::SPEC.n()];
     let mut solver = Solver::new::<M>(options);
-    solver.acceleration(mechanism, state.t, &state.q, &state.v, &mut out)?;
+    solver.acceleration(&mechanism.prepared(), state.t, &state.q, &state.v, &mut out)?;
     Ok(out)
 }
 

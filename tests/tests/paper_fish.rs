@@ -44,7 +44,7 @@ fn start_acceleration(fish: &FishRobot) -> f64 {
     let start = fish.default_start().expect("the start is consistent");
     let mut out = vec![0.0; FishRobot::SPEC.n()];
     Solver::new::<FishRobot>(SolverOptions::default())
-        .acceleration(fish, start.t, &start.q, &start.v, &mut out)
+        .acceleration(&fish.prepared(), start.t, &start.q, &start.v, &mut out)
         .expect("[M | Aᵀ] has full rank");
     out[FishRobot::X1]
 }
@@ -103,8 +103,9 @@ fn start_is_consistent() {
         let state = fish.follow(random.signed(), body, rate);
         let mut phi = vec![0.0; FishRobot::SPEC.holonomic];
         let mut phi_dot = vec![0.0; FishRobot::SPEC.m()];
-        fish.residual(state.t, &state.q, &mut phi);
-        fish.residual_rate(state.t, &state.q, &state.v, &mut phi_dot);
+        fish.prepared().residual(state.t, &state.q, &mut phi);
+        fish.prepared()
+            .residual_rate(state.t, &state.q, &state.v, &mut phi_dot);
         assert!(
             largest(&phi) < 1e-15 && largest(&phi_dot) < 1e-14,
             "{phi:?} {phi_dot:?}"

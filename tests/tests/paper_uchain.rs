@@ -44,7 +44,7 @@ fn tip_acceleration(solver: &mut Solver, state: &State) -> f64 {
     let mut acceleration = vec![0.0; UChain::SPEC.n()];
     solver
         .acceleration(
-            &UChain::default(),
+            &UChain::default().prepared(),
             state.t,
             &state.q,
             &state.v,
@@ -190,7 +190,7 @@ fn catenary_is_in_equilibrium() {
             assert_close("slope", *slope, f64::from(k) * step, 1e-11 * slopes[0]);
         }
         let mut phi = vec![0.0; UChain::SPEC.holonomic];
-        chain.residual(0.0, &state.q, &mut phi);
+        chain.prepared().residual(0.0, &state.q, &mut phi);
         assert!(largest(&phi) < 1e-13, "{phi:?}");
     }
 }
@@ -230,7 +230,7 @@ fn link_forces_are_internal() {
     let mut solver = Solver::new::<UChain>(SolverOptions::default());
     for sample in run.samples().step_by(25) {
         let solution = solver
-            .solve(run.mechanism(), sample.t, sample.q, sample.v)
+            .solve(&run.mechanism().prepared(), sample.t, sample.q, sample.v)
             .expect("the chain's constraints are independent");
         let force =
             |which: [usize; 17]| -> f64 { which.iter().map(|i| solution.ideal_force[*i]).sum() };

@@ -9,7 +9,7 @@ use nalgebra::DMatrix;
 
 use crate::diagnose;
 use crate::error::Error;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, Prepared};
 use crate::pinv::Decomposition;
 use crate::rounding::Rounded;
 use crate::scalar::Scalar;
@@ -69,7 +69,7 @@ impl State {
     pub fn check<M: Mechanism>(&self, mech: &M) -> Result<(), Error> {
         diagnose::check_length("q", self.q.len(), M::SPEC.n())?;
         diagnose::check_length("v", self.v.len(), M::SPEC.n())?;
-        diagnose::non_finite_input(mech, self.t, &self.q, &self.v).map_or(Ok(()), Err)
+        diagnose::non_finite_input(&mech.prepared(), self.t, &self.q, &self.v).map_or(Ok(()), Err)
     }
 }
 
@@ -106,6 +106,7 @@ pub fn residuals<M: Mechanism>(mech: &M, state: &State) -> Result<Residuals, Err
     diagnose::check_length("v", state.v.len(), spec.n())?;
     let mut position = vec![0.0; spec.holonomic];
     let mut velocity = vec![0.0; spec.m()];
+    let mech = mech.prepared();
     mech.residual(state.t, &state.q, &mut position);
     mech.residual_rate(state.t, &state.q, &state.v, &mut velocity);
     Ok(Residuals { position, velocity })
@@ -145,6 +146,7 @@ enum Level {
 /// The least-squares problem of one level at a time.
 struct Problem<'a, M> {
     mech: &'a M,
+    prepared: Prepared<M>,
     t: f64,
     /// Indices of the coordinates that may change, and 1/√M_jj for each.
     free: Vec<usize>,
@@ -187,7 +189,8 @@ impl<'a, M: Mechanism> Problem<'a, M> {
     fn new(mech: &'a M, guess: &State, free: &[bool]) -> Self {
         let n = M::SPEC.n();
         let mut mass = vec![0.0; n * n];
-        mech.mass_matrix(guess.t, &guess.q, &mut mass);
+        let prepared = mech.prepared();
+        prepared.mass_matrix(guess.t, &guess.q, &mut mass);
         let inertia: Vec<f64> = (0..n).map(|j| mass[j * n + j]).collect();
         let massive: Vec<f64> = inertia
             .iter()
@@ -206,6 +209,7 @@ impl<'a, M: Mechanism> Problem<'a, M> {
         });
         Problem {
             mech,
+            prepared,
             t: guess.t,
             scale: scale.collect(),
             free,
@@ -215,15 +219,16 @@ impl<'a, M: Mechanism> Problem<'a, M> {
 
     fn residual<S: Scalar>(&self, level: Level, x: &[S], other: &[S]) -> Vec<S> {
         let (spec, t, zero) = (M::SPEC, S::from_f64(self.t), S::from_f64(0.0));
+        let mech = self.mech.prepared::<S>();
         match level {
             Level::Position => {
                 let mut phi = vec![zero; spec.holonomic];
-                self.mech.residual(t, x, &mut phi);
+                mech.residual(t, x, &mut phi);
                 phi
             }
             Level::Velocity => {
                 let mut rate = vec![zero; spec.m()];
-                self.mech.residual_rate(t, other, x, &mut rate);
+                mech.residual_rate(t, other, x, &mut rate);
                 rate
             }
         }
@@ -233,8 +238,12 @@ impl<'a, M: Mechanism> Problem<'a, M> {
         let (n, m) = (M::SPEC.n(), M::SPEC.m());
         let residual = self.residual(level, &x, other);
         match level {
-            Level::Position => self.mech.jacobian(self.t, &x, other, &mut self.jacobian),
-            Level::Velocity => self.mech.jacobian(self.t, other, &x, &mut self.jacobian),
+            Level::Position => self
+                .prepared
+                .jacobian(self.t, &x, other, &mut self.jacobian),
+            Level::Velocity => self
+                .prepared
+                .jacobian(self.t, other, &x, &mut self.jacobian),
         }
         let rows = residual.len();
         let a = &self.jacobian;

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::error::Error;
-use crate::mechanism::{Mechanism, Spec};
+use crate::mechanism::{Mechanism, Prepared, Spec};
 use crate::workspace::Evaluated;
 
 /// A coordinate or constraint takes part in a finding if its share is at least this much of the largest one's. Shares that are
@@ -77,7 +77,7 @@ pub(crate) fn offending(spec: &Spec, residual: &[f64], scale: &[f64]) -> Vec<(St
 
 /// An [`Error::NonFinite`] for the state or parameters, if any of those is not finite.
 pub(crate) fn non_finite_input<M: Mechanism>(
-    mech: &M,
+    mech: &Prepared<M>,
     t: f64,
     q: &[f64],
     v: &[f64],
@@ -85,7 +85,7 @@ pub(crate) fn non_finite_input<M: Mechanism>(
     let spec = M::SPEC;
     let mut what = Vec::new();
     for (i, p) in spec.params.iter().enumerate() {
-        if !mech.parameter(i).is_finite() {
+        if !mech.parameters()[i].is_finite() {
             what.push(format!("parameter {}", p.name));
         }
     }

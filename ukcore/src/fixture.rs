@@ -15,14 +15,14 @@ pub(crate) trait Toy: Clone + Default + Send + Sync + 'static {
     fn params(&self) -> &[f64];
     fn params_mut(&mut self) -> &mut [f64];
     /// Entries of M.
-    fn mass<S: Scalar>(&self, t: S, q: &[S], entry: &mut dyn FnMut(usize, usize, S));
-    fn force<S: Scalar>(&self, t: S, q: &[S], v: &[S], force: &mut [S]);
-    fn nonideal<S: Scalar>(&self, _t: S, _q: &[S], _v: &[S], _nonideal: &mut [S]) {}
+    fn mass<S: Scalar>(p: &[S], t: S, q: &[S], entry: &mut dyn FnMut(usize, usize, S));
+    fn force<S: Scalar>(p: &[S], t: S, q: &[S], v: &[S], force: &mut [S]);
+    fn nonideal<S: Scalar>(_p: &[S], _t: S, _q: &[S], _v: &[S], _nonideal: &mut [S]) {}
     /// φ of the holonomic constraints.
-    fn phi<S: Scalar>(&self, t: S, q: &[S], phi: &mut [S]);
+    fn phi<S: Scalar>(p: &[S], t: S, q: &[S], phi: &mut [S]);
     /// φ of the nonholonomic constraints.
-    fn psi<S: Scalar>(&self, _t: S, _q: &[S], _v: &[S], _psi: &mut [S]) {}
-    fn potential<S: Scalar>(&self, _q: &[S]) -> S {
+    fn psi<S: Scalar>(_p: &[S], _t: S, _q: &[S], _v: &[S], _psi: &mut [S]) {}
+    fn potential<S: Scalar>(_p: &[S], _q: &[S]) -> S {
         S::from_f64(0.0)
     }
 }
@@ -35,6 +35,10 @@ fn along<S: Scalar>(x: &[S], d: &[S]) -> Vec<Dual<S>> {
     x.iter().zip(d).map(|(x, d)| Dual::new(*x, *d)).collect()
 }
 
+fn lift<S: Scalar>(x: &[S]) -> Vec<Dual<S>> {
+    x.iter().map(|x| Dual::new(*x, zero())).collect()
+}
+
 impl<T: Toy> Mechanism for T {
     const SPEC: &'static Spec = T::FACTS;
 
@@ -44,13 +48,16 @@ impl<T: Toy> Mechanism for T {
     fn set_parameter(&mut self, index: usize, value: f64) {
         self.params_mut()[index] = value;
     }
+    fn prepare<S: Scalar>(given: &[S], prepared: &mut [S]) {
+        prepared.copy_from_slice(given);
+    }
 
-    fn dynamics<S: Scalar>(&self, t: S, q: &[S], v: &[S], out: &mut Terms<'_, S>) {
+    fn dynamics<S: Scalar>(p: &[S], t: S, q: &[S], v: &[S], out: &mut Terms<'_, S>) {
         let (h, m) = (Self::SPEC.holonomic, Self::SPEC.m());
-        self.mass_matrix(t, q, out.mass);
-        self.force(t, q, v, out.force);
-        self.nonideal(t, q, v, out.nonideal);
-        self.jacobian(t, q, v, out.jacobian);
+        Self::mass_matrix(p, t, q, out.mass);
+        Self::force(p, t, q, v, out.force);
+        Self::nonideal(p, t, q, v, out.nonideal);
+        Self::jacobian(p, t, q, v, out.jacobian);
         // φ(q + v τ, t + τ), second derivative in τ at constant v.
         let one = S::from_f64(1.0);
         let still: Vec<Dual<S>> = v.iter().map(|v| Dual::new(*v, zero())).collect();
@@ -61,62 +68,71 @@ impl<T: Toy> Mechanism for T {
             .map(|(q, v)| Dual::new(*q, *v))
             .collect();
         let mut phi = vec![Dual::new(Dual::new(zero::<S>(), zero()), Dual::new(zero(), zero())); h];
-        self.phi(Dual::new(time, Dual::new(one, zero())), &twice, &mut phi);
+        Self::phi(
+            &lift(&lift(p)),
+            Dual::new(time, Dual::new(one, zero())),
+            &twice,
+            &mut phi,
+        );
         for (b, phi) in out.rhs.iter_mut().zip(&phi) {
             *b = -phi.eps.eps;
         }
         let mut psi = vec![Dual::new(zero::<S>(), zero()); m - h];
-        self.psi(time, &inner, &still, &mut psi);
+        Self::psi(&lift(p), time, &inner, &still, &mut psi);
         for (b, psi) in out.rhs[h..].iter_mut().zip(&psi) {
             *b = -psi.eps;
         }
     }
 
-    fn mass_matrix<S: Scalar>(&self, t: S, q: &[S], mass: &mut [S]) {
+    fn mass_matrix<S: Scalar>(p: &[S], t: S, q: &[S], mass: &mut [S]) {
         let n = Self::SPEC.n();
-        self.mass(t, q, &mut |i, j, x| {
+        Self::mass(p, t, q, &mut |i, j, x| {
             mass[j * n + i] = x;
             mass[i * n + j] = x;
         });
     }
 
-    fn jacobian<S: Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
+    fn jacobian<S: Scalar>(p: &[S], t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
         let (n, h, m) = (Self::SPEC.n(), Self::SPEC.holonomic, Self::SPEC.m());
         let time = Dual::new(t, zero());
-        let fixed = |x: &[S]| -> Vec<Dual<S>> { x.iter().map(|x| Dual::new(*x, zero())).collect() };
         for j in 0..n {
-            let mut seeded = fixed(q);
+            let mut seeded = lift(q);
             seeded[j].eps = S::from_f64(1.0);
             let mut phi = vec![Dual::new(zero::<S>(), zero()); h];
-            self.phi(time, &seeded, &mut phi);
-            let mut seeded = fixed(v);
+            Self::phi(&lift(p), time, &seeded, &mut phi);
+            let mut seeded = lift(v);
             seeded[j].eps = S::from_f64(1.0);
             let mut psi = vec![Dual::new(zero::<S>(), zero()); m - h];
-            self.psi(time, &fixed(q), &seeded, &mut psi);
+            Self::psi(&lift(p), time, &lift(q), &seeded, &mut psi);
             for (c, x) in phi.iter().chain(&psi).enumerate() {
                 jacobian[j * m + c] = x.eps;
             }
         }
     }
 
-    fn residual<S: Scalar>(&self, t: S, q: &[S], phi: &mut [S]) {
-        self.phi(t, q, phi);
+    fn residual<S: Scalar>(p: &[S], t: S, q: &[S], phi: &mut [S]) {
+        Self::phi(p, t, q, phi);
     }
 
-    fn residual_rate<S: Scalar>(&self, t: S, q: &[S], v: &[S], rate: &mut [S]) {
+    fn residual_rate<S: Scalar>(p: &[S], t: S, q: &[S], v: &[S], rate: &mut [S]) {
         let h = Self::SPEC.holonomic;
         let mut phi = vec![Dual::new(zero::<S>(), zero()); h];
-        self.phi(Dual::new(t, S::from_f64(1.0)), &along(q, v), &mut phi);
+        Self::phi(
+            &lift(p),
+            Dual::new(t, S::from_f64(1.0)),
+            &along(q, v),
+            &mut phi,
+        );
         for (r, phi) in rate.iter_mut().zip(&phi) {
             *r = phi.eps;
         }
-        self.psi(t, q, v, &mut rate[h..]);
+        Self::psi(p, t, q, v, &mut rate[h..]);
     }
 
-    fn energy<S: Scalar>(&self, t: S, q: &[S], v: &[S]) -> Energy<S> {
+    fn energy<S: Scalar>(p: &[S], t: S, q: &[S], v: &[S]) -> Energy<S> {
         let n = Self::SPEC.n();
         let mut mass = vec![zero::<S>(); n * n];
-        self.mass_matrix(t, q, &mut mass);
+        Self::mass_matrix(p, t, q, &mut mass);
         let mut twice = zero::<S>();
         for j in 0..n {
             for i in 0..n {
@@ -125,17 +141,18 @@ impl<T: Toy> Mechanism for T {
         }
         Energy {
             kinetic: S::from_f64(0.5) * twice,
-            potential: self.potential(q),
+            potential: Self::potential(p, q),
         }
     }
 
-    fn outputs<S: Scalar>(&self, _t: S, _q: &[S], _v: &[S], _outputs: &mut [S]) {}
+    fn outputs<S: Scalar>(_p: &[S], _t: S, _q: &[S], _v: &[S], _outputs: &mut [S]) {}
 }
 
 const EMPTY: Spec = Spec {
     name: "",
     doc: "",
     params: &[],
+    prepared: &[],
     coords: &[],
     constraints: &[],
     holonomic: 0,
@@ -215,6 +232,7 @@ macro_rules! toy {
             const FACTS: &'static Spec = &Spec {
                 name: stringify!($name),
                 params: &[$(param(stringify!($param), $value)),*],
+                prepared: &[$((stringify!($param), "")),*],
                 structure: Structure { $($sfield: $sfacts,)* ..EMPTY.structure },
                 $($field: $facts,)*
                 ..EMPTY
@@ -244,18 +262,18 @@ toy! {
         coords: &["x", "y"], constraints: &[holonomic("rod")], holonomic: 1,
     }
     structure { potential: true, conservative: true }
-    fn mass<S: Scalar>(&self, _t: S, _q: &[S], entry: &mut dyn FnMut(usize, usize, S)) {
-        entry(0, 0, c(self.params[0]));
-        entry(1, 1, c(self.params[0]));
+    fn mass<S: Scalar>(p: &[S], _t: S, _q: &[S], entry: &mut dyn FnMut(usize, usize, S)) {
+        entry(0, 0, p[0]);
+        entry(1, 1, p[0]);
     }
-    fn force<S: Scalar>(&self, _t: S, _q: &[S], _v: &[S], force: &mut [S]) {
-        force[1] = c(-self.params[0] * self.params[2]);
+    fn force<S: Scalar>(p: &[S], _t: S, _q: &[S], _v: &[S], force: &mut [S]) {
+        force[1] = -(p[0] * p[2]);
     }
-    fn phi<S: Scalar>(&self, _t: S, q: &[S], phi: &mut [S]) {
-        phi[0] = sq(q[0]) + sq(q[1]) - c(self.params[1] * self.params[1]);
+    fn phi<S: Scalar>(p: &[S], _t: S, q: &[S], phi: &mut [S]) {
+        phi[0] = sq(q[0]) + sq(q[1]) - p[1] * p[1];
     }
-    fn potential<S: Scalar>(&self, q: &[S]) -> S {
-        c::<S>(self.params[0] * self.params[2]) * q[1]
+    fn potential<S: Scalar>(p: &[S], q: &[S]) -> S {
+        (p[0] * p[2]) * q[1]
     }
 }
 
@@ -267,19 +285,19 @@ toy! {
         holonomic: 3,
     }
     structure { potential: true, conservative: true }
-    fn mass<S: Scalar>(&self, _t: S, _q: &[S], entry: &mut dyn FnMut(usize, usize, S)) {
+    fn mass<S: Scalar>(p: &[S], _t: S, _q: &[S], entry: &mut dyn FnMut(usize, usize, S)) {
         for i in 0..4 {
-            entry(i, i, c(self.params[i / 2]));
+            entry(i, i, p[i / 2]);
         }
     }
-    fn force<S: Scalar>(&self, _t: S, _q: &[S], _v: &[S], force: &mut [S]) {
-        force[1] = c(-9.8 * self.params[0]);
-        force[3] = c(-9.8 * self.params[1]);
+    fn force<S: Scalar>(p: &[S], _t: S, _q: &[S], _v: &[S], force: &mut [S]) {
+        force[1] = c::<S>(-9.8) * p[0];
+        force[3] = c::<S>(-9.8) * p[1];
     }
-    fn phi<S: Scalar>(&self, t: S, q: &[S], phi: &mut [S]) {
+    fn phi<S: Scalar>(p: &[S], t: S, q: &[S], phi: &mut [S]) {
         phi[0] = sq(q[0]) + sq(q[1]) - c(1.0);
         phi[1] = sq(q[2] - q[0]) + sq(q[3] - q[1]) - c(1.0);
-        phi[2] = c::<S>(self.params[2]) * (phi[1] + c::<S>(self.params[3]) * (c::<S>(1.0) - t.cos()));
+        phi[2] = p[2] * (phi[1] + p[3] * (c::<S>(1.0) - t.cos()));
     }
 }
 
@@ -293,21 +311,21 @@ toy! {
         holonomic: 4,
     }
     structure { }
-    fn mass<S: Scalar>(&self, _t: S, _q: &[S], entry: &mut dyn FnMut(usize, usize, S)) {
+    fn mass<S: Scalar>(_p: &[S], _t: S, _q: &[S], entry: &mut dyn FnMut(usize, usize, S)) {
         for (i, m) in [1.0, 1.0, 2.0, 2.0].into_iter().enumerate() {
             entry(i, i, c(m));
         }
     }
-    fn force<S: Scalar>(&self, _t: S, _q: &[S], _v: &[S], force: &mut [S]) {
+    fn force<S: Scalar>(_p: &[S], _t: S, _q: &[S], _v: &[S], force: &mut [S]) {
         force[1] = c(-9.8);
         force[3] = c(-2.0 * 9.8);
     }
-    fn phi<S: Scalar>(&self, _t: S, q: &[S], phi: &mut [S]) {
+    fn phi<S: Scalar>(p: &[S], _t: S, q: &[S], phi: &mut [S]) {
         phi[0] = sq(q[0]) + sq(q[1]) - c(1.0);
         phi[1] = sq(q[2] - c(2.0)) + sq(q[3]) - c(1.0);
         phi[2] = sq(q[2] - q[0]) + sq(q[3] - q[1]) - c(4.0);
         let (x, y) = (c::<S>(0.5) * (q[0] + q[2]) - c(1.0), c::<S>(0.5) * (q[1] + q[3]));
-        phi[3] = c::<S>(self.params[0]) * (sq(x) + sq(y) - c(sq(self.params[1])));
+        phi[3] = p[0] * (sq(x) + sq(y) - sq(p[1]));
     }
 }
 
@@ -318,16 +336,16 @@ toy! {
         coords: &["x", "s"], constraints: &[holonomic("balance")], holonomic: 1,
     }
     structure { massless: &[1], jacobian_constant: true }
-    fn mass<S: Scalar>(&self, _t: S, _q: &[S], entry: &mut dyn FnMut(usize, usize, S)) {
-        entry(0, 0, c(self.params[0]));
-        entry(1, 1, c(self.params[1]));
+    fn mass<S: Scalar>(p: &[S], _t: S, _q: &[S], entry: &mut dyn FnMut(usize, usize, S)) {
+        entry(0, 0, p[0]);
+        entry(1, 1, p[1]);
     }
-    fn force<S: Scalar>(&self, _t: S, q: &[S], _v: &[S], force: &mut [S]) {
-        force[0] = c::<S>(-self.params[3]) * (q[0] - q[1]);
-        force[1] = c::<S>(self.params[3]) * (q[0] - q[1]) - c::<S>(self.params[2]) * q[1];
+    fn force<S: Scalar>(p: &[S], _t: S, q: &[S], _v: &[S], force: &mut [S]) {
+        force[0] = -p[3] * (q[0] - q[1]);
+        force[1] = p[3] * (q[0] - q[1]) - p[2] * q[1];
     }
-    fn phi<S: Scalar>(&self, _t: S, q: &[S], phi: &mut [S]) {
-        phi[0] = c::<S>(self.params[2]) * q[1] - c::<S>(self.params[3]) * (q[0] - q[1]);
+    fn phi<S: Scalar>(p: &[S], _t: S, q: &[S], phi: &mut [S]) {
+        phi[0] = p[2] * q[1] - p[3] * (q[0] - q[1]);
     }
 }
 
@@ -337,14 +355,14 @@ toy! {
         coords: &["x", "y"], constraints: &[holonomic("drive")], holonomic: 1,
     }
     structure { scleronomic: false, jacobian_constant: true }
-    fn mass<S: Scalar>(&self, _t: S, _q: &[S], entry: &mut dyn FnMut(usize, usize, S)) {
-        entry(0, 0, c(self.params[0]));
+    fn mass<S: Scalar>(p: &[S], _t: S, _q: &[S], entry: &mut dyn FnMut(usize, usize, S)) {
+        entry(0, 0, p[0]);
         entry(1, 1, c(1.0));
     }
-    fn force<S: Scalar>(&self, _t: S, _q: &[S], _v: &[S], force: &mut [S]) {
+    fn force<S: Scalar>(_p: &[S], _t: S, _q: &[S], _v: &[S], force: &mut [S]) {
         force[1] = c(3.0);
     }
-    fn phi<S: Scalar>(&self, t: S, q: &[S], phi: &mut [S]) {
+    fn phi<S: Scalar>(_p: &[S], t: S, q: &[S], phi: &mut [S]) {
         phi[0] = q[0] - t.sin();
     }
 }
@@ -357,12 +375,12 @@ toy! {
         holonomic: 3,
     }
     structure { scleronomic: false, jacobian_constant: true }
-    fn mass<S: Scalar>(&self, _t: S, _q: &[S], entry: &mut dyn FnMut(usize, usize, S)) {
-        entry(0, 0, c(self.params[0]));
+    fn mass<S: Scalar>(p: &[S], _t: S, _q: &[S], entry: &mut dyn FnMut(usize, usize, S)) {
+        entry(0, 0, p[0]);
         entry(1, 1, c(1.0));
     }
-    fn force<S: Scalar>(&self, _t: S, _q: &[S], _v: &[S], _force: &mut [S]) {}
-    fn phi<S: Scalar>(&self, t: S, q: &[S], phi: &mut [S]) {
+    fn force<S: Scalar>(_p: &[S], _t: S, _q: &[S], _v: &[S], _force: &mut [S]) {}
+    fn phi<S: Scalar>(_p: &[S], t: S, q: &[S], phi: &mut [S]) {
         phi[0] = q[0] - t.sin();
         phi[1] = q[1];
         phi[2] = q[0] - t.cos();
@@ -375,16 +393,16 @@ toy! {
         coords: &["x", "z", "w"], constraints: &[holonomic("sum")], holonomic: 1,
     }
     structure { massless: &[1, 2] }
-    fn mass<S: Scalar>(&self, _t: S, _q: &[S], entry: &mut dyn FnMut(usize, usize, S)) {
+    fn mass<S: Scalar>(p: &[S], _t: S, _q: &[S], entry: &mut dyn FnMut(usize, usize, S)) {
         entry(0, 0, c(1.0));
-        entry(1, 1, c(self.params[0]));
-        entry(2, 2, c(self.params[1]));
+        entry(1, 1, p[0]);
+        entry(2, 2, p[1]);
     }
-    fn force<S: Scalar>(&self, _t: S, _q: &[S], _v: &[S], force: &mut [S]) {
+    fn force<S: Scalar>(_p: &[S], _t: S, _q: &[S], _v: &[S], force: &mut [S]) {
         force[0] = c(1.0);
         force[1] = c(1.0);
     }
-    fn phi<S: Scalar>(&self, _t: S, q: &[S], phi: &mut [S]) {
+    fn phi<S: Scalar>(_p: &[S], _t: S, q: &[S], phi: &mut [S]) {
         phi[0] = q[1] + q[2];
     }
 }
@@ -400,26 +418,26 @@ toy! {
         ],
     }
     structure { mass_diagonal: false, nonideal: true }
-    fn mass<S: Scalar>(&self, _t: S, q: &[S], entry: &mut dyn FnMut(usize, usize, S)) {
+    fn mass<S: Scalar>(_p: &[S], _t: S, q: &[S], entry: &mut dyn FnMut(usize, usize, S)) {
         entry(0, 0, c(2.0));
         entry(1, 1, c(2.0));
         entry(2, 2, c(1.0));
         entry(2, 0, -q[2].sin() * c(0.4));
         entry(2, 1, q[2].cos() * c(0.4));
     }
-    fn force<S: Scalar>(&self, _t: S, _q: &[S], v: &[S], force: &mut [S]) {
+    fn force<S: Scalar>(_p: &[S], _t: S, _q: &[S], v: &[S], force: &mut [S]) {
         force[0] = c(2.0 * 9.8 * 0.5);
         force[2] = c::<S>(0.7) - c::<S>(0.1) * v[2];
     }
-    fn nonideal<S: Scalar>(&self, _t: S, _q: &[S], v: &[S], nonideal: &mut [S]) {
+    fn nonideal<S: Scalar>(p: &[S], _t: S, _q: &[S], v: &[S], nonideal: &mut [S]) {
         for i in 0..3 {
-            nonideal[i] = c::<S>(-self.params[1]) * v[i] + c(0.2);
+            nonideal[i] = -p[1] * v[i] + c(0.2);
         }
     }
-    fn phi<S: Scalar>(&self, _t: S, _q: &[S], _phi: &mut [S]) {}
-    fn psi<S: Scalar>(&self, _t: S, q: &[S], v: &[S], psi: &mut [S]) {
+    fn phi<S: Scalar>(_p: &[S], _t: S, _q: &[S], _phi: &mut [S]) {}
+    fn psi<S: Scalar>(p: &[S], _t: S, q: &[S], v: &[S], psi: &mut [S]) {
         psi[0] = v[0] * q[2].sin() - v[1] * q[2].cos();
-        psi[1] = sq(v[0]) + sq(v[1]) - c(sq(self.params[0]));
+        psi[1] = sq(v[0]) + sq(v[1]) - sq(p[0]);
     }
 }
 
@@ -430,19 +448,19 @@ toy! {
         coords: &["e0", "e1", "e2", "e3"], constraints: &[holonomic("unit")], holonomic: 1,
     }
     structure { mass_diagonal: false, mass_constant: false }
-    fn mass<S: Scalar>(&self, _t: S, q: &[S], entry: &mut dyn FnMut(usize, usize, S)) {
+    fn mass<S: Scalar>(p: &[S], _t: S, q: &[S], entry: &mut dyn FnMut(usize, usize, S)) {
         let g = body_rates(q);
         for j in 0..4 {
             for i in j..4 {
                 let mut x = c::<S>(0.0);
                 for (k, row) in g.iter().enumerate() {
-                    x = x + c::<S>(4.0 * self.params[k]) * row[i] * row[j];
+                    x = x + c::<S>(4.0) * p[k] * row[i] * row[j];
                 }
                 entry(i, j, x);
             }
         }
     }
-    fn force<S: Scalar>(&self, _t: S, q: &[S], v: &[S], force: &mut [S]) {
+    fn force<S: Scalar>(p: &[S], _t: S, q: &[S], v: &[S], force: &mut [S]) {
         // T = 2 |√J G(q) q̇|². Q = ∂T/∂q − Ṁ q̇ with G(q) q̇ = −G(q̇) q, hence Q = −8 G(q̇)ᵀ J G(q) q̇.
         let (g, gdot) = (body_rates(q), body_rates(v));
         for (i, f) in force.iter_mut().enumerate() {
@@ -452,11 +470,11 @@ toy! {
                 for j in 0..4 {
                     omega = omega + g[k][j] * v[j];
                 }
-                *f = *f - c::<S>(8.0 * self.params[k]) * gdot[k][i] * omega;
+                *f = *f - c::<S>(8.0) * p[k] * gdot[k][i] * omega;
             }
         }
     }
-    fn phi<S: Scalar>(&self, _t: S, q: &[S], phi: &mut [S]) {
+    fn phi<S: Scalar>(_p: &[S], _t: S, q: &[S], phi: &mut [S]) {
         phi[0] = sq(q[0]) + sq(q[1]) + sq(q[2]) + sq(q[3]) - c(1.0);
     }
 }
@@ -488,7 +506,9 @@ mod tests {
             jacobian: &mut jacobian,
             rhs: &mut rhs,
         };
-        Pendulum::default().dynamics(0.0, &q, &v, &mut terms);
+        Pendulum::default()
+            .prepared()
+            .dynamics(0.0, &q, &v, &mut terms);
         assert_eq!(jacobian, [1.2, -1.6]);
         assert!((rhs[0] + 2.0 * 0.25).abs() < 1e-15);
         assert_eq!(force, [0.0, -9.8]);

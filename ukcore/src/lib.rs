@@ -49,7 +49,7 @@ pub use error::Error;
 pub use mechanism::emitted;
 pub use mechanism::{
     ConstraintKind, ConstraintSpec, Energy, Equations, Mechanism, Operations, OutputSpec,
-    ParamSpec, Spec, Structure, Terms,
+    ParamSpec, Prepared, Spec, Structure, Terms,
 };
 pub use scalar::{Dual, Scalar};
 pub use solver::{Baumgarte, Formula, Solution, Solver, SolverOptions, SolverWork};

@@ -4,10 +4,14 @@
 //! M q̈ = Q (eq. 1), A q̈ = b (eq. 5), c the non-ideal force (eq. 8). `n` is the number of coordinates, `m` of constraints,
 //! `h` of holonomic ones, which come first.
 
+use std::marker::PhantomData;
+
 use crate::error::Error;
 use crate::scalar::Scalar;
 
 /// A declared mechanism: its parameters (`self`), what is known about it (`SPEC`), and its equations as straight-line code.
+///
+/// The functions that evaluate the equations take `prepared`, what depends on parameters only; [`Prepared`] holds it, and is how they are called.
 ///
 /// All matrices are column-major. Into matrices the emitted code writes **structural non-zeros only**: the caller passes buffers
 /// that were zeroed once, and may reuse them for the same mechanism type. Vectors are written completely. No method allocates. Every method panics if a slice has
@@ -21,32 +25,48 @@ pub trait Mechanism: Clone + Default + Send + Sync + 'static {
     /// Sets parameter `index` (order of `SPEC.params`).
     fn set_parameter(&mut self, index: usize, value: f64);
 
+    /// The values that depend on parameters only, `SPEC.prepared`, from the parameters (order of `SPEC.params`).
+    fn prepare<S: Scalar>(given: &[S], prepared: &mut [S]);
+
     /// M, Q, c, A and b at (t, q, q̇): eqs. 1, 5 and 8. Q includes −∂V/∂q and, with `kinetic`, Lagrange's velocity terms.
-    fn dynamics<S: Scalar>(&self, t: S, q: &[S], v: &[S], out: &mut Terms<'_, S>);
+    fn dynamics<S: Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], out: &mut Terms<'_, S>);
     /// M(q, t), n × n.
-    fn mass_matrix<S: Scalar>(&self, t: S, q: &[S], mass: &mut [S]);
+    fn mass_matrix<S: Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]);
     /// A(q, q̇, t), m × n.
-    fn jacobian<S: Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]);
+    fn jacobian<S: Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], jacobian: &mut [S]);
     /// φ(q, t) of the `h` holonomic constraints (eq. 3).
-    fn residual<S: Scalar>(&self, t: S, q: &[S], phi: &mut [S]);
+    fn residual<S: Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]);
     /// All `m` constraints at velocity level: φ̇ of the holonomic (eq. 3 differentiated once), φ(q, q̇, t) of the nonholonomic (eq. 4).
-    fn residual_rate<S: Scalar>(&self, t: S, q: &[S], v: &[S], rate: &mut [S]);
+    fn residual_rate<S: Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], rate: &mut [S]);
     /// Kinetic energy T and potential V at (t, q, q̇); V is 0 where none is declared.
-    fn energy<S: Scalar>(&self, t: S, q: &[S], v: &[S]) -> Energy<S>;
+    fn energy<S: Scalar>(prepared: &[S], t: S, q: &[S], v: &[S]) -> Energy<S>;
     /// The declared outputs.
-    fn outputs<S: Scalar>(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]);
+    fn outputs<S: Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], outputs: &mut [S]);
 
     /// q̈ at (t, q, q̇) by straight-line elimination of [M Aᵀ; A 0], and its certificate: 1 where each pivot d of the elimination keeps a
     /// safe share d/G of the diagonal G it started from, 0 where M or A is singular or nearly so, and q̈ is not to be used. Exists if
     /// [`Structure::straight_line`]; else the certificate is 0.
-    fn acceleration<S: Scalar>(&self, t: S, q: &[S], v: &[S], out: &mut [S]) -> S {
-        let _ = (t, q, v, out);
+    fn acceleration<S: Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], out: &mut [S]) -> S {
+        let _ = (prepared, t, q, v, out);
         S::from_f64(0.0)
     }
     /// The smallest Δ in the mass metric with A Δ = −`residual`, and its certificate, as for [`Mechanism::acceleration`].
-    fn correction<S: Scalar>(&self, t: S, q: &[S], v: &[S], residual: &[S], out: &mut [S]) -> S {
-        let _ = (t, q, v, residual, out);
+    fn correction<S: Scalar>(
+        prepared: &[S],
+        t: S,
+        q: &[S],
+        v: &[S],
+        residual: &[S],
+        out: &mut [S],
+    ) -> S {
+        let _ = (prepared, t, q, v, residual, out);
         S::from_f64(0.0)
+    }
+
+    /// The mechanism with these parameters, ready to be evaluated with numbers of type `S`.
+    fn prepared<S: Scalar>(&self) -> Prepared<Self, S> {
+        let given = (0..Self::SPEC.params.len()).map(|i| S::from_f64(self.parameter(i)));
+        Prepared::new(given.collect())
     }
 
     /// Value of the parameter called `name` (`"m"`, `"m[3]"`).
@@ -76,6 +96,85 @@ pub trait Mechanism: Clone + Default + Send + Sync + 'static {
             self.set_parameter(Self::SPEC.parameter_index(name)?, value);
         }
         Ok(())
+    }
+}
+
+/// A mechanism with fixed parameters: what depends on them alone is computed once, here. Of numbers `S`: with
+/// [`Dual`](crate::Dual) parameters come derivatives by parameters.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Prepared<M, S = f64> {
+    given: Vec<S>,
+    values: Vec<S>,
+    mechanism: PhantomData<fn() -> M>,
+}
+
+impl<M: Mechanism, S: Scalar> Prepared<M, S> {
+    /// With the parameters `given` (order of `SPEC.params`).
+    ///
+    /// # Panics
+    /// If `given` has not the length of `SPEC.params`.
+    #[must_use]
+    pub fn new(given: Vec<S>) -> Self {
+        let mut values = vec![S::from_f64(0.0); M::SPEC.prepared.len()];
+        M::prepare(&given, &mut values);
+        Prepared {
+            given,
+            values,
+            mechanism: PhantomData,
+        }
+    }
+
+    /// The parameters (order of `SPEC.params`).
+    #[must_use]
+    pub fn parameters(&self) -> &[S] {
+        &self.given
+    }
+
+    /// [`Mechanism::dynamics`]: M, Q, c, A and b.
+    #[inline]
+    pub fn dynamics(&self, t: S, q: &[S], v: &[S], out: &mut Terms<'_, S>) {
+        M::dynamics(&self.values, t, q, v, out);
+    }
+    /// [`Mechanism::mass_matrix`]: M, n × n, column-major.
+    #[inline]
+    pub fn mass_matrix(&self, t: S, q: &[S], mass: &mut [S]) {
+        M::mass_matrix(&self.values, t, q, mass);
+    }
+    /// [`Mechanism::jacobian`]: A, m × n, column-major.
+    #[inline]
+    pub fn jacobian(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
+        M::jacobian(&self.values, t, q, v, jacobian);
+    }
+    /// [`Mechanism::residual`]: φ.
+    #[inline]
+    pub fn residual(&self, t: S, q: &[S], phi: &mut [S]) {
+        M::residual(&self.values, t, q, phi);
+    }
+    /// [`Mechanism::residual_rate`]: φ̇ of holonomic, φ of nonholonomic constraints.
+    #[inline]
+    pub fn residual_rate(&self, t: S, q: &[S], v: &[S], rate: &mut [S]) {
+        M::residual_rate(&self.values, t, q, v, rate);
+    }
+    /// [`Mechanism::energy`]: T and V.
+    #[inline]
+    #[must_use]
+    pub fn energy(&self, t: S, q: &[S], v: &[S]) -> Energy<S> {
+        M::energy(&self.values, t, q, v)
+    }
+    /// [`Mechanism::outputs`].
+    #[inline]
+    pub fn outputs(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) {
+        M::outputs(&self.values, t, q, v, outputs);
+    }
+    /// [`Mechanism::acceleration`]: q̈, and its certificate. [`Solver`](crate::Solver) wraps it with the rank-revealing solve.
+    #[inline]
+    pub fn acceleration(&self, t: S, q: &[S], v: &[S], out: &mut [S]) -> S {
+        M::acceleration(&self.values, t, q, v, out)
+    }
+    /// [`Mechanism::correction`]: Δ, and its certificate.
+    #[inline]
+    pub fn correction(&self, t: S, q: &[S], v: &[S], residual: &[S], out: &mut [S]) -> S {
+        M::correction(&self.values, t, q, v, residual, out)
     }
 }
 
@@ -120,6 +219,8 @@ pub struct Spec {
     pub doc: &'static str,
     /// Parameters, families flattened (`m[0]`, `m[1]`, …).
     pub params: &'static [ParamSpec],
+    /// What depends on parameters only and is computed once for a set of them: name and expression.
+    pub prepared: &'static [(&'static str, &'static str)],
     /// Coordinate names (`x[0]`, `th1`), the order of q.
     pub coords: &'static [&'static str],
     /// Constraints, holonomic ones first, the order of the rows of A.

@@ -228,7 +228,7 @@ impl<M: Mechanism> Simulation<M> {
         };
         let n = M::SPEC.n();
         let mut run = Run {
-            mechanism: &self.mechanism,
+            mechanism: &self.mechanism.prepared(),
             solver: Solver::new::<M>(options),
             projector,
             project: trajectory.projected,
@@ -353,20 +353,21 @@ impl<M: Mechanism> Simulation<M> {
         };
         diagnose::check_length("q", q.len(), spec.n())?;
         diagnose::check_length("v", v.len(), spec.n())?;
-        if let Some(error) = diagnose::non_finite_input(&self.mechanism, t, &q, &v) {
+        let mech = self.mechanism.prepared();
+        if let Some(error) = diagnose::non_finite_input(&mech, t, &q, &v) {
             return Err(error);
         }
         let (mut new_q, mut new_v) = (q.clone(), v.clone());
-        let position = projector.position(&self.mechanism, t, &mut new_q, &v)?;
+        let position = projector.position(&mech, t, &mut new_q, &v)?;
         if !self.near(&q, &new_q) {
             let mut residual = vec![0.0; spec.holonomic];
-            self.mechanism.residual(t, &q, &mut residual);
+            mech.residual(t, &q, &mut residual);
             return Err(off_constraint::<M>("position", &residual));
         }
-        let velocity = projector.velocity(&self.mechanism, t, &new_q, &mut new_v)?;
+        let velocity = projector.velocity(&mech, t, &new_q, &mut new_v)?;
         if !self.near(&v, &new_v) {
             let mut residual = vec![0.0; spec.m()];
-            self.mechanism.residual_rate(t, &new_q, &v, &mut residual);
+            mech.residual_rate(t, &new_q, &v, &mut residual);
             return Err(off_constraint::<M>("velocity", &residual));
         }
         trajectory.work.projections += 1;

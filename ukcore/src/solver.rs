@@ -18,7 +18,7 @@
 
 use crate::diagnose::{self, Diagnosis};
 use crate::error::Error;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, Prepared};
 use crate::metric::MassFault;
 use crate::saddle::Saddle;
 use crate::workspace::{Dense, Evaluated, Owner, Route, Rows};
@@ -157,7 +157,7 @@ struct Drift {
 
 /// Rank and formula of the evaluation in hand.
 #[derive(Debug, Clone, Copy)]
-struct Prepared {
+struct Decided {
     formula: Formula,
     /// The tolerance that decided the rank.
     tolerance: f64,
@@ -210,7 +210,7 @@ impl Solver {
     /// another mechanism.
     pub fn acceleration<M: Mechanism>(
         &mut self,
-        mech: &M,
+        mech: &Prepared<M>,
         t: f64,
         q: &[f64],
         v: &[f64],
@@ -220,7 +220,7 @@ impl Solver {
         if self.straight_line(mech, t, q, v, out)? {
             return Ok(());
         }
-        let prepared = self.prepare(mech, t, q, v)?;
+        let decided = self.decide(mech, t, q, v)?;
         if M::SPEC.structure.nonideal {
             let sum = self.here.force.iter().zip(&self.here.nonideal);
             self.force
@@ -230,8 +230,8 @@ impl Solver {
         } else {
             self.force.copy_from_slice(&self.here.force);
         }
-        self.solve_for_force(prepared.formula, out);
-        self.check(mech, t, q, v, prepared.tolerance, out)
+        self.solve_for_force(decided.formula, out);
+        self.check(mech, t, q, v, decided.tolerance, out)
     }
 
     /// Accelerations, forces, multipliers and rank at (t, q, q̇). Allocates its result.
@@ -240,17 +240,17 @@ impl Solver {
     /// As [`Solver::acceleration`].
     pub fn solve<M: Mechanism>(
         &mut self,
-        mech: &M,
+        mech: &Prepared<M>,
         t: f64,
         q: &[f64],
         v: &[f64],
     ) -> Result<Solution, Error> {
         let n = self.n;
         let mut ideal = vec![0.0; n];
-        let prepared = self.prepare(mech, t, q, v)?;
+        let decided = self.decide(mech, t, q, v)?;
         self.force.copy_from_slice(&self.here.force);
-        self.solve_for_force(prepared.formula, &mut ideal);
-        let mut ideal_force = if prepared.formula == Formula::UdwadiaKalaba {
+        self.solve_for_force(decided.formula, &mut ideal);
+        let mut ideal_force = if decided.formula == Formula::UdwadiaKalaba {
             let mut force = self.dense.reaction.clone();
             self.dense.metric.multiply(&mut force);
             force
@@ -270,7 +270,7 @@ impl Solver {
                 .iter_mut()
                 .zip(sum)
                 .for_each(|(f, (a, b))| *f = a + b);
-            self.solve_for_force(prepared.formula, &mut acceleration);
+            self.solve_for_force(decided.formula, &mut acceleration);
             let change: Vec<f64> = acceleration
                 .iter()
                 .zip(&ideal)
@@ -278,7 +278,7 @@ impl Solver {
                 .collect();
             nonideal_force = self.mass_times(&change);
         }
-        self.check(mech, t, q, v, prepared.tolerance, &acceleration)?;
+        self.check(mech, t, q, v, decided.tolerance, &acceleration)?;
         let mut multipliers = vec![0.0; self.m];
         self.dense
             .multipliers(&mut ideal_force.clone(), &mut multipliers);
@@ -295,7 +295,7 @@ impl Solver {
             multipliers,
             rank,
             degrees_of_freedom: n - rank,
-            formula: prepared.formula,
+            formula: decided.formula,
             redundant,
         })
     }
@@ -309,7 +309,7 @@ impl Solver {
     /// q̈ by the emitted elimination; `false` where there is none, or its certificate does not hold.
     fn straight_line<M: Mechanism>(
         &mut self,
-        mech: &M,
+        mech: &Prepared<M>,
         t: f64,
         q: &[f64],
         v: &[f64],
@@ -347,13 +347,13 @@ impl Solver {
     }
 
     /// Evaluates, factors, and decides the rank.
-    fn prepare<M: Mechanism>(
+    fn decide<M: Mechanism>(
         &mut self,
-        mech: &M,
+        mech: &Prepared<M>,
         t: f64,
         q: &[f64],
         v: &[f64],
-    ) -> Result<Prepared, Error> {
+    ) -> Result<Decided, Error> {
         self.owner.check::<M>("solver")?;
         diagnose::check_length("q", q.len(), self.n)?;
         diagnose::check_length("v", v.len(), self.n)?;
@@ -389,7 +389,7 @@ impl Solver {
             });
         }
         let formula = self.eliminate(formula);
-        Ok(Prepared { formula, tolerance })
+        Ok(Decided { formula, tolerance })
     }
 
     /// Factors M and A; the formula is then UdwadiaKalaba, UdwadiaPhohomsiri or Kkt.
@@ -426,7 +426,7 @@ impl Solver {
     /// Decides the rank (see the [module](self)) and returns the tolerance that did.
     fn decide_rank<M: Mechanism>(
         &mut self,
-        mech: &M,
+        mech: &Prepared<M>,
         t: f64,
         q: &[f64],
         v: &[f64],
@@ -462,7 +462,7 @@ impl Solver {
     }
 
     /// The equations one Newton step nearer to the manifold, with the rank in force.
-    fn measure_drift<M: Mechanism>(&mut self, mech: &M, t: f64, q: &[f64], v: &[f64]) {
+    fn measure_drift<M: Mechanism>(&mut self, mech: &Prepared<M>, t: f64, q: &[f64], v: &[f64]) {
         let Drift {
             known,
             there,
@@ -525,7 +525,7 @@ impl Solver {
     /// Redundant rows must agree with the others, and q̈ must be finite.
     fn check<M: Mechanism>(
         &mut self,
-        mech: &M,
+        mech: &Prepared<M>,
         t: f64,
         q: &[f64],
         v: &[f64],

@@ -6,7 +6,7 @@
 
 use crate::diagnose;
 use crate::error::Error;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, Prepared};
 use crate::metric::MassFault;
 use crate::rounding::Rounded;
 use crate::solver::{Baumgarte, RANK_CEILING, RANK_TOLERANCE, leading, mass_error};
@@ -89,7 +89,7 @@ pub struct Projector {
     step: Vec<f64>,
     /// What rounding the evaluation of each constraint carries, in units of ε; 0 until it is needed.
     rounding: Vec<f64>,
-    rounded: [Vec<Rounded>; 3],
+    rounded: [Vec<Rounded>; 5],
     dense: Dense,
     /// Position up to which the factors in `dense` hold all rows of A, for the velocity projection that follows.
     factored_at: Option<f64>,
@@ -118,7 +118,8 @@ impl Projector {
             best: vec![0.0; n],
             step: vec![0.0; n],
             rounding: vec![0.0; m],
-            rounded: [n, n, m].map(|len| vec![Rounded::exact(0.0); len]),
+            rounded: [n, n, m, spec.params.len(), spec.prepared.len()]
+                .map(|len| vec![Rounded::exact(0.0); len]),
             dense: Dense::new(n, m, spec.structure.mass_diagonal),
             factored_at: None,
             factored_q: vec![0.0; n],
@@ -134,7 +135,7 @@ impl Projector {
     /// [`Error::WrongLength`].
     pub fn position<M: Mechanism>(
         &mut self,
-        mech: &M,
+        mech: &Prepared<M>,
         t: f64,
         q: &mut [f64],
         v: &[f64],
@@ -162,7 +163,7 @@ impl Projector {
     /// As [`Projector::position`].
     pub fn velocity<M: Mechanism>(
         &mut self,
-        mech: &M,
+        mech: &Prepared<M>,
         t: f64,
         q: &[f64],
         v: &mut [f64],
@@ -186,7 +187,7 @@ impl Projector {
     /// Newton's method on `x`: q with `other` = q̇, or q̇ with `other` = q.
     fn newton<M: Mechanism>(
         &mut self,
-        mech: &M,
+        mech: &Prepared<M>,
         t: f64,
         x: &mut [f64],
         other: &[f64],
@@ -285,7 +286,7 @@ impl Projector {
     /// `x` left somewhere.
     fn straight_line<M: Mechanism>(
         &mut self,
-        mech: &M,
+        mech: &Prepared<M>,
         t: f64,
         x: &mut [f64],
         other: &[f64],
@@ -329,7 +330,14 @@ impl Projector {
     }
 
     /// φ, or φ̇ and ψ, into `residual`.
-    fn evaluate<M: Mechanism>(&mut self, mech: &M, t: f64, x: &[f64], other: &[f64], level: Level) {
+    fn evaluate<M: Mechanism>(
+        &mut self,
+        mech: &Prepared<M>,
+        t: f64,
+        x: &[f64],
+        other: &[f64],
+        level: Level,
+    ) {
         match level {
             Level::Position => mech.residual(t, x, &mut self.residual[..self.holonomic]),
             Level::Velocity => mech.residual_rate(t, other, x, &mut self.residual),
@@ -340,13 +348,16 @@ impl Projector {
     /// state at rest, say), this is far more than their own rounding makes of it.
     fn measure_rounding<M: Mechanism>(
         &mut self,
-        mech: &M,
+        mech: &Prepared<M>,
         t: f64,
         x: &[f64],
         other: &[f64],
         level: Level,
     ) {
-        let [given, fixed, residual] = &mut self.rounded;
+        let [given, fixed, residual, params, prepared] = &mut self.rounded;
+        let exact = mech.parameters().iter().map(|p| Rounded::exact(*p));
+        params.iter_mut().zip(exact).for_each(|(r, p)| *r = p);
+        M::prepare(params, prepared);
         given
             .iter_mut()
             .zip(x)
@@ -358,11 +369,11 @@ impl Projector {
         let t = Rounded::exact(t);
         let rows = match level {
             Level::Position => {
-                mech.residual(t, given, &mut residual[..self.holonomic]);
+                M::residual(prepared, t, given, &mut residual[..self.holonomic]);
                 self.holonomic
             }
             Level::Velocity => {
-                mech.residual_rate(t, fixed, given, residual);
+                M::residual_rate(prepared, t, fixed, given, residual);
                 self.m
             }
         };
@@ -371,7 +382,14 @@ impl Projector {
         }
     }
 
-    fn jacobian<M: Mechanism>(&mut self, mech: &M, t: f64, x: &[f64], other: &[f64], level: Level) {
+    fn jacobian<M: Mechanism>(
+        &mut self,
+        mech: &Prepared<M>,
+        t: f64,
+        x: &[f64],
+        other: &[f64],
+        level: Level,
+    ) {
         match level {
             Level::Position => mech.jacobian(t, x, other, &mut self.jacobian),
             Level::Velocity => mech.jacobian(t, other, x, &mut self.jacobian),
@@ -382,7 +400,7 @@ impl Projector {
     /// manifold nobody can tell whether they are implied; if they are not, the residual will not fall, and they are taken in.
     fn factor<M: Mechanism>(
         &mut self,
-        mech: &M,
+        mech: &Prepared<M>,
         t: f64,
         q: &[f64],
         rows: usize,
@@ -494,7 +512,7 @@ impl Projector {
 
     fn non_finite<M: Mechanism>(
         &self,
-        mech: &M,
+        mech: &Prepared<M>,
         t: f64,
         x: &[f64],
         other: &[f64],

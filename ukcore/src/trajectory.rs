@@ -233,9 +233,9 @@ impl<M: Mechanism> Trajectory<M> {
         segment.state(t, &mut q);
         let mut v = q.split_off(n);
         if self.projected {
-            let mut projector = Projector::new::<M>();
-            projector.position(&self.mechanism, t, &mut q, &v)?;
-            projector.velocity(&self.mechanism, t, &q, &mut v)?;
+            let (mech, mut projector) = (self.mechanism.prepared(), Projector::new::<M>());
+            projector.position(&mech, t, &mut q, &v)?;
+            projector.velocity(&mech, t, &q, &mut v)?;
         }
         Ok(State { t, q, v })
     }
@@ -270,9 +270,10 @@ impl<M: Mechanism> Trajectory<M> {
     /// All outputs at the samples: one row a sample, the order of [`Spec::outputs`](crate::Spec::outputs).
     #[must_use]
     pub fn outputs(&self) -> Vec<Vec<f64>> {
+        let mech = self.mechanism.prepared();
         let row = |s: Sample<'_>| {
             let mut row = vec![0.0; M::SPEC.outputs.len()];
-            self.mechanism.outputs(s.t, s.q, s.v, &mut row);
+            mech.outputs(s.t, s.q, s.v, &mut row);
             row
         };
         self.samples().map(row).collect()
@@ -281,7 +282,8 @@ impl<M: Mechanism> Trajectory<M> {
     /// Kinetic and potential energy at the samples.
     #[must_use]
     pub fn energy(&self) -> Vec<Energy> {
-        let energy = |s: Sample<'_>| self.mechanism.energy(s.t, s.q, s.v);
+        let mech = self.mechanism.prepared();
+        let energy = |s: Sample<'_>| mech.energy(s.t, s.q, s.v);
         self.samples().map(energy).collect()
     }
 
@@ -311,10 +313,11 @@ impl<M: Mechanism> Trajectory<M> {
     pub fn residuals(&self) -> Vec<Residual> {
         let mut position = vec![0.0; M::SPEC.holonomic];
         let mut velocity = vec![0.0; M::SPEC.m()];
+        let mech = self.mechanism.prepared();
         let largest = |values: &[f64]| values.iter().fold(0.0, |m, r| nan_max(m, r.abs()));
         let mut residual = |s: Sample<'_>| {
-            self.mechanism.residual(s.t, s.q, &mut position);
-            self.mechanism.residual_rate(s.t, s.q, s.v, &mut velocity);
+            mech.residual(s.t, s.q, &mut position);
+            mech.residual_rate(s.t, s.q, s.v, &mut velocity);
             Residual {
                 position: largest(&position),
                 velocity: largest(&velocity),
@@ -329,9 +332,10 @@ impl<M: Mechanism> Trajectory<M> {
     /// What the solver reports, with the sample ([`Error::At`]).
     pub fn accelerations(&self) -> Result<Vec<Vec<f64>>, Error> {
         let mut solver = Solver::new::<M>(self.options);
+        let mech = self.mechanism.prepared();
         let mut acceleration = |s: Sample<'_>| {
             let mut out = vec![0.0; s.q.len()];
-            match solver.acceleration(&self.mechanism, s.t, s.q, s.v, &mut out) {
+            match solver.acceleration(&mech, s.t, s.q, s.v, &mut out) {
                 Ok(()) => Ok(out),
                 Err(error) => Err(at(s, error)),
             }
@@ -345,8 +349,9 @@ impl<M: Mechanism> Trajectory<M> {
     /// What the solver reports, with the sample ([`Error::At`]).
     pub fn solutions(&self) -> Result<Vec<Solution>, Error> {
         let mut solver = Solver::new::<M>(self.options);
+        let mech = self.mechanism.prepared();
         let mut solve = |s: Sample<'_>| {
-            let solution = solver.solve(&self.mechanism, s.t, s.q, s.v);
+            let solution = solver.solve(&mech, s.t, s.q, s.v);
             solution.map_err(|error| at(s, error))
         };
         self.samples().map(&mut solve).collect()

@@ -13,7 +13,7 @@
 use std::any::TypeId;
 
 use crate::error::Error;
-use crate::mechanism::{Mechanism, Terms};
+use crate::mechanism::{Mechanism, Prepared, Terms};
 use crate::metric::{MassFault, Metric};
 use crate::pinv::{Decomposition, axpy, dot};
 
@@ -72,7 +72,13 @@ impl Evaluated {
         }
     }
 
-    pub(crate) fn dynamics<M: Mechanism>(&mut self, mech: &M, t: f64, q: &[f64], v: &[f64]) {
+    pub(crate) fn dynamics<M: Mechanism>(
+        &mut self,
+        mech: &Prepared<M>,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+    ) {
         let mut terms = Terms {
             mass: &mut self.mass,
             force: &mut self.force,

@@ -125,6 +125,20 @@ impl ::ukcore::Mechanism for DoublePendulum {
                 default: 9.8125,
             },
         ],
+        prepared: &[
+            ("m1_g", "m1*g"),
+            ("m2_g", "m2*g"),
+            ("sq_l1", "sq(l1)"),
+            ("sq_l2", "sq(l2)"),
+            ("m1", "m1"),
+            ("m2", "m2"),
+            ("per_m2", "1/m2"),
+            ("per_m1", "1/m1"),
+            ("g", "g"),
+            ("half_per_m1", "0.5/m1"),
+            ("half_per_m2", "0.5/m2"),
+            ("prepared_part", "(m1 ≤ 0 ? 0 : (m2 ≤ 0 ? 0 : 1))"),
+        ],
         coords: &["x1", "y1", "x2", "y2"],
         constraints: &[
             ::ukcore::ConstraintSpec {
@@ -172,7 +186,7 @@ impl ::ukcore::Mechanism for DoublePendulum {
             ],
             operations: ::ukcore::Operations {
                 additions: 8,
-                multiplications: 14,
+                multiplications: 12,
                 divisions: 0,
                 square_roots: 0,
                 transcendentals: 0,
@@ -181,10 +195,10 @@ impl ::ukcore::Mechanism for DoublePendulum {
             solve_operations: ::ukcore::Operations {
                 additions: 24,
                 multiplications: 43,
-                divisions: 4,
+                divisions: 2,
                 square_roots: 0,
                 transcendentals: 0,
-                selections: 4,
+                selections: 2,
             },
         },
         equations: ::ukcore::Equations {
@@ -226,9 +240,33 @@ impl ::ukcore::Mechanism for DoublePendulum {
             _ => ::ukcore::emitted::no_parameter(index),
         }
     }
-    /// 8 additions, 14 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
+    fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
+        let prepared = ::ukcore::emitted::exact_mut::<S, 12>(prepared, "prepared");
+        let [m1, m2, l1, l2, g] = *::ukcore::emitted::exact::<S, 5>(given, "given");
+        let lit = S::from_f64;
+        prepared[0] = m1 * g;
+        prepared[1] = m2 * g;
+        prepared[2] = l1 * l1;
+        prepared[3] = l2 * l2;
+        prepared[4] = m1;
+        prepared[5] = m2;
+        let per_m2 = m2.recip();
+        prepared[6] = per_m2;
+        let per_m1 = m1.recip();
+        prepared[7] = per_m1;
+        prepared[8] = g;
+        prepared[9] = lit(0.5) * per_m1;
+        prepared[10] = lit(0.5) * per_m2;
+        prepared[11] = S::select_le(
+            m1,
+            lit(0.0),
+            lit(0.0),
+            S::select_le(m2, lit(0.0), lit(0.0), lit(1.0)),
+        );
+    }
+    /// 8 additions, 12 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
@@ -239,20 +277,21 @@ impl ::ukcore::Mechanism for DoublePendulum {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 4>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 8>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 2>(out.rhs, "rhs");
+        let [m1_g, m2_g, _, _, m1, m2, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            12,
+        >(prepared, "prepared");
         let [x1, y1, x2, y2] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let [dot_x1, dot_y1, dot_x2, dot_y2] = *::ukcore::emitted::exact::<S, 4>(v, "v");
         let lit = S::from_f64;
-        let m1 = lit(self.m1);
-        let m2 = lit(self.m2);
-        let g = lit(self.g);
         mass[0] = m1;
         mass[5] = m1;
         mass[10] = m2;
         mass[15] = m2;
         force[0] = lit(0.0);
-        force[1] = -(m1 * g);
+        force[1] = -m1_g;
         force[2] = lit(0.0);
-        force[3] = -(m2 * g);
+        force[3] = -m2_g;
         nonideal[0] = lit(0.0);
         nonideal[1] = lit(0.0);
         nonideal[2] = lit(0.0);
@@ -272,17 +311,24 @@ impl ::ukcore::Mechanism for DoublePendulum {
             * (dot_x1_minus_dot_x2 * dot_x1_minus_dot_x2
                 + dot_y1_minus_dot_y2 * dot_y1_minus_dot_y2);
     }
-    fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) {
+    fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 16>(mass, "mass");
-        let lit = S::from_f64;
-        let m1 = lit(self.m1);
-        let m2 = lit(self.m2);
+        let [_, _, _, _, m1, m2, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            12,
+        >(prepared, "prepared");
         mass[0] = m1;
         mass[5] = m1;
         mass[10] = m2;
         mass[15] = m2;
     }
-    fn jacobian<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
+    fn jacobian<S: ::ukcore::Scalar>(
+        prepared: &[S],
+        t: S,
+        q: &[S],
+        v: &[S],
+        jacobian: &mut [S],
+    ) {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 8>(jacobian, "jacobian");
         let [x1, y1, x2, y2] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let lit = S::from_f64;
@@ -295,19 +341,20 @@ impl ::ukcore::Mechanism for DoublePendulum {
         jacobian[5] = lit(-2.0) * x1_minus_x2;
         jacobian[7] = lit(-2.0) * y1_minus_y2;
     }
-    fn residual<S: ::ukcore::Scalar>(&self, t: S, q: &[S], phi: &mut [S]) {
+    fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
         let phi = ::ukcore::emitted::exact_mut::<S, 2>(phi, "phi");
+        let [_, _, sq_l1, sq_l2, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            12,
+        >(prepared, "prepared");
         let [x1, y1, x2, y2] = *::ukcore::emitted::exact::<S, 4>(q, "q");
-        let lit = S::from_f64;
-        let l1 = lit(self.l1);
-        let l2 = lit(self.l2);
-        phi[0] = x1 * x1 + y1 * y1 - l1 * l1;
+        phi[0] = x1 * x1 - sq_l1 + y1 * y1;
         let x1_minus_x2 = x1 - x2;
         let y1_minus_y2 = y1 - y2;
-        phi[1] = x1_minus_x2 * x1_minus_x2 - l2 * l2 + y1_minus_y2 * y1_minus_y2;
+        phi[1] = x1_minus_x2 * x1_minus_x2 - sq_l2 + y1_minus_y2 * y1_minus_y2;
     }
     fn residual_rate<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
@@ -322,89 +369,85 @@ impl ::ukcore::Mechanism for DoublePendulum {
             * ((x1 - x2) * (dot_x1 - dot_x2) + (y1 - y2) * (dot_y1 - dot_y2));
     }
     fn energy<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
+        let [m1_g, m2_g, _, _, m1, m2, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            12,
+        >(prepared, "prepared");
         let [_, y1, _, y2] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let [dot_x1, dot_y1, dot_x2, dot_y2] = *::ukcore::emitted::exact::<S, 4>(v, "v");
         let lit = S::from_f64;
-        let m1 = lit(self.m1);
-        let m2 = lit(self.m2);
-        let g = lit(self.g);
         let kinetic = lit(0.5)
-            * (m1 * dot_x1 * dot_x1 + m1 * dot_y1 * dot_y1 + m2 * dot_x2 * dot_x2
-                + m2 * dot_y2 * dot_y2);
-        let potential = m1 * g * y1 + m2 * g * y2;
+            * (dot_x1 * dot_x1 * m1 + dot_y1 * dot_y1 * m1 + dot_x2 * dot_x2 * m2
+                + dot_y2 * dot_y2 * m2);
+        let potential = y1 * m1_g + y2 * m2_g;
         ::ukcore::Energy {
             kinetic,
             potential,
         }
     }
-    fn outputs<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) {
+    fn outputs<S: ::ukcore::Scalar>(
+        prepared: &[S],
+        t: S,
+        q: &[S],
+        v: &[S],
+        outputs: &mut [S],
+    ) {
         let outputs = ::ukcore::emitted::exact_mut::<S, 2>(outputs, "outputs");
         let [x1, y1, x2, y2] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         outputs[0] = x1.atan2(-y1);
         outputs[1] = (x2 - x1).atan2(y1 - y2);
     }
-    /// 24 additions, 43 multiplications, 4 divisions, 0 square roots, 0 transcendentals, 4 selections.
+    /// 24 additions, 43 multiplications, 2 divisions, 0 square roots, 0 transcendentals, 2 selections.
     fn acceleration<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 4>(out, "out");
+        let [_, _, _, _, m1, _, per_m2, per_m1, g, _, _, prepared_part] = *::ukcore::emitted::exact::<
+            S,
+            12,
+        >(prepared, "prepared");
         let [x1, y1, x2, y2] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let [dot_x1, dot_y1, dot_x2, dot_y2] = *::ukcore::emitted::exact::<S, 4>(v, "v");
         let lit = S::from_f64;
-        let m1 = lit(self.m1);
-        let m2 = lit(self.m2);
-        let g = lit(self.g);
-        let per_m1 = m1.recip();
-        let per_m2 = m2.recip();
         let x1_minus_x2 = x1 - x2;
         let y1_minus_y2 = y1 - y2;
         let dot_x1_minus_dot_x2 = dot_x1 - dot_x2;
         let dot_y1_minus_dot_y2 = dot_y1 - dot_y2;
         let acceleration_0_part = x1 * x1 + y1 * y1;
         let per_acceleration_0_part = acceleration_0_part.recip();
-        let acceleration_0_part_2 = (dot_x1 * dot_x1 + dot_y1 * dot_y1) - g * y1;
-        let acceleration_0_part_3 = x1 * x1_minus_x2 + y1 * y1_minus_y2;
-        let pivot_inner = acceleration_0_part * per_m1;
-        let acceleration_0_part_4 = x1_minus_x2 * x1_minus_x2 * per_m2
-            + y1_minus_y2 * y1_minus_y2 * per_m2 + x1_minus_x2 * x1_minus_x2 * per_m1
-            + y1_minus_y2 * y1_minus_y2 * per_m1;
-        let outer_by_inner = acceleration_0_part_3 * per_acceleration_0_part;
-        let pivot_outer = acceleration_0_part_3 * acceleration_0_part_3 * per_m1
+        let acceleration_0_part_2 = x1 * x1_minus_x2 + y1 * y1_minus_y2;
+        let pivot_inner = per_m1 * acceleration_0_part;
+        let acceleration_0_part_3 = (dot_x1 * dot_x1 + dot_y1 * dot_y1) - y1 * g;
+        let acceleration_0_part_4 = per_m2 * x1_minus_x2 * x1_minus_x2
+            + per_m2 * y1_minus_y2 * y1_minus_y2 + per_m1 * x1_minus_x2 * x1_minus_x2
+            + per_m1 * y1_minus_y2 * y1_minus_y2;
+        let outer_by_inner = acceleration_0_part_2 * per_acceleration_0_part;
+        let pivot_outer = per_m1 * acceleration_0_part_2 * acceleration_0_part_2
             * per_acceleration_0_part - acceleration_0_part_4;
         let per_pivot_outer = pivot_outer.recip();
         let acceleration_0_part_5 = (dot_x1_minus_dot_x2 * dot_x1_minus_dot_x2
             + dot_y1_minus_dot_y2 * dot_y1_minus_dot_y2)
-            - acceleration_0_part_2 * outer_by_inner;
+            - acceleration_0_part_3 * outer_by_inner;
         let safe = S::select_le(
             -pivot_outer,
             lit(0.0009765625) * acceleration_0_part_4,
             lit(0.0),
-            S::select_le(
-                pivot_inner,
-                lit(0.0),
-                lit(0.0),
-                S::select_le(
-                    m1,
-                    lit(0.0),
-                    lit(0.0),
-                    S::select_le(m2, lit(0.0), lit(0.0), lit(1.0)),
-                ),
-            ),
+            S::select_le(pivot_inner, lit(0.0), lit(0.0), prepared_part),
         );
-        let lambda_inner = m1 * acceleration_0_part_2 * per_acceleration_0_part
+        let lambda_inner = m1 * acceleration_0_part_3 * per_acceleration_0_part
             + outer_by_inner * acceleration_0_part_5 * per_pivot_outer;
-        out[2] = -(x1_minus_x2 * per_m2 * acceleration_0_part_5 * per_pivot_outer);
-        out[3] = -g - y1_minus_y2 * per_m2 * acceleration_0_part_5 * per_pivot_outer;
-        out[1] = y1_minus_y2 * per_m1 * acceleration_0_part_5 * per_pivot_outer - g
+        out[2] = -(per_m2 * x1_minus_x2 * acceleration_0_part_5 * per_pivot_outer);
+        out[3] = -g - per_m2 * y1_minus_y2 * acceleration_0_part_5 * per_pivot_outer;
+        out[1] = per_m1 * y1_minus_y2 * acceleration_0_part_5 * per_pivot_outer - g
             - y1 * per_m1 * lambda_inner;
         out[0] = -(per_m1
             * (x1 * lambda_inner
@@ -412,7 +455,7 @@ impl ::ukcore::Mechanism for DoublePendulum {
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
@@ -420,27 +463,25 @@ impl ::ukcore::Mechanism for DoublePendulum {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 4>(out, "out");
+        let [_, _, _, _, m1, _, per_m2, per_m1, _, half_per_m1, half_per_m2,
+        prepared_part] = *::ukcore::emitted::exact::<S, 12>(prepared, "prepared");
         let [x1, y1, x2, y2] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let [residual_0, residual_1] = *::ukcore::emitted::exact::<
             S,
             2,
         >(residual, "residual");
         let lit = S::from_f64;
-        let m1 = lit(self.m1);
-        let m2 = lit(self.m2);
-        let per_m1 = m1.recip();
-        let per_m2 = m2.recip();
         let x1_minus_x2 = x1 - x2;
         let y1_minus_y2 = y1 - y2;
         let correction_0_part = x1 * x1 + y1 * y1;
         let per_correction_0_part = correction_0_part.recip();
         let correction_0_part_2 = x1 * x1_minus_x2 + y1 * y1_minus_y2;
-        let pivot_inner = correction_0_part * per_m1;
-        let correction_0_part_3 = x1_minus_x2 * x1_minus_x2 * per_m2
-            + y1_minus_y2 * y1_minus_y2 * per_m2 + x1_minus_x2 * x1_minus_x2 * per_m1
-            + y1_minus_y2 * y1_minus_y2 * per_m1;
+        let pivot_inner = per_m1 * correction_0_part;
+        let correction_0_part_3 = per_m2 * x1_minus_x2 * x1_minus_x2
+            + per_m2 * y1_minus_y2 * y1_minus_y2 + per_m1 * x1_minus_x2 * x1_minus_x2
+            + per_m1 * y1_minus_y2 * y1_minus_y2;
         let outer_by_inner = correction_0_part_2 * per_correction_0_part;
-        let pivot_outer = correction_0_part_2 * correction_0_part_2 * per_m1
+        let pivot_outer = per_m1 * correction_0_part_2 * correction_0_part_2
             * per_correction_0_part - correction_0_part_3;
         let per_pivot_outer = pivot_outer.recip();
         let correction_0_part_4 = residual_1 - residual_0 * outer_by_inner;
@@ -448,32 +489,16 @@ impl ::ukcore::Mechanism for DoublePendulum {
             -pivot_outer,
             lit(0.0009765625) * correction_0_part_3,
             lit(0.0),
-            S::select_le(
-                pivot_inner,
-                lit(0.0),
-                lit(0.0),
-                S::select_le(
-                    m1,
-                    lit(0.0),
-                    lit(0.0),
-                    S::select_le(m2, lit(0.0), lit(0.0), lit(1.0)),
-                ),
-            ),
+            S::select_le(pivot_inner, lit(0.0), lit(0.0), prepared_part),
         );
-        let lambda_inner = m1 * residual_0 * per_correction_0_part
+        let lambda_inner = residual_0 * m1 * per_correction_0_part
             + outer_by_inner * correction_0_part_4 * per_pivot_outer;
-        out[2] = lit(-0.5)
-            * (x1_minus_x2 * per_m2 * correction_0_part_4 * per_pivot_outer);
-        out[3] = lit(-0.5)
-            * (y1_minus_y2 * per_m2 * correction_0_part_4 * per_pivot_outer);
-        out[0] = lit(-0.5)
-            * (per_m1
-                * (x1 * lambda_inner
-                    - x1_minus_x2 * correction_0_part_4 * per_pivot_outer));
-        out[1] = lit(-0.5)
-            * (per_m1
-                * (y1 * lambda_inner
-                    - y1_minus_y2 * correction_0_part_4 * per_pivot_outer));
+        out[2] = -(half_per_m2 * x1_minus_x2 * correction_0_part_4 * per_pivot_outer);
+        out[3] = -(half_per_m2 * y1_minus_y2 * correction_0_part_4 * per_pivot_outer);
+        out[0] = -(half_per_m1
+            * (x1 * lambda_inner - x1_minus_x2 * correction_0_part_4 * per_pivot_outer));
+        out[1] = -(half_per_m1
+            * (y1 * lambda_inner - y1_minus_y2 * correction_0_part_4 * per_pivot_outer));
         safe
     }
 }

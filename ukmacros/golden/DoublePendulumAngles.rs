@@ -95,6 +95,25 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
                 default: 9.8125,
             },
         ],
+        prepared: &[
+            ("pivot_th1", "(m1 + m2)*sq(l1)"),
+            ("m2_sq_l2", "m2*sq(l2)"),
+            ("m2_l1_l2", "m2*l1*l2"),
+            ("half_m1_and_m2_sq_l1", "0.5*(m1 + m2)*sq(l1)"),
+            ("half_m2_sq_l2", "0.5*m2*sq(l2)"),
+            ("m1_and_m2_l1_g", "(m1 + m2)*l1*g"),
+            ("m2_l2_g", "m2*l2*g"),
+            ("l1", "l1"),
+            ("l2", "l2"),
+            ("m2_l2", "m2*l2"),
+            ("m1_and_m2_g", "(m1 + m2)*g"),
+            ("m2_per_m1_and_m2_per_l1_l2", "m2*l2/((m1 + m2)*l1)"),
+            ("per_m1_and_m2_per_l1", "1/((m1 + m2)*l1)"),
+            ("m2_per_m1_and_m2", "m2/(m1 + m2)"),
+            ("prepared_part", "1/(m2*sq(l2))"),
+            ("times_m2_sq_l2", "0.0009765625*m2*sq(l2)"),
+            ("prepared_part_2", "((m1 + m2)*sq(l1) ≤ 0 ? 0 : 1)"),
+        ],
         coords: &["th1", "th2"],
         constraints: &[],
         holonomic: 0,
@@ -135,20 +154,20 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
                 "non-ideal force c (eq. 12): all constraints are ideal",
             ],
             operations: ::ukcore::Operations {
-                additions: 7,
-                multiplications: 28,
+                additions: 6,
+                multiplications: 12,
                 divisions: 0,
                 square_roots: 0,
                 transcendentals: 3,
                 selections: 0,
             },
             solve_operations: ::ukcore::Operations {
-                additions: 10,
-                multiplications: 49,
-                divisions: 6,
+                additions: 9,
+                multiplications: 26,
+                divisions: 1,
                 square_roots: 0,
                 transcendentals: 3,
-                selections: 2,
+                selections: 1,
             },
         },
         equations: ::ukcore::Equations {
@@ -193,9 +212,36 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
             _ => ::ukcore::emitted::no_parameter(index),
         }
     }
-    /// 7 additions, 28 multiplications, 0 divisions, 0 square roots, 3 transcendentals, 0 selections.
+    fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
+        let prepared = ::ukcore::emitted::exact_mut::<S, 17>(prepared, "prepared");
+        let [m1, m2, l1, l2, g] = *::ukcore::emitted::exact::<S, 5>(given, "given");
+        let lit = S::from_f64;
+        let m1_plus_m2 = m1 + m2;
+        let per_m1_plus_m2 = m1_plus_m2.recip();
+        let per_l1 = l1.recip();
+        let pivot_th1 = l1 * l1 * m1_plus_m2;
+        prepared[0] = pivot_th1;
+        let m2_sq_l2 = m2 * l2 * l2;
+        prepared[1] = m2_sq_l2;
+        prepared[2] = m2 * l1 * l2;
+        prepared[3] = lit(0.5) * pivot_th1;
+        prepared[4] = lit(0.5) * m2_sq_l2;
+        prepared[5] = l1 * g * m1_plus_m2;
+        prepared[6] = m2 * l2 * g;
+        prepared[7] = l1;
+        prepared[8] = l2;
+        prepared[9] = m2 * l2;
+        prepared[10] = g * m1_plus_m2;
+        prepared[11] = m2 * l2 * per_l1 * per_m1_plus_m2;
+        prepared[12] = per_l1 * per_m1_plus_m2;
+        prepared[13] = m2 * per_m1_plus_m2;
+        prepared[14] = (m2 * l2 * l2).recip();
+        prepared[15] = lit(0.0009765625) * m2_sq_l2;
+        prepared[16] = S::select_le(pivot_th1, lit(0.0), lit(0.0), lit(1.0));
+    }
+    /// 6 additions, 12 multiplications, 0 divisions, 0 square roots, 3 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
@@ -206,55 +252,54 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 0>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 0>(out.rhs, "rhs");
+        let [pivot_th1, m2_sq_l2, m2_l1_l2, _, _, m1_and_m2_l1_g, m2_l2_g, _, _, _, _, _,
+        _, _, _, _, _] = *::ukcore::emitted::exact::<S, 17>(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_th1, dot_th2] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
-        let m1 = lit(self.m1);
-        let m2 = lit(self.m2);
-        let l1 = lit(self.l1);
-        let l2 = lit(self.l2);
-        let g = lit(self.g);
-        let m1_plus_m2 = m1 + m2;
-        let pivot_th1 = l1 * l1 * m1_plus_m2;
         mass[0] = pivot_th1;
         let th1_minus_th2 = th1 - th2;
         let (sin_th1_minus_th2, cos_th1_minus_th2) = th1_minus_th2.sin_cos();
-        let m2_l1_l2_cos_th1_minus_th2 = m2 * l1 * l2 * cos_th1_minus_th2;
-        mass[1] = m2_l1_l2_cos_th1_minus_th2;
-        mass[2] = m2_l1_l2_cos_th1_minus_th2;
-        mass[3] = m2 * l2 * l2;
+        let cos_th1_minus_th2_m2_l1_l2 = m2_l1_l2 * cos_th1_minus_th2;
+        mass[1] = cos_th1_minus_th2_m2_l1_l2;
+        mass[2] = cos_th1_minus_th2_m2_l1_l2;
+        mass[3] = m2_sq_l2;
         let dot_th1_minus_dot_th2 = dot_th1 - dot_th2;
-        let force_0_part = m2 * l1 * dot_th1 * l2 * dot_th2 * sin_th1_minus_th2;
-        force[0] = m2 * l1 * l2 * dot_th2 * dot_th1_minus_dot_th2 * sin_th1_minus_th2
-            - l1 * g * m1_plus_m2 * th1.sin() - force_0_part;
-        force[1] = force_0_part - m2 * l2 * g * th2.sin()
-            + m2 * l1 * dot_th1 * l2 * dot_th1_minus_dot_th2 * sin_th1_minus_th2;
+        let force_0_part = dot_th1 * dot_th2 * m2_l1_l2 * sin_th1_minus_th2;
+        force[0] = dot_th2 * m2_l1_l2 * dot_th1_minus_dot_th2 * sin_th1_minus_th2
+            - m1_and_m2_l1_g * th1.sin() - force_0_part;
+        force[1] = force_0_part - m2_l2_g * th2.sin()
+            + dot_th1 * m2_l1_l2 * dot_th1_minus_dot_th2 * sin_th1_minus_th2;
         nonideal[0] = lit(0.0);
         nonideal[1] = lit(0.0);
     }
-    fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) {
+    fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 4>(mass, "mass");
+        let [pivot_th1, m2_sq_l2, m2_l1_l2, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            17,
+        >(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
-        let lit = S::from_f64;
-        let m1 = lit(self.m1);
-        let m2 = lit(self.m2);
-        let l1 = lit(self.l1);
-        let l2 = lit(self.l2);
-        let pivot_th1 = l1 * l1 * (m1 + m2);
         mass[0] = pivot_th1;
-        let mass_th2_th1 = m2 * l1 * l2 * (th1 - th2).cos();
+        let mass_th2_th1 = m2_l1_l2 * (th1 - th2).cos();
         mass[1] = mass_th2_th1;
         mass[2] = mass_th2_th1;
-        mass[3] = m2 * l2 * l2;
+        mass[3] = m2_sq_l2;
     }
-    fn jacobian<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
+    fn jacobian<S: ::ukcore::Scalar>(
+        prepared: &[S],
+        t: S,
+        q: &[S],
+        v: &[S],
+        jacobian: &mut [S],
+    ) {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 0>(jacobian, "jacobian");
     }
-    fn residual<S: ::ukcore::Scalar>(&self, t: S, q: &[S], phi: &mut [S]) {
+    fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
         let phi = ::ukcore::emitted::exact_mut::<S, 0>(phi, "phi");
     }
     fn residual_rate<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
@@ -263,95 +308,91 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         let rate = ::ukcore::emitted::exact_mut::<S, 0>(rate, "rate");
     }
     fn energy<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
+        let [_, _, m2_l1_l2, half_m1_and_m2_sq_l1, half_m2_sq_l2, m1_and_m2_l1_g,
+        m2_l2_g, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            17,
+        >(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_th1, dot_th2] = *::ukcore::emitted::exact::<S, 2>(v, "v");
-        let lit = S::from_f64;
-        let m1 = lit(self.m1);
-        let m2 = lit(self.m2);
-        let l1 = lit(self.l1);
-        let l2 = lit(self.l2);
-        let g = lit(self.g);
-        let m1_plus_m2 = m1 + m2;
-        let kinetic = lit(0.5) * (m2 * l2 * l2 * dot_th2 * dot_th2)
-            + lit(0.5) * (l1 * l1 * dot_th1 * dot_th1 * m1_plus_m2)
-            + m2 * l1 * dot_th1 * l2 * dot_th2 * (th1 - th2).cos();
-        let potential = -(l1 * g * m1_plus_m2 * th1.cos()) - m2 * l2 * g * th2.cos();
+        let kinetic = dot_th1 * dot_th1 * half_m1_and_m2_sq_l1
+            + dot_th2 * dot_th2 * half_m2_sq_l2
+            + dot_th1 * dot_th2 * m2_l1_l2 * (th1 - th2).cos();
+        let potential = -(m1_and_m2_l1_g * th1.cos()) - m2_l2_g * th2.cos();
         ::ukcore::Energy {
             kinetic,
             potential,
         }
     }
-    fn outputs<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) {
+    fn outputs<S: ::ukcore::Scalar>(
+        prepared: &[S],
+        t: S,
+        q: &[S],
+        v: &[S],
+        outputs: &mut [S],
+    ) {
         let outputs = ::ukcore::emitted::exact_mut::<S, 4>(outputs, "outputs");
+        let [_, _, _, _, _, _, _, l1, l2, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            17,
+        >(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
-        let lit = S::from_f64;
-        let l1 = lit(self.l1);
-        let l2 = lit(self.l2);
         let (sin_th1, cos_th1) = th1.sin_cos();
-        let l1_sin_th1 = l1 * sin_th1;
-        outputs[0] = l1_sin_th1;
-        let l1_cos_th1 = l1 * cos_th1;
-        outputs[1] = -l1_cos_th1;
+        let sin_th1_l1 = l1 * sin_th1;
+        outputs[0] = sin_th1_l1;
+        let cos_th1_l1 = l1 * cos_th1;
+        outputs[1] = -cos_th1_l1;
         let (sin_th2, cos_th2) = th2.sin_cos();
-        outputs[2] = l1_sin_th1 + l2 * sin_th2;
-        outputs[3] = -l1_cos_th1 - l2 * cos_th2;
+        outputs[2] = sin_th1_l1 + l2 * sin_th2;
+        outputs[3] = -cos_th1_l1 - l2 * cos_th2;
     }
-    /// 10 additions, 49 multiplications, 6 divisions, 0 square roots, 3 transcendentals, 2 selections.
+    /// 9 additions, 26 multiplications, 1 divisions, 0 square roots, 3 transcendentals, 1 selections.
     fn acceleration<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
+        let [_, m2_sq_l2, m2_l1_l2, _, _, _, m2_l2_g, l1, _, m2_l2, m1_and_m2_g,
+        m2_per_m1_and_m2_per_l1_l2, per_m1_and_m2_per_l1, m2_per_m1_and_m2,
+        prepared_part, times_m2_sq_l2, prepared_part_2] = *::ukcore::emitted::exact::<
+            S,
+            17,
+        >(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_th1, dot_th2] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
-        let m1 = lit(self.m1);
-        let m2 = lit(self.m2);
-        let l1 = lit(self.l1);
-        let l2 = lit(self.l2);
-        let g = lit(self.g);
-        let per_m2 = m2.recip();
-        let per_l1 = l1.recip();
-        let m1_plus_m2 = m1 + m2;
         let th1_minus_th2 = th1 - th2;
         let dot_th1_minus_dot_th2 = dot_th1 - dot_th2;
-        let per_m1_plus_m2 = m1_plus_m2.recip();
-        let pivot_th1 = l1 * l1 * m1_plus_m2;
         let (sin_th1_minus_th2, cos_th1_minus_th2) = th1_minus_th2.sin_cos();
-        let acceleration_0_part = m2 * l2 * dot_th2 * dot_th1_minus_dot_th2
-            * sin_th1_minus_th2 - g * m1_plus_m2 * th1.sin()
-            - m2 * dot_th1 * l2 * dot_th2 * sin_th1_minus_th2;
-        let th2_by_th1 = m2 * l2 * per_l1 * per_m1_plus_m2 * cos_th1_minus_th2;
+        let th2_by_th1 = m2_per_m1_and_m2_per_l1_l2 * cos_th1_minus_th2;
+        let acceleration_0_part = dot_th2 * m2_l2 * dot_th1_minus_dot_th2
+            * sin_th1_minus_th2 - m1_and_m2_g * th1.sin()
+            - dot_th1 * dot_th2 * m2_l2 * sin_th1_minus_th2;
         let acceleration_0_part_2 = lit(1.0)
-            - m2 * per_m1_plus_m2 * cos_th1_minus_th2 * cos_th1_minus_th2;
+            - m2_per_m1_and_m2 * cos_th1_minus_th2 * cos_th1_minus_th2;
         let per_acceleration_0_part_2 = acceleration_0_part_2.recip();
-        let pivot_th2 = m2 * l2 * l2 * acceleration_0_part_2;
-        let acceleration_0_part_3 = (m2 * l1 * dot_th1 * l2 * dot_th2 * sin_th1_minus_th2
-            - m2 * l2 * g * th2.sin()
-            + m2 * l1 * dot_th1 * l2 * dot_th1_minus_dot_th2 * sin_th1_minus_th2)
-            - l1 * acceleration_0_part * th2_by_th1;
-        let safe = S::select_le(
-            pivot_th2,
-            lit(0.0009765625) * (m2 * l2 * l2),
-            lit(0.0),
-            S::select_le(pivot_th1, lit(0.0), lit(0.0), lit(1.0)),
-        );
-        out[1] = per_m2 * acceleration_0_part_3 * per_acceleration_0_part_2 / (l2 * l2);
-        out[0] = per_l1 * per_m1_plus_m2 * acceleration_0_part
-            - per_m2 * th2_by_th1 * acceleration_0_part_3 * per_acceleration_0_part_2
-                / (l2 * l2);
+        let pivot_th2 = m2_sq_l2 * acceleration_0_part_2;
+        let acceleration_0_part_3 = (dot_th1 * dot_th2 * m2_l1_l2 * sin_th1_minus_th2
+            - m2_l2_g * th2.sin()
+            + dot_th1 * m2_l1_l2 * dot_th1_minus_dot_th2 * sin_th1_minus_th2)
+            - l1 * th2_by_th1 * acceleration_0_part;
+        let safe = S::select_le(pivot_th2, times_m2_sq_l2, lit(0.0), prepared_part_2);
+        out[1] = prepared_part * acceleration_0_part_3 * per_acceleration_0_part_2;
+        out[0] = per_m1_and_m2_per_l1 * acceleration_0_part
+            - prepared_part * th2_by_th1 * acceleration_0_part_3
+                * per_acceleration_0_part_2;
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
@@ -359,25 +400,18 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
+        let [_, m2_sq_l2, _, _, _, _, _, _, _, _, _, _, _, m2_per_m1_and_m2, _,
+        times_m2_sq_l2, prepared_part_2] = *::ukcore::emitted::exact::<
+            S,
+            17,
+        >(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let lit = S::from_f64;
-        let m1 = lit(self.m1);
-        let m2 = lit(self.m2);
-        let l1 = lit(self.l1);
-        let l2 = lit(self.l2);
         out[0] = lit(0.0);
         out[1] = lit(0.0);
-        let m1_plus_m2 = m1 + m2;
-        let pivot_th1 = l1 * l1 * m1_plus_m2;
         let safe_part = (th1 - th2).cos();
-        let pivot_th2 = m2 * l2 * l2
-            * (lit(1.0) - m2 * safe_part * safe_part / m1_plus_m2);
-        let safe = S::select_le(
-            pivot_th2,
-            lit(0.0009765625) * (m2 * l2 * l2),
-            lit(0.0),
-            S::select_le(pivot_th1, lit(0.0), lit(0.0), lit(1.0)),
-        );
+        let pivot_th2 = m2_sq_l2 * (lit(1.0) - m2_per_m1_and_m2 * safe_part * safe_part);
+        let safe = S::select_le(pivot_th2, times_m2_sq_l2, lit(0.0), prepared_part_2);
         safe
     }
 }

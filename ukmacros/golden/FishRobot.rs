@@ -282,6 +282,61 @@ impl ::ukcore::Mechanism for FishRobot {
                 default: 0.2617993877991494,
             },
         ],
+        prepared: &[
+            ("rho_span_half_chord", "rho*span*half_chord"),
+            ("rho_s_cd", "rho*s*cd"),
+            ("rho_cd_s1", "rho*cd*s1"),
+            ("rho_cd_s2", "rho*cd*s2"),
+            ("rho_cd_s3", "rho*cd*s3"),
+            ("half_rho_cd_s3", "0.5*rho*cd*s3"),
+            ("a", "a"),
+            ("l2", "l2"),
+            ("b", "b"),
+            ("w", "w"),
+            ("a2", "a2"),
+            ("phi_2", "phi"),
+            ("a3", "a3"),
+            ("m1", "m1"),
+            ("i1", "i1"),
+            ("m2", "m2"),
+            ("m3", "m3"),
+            ("a2_w", "a2*w"),
+            ("a2_sq_w", "a2*sq(w)"),
+            ("w_a3", "w*a3"),
+            ("sq_w_a3", "sq(w)*a3"),
+            ("l2_a2_sq_w", "l2*a2*sq(w)"),
+            ("b_sq_w_a3", "b*sq(w)*a3"),
+            ("rho_per_m1_s_cd", "rho*s*cd/m1"),
+            ("rho_per_m1_cd_s1", "rho*cd*s1/m1"),
+            ("rho_span_half_chord_per_m3", "rho*span*half_chord/m3"),
+            ("span_half_chord", "span*half_chord"),
+            ("cd_s3", "cd*s3"),
+            ("times_span_half_chord", "6.283185307179586*span*half_chord"),
+            ("half_cd_s3", "0.5*cd*s3"),
+            ("rho", "rho"),
+            ("rho_per_m3", "rho/m3"),
+            ("per_i1_sq_a", "sq(a)/i1"),
+            ("rho_per_m2_cd_s2", "rho*cd*s2/m2"),
+            (
+                "times_rho_span_half_chord_per_m3",
+                "6.283185307179586*rho*span*half_chord/m3",
+            ),
+            ("joint1_0_by_joint2_0", "1/(m2*(1/m3 + 1/m2))"),
+            ("per_per_m3_and_per_m2", "1/(1/m3 + 1/m2)"),
+            ("per_m1_and_per_m2", "1/m1 + 1/m2"),
+            ("prepared_part", "1/(sq(m2)*(1/m3 + 1/m2))"),
+            ("half_rho_per_m1_s_cd", "0.5*rho*s*cd/m1"),
+            ("prepared_part_2", "a^4/sq(i1)"),
+            ("half_rho_per_m1_cd_s1", "0.5*rho*cd*s1/m1"),
+            ("per_m2", "1/m2"),
+            ("per_i1_a", "a/i1"),
+            ("per_m3", "1/m3"),
+            ("per_m1", "1/m1"),
+            (
+                "prepared_part_3",
+                "(1/m3 + 1/m2 ≤ 0 ? 0 : (m2 ≤ 0 ? 0 : (i1 ≤ 0 ? 0 : (m3 ≤ 0 ? 0 : (m1 ≤ 0 ? 0 : 1)))))",
+            ),
+        ],
         coords: &["x1", "y1", "th1", "x2", "y2", "th2", "x3", "y3", "th3"],
         constraints: &[
             ::ukcore::ConstraintSpec {
@@ -382,19 +437,19 @@ impl ::ukcore::Mechanism for FishRobot {
             ],
             operations: ::ukcore::Operations {
                 additions: 12,
-                multiplications: 73,
+                multiplications: 56,
                 divisions: 0,
                 square_roots: 0,
                 transcendentals: 5,
                 selections: 4,
             },
             solve_operations: ::ukcore::Operations {
-                additions: 49,
-                multiplications: 164,
-                divisions: 7,
+                additions: 47,
+                multiplications: 106,
+                divisions: 2,
                 square_roots: 0,
                 transcendentals: 5,
-                selections: 11,
+                selections: 6,
             },
         },
         equations: ::ukcore::Equations {
@@ -500,9 +555,95 @@ impl ::ukcore::Mechanism for FishRobot {
             _ => ::ukcore::emitted::no_parameter(index),
         }
     }
-    /// 12 additions, 73 multiplications, 0 divisions, 0 square roots, 5 transcendentals, 4 selections.
+    fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
+        let prepared = ::ukcore::emitted::exact_mut::<S, 47>(prepared, "prepared");
+        let [m1, i1, a, s, s1, m2, l2, s2, m3, b, s3, rho, cd, span, half_chord, a2, a3,
+        w, phi_2] = *::ukcore::emitted::exact::<S, 19>(given, "given");
+        let lit = S::from_f64;
+        prepared[0] = rho * span * half_chord;
+        prepared[1] = rho * s * cd;
+        prepared[2] = rho * cd * s1;
+        prepared[3] = rho * cd * s2;
+        let rho_cd_s3 = rho * cd * s3;
+        prepared[4] = rho_cd_s3;
+        prepared[5] = lit(0.5) * rho_cd_s3;
+        prepared[6] = a;
+        prepared[7] = l2;
+        prepared[8] = b;
+        prepared[9] = w;
+        prepared[10] = a2;
+        prepared[11] = phi_2;
+        prepared[12] = a3;
+        let per_m1 = m1.recip();
+        prepared[13] = m1;
+        let per_i1 = i1.recip();
+        prepared[14] = i1;
+        let per_m2 = m2.recip();
+        prepared[15] = m2;
+        let per_m3 = m3.recip();
+        prepared[16] = m3;
+        prepared[17] = a2 * w;
+        prepared[18] = a2 * w * w;
+        prepared[19] = w * a3;
+        prepared[20] = w * w * a3;
+        prepared[21] = l2 * a2 * w * w;
+        prepared[22] = b * w * w * a3;
+        let rho_per_m1_s_cd = rho * s * cd * per_m1;
+        prepared[23] = rho_per_m1_s_cd;
+        let rho_per_m1_cd_s1 = rho * cd * s1 * per_m1;
+        prepared[24] = rho_per_m1_cd_s1;
+        let rho_span_half_chord_per_m3 = rho * span * half_chord * per_m3;
+        prepared[25] = rho_span_half_chord_per_m3;
+        let span_half_chord = span * half_chord;
+        prepared[26] = span_half_chord;
+        let cd_s3 = cd * s3;
+        prepared[27] = cd_s3;
+        prepared[28] = lit(::core::f64::consts::TAU) * span_half_chord;
+        prepared[29] = lit(0.5) * cd_s3;
+        prepared[30] = rho;
+        prepared[31] = rho * per_m3;
+        prepared[32] = a * a * per_i1;
+        prepared[33] = rho * cd * s2 * per_m2;
+        prepared[34] = lit(::core::f64::consts::TAU) * rho_span_half_chord_per_m3;
+        let pivot_joint2_0 = per_m3 + per_m2;
+        let per_pivot_joint2_0 = pivot_joint2_0.recip();
+        let joint1_0_by_joint2_0 = per_m2 * per_pivot_joint2_0;
+        prepared[35] = joint1_0_by_joint2_0;
+        prepared[36] = per_pivot_joint2_0;
+        prepared[37] = per_m1 + per_m2;
+        prepared[38] = per_pivot_joint2_0 / (m2 * m2);
+        prepared[39] = lit(0.5) * rho_per_m1_s_cd;
+        prepared[40] = a.powi(4) / (i1 * i1);
+        prepared[41] = lit(0.5) * rho_per_m1_cd_s1;
+        prepared[42] = per_m2;
+        prepared[43] = a * per_i1;
+        prepared[44] = per_m3;
+        prepared[45] = per_m1;
+        prepared[46] = S::select_le(
+            pivot_joint2_0,
+            lit(0.0),
+            lit(0.0),
+            S::select_le(
+                m2,
+                lit(0.0),
+                lit(0.0),
+                S::select_le(
+                    i1,
+                    lit(0.0),
+                    lit(0.0),
+                    S::select_le(
+                        m3,
+                        lit(0.0),
+                        lit(0.0),
+                        S::select_le(m1, lit(0.0), lit(0.0), lit(1.0)),
+                    ),
+                ),
+            ),
+        );
+    }
+    /// 12 additions, 56 multiplications, 0 divisions, 0 square roots, 5 transcendentals, 4 selections.
     fn dynamics<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
@@ -513,6 +654,12 @@ impl ::ukcore::Mechanism for FishRobot {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 9>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 54>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 6>(out.rhs, "rhs");
+        let [rho_span_half_chord, rho_s_cd, rho_cd_s1, rho_cd_s2, _, half_rho_cd_s3, a,
+        l2, b, w, _, phi_2, _, m1, i1, m2, m3, _, a2_sq_w, _, sq_w_a3, _, _, _, _, _, _,
+        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            47,
+        >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -522,25 +669,6 @@ impl ::ukcore::Mechanism for FishRobot {
             9,
         >(v, "v");
         let lit = S::from_f64;
-        let m1 = lit(self.m1);
-        let i1 = lit(self.i1);
-        let a = lit(self.a);
-        let s = lit(self.s);
-        let s1 = lit(self.s1);
-        let m2 = lit(self.m2);
-        let l2 = lit(self.l2);
-        let s2 = lit(self.s2);
-        let m3 = lit(self.m3);
-        let b = lit(self.b);
-        let s3 = lit(self.s3);
-        let rho = lit(self.rho);
-        let cd = lit(self.cd);
-        let span = lit(self.span);
-        let half_chord = lit(self.half_chord);
-        let a2 = lit(self.a2);
-        let a3 = lit(self.a3);
-        let w = lit(self.w);
-        let phi_2 = lit(self.phi);
         mass[0] = m1;
         mass[10] = m1;
         mass[20] = i1;
@@ -548,20 +676,20 @@ impl ::ukcore::Mechanism for FishRobot {
         mass[40] = m2;
         mass[60] = m3;
         mass[70] = m3;
-        force[0] = lit(-0.5) * (rho * s * dot_x1 * cd * dot_x1.abs());
-        force[1] = lit(-0.5) * (rho * cd * s1 * dot_y1 * dot_y1.abs());
+        force[0] = lit(-0.5) * (dot_x1 * rho_s_cd * dot_x1.abs());
+        force[1] = lit(-0.5) * (dot_y1 * rho_cd_s1 * dot_y1.abs());
         force[2] = lit(0.0);
         force[3] = lit(0.0);
-        force[4] = lit(-0.5) * (rho * cd * s2 * dot_y2 * dot_y2.abs());
+        force[4] = lit(-0.5) * (dot_y2 * rho_cd_s2 * dot_y2.abs());
         force[5] = lit(0.0);
         let (sin_th3, cos_th3) = th3.sin_cos();
         force[6] = lit(::core::f64::consts::TAU)
-            * (rho * span * half_chord
+            * (rho_span_half_chord
                 * (dot_x3 * dot_y3 * sin_th3 - dot_y3 * dot_y3 * cos_th3));
         force[7] = lit(::core::f64::consts::TAU)
-            * (rho * span * half_chord
+            * (rho_span_half_chord
                 * (dot_x3 * dot_y3 * cos_th3 - dot_x3 * dot_x3 * sin_th3))
-            - lit(0.5) * (rho * dot_y3 * cd * s3 * dot_y3.abs());
+            - dot_y3 * half_rho_cd_s3 * dot_y3.abs();
         force[8] = lit(0.0);
         nonideal[0] = lit(0.0);
         nonideal[1] = lit(0.0);
@@ -594,23 +722,23 @@ impl ::ukcore::Mechanism for FishRobot {
         jacobian[51] = b * cos_th3;
         jacobian[34] = lit(1.0);
         jacobian[53] = lit(1.0);
-        let l2_cos_th2_sq_dot_th2 = l2 * dot_th2 * dot_th2 * cos_th2;
-        rhs[0] = a * dot_th1 * dot_th1 * cos_th1 + lit(0.5) * l2_cos_th2_sq_dot_th2;
-        let l2_sin_th2_sq_dot_th2 = l2 * dot_th2 * dot_th2 * sin_th2;
-        rhs[1] = a * dot_th1 * dot_th1 * sin_th1 + lit(0.5) * l2_sin_th2_sq_dot_th2;
-        rhs[2] = lit(0.5) * l2_cos_th2_sq_dot_th2 + b * dot_th3 * dot_th3 * cos_th3;
-        rhs[3] = lit(0.5) * l2_sin_th2_sq_dot_th2 + b * dot_th3 * dot_th3 * sin_th3;
-        let w_t = w * t;
-        rhs[4] = -(a2 * w * w * w_t.sin());
-        rhs[5] = -(w * w * a3 * (w_t - phi_2).sin());
+        let cos_th2_sq_dot_th2_l2 = dot_th2 * dot_th2 * l2 * cos_th2;
+        rhs[0] = dot_th1 * dot_th1 * a * cos_th1 + lit(0.5) * cos_th2_sq_dot_th2_l2;
+        let sin_th2_sq_dot_th2_l2 = dot_th2 * dot_th2 * l2 * sin_th2;
+        rhs[1] = dot_th1 * dot_th1 * a * sin_th1 + lit(0.5) * sin_th2_sq_dot_th2_l2;
+        rhs[2] = lit(0.5) * cos_th2_sq_dot_th2_l2 + dot_th3 * dot_th3 * b * cos_th3;
+        rhs[3] = lit(0.5) * sin_th2_sq_dot_th2_l2 + dot_th3 * dot_th3 * b * sin_th3;
+        let t_w = t * w;
+        rhs[4] = -(a2_sq_w * t_w.sin());
+        rhs[5] = -(sq_w_a3 * (t_w - phi_2).sin());
     }
-    fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) {
+    fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 81>(mass, "mass");
-        let lit = S::from_f64;
-        let m1 = lit(self.m1);
-        let i1 = lit(self.i1);
-        let m2 = lit(self.m2);
-        let m3 = lit(self.m3);
+        let [_, _, _, _, _, _, _, _, _, _, _, _, _, m1, i1, m2, m3, _, _, _, _, _, _, _,
+        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            47,
+        >(prepared, "prepared");
         mass[0] = m1;
         mass[10] = m1;
         mass[20] = i1;
@@ -619,16 +747,24 @@ impl ::ukcore::Mechanism for FishRobot {
         mass[60] = m3;
         mass[70] = m3;
     }
-    fn jacobian<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
+    fn jacobian<S: ::ukcore::Scalar>(
+        prepared: &[S],
+        t: S,
+        q: &[S],
+        v: &[S],
+        jacobian: &mut [S],
+    ) {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 54>(jacobian, "jacobian");
+        let [_, _, _, _, _, _, a, l2, b, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            47,
+        >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
             S,
             9,
         >(q, "q");
         let lit = S::from_f64;
-        let a = lit(self.a);
-        let l2 = lit(self.l2);
-        let b = lit(self.b);
         jacobian[0] = lit(1.0);
         let (sin_th1, cos_th1) = th1.sin_cos();
         jacobian[12] = -(a * sin_th1);
@@ -653,41 +789,44 @@ impl ::ukcore::Mechanism for FishRobot {
         jacobian[34] = lit(1.0);
         jacobian[53] = lit(1.0);
     }
-    fn residual<S: ::ukcore::Scalar>(&self, t: S, q: &[S], phi: &mut [S]) {
+    fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
         let phi = ::ukcore::emitted::exact_mut::<S, 6>(phi, "phi");
+        let [_, _, _, _, _, _, a, l2, b, w, a2, phi_2, a3, _, _, _, _, _, _, _, _, _, _,
+        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            47,
+        >(prepared, "prepared");
         let [x1, y1, th1, x2, y2, th2, x3, y3, th3] = *::ukcore::emitted::exact::<
             S,
             9,
         >(q, "q");
         let lit = S::from_f64;
-        let a = lit(self.a);
-        let l2 = lit(self.l2);
-        let b = lit(self.b);
-        let a2 = lit(self.a2);
-        let a3 = lit(self.a3);
-        let w = lit(self.w);
-        let phi_2 = lit(self.phi);
         let (sin_th1, cos_th1) = th1.sin_cos();
         let (sin_th2, cos_th2) = th2.sin_cos();
-        let l2_cos_th2 = l2 * cos_th2;
-        phi[0] = x1 - x2 + a * cos_th1 + lit(0.5) * l2_cos_th2;
-        let l2_sin_th2 = l2 * sin_th2;
-        phi[1] = y1 - y2 + a * sin_th1 + lit(0.5) * l2_sin_th2;
+        let cos_th2_l2 = l2 * cos_th2;
+        phi[0] = x1 - x2 + a * cos_th1 + lit(0.5) * cos_th2_l2;
+        let sin_th2_l2 = l2 * sin_th2;
+        phi[1] = y1 - y2 + a * sin_th1 + lit(0.5) * sin_th2_l2;
         let (sin_th3, cos_th3) = th3.sin_cos();
-        phi[2] = x2 - x3 + lit(0.5) * l2_cos_th2 + b * cos_th3;
-        phi[3] = y2 - y3 + lit(0.5) * l2_sin_th2 + b * sin_th3;
-        let w_t = w * t;
-        phi[4] = th2 - a2 * w_t.sin();
-        phi[5] = th3 - a3 * (w_t - phi_2).sin();
+        phi[2] = x2 - x3 + lit(0.5) * cos_th2_l2 + b * cos_th3;
+        phi[3] = y2 - y3 + lit(0.5) * sin_th2_l2 + b * sin_th3;
+        let t_w = t * w;
+        phi[4] = th2 - a2 * t_w.sin();
+        phi[5] = th3 - a3 * (t_w - phi_2).sin();
     }
     fn residual_rate<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
         rate: &mut [S],
     ) {
         let rate = ::ukcore::emitted::exact_mut::<S, 6>(rate, "rate");
+        let [_, _, _, _, _, _, a, l2, b, w, _, phi_2, _, _, _, _, _, a2_w, _, w_a3, _, _,
+        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            47,
+        >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -695,48 +834,42 @@ impl ::ukcore::Mechanism for FishRobot {
         let [dot_x1, dot_y1, dot_th1, dot_x2, dot_y2, dot_th2, dot_x3, dot_y3, dot_th3,
         ] = *::ukcore::emitted::exact::<S, 9>(v, "v");
         let lit = S::from_f64;
-        let a = lit(self.a);
-        let l2 = lit(self.l2);
-        let b = lit(self.b);
-        let a2 = lit(self.a2);
-        let a3 = lit(self.a3);
-        let w = lit(self.w);
-        let phi_2 = lit(self.phi);
         let (sin_th1, cos_th1) = th1.sin_cos();
         let (sin_th2, cos_th2) = th2.sin_cos();
-        let l2_sin_th2_dot_th2 = l2 * dot_th2 * sin_th2;
-        rate[0] = dot_x1 - dot_x2 - a * dot_th1 * sin_th1
-            - lit(0.5) * l2_sin_th2_dot_th2;
-        let l2_cos_th2_dot_th2 = l2 * dot_th2 * cos_th2;
-        rate[1] = dot_y1 - dot_y2 + a * dot_th1 * cos_th1
-            + lit(0.5) * l2_cos_th2_dot_th2;
+        let sin_th2_dot_th2_l2 = dot_th2 * l2 * sin_th2;
+        rate[0] = dot_x1 - dot_x2 - dot_th1 * a * sin_th1
+            - lit(0.5) * sin_th2_dot_th2_l2;
+        let cos_th2_dot_th2_l2 = dot_th2 * l2 * cos_th2;
+        rate[1] = dot_y1 - dot_y2 + dot_th1 * a * cos_th1
+            + lit(0.5) * cos_th2_dot_th2_l2;
         let (sin_th3, cos_th3) = th3.sin_cos();
-        rate[2] = dot_x2 - dot_x3 - lit(0.5) * l2_sin_th2_dot_th2
-            - b * dot_th3 * sin_th3;
-        rate[3] = dot_y2 - dot_y3 + lit(0.5) * l2_cos_th2_dot_th2
-            + b * dot_th3 * cos_th3;
-        let w_t = w * t;
-        rate[4] = dot_th2 - a2 * w * w_t.cos();
-        rate[5] = dot_th3 - w * a3 * (w_t - phi_2).cos();
+        rate[2] = dot_x2 - dot_x3 - lit(0.5) * sin_th2_dot_th2_l2
+            - dot_th3 * b * sin_th3;
+        rate[3] = dot_y2 - dot_y3 + lit(0.5) * cos_th2_dot_th2_l2
+            + dot_th3 * b * cos_th3;
+        let t_w = t * w;
+        rate[4] = dot_th2 - a2_w * t_w.cos();
+        rate[5] = dot_th3 - w_a3 * (t_w - phi_2).cos();
     }
     fn energy<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
+        let [_, _, _, _, _, _, _, _, _, _, _, _, _, m1, i1, m2, m3, _, _, _, _, _, _, _,
+        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            47,
+        >(prepared, "prepared");
         let [dot_x1, dot_y1, dot_th1, dot_x2, dot_y2, _, dot_x3, dot_y3, _] = *::ukcore::emitted::exact::<
             S,
             9,
         >(v, "v");
         let lit = S::from_f64;
-        let m1 = lit(self.m1);
-        let i1 = lit(self.i1);
-        let m2 = lit(self.m2);
-        let m3 = lit(self.m3);
         let kinetic = lit(0.5)
-            * (m1 * dot_x1 * dot_x1 + m1 * dot_y1 * dot_y1 + i1 * dot_th1 * dot_th1
-                + m2 * dot_x2 * dot_x2 + m2 * dot_y2 * dot_y2 + dot_x3 * dot_x3 * m3
+            * (dot_x1 * dot_x1 * m1 + dot_y1 * dot_y1 * m1 + dot_th1 * dot_th1 * i1
+                + dot_x2 * dot_x2 * m2 + dot_y2 * dot_y2 * m2 + dot_x3 * dot_x3 * m3
                 + dot_y3 * dot_y3 * m3);
         let potential = lit(0.0);
         ::ukcore::Energy {
@@ -744,8 +877,17 @@ impl ::ukcore::Mechanism for FishRobot {
             potential,
         }
     }
-    fn outputs<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) {
+    fn outputs<S: ::ukcore::Scalar>(
+        prepared: &[S],
+        t: S,
+        q: &[S],
+        v: &[S],
+        outputs: &mut [S],
+    ) {
         let outputs = ::ukcore::emitted::exact_mut::<S, 6>(outputs, "outputs");
+        let [rho_span_half_chord, _, _, _, _, _, _, _, b, _, _, _, _, _, _, _, _, _, _,
+        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+        _] = *::ukcore::emitted::exact::<S, 47>(prepared, "prepared");
         let [_, _, th1, _, _, _, x3, y3, th3] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -755,31 +897,34 @@ impl ::ukcore::Mechanism for FishRobot {
             9,
         >(v, "v");
         let lit = S::from_f64;
-        let b = lit(self.b);
-        let rho = lit(self.rho);
-        let span = lit(self.span);
-        let half_chord = lit(self.half_chord);
         outputs[0] = -dot_x1;
         outputs[1] = th1;
         let (sin_th3, cos_th3) = th3.sin_cos();
         outputs[2] = lit(::core::f64::consts::TAU)
-            * (rho * span * half_chord
+            * (rho_span_half_chord
                 * (dot_x3 * dot_y3 * sin_th3 - dot_y3 * dot_y3 * cos_th3));
         outputs[3] = lit(::core::f64::consts::TAU)
-            * (rho * span * half_chord
+            * (rho_span_half_chord
                 * (dot_x3 * dot_y3 * cos_th3 - dot_x3 * dot_x3 * sin_th3));
         outputs[4] = x3 + b * cos_th3;
         outputs[5] = y3 + b * sin_th3;
     }
-    /// 49 additions, 164 multiplications, 7 divisions, 0 square roots, 5 transcendentals, 11 selections.
+    /// 47 additions, 106 multiplications, 2 divisions, 0 square roots, 5 transcendentals, 6 selections.
     fn acceleration<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 9>(out, "out");
+        let [rho_span_half_chord, rho_s_cd, rho_cd_s1, rho_cd_s2, _, _, a, l2, b, w, _,
+        phi_2, _, _, _, _, _, _, a2_sq_w, _, sq_w_a3, l2_a2_sq_w, b_sq_w_a3, _, _, _, _,
+        _, times_span_half_chord, half_cd_s3, rho, rho_per_m3, per_i1_sq_a,
+        rho_per_m2_cd_s2, times_rho_span_half_chord_per_m3, joint1_0_by_joint2_0,
+        per_per_m3_and_per_m2, per_m1_and_per_m2, prepared_part, half_rho_per_m1_s_cd,
+        prepared_part_2, half_rho_per_m1_cd_s1, per_m2, per_i1_a, per_m3, per_m1,
+        prepared_part_3] = *::ukcore::emitted::exact::<S, 47>(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -789,140 +934,90 @@ impl ::ukcore::Mechanism for FishRobot {
             9,
         >(v, "v");
         let lit = S::from_f64;
-        let m1 = lit(self.m1);
-        let i1 = lit(self.i1);
-        let a = lit(self.a);
-        let s = lit(self.s);
-        let s1 = lit(self.s1);
-        let m2 = lit(self.m2);
-        let l2 = lit(self.l2);
-        let s2 = lit(self.s2);
-        let m3 = lit(self.m3);
-        let b = lit(self.b);
-        let s3 = lit(self.s3);
-        let rho = lit(self.rho);
-        let cd = lit(self.cd);
-        let span = lit(self.span);
-        let half_chord = lit(self.half_chord);
-        let a2 = lit(self.a2);
-        let a3 = lit(self.a3);
-        let w = lit(self.w);
-        let phi_2 = lit(self.phi);
-        let per_m1 = m1.recip();
-        let per_i1 = i1.recip();
-        let per_m2 = m2.recip();
-        let per_m3 = m3.recip();
         let abs_dot_x1 = dot_x1.abs();
         let abs_dot_y1 = dot_y1.abs();
         let abs_dot_y2 = dot_y2.abs();
-        let w_t = w * t;
-        let acceleration_0_part = rho * cd * s2 * dot_y2 * abs_dot_y2 * per_m2;
-        let pivot_joint2_0 = per_m3 + per_m2;
-        let per_pivot_joint2_0 = pivot_joint2_0.recip();
-        let joint1_0_by_joint2_0 = per_m2 * per_pivot_joint2_0;
-        let acceleration_0_part_2 = per_pivot_joint2_0 / (m2 * m2);
+        let t_w = t * w;
+        let acceleration_0_part = dot_y2 * rho_per_m2_cd_s2 * abs_dot_y2;
         let (sin_th3, cos_th3) = th3.sin_cos();
         let (sin_th1, cos_th1) = th1.sin_cos();
         let (sin_th2, cos_th2) = th2.sin_cos();
-        let sin_w_t = w_t.sin();
-        let l2_cos_th2_sq_dot_th2 = l2 * dot_th2 * dot_th2 * cos_th2;
-        let l2_sin_th2_sq_dot_th2 = l2 * dot_th2 * dot_th2 * sin_th2;
-        let acceleration_0_part_3 = dot_x3 * dot_y3 * sin_th3
+        let sin_t_w = t_w.sin();
+        let cos_th2_sq_dot_th2_l2 = dot_th2 * dot_th2 * l2 * cos_th2;
+        let sin_th2_sq_dot_th2_l2 = dot_th2 * dot_th2 * l2 * sin_th2;
+        let acceleration_0_part_2 = dot_x3 * dot_y3 * sin_th3
             - dot_y3 * dot_y3 * cos_th3;
-        let acceleration_0_part_4 = (w_t - phi_2).sin();
-        let l2_sin_th2_a2_sq_w_sin_w_t = l2 * a2 * w * w * sin_th2 * sin_w_t;
-        let l2_cos_th2_a2_sq_w_sin_w_t = l2 * a2 * w * w * cos_th2 * sin_w_t;
-        out[5] = -(a2 * w * w * sin_w_t);
-        let acceleration_6_part = lit(::core::f64::consts::TAU)
-            * (span * half_chord
-                * (dot_x3 * dot_y3 * cos_th3 - dot_x3 * dot_x3 * sin_th3))
-            - lit(0.5) * (dot_y3 * cd * s3 * dot_y3.abs());
-        out[8] = -(w * w * a3 * acceleration_0_part_4);
-        let safe_part = per_m1 + per_m2 + a * a * per_i1 * sin_th1 * sin_th1;
-        let safe_part_2 = per_m1 + per_m2 + a * a * per_i1 * cos_th1 * cos_th1;
-        let pivot_joint1_0 = acceleration_0_part_2 - safe_part;
+        let acceleration_0_part_3 = (t_w - phi_2).sin();
+        let sin_th2_sin_t_w_l2_a2_sq_w = l2_a2_sq_w * sin_th2 * sin_t_w;
+        let cos_th2_sin_t_w_l2_a2_sq_w = l2_a2_sq_w * cos_th2 * sin_t_w;
+        let acceleration_0_part_4 = per_m1_and_per_m2 + per_i1_sq_a * sin_th1 * sin_th1;
+        let acceleration_0_part_5 = per_m1_and_per_m2 + per_i1_sq_a * cos_th1 * cos_th1;
+        let pivot_joint1_0 = acceleration_0_part_4 - prepared_part;
         let per_pivot_joint1_0 = pivot_joint1_0.recip();
-        let safe_part_3 = (lit(0.5) * l2_cos_th2_sq_dot_th2
-            + b * dot_th3 * dot_th3 * cos_th3) - lit(0.5) * l2_sin_th2_a2_sq_w_sin_w_t
-            - b * w * w * a3 * sin_th3 * acceleration_0_part_4
-            + lit(::core::f64::consts::TAU)
-                * (rho * span * half_chord * per_m3 * acceleration_0_part_3);
-        let safe_part_4 = lit(0.5) * acceleration_0_part
-            + (lit(0.5) * l2_sin_th2_sq_dot_th2 + b * dot_th3 * dot_th3 * sin_th3)
-            + lit(0.5) * l2_cos_th2_a2_sq_w_sin_w_t
-            + b * w * w * a3 * cos_th3 * acceleration_0_part_4
-            + rho * per_m3 * acceleration_6_part;
-        let safe_part_5 = (lit(0.5) * (rho * s * dot_x1 * cd * abs_dot_x1 * per_m1)
-            + (a * dot_th1 * dot_th1 * cos_th1 + lit(0.5) * l2_cos_th2_sq_dot_th2)
-            - lit(0.5) * l2_sin_th2_a2_sq_w_sin_w_t)
-            + joint1_0_by_joint2_0 * safe_part_3;
-        let joint1_1_by_joint1_0 = a * a * per_i1 * cos_th1 * sin_th1
-            * per_pivot_joint1_0;
-        let pivot_joint1_1 = acceleration_0_part_2 - safe_part_2
-            - a.powi(4) * cos_th1 * cos_th1 * sin_th1 * sin_th1 * per_pivot_joint1_0
-                / (i1 * i1);
+        out[5] = -(a2_sq_w * sin_t_w);
+        let acceleration_6_part = times_span_half_chord
+            * (dot_x3 * dot_y3 * cos_th3 - dot_x3 * dot_x3 * sin_th3)
+            - dot_y3 * half_cd_s3 * dot_y3.abs();
+        let acceleration_6_part_2 = (lit(0.5) * cos_th2_sq_dot_th2_l2
+            + dot_th3 * dot_th3 * b * cos_th3) - lit(0.5) * sin_th2_sin_t_w_l2_a2_sq_w
+            - b_sq_w_a3 * sin_th3 * acceleration_0_part_3
+            + times_rho_span_half_chord_per_m3 * acceleration_0_part_2;
+        out[8] = -(sq_w_a3 * acceleration_0_part_3);
+        let safe_part = lit(0.5) * acceleration_0_part
+            + (lit(0.5) * sin_th2_sq_dot_th2_l2 + dot_th3 * dot_th3 * b * sin_th3)
+            + lit(0.5) * cos_th2_sin_t_w_l2_a2_sq_w
+            + b_sq_w_a3 * cos_th3 * acceleration_0_part_3
+            + rho_per_m3 * acceleration_6_part;
+        let safe_part_2 = (dot_x1 * half_rho_per_m1_s_cd * abs_dot_x1
+            + (dot_th1 * dot_th1 * a * cos_th1 + lit(0.5) * cos_th2_sq_dot_th2_l2)
+            - lit(0.5) * sin_th2_sin_t_w_l2_a2_sq_w)
+            + joint1_0_by_joint2_0 * acceleration_6_part_2;
+        let joint1_1_by_joint1_0 = per_i1_sq_a * cos_th1 * sin_th1 * per_pivot_joint1_0;
+        let pivot_joint1_1 = prepared_part - acceleration_0_part_5
+            + prepared_part_2 * cos_th1 * cos_th1 * sin_th1 * sin_th1
+                * per_pivot_joint1_0;
         let per_pivot_joint1_1 = pivot_joint1_1.recip();
-        let safe_part_6 = (lit(0.5) * (rho * cd * s1 * dot_y1 * abs_dot_y1 * per_m1)
+        let safe_part_3 = (dot_y1 * half_rho_per_m1_cd_s1 * abs_dot_y1
             - lit(0.5) * acceleration_0_part
-            + (a * dot_th1 * dot_th1 * sin_th1 + lit(0.5) * l2_sin_th2_sq_dot_th2)
-            + lit(0.5) * l2_cos_th2_a2_sq_w_sin_w_t) + joint1_0_by_joint2_0 * safe_part_4
-            - safe_part_5 * joint1_1_by_joint1_0;
+            + (dot_th1 * dot_th1 * a * sin_th1 + lit(0.5) * sin_th2_sq_dot_th2_l2)
+            + lit(0.5) * cos_th2_sin_t_w_l2_a2_sq_w) + joint1_0_by_joint2_0 * safe_part
+            + safe_part_2 * joint1_1_by_joint1_0;
         let safe = S::select_le(
             -pivot_joint1_1,
-            lit(0.0009765625) * safe_part_2,
+            lit(0.0009765625) * acceleration_0_part_5,
             lit(0.0),
             S::select_le(
-                -pivot_joint1_0,
-                lit(0.0009765625) * safe_part,
+                pivot_joint1_0,
+                lit(0.0009765625) * acceleration_0_part_4,
                 lit(0.0),
-                S::select_le(
-                    pivot_joint2_0,
-                    lit(0.0),
-                    lit(0.0),
-                    S::select_le(
-                        m2,
-                        lit(0.0),
-                        lit(0.0),
-                        S::select_le(
-                            i1,
-                            lit(0.0),
-                            lit(0.0),
-                            S::select_le(
-                                m3,
-                                lit(0.0),
-                                lit(0.0),
-                                S::select_le(m1, lit(0.0), lit(0.0), lit(1.0)),
-                            ),
-                        ),
-                    ),
-                ),
+                prepared_part_3,
             ),
         );
-        let lambda_joint1_1 = safe_part_6 * per_pivot_joint1_1;
-        let lambda_joint1_0 = safe_part_5 * per_pivot_joint1_0
-            - joint1_1_by_joint1_0 * safe_part_6 * per_pivot_joint1_1;
-        let lambda_joint2_1 = per_pivot_joint2_0 * safe_part_4
-            - joint1_0_by_joint2_0 * safe_part_6 * per_pivot_joint1_1;
-        let lambda_joint2_0 = per_pivot_joint2_0 * safe_part_3
-            - joint1_0_by_joint2_0 * lambda_joint1_0;
+        let lambda_joint1_1 = safe_part_3 * per_pivot_joint1_1;
+        let lambda_joint1_0 = safe_part_2 * per_pivot_joint1_0
+            - joint1_1_by_joint1_0 * safe_part_3 * per_pivot_joint1_1;
+        let lambda_joint2_1 = per_per_m3_and_per_m2 * safe_part
+            - joint1_0_by_joint2_0 * safe_part_3 * per_pivot_joint1_1;
+        let lambda_joint2_0 = per_per_m3_and_per_m2 * acceleration_6_part_2
+            + joint1_0_by_joint2_0 * lambda_joint1_0;
         out[1] = -(per_m1
-            * (lit(0.5) * (rho * cd * s1 * dot_y1 * abs_dot_y1) + lambda_joint1_1));
+            * (lit(0.5) * (dot_y1 * rho_cd_s1 * abs_dot_y1) + lambda_joint1_1));
         out[7] = per_m3 * (rho * acceleration_6_part - lambda_joint2_1);
         out[0] = -(per_m1
-            * (lit(0.5) * (rho * s * dot_x1 * cd * abs_dot_x1) + lambda_joint1_0));
-        out[2] = a * per_i1
-            * (sin_th1 * lambda_joint1_0 - cos_th1 * safe_part_6 * per_pivot_joint1_1);
+            * (lit(0.5) * (dot_x1 * rho_s_cd * abs_dot_x1) - lambda_joint1_0));
         out[4] = -(per_m2
-            * (lit(0.5) * (rho * cd * s2 * dot_y2 * abs_dot_y2) - lambda_joint1_1
+            * (lit(0.5) * (dot_y2 * rho_cd_s2 * abs_dot_y2) - lambda_joint1_1
                 - lambda_joint2_1));
-        out[3] = per_m2 * (lambda_joint1_0 + lambda_joint2_0);
+        out[2] = -(per_i1_a
+            * (cos_th1 * safe_part_3 * per_pivot_joint1_1 + sin_th1 * lambda_joint1_0));
         out[6] = per_m3
             * (lit(::core::f64::consts::TAU)
-                * (rho * span * half_chord * acceleration_0_part_3) - lambda_joint2_0);
+                * (rho_span_half_chord * acceleration_0_part_2) - lambda_joint2_0);
+        out[3] = -(per_m2 * (lambda_joint1_0 - lambda_joint2_0));
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
@@ -930,6 +1025,13 @@ impl ::ukcore::Mechanism for FishRobot {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 9>(out, "out");
+        let [_, _, _, _, _, _, _, l2, b, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+        _, _, _, _, _, _, _, per_i1_sq_a, _, _, joint1_0_by_joint2_0,
+        per_per_m3_and_per_m2, per_m1_and_per_m2, prepared_part, _, prepared_part_2, _,
+        per_m2, per_i1_a, per_m3, per_m1, prepared_part_3] = *::ukcore::emitted::exact::<
+            S,
+            47,
+        >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -939,92 +1041,56 @@ impl ::ukcore::Mechanism for FishRobot {
             6,
         >(residual, "residual");
         let lit = S::from_f64;
-        let m1 = lit(self.m1);
-        let i1 = lit(self.i1);
-        let a = lit(self.a);
-        let m2 = lit(self.m2);
-        let l2 = lit(self.l2);
-        let m3 = lit(self.m3);
-        let b = lit(self.b);
-        let per_m1 = m1.recip();
-        let per_i1 = i1.recip();
-        let per_m2 = m2.recip();
-        let per_m3 = m3.recip();
         out[5] = -residual_4;
         out[8] = -residual_5;
-        let pivot_joint2_0 = per_m3 + per_m2;
-        let per_pivot_joint2_0 = pivot_joint2_0.recip();
-        let joint1_0_by_joint2_0 = per_m2 * per_pivot_joint2_0;
-        let safe_part = per_pivot_joint2_0 / (m2 * m2);
         let (sin_th3, cos_th3) = th3.sin_cos();
         let (sin_th1, cos_th1) = th1.sin_cos();
         let (sin_th2, cos_th2) = th2.sin_cos();
-        let l2_sin_th2_residual_4 = l2 * residual_4 * sin_th2;
-        let l2_cos_th2_residual_4 = l2 * residual_4 * cos_th2;
-        let safe_part_2 = residual_2 + lit(0.5) * l2_sin_th2_residual_4
-            + b * residual_5 * sin_th3;
-        let safe_part_3 = residual_3 - lit(0.5) * l2_cos_th2_residual_4
-            - b * residual_5 * cos_th3;
-        let safe_part_4 = (residual_0 + lit(0.5) * l2_sin_th2_residual_4)
-            + joint1_0_by_joint2_0 * safe_part_2;
-        let safe_part_5 = per_m1 + per_m2 + a * a * per_i1 * sin_th1 * sin_th1;
-        let safe_part_6 = per_m1 + per_m2 + a * a * per_i1 * cos_th1 * cos_th1;
-        let pivot_joint1_0 = safe_part - safe_part_5;
+        let sin_th2_residual_4_l2 = residual_4 * l2 * sin_th2;
+        let cos_th2_residual_4_l2 = residual_4 * l2 * cos_th2;
+        let safe_part = per_m1_and_per_m2 + per_i1_sq_a * sin_th1 * sin_th1;
+        let safe_part_2 = per_m1_and_per_m2 + per_i1_sq_a * cos_th1 * cos_th1;
+        let safe_part_3 = residual_2 + lit(0.5) * sin_th2_residual_4_l2
+            + residual_5 * b * sin_th3;
+        let safe_part_4 = residual_3 - lit(0.5) * cos_th2_residual_4_l2
+            - residual_5 * b * cos_th3;
+        let pivot_joint1_0 = safe_part - prepared_part;
         let per_pivot_joint1_0 = pivot_joint1_0.recip();
-        let joint1_1_by_joint1_0 = a * a * per_i1 * cos_th1 * sin_th1
-            * per_pivot_joint1_0;
-        let pivot_joint1_1 = safe_part - safe_part_6
-            - a.powi(4) * cos_th1 * cos_th1 * sin_th1 * sin_th1 * per_pivot_joint1_0
-                / (i1 * i1);
+        let safe_part_5 = (residual_0 + lit(0.5) * sin_th2_residual_4_l2)
+            + joint1_0_by_joint2_0 * safe_part_3;
+        let joint1_1_by_joint1_0 = per_i1_sq_a * cos_th1 * sin_th1 * per_pivot_joint1_0;
+        let pivot_joint1_1 = prepared_part - safe_part_2
+            + prepared_part_2 * cos_th1 * cos_th1 * sin_th1 * sin_th1
+                * per_pivot_joint1_0;
         let per_pivot_joint1_1 = pivot_joint1_1.recip();
-        let safe_part_7 = (residual_1 - lit(0.5) * l2_cos_th2_residual_4)
-            + joint1_0_by_joint2_0 * safe_part_3 - safe_part_4 * joint1_1_by_joint1_0;
+        let safe_part_6 = (residual_1 - lit(0.5) * cos_th2_residual_4_l2)
+            + joint1_0_by_joint2_0 * safe_part_4 + safe_part_5 * joint1_1_by_joint1_0;
         let safe = S::select_le(
             -pivot_joint1_1,
-            lit(0.0009765625) * safe_part_6,
+            lit(0.0009765625) * safe_part_2,
             lit(0.0),
             S::select_le(
-                -pivot_joint1_0,
-                lit(0.0009765625) * safe_part_5,
+                pivot_joint1_0,
+                lit(0.0009765625) * safe_part,
                 lit(0.0),
-                S::select_le(
-                    pivot_joint2_0,
-                    lit(0.0),
-                    lit(0.0),
-                    S::select_le(
-                        m2,
-                        lit(0.0),
-                        lit(0.0),
-                        S::select_le(
-                            i1,
-                            lit(0.0),
-                            lit(0.0),
-                            S::select_le(
-                                m3,
-                                lit(0.0),
-                                lit(0.0),
-                                S::select_le(m1, lit(0.0), lit(0.0), lit(1.0)),
-                            ),
-                        ),
-                    ),
-                ),
+                prepared_part_3,
             ),
         );
-        let lambda_joint1_1 = safe_part_7 * per_pivot_joint1_1;
-        out[1] = per_m1 * safe_part_7 * per_pivot_joint1_1;
-        let lambda_joint1_0 = safe_part_4 * per_pivot_joint1_0
-            - joint1_1_by_joint1_0 * safe_part_7 * per_pivot_joint1_1;
-        let lambda_joint2_1 = per_pivot_joint2_0 * safe_part_3
-            - joint1_0_by_joint2_0 * safe_part_7 * per_pivot_joint1_1;
-        let lambda_joint2_0 = per_pivot_joint2_0 * safe_part_2
-            - joint1_0_by_joint2_0 * lambda_joint1_0;
-        out[0] = per_m1 * lambda_joint1_0;
+        let lambda_joint1_1 = safe_part_6 * per_pivot_joint1_1;
+        out[1] = per_m1 * safe_part_6 * per_pivot_joint1_1;
+        let lambda_joint1_0 = safe_part_5 * per_pivot_joint1_0
+            - joint1_1_by_joint1_0 * safe_part_6 * per_pivot_joint1_1;
+        let lambda_joint2_1 = per_per_m3_and_per_m2 * safe_part_4
+            - joint1_0_by_joint2_0 * safe_part_6 * per_pivot_joint1_1;
         out[7] = per_m3 * lambda_joint2_1;
+        let lambda_joint2_0 = per_per_m3_and_per_m2 * safe_part_3
+            + joint1_0_by_joint2_0 * lambda_joint1_0;
+        out[0] = -(per_m1 * lambda_joint1_0);
+        out[2] = per_i1_a
+            * (cos_th1 * safe_part_6 * per_pivot_joint1_1 + sin_th1 * lambda_joint1_0);
         out[4] = -(per_m2 * (lambda_joint1_1 + lambda_joint2_1));
         out[6] = per_m3 * lambda_joint2_0;
-        out[2] = -(a * per_i1
-            * (sin_th1 * lambda_joint1_0 - cos_th1 * safe_part_7 * per_pivot_joint1_1));
-        out[3] = -(per_m2 * (lambda_joint1_0 + lambda_joint2_0));
+        out[3] = per_m2 * (lambda_joint1_0 - lambda_joint2_0);
         safe
     }
 }

@@ -117,6 +117,18 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
                 default: 100.0,
             },
         ],
+        prepared: &[
+            ("w", "w"),
+            ("a", "a"),
+            ("m_g", "m*g"),
+            ("sq_l", "sq(l)"),
+            ("m", "m"),
+            ("a_w", "a*w"),
+            ("a_sq_w", "a*sq(w)"),
+            ("g", "g"),
+            ("per_m", "1/m"),
+            ("prepared_part", "(m ≤ 0 ? 0 : 1)"),
+        ],
         coords: &["x", "y"],
         constraints: &[
             ::ukcore::ConstraintSpec {
@@ -157,7 +169,7 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
             ],
             operations: ::ukcore::Operations {
                 additions: 5,
-                multiplications: 14,
+                multiplications: 10,
                 divisions: 0,
                 square_roots: 0,
                 transcendentals: 1,
@@ -165,11 +177,11 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
             },
             solve_operations: ::ukcore::Operations {
                 additions: 9,
-                multiplications: 17,
-                divisions: 2,
+                multiplications: 15,
+                divisions: 1,
                 square_roots: 0,
                 transcendentals: 1,
-                selections: 2,
+                selections: 1,
             },
         },
         equations: ::ukcore::Equations {
@@ -206,9 +218,24 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
             _ => ::ukcore::emitted::no_parameter(index),
         }
     }
-    /// 5 additions, 14 multiplications, 0 divisions, 0 square roots, 1 transcendentals, 0 selections.
+    fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
+        let prepared = ::ukcore::emitted::exact_mut::<S, 10>(prepared, "prepared");
+        let [m, l, g, a, w] = *::ukcore::emitted::exact::<S, 5>(given, "given");
+        let lit = S::from_f64;
+        prepared[0] = w;
+        prepared[1] = a;
+        prepared[2] = m * g;
+        prepared[3] = l * l;
+        prepared[4] = m;
+        prepared[5] = a * w;
+        prepared[6] = a * w * w;
+        prepared[7] = g;
+        prepared[8] = m.recip();
+        prepared[9] = S::select_le(m, lit(0.0), lit(0.0), lit(1.0));
+    }
+    /// 5 additions, 10 multiplications, 0 divisions, 0 square roots, 1 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
@@ -219,143 +246,158 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
+        let [w, a, m_g, _, m, a_w, a_sq_w, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            10,
+        >(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
-        let m = lit(self.m);
-        let g = lit(self.g);
-        let a = lit(self.a);
-        let w = lit(self.w);
         mass[0] = m;
         mass[3] = m;
         force[0] = lit(0.0);
-        force[1] = -(m * g);
+        force[1] = -m_g;
         nonideal[0] = lit(0.0);
         nonideal[1] = lit(0.0);
         jacobian[0] = lit(2.0) * x;
-        let w_t = w * t;
-        let (sin_w_t, cos_w_t) = w_t.sin_cos();
-        let pivot = a * cos_w_t;
-        let pivot_minus_y = pivot - y;
-        jacobian[1] = lit(-2.0) * pivot_minus_y;
-        let b_0_part = dot_y + a * w * sin_w_t;
+        let t_w = t * w;
+        let (sin_t_w, cos_t_w) = t_w.sin_cos();
+        let pivot = a * cos_t_w;
+        let y_minus_pivot = y - pivot;
+        jacobian[1] = lit(2.0) * y_minus_pivot;
+        let b_0_part = dot_y + a_w * sin_t_w;
         rhs[0] = lit(-2.0)
-            * (dot_x * dot_x + b_0_part * b_0_part
-                - a * w * w * cos_w_t * pivot_minus_y);
+            * (dot_x * dot_x + b_0_part * b_0_part + a_sq_w * cos_t_w * y_minus_pivot);
     }
-    fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) {
+    fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 4>(mass, "mass");
-        let lit = S::from_f64;
-        let m = lit(self.m);
+        let [_, _, _, _, m, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            10,
+        >(prepared, "prepared");
         mass[0] = m;
         mass[3] = m;
     }
-    fn jacobian<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
+    fn jacobian<S: ::ukcore::Scalar>(
+        prepared: &[S],
+        t: S,
+        q: &[S],
+        v: &[S],
+        jacobian: &mut [S],
+    ) {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(jacobian, "jacobian");
+        let [w, a, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            10,
+        >(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let lit = S::from_f64;
-        let a = lit(self.a);
-        let w = lit(self.w);
         jacobian[0] = lit(2.0) * x;
-        let pivot = a * (w * t).cos();
-        jacobian[1] = lit(-2.0) * (pivot - y);
+        let pivot = a * (t * w).cos();
+        jacobian[1] = lit(2.0) * (y - pivot);
     }
-    fn residual<S: ::ukcore::Scalar>(&self, t: S, q: &[S], phi: &mut [S]) {
+    fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
         let phi = ::ukcore::emitted::exact_mut::<S, 1>(phi, "phi");
+        let [w, a, _, sq_l, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            10,
+        >(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
-        let lit = S::from_f64;
-        let l = lit(self.l);
-        let a = lit(self.a);
-        let w = lit(self.w);
-        let pivot = a * (w * t).cos();
-        let pivot_minus_y = pivot - y;
-        phi[0] = x * x - l * l + pivot_minus_y * pivot_minus_y;
+        let pivot = a * (t * w).cos();
+        let y_minus_pivot = y - pivot;
+        phi[0] = x * x - sq_l + y_minus_pivot * y_minus_pivot;
     }
     fn residual_rate<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
         rate: &mut [S],
     ) {
         let rate = ::ukcore::emitted::exact_mut::<S, 1>(rate, "rate");
+        let [w, a, _, _, _, a_w, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            10,
+        >(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
-        let a = lit(self.a);
-        let w = lit(self.w);
-        let w_t = w * t;
-        let (sin_w_t, cos_w_t) = w_t.sin_cos();
-        let pivot = a * cos_w_t;
-        rate[0] = lit(2.0) * (x * dot_x - (pivot - y) * (dot_y + a * w * sin_w_t));
+        let t_w = t * w;
+        let (sin_t_w, cos_t_w) = t_w.sin_cos();
+        let pivot = a * cos_t_w;
+        rate[0] = lit(2.0) * (x * dot_x + (y - pivot) * (dot_y + a_w * sin_t_w));
     }
     fn energy<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
+        let [_, _, m_g, _, m, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            10,
+        >(prepared, "prepared");
         let [_, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
-        let m = lit(self.m);
-        let g = lit(self.g);
-        let kinetic = lit(0.5) * (m * dot_x * dot_x + m * dot_y * dot_y);
-        let potential = m * g * y;
+        let kinetic = lit(0.5) * (dot_x * dot_x * m + dot_y * dot_y * m);
+        let potential = y * m_g;
         ::ukcore::Energy {
             kinetic,
             potential,
         }
     }
-    fn outputs<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) {
+    fn outputs<S: ::ukcore::Scalar>(
+        prepared: &[S],
+        t: S,
+        q: &[S],
+        v: &[S],
+        outputs: &mut [S],
+    ) {
         let outputs = ::ukcore::emitted::exact_mut::<S, 2>(outputs, "outputs");
+        let [w, a, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            10,
+        >(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
-        let lit = S::from_f64;
-        let a = lit(self.a);
-        let w = lit(self.w);
-        let pivot = a * (w * t).cos();
+        let pivot = a * (t * w).cos();
         outputs[0] = x.atan2(y - pivot);
         outputs[1] = pivot;
     }
-    /// 9 additions, 17 multiplications, 2 divisions, 0 square roots, 1 transcendentals, 2 selections.
+    /// 9 additions, 15 multiplications, 1 divisions, 0 square roots, 1 transcendentals, 1 selections.
     fn acceleration<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
+        let [w, a, _, _, _, a_w, a_sq_w, g, per_m, prepared_part] = *::ukcore::emitted::exact::<
+            S,
+            10,
+        >(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
-        let m = lit(self.m);
-        let g = lit(self.g);
-        let a = lit(self.a);
-        let w = lit(self.w);
-        let w_t = w * t;
-        let (sin_w_t, cos_w_t) = w_t.sin_cos();
-        let pivot = a * cos_w_t;
-        let pivot_minus_y = pivot - y;
-        let acceleration_0_part = dot_y + a * w * sin_w_t;
-        let acceleration_0_part_2 = x * x + pivot_minus_y * pivot_minus_y;
+        let t_w = t * w;
+        let (sin_t_w, cos_t_w) = t_w.sin_cos();
+        let pivot = a * cos_t_w;
+        let y_minus_pivot = y - pivot;
+        let acceleration_0_part = dot_y + a_w * sin_t_w;
+        let acceleration_0_part_2 = x * x + y_minus_pivot * y_minus_pivot;
         let per_acceleration_0_part_2 = acceleration_0_part_2.recip();
-        let acceleration_0_part_3 = g * pivot_minus_y
-            + (dot_x * dot_x + acceleration_0_part * acceleration_0_part
-                - a * w * w * cos_w_t * pivot_minus_y);
-        let pivot_rod = acceleration_0_part_2 / m;
-        let safe = S::select_le(
-            pivot_rod,
-            lit(0.0),
-            lit(0.0),
-            S::select_le(m, lit(0.0), lit(0.0), lit(1.0)),
-        );
+        let pivot_rod = per_m * acceleration_0_part_2;
+        let acceleration_0_part_3 = (dot_x * dot_x
+            + acceleration_0_part * acceleration_0_part
+            + a_sq_w * cos_t_w * y_minus_pivot) - g * y_minus_pivot;
+        let safe = S::select_le(pivot_rod, lit(0.0), lit(0.0), prepared_part);
         out[0] = -(x * acceleration_0_part_3 * per_acceleration_0_part_2);
-        out[1] = pivot_minus_y * acceleration_0_part_3 * per_acceleration_0_part_2 - g;
+        out[1] = -g - y_minus_pivot * acceleration_0_part_3 * per_acceleration_0_part_2;
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
@@ -363,25 +405,21 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
+        let [w, a, _, _, _, _, _, _, per_m, prepared_part] = *::ukcore::emitted::exact::<
+            S,
+            10,
+        >(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [residual_0] = *::ukcore::emitted::exact::<S, 1>(residual, "residual");
         let lit = S::from_f64;
-        let m = lit(self.m);
-        let a = lit(self.a);
-        let w = lit(self.w);
-        let pivot = a * (w * t).cos();
-        let pivot_minus_y = pivot - y;
-        let correction_0_part = x * x + pivot_minus_y * pivot_minus_y;
+        let pivot = a * (t * w).cos();
+        let y_minus_pivot = y - pivot;
+        let correction_0_part = x * x + y_minus_pivot * y_minus_pivot;
         let per_correction_0_part = correction_0_part.recip();
-        let pivot_rod = correction_0_part / m;
+        let pivot_rod = per_m * correction_0_part;
+        let safe = S::select_le(pivot_rod, lit(0.0), lit(0.0), prepared_part);
         out[0] = lit(-0.5) * (x * residual_0 * per_correction_0_part);
-        out[1] = lit(0.5) * (residual_0 * pivot_minus_y * per_correction_0_part);
-        let safe = S::select_le(
-            pivot_rod,
-            lit(0.0),
-            lit(0.0),
-            S::select_le(m, lit(0.0), lit(0.0), lit(1.0)),
-        );
+        out[1] = lit(-0.5) * (residual_0 * y_minus_pivot * per_correction_0_part);
         safe
     }
 }

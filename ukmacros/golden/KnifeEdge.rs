@@ -106,6 +106,14 @@ impl ::ukcore::Mechanism for KnifeEdge {
                 default: 0.5235987755982988,
             },
         ],
+        prepared: &[
+            ("m_g_sin_slope", "m*g*sin(slope)"),
+            ("m", "m"),
+            ("i", "i"),
+            ("g_sin_slope", "g*sin(slope)"),
+            ("per_m", "1/m"),
+            ("prepared_part", "(m ≤ 0 ? 0 : (i ≤ 0 ? 0 : 1))"),
+        ],
         coords: &["x", "y", "th"],
         constraints: &[
             ::ukcore::ConstraintSpec {
@@ -148,19 +156,19 @@ impl ::ukcore::Mechanism for KnifeEdge {
             ],
             operations: ::ukcore::Operations {
                 additions: 3,
-                multiplications: 6,
+                multiplications: 4,
                 divisions: 0,
                 square_roots: 0,
-                transcendentals: 2,
+                transcendentals: 1,
                 selections: 0,
             },
             solve_operations: ::ukcore::Operations {
                 additions: 4,
-                multiplications: 13,
-                divisions: 2,
+                multiplications: 12,
+                divisions: 1,
                 square_roots: 0,
-                transcendentals: 2,
-                selections: 3,
+                transcendentals: 1,
+                selections: 1,
             },
         },
         equations: ::ukcore::Equations {
@@ -190,9 +198,26 @@ impl ::ukcore::Mechanism for KnifeEdge {
             _ => ::ukcore::emitted::no_parameter(index),
         }
     }
-    /// 3 additions, 6 multiplications, 0 divisions, 0 square roots, 2 transcendentals, 0 selections.
+    fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
+        let prepared = ::ukcore::emitted::exact_mut::<S, 6>(prepared, "prepared");
+        let [m, i, g, slope] = *::ukcore::emitted::exact::<S, 4>(given, "given");
+        let lit = S::from_f64;
+        let sin_slope = slope.sin();
+        prepared[0] = m * g * sin_slope;
+        prepared[1] = m;
+        prepared[2] = i;
+        prepared[3] = g * sin_slope;
+        prepared[4] = m.recip();
+        prepared[5] = S::select_le(
+            m,
+            lit(0.0),
+            lit(0.0),
+            S::select_le(i, lit(0.0), lit(0.0), lit(1.0)),
+        );
+    }
+    /// 3 additions, 4 multiplications, 0 divisions, 0 square roots, 1 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
@@ -203,17 +228,17 @@ impl ::ukcore::Mechanism for KnifeEdge {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 3>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 3>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
+        let [m_g_sin_slope, m, i, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            6,
+        >(prepared, "prepared");
         let [_, _, th] = *::ukcore::emitted::exact::<S, 3>(q, "q");
         let [dot_x, dot_y, dot_th] = *::ukcore::emitted::exact::<S, 3>(v, "v");
         let lit = S::from_f64;
-        let m = lit(self.m);
-        let i = lit(self.i);
-        let g = lit(self.g);
-        let slope = lit(self.slope);
         mass[0] = m;
         mass[4] = m;
         mass[8] = i;
-        force[0] = m * g * slope.sin();
+        force[0] = m_g_sin_slope;
         force[1] = lit(0.0);
         force[2] = lit(0.0);
         nonideal[0] = lit(0.0);
@@ -224,27 +249,31 @@ impl ::ukcore::Mechanism for KnifeEdge {
         jacobian[1] = -cos_th;
         rhs[0] = -(dot_x * dot_th * cos_th) - dot_y * dot_th * sin_th;
     }
-    fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) {
+    fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 9>(mass, "mass");
-        let lit = S::from_f64;
-        let m = lit(self.m);
-        let i = lit(self.i);
+        let [_, m, i, _, _, _] = *::ukcore::emitted::exact::<S, 6>(prepared, "prepared");
         mass[0] = m;
         mass[4] = m;
         mass[8] = i;
     }
-    fn jacobian<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
+    fn jacobian<S: ::ukcore::Scalar>(
+        prepared: &[S],
+        t: S,
+        q: &[S],
+        v: &[S],
+        jacobian: &mut [S],
+    ) {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 3>(jacobian, "jacobian");
         let [_, _, th] = *::ukcore::emitted::exact::<S, 3>(q, "q");
         let (sin_th, cos_th) = th.sin_cos();
         jacobian[0] = sin_th;
         jacobian[1] = -cos_th;
     }
-    fn residual<S: ::ukcore::Scalar>(&self, t: S, q: &[S], phi: &mut [S]) {
+    fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
         let phi = ::ukcore::emitted::exact_mut::<S, 0>(phi, "phi");
     }
     fn residual_rate<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
@@ -257,27 +286,33 @@ impl ::ukcore::Mechanism for KnifeEdge {
         rate[0] = dot_x * sin_th - dot_y * cos_th;
     }
     fn energy<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
+        let [m_g_sin_slope, m, i, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            6,
+        >(prepared, "prepared");
         let [x, _, _] = *::ukcore::emitted::exact::<S, 3>(q, "q");
         let [dot_x, dot_y, dot_th] = *::ukcore::emitted::exact::<S, 3>(v, "v");
         let lit = S::from_f64;
-        let m = lit(self.m);
-        let i = lit(self.i);
-        let g = lit(self.g);
-        let slope = lit(self.slope);
         let kinetic = lit(0.5)
-            * (m * dot_x * dot_x + m * dot_y * dot_y + i * dot_th * dot_th);
-        let potential = -(m * g * x * slope.sin());
+            * (dot_x * dot_x * m + dot_y * dot_y * m + dot_th * dot_th * i);
+        let potential = -(x * m_g_sin_slope);
         ::ukcore::Energy {
             kinetic,
             potential,
         }
     }
-    fn outputs<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) {
+    fn outputs<S: ::ukcore::Scalar>(
+        prepared: &[S],
+        t: S,
+        q: &[S],
+        v: &[S],
+        outputs: &mut [S],
+    ) {
         let outputs = ::ukcore::emitted::exact_mut::<S, 2>(outputs, "outputs");
         let [_, _, th] = *::ukcore::emitted::exact::<S, 3>(q, "q");
         let [dot_x, dot_y, dot_th] = *::ukcore::emitted::exact::<S, 3>(v, "v");
@@ -285,47 +320,36 @@ impl ::ukcore::Mechanism for KnifeEdge {
         outputs[0] = dot_x * cos_th + dot_y * sin_th;
         outputs[1] = dot_th;
     }
-    /// 4 additions, 13 multiplications, 2 divisions, 0 square roots, 2 transcendentals, 3 selections.
+    /// 4 additions, 12 multiplications, 1 divisions, 0 square roots, 1 transcendentals, 1 selections.
     fn acceleration<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 3>(out, "out");
+        let [_, _, _, g_sin_slope, per_m, prepared_part] = *::ukcore::emitted::exact::<
+            S,
+            6,
+        >(prepared, "prepared");
         let [_, _, th] = *::ukcore::emitted::exact::<S, 3>(q, "q");
         let [dot_x, dot_y, dot_th] = *::ukcore::emitted::exact::<S, 3>(v, "v");
         let lit = S::from_f64;
-        let m = lit(self.m);
-        let i = lit(self.i);
-        let g = lit(self.g);
-        let slope = lit(self.slope);
         out[2] = lit(0.0);
-        let sin_slope = slope.sin();
         let (sin_th, cos_th) = th.sin_cos();
         let safe_part = sin_th * sin_th + cos_th * cos_th;
         let per_safe_part = safe_part.recip();
-        let safe_part_2 = g * sin_slope * sin_th
+        let pivot_edge = per_m * safe_part;
+        let safe_part_2 = g_sin_slope * sin_th
             + (dot_x * dot_th * cos_th + dot_y * dot_th * sin_th);
-        let pivot_edge = safe_part / m;
+        let safe = S::select_le(pivot_edge, lit(0.0), lit(0.0), prepared_part);
         out[1] = cos_th * safe_part_2 * per_safe_part;
-        let safe = S::select_le(
-            pivot_edge,
-            lit(0.0),
-            lit(0.0),
-            S::select_le(
-                m,
-                lit(0.0),
-                lit(0.0),
-                S::select_le(i, lit(0.0), lit(0.0), lit(1.0)),
-            ),
-        );
-        out[0] = g * sin_slope - sin_th * safe_part_2 * per_safe_part;
+        out[0] = g_sin_slope - sin_th * safe_part_2 * per_safe_part;
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
@@ -333,29 +357,21 @@ impl ::ukcore::Mechanism for KnifeEdge {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 3>(out, "out");
+        let [_, _, _, _, per_m, prepared_part] = *::ukcore::emitted::exact::<
+            S,
+            6,
+        >(prepared, "prepared");
         let [_, _, th] = *::ukcore::emitted::exact::<S, 3>(q, "q");
         let [residual_0] = *::ukcore::emitted::exact::<S, 1>(residual, "residual");
         let lit = S::from_f64;
-        let m = lit(self.m);
-        let i = lit(self.i);
         out[2] = lit(0.0);
         let (sin_th, cos_th) = th.sin_cos();
         let safe_part = sin_th * sin_th + cos_th * cos_th;
         let per_safe_part = safe_part.recip();
-        let pivot_edge = safe_part / m;
+        let pivot_edge = per_m * safe_part;
+        let safe = S::select_le(pivot_edge, lit(0.0), lit(0.0), prepared_part);
         out[1] = residual_0 * cos_th * per_safe_part;
         out[0] = -(residual_0 * sin_th * per_safe_part);
-        let safe = S::select_le(
-            pivot_edge,
-            lit(0.0),
-            lit(0.0),
-            S::select_le(
-                m,
-                lit(0.0),
-                lit(0.0),
-                S::select_le(i, lit(0.0), lit(0.0), lit(1.0)),
-            ),
-        );
         safe
     }
 }

@@ -88,6 +88,13 @@ impl ::ukcore::Mechanism for MasslessSpring {
                 default: 60.0,
             },
         ],
+        prepared: &[
+            ("k1", "k1"),
+            ("k2", "k2"),
+            ("m", "m"),
+            ("half_m", "0.5*m"),
+            ("k1_and_k2", "k1 + k2"),
+        ],
         coords: &["joint", "x"],
         constraints: &[
             ::ukcore::ConstraintSpec {
@@ -123,7 +130,7 @@ impl ::ukcore::Mechanism for MasslessSpring {
                 "1 of 1 entries of b: identically zero",
             ],
             operations: ::ukcore::Operations {
-                additions: 5,
+                additions: 4,
                 multiplications: 2,
                 divisions: 0,
                 square_roots: 0,
@@ -164,9 +171,19 @@ impl ::ukcore::Mechanism for MasslessSpring {
             _ => ::ukcore::emitted::no_parameter(index),
         }
     }
-    /// 5 additions, 2 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
+    fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
+        let prepared = ::ukcore::emitted::exact_mut::<S, 5>(prepared, "prepared");
+        let [m, k1, k2] = *::ukcore::emitted::exact::<S, 3>(given, "given");
+        let lit = S::from_f64;
+        prepared[0] = k1;
+        prepared[1] = k2;
+        prepared[2] = m;
+        prepared[3] = lit(0.5) * m;
+        prepared[4] = k1 + k2;
+    }
+    /// 4 additions, 2 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
@@ -177,83 +194,92 @@ impl ::ukcore::Mechanism for MasslessSpring {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
+        let [k1, k2, m, _, k1_and_k2] = *::ukcore::emitted::exact::<
+            S,
+            5,
+        >(prepared, "prepared");
         let [joint, x] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let lit = S::from_f64;
-        let m = lit(self.m);
-        let k1 = lit(self.k1);
-        let k2 = lit(self.k2);
         mass[3] = m;
         let force_0_part = k2 * (joint - x);
-        force[0] = -(k1 * joint) - force_0_part;
+        force[0] = -(joint * k1) - force_0_part;
         force[1] = force_0_part;
         nonideal[0] = lit(0.0);
         nonideal[1] = lit(0.0);
-        jacobian[0] = k1 + k2;
+        jacobian[0] = k1_and_k2;
         jacobian[1] = -k2;
         rhs[0] = lit(0.0);
     }
-    fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) {
+    fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 4>(mass, "mass");
-        let lit = S::from_f64;
-        let m = lit(self.m);
+        let [_, _, m, _, _] = *::ukcore::emitted::exact::<S, 5>(prepared, "prepared");
         mass[3] = m;
     }
-    fn jacobian<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
+    fn jacobian<S: ::ukcore::Scalar>(
+        prepared: &[S],
+        t: S,
+        q: &[S],
+        v: &[S],
+        jacobian: &mut [S],
+    ) {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(jacobian, "jacobian");
-        let lit = S::from_f64;
-        let k1 = lit(self.k1);
-        let k2 = lit(self.k2);
-        jacobian[0] = k1 + k2;
+        let [_, k2, _, _, k1_and_k2] = *::ukcore::emitted::exact::<
+            S,
+            5,
+        >(prepared, "prepared");
+        jacobian[0] = k1_and_k2;
         jacobian[1] = -k2;
     }
-    fn residual<S: ::ukcore::Scalar>(&self, t: S, q: &[S], phi: &mut [S]) {
+    fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
         let phi = ::ukcore::emitted::exact_mut::<S, 1>(phi, "phi");
+        let [k1, k2, _, _, _] = *::ukcore::emitted::exact::<S, 5>(prepared, "prepared");
         let [joint, x] = *::ukcore::emitted::exact::<S, 2>(q, "q");
-        let lit = S::from_f64;
-        let k1 = lit(self.k1);
-        let k2 = lit(self.k2);
-        phi[0] = k1 * joint + k2 * (joint - x);
+        phi[0] = joint * k1 + k2 * (joint - x);
     }
     fn residual_rate<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
         rate: &mut [S],
     ) {
         let rate = ::ukcore::emitted::exact_mut::<S, 1>(rate, "rate");
+        let [k1, k2, _, _, _] = *::ukcore::emitted::exact::<S, 5>(prepared, "prepared");
         let [dot_joint, dot_x] = *::ukcore::emitted::exact::<S, 2>(v, "v");
-        let lit = S::from_f64;
-        let k1 = lit(self.k1);
-        let k2 = lit(self.k2);
-        rate[0] = k1 * dot_joint - k2 * (dot_x - dot_joint);
+        rate[0] = dot_joint * k1 - k2 * (dot_x - dot_joint);
     }
     fn energy<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
+        let [k1, k2, _, half_m, _] = *::ukcore::emitted::exact::<
+            S,
+            5,
+        >(prepared, "prepared");
         let [joint, x] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [_, dot_x] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
-        let m = lit(self.m);
-        let k1 = lit(self.k1);
-        let k2 = lit(self.k2);
-        let kinetic = lit(0.5) * (m * dot_x * dot_x);
+        let kinetic = dot_x * dot_x * half_m;
         let joint_minus_x = joint - x;
         let potential = lit(0.5)
-            * (k1 * joint * joint + k2 * joint_minus_x * joint_minus_x);
+            * (joint * joint * k1 + k2 * joint_minus_x * joint_minus_x);
         ::ukcore::Energy {
             kinetic,
             potential,
         }
     }
-    fn outputs<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) {
+    fn outputs<S: ::ukcore::Scalar>(
+        prepared: &[S],
+        t: S,
+        q: &[S],
+        v: &[S],
+        outputs: &mut [S],
+    ) {
         let outputs = ::ukcore::emitted::exact_mut::<S, 1>(outputs, "outputs");
+        let [k1, _, _, _, _] = *::ukcore::emitted::exact::<S, 5>(prepared, "prepared");
         let [joint, _] = *::ukcore::emitted::exact::<S, 2>(q, "q");
-        let lit = S::from_f64;
-        let k1 = lit(self.k1);
-        outputs[0] = k1 * joint;
+        outputs[0] = joint * k1;
     }
 }

@@ -94,6 +94,15 @@ impl ::ukcore::Mechanism for Pendulum {
                 default: 9.81,
             },
         ],
+        prepared: &[
+            ("m_g", "m*g"),
+            ("sq_l", "sq(l)"),
+            ("g", "g"),
+            ("m_per_l", "m/l"),
+            ("m", "m"),
+            ("per_m", "1/m"),
+            ("prepared_part", "(m ≤ 0 ? 0 : 1)"),
+        ],
         coords: &["x", "y"],
         constraints: &[
             ::ukcore::ConstraintSpec {
@@ -135,19 +144,19 @@ impl ::ukcore::Mechanism for Pendulum {
             ],
             operations: ::ukcore::Operations {
                 additions: 2,
-                multiplications: 6,
+                multiplications: 5,
                 divisions: 0,
                 square_roots: 0,
                 transcendentals: 0,
                 selections: 0,
             },
             solve_operations: ::ukcore::Operations {
-                additions: 5,
-                multiplications: 9,
-                divisions: 2,
+                additions: 6,
+                multiplications: 10,
+                divisions: 1,
                 square_roots: 0,
                 transcendentals: 0,
-                selections: 2,
+                selections: 1,
             },
         },
         equations: ::ukcore::Equations {
@@ -175,9 +184,21 @@ impl ::ukcore::Mechanism for Pendulum {
             _ => ::ukcore::emitted::no_parameter(index),
         }
     }
-    /// 2 additions, 6 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
+    fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
+        let prepared = ::ukcore::emitted::exact_mut::<S, 7>(prepared, "prepared");
+        let [m, l, g] = *::ukcore::emitted::exact::<S, 3>(given, "given");
+        let lit = S::from_f64;
+        prepared[0] = m * g;
+        prepared[1] = l * l;
+        prepared[2] = g;
+        prepared[3] = m / l;
+        prepared[4] = m;
+        prepared[5] = m.recip();
+        prepared[6] = S::select_le(m, lit(0.0), lit(0.0), lit(1.0));
+    }
+    /// 2 additions, 5 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
@@ -188,44 +209,56 @@ impl ::ukcore::Mechanism for Pendulum {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
+        let [m_g, _, _, _, m, _, _] = *::ukcore::emitted::exact::<
+            S,
+            7,
+        >(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
-        let m = lit(self.m);
-        let g = lit(self.g);
         mass[0] = m;
         mass[3] = m;
         force[0] = lit(0.0);
-        force[1] = -(m * g);
+        force[1] = -m_g;
         nonideal[0] = lit(0.0);
         nonideal[1] = lit(0.0);
         jacobian[0] = lit(2.0) * x;
         jacobian[1] = lit(2.0) * y;
         rhs[0] = lit(-2.0) * (dot_x * dot_x + dot_y * dot_y);
     }
-    fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) {
+    fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 4>(mass, "mass");
-        let lit = S::from_f64;
-        let m = lit(self.m);
+        let [_, _, _, _, m, _, _] = *::ukcore::emitted::exact::<
+            S,
+            7,
+        >(prepared, "prepared");
         mass[0] = m;
         mass[3] = m;
     }
-    fn jacobian<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
+    fn jacobian<S: ::ukcore::Scalar>(
+        prepared: &[S],
+        t: S,
+        q: &[S],
+        v: &[S],
+        jacobian: &mut [S],
+    ) {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(jacobian, "jacobian");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let lit = S::from_f64;
         jacobian[0] = lit(2.0) * x;
         jacobian[1] = lit(2.0) * y;
     }
-    fn residual<S: ::ukcore::Scalar>(&self, t: S, q: &[S], phi: &mut [S]) {
+    fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
         let phi = ::ukcore::emitted::exact_mut::<S, 1>(phi, "phi");
+        let [_, sq_l, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            7,
+        >(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
-        let lit = S::from_f64;
-        let l = lit(self.l);
-        phi[0] = x * x + y * y - l * l;
+        phi[0] = x * x - sq_l + y * y;
     }
     fn residual_rate<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
@@ -238,64 +271,69 @@ impl ::ukcore::Mechanism for Pendulum {
         rate[0] = lit(2.0) * (x * dot_x + y * dot_y);
     }
     fn energy<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
+        let [m_g, _, _, _, m, _, _] = *::ukcore::emitted::exact::<
+            S,
+            7,
+        >(prepared, "prepared");
         let [_, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
-        let m = lit(self.m);
-        let g = lit(self.g);
-        let kinetic = lit(0.5) * (m * dot_x * dot_x + m * dot_y * dot_y);
-        let potential = m * g * y;
+        let kinetic = lit(0.5) * (dot_x * dot_x * m + dot_y * dot_y * m);
+        let potential = y * m_g;
         ::ukcore::Energy {
             kinetic,
             potential,
         }
     }
-    fn outputs<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) {
+    fn outputs<S: ::ukcore::Scalar>(
+        prepared: &[S],
+        t: S,
+        q: &[S],
+        v: &[S],
+        outputs: &mut [S],
+    ) {
         let outputs = ::ukcore::emitted::exact_mut::<S, 2>(outputs, "outputs");
+        let [_, _, g, m_per_l, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            7,
+        >(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
-        let lit = S::from_f64;
-        let m = lit(self.m);
-        let l = lit(self.l);
-        let g = lit(self.g);
         outputs[0] = x.atan2(-y);
-        outputs[1] = m * (dot_x * dot_x + dot_y * dot_y - g * y) / l;
+        outputs[1] = m_per_l * (dot_x * dot_x + dot_y * dot_y - y * g);
     }
-    /// 5 additions, 9 multiplications, 2 divisions, 0 square roots, 0 transcendentals, 2 selections.
+    /// 6 additions, 10 multiplications, 1 divisions, 0 square roots, 0 transcendentals, 1 selections.
     fn acceleration<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
+        let [_, _, g, _, _, per_m, prepared_part] = *::ukcore::emitted::exact::<
+            S,
+            7,
+        >(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
-        let m = lit(self.m);
-        let g = lit(self.g);
         let acceleration_0_part = x * x + y * y;
         let per_acceleration_0_part = acceleration_0_part.recip();
-        let acceleration_0_part_2 = g * y - (dot_x * dot_x + dot_y * dot_y);
-        let pivot_rod = acceleration_0_part / m;
-        out[0] = x * acceleration_0_part_2 * per_acceleration_0_part;
-        let safe = S::select_le(
-            pivot_rod,
-            lit(0.0),
-            lit(0.0),
-            S::select_le(m, lit(0.0), lit(0.0), lit(1.0)),
-        );
-        out[1] = y * acceleration_0_part_2 * per_acceleration_0_part - g;
+        let pivot_rod = per_m * acceleration_0_part;
+        let acceleration_0_part_2 = (dot_x * dot_x + dot_y * dot_y) - y * g;
+        let safe = S::select_le(pivot_rod, lit(0.0), lit(0.0), prepared_part);
+        out[0] = -(x * acceleration_0_part_2 * per_acceleration_0_part);
+        out[1] = -g - y * acceleration_0_part_2 * per_acceleration_0_part;
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
@@ -303,21 +341,19 @@ impl ::ukcore::Mechanism for Pendulum {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
+        let [_, _, _, _, _, per_m, prepared_part] = *::ukcore::emitted::exact::<
+            S,
+            7,
+        >(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [residual_0] = *::ukcore::emitted::exact::<S, 1>(residual, "residual");
         let lit = S::from_f64;
-        let m = lit(self.m);
         let correction_0_part = x * x + y * y;
         let per_correction_0_part = correction_0_part.recip();
-        let pivot_rod = correction_0_part / m;
+        let pivot_rod = per_m * correction_0_part;
+        let safe = S::select_le(pivot_rod, lit(0.0), lit(0.0), prepared_part);
         out[0] = lit(-0.5) * (x * residual_0 * per_correction_0_part);
         out[1] = lit(-0.5) * (y * residual_0 * per_correction_0_part);
-        let safe = S::select_le(
-            pivot_rod,
-            lit(0.0),
-            lit(0.0),
-            S::select_le(m, lit(0.0), lit(0.0), lit(1.0)),
-        );
         safe
     }
 }

@@ -129,6 +129,17 @@ impl ::ukcore::Mechanism for RigidBody {
                 default: 3.0,
             },
         ],
+        prepared: &[
+            ("i1", "i1"),
+            ("i2", "i2"),
+            ("i3", "i3"),
+            ("twice_i1", "2*i1"),
+            ("times_i2", "4*i2"),
+            ("times_i3", "4*i3"),
+            ("times_i1", "4*i1"),
+            ("twice_i2", "2*i2"),
+            ("twice_i3", "2*i3"),
+        ],
         coords: &["e0", "e1", "e2", "e3"],
         constraints: &[
             ::ukcore::ConstraintSpec {
@@ -261,9 +272,23 @@ impl ::ukcore::Mechanism for RigidBody {
             _ => ::ukcore::emitted::no_parameter(index),
         }
     }
+    fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
+        let prepared = ::ukcore::emitted::exact_mut::<S, 9>(prepared, "prepared");
+        let [i1, i2, i3] = *::ukcore::emitted::exact::<S, 3>(given, "given");
+        let lit = S::from_f64;
+        prepared[0] = i1;
+        prepared[1] = i2;
+        prepared[2] = i3;
+        prepared[3] = lit(2.0) * i1;
+        prepared[4] = lit(4.0) * i2;
+        prepared[5] = lit(4.0) * i3;
+        prepared[6] = lit(4.0) * i1;
+        prepared[7] = lit(2.0) * i2;
+        prepared[8] = lit(2.0) * i3;
+    }
     /// 40 additions, 119 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
@@ -274,12 +299,13 @@ impl ::ukcore::Mechanism for RigidBody {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 4>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 4>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
+        let [i1, i2, i3, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            9,
+        >(prepared, "prepared");
         let [e0, e1, e2, e3] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let [dot_e0, dot_e1, dot_e2, dot_e3] = *::ukcore::emitted::exact::<S, 4>(v, "v");
         let lit = S::from_f64;
-        let i1 = lit(self.i1);
-        let i2 = lit(self.i2);
-        let i3 = lit(self.i3);
         let pivot_e0 = e1 * e1 * i1 + e2 * e2 * i2 + e3 * e3 * i3;
         mass[0] = lit(4.0) * pivot_e0;
         let mass_e1_e0 = lit(-4.0) * (e1 * e0 * i1 - e3 * e2 * i2 + e3 * e2 * i3);
@@ -329,13 +355,14 @@ impl ::ukcore::Mechanism for RigidBody {
         rhs[0] = lit(-2.0)
             * (dot_e0 * dot_e0 + dot_e1 * dot_e1 + dot_e2 * dot_e2 + dot_e3 * dot_e3);
     }
-    fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) {
+    fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 16>(mass, "mass");
+        let [i1, i2, i3, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            9,
+        >(prepared, "prepared");
         let [e0, e1, e2, e3] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let lit = S::from_f64;
-        let i1 = lit(self.i1);
-        let i2 = lit(self.i2);
-        let i3 = lit(self.i3);
         let pivot_e0 = e1 * e1 * i1 + e2 * e2 * i2 + e3 * e3 * i3;
         mass[0] = lit(4.0) * pivot_e0;
         let mass_e1_e0 = lit(-4.0) * (e1 * e0 * i1 - e3 * e2 * i2 + e3 * e2 * i3);
@@ -360,7 +387,13 @@ impl ::ukcore::Mechanism for RigidBody {
         mass[14] = mass_e3_e2;
         mass[15] = lit(4.0) * (e2 * e2 * i1 + e1 * e1 * i2 + e0 * e0 * i3);
     }
-    fn jacobian<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
+    fn jacobian<S: ::ukcore::Scalar>(
+        prepared: &[S],
+        t: S,
+        q: &[S],
+        v: &[S],
+        jacobian: &mut [S],
+    ) {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 4>(jacobian, "jacobian");
         let [e0, e1, e2, e3] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let lit = S::from_f64;
@@ -369,14 +402,14 @@ impl ::ukcore::Mechanism for RigidBody {
         jacobian[2] = lit(2.0) * e2;
         jacobian[3] = lit(2.0) * e3;
     }
-    fn residual<S: ::ukcore::Scalar>(&self, t: S, q: &[S], phi: &mut [S]) {
+    fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
         let phi = ::ukcore::emitted::exact_mut::<S, 1>(phi, "phi");
         let [e0, e1, e2, e3] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let lit = S::from_f64;
         phi[0] = e0 * e0 + e1 * e1 + e2 * e2 + e3 * e3 - lit(1.0);
     }
     fn residual_rate<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
@@ -389,17 +422,18 @@ impl ::ukcore::Mechanism for RigidBody {
         rate[0] = lit(2.0) * (e0 * dot_e0 + e1 * dot_e1 + e2 * dot_e2 + e3 * dot_e3);
     }
     fn energy<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
+        let [i1, i2, i3, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            9,
+        >(prepared, "prepared");
         let [e0, e1, e2, e3] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let [dot_e0, dot_e1, dot_e2, dot_e3] = *::ukcore::emitted::exact::<S, 4>(v, "v");
         let lit = S::from_f64;
-        let i1 = lit(self.i1);
-        let i2 = lit(self.i2);
-        let i3 = lit(self.i3);
         let kinetic_part = e1 * dot_e0 - e0 * dot_e1 - e3 * dot_e2 + e2 * dot_e3;
         let kinetic_part_2 = dot_e0 * e2 + dot_e1 * e3 - e0 * dot_e2 - e1 * dot_e3;
         let kinetic_part_3 = dot_e0 * e3 - dot_e1 * e2 + e1 * dot_e2 - e0 * dot_e3;
@@ -412,14 +446,21 @@ impl ::ukcore::Mechanism for RigidBody {
             potential,
         }
     }
-    fn outputs<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) {
+    fn outputs<S: ::ukcore::Scalar>(
+        prepared: &[S],
+        t: S,
+        q: &[S],
+        v: &[S],
+        outputs: &mut [S],
+    ) {
         let outputs = ::ukcore::emitted::exact_mut::<S, 6>(outputs, "outputs");
+        let [_, _, _, twice_i1, times_i2, times_i3, times_i1, twice_i2, twice_i3] = *::ukcore::emitted::exact::<
+            S,
+            9,
+        >(prepared, "prepared");
         let [e0, e1, e2, e3] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let [dot_e0, dot_e1, dot_e2, dot_e3] = *::ukcore::emitted::exact::<S, 4>(v, "v");
         let lit = S::from_f64;
-        let i1 = lit(self.i1);
-        let i2 = lit(self.i2);
-        let i3 = lit(self.i3);
         let output_0_part = e1 * dot_e0 - e0 * dot_e1 - e3 * dot_e2 + e2 * dot_e3;
         outputs[0] = lit(-2.0) * output_0_part;
         let output_1_part = dot_e0 * e2 + dot_e1 * e3 - e0 * dot_e2 - e1 * dot_e3;
@@ -432,34 +473,35 @@ impl ::ukcore::Mechanism for RigidBody {
         let e0_e3 = e0 * e3;
         let e1_e3 = e1 * e3;
         let e0_e2 = e0 * e2;
-        outputs[3] = lit(-4.0) * (i2 * output_1_part * (e1_e2 - e0_e3))
-            - lit(4.0) * (i3 * output_2_part * (e1_e3 + e0_e2))
-            - lit(2.0) * (i1 * output_0_part * (lit(1.0) - lit(2.0) * (sq_e2 + sq_e3)));
+        outputs[3] = -(times_i2 * output_1_part * (e1_e2 - e0_e3))
+            - times_i3 * output_2_part * (e1_e3 + e0_e2)
+            - twice_i1 * output_0_part * (lit(1.0) - lit(2.0) * (sq_e2 + sq_e3));
         let sq_e1 = e1 * e1;
         let e3_e2 = e3 * e2;
         let e1_e0 = e1 * e0;
-        outputs[4] = lit(-4.0) * (i1 * output_0_part * (e1_e2 + e0_e3))
-            - lit(4.0) * (i3 * output_2_part * (e3_e2 - e1_e0))
-            - lit(2.0) * (i2 * output_1_part * (lit(1.0) - lit(2.0) * (sq_e1 + sq_e3)));
-        outputs[5] = lit(-4.0) * (i1 * output_0_part * (e1_e3 - e0_e2))
-            - lit(4.0) * (i2 * output_1_part * (e3_e2 + e1_e0))
-            - lit(2.0) * (i3 * output_2_part * (lit(1.0) - lit(2.0) * (sq_e1 + sq_e2)));
+        outputs[4] = -(times_i1 * output_0_part * (e1_e2 + e0_e3))
+            - times_i3 * output_2_part * (e3_e2 - e1_e0)
+            - twice_i2 * output_1_part * (lit(1.0) - lit(2.0) * (sq_e1 + sq_e3));
+        outputs[5] = -(times_i1 * output_0_part * (e1_e3 - e0_e2))
+            - times_i2 * output_1_part * (e3_e2 + e1_e0)
+            - twice_i3 * output_2_part * (lit(1.0) - lit(2.0) * (sq_e1 + sq_e2));
     }
     /// 81 additions, 187 multiplications, 5 divisions, 0 square roots, 0 transcendentals, 5 selections.
     fn acceleration<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 4>(out, "out");
+        let [i1, i2, i3, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            9,
+        >(prepared, "prepared");
         let [e0, e1, e2, e3] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let [dot_e0, dot_e1, dot_e2, dot_e3] = *::ukcore::emitted::exact::<S, 4>(v, "v");
         let lit = S::from_f64;
-        let i1 = lit(self.i1);
-        let i2 = lit(self.i2);
-        let i3 = lit(self.i3);
         let acceleration_0_part = e1 * dot_e0 - e0 * dot_e1 - e3 * dot_e2 + e2 * dot_e3;
         let acceleration_0_part_2 = dot_e0 * e2 + dot_e1 * e3 - e0 * dot_e2
             - e1 * dot_e3;
@@ -567,7 +609,7 @@ impl ::ukcore::Mechanism for RigidBody {
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
@@ -575,12 +617,13 @@ impl ::ukcore::Mechanism for RigidBody {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 4>(out, "out");
+        let [i1, i2, i3, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            9,
+        >(prepared, "prepared");
         let [e0, e1, e2, e3] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let [residual_0] = *::ukcore::emitted::exact::<S, 1>(residual, "residual");
         let lit = S::from_f64;
-        let i1 = lit(self.i1);
-        let i2 = lit(self.i2);
-        let i3 = lit(self.i3);
         let pivot_e0 = e1 * e1 * i1 + e2 * e2 * i2 + e3 * e3 * i3;
         let correction_0_part = e1 * e0 * i1 - e3 * e2 * i2 + e3 * e2 * i3;
         let correction_0_part_2 = e0 * e0 * i1 + e3 * e3 * i2 + e2 * e2 * i3;

@@ -113,6 +113,26 @@ impl ::ukcore::Mechanism for RoughBlock {
                 default: 0.2,
             },
         ],
+        prepared: &[
+            ("cos_slope", "cos(slope)"),
+            ("sin_slope", "sin(slope)"),
+            ("cos_slope_mu_m_g", "cos(slope)*mu*m*g"),
+            ("m_g", "m*g"),
+            ("sq_cos_slope_mu_m_g", "sq(cos(slope))*mu*m*g"),
+            ("cos_slope_sin_slope_mu_m_g", "cos(slope)*sin(slope)*mu*m*g"),
+            ("m", "m"),
+            ("cos_slope_sin_slope_mu", "cos(slope)*sin(slope)*mu"),
+            ("prepared_part", "sq(cos(slope))/(sq(sin(slope)) + sq(cos(slope)))"),
+            ("g", "g"),
+            ("cos_slope_mu", "cos(slope)*mu"),
+            ("prepared_part_2", "sin(slope)/(sq(sin(slope)) + sq(cos(slope)))"),
+            ("cos_slope_g", "cos(slope)*g"),
+            ("prepared_part_3", "cos(slope)/(sq(sin(slope)) + sq(cos(slope)))"),
+            (
+                "prepared_part_4",
+                "((sq(sin(slope)) + sq(cos(slope)))/m ≤ 0 ? 0 : (m ≤ 0 ? 0 : 1))",
+            ),
+        ],
         coords: &["x", "y"],
         constraints: &[
             ::ukcore::ConstraintSpec {
@@ -158,19 +178,19 @@ impl ::ukcore::Mechanism for RoughBlock {
             ],
             operations: ::ukcore::Operations {
                 additions: 3,
-                multiplications: 13,
+                multiplications: 4,
                 divisions: 0,
                 square_roots: 0,
-                transcendentals: 1,
+                transcendentals: 0,
                 selections: 1,
             },
             solve_operations: ::ukcore::Operations {
-                additions: 8,
-                multiplications: 17,
-                divisions: 2,
+                additions: 7,
+                multiplications: 8,
+                divisions: 0,
                 square_roots: 0,
-                transcendentals: 1,
-                selections: 3,
+                transcendentals: 0,
+                selections: 1,
             },
         },
         equations: ::ukcore::Equations {
@@ -203,9 +223,38 @@ impl ::ukcore::Mechanism for RoughBlock {
             _ => ::ukcore::emitted::no_parameter(index),
         }
     }
-    /// 3 additions, 13 multiplications, 0 divisions, 0 square roots, 1 transcendentals, 1 selections.
+    fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
+        let prepared = ::ukcore::emitted::exact_mut::<S, 15>(prepared, "prepared");
+        let [m, g, slope, mu] = *::ukcore::emitted::exact::<S, 4>(given, "given");
+        let lit = S::from_f64;
+        let (sin_slope, cos_slope) = slope.sin_cos();
+        prepared[0] = cos_slope;
+        prepared[1] = sin_slope;
+        prepared[2] = mu * m * g * cos_slope;
+        prepared[3] = m * g;
+        prepared[4] = mu * m * g * cos_slope * cos_slope;
+        prepared[5] = mu * m * g * cos_slope * sin_slope;
+        prepared[6] = m;
+        prepared[7] = mu * cos_slope * sin_slope;
+        let prepared_8_part = sin_slope * sin_slope + cos_slope * cos_slope;
+        let per_prepared_8_part = prepared_8_part.recip();
+        prepared[8] = cos_slope * cos_slope * per_prepared_8_part;
+        prepared[9] = g;
+        prepared[10] = mu * cos_slope;
+        prepared[11] = sin_slope * per_prepared_8_part;
+        prepared[12] = g * cos_slope;
+        prepared[13] = cos_slope * per_prepared_8_part;
+        let pivot_plane = prepared_8_part / m;
+        prepared[14] = S::select_le(
+            pivot_plane,
+            lit(0.0),
+            lit(0.0),
+            S::select_le(m, lit(0.0), lit(0.0), lit(1.0)),
+        );
+    }
+    /// 3 additions, 4 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 1 selections.
     fn dynamics<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
@@ -216,137 +265,141 @@ impl ::ukcore::Mechanism for RoughBlock {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
+        let [cos_slope, sin_slope, _, m_g, sq_cos_slope_mu_m_g,
+        cos_slope_sin_slope_mu_m_g, m, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            15,
+        >(prepared, "prepared");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
-        let m = lit(self.m);
-        let g = lit(self.g);
-        let slope = lit(self.slope);
-        let mu = lit(self.mu);
         mass[0] = m;
         mass[3] = m;
         force[0] = lit(0.0);
-        force[1] = -(m * g);
-        let (sin_slope, cos_slope) = slope.sin_cos();
+        force[1] = -m_g;
         let speed_down = dot_x * cos_slope - dot_y * sin_slope;
         let sign_speed_down = speed_down.sign();
-        nonideal[0] = -(mu * m * g * cos_slope * cos_slope * sign_speed_down);
-        nonideal[1] = mu * m * g * cos_slope * sin_slope * sign_speed_down;
+        nonideal[0] = -(sq_cos_slope_mu_m_g * sign_speed_down);
+        nonideal[1] = cos_slope_sin_slope_mu_m_g * sign_speed_down;
         jacobian[0] = sin_slope;
         jacobian[1] = cos_slope;
         rhs[0] = lit(0.0);
     }
-    fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) {
+    fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 4>(mass, "mass");
-        let lit = S::from_f64;
-        let m = lit(self.m);
+        let [_, _, _, _, _, _, m, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            15,
+        >(prepared, "prepared");
         mass[0] = m;
         mass[3] = m;
     }
-    fn jacobian<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
+    fn jacobian<S: ::ukcore::Scalar>(
+        prepared: &[S],
+        t: S,
+        q: &[S],
+        v: &[S],
+        jacobian: &mut [S],
+    ) {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(jacobian, "jacobian");
-        let lit = S::from_f64;
-        let slope = lit(self.slope);
-        let (sin_slope, cos_slope) = slope.sin_cos();
+        let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            15,
+        >(prepared, "prepared");
         jacobian[0] = sin_slope;
         jacobian[1] = cos_slope;
     }
-    fn residual<S: ::ukcore::Scalar>(&self, t: S, q: &[S], phi: &mut [S]) {
+    fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
         let phi = ::ukcore::emitted::exact_mut::<S, 1>(phi, "phi");
+        let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            15,
+        >(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
-        let lit = S::from_f64;
-        let slope = lit(self.slope);
-        let (sin_slope, cos_slope) = slope.sin_cos();
         phi[0] = x * sin_slope + y * cos_slope;
     }
     fn residual_rate<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
         rate: &mut [S],
     ) {
         let rate = ::ukcore::emitted::exact_mut::<S, 1>(rate, "rate");
+        let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            15,
+        >(prepared, "prepared");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
-        let lit = S::from_f64;
-        let slope = lit(self.slope);
-        let (sin_slope, cos_slope) = slope.sin_cos();
         rate[0] = dot_x * sin_slope + dot_y * cos_slope;
     }
     fn energy<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
+        let [_, _, _, m_g, _, _, m, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            15,
+        >(prepared, "prepared");
         let [_, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
-        let m = lit(self.m);
-        let g = lit(self.g);
         let kinetic = lit(0.5) * (dot_x * dot_x * m + dot_y * dot_y * m);
-        let potential = y * m * g;
+        let potential = y * m_g;
         ::ukcore::Energy {
             kinetic,
             potential,
         }
     }
-    fn outputs<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) {
+    fn outputs<S: ::ukcore::Scalar>(
+        prepared: &[S],
+        t: S,
+        q: &[S],
+        v: &[S],
+        outputs: &mut [S],
+    ) {
         let outputs = ::ukcore::emitted::exact_mut::<S, 3>(outputs, "outputs");
+        let [cos_slope, sin_slope, cos_slope_mu_m_g, _, _, _, _, _, _, _, _, _, _, _, _,
+        ] = *::ukcore::emitted::exact::<S, 15>(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
-        let lit = S::from_f64;
-        let m = lit(self.m);
-        let g = lit(self.g);
-        let slope = lit(self.slope);
-        let mu = lit(self.mu);
-        let (sin_slope, cos_slope) = slope.sin_cos();
         outputs[0] = x * cos_slope - y * sin_slope;
         let speed_down = dot_x * cos_slope - dot_y * sin_slope;
         outputs[1] = speed_down;
-        let neg_friction = mu * m * g * cos_slope * speed_down.sign();
+        let neg_friction = cos_slope_mu_m_g * speed_down.sign();
         outputs[2] = -neg_friction;
     }
-    /// 8 additions, 17 multiplications, 2 divisions, 0 square roots, 1 transcendentals, 3 selections.
+    /// 7 additions, 8 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 1 selections.
     fn acceleration<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
+        let [cos_slope, sin_slope, _, _, _, _, _, cos_slope_sin_slope_mu, prepared_part,
+        g, cos_slope_mu, prepared_part_2, cos_slope_g, _, prepared_part_4] = *::ukcore::emitted::exact::<
+            S,
+            15,
+        >(prepared, "prepared");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
-        let m = lit(self.m);
-        let g = lit(self.g);
-        let slope = lit(self.slope);
-        let mu = lit(self.mu);
-        let (sin_slope, cos_slope) = slope.sin_cos();
+        let safe = prepared_part_4;
         let speed_down = dot_x * cos_slope - dot_y * sin_slope;
-        let acceleration_0_part = sin_slope * sin_slope + cos_slope * cos_slope;
-        let per_acceleration_0_part = acceleration_0_part.recip();
         let sign_speed_down = speed_down.sign();
-        let acceleration_0_part_2 = mu * cos_slope * sin_slope * sign_speed_down;
-        let acceleration_0_part_3 = lit(1.0) - acceleration_0_part_2;
-        let acceleration_0_part_4 = acceleration_0_part_2 + acceleration_0_part_3;
-        let pivot_plane = acceleration_0_part / m;
-        let safe = S::select_le(
-            pivot_plane,
-            lit(0.0),
-            lit(0.0),
-            S::select_le(m, lit(0.0), lit(0.0), lit(1.0)),
-        );
-        out[0] = -(g * cos_slope
-            * (mu * cos_slope * sign_speed_down
-                - sin_slope * per_acceleration_0_part * acceleration_0_part_4));
-        out[1] = -(g
-            * (acceleration_0_part_3
-                - cos_slope * cos_slope * per_acceleration_0_part
-                    * acceleration_0_part_4));
+        let safe_part = cos_slope_sin_slope_mu * sign_speed_down;
+        let safe_part_2 = lit(1.0) - safe_part;
+        let safe_part_plus_safe_part_2 = safe_part + safe_part_2;
+        out[0] = -(cos_slope_g
+            * (cos_slope_mu * sign_speed_down
+                - prepared_part_2 * safe_part_plus_safe_part_2));
+        out[1] = -(g * (safe_part_2 - prepared_part * safe_part_plus_safe_part_2));
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
@@ -354,22 +407,12 @@ impl ::ukcore::Mechanism for RoughBlock {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
+        let [_, _, _, _, _, _, _, _, _, _, _, prepared_part_2, _, prepared_part_3,
+        prepared_part_4] = *::ukcore::emitted::exact::<S, 15>(prepared, "prepared");
         let [residual_0] = *::ukcore::emitted::exact::<S, 1>(residual, "residual");
-        let lit = S::from_f64;
-        let m = lit(self.m);
-        let slope = lit(self.slope);
-        let (sin_slope, cos_slope) = slope.sin_cos();
-        let correction_0_part = sin_slope * sin_slope + cos_slope * cos_slope;
-        let per_correction_0_part = correction_0_part.recip();
-        let pivot_plane = correction_0_part / m;
-        out[0] = -(residual_0 * sin_slope * per_correction_0_part);
-        out[1] = -(residual_0 * cos_slope * per_correction_0_part);
-        let safe = S::select_le(
-            pivot_plane,
-            lit(0.0),
-            lit(0.0),
-            S::select_le(m, lit(0.0), lit(0.0), lit(1.0)),
-        );
+        let safe = prepared_part_4;
+        out[0] = -(residual_0 * prepared_part_2);
+        out[1] = -(residual_0 * prepared_part_3);
         safe
     }
 }

@@ -205,6 +205,46 @@ impl ::ukcore::Mechanism for SliderCrank {
                 default: 0.0,
             },
         ],
+        prepared: &[
+            ("m1_g", "m1*g"),
+            ("m2_g", "m2*g"),
+            ("m3_g", "m3*g"),
+            ("torque", "torque"),
+            ("r", "r"),
+            ("l", "l"),
+            ("m1", "m1"),
+            ("i1", "i1"),
+            ("m2", "m2"),
+            ("i2", "i2"),
+            ("m3", "m3"),
+            ("i3", "i3"),
+            ("per_i1_sq_r", "sq(r)/i1"),
+            ("per_i1_torque_r", "torque*r/i1"),
+            ("per_i2_sq_l", "sq(l)/i2"),
+            ("per_m1", "1/m1"),
+            ("per_i1_torque", "torque/i1"),
+            ("prepared_part", "r^4/sq(i1)"),
+            ("g", "g"),
+            ("times_per_i1_sq_r", "0.0625*sq(r)/i1"),
+            ("per_m3_and_per_m2", "1/m3 + 1/m2"),
+            ("per_m2", "1/m2"),
+            ("prepared_part_2", "l^4/sq(i2)"),
+            ("times_per_i2_sq_l", "0.0625*sq(l)/i2"),
+            ("per_m1_and_per_m2", "1/m1 + 1/m2"),
+            ("prepared_part_3", "0.0625*r^4/sq(i1)"),
+            ("half_r", "0.5*r"),
+            ("half_l", "0.5*l"),
+            ("per_i2_l", "l/i2"),
+            ("half_per_i2_l", "0.5*l/i2"),
+            ("per_i1", "1/i1"),
+            ("per_m3", "1/m3"),
+            ("per_i1_r", "r/i1"),
+            ("half_per_i1_r", "0.5*r/i1"),
+            (
+                "prepared_part_4",
+                "(i2 ≤ 0 ? 0 : (i1 ≤ 0 ? 0 : (m2 ≤ 0 ? 0 : (m1 ≤ 0 ? 0 : (m3 ≤ 0 ? 0 : 1)))))",
+            ),
+        ],
         coords: &["x1", "y1", "th1", "x2", "y2", "th2", "x3", "y3", "th3"],
         constraints: &[
             ::ukcore::ConstraintSpec {
@@ -318,19 +358,19 @@ impl ::ukcore::Mechanism for SliderCrank {
             ],
             operations: ::ukcore::Operations {
                 additions: 5,
-                multiplications: 31,
+                multiplications: 28,
                 divisions: 0,
                 square_roots: 0,
                 transcendentals: 2,
                 selections: 0,
             },
             solve_operations: ::ukcore::Operations {
-                additions: 86,
-                multiplications: 249,
-                divisions: 11,
+                additions: 83,
+                multiplications: 195,
+                divisions: 6,
                 square_roots: 0,
                 transcendentals: 2,
-                selections: 11,
+                selections: 6,
             },
         },
         equations: ::ukcore::Equations {
@@ -410,9 +450,82 @@ impl ::ukcore::Mechanism for SliderCrank {
             _ => ::ukcore::emitted::no_parameter(index),
         }
     }
-    /// 5 additions, 31 multiplications, 0 divisions, 0 square roots, 2 transcendentals, 0 selections.
+    fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
+        let prepared = ::ukcore::emitted::exact_mut::<S, 35>(prepared, "prepared");
+        let [r, l, m1, m2, m3, i1, i2, i3, g, torque] = *::ukcore::emitted::exact::<
+            S,
+            10,
+        >(given, "given");
+        let lit = S::from_f64;
+        prepared[0] = m1 * g;
+        prepared[1] = m2 * g;
+        prepared[2] = m3 * g;
+        prepared[3] = torque;
+        prepared[4] = r;
+        prepared[5] = l;
+        prepared[6] = m1;
+        let per_i1 = i1.recip();
+        prepared[7] = i1;
+        prepared[8] = m2;
+        let per_i2 = i2.recip();
+        prepared[9] = i2;
+        prepared[10] = m3;
+        prepared[11] = i3;
+        let per_i1_sq_r = r * r * per_i1;
+        prepared[12] = per_i1_sq_r;
+        prepared[13] = torque * r * per_i1;
+        let per_i2_sq_l = l * l * per_i2;
+        prepared[14] = per_i2_sq_l;
+        let per_m1 = m1.recip();
+        prepared[15] = per_m1;
+        prepared[16] = torque * per_i1;
+        let prepared_17 = r.powi(4) / (i1 * i1);
+        prepared[17] = prepared_17;
+        prepared[18] = g;
+        prepared[19] = lit(0.0625) * per_i1_sq_r;
+        let per_m3 = m3.recip();
+        let per_m2 = m2.recip();
+        prepared[20] = per_m3 + per_m2;
+        prepared[21] = per_m2;
+        prepared[22] = l.powi(4) / (i2 * i2);
+        prepared[23] = lit(0.0625) * per_i2_sq_l;
+        prepared[24] = per_m1 + per_m2;
+        prepared[25] = lit(0.0625) * prepared_17;
+        prepared[26] = lit(0.5) * r;
+        prepared[27] = lit(0.5) * l;
+        let per_i2_l = l * per_i2;
+        prepared[28] = per_i2_l;
+        prepared[29] = lit(0.5) * per_i2_l;
+        prepared[30] = per_i1;
+        prepared[31] = per_m3;
+        let per_i1_r = r * per_i1;
+        prepared[32] = per_i1_r;
+        prepared[33] = lit(0.5) * per_i1_r;
+        prepared[34] = S::select_le(
+            i2,
+            lit(0.0),
+            lit(0.0),
+            S::select_le(
+                i1,
+                lit(0.0),
+                lit(0.0),
+                S::select_le(
+                    m2,
+                    lit(0.0),
+                    lit(0.0),
+                    S::select_le(
+                        m1,
+                        lit(0.0),
+                        lit(0.0),
+                        S::select_le(m3, lit(0.0), lit(0.0), lit(1.0)),
+                    ),
+                ),
+            ),
+        );
+    }
+    /// 5 additions, 28 multiplications, 0 divisions, 0 square roots, 2 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
@@ -423,22 +536,17 @@ impl ::ukcore::Mechanism for SliderCrank {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 9>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 72>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 8>(out.rhs, "rhs");
+        let [m1_g, m2_g, m3_g, torque, r, l, m1, i1, m2, i2, m3, i3, _, _, _, _, _, _, _,
+        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            35,
+        >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [_, _, dot_th1, _, _, dot_th2, _, _, _] = *::ukcore::emitted::exact::<
             S,
             9,
         >(v, "v");
         let lit = S::from_f64;
-        let r = lit(self.r);
-        let l = lit(self.l);
-        let m1 = lit(self.m1);
-        let m2 = lit(self.m2);
-        let m3 = lit(self.m3);
-        let i1 = lit(self.i1);
-        let i2 = lit(self.i2);
-        let i3 = lit(self.i3);
-        let g = lit(self.g);
-        let torque = lit(self.torque);
         mass[0] = m1;
         mass[10] = m1;
         mass[20] = i1;
@@ -449,13 +557,13 @@ impl ::ukcore::Mechanism for SliderCrank {
         mass[70] = m3;
         mass[80] = i3;
         force[0] = lit(0.0);
-        force[1] = -(m1 * g);
+        force[1] = -m1_g;
         force[2] = torque;
         force[3] = lit(0.0);
-        force[4] = -(m2 * g);
+        force[4] = -m2_g;
         force[5] = lit(0.0);
         force[6] = lit(0.0);
-        force[7] = -(m3 * g);
+        force[7] = -m3_g;
         force[8] = lit(0.0);
         nonideal[0] = lit(0.0);
         nonideal[1] = lit(0.0);
@@ -468,19 +576,19 @@ impl ::ukcore::Mechanism for SliderCrank {
         nonideal[8] = lit(0.0);
         jacobian[0] = lit(1.0);
         let (sin_th1, cos_th1) = th1.sin_cos();
-        let r_sin_th1 = r * sin_th1;
-        jacobian[16] = lit(0.5) * r_sin_th1;
+        let sin_th1_r = r * sin_th1;
+        jacobian[16] = lit(0.5) * sin_th1_r;
         jacobian[9] = lit(1.0);
-        let r_cos_th1 = r * cos_th1;
-        jacobian[17] = lit(-0.5) * r_cos_th1;
+        let cos_th1_r = r * cos_th1;
+        jacobian[17] = lit(-0.5) * cos_th1_r;
         jacobian[2] = lit(1.0);
-        jacobian[18] = lit(-0.5) * r_sin_th1;
+        jacobian[18] = lit(-0.5) * sin_th1_r;
         jacobian[26] = lit(-1.0);
         let (sin_th2, cos_th2) = th2.sin_cos();
         let a_crank_pin_0 = lit(-0.5) * (l * sin_th2);
         jacobian[42] = a_crank_pin_0;
         jacobian[11] = lit(1.0);
-        jacobian[19] = lit(0.5) * r_cos_th1;
+        jacobian[19] = lit(0.5) * cos_th1_r;
         jacobian[35] = lit(-1.0);
         let a_crank_pin_1 = lit(0.5) * (l * cos_th2);
         jacobian[43] = a_crank_pin_1;
@@ -492,28 +600,26 @@ impl ::ukcore::Mechanism for SliderCrank {
         jacobian[61] = lit(-1.0);
         jacobian[62] = lit(1.0);
         jacobian[71] = lit(1.0);
-        let r_cos_th1_sq_dot_th1 = r * dot_th1 * dot_th1 * cos_th1;
-        rhs[0] = lit(-0.5) * r_cos_th1_sq_dot_th1;
-        let r_sin_th1_sq_dot_th1 = r * dot_th1 * dot_th1 * sin_th1;
-        rhs[1] = lit(-0.5) * r_sin_th1_sq_dot_th1;
-        let l_cos_th2_sq_dot_th2 = l * dot_th2 * dot_th2 * cos_th2;
-        rhs[2] = lit(0.5) * (r_cos_th1_sq_dot_th1 + l_cos_th2_sq_dot_th2);
-        let l_sin_th2_sq_dot_th2 = l * dot_th2 * dot_th2 * sin_th2;
-        rhs[3] = lit(0.5) * (r_sin_th1_sq_dot_th1 + l_sin_th2_sq_dot_th2);
-        rhs[4] = lit(0.5) * l_cos_th2_sq_dot_th2;
-        rhs[5] = lit(0.5) * l_sin_th2_sq_dot_th2;
+        let cos_th1_sq_dot_th1_r = dot_th1 * dot_th1 * r * cos_th1;
+        rhs[0] = lit(-0.5) * cos_th1_sq_dot_th1_r;
+        let sin_th1_sq_dot_th1_r = dot_th1 * dot_th1 * r * sin_th1;
+        rhs[1] = lit(-0.5) * sin_th1_sq_dot_th1_r;
+        let cos_th2_sq_dot_th2_l = dot_th2 * dot_th2 * l * cos_th2;
+        rhs[2] = lit(0.5) * (cos_th1_sq_dot_th1_r + cos_th2_sq_dot_th2_l);
+        let sin_th2_sq_dot_th2_l = dot_th2 * dot_th2 * l * sin_th2;
+        rhs[3] = lit(0.5) * (sin_th1_sq_dot_th1_r + sin_th2_sq_dot_th2_l);
+        rhs[4] = lit(0.5) * cos_th2_sq_dot_th2_l;
+        rhs[5] = lit(0.5) * sin_th2_sq_dot_th2_l;
         rhs[6] = lit(0.0);
         rhs[7] = lit(0.0);
     }
-    fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) {
+    fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 81>(mass, "mass");
-        let lit = S::from_f64;
-        let m1 = lit(self.m1);
-        let m2 = lit(self.m2);
-        let m3 = lit(self.m3);
-        let i1 = lit(self.i1);
-        let i2 = lit(self.i2);
-        let i3 = lit(self.i3);
+        let [_, _, _, _, _, _, m1, i1, m2, i2, m3, i3, _, _, _, _, _, _, _, _, _, _, _,
+        _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            35,
+        >(prepared, "prepared");
         mass[0] = m1;
         mass[10] = m1;
         mass[20] = i1;
@@ -524,27 +630,36 @@ impl ::ukcore::Mechanism for SliderCrank {
         mass[70] = m3;
         mass[80] = i3;
     }
-    fn jacobian<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
+    fn jacobian<S: ::ukcore::Scalar>(
+        prepared: &[S],
+        t: S,
+        q: &[S],
+        v: &[S],
+        jacobian: &mut [S],
+    ) {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 72>(jacobian, "jacobian");
+        let [_, _, _, _, r, l, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+        _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            35,
+        >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let lit = S::from_f64;
-        let r = lit(self.r);
-        let l = lit(self.l);
         jacobian[0] = lit(1.0);
         let (sin_th1, cos_th1) = th1.sin_cos();
-        let r_sin_th1 = r * sin_th1;
-        jacobian[16] = lit(0.5) * r_sin_th1;
+        let sin_th1_r = r * sin_th1;
+        jacobian[16] = lit(0.5) * sin_th1_r;
         jacobian[9] = lit(1.0);
-        let r_cos_th1 = r * cos_th1;
-        jacobian[17] = lit(-0.5) * r_cos_th1;
+        let cos_th1_r = r * cos_th1;
+        jacobian[17] = lit(-0.5) * cos_th1_r;
         jacobian[2] = lit(1.0);
-        jacobian[18] = lit(-0.5) * r_sin_th1;
+        jacobian[18] = lit(-0.5) * sin_th1_r;
         jacobian[26] = lit(-1.0);
         let (sin_th2, cos_th2) = th2.sin_cos();
         let a_crank_pin_0 = lit(-0.5) * (l * sin_th2);
         jacobian[42] = a_crank_pin_0;
         jacobian[11] = lit(1.0);
-        jacobian[19] = lit(0.5) * r_cos_th1;
+        jacobian[19] = lit(0.5) * cos_th1_r;
         jacobian[35] = lit(-1.0);
         let a_crank_pin_1 = lit(0.5) * (l * cos_th2);
         jacobian[43] = a_crank_pin_1;
@@ -557,90 +672,99 @@ impl ::ukcore::Mechanism for SliderCrank {
         jacobian[62] = lit(1.0);
         jacobian[71] = lit(1.0);
     }
-    fn residual<S: ::ukcore::Scalar>(&self, t: S, q: &[S], phi: &mut [S]) {
+    fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
         let phi = ::ukcore::emitted::exact_mut::<S, 8>(phi, "phi");
+        let [_, _, _, _, r, l, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+        _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            35,
+        >(prepared, "prepared");
         let [x1, y1, th1, x2, y2, th2, x3, y3, th3] = *::ukcore::emitted::exact::<
             S,
             9,
         >(q, "q");
         let lit = S::from_f64;
-        let r = lit(self.r);
-        let l = lit(self.l);
         let (sin_th1, cos_th1) = th1.sin_cos();
-        let r_cos_th1 = r * cos_th1;
-        phi[0] = x1 - lit(0.5) * r_cos_th1;
-        let r_sin_th1 = r * sin_th1;
-        phi[1] = y1 - lit(0.5) * r_sin_th1;
+        let cos_th1_r = r * cos_th1;
+        phi[0] = x1 - lit(0.5) * cos_th1_r;
+        let sin_th1_r = r * sin_th1;
+        phi[1] = y1 - lit(0.5) * sin_th1_r;
         let (sin_th2, cos_th2) = th2.sin_cos();
-        let l_cos_th2 = l * cos_th2;
-        phi[2] = x1 - x2 + lit(0.5) * r_cos_th1 + lit(0.5) * l_cos_th2;
-        let l_sin_th2 = l * sin_th2;
-        phi[3] = y1 - y2 + lit(0.5) * r_sin_th1 + lit(0.5) * l_sin_th2;
-        phi[4] = x2 - x3 + lit(0.5) * l_cos_th2;
-        phi[5] = y2 - y3 + lit(0.5) * l_sin_th2;
+        let cos_th2_l = l * cos_th2;
+        phi[2] = x1 - x2 + lit(0.5) * cos_th1_r + lit(0.5) * cos_th2_l;
+        let sin_th2_l = l * sin_th2;
+        phi[3] = y1 - y2 + lit(0.5) * sin_th1_r + lit(0.5) * sin_th2_l;
+        phi[4] = x2 - x3 + lit(0.5) * cos_th2_l;
+        phi[5] = y2 - y3 + lit(0.5) * sin_th2_l;
         phi[6] = y3;
         phi[7] = th3;
     }
     fn residual_rate<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
         rate: &mut [S],
     ) {
         let rate = ::ukcore::emitted::exact_mut::<S, 8>(rate, "rate");
+        let [_, _, _, _, r, l, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+        _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            35,
+        >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [dot_x1, dot_y1, dot_th1, dot_x2, dot_y2, dot_th2, dot_x3, dot_y3, dot_th3,
         ] = *::ukcore::emitted::exact::<S, 9>(v, "v");
         let lit = S::from_f64;
-        let r = lit(self.r);
-        let l = lit(self.l);
         let (sin_th1, cos_th1) = th1.sin_cos();
-        let r_sin_th1_dot_th1 = r * dot_th1 * sin_th1;
-        rate[0] = dot_x1 + lit(0.5) * r_sin_th1_dot_th1;
-        let r_cos_th1_dot_th1 = r * dot_th1 * cos_th1;
-        rate[1] = dot_y1 - lit(0.5) * r_cos_th1_dot_th1;
+        let sin_th1_dot_th1_r = dot_th1 * r * sin_th1;
+        rate[0] = dot_x1 + lit(0.5) * sin_th1_dot_th1_r;
+        let cos_th1_dot_th1_r = dot_th1 * r * cos_th1;
+        rate[1] = dot_y1 - lit(0.5) * cos_th1_dot_th1_r;
         let (sin_th2, cos_th2) = th2.sin_cos();
-        let l_sin_th2_dot_th2 = l * dot_th2 * sin_th2;
-        rate[2] = dot_x1 - dot_x2 - lit(0.5) * r_sin_th1_dot_th1
-            - lit(0.5) * l_sin_th2_dot_th2;
-        let l_cos_th2_dot_th2 = l * dot_th2 * cos_th2;
-        rate[3] = dot_y1 - dot_y2 + lit(0.5) * r_cos_th1_dot_th1
-            + lit(0.5) * l_cos_th2_dot_th2;
-        rate[4] = dot_x2 - dot_x3 - lit(0.5) * l_sin_th2_dot_th2;
-        rate[5] = dot_y2 - dot_y3 + lit(0.5) * l_cos_th2_dot_th2;
+        let sin_th2_dot_th2_l = dot_th2 * l * sin_th2;
+        rate[2] = dot_x1 - dot_x2 - lit(0.5) * sin_th1_dot_th1_r
+            - lit(0.5) * sin_th2_dot_th2_l;
+        let cos_th2_dot_th2_l = dot_th2 * l * cos_th2;
+        rate[3] = dot_y1 - dot_y2 + lit(0.5) * cos_th1_dot_th1_r
+            + lit(0.5) * cos_th2_dot_th2_l;
+        rate[4] = dot_x2 - dot_x3 - lit(0.5) * sin_th2_dot_th2_l;
+        rate[5] = dot_y2 - dot_y3 + lit(0.5) * cos_th2_dot_th2_l;
         rate[6] = dot_y3;
         rate[7] = dot_th3;
     }
     fn energy<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
+        let [m1_g, m2_g, m3_g, torque, _, _, m1, i1, m2, i2, m3, i3, _, _, _, _, _, _, _,
+        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            35,
+        >(prepared, "prepared");
         let [_, y1, th1, _, y2, _, _, y3, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [dot_x1, dot_y1, dot_th1, dot_x2, dot_y2, dot_th2, dot_x3, dot_y3, dot_th3,
         ] = *::ukcore::emitted::exact::<S, 9>(v, "v");
         let lit = S::from_f64;
-        let m1 = lit(self.m1);
-        let m2 = lit(self.m2);
-        let m3 = lit(self.m3);
-        let i1 = lit(self.i1);
-        let i2 = lit(self.i2);
-        let i3 = lit(self.i3);
-        let g = lit(self.g);
-        let torque = lit(self.torque);
         let kinetic = lit(0.5)
-            * (m1 * dot_x1 * dot_x1 + m1 * dot_y1 * dot_y1 + i1 * dot_th1 * dot_th1
-                + m2 * dot_x2 * dot_x2 + m2 * dot_y2 * dot_y2 + i2 * dot_th2 * dot_th2
-                + m3 * dot_x3 * dot_x3 + m3 * dot_y3 * dot_y3 + i3 * dot_th3 * dot_th3);
-        let potential = m1 * g * y1 + m2 * g * y2 + m3 * g * y3 - torque * th1;
+            * (dot_x1 * dot_x1 * m1 + dot_y1 * dot_y1 * m1 + dot_th1 * dot_th1 * i1
+                + dot_x2 * dot_x2 * m2 + dot_y2 * dot_y2 * m2 + dot_th2 * dot_th2 * i2
+                + dot_x3 * dot_x3 * m3 + dot_y3 * dot_y3 * m3 + dot_th3 * dot_th3 * i3);
+        let potential = y1 * m1_g + y2 * m2_g + y3 * m3_g - th1 * torque;
         ::ukcore::Energy {
             kinetic,
             potential,
         }
     }
-    fn outputs<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) {
+    fn outputs<S: ::ukcore::Scalar>(
+        prepared: &[S],
+        t: S,
+        q: &[S],
+        v: &[S],
+        outputs: &mut [S],
+    ) {
         let outputs = ::ukcore::emitted::exact_mut::<S, 3>(outputs, "outputs");
         let [_, _, th1, _, _, _, x3, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [_, _, _, _, _, _, dot_x3, _, _] = *::ukcore::emitted::exact::<S, 9>(v, "v");
@@ -648,125 +772,114 @@ impl ::ukcore::Mechanism for SliderCrank {
         outputs[1] = x3;
         outputs[2] = dot_x3;
     }
-    /// 86 additions, 249 multiplications, 11 divisions, 0 square roots, 2 transcendentals, 11 selections.
+    /// 83 additions, 195 multiplications, 6 divisions, 0 square roots, 2 transcendentals, 6 selections.
     fn acceleration<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 9>(out, "out");
+        let [_, _, _, torque, r, l, _, _, _, _, _, _, per_i1_sq_r, per_i1_torque_r,
+        per_i2_sq_l, per_m1, per_i1_torque, prepared_part, g, times_per_i1_sq_r,
+        per_m3_and_per_m2, per_m2, prepared_part_2, times_per_i2_sq_l, per_m1_and_per_m2,
+        prepared_part_3, half_r, half_l, _, half_per_i2_l, per_i1, per_m3, _, _,
+        prepared_part_4] = *::ukcore::emitted::exact::<S, 35>(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [_, _, dot_th1, _, _, dot_th2, _, _, _] = *::ukcore::emitted::exact::<
             S,
             9,
         >(v, "v");
         let lit = S::from_f64;
-        let r = lit(self.r);
-        let l = lit(self.l);
-        let m1 = lit(self.m1);
-        let m2 = lit(self.m2);
-        let m3 = lit(self.m3);
-        let i1 = lit(self.i1);
-        let i2 = lit(self.i2);
-        let g = lit(self.g);
-        let torque = lit(self.torque);
-        let per_m1 = m1.recip();
-        let per_i1 = i1.recip();
-        let per_m2 = m2.recip();
-        let per_i2 = i2.recip();
-        let per_m3 = m3.recip();
         out[7] = lit(0.0);
         out[8] = lit(0.0);
         let (sin_th1, cos_th1) = th1.sin_cos();
         let (sin_th2, cos_th2) = th2.sin_cos();
-        let r_sin_th1_sq_dot_th1 = r * dot_th1 * dot_th1 * sin_th1;
-        let l_sin_th2_sq_dot_th2 = l * dot_th2 * dot_th2 * sin_th2;
-        let per_i1_sq_r_sq_sin_th1 = r * r * per_i1 * sin_th1 * sin_th1;
-        let per_i1_sq_r_sq_cos_th1 = r * r * per_i1 * cos_th1 * cos_th1;
-        let per_i1_torque_r_cos_th1 = torque * r * per_i1 * cos_th1;
-        let per_i2_sq_l_sq_sin_th2 = l * l * per_i2 * sin_th2 * sin_th2;
-        let per_i2_sq_l_cos_th2_sin_th2 = l * l * per_i2 * cos_th2 * sin_th2;
-        let per_i2_sq_l_sq_cos_th2 = l * l * per_i2 * cos_th2 * cos_th2;
-        let pivot_bearing_0 = per_m1 + lit(0.25) * per_i1_sq_r_sq_sin_th1;
-        let safe_part = dot_th1 * dot_th1 * cos_th1 + torque * per_i1 * sin_th1;
-        let safe_part_2 = per_m1 - lit(0.25) * per_i1_sq_r_sq_sin_th1;
-        let safe_part_3 = per_m1 + lit(0.25) * per_i1_sq_r_sq_cos_th1;
-        let pivot_wrist_pin_0 = per_m3 + per_m2 + lit(0.25) * per_i2_sq_l_sq_sin_th2;
-        let safe_part_4 = per_m2 - lit(0.25) * per_i2_sq_l_sq_sin_th2;
-        let safe_part_5 = per_m2 + lit(0.25) * per_i2_sq_l_sq_cos_th2;
-        let safe_part_6 = per_m1 + per_m2 + lit(0.25) * per_i1_sq_r_sq_sin_th1
-            + lit(0.25) * per_i2_sq_l_sq_sin_th2;
-        let safe_part_7 = per_m1 + per_m2 + lit(0.25) * per_i1_sq_r_sq_cos_th1
-            + lit(0.25) * per_i2_sq_l_sq_cos_th2;
+        let sin_th1_sq_dot_th1_r = dot_th1 * dot_th1 * r * sin_th1;
+        let sin_th2_sq_dot_th2_l = dot_th2 * dot_th2 * l * sin_th2;
+        let sq_sin_th1_per_i1_sq_r = per_i1_sq_r * sin_th1 * sin_th1;
+        let sq_cos_th1_per_i1_sq_r = per_i1_sq_r * cos_th1 * cos_th1;
+        let cos_th1_per_i1_torque_r = per_i1_torque_r * cos_th1;
+        let sq_sin_th2_per_i2_sq_l = per_i2_sq_l * sin_th2 * sin_th2;
+        let cos_th2_sin_th2_per_i2_sq_l = per_i2_sq_l * cos_th2 * sin_th2;
+        let sq_cos_th2_per_i2_sq_l = per_i2_sq_l * cos_th2 * cos_th2;
+        let pivot_bearing_0 = per_m1 + lit(0.25) * sq_sin_th1_per_i1_sq_r;
+        let safe_part = dot_th1 * dot_th1 * cos_th1 + per_i1_torque * sin_th1;
+        let safe_part_2 = lit(0.25) * sq_sin_th1_per_i1_sq_r - per_m1;
+        let safe_part_3 = per_m1 + lit(0.25) * sq_cos_th1_per_i1_sq_r;
+        let pivot_wrist_pin_0 = per_m3_and_per_m2 + lit(0.25) * sq_sin_th2_per_i2_sq_l;
+        let safe_part_4 = lit(0.25) * sq_sin_th2_per_i2_sq_l - per_m2;
+        let safe_part_5 = per_m2 + lit(0.25) * sq_cos_th2_per_i2_sq_l;
+        let safe_part_6 = per_m1_and_per_m2 + lit(0.25) * sq_sin_th1_per_i1_sq_r
+            + lit(0.25) * sq_sin_th2_per_i2_sq_l;
+        let safe_part_7 = per_m1_and_per_m2 + lit(0.25) * sq_cos_th1_per_i1_sq_r
+            + lit(0.25) * sq_cos_th2_per_i2_sq_l;
         let per_pivot_bearing_0 = pivot_bearing_0.recip();
         let per_pivot_wrist_pin_0 = pivot_wrist_pin_0.recip();
-        let bearing_1_by_bearing_0 = r * r * per_i1 * cos_th1 * sin_th1
+        let bearing_1_by_bearing_0 = per_i1_sq_r * cos_th1 * sin_th1
             * per_pivot_bearing_0;
         let crank_pin_0_by_bearing_0 = safe_part_2 * per_pivot_bearing_0;
-        let safe_part_8 = r.powi(4) * cos_th1 * cos_th1 * sin_th1 * sin_th1
-            * per_pivot_bearing_0 / (i1 * i1);
+        let safe_part_8 = prepared_part * cos_th1 * cos_th1 * sin_th1 * sin_th1
+            * per_pivot_bearing_0;
         let crank_pin_0_by_wrist_pin_0 = safe_part_4 * per_pivot_wrist_pin_0;
-        let crank_pin_1_by_wrist_pin_0 = l * l * per_i2 * cos_th2 * sin_th2
+        let crank_pin_1_by_wrist_pin_0 = per_i2_sq_l * cos_th2 * sin_th2
             * per_pivot_wrist_pin_0;
-        let safe_part_9 = l.powi(4) * cos_th2 * cos_th2 * sin_th2 * sin_th2
-            * per_pivot_wrist_pin_0 / (i2 * i2);
+        let safe_part_9 = prepared_part_2 * cos_th2 * cos_th2 * sin_th2 * sin_th2
+            * per_pivot_wrist_pin_0;
         let safe_part_10 = r * safe_part * bearing_1_by_bearing_0;
         let pivot_bearing_1 = lit(0.0625) * safe_part_8 - safe_part_3;
-        let safe_part_11 = lit(1.0) + crank_pin_0_by_bearing_0;
+        let safe_part_11 = lit(1.0) - crank_pin_0_by_bearing_0;
         let safe_part_12 = safe_part_4 * crank_pin_1_by_wrist_pin_0;
-        let safe_part_13 = l * dot_th2 * dot_th2 * cos_th2 * crank_pin_1_by_wrist_pin_0;
+        let safe_part_13 = dot_th2 * dot_th2 * l * cos_th2 * crank_pin_1_by_wrist_pin_0;
         let pivot_wrist_pin_1 = lit(0.0625) * safe_part_9 - safe_part_5;
         let per_pivot_bearing_1 = pivot_bearing_1.recip();
         let per_pivot_wrist_pin_1 = pivot_wrist_pin_1.recip();
-        let safe_part_14 = lit(0.125) * safe_part_10
-            - (g - lit(0.5) * r_sin_th1_sq_dot_th1 + lit(0.5) * per_i1_torque_r_cos_th1);
-        let safe_part_15 = (g + lit(0.5) * l_sin_th2_sq_dot_th2)
+        let safe_part_14 = (lit(0.5) * sin_th1_sq_dot_th1_r - g
+            - lit(0.5) * cos_th1_per_i1_torque_r) + lit(0.125) * safe_part_10;
+        let safe_part_15 = (lit(0.25) * sq_cos_th1_per_i1_sq_r - per_m1)
+            - times_per_i1_sq_r * cos_th1 * sin_th1 * bearing_1_by_bearing_0;
+        let safe_part_16 = (g + lit(0.5) * sin_th2_sq_dot_th2_l)
             + lit(0.125) * safe_part_13;
-        let safe_part_16 = per_i2_sq_l_cos_th2_sin_th2 + safe_part_12;
-        let safe_part_17 = (per_m1 - lit(0.25) * per_i1_sq_r_sq_cos_th1)
-            + lit(0.0625)
-                * (r * r * per_i1 * cos_th1 * sin_th1 * bearing_1_by_bearing_0);
-        let crank_pin_0_by_bearing_1 = r * r * per_i1 * cos_th1 * sin_th1 * safe_part_11
+        let safe_part_17 = cos_th2_sin_th2_per_i2_sq_l - safe_part_12;
+        let safe_part_18 = (lit(0.25) * sq_cos_th2_per_i2_sq_l - per_m2)
+            - times_per_i2_sq_l * cos_th2 * sin_th2 * crank_pin_1_by_wrist_pin_0;
+        let crank_pin_0_by_bearing_1 = per_i1_sq_r * cos_th1 * sin_th1 * safe_part_11
             * per_pivot_bearing_1;
-        let safe_part_18 = (per_m2 - lit(0.25) * per_i2_sq_l_sq_cos_th2)
-            + lit(0.0625)
-                * (l * l * per_i2 * cos_th2 * sin_th2 * crank_pin_1_by_wrist_pin_0);
-        let crank_pin_0_by_wrist_pin_1 = safe_part_16 * per_pivot_wrist_pin_1;
+        let crank_pin_1_by_bearing_1 = safe_part_15 * per_pivot_bearing_1;
+        let crank_pin_0_by_wrist_pin_1 = safe_part_17 * per_pivot_wrist_pin_1;
+        let crank_pin_1_by_wrist_pin_1 = safe_part_18 * per_pivot_wrist_pin_1;
         let pivot_crank_pin_0 = safe_part_2 * safe_part_2 * per_pivot_bearing_0
             - safe_part_6 + safe_part_4 * safe_part_4 * per_pivot_wrist_pin_0
-            - lit(0.0625)
-                * (r.powi(4) * cos_th1 * cos_th1 * sin_th1 * sin_th1 * safe_part_11
-                    * safe_part_11 * per_pivot_bearing_1 / (i1 * i1))
-            - lit(0.0625) * (safe_part_16 * safe_part_16 * per_pivot_wrist_pin_1);
+            - prepared_part_3 * cos_th1 * cos_th1 * sin_th1 * sin_th1 * safe_part_11
+                * safe_part_11 * per_pivot_bearing_1
+            - lit(0.0625) * (safe_part_17 * safe_part_17 * per_pivot_wrist_pin_1);
         let per_pivot_crank_pin_0 = pivot_crank_pin_0.recip();
-        let safe_part_19 = lit(0.5)
-            * ((r * dot_th1 * dot_th1 * cos_th1 + l * dot_th2 * dot_th2 * cos_th2)
-                + torque * r * per_i1 * sin_th1)
-            + lit(0.5) * (r * safe_part * crank_pin_0_by_bearing_0)
-            + lit(0.5) * (l * dot_th2 * dot_th2 * cos_th2 * crank_pin_0_by_wrist_pin_0)
-            - lit(0.25) * (safe_part_14 * crank_pin_0_by_bearing_1)
-            - lit(0.25) * (safe_part_15 * crank_pin_0_by_wrist_pin_1);
-        let crank_pin_1_by_bearing_1 = per_pivot_bearing_1 * safe_part_17;
-        let crank_pin_1_by_wrist_pin_1 = per_pivot_wrist_pin_1 * safe_part_18;
-        let safe_part_20 = (r * r * per_i1 * cos_th1 * sin_th1
-            + per_i2_sq_l_cos_th2_sin_th2) + safe_part_2 * bearing_1_by_bearing_0
-            + safe_part_12 - safe_part_16 * crank_pin_1_by_wrist_pin_1
-            - r * r * per_i1 * cos_th1 * sin_th1 * safe_part_11
-                * crank_pin_1_by_bearing_1;
-        let crank_pin_1_by_crank_pin_0 = per_pivot_crank_pin_0 * safe_part_20;
+        let safe_part_19 = half_r * safe_part * crank_pin_0_by_bearing_0
+            - lit(0.5)
+                * (per_i1_torque_r * sin_th1
+                    + (dot_th1 * dot_th1 * r * cos_th1
+                        + dot_th2 * dot_th2 * l * cos_th2))
+            + dot_th2 * dot_th2 * half_l * cos_th2 * crank_pin_0_by_wrist_pin_0
+            + lit(0.25) * (safe_part_14 * crank_pin_0_by_bearing_1)
+            + lit(0.25) * (safe_part_16 * crank_pin_0_by_wrist_pin_1);
+        let safe_part_20 = safe_part_2 * bearing_1_by_bearing_0
+            - (per_i1_sq_r * cos_th1 * sin_th1 + cos_th2_sin_th2_per_i2_sq_l)
+            + safe_part_12
+            - per_i1_sq_r * cos_th1 * sin_th1 * safe_part_11 * crank_pin_1_by_bearing_1
+            - safe_part_17 * crank_pin_1_by_wrist_pin_1;
+        let crank_pin_1_by_crank_pin_0 = safe_part_20 * per_pivot_crank_pin_0;
         let pivot_crank_pin_1 = lit(0.0625) * safe_part_8 - safe_part_7
             + lit(0.0625) * safe_part_9
-            - per_pivot_bearing_1 * safe_part_17 * safe_part_17
-            - per_pivot_wrist_pin_1 * safe_part_18 * safe_part_18
-            - lit(0.0625) * (per_pivot_crank_pin_0 * safe_part_20 * safe_part_20);
+            - safe_part_15 * safe_part_15 * per_pivot_bearing_1
+            - safe_part_18 * safe_part_18 * per_pivot_wrist_pin_1
+            - lit(0.0625) * (safe_part_20 * safe_part_20 * per_pivot_crank_pin_0);
         let per_pivot_crank_pin_1 = pivot_crank_pin_1.recip();
         let safe_part_21 = lit(0.5)
-            * ((r_sin_th1_sq_dot_th1 + l_sin_th2_sq_dot_th2) - per_i1_torque_r_cos_th1)
+            * ((sin_th1_sq_dot_th1_r + sin_th2_sq_dot_th2_l) - cos_th1_per_i1_torque_r)
             + lit(0.125) * safe_part_10 + lit(0.125) * safe_part_13
-            - safe_part_14 * crank_pin_1_by_bearing_1
-            - safe_part_15 * crank_pin_1_by_wrist_pin_1
+            + safe_part_14 * crank_pin_1_by_bearing_1
+            + safe_part_16 * crank_pin_1_by_wrist_pin_1
             - lit(0.25) * (safe_part_19 * crank_pin_1_by_crank_pin_0);
         let safe = S::select_le(
             -pivot_crank_pin_1,
@@ -792,27 +905,7 @@ impl ::ukcore::Mechanism for SliderCrank {
                                 pivot_bearing_0,
                                 lit(0.0),
                                 lit(0.0),
-                                S::select_le(
-                                    i2,
-                                    lit(0.0),
-                                    lit(0.0),
-                                    S::select_le(
-                                        i1,
-                                        lit(0.0),
-                                        lit(0.0),
-                                        S::select_le(
-                                            m2,
-                                            lit(0.0),
-                                            lit(0.0),
-                                            S::select_le(
-                                                m1,
-                                                lit(0.0),
-                                                lit(0.0),
-                                                S::select_le(m3, lit(0.0), lit(0.0), lit(1.0)),
-                                            ),
-                                        ),
-                                    ),
-                                ),
+                                prepared_part_4,
                             ),
                         ),
                     ),
@@ -822,43 +915,42 @@ impl ::ukcore::Mechanism for SliderCrank {
         let lambda_crank_pin_0 = safe_part_19 * per_pivot_crank_pin_0
             - lit(0.25)
                 * (crank_pin_1_by_crank_pin_0 * safe_part_21 * per_pivot_crank_pin_1);
-        let lambda_wrist_pin_1 = safe_part_15 * per_pivot_wrist_pin_1
-            - crank_pin_1_by_wrist_pin_1 * safe_part_21 * per_pivot_crank_pin_1
-            - lit(0.25) * (crank_pin_0_by_wrist_pin_1 * lambda_crank_pin_0);
+        let lambda_wrist_pin_1 = safe_part_16 * per_pivot_wrist_pin_1
+            + crank_pin_1_by_wrist_pin_1 * safe_part_21 * per_pivot_crank_pin_1
+            + lit(0.25) * (crank_pin_0_by_wrist_pin_1 * lambda_crank_pin_0);
         let lambda_bearing_1 = safe_part_14 * per_pivot_bearing_1
-            - crank_pin_1_by_bearing_1 * safe_part_21 * per_pivot_crank_pin_1
-            - lit(0.25) * (crank_pin_0_by_bearing_1 * lambda_crank_pin_0);
-        let lambda_wrist_pin_0 = lit(0.5)
-            * (l * dot_th2 * dot_th2 * cos_th2 * per_pivot_wrist_pin_0)
-            - lit(0.25)
-                * (crank_pin_1_by_wrist_pin_0 * safe_part_21 * per_pivot_crank_pin_1)
-            - crank_pin_0_by_wrist_pin_0 * lambda_crank_pin_0
-            - lit(0.25) * (crank_pin_1_by_wrist_pin_0 * lambda_wrist_pin_1);
-        let lambda_bearing_0 = lit(0.5) * (r * safe_part * per_pivot_bearing_0)
-            - lit(0.25) * (bearing_1_by_bearing_0 * safe_part_21 * per_pivot_crank_pin_1)
-            - crank_pin_0_by_bearing_0 * lambda_crank_pin_0
-            - lit(0.25) * (bearing_1_by_bearing_0 * lambda_bearing_1);
+            + crank_pin_1_by_bearing_1 * safe_part_21 * per_pivot_crank_pin_1
+            + lit(0.25) * (crank_pin_0_by_bearing_1 * lambda_crank_pin_0);
+        let lambda_wrist_pin_0 = lit(0.25)
+            * (crank_pin_1_by_wrist_pin_0 * safe_part_21 * per_pivot_crank_pin_1)
+            - dot_th2 * dot_th2 * half_l * cos_th2 * per_pivot_wrist_pin_0
+            + crank_pin_0_by_wrist_pin_0 * lambda_crank_pin_0
+            + lit(0.25) * (crank_pin_1_by_wrist_pin_0 * lambda_wrist_pin_1);
+        let lambda_bearing_0 = lit(0.25)
+            * (bearing_1_by_bearing_0 * safe_part_21 * per_pivot_crank_pin_1)
+            - half_r * safe_part * per_pivot_bearing_0
+            + crank_pin_0_by_bearing_0 * lambda_crank_pin_0
+            + lit(0.25) * (bearing_1_by_bearing_0 * lambda_bearing_1);
         out[1] = per_m1 * lambda_bearing_1 - g
             - per_m1 * safe_part_21 * per_pivot_crank_pin_1;
         out[4] = per_m2 * safe_part_21 * per_pivot_crank_pin_1 - g
             - per_m2 * lambda_wrist_pin_1;
-        out[3] = per_m2 * (lambda_crank_pin_0 + lambda_wrist_pin_0);
-        out[6] = -(per_m3 * lambda_wrist_pin_0);
-        out[0] = -(per_m1 * (lambda_crank_pin_0 + lambda_bearing_0));
+        out[6] = per_m3 * lambda_wrist_pin_0;
+        out[0] = per_m1 * (lambda_crank_pin_0 + lambda_bearing_0);
         out[2] = per_i1
-            * (torque - lit(0.5) * (r * cos_th1 * safe_part_21 * per_pivot_crank_pin_1)
-                + lit(0.5) * (r * sin_th1 * lambda_crank_pin_0)
-                - lit(0.5) * (r * cos_th1 * lambda_bearing_1)
-                - lit(0.5) * (r * sin_th1 * lambda_bearing_0));
-        out[5] = lit(0.5)
-            * (l * per_i2
-                * (sin_th2 * lambda_crank_pin_0
-                    - cos_th2 * safe_part_21 * per_pivot_crank_pin_1
-                    - cos_th2 * lambda_wrist_pin_1 - sin_th2 * lambda_wrist_pin_0));
+            * (torque - half_r * cos_th1 * safe_part_21 * per_pivot_crank_pin_1
+                - half_r * sin_th1 * lambda_crank_pin_0
+                - half_r * cos_th1 * lambda_bearing_1
+                + half_r * sin_th1 * lambda_bearing_0);
+        out[3] = -(per_m2 * (lambda_crank_pin_0 + lambda_wrist_pin_0));
+        out[5] = -(half_per_i2_l
+            * (cos_th2 * safe_part_21 * per_pivot_crank_pin_1
+                + sin_th2 * lambda_crank_pin_0 + cos_th2 * lambda_wrist_pin_1
+                - sin_th2 * lambda_wrist_pin_0));
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
@@ -866,6 +958,13 @@ impl ::ukcore::Mechanism for SliderCrank {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 9>(out, "out");
+        let [_, _, _, _, _, _, _, _, _, _, _, _, per_i1_sq_r, _, per_i2_sq_l, per_m1, _,
+        prepared_part, _, times_per_i1_sq_r, per_m3_and_per_m2, per_m2, prepared_part_2,
+        times_per_i2_sq_l, per_m1_and_per_m2, prepared_part_3, _, _, _, half_per_i2_l, _,
+        per_m3, _, half_per_i1_r, prepared_part_4] = *::ukcore::emitted::exact::<
+            S,
+            35,
+        >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [residual_0, residual_1, residual_2, residual_3, residual_4, residual_5,
         residual_6, residual_7] = *::ukcore::emitted::exact::<
@@ -873,98 +972,83 @@ impl ::ukcore::Mechanism for SliderCrank {
             8,
         >(residual, "residual");
         let lit = S::from_f64;
-        let r = lit(self.r);
-        let l = lit(self.l);
-        let m1 = lit(self.m1);
-        let m2 = lit(self.m2);
-        let m3 = lit(self.m3);
-        let i1 = lit(self.i1);
-        let i2 = lit(self.i2);
-        let per_m1 = m1.recip();
-        let per_i1 = i1.recip();
-        let per_m2 = m2.recip();
-        let per_i2 = i2.recip();
-        let per_m3 = m3.recip();
         out[7] = -residual_6;
         out[8] = -residual_7;
         let (sin_th1, cos_th1) = th1.sin_cos();
         let (sin_th2, cos_th2) = th2.sin_cos();
-        let per_i1_sq_r_sq_sin_th1 = r * r * per_i1 * sin_th1 * sin_th1;
-        let per_i1_sq_r_sq_cos_th1 = r * r * per_i1 * cos_th1 * cos_th1;
-        let per_i2_sq_l_sq_sin_th2 = l * l * per_i2 * sin_th2 * sin_th2;
-        let per_i2_sq_l_cos_th2_sin_th2 = l * l * per_i2 * cos_th2 * sin_th2;
-        let per_i2_sq_l_sq_cos_th2 = l * l * per_i2 * cos_th2 * cos_th2;
-        let pivot_bearing_0 = per_m1 + lit(0.25) * per_i1_sq_r_sq_sin_th1;
-        let safe_part = per_m1 - lit(0.25) * per_i1_sq_r_sq_sin_th1;
-        let safe_part_2 = per_m1 + lit(0.25) * per_i1_sq_r_sq_cos_th1;
-        let pivot_wrist_pin_0 = per_m3 + per_m2 + lit(0.25) * per_i2_sq_l_sq_sin_th2;
-        let safe_part_3 = per_m2 - lit(0.25) * per_i2_sq_l_sq_sin_th2;
-        let safe_part_4 = per_m2 + lit(0.25) * per_i2_sq_l_sq_cos_th2;
-        let safe_part_5 = per_m1 + per_m2 + lit(0.25) * per_i1_sq_r_sq_sin_th1
-            + lit(0.25) * per_i2_sq_l_sq_sin_th2;
-        let safe_part_6 = per_m1 + per_m2 + lit(0.25) * per_i1_sq_r_sq_cos_th1
-            + lit(0.25) * per_i2_sq_l_sq_cos_th2;
+        let sq_sin_th1_per_i1_sq_r = per_i1_sq_r * sin_th1 * sin_th1;
+        let sq_cos_th1_per_i1_sq_r = per_i1_sq_r * cos_th1 * cos_th1;
+        let sq_sin_th2_per_i2_sq_l = per_i2_sq_l * sin_th2 * sin_th2;
+        let cos_th2_sin_th2_per_i2_sq_l = per_i2_sq_l * cos_th2 * sin_th2;
+        let sq_cos_th2_per_i2_sq_l = per_i2_sq_l * cos_th2 * cos_th2;
+        let pivot_bearing_0 = per_m1 + lit(0.25) * sq_sin_th1_per_i1_sq_r;
+        let safe_part = lit(0.25) * sq_sin_th1_per_i1_sq_r - per_m1;
+        let safe_part_2 = per_m1 + lit(0.25) * sq_cos_th1_per_i1_sq_r;
+        let pivot_wrist_pin_0 = per_m3_and_per_m2 + lit(0.25) * sq_sin_th2_per_i2_sq_l;
+        let safe_part_3 = lit(0.25) * sq_sin_th2_per_i2_sq_l - per_m2;
+        let safe_part_4 = per_m2 + lit(0.25) * sq_cos_th2_per_i2_sq_l;
+        let safe_part_5 = per_m1_and_per_m2 + lit(0.25) * sq_sin_th1_per_i1_sq_r
+            + lit(0.25) * sq_sin_th2_per_i2_sq_l;
+        let safe_part_6 = per_m1_and_per_m2 + lit(0.25) * sq_cos_th1_per_i1_sq_r
+            + lit(0.25) * sq_cos_th2_per_i2_sq_l;
         let per_pivot_bearing_0 = pivot_bearing_0.recip();
         let per_pivot_wrist_pin_0 = pivot_wrist_pin_0.recip();
-        let bearing_1_by_bearing_0 = r * r * per_i1 * cos_th1 * sin_th1
+        let bearing_1_by_bearing_0 = per_i1_sq_r * cos_th1 * sin_th1
             * per_pivot_bearing_0;
         let crank_pin_0_by_bearing_0 = safe_part * per_pivot_bearing_0;
-        let safe_part_7 = r.powi(4) * cos_th1 * cos_th1 * sin_th1 * sin_th1
-            * per_pivot_bearing_0 / (i1 * i1);
+        let safe_part_7 = prepared_part * cos_th1 * cos_th1 * sin_th1 * sin_th1
+            * per_pivot_bearing_0;
         let crank_pin_0_by_wrist_pin_0 = safe_part_3 * per_pivot_wrist_pin_0;
-        let crank_pin_1_by_wrist_pin_0 = l * l * per_i2 * cos_th2 * sin_th2
+        let crank_pin_1_by_wrist_pin_0 = per_i2_sq_l * cos_th2 * sin_th2
             * per_pivot_wrist_pin_0;
-        let safe_part_8 = l.powi(4) * cos_th2 * cos_th2 * sin_th2 * sin_th2
-            * per_pivot_wrist_pin_0 / (i2 * i2);
+        let safe_part_8 = prepared_part_2 * cos_th2 * cos_th2 * sin_th2 * sin_th2
+            * per_pivot_wrist_pin_0;
         let pivot_bearing_1 = lit(0.0625) * safe_part_7 - safe_part_2;
-        let safe_part_9 = lit(1.0) + crank_pin_0_by_bearing_0;
+        let safe_part_9 = lit(1.0) - crank_pin_0_by_bearing_0;
         let safe_part_10 = safe_part_3 * crank_pin_1_by_wrist_pin_0;
         let pivot_wrist_pin_1 = lit(0.0625) * safe_part_8 - safe_part_4;
         let safe_part_11 = residual_0 * bearing_1_by_bearing_0;
         let safe_part_12 = residual_4 * crank_pin_1_by_wrist_pin_0;
         let per_pivot_bearing_1 = pivot_bearing_1.recip();
         let per_pivot_wrist_pin_1 = pivot_wrist_pin_1.recip();
-        let safe_part_13 = per_i2_sq_l_cos_th2_sin_th2 + safe_part_10;
-        let safe_part_14 = residual_1 + lit(0.25) * safe_part_11;
-        let safe_part_15 = (residual_5 + residual_6) + lit(0.25) * safe_part_12;
-        let safe_part_16 = (per_m1 - lit(0.25) * per_i1_sq_r_sq_cos_th1)
-            + lit(0.0625)
-                * (r * r * per_i1 * cos_th1 * sin_th1 * bearing_1_by_bearing_0);
-        let crank_pin_0_by_bearing_1 = r * r * per_i1 * cos_th1 * sin_th1 * safe_part_9
+        let safe_part_13 = (lit(0.25) * sq_cos_th1_per_i1_sq_r - per_m1)
+            - times_per_i1_sq_r * cos_th1 * sin_th1 * bearing_1_by_bearing_0;
+        let safe_part_14 = cos_th2_sin_th2_per_i2_sq_l - safe_part_10;
+        let safe_part_15 = (lit(0.25) * sq_cos_th2_per_i2_sq_l - per_m2)
+            - times_per_i2_sq_l * cos_th2 * sin_th2 * crank_pin_1_by_wrist_pin_0;
+        let safe_part_16 = residual_1 + lit(0.25) * safe_part_11;
+        let safe_part_17 = (residual_5 + residual_6) + lit(0.25) * safe_part_12;
+        let crank_pin_0_by_bearing_1 = per_i1_sq_r * cos_th1 * sin_th1 * safe_part_9
             * per_pivot_bearing_1;
-        let safe_part_17 = (per_m2 - lit(0.25) * per_i2_sq_l_sq_cos_th2)
-            + lit(0.0625)
-                * (l * l * per_i2 * cos_th2 * sin_th2 * crank_pin_1_by_wrist_pin_0);
-        let crank_pin_0_by_wrist_pin_1 = safe_part_13 * per_pivot_wrist_pin_1;
+        let crank_pin_1_by_bearing_1 = safe_part_13 * per_pivot_bearing_1;
+        let crank_pin_0_by_wrist_pin_1 = safe_part_14 * per_pivot_wrist_pin_1;
+        let crank_pin_1_by_wrist_pin_1 = safe_part_15 * per_pivot_wrist_pin_1;
         let pivot_crank_pin_0 = safe_part * safe_part * per_pivot_bearing_0 - safe_part_5
             + safe_part_3 * safe_part_3 * per_pivot_wrist_pin_0
-            - lit(0.0625)
-                * (r.powi(4) * cos_th1 * cos_th1 * sin_th1 * sin_th1 * safe_part_9
-                    * safe_part_9 * per_pivot_bearing_1 / (i1 * i1))
-            - lit(0.0625) * (safe_part_13 * safe_part_13 * per_pivot_wrist_pin_1);
+            - prepared_part_3 * cos_th1 * cos_th1 * sin_th1 * sin_th1 * safe_part_9
+                * safe_part_9 * per_pivot_bearing_1
+            - lit(0.0625) * (safe_part_14 * safe_part_14 * per_pivot_wrist_pin_1);
         let per_pivot_crank_pin_0 = pivot_crank_pin_0.recip();
-        let safe_part_18 = residual_2 - residual_0 * crank_pin_0_by_bearing_0
-            + residual_4 * crank_pin_0_by_wrist_pin_0
-            + lit(0.25) * (safe_part_14 * crank_pin_0_by_bearing_1)
-            - lit(0.25) * (safe_part_15 * crank_pin_0_by_wrist_pin_1);
-        let crank_pin_1_by_bearing_1 = per_pivot_bearing_1 * safe_part_16;
-        let crank_pin_1_by_wrist_pin_1 = per_pivot_wrist_pin_1 * safe_part_17;
-        let safe_part_19 = (r * r * per_i1 * cos_th1 * sin_th1
-            + per_i2_sq_l_cos_th2_sin_th2) + safe_part * bearing_1_by_bearing_0
-            + safe_part_10 - safe_part_13 * crank_pin_1_by_wrist_pin_1
-            - r * r * per_i1 * cos_th1 * sin_th1 * safe_part_9
-                * crank_pin_1_by_bearing_1;
-        let crank_pin_1_by_crank_pin_0 = per_pivot_crank_pin_0 * safe_part_19;
+        let safe_part_18 = safe_part * bearing_1_by_bearing_0
+            - (per_i1_sq_r * cos_th1 * sin_th1 + cos_th2_sin_th2_per_i2_sq_l)
+            + safe_part_10
+            - per_i1_sq_r * cos_th1 * sin_th1 * safe_part_9 * crank_pin_1_by_bearing_1
+            - safe_part_14 * crank_pin_1_by_wrist_pin_1;
+        let safe_part_19 = residual_2 + residual_0 * crank_pin_0_by_bearing_0
+            - residual_4 * crank_pin_0_by_wrist_pin_0
+            + lit(0.25) * (safe_part_16 * crank_pin_0_by_bearing_1)
+            - lit(0.25) * (safe_part_17 * crank_pin_0_by_wrist_pin_1);
+        let crank_pin_1_by_crank_pin_0 = safe_part_18 * per_pivot_crank_pin_0;
         let pivot_crank_pin_1 = lit(0.0625) * safe_part_7 - safe_part_6
             + lit(0.0625) * safe_part_8
-            - per_pivot_bearing_1 * safe_part_16 * safe_part_16
-            - per_pivot_wrist_pin_1 * safe_part_17 * safe_part_17
-            - lit(0.0625) * (per_pivot_crank_pin_0 * safe_part_19 * safe_part_19);
+            - safe_part_13 * safe_part_13 * per_pivot_bearing_1
+            - safe_part_15 * safe_part_15 * per_pivot_wrist_pin_1
+            - lit(0.0625) * (safe_part_18 * safe_part_18 * per_pivot_crank_pin_0);
         let per_pivot_crank_pin_1 = pivot_crank_pin_1.recip();
         let safe_part_20 = residual_3 - lit(0.25) * safe_part_11
-            + lit(0.25) * safe_part_12 + safe_part_14 * crank_pin_1_by_bearing_1
-            - safe_part_15 * crank_pin_1_by_wrist_pin_1
-            - lit(0.25) * (safe_part_18 * crank_pin_1_by_crank_pin_0);
+            + lit(0.25) * safe_part_12 - safe_part_16 * crank_pin_1_by_bearing_1
+            + safe_part_17 * crank_pin_1_by_wrist_pin_1
+            + lit(0.25) * (safe_part_19 * crank_pin_1_by_crank_pin_0);
         let safe = S::select_le(
             -pivot_crank_pin_1,
             lit(0.0009765625) * safe_part_6,
@@ -989,27 +1073,7 @@ impl ::ukcore::Mechanism for SliderCrank {
                                 pivot_bearing_0,
                                 lit(0.0),
                                 lit(0.0),
-                                S::select_le(
-                                    i2,
-                                    lit(0.0),
-                                    lit(0.0),
-                                    S::select_le(
-                                        i1,
-                                        lit(0.0),
-                                        lit(0.0),
-                                        S::select_le(
-                                            m2,
-                                            lit(0.0),
-                                            lit(0.0),
-                                            S::select_le(
-                                                m1,
-                                                lit(0.0),
-                                                lit(0.0),
-                                                S::select_le(m3, lit(0.0), lit(0.0), lit(1.0)),
-                                            ),
-                                        ),
-                                    ),
-                                ),
+                                prepared_part_4,
                             ),
                         ),
                     ),
@@ -1017,39 +1081,37 @@ impl ::ukcore::Mechanism for SliderCrank {
             ),
         );
         let lambda_crank_pin_1 = safe_part_20 * per_pivot_crank_pin_1;
-        let lambda_crank_pin_0 = safe_part_18 * per_pivot_crank_pin_0
-            - lit(0.25)
+        let lambda_crank_pin_0 = safe_part_19 * per_pivot_crank_pin_0
+            + lit(0.25)
                 * (crank_pin_1_by_crank_pin_0 * safe_part_20 * per_pivot_crank_pin_1);
-        let lambda_wrist_pin_1 = safe_part_15 * per_pivot_wrist_pin_1
-            - crank_pin_1_by_wrist_pin_1 * safe_part_20 * per_pivot_crank_pin_1
+        let lambda_wrist_pin_1 = safe_part_17 * per_pivot_wrist_pin_1
+            + crank_pin_1_by_wrist_pin_1 * safe_part_20 * per_pivot_crank_pin_1
             - lit(0.25) * (crank_pin_0_by_wrist_pin_1 * lambda_crank_pin_0);
-        let lambda_bearing_1 = safe_part_14 * per_pivot_bearing_1
-            + crank_pin_1_by_bearing_1 * safe_part_20 * per_pivot_crank_pin_1
+        let lambda_bearing_1 = safe_part_16 * per_pivot_bearing_1
+            - crank_pin_1_by_bearing_1 * safe_part_20 * per_pivot_crank_pin_1
             + lit(0.25) * (crank_pin_0_by_bearing_1 * lambda_crank_pin_0);
         let lambda_wrist_pin_0 = residual_4 * per_pivot_wrist_pin_0
             - lit(0.25)
                 * (crank_pin_1_by_wrist_pin_0 * safe_part_20 * per_pivot_crank_pin_1)
-            - crank_pin_0_by_wrist_pin_0 * lambda_crank_pin_0
+            + crank_pin_0_by_wrist_pin_0 * lambda_crank_pin_0
             - lit(0.25) * (crank_pin_1_by_wrist_pin_0 * lambda_wrist_pin_1);
         let lambda_bearing_0 = residual_0 * per_pivot_bearing_0
             + lit(0.25) * (bearing_1_by_bearing_0 * safe_part_20 * per_pivot_crank_pin_1)
-            + crank_pin_0_by_bearing_0 * lambda_crank_pin_0
+            - crank_pin_0_by_bearing_0 * lambda_crank_pin_0
             - lit(0.25) * (bearing_1_by_bearing_0 * lambda_bearing_1);
         out[1] = per_m1 * (lambda_crank_pin_1 + lambda_bearing_1);
         out[4] = -(per_m2 * (lambda_crank_pin_1 - lambda_wrist_pin_1));
         out[6] = per_m3 * lambda_wrist_pin_0;
         out[0] = per_m1 * (lambda_crank_pin_0 - lambda_bearing_0);
         out[3] = -(per_m2 * (lambda_crank_pin_0 + lambda_wrist_pin_0));
-        out[2] = lit(-0.5)
-            * (r * per_i1
-                * (sin_th1 * lambda_crank_pin_0
-                    - cos_th1 * safe_part_20 * per_pivot_crank_pin_1
-                    + cos_th1 * lambda_bearing_1 + sin_th1 * lambda_bearing_0));
-        out[5] = lit(-0.5)
-            * (l * per_i2
-                * (sin_th2 * lambda_crank_pin_0
-                    - cos_th2 * safe_part_20 * per_pivot_crank_pin_1
-                    - cos_th2 * lambda_wrist_pin_1 - sin_th2 * lambda_wrist_pin_0));
+        out[2] = -(half_per_i1_r
+            * (sin_th1 * lambda_crank_pin_0
+                - cos_th1 * safe_part_20 * per_pivot_crank_pin_1
+                + cos_th1 * lambda_bearing_1 + sin_th1 * lambda_bearing_0));
+        out[5] = -(half_per_i2_l
+            * (sin_th2 * lambda_crank_pin_0
+                - cos_th2 * safe_part_20 * per_pivot_crank_pin_1
+                - cos_th2 * lambda_wrist_pin_1 - sin_th2 * lambda_wrist_pin_0));
         safe
     }
 }

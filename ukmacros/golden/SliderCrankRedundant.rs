@@ -225,6 +225,23 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
                 default: 0.0,
             },
         ],
+        prepared: &[
+            ("m1_g", "m1*g"),
+            ("m2_g", "m2*g"),
+            ("m3_g", "m3*g"),
+            ("torque", "torque"),
+            ("r", "r"),
+            ("l", "l"),
+            ("c", "c"),
+            ("sq_l", "sq(l)"),
+            ("m1", "m1"),
+            ("i1", "i1"),
+            ("m2", "m2"),
+            ("i2", "i2"),
+            ("m3", "m3"),
+            ("i3", "i3"),
+            ("half_r", "0.5*r"),
+        ],
         coords: &["x1", "y1", "th1", "x2", "y2", "th2", "x3", "y3", "th3"],
         constraints: &[
             ::ukcore::ConstraintSpec {
@@ -356,7 +373,7 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
             ],
             operations: ::ukcore::Operations {
                 additions: 26,
-                multiplications: 64,
+                multiplications: 59,
                 divisions: 0,
                 square_roots: 0,
                 transcendentals: 3,
@@ -468,9 +485,32 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
             _ => ::ukcore::emitted::no_parameter(index),
         }
     }
-    /// 26 additions, 64 multiplications, 0 divisions, 0 square roots, 3 transcendentals, 0 selections.
+    fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
+        let prepared = ::ukcore::emitted::exact_mut::<S, 15>(prepared, "prepared");
+        let [r, l, m1, m2, m3, i1, i2, i3, c, g, torque] = *::ukcore::emitted::exact::<
+            S,
+            11,
+        >(given, "given");
+        let lit = S::from_f64;
+        prepared[0] = m1 * g;
+        prepared[1] = m2 * g;
+        prepared[2] = m3 * g;
+        prepared[3] = torque;
+        prepared[4] = r;
+        prepared[5] = l;
+        prepared[6] = c;
+        prepared[7] = l * l;
+        prepared[8] = m1;
+        prepared[9] = i1;
+        prepared[10] = m2;
+        prepared[11] = i2;
+        prepared[12] = m3;
+        prepared[13] = i3;
+        prepared[14] = lit(0.5) * r;
+    }
+    /// 26 additions, 59 multiplications, 0 divisions, 0 square roots, 3 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
@@ -481,6 +521,10 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 9>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 90>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 10>(out.rhs, "rhs");
+        let [m1_g, m2_g, m3_g, torque, r, l, c, _, m1, i1, m2, i2, m3, i3, half_r] = *::ukcore::emitted::exact::<
+            S,
+            15,
+        >(prepared, "prepared");
         let [x1, y1, th1, _, _, th2, x3, y3, th3] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -490,17 +534,6 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
             9,
         >(v, "v");
         let lit = S::from_f64;
-        let r = lit(self.r);
-        let l = lit(self.l);
-        let m1 = lit(self.m1);
-        let m2 = lit(self.m2);
-        let m3 = lit(self.m3);
-        let i1 = lit(self.i1);
-        let i2 = lit(self.i2);
-        let i3 = lit(self.i3);
-        let c = lit(self.c);
-        let g = lit(self.g);
-        let torque = lit(self.torque);
         mass[0] = m1;
         mass[10] = m1;
         mass[20] = i1;
@@ -511,13 +544,13 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         mass[70] = m3;
         mass[80] = i3;
         force[0] = lit(0.0);
-        force[1] = -(m1 * g);
+        force[1] = -m1_g;
         force[2] = torque;
         force[3] = lit(0.0);
-        force[4] = -(m2 * g);
+        force[4] = -m2_g;
         force[5] = lit(0.0);
         force[6] = lit(0.0);
-        force[7] = -(m3 * g);
+        force[7] = -m3_g;
         force[8] = lit(0.0);
         nonideal[0] = lit(0.0);
         nonideal[1] = lit(0.0);
@@ -530,19 +563,19 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         nonideal[8] = lit(0.0);
         jacobian[0] = lit(1.0);
         let (sin_th1, cos_th1) = th1.sin_cos();
-        let r_sin_th1 = r * sin_th1;
-        jacobian[20] = lit(0.5) * r_sin_th1;
+        let sin_th1_r = r * sin_th1;
+        jacobian[20] = lit(0.5) * sin_th1_r;
         jacobian[11] = lit(1.0);
-        let r_cos_th1 = r * cos_th1;
-        jacobian[21] = lit(-0.5) * r_cos_th1;
+        let cos_th1_r = r * cos_th1;
+        jacobian[21] = lit(-0.5) * cos_th1_r;
         jacobian[2] = lit(1.0);
-        jacobian[22] = lit(-0.5) * r_sin_th1;
+        jacobian[22] = lit(-0.5) * sin_th1_r;
         jacobian[32] = lit(-1.0);
         let (sin_th2, cos_th2) = th2.sin_cos();
         let a_crank_pin_0 = lit(-0.5) * (l * sin_th2);
         jacobian[52] = a_crank_pin_0;
         jacobian[13] = lit(1.0);
-        jacobian[23] = lit(0.5) * r_cos_th1;
+        jacobian[23] = lit(0.5) * cos_th1_r;
         jacobian[43] = lit(-1.0);
         let a_crank_pin_1 = lit(0.5) * (l * cos_th2);
         jacobian[53] = a_crank_pin_1;
@@ -555,51 +588,47 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         jacobian[86] = lit(1.0);
         jacobian[77] = lit(1.0);
         let (sin_th3, cos_th3) = th3.sin_cos();
-        let c_cos_th3 = c * cos_th3;
-        jacobian[87] = c_cos_th3;
+        let cos_th3_c = c * cos_th3;
+        jacobian[87] = cos_th3_c;
         jacobian[78] = lit(1.0);
-        jacobian[88] = -c_cos_th3;
-        let a_second_rod = lit(2.0) * x1 - lit(2.0) * x3 + r_cos_th1;
+        jacobian[88] = -cos_th3_c;
+        let a_second_rod = lit(2.0) * x1 - lit(2.0) * x3 + cos_th1_r;
         jacobian[9] = a_second_rod;
-        let a_second_rod_2 = lit(2.0) * y1 - lit(2.0) * y3 + r_sin_th1;
+        let a_second_rod_2 = lit(2.0) * y1 - lit(2.0) * y3 + sin_th1_r;
         jacobian[19] = a_second_rod_2;
-        let a_second_rod_part = x1 - x3 + lit(0.5) * r_cos_th1;
-        let a_second_rod_part_2 = y1 - y3 + lit(0.5) * r_sin_th1;
+        let a_second_rod_part = x1 - x3 + lit(0.5) * cos_th1_r;
+        let a_second_rod_part_2 = y1 - y3 + lit(0.5) * sin_th1_r;
         jacobian[29] = r * cos_th1 * a_second_rod_part_2
             - r * sin_th1 * a_second_rod_part;
         jacobian[69] = -a_second_rod;
         jacobian[79] = -a_second_rod_2;
-        let r_cos_th1_sq_dot_th1 = r * dot_th1 * dot_th1 * cos_th1;
-        rhs[0] = lit(-0.5) * r_cos_th1_sq_dot_th1;
-        let r_sin_th1_sq_dot_th1 = r * dot_th1 * dot_th1 * sin_th1;
-        rhs[1] = lit(-0.5) * r_sin_th1_sq_dot_th1;
-        let l_cos_th2_sq_dot_th2 = l * dot_th2 * dot_th2 * cos_th2;
-        rhs[2] = lit(0.5) * (r_cos_th1_sq_dot_th1 + l_cos_th2_sq_dot_th2);
-        let l_sin_th2_sq_dot_th2 = l * dot_th2 * dot_th2 * sin_th2;
-        rhs[3] = lit(0.5) * (r_sin_th1_sq_dot_th1 + l_sin_th2_sq_dot_th2);
-        rhs[4] = lit(0.5) * l_cos_th2_sq_dot_th2;
-        rhs[5] = lit(0.5) * l_sin_th2_sq_dot_th2;
+        let cos_th1_sq_dot_th1_r = dot_th1 * dot_th1 * r * cos_th1;
+        rhs[0] = lit(-0.5) * cos_th1_sq_dot_th1_r;
+        let sin_th1_sq_dot_th1_r = dot_th1 * dot_th1 * r * sin_th1;
+        rhs[1] = lit(-0.5) * sin_th1_sq_dot_th1_r;
+        let cos_th2_sq_dot_th2_l = dot_th2 * dot_th2 * l * cos_th2;
+        rhs[2] = lit(0.5) * (cos_th1_sq_dot_th1_r + cos_th2_sq_dot_th2_l);
+        let sin_th2_sq_dot_th2_l = dot_th2 * dot_th2 * l * sin_th2;
+        rhs[3] = lit(0.5) * (sin_th1_sq_dot_th1_r + sin_th2_sq_dot_th2_l);
+        rhs[4] = lit(0.5) * cos_th2_sq_dot_th2_l;
+        rhs[5] = lit(0.5) * sin_th2_sq_dot_th2_l;
         rhs[6] = lit(0.0);
-        let c_sin_th3_sq_dot_th3 = c * dot_th3 * dot_th3 * sin_th3;
-        rhs[7] = c_sin_th3_sq_dot_th3;
-        rhs[8] = -c_sin_th3_sq_dot_th3;
-        let b_9_part = dot_x3 - dot_x1 + lit(0.5) * (r * dot_th1 * sin_th1);
-        let b_9_part_2 = dot_y1 - dot_y3 + lit(0.5) * (r * dot_th1 * cos_th1);
+        let sin_th3_sq_dot_th3_c = dot_th3 * dot_th3 * c * sin_th3;
+        rhs[7] = sin_th3_sq_dot_th3_c;
+        rhs[8] = -sin_th3_sq_dot_th3_c;
+        let b_9_part = dot_x3 - dot_x1 + lit(0.5) * (dot_th1 * r * sin_th1);
+        let b_9_part_2 = dot_y1 - dot_y3 + lit(0.5) * (dot_th1 * r * cos_th1);
         rhs[9] = lit(-2.0)
-            * (b_9_part * b_9_part
-                - lit(0.5) * (r * dot_th1 * dot_th1 * cos_th1 * a_second_rod_part)
-                + b_9_part_2 * b_9_part_2
-                - lit(0.5) * (r * dot_th1 * dot_th1 * sin_th1 * a_second_rod_part_2));
+            * (b_9_part * b_9_part + b_9_part_2 * b_9_part_2
+                - dot_th1 * dot_th1 * half_r * cos_th1 * a_second_rod_part
+                - dot_th1 * dot_th1 * half_r * sin_th1 * a_second_rod_part_2);
     }
-    fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) {
+    fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 81>(mass, "mass");
-        let lit = S::from_f64;
-        let m1 = lit(self.m1);
-        let m2 = lit(self.m2);
-        let m3 = lit(self.m3);
-        let i1 = lit(self.i1);
-        let i2 = lit(self.i2);
-        let i3 = lit(self.i3);
+        let [_, _, _, _, _, _, _, _, m1, i1, m2, i2, m3, i3, _] = *::ukcore::emitted::exact::<
+            S,
+            15,
+        >(prepared, "prepared");
         mass[0] = m1;
         mass[10] = m1;
         mass[20] = i1;
@@ -610,31 +639,38 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         mass[70] = m3;
         mass[80] = i3;
     }
-    fn jacobian<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
+    fn jacobian<S: ::ukcore::Scalar>(
+        prepared: &[S],
+        t: S,
+        q: &[S],
+        v: &[S],
+        jacobian: &mut [S],
+    ) {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 90>(jacobian, "jacobian");
+        let [_, _, _, _, r, l, c, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            15,
+        >(prepared, "prepared");
         let [x1, y1, th1, _, _, th2, x3, y3, th3] = *::ukcore::emitted::exact::<
             S,
             9,
         >(q, "q");
         let lit = S::from_f64;
-        let r = lit(self.r);
-        let l = lit(self.l);
-        let c = lit(self.c);
         jacobian[0] = lit(1.0);
         let (sin_th1, cos_th1) = th1.sin_cos();
-        let r_sin_th1 = r * sin_th1;
-        jacobian[20] = lit(0.5) * r_sin_th1;
+        let sin_th1_r = r * sin_th1;
+        jacobian[20] = lit(0.5) * sin_th1_r;
         jacobian[11] = lit(1.0);
-        let r_cos_th1 = r * cos_th1;
-        jacobian[21] = lit(-0.5) * r_cos_th1;
+        let cos_th1_r = r * cos_th1;
+        jacobian[21] = lit(-0.5) * cos_th1_r;
         jacobian[2] = lit(1.0);
-        jacobian[22] = lit(-0.5) * r_sin_th1;
+        jacobian[22] = lit(-0.5) * sin_th1_r;
         jacobian[32] = lit(-1.0);
         let (sin_th2, cos_th2) = th2.sin_cos();
         let a_crank_pin_0 = lit(-0.5) * (l * sin_th2);
         jacobian[52] = a_crank_pin_0;
         jacobian[13] = lit(1.0);
-        jacobian[23] = lit(0.5) * r_cos_th1;
+        jacobian[23] = lit(0.5) * cos_th1_r;
         jacobian[43] = lit(-1.0);
         let a_crank_pin_1 = lit(0.5) * (l * cos_th2);
         jacobian[53] = a_crank_pin_1;
@@ -650,53 +686,58 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         jacobian[87] = a_front_shoe;
         jacobian[78] = lit(1.0);
         jacobian[88] = -a_front_shoe;
-        let a_second_rod = lit(2.0) * x1 - lit(2.0) * x3 + r_cos_th1;
+        let a_second_rod = lit(2.0) * x1 - lit(2.0) * x3 + cos_th1_r;
         jacobian[9] = a_second_rod;
-        let a_second_rod_2 = lit(2.0) * y1 - lit(2.0) * y3 + r_sin_th1;
+        let a_second_rod_2 = lit(2.0) * y1 - lit(2.0) * y3 + sin_th1_r;
         jacobian[19] = a_second_rod_2;
-        jacobian[29] = r * cos_th1 * (y1 - y3 + lit(0.5) * r_sin_th1)
-            - r * sin_th1 * (x1 - x3 + lit(0.5) * r_cos_th1);
+        jacobian[29] = r * cos_th1 * (y1 - y3 + lit(0.5) * sin_th1_r)
+            - r * sin_th1 * (x1 - x3 + lit(0.5) * cos_th1_r);
         jacobian[69] = -a_second_rod;
         jacobian[79] = -a_second_rod_2;
     }
-    fn residual<S: ::ukcore::Scalar>(&self, t: S, q: &[S], phi: &mut [S]) {
+    fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
         let phi = ::ukcore::emitted::exact_mut::<S, 10>(phi, "phi");
+        let [_, _, _, _, r, l, c, sq_l, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            15,
+        >(prepared, "prepared");
         let [x1, y1, th1, x2, y2, th2, x3, y3, th3] = *::ukcore::emitted::exact::<
             S,
             9,
         >(q, "q");
         let lit = S::from_f64;
-        let r = lit(self.r);
-        let l = lit(self.l);
-        let c = lit(self.c);
         let (sin_th1, cos_th1) = th1.sin_cos();
-        let r_cos_th1 = r * cos_th1;
-        phi[0] = x1 - lit(0.5) * r_cos_th1;
-        let r_sin_th1 = r * sin_th1;
-        phi[1] = y1 - lit(0.5) * r_sin_th1;
+        let cos_th1_r = r * cos_th1;
+        phi[0] = x1 - lit(0.5) * cos_th1_r;
+        let sin_th1_r = r * sin_th1;
+        phi[1] = y1 - lit(0.5) * sin_th1_r;
         let (sin_th2, cos_th2) = th2.sin_cos();
-        let l_cos_th2 = l * cos_th2;
-        phi[2] = x1 - x2 + lit(0.5) * r_cos_th1 + lit(0.5) * l_cos_th2;
-        let l_sin_th2 = l * sin_th2;
-        phi[3] = y1 - y2 + lit(0.5) * r_sin_th1 + lit(0.5) * l_sin_th2;
-        phi[4] = x2 - x3 + lit(0.5) * l_cos_th2;
-        phi[5] = y2 - y3 + lit(0.5) * l_sin_th2;
+        let cos_th2_l = l * cos_th2;
+        phi[2] = x1 - x2 + lit(0.5) * cos_th1_r + lit(0.5) * cos_th2_l;
+        let sin_th2_l = l * sin_th2;
+        phi[3] = y1 - y2 + lit(0.5) * sin_th1_r + lit(0.5) * sin_th2_l;
+        phi[4] = x2 - x3 + lit(0.5) * cos_th2_l;
+        phi[5] = y2 - y3 + lit(0.5) * sin_th2_l;
         phi[6] = th3;
         let phi_7_part = c * th3.sin();
         phi[7] = y3 + phi_7_part;
         phi[8] = y3 - phi_7_part;
-        let phi_9_part = x1 - x3 + lit(0.5) * r_cos_th1;
-        let phi_9_part_2 = y1 - y3 + lit(0.5) * r_sin_th1;
-        phi[9] = phi_9_part * phi_9_part - l * l + phi_9_part_2 * phi_9_part_2;
+        let phi_9_part = x1 - x3 + lit(0.5) * cos_th1_r;
+        let phi_9_part_2 = y1 - y3 + lit(0.5) * sin_th1_r;
+        phi[9] = phi_9_part * phi_9_part - sq_l + phi_9_part_2 * phi_9_part_2;
     }
     fn residual_rate<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
         rate: &mut [S],
     ) {
         let rate = ::ukcore::emitted::exact_mut::<S, 10>(rate, "rate");
+        let [_, _, _, _, r, l, c, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            15,
+        >(prepared, "prepared");
         let [x1, y1, th1, _, _, th2, x3, y3, th3] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -704,62 +745,61 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         let [dot_x1, dot_y1, dot_th1, dot_x2, dot_y2, dot_th2, dot_x3, dot_y3, dot_th3,
         ] = *::ukcore::emitted::exact::<S, 9>(v, "v");
         let lit = S::from_f64;
-        let r = lit(self.r);
-        let l = lit(self.l);
-        let c = lit(self.c);
         let (sin_th1, cos_th1) = th1.sin_cos();
-        let r_sin_th1_dot_th1 = r * dot_th1 * sin_th1;
-        rate[0] = dot_x1 + lit(0.5) * r_sin_th1_dot_th1;
-        let r_cos_th1_dot_th1 = r * dot_th1 * cos_th1;
-        rate[1] = dot_y1 - lit(0.5) * r_cos_th1_dot_th1;
+        let sin_th1_dot_th1_r = dot_th1 * r * sin_th1;
+        rate[0] = dot_x1 + lit(0.5) * sin_th1_dot_th1_r;
+        let cos_th1_dot_th1_r = dot_th1 * r * cos_th1;
+        rate[1] = dot_y1 - lit(0.5) * cos_th1_dot_th1_r;
         let (sin_th2, cos_th2) = th2.sin_cos();
-        let l_sin_th2_dot_th2 = l * dot_th2 * sin_th2;
-        rate[2] = dot_x1 - dot_x2 - lit(0.5) * r_sin_th1_dot_th1
-            - lit(0.5) * l_sin_th2_dot_th2;
-        let l_cos_th2_dot_th2 = l * dot_th2 * cos_th2;
-        rate[3] = dot_y1 - dot_y2 + lit(0.5) * r_cos_th1_dot_th1
-            + lit(0.5) * l_cos_th2_dot_th2;
-        rate[4] = dot_x2 - dot_x3 - lit(0.5) * l_sin_th2_dot_th2;
-        rate[5] = dot_y2 - dot_y3 + lit(0.5) * l_cos_th2_dot_th2;
+        let sin_th2_dot_th2_l = dot_th2 * l * sin_th2;
+        rate[2] = dot_x1 - dot_x2 - lit(0.5) * sin_th1_dot_th1_r
+            - lit(0.5) * sin_th2_dot_th2_l;
+        let cos_th2_dot_th2_l = dot_th2 * l * cos_th2;
+        rate[3] = dot_y1 - dot_y2 + lit(0.5) * cos_th1_dot_th1_r
+            + lit(0.5) * cos_th2_dot_th2_l;
+        rate[4] = dot_x2 - dot_x3 - lit(0.5) * sin_th2_dot_th2_l;
+        rate[5] = dot_y2 - dot_y3 + lit(0.5) * cos_th2_dot_th2_l;
         rate[6] = dot_th3;
-        let rate_7_part = c * dot_th3 * th3.cos();
+        let rate_7_part = dot_th3 * c * th3.cos();
         rate[7] = dot_y3 + rate_7_part;
         rate[8] = dot_y3 - rate_7_part;
         rate[9] = lit(-2.0)
             * ((x1 - x3 + lit(0.5) * (r * cos_th1))
-                * (dot_x3 - dot_x1 + lit(0.5) * r_sin_th1_dot_th1)
+                * (dot_x3 - dot_x1 + lit(0.5) * sin_th1_dot_th1_r)
                 - (y1 - y3 + lit(0.5) * (r * sin_th1))
-                    * (dot_y1 - dot_y3 + lit(0.5) * r_cos_th1_dot_th1));
+                    * (dot_y1 - dot_y3 + lit(0.5) * cos_th1_dot_th1_r));
     }
     fn energy<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
+        let [m1_g, m2_g, m3_g, torque, _, _, _, _, m1, i1, m2, i2, m3, i3, _] = *::ukcore::emitted::exact::<
+            S,
+            15,
+        >(prepared, "prepared");
         let [_, y1, th1, _, y2, _, _, y3, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [dot_x1, dot_y1, dot_th1, dot_x2, dot_y2, dot_th2, dot_x3, dot_y3, dot_th3,
         ] = *::ukcore::emitted::exact::<S, 9>(v, "v");
         let lit = S::from_f64;
-        let m1 = lit(self.m1);
-        let m2 = lit(self.m2);
-        let m3 = lit(self.m3);
-        let i1 = lit(self.i1);
-        let i2 = lit(self.i2);
-        let i3 = lit(self.i3);
-        let g = lit(self.g);
-        let torque = lit(self.torque);
         let kinetic = lit(0.5)
-            * (m1 * dot_x1 * dot_x1 + m1 * dot_y1 * dot_y1 + i1 * dot_th1 * dot_th1
-                + m2 * dot_x2 * dot_x2 + m2 * dot_y2 * dot_y2 + i2 * dot_th2 * dot_th2
-                + m3 * dot_x3 * dot_x3 + m3 * dot_y3 * dot_y3 + i3 * dot_th3 * dot_th3);
-        let potential = m1 * g * y1 + m2 * g * y2 + m3 * g * y3 - torque * th1;
+            * (dot_x1 * dot_x1 * m1 + dot_y1 * dot_y1 * m1 + dot_th1 * dot_th1 * i1
+                + dot_x2 * dot_x2 * m2 + dot_y2 * dot_y2 * m2 + dot_th2 * dot_th2 * i2
+                + dot_x3 * dot_x3 * m3 + dot_y3 * dot_y3 * m3 + dot_th3 * dot_th3 * i3);
+        let potential = y1 * m1_g + y2 * m2_g + y3 * m3_g - th1 * torque;
         ::ukcore::Energy {
             kinetic,
             potential,
         }
     }
-    fn outputs<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) {
+    fn outputs<S: ::ukcore::Scalar>(
+        prepared: &[S],
+        t: S,
+        q: &[S],
+        v: &[S],
+        outputs: &mut [S],
+    ) {
         let outputs = ::ukcore::emitted::exact_mut::<S, 3>(outputs, "outputs");
         let [_, _, th1, _, _, _, x3, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [_, _, _, _, _, _, dot_x3, _, _] = *::ukcore::emitted::exact::<S, 9>(v, "v");

@@ -154,6 +154,16 @@ impl ::ukcore::Mechanism for UChain {
                 default: 9.8,
             },
         ],
+        prepared: &[
+            ("m_g", "m*g"),
+            ("sq_l", "sq(l)"),
+            ("m", "m"),
+            ("g", "g"),
+            ("per_m", "1/m"),
+            ("twice_per_m", "2/m"),
+            ("prepared_part", "(m ≤ 0 ? 0 : 1)"),
+            ("times_per_m", "0.001953125/m"),
+        ],
         coords: &[
             "x[0]",
             "x[1]",
@@ -417,7 +427,7 @@ impl ::ukcore::Mechanism for UChain {
             ],
             operations: ::ukcore::Operations {
                 additions: 81,
-                multiplications: 118,
+                multiplications: 117,
                 divisions: 0,
                 square_roots: 0,
                 transcendentals: 0,
@@ -425,11 +435,11 @@ impl ::ukcore::Mechanism for UChain {
             },
             solve_operations: ::ukcore::Operations {
                 additions: 227,
-                multiplications: 304,
-                divisions: 18,
+                multiplications: 288,
+                divisions: 17,
                 square_roots: 0,
                 transcendentals: 0,
-                selections: 18,
+                selections: 17,
             },
         },
         equations: ::ukcore::Equations {
@@ -595,9 +605,23 @@ impl ::ukcore::Mechanism for UChain {
             _ => ::ukcore::emitted::no_parameter(index),
         }
     }
-    /// 81 additions, 118 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
+    fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
+        let prepared = ::ukcore::emitted::exact_mut::<S, 8>(prepared, "prepared");
+        let [m, l, g] = *::ukcore::emitted::exact::<S, 3>(given, "given");
+        let lit = S::from_f64;
+        prepared[0] = m * g;
+        prepared[1] = l * l;
+        prepared[2] = m;
+        prepared[3] = g;
+        let per_m = m.recip();
+        prepared[4] = per_m;
+        prepared[5] = lit(2.0) * per_m;
+        prepared[6] = S::select_le(m, lit(0.0), lit(0.0), lit(1.0));
+        prepared[7] = lit(0.001953125) * per_m;
+    }
+    /// 81 additions, 117 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
@@ -608,6 +632,10 @@ impl ::ukcore::Mechanism for UChain {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 34>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 578>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 17>(out.rhs, "rhs");
+        let [m_g, _, m, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            8,
+        >(prepared, "prepared");
         let [x_0, x_1, x_2, x_3, x_4, x_5, x_6, x_7, x_8, x_9, x_10, x_11, x_12, x_13,
         x_14, x_15, x_16, y_0, y_1, y_2, y_3, y_4, y_5, y_6, y_7, y_8, y_9, y_10, y_11,
         y_12, y_13, y_14, y_15, y_16] = *::ukcore::emitted::exact::<S, 34>(q, "q");
@@ -617,8 +645,6 @@ impl ::ukcore::Mechanism for UChain {
         dot_y_8, dot_y_9, dot_y_10, dot_y_11, dot_y_12, dot_y_13, dot_y_14, dot_y_15,
         dot_y_16] = *::ukcore::emitted::exact::<S, 34>(v, "v");
         let lit = S::from_f64;
-        let m = lit(self.m);
-        let g = lit(self.g);
         mass[0] = m;
         mass[35] = m;
         mass[70] = m;
@@ -670,7 +696,6 @@ impl ::ukcore::Mechanism for UChain {
         force[14] = lit(0.0);
         force[15] = lit(0.0);
         force[16] = lit(0.0);
-        let m_g = m * g;
         force[17] = m_g;
         force[18] = m_g;
         force[19] = m_g;
@@ -902,10 +927,12 @@ impl ::ukcore::Mechanism for UChain {
                 + dot_y_15_minus_dot_y_16 * dot_y_15_minus_dot_y_16);
         rhs[16] = lit(-2.0) * (dot_x_16 * dot_x_16 + dot_y_16 * dot_y_16);
     }
-    fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) {
+    fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 1156>(mass, "mass");
-        let lit = S::from_f64;
-        let m = lit(self.m);
+        let [_, _, m, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            8,
+        >(prepared, "prepared");
         mass[0] = m;
         mass[35] = m;
         mass[70] = m;
@@ -941,7 +968,13 @@ impl ::ukcore::Mechanism for UChain {
         mass[1120] = m;
         mass[1155] = m;
     }
-    fn jacobian<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
+    fn jacobian<S: ::ukcore::Scalar>(
+        prepared: &[S],
+        t: S,
+        q: &[S],
+        v: &[S],
+        jacobian: &mut [S],
+    ) {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 578>(jacobian, "jacobian");
         let [x_0, x_1, x_2, x_3, x_4, x_5, x_6, x_7, x_8, x_9, x_10, x_11, x_12, x_13,
         x_14, x_15, x_16, y_0, y_1, y_2, y_3, y_4, y_5, y_6, y_7, y_8, y_9, y_10, y_11,
@@ -1046,16 +1079,17 @@ impl ::ukcore::Mechanism for UChain {
         jacobian[288] = lit(2.0) * x_16;
         jacobian[577] = lit(2.0) * y_16;
     }
-    fn residual<S: ::ukcore::Scalar>(&self, t: S, q: &[S], phi: &mut [S]) {
+    fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
         let phi = ::ukcore::emitted::exact_mut::<S, 17>(phi, "phi");
+        let [_, sq_l, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            8,
+        >(prepared, "prepared");
         let [x_0, x_1, x_2, x_3, x_4, x_5, x_6, x_7, x_8, x_9, x_10, x_11, x_12, x_13,
         x_14, x_15, x_16, y_0, y_1, y_2, y_3, y_4, y_5, y_6, y_7, y_8, y_9, y_10, y_11,
         y_12, y_13, y_14, y_15, y_16] = *::ukcore::emitted::exact::<S, 34>(q, "q");
-        let lit = S::from_f64;
-        let l = lit(self.l);
         let x_1_minus_x_0 = x_1 - x_0;
         let y_0_minus_y_1 = y_0 - y_1;
-        let sq_l = l * l;
         phi[0] = x_1_minus_x_0 * x_1_minus_x_0 - sq_l + y_0_minus_y_1 * y_0_minus_y_1;
         let x_1_minus_x_2 = x_1 - x_2;
         let y_1_minus_y_2 = y_1 - y_2;
@@ -1112,7 +1146,7 @@ impl ::ukcore::Mechanism for UChain {
         phi[16] = x_16 * x_16 - sq_l + y_16 * y_16;
     }
     fn residual_rate<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
@@ -1170,11 +1204,15 @@ impl ::ukcore::Mechanism for UChain {
         rate[16] = lit(2.0) * (x_16 * dot_x_16 + y_16 * dot_y_16);
     }
     fn energy<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
+        let [m_g, _, m, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            8,
+        >(prepared, "prepared");
         let [_, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, y_0, y_1, y_2, y_3, y_4,
         y_5, y_6, y_7, y_8, y_9, y_10, y_11, y_12, y_13, y_14, y_15, y_16] = *::ukcore::emitted::exact::<
             S,
@@ -1186,33 +1224,37 @@ impl ::ukcore::Mechanism for UChain {
         dot_y_8, dot_y_9, dot_y_10, dot_y_11, dot_y_12, dot_y_13, dot_y_14, dot_y_15,
         dot_y_16] = *::ukcore::emitted::exact::<S, 34>(v, "v");
         let lit = S::from_f64;
-        let m = lit(self.m);
-        let g = lit(self.g);
         let kinetic = lit(0.5)
-            * (m * dot_x_0 * dot_x_0 + m * dot_x_1 * dot_x_1 + m * dot_x_2 * dot_x_2
-                + m * dot_x_3 * dot_x_3 + m * dot_x_4 * dot_x_4 + m * dot_x_5 * dot_x_5
-                + m * dot_x_6 * dot_x_6 + m * dot_x_7 * dot_x_7 + m * dot_x_8 * dot_x_8
-                + m * dot_x_9 * dot_x_9 + m * dot_x_10 * dot_x_10
-                + m * dot_x_11 * dot_x_11 + m * dot_x_12 * dot_x_12
-                + m * dot_x_13 * dot_x_13 + m * dot_x_14 * dot_x_14
-                + m * dot_x_15 * dot_x_15 + m * dot_x_16 * dot_x_16
-                + m * dot_y_0 * dot_y_0 + m * dot_y_1 * dot_y_1 + m * dot_y_2 * dot_y_2
-                + m * dot_y_3 * dot_y_3 + m * dot_y_4 * dot_y_4 + m * dot_y_5 * dot_y_5
-                + m * dot_y_6 * dot_y_6 + m * dot_y_7 * dot_y_7 + m * dot_y_8 * dot_y_8
-                + m * dot_y_9 * dot_y_9 + m * dot_y_10 * dot_y_10
-                + m * dot_y_11 * dot_y_11 + m * dot_y_12 * dot_y_12
-                + m * dot_y_13 * dot_y_13 + m * dot_y_14 * dot_y_14
-                + m * dot_y_15 * dot_y_15 + m * dot_y_16 * dot_y_16);
-        let potential = -(m * g * y_0) - m * g * y_1 - m * g * y_2 - m * g * y_3
-            - m * g * y_4 - m * g * y_5 - m * g * y_6 - m * g * y_7 - m * g * y_8
-            - m * g * y_9 - m * g * y_10 - m * g * y_11 - m * g * y_12 - m * g * y_13
-            - m * g * y_14 - m * g * y_15 - m * g * y_16;
+            * (dot_x_0 * dot_x_0 * m + dot_x_1 * dot_x_1 * m + dot_x_2 * dot_x_2 * m
+                + dot_x_3 * dot_x_3 * m + dot_x_4 * dot_x_4 * m + dot_x_5 * dot_x_5 * m
+                + dot_x_6 * dot_x_6 * m + dot_x_7 * dot_x_7 * m + dot_x_8 * dot_x_8 * m
+                + dot_x_9 * dot_x_9 * m + dot_x_10 * dot_x_10 * m
+                + dot_x_11 * dot_x_11 * m + dot_x_12 * dot_x_12 * m
+                + dot_x_13 * dot_x_13 * m + dot_x_14 * dot_x_14 * m
+                + dot_x_15 * dot_x_15 * m + dot_x_16 * dot_x_16 * m
+                + dot_y_0 * dot_y_0 * m + dot_y_1 * dot_y_1 * m + dot_y_2 * dot_y_2 * m
+                + dot_y_3 * dot_y_3 * m + dot_y_4 * dot_y_4 * m + dot_y_5 * dot_y_5 * m
+                + dot_y_6 * dot_y_6 * m + dot_y_7 * dot_y_7 * m + dot_y_8 * dot_y_8 * m
+                + dot_y_9 * dot_y_9 * m + dot_y_10 * dot_y_10 * m
+                + dot_y_11 * dot_y_11 * m + dot_y_12 * dot_y_12 * m
+                + dot_y_13 * dot_y_13 * m + dot_y_14 * dot_y_14 * m
+                + dot_y_15 * dot_y_15 * m + dot_y_16 * dot_y_16 * m);
+        let potential = -(y_0 * m_g) - y_1 * m_g - y_2 * m_g - y_3 * m_g - y_4 * m_g
+            - y_5 * m_g - y_6 * m_g - y_7 * m_g - y_8 * m_g - y_9 * m_g - y_10 * m_g
+            - y_11 * m_g - y_12 * m_g - y_13 * m_g - y_14 * m_g - y_15 * m_g
+            - y_16 * m_g;
         ::ukcore::Energy {
             kinetic,
             potential,
         }
     }
-    fn outputs<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) {
+    fn outputs<S: ::ukcore::Scalar>(
+        prepared: &[S],
+        t: S,
+        q: &[S],
+        v: &[S],
+        outputs: &mut [S],
+    ) {
         let outputs = ::ukcore::emitted::exact_mut::<S, 3>(outputs, "outputs");
         let [_, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, y_0, y_1, y_2, y_3, y_4,
         y_5, y_6, y_7, y_8, y_9, y_10, y_11, y_12, y_13, y_14, y_15, y_16] = *::ukcore::emitted::exact::<
@@ -1228,15 +1270,19 @@ impl ::ukcore::Mechanism for UChain {
             * (y_0 + y_1 + y_2 + y_3 + y_4 + y_5 + y_6 + y_7 + y_8 + y_9 + y_10 + y_11
                 + y_12 + y_13 + y_14 + y_15 + y_16);
     }
-    /// 227 additions, 304 multiplications, 18 divisions, 0 square roots, 0 transcendentals, 18 selections.
+    /// 227 additions, 288 multiplications, 17 divisions, 0 square roots, 0 transcendentals, 17 selections.
     fn acceleration<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 34>(out, "out");
+        let [_, _, _, g, per_m, twice_per_m, prepared_part, times_per_m] = *::ukcore::emitted::exact::<
+            S,
+            8,
+        >(prepared, "prepared");
         let [x_0, x_1, x_2, x_3, x_4, x_5, x_6, x_7, x_8, x_9, x_10, x_11, x_12, x_13,
         x_14, x_15, x_16, y_0, y_1, y_2, y_3, y_4, y_5, y_6, y_7, y_8, y_9, y_10, y_11,
         y_12, y_13, y_14, y_15, y_16] = *::ukcore::emitted::exact::<S, 34>(q, "q");
@@ -1246,9 +1292,6 @@ impl ::ukcore::Mechanism for UChain {
         dot_y_8, dot_y_9, dot_y_10, dot_y_11, dot_y_12, dot_y_13, dot_y_14, dot_y_15,
         dot_y_16] = *::ukcore::emitted::exact::<S, 34>(v, "v");
         let lit = S::from_f64;
-        let m = lit(self.m);
-        let g = lit(self.g);
-        let per_m = m.recip();
         let x_1_minus_x_0 = x_1 - x_0;
         let y_0_minus_y_1 = y_0 - y_1;
         let x_1_minus_x_2 = x_1 - x_2;
@@ -1321,281 +1364,275 @@ impl ::ukcore::Mechanism for UChain {
             + y_0_minus_y_1 * y_0_minus_y_1;
         let acceleration_0_part_4 = x_1_minus_x_0 * x_1_minus_x_2
             - y_0_minus_y_1 * y_1_minus_y_2;
-        let acceleration_0_part_5 = g * y_16
-            + (dot_x_16 * dot_x_16 + dot_y_16 * dot_y_16);
-        let acceleration_0_part_6 = x_16 * x_15_minus_x_16 + y_16 * y_15_minus_y_16;
-        let acceleration_0_part_7 = x_1_minus_x_2 * x_1_minus_x_2
+        let acceleration_0_part_5 = x_16 * x_15_minus_x_16 + y_16 * y_15_minus_y_16;
+        let acceleration_0_part_6 = x_1_minus_x_2 * x_1_minus_x_2
             + y_1_minus_y_2 * y_1_minus_y_2;
-        let acceleration_0_part_8 = x_1_minus_x_2 * x_2_minus_x_3
+        let acceleration_0_part_7 = x_1_minus_x_2 * x_2_minus_x_3
             + y_1_minus_y_2 * y_2_minus_y_3;
-        let acceleration_0_part_9 = x_15_minus_x_16 * x_15_minus_x_16
+        let acceleration_0_part_8 = x_15_minus_x_16 * x_15_minus_x_16
             + y_15_minus_y_16 * y_15_minus_y_16;
-        let acceleration_0_part_10 = x_14_minus_x_15 * x_15_minus_x_16
+        let acceleration_0_part_9 = x_14_minus_x_15 * x_15_minus_x_16
             + y_14_minus_y_15 * y_15_minus_y_16;
-        let acceleration_0_part_11 = x_2_minus_x_3 * x_2_minus_x_3
+        let acceleration_0_part_10 = x_2_minus_x_3 * x_2_minus_x_3
             + y_2_minus_y_3 * y_2_minus_y_3;
-        let acceleration_0_part_12 = x_2_minus_x_3 * x_3_minus_x_4
+        let acceleration_0_part_11 = x_2_minus_x_3 * x_3_minus_x_4
             + y_2_minus_y_3 * y_3_minus_y_4;
-        let acceleration_0_part_13 = x_14_minus_x_15 * x_14_minus_x_15
+        let acceleration_0_part_12 = x_14_minus_x_15 * x_14_minus_x_15
             + y_14_minus_y_15 * y_14_minus_y_15;
-        let acceleration_0_part_14 = x_13_minus_x_14 * x_14_minus_x_15
+        let acceleration_0_part_13 = x_13_minus_x_14 * x_14_minus_x_15
             + y_13_minus_y_14 * y_14_minus_y_15;
-        let acceleration_0_part_15 = x_3_minus_x_4 * x_3_minus_x_4
+        let acceleration_0_part_14 = x_3_minus_x_4 * x_3_minus_x_4
             + y_3_minus_y_4 * y_3_minus_y_4;
-        let acceleration_0_part_16 = x_3_minus_x_4 * x_4_minus_x_5
+        let acceleration_0_part_15 = x_3_minus_x_4 * x_4_minus_x_5
             + y_3_minus_y_4 * y_4_minus_y_5;
-        let acceleration_0_part_17 = x_13_minus_x_14 * x_13_minus_x_14
+        let acceleration_0_part_16 = x_13_minus_x_14 * x_13_minus_x_14
             + y_13_minus_y_14 * y_13_minus_y_14;
-        let acceleration_0_part_18 = x_12_minus_x_13 * x_13_minus_x_14
+        let acceleration_0_part_17 = x_12_minus_x_13 * x_13_minus_x_14
             + y_12_minus_y_13 * y_13_minus_y_14;
-        let acceleration_0_part_19 = x_4_minus_x_5 * x_4_minus_x_5
+        let acceleration_0_part_18 = x_4_minus_x_5 * x_4_minus_x_5
             + y_4_minus_y_5 * y_4_minus_y_5;
-        let acceleration_0_part_20 = x_4_minus_x_5 * x_5_minus_x_6
+        let acceleration_0_part_19 = x_4_minus_x_5 * x_5_minus_x_6
             + y_4_minus_y_5 * y_5_minus_y_6;
-        let acceleration_0_part_21 = x_12_minus_x_13 * x_12_minus_x_13
+        let acceleration_0_part_20 = x_12_minus_x_13 * x_12_minus_x_13
             + y_12_minus_y_13 * y_12_minus_y_13;
-        let acceleration_0_part_22 = x_11_minus_x_12 * x_12_minus_x_13
+        let acceleration_0_part_21 = x_11_minus_x_12 * x_12_minus_x_13
             + y_11_minus_y_12 * y_12_minus_y_13;
-        let acceleration_0_part_23 = x_5_minus_x_6 * x_5_minus_x_6
+        let acceleration_0_part_22 = x_5_minus_x_6 * x_5_minus_x_6
             + y_5_minus_y_6 * y_5_minus_y_6;
-        let acceleration_0_part_24 = x_5_minus_x_6 * x_6_minus_x_7
+        let acceleration_0_part_23 = x_5_minus_x_6 * x_6_minus_x_7
             + y_5_minus_y_6 * y_6_minus_y_7;
-        let acceleration_0_part_25 = x_11_minus_x_12 * x_11_minus_x_12
+        let acceleration_0_part_24 = x_11_minus_x_12 * x_11_minus_x_12
             + y_11_minus_y_12 * y_11_minus_y_12;
-        let acceleration_0_part_26 = x_10_minus_x_11 * x_11_minus_x_12
+        let acceleration_0_part_25 = x_10_minus_x_11 * x_11_minus_x_12
             + y_10_minus_y_11 * y_11_minus_y_12;
-        let acceleration_0_part_27 = x_6_minus_x_7 * x_6_minus_x_7
+        let acceleration_0_part_26 = x_6_minus_x_7 * x_6_minus_x_7
             + y_6_minus_y_7 * y_6_minus_y_7;
-        let acceleration_0_part_28 = x_6_minus_x_7 * x_7_minus_x_8
+        let acceleration_0_part_27 = x_6_minus_x_7 * x_7_minus_x_8
             + y_6_minus_y_7 * y_7_minus_y_8;
-        let acceleration_0_part_29 = x_10_minus_x_11 * x_10_minus_x_11
+        let acceleration_0_part_28 = x_10_minus_x_11 * x_10_minus_x_11
             + y_10_minus_y_11 * y_10_minus_y_11;
-        let acceleration_0_part_30 = x_9_minus_x_10 * x_10_minus_x_11
+        let acceleration_0_part_29 = x_9_minus_x_10 * x_10_minus_x_11
             + y_9_minus_y_10 * y_10_minus_y_11;
-        let acceleration_0_part_31 = x_7_minus_x_8 * x_7_minus_x_8
+        let acceleration_0_part_30 = x_7_minus_x_8 * x_7_minus_x_8
             + y_7_minus_y_8 * y_7_minus_y_8;
-        let acceleration_0_part_32 = x_7_minus_x_8 * x_8_minus_x_9
+        let acceleration_0_part_31 = x_7_minus_x_8 * x_8_minus_x_9
             + y_7_minus_y_8 * y_8_minus_y_9;
-        let acceleration_0_part_33 = x_9_minus_x_10 * x_9_minus_x_10
+        let acceleration_0_part_32 = x_9_minus_x_10 * x_9_minus_x_10
             + y_9_minus_y_10 * y_9_minus_y_10;
-        let acceleration_0_part_34 = x_8_minus_x_9 * x_9_minus_x_10
+        let acceleration_0_part_33 = x_8_minus_x_9 * x_9_minus_x_10
             + y_8_minus_y_9 * y_9_minus_y_10;
-        let acceleration_0_part_35 = x_8_minus_x_9 * x_8_minus_x_9
+        let acceleration_0_part_34 = x_8_minus_x_9 * x_8_minus_x_9
             + y_8_minus_y_9 * y_8_minus_y_9;
+        let pivot_support = per_m * acceleration_0_part;
+        let acceleration_0_part_35 = y_16 * g
+            + (dot_x_16 * dot_x_16 + dot_y_16 * dot_y_16);
         let per_acceleration_0_part_3 = acceleration_0_part_3.recip();
-        let pivot_support = acceleration_0_part * per_m;
-        let pivot_link_0 = acceleration_0_part_3 * per_m;
         let link_1_by_link_0 = acceleration_0_part_4 * per_acceleration_0_part_3;
-        let link_15_by_support = acceleration_0_part_6 * per_acceleration_0_part;
-        let acceleration_0_part_36 = lit(2.0) * acceleration_0_part_7
+        let link_15_by_support = acceleration_0_part_5 * per_acceleration_0_part;
+        let acceleration_0_part_36 = lit(2.0) * acceleration_0_part_6
             - lit(0.5)
                 * (acceleration_0_part_4 * acceleration_0_part_4
                     * per_acceleration_0_part_3);
-        let acceleration_0_part_37 = lit(2.0) * acceleration_0_part_9
-            - acceleration_0_part_6 * acceleration_0_part_6 * per_acceleration_0_part;
+        let acceleration_0_part_37 = lit(2.0) * acceleration_0_part_8
+            - acceleration_0_part_5 * acceleration_0_part_5 * per_acceleration_0_part;
         let per_acceleration_0_part_36 = acceleration_0_part_36.recip();
         let per_acceleration_0_part_37 = acceleration_0_part_37.recip();
         let acceleration_0_part_38 = (dot_x_1_minus_dot_x_2 * dot_x_1_minus_dot_x_2
             + dot_y_1_minus_dot_y_2 * dot_y_1_minus_dot_y_2)
             - lit(0.5) * (acceleration_0_part_2 * link_1_by_link_0);
+        let pivot_link_1 = per_m * acceleration_0_part_36;
+        let pivot_link_15 = per_m * acceleration_0_part_37;
         let acceleration_0_part_39 = (dot_x_15_minus_dot_x_16 * dot_x_15_minus_dot_x_16
             + dot_y_15_minus_dot_y_16 * dot_y_15_minus_dot_y_16)
-            + acceleration_0_part_5 * link_15_by_support;
-        let pivot_link_1 = per_m * acceleration_0_part_36;
-        let link_2_by_link_1 = acceleration_0_part_8 * per_acceleration_0_part_36;
-        let pivot_link_15 = per_m * acceleration_0_part_37;
-        let link_14_by_link_15 = acceleration_0_part_10 * per_acceleration_0_part_37;
-        let acceleration_0_part_40 = lit(2.0) * acceleration_0_part_11
-            - acceleration_0_part_8 * acceleration_0_part_8 * per_acceleration_0_part_36;
-        let acceleration_0_part_41 = lit(2.0) * acceleration_0_part_13
-            - acceleration_0_part_10 * acceleration_0_part_10
-                * per_acceleration_0_part_37;
+            + acceleration_0_part_35 * link_15_by_support;
+        let link_2_by_link_1 = acceleration_0_part_7 * per_acceleration_0_part_36;
+        let link_14_by_link_15 = acceleration_0_part_9 * per_acceleration_0_part_37;
+        let acceleration_0_part_40 = lit(2.0) * acceleration_0_part_10
+            - acceleration_0_part_7 * acceleration_0_part_7 * per_acceleration_0_part_36;
+        let acceleration_0_part_41 = lit(2.0) * acceleration_0_part_12
+            - acceleration_0_part_9 * acceleration_0_part_9 * per_acceleration_0_part_37;
         let per_acceleration_0_part_40 = acceleration_0_part_40.recip();
         let per_acceleration_0_part_41 = acceleration_0_part_41.recip();
         let acceleration_0_part_42 = (dot_x_2_minus_dot_x_3 * dot_x_2_minus_dot_x_3
             + dot_y_2_minus_dot_y_3 * dot_y_2_minus_dot_y_3)
             + acceleration_0_part_38 * link_2_by_link_1;
+        let pivot_link_2 = per_m * acceleration_0_part_40;
+        let pivot_link_14 = per_m * acceleration_0_part_41;
         let acceleration_0_part_43 = (dot_x_14_minus_dot_x_15 * dot_x_14_minus_dot_x_15
             + dot_y_14_minus_dot_y_15 * dot_y_14_minus_dot_y_15)
             + acceleration_0_part_39 * link_14_by_link_15;
-        let pivot_link_2 = per_m * acceleration_0_part_40;
-        let link_3_by_link_2 = acceleration_0_part_12 * per_acceleration_0_part_40;
-        let pivot_link_14 = per_m * acceleration_0_part_41;
-        let link_13_by_link_14 = acceleration_0_part_14 * per_acceleration_0_part_41;
-        let acceleration_0_part_44 = lit(2.0) * acceleration_0_part_15
-            - acceleration_0_part_12 * acceleration_0_part_12
+        let link_3_by_link_2 = acceleration_0_part_11 * per_acceleration_0_part_40;
+        let link_13_by_link_14 = acceleration_0_part_13 * per_acceleration_0_part_41;
+        let acceleration_0_part_44 = lit(2.0) * acceleration_0_part_14
+            - acceleration_0_part_11 * acceleration_0_part_11
                 * per_acceleration_0_part_40;
-        let acceleration_0_part_45 = lit(2.0) * acceleration_0_part_17
-            - acceleration_0_part_14 * acceleration_0_part_14
+        let acceleration_0_part_45 = lit(2.0) * acceleration_0_part_16
+            - acceleration_0_part_13 * acceleration_0_part_13
                 * per_acceleration_0_part_41;
         let per_acceleration_0_part_44 = acceleration_0_part_44.recip();
         let per_acceleration_0_part_45 = acceleration_0_part_45.recip();
         let acceleration_0_part_46 = (dot_x_3_minus_dot_x_4 * dot_x_3_minus_dot_x_4
             + dot_y_3_minus_dot_y_4 * dot_y_3_minus_dot_y_4)
             + acceleration_0_part_42 * link_3_by_link_2;
+        let pivot_link_3 = per_m * acceleration_0_part_44;
+        let pivot_link_13 = per_m * acceleration_0_part_45;
         let acceleration_0_part_47 = (dot_x_13_minus_dot_x_14 * dot_x_13_minus_dot_x_14
             + dot_y_13_minus_dot_y_14 * dot_y_13_minus_dot_y_14)
             + acceleration_0_part_43 * link_13_by_link_14;
-        let pivot_link_3 = per_m * acceleration_0_part_44;
-        let link_4_by_link_3 = acceleration_0_part_16 * per_acceleration_0_part_44;
-        let pivot_link_13 = per_m * acceleration_0_part_45;
-        let link_12_by_link_13 = acceleration_0_part_18 * per_acceleration_0_part_45;
-        let acceleration_0_part_48 = lit(2.0) * acceleration_0_part_19
-            - acceleration_0_part_16 * acceleration_0_part_16
+        let link_4_by_link_3 = acceleration_0_part_15 * per_acceleration_0_part_44;
+        let link_12_by_link_13 = acceleration_0_part_17 * per_acceleration_0_part_45;
+        let acceleration_0_part_48 = lit(2.0) * acceleration_0_part_18
+            - acceleration_0_part_15 * acceleration_0_part_15
                 * per_acceleration_0_part_44;
-        let acceleration_0_part_49 = lit(2.0) * acceleration_0_part_21
-            - acceleration_0_part_18 * acceleration_0_part_18
+        let acceleration_0_part_49 = lit(2.0) * acceleration_0_part_20
+            - acceleration_0_part_17 * acceleration_0_part_17
                 * per_acceleration_0_part_45;
         let per_acceleration_0_part_48 = acceleration_0_part_48.recip();
         let per_acceleration_0_part_49 = acceleration_0_part_49.recip();
         let acceleration_0_part_50 = (dot_x_4_minus_dot_x_5 * dot_x_4_minus_dot_x_5
             + dot_y_4_minus_dot_y_5 * dot_y_4_minus_dot_y_5)
             + acceleration_0_part_46 * link_4_by_link_3;
+        let pivot_link_4 = per_m * acceleration_0_part_48;
+        let pivot_link_12 = per_m * acceleration_0_part_49;
         let acceleration_0_part_51 = (dot_x_12_minus_dot_x_13 * dot_x_12_minus_dot_x_13
             + dot_y_12_minus_dot_y_13 * dot_y_12_minus_dot_y_13)
             + acceleration_0_part_47 * link_12_by_link_13;
-        let pivot_link_4 = per_m * acceleration_0_part_48;
-        let link_5_by_link_4 = acceleration_0_part_20 * per_acceleration_0_part_48;
-        let pivot_link_12 = per_m * acceleration_0_part_49;
-        let link_11_by_link_12 = acceleration_0_part_22 * per_acceleration_0_part_49;
-        let acceleration_0_part_52 = lit(2.0) * acceleration_0_part_23
-            - acceleration_0_part_20 * acceleration_0_part_20
+        let link_5_by_link_4 = acceleration_0_part_19 * per_acceleration_0_part_48;
+        let link_11_by_link_12 = acceleration_0_part_21 * per_acceleration_0_part_49;
+        let acceleration_0_part_52 = lit(2.0) * acceleration_0_part_22
+            - acceleration_0_part_19 * acceleration_0_part_19
                 * per_acceleration_0_part_48;
-        let acceleration_0_part_53 = lit(2.0) * acceleration_0_part_25
-            - acceleration_0_part_22 * acceleration_0_part_22
+        let acceleration_0_part_53 = lit(2.0) * acceleration_0_part_24
+            - acceleration_0_part_21 * acceleration_0_part_21
                 * per_acceleration_0_part_49;
         let per_acceleration_0_part_52 = acceleration_0_part_52.recip();
         let per_acceleration_0_part_53 = acceleration_0_part_53.recip();
         let acceleration_0_part_54 = (dot_x_5_minus_dot_x_6 * dot_x_5_minus_dot_x_6
             + dot_y_5_minus_dot_y_6 * dot_y_5_minus_dot_y_6)
             + acceleration_0_part_50 * link_5_by_link_4;
+        let pivot_link_5 = per_m * acceleration_0_part_52;
+        let pivot_link_11 = per_m * acceleration_0_part_53;
         let acceleration_0_part_55 = (dot_x_11_minus_dot_x_12 * dot_x_11_minus_dot_x_12
             + dot_y_11_minus_dot_y_12 * dot_y_11_minus_dot_y_12)
             + acceleration_0_part_51 * link_11_by_link_12;
-        let pivot_link_5 = per_m * acceleration_0_part_52;
-        let link_6_by_link_5 = acceleration_0_part_24 * per_acceleration_0_part_52;
-        let pivot_link_11 = per_m * acceleration_0_part_53;
-        let link_10_by_link_11 = acceleration_0_part_26 * per_acceleration_0_part_53;
-        let acceleration_0_part_56 = lit(2.0) * acceleration_0_part_27
-            - acceleration_0_part_24 * acceleration_0_part_24
+        let link_6_by_link_5 = acceleration_0_part_23 * per_acceleration_0_part_52;
+        let link_10_by_link_11 = acceleration_0_part_25 * per_acceleration_0_part_53;
+        let acceleration_0_part_56 = lit(2.0) * acceleration_0_part_26
+            - acceleration_0_part_23 * acceleration_0_part_23
                 * per_acceleration_0_part_52;
-        let acceleration_0_part_57 = lit(2.0) * acceleration_0_part_29
-            - acceleration_0_part_26 * acceleration_0_part_26
+        let acceleration_0_part_57 = lit(2.0) * acceleration_0_part_28
+            - acceleration_0_part_25 * acceleration_0_part_25
                 * per_acceleration_0_part_53;
         let per_acceleration_0_part_56 = acceleration_0_part_56.recip();
         let per_acceleration_0_part_57 = acceleration_0_part_57.recip();
         let acceleration_0_part_58 = (dot_x_6_minus_dot_x_7 * dot_x_6_minus_dot_x_7
             + dot_y_6_minus_dot_y_7 * dot_y_6_minus_dot_y_7)
             + acceleration_0_part_54 * link_6_by_link_5;
+        let pivot_link_6 = per_m * acceleration_0_part_56;
+        let pivot_link_10 = per_m * acceleration_0_part_57;
         let acceleration_0_part_59 = (dot_x_10_minus_dot_x_11 * dot_x_10_minus_dot_x_11
             + dot_y_10_minus_dot_y_11 * dot_y_10_minus_dot_y_11)
             + acceleration_0_part_55 * link_10_by_link_11;
-        let pivot_link_6 = per_m * acceleration_0_part_56;
-        let link_7_by_link_6 = acceleration_0_part_28 * per_acceleration_0_part_56;
-        let pivot_link_10 = per_m * acceleration_0_part_57;
-        let link_9_by_link_10 = acceleration_0_part_30 * per_acceleration_0_part_57;
-        let acceleration_0_part_60 = lit(2.0) * acceleration_0_part_31
-            - acceleration_0_part_28 * acceleration_0_part_28
+        let link_7_by_link_6 = acceleration_0_part_27 * per_acceleration_0_part_56;
+        let link_9_by_link_10 = acceleration_0_part_29 * per_acceleration_0_part_57;
+        let acceleration_0_part_60 = lit(2.0) * acceleration_0_part_30
+            - acceleration_0_part_27 * acceleration_0_part_27
                 * per_acceleration_0_part_56;
-        let acceleration_0_part_61 = lit(2.0) * acceleration_0_part_33
-            - acceleration_0_part_30 * acceleration_0_part_30
+        let acceleration_0_part_61 = lit(2.0) * acceleration_0_part_32
+            - acceleration_0_part_29 * acceleration_0_part_29
                 * per_acceleration_0_part_57;
         let per_acceleration_0_part_60 = acceleration_0_part_60.recip();
         let per_acceleration_0_part_61 = acceleration_0_part_61.recip();
         let acceleration_0_part_62 = (dot_x_7_minus_dot_x_8 * dot_x_7_minus_dot_x_8
             + dot_y_7_minus_dot_y_8 * dot_y_7_minus_dot_y_8)
             + acceleration_0_part_58 * link_7_by_link_6;
+        let pivot_link_7 = per_m * acceleration_0_part_60;
+        let pivot_link_9 = per_m * acceleration_0_part_61;
         let acceleration_0_part_63 = (dot_x_9_minus_dot_x_10 * dot_x_9_minus_dot_x_10
             + dot_y_9_minus_dot_y_10 * dot_y_9_minus_dot_y_10)
             + acceleration_0_part_59 * link_9_by_link_10;
-        let pivot_link_7 = per_m * acceleration_0_part_60;
-        let link_8_by_link_7 = acceleration_0_part_32 * per_acceleration_0_part_60;
-        let pivot_link_9 = per_m * acceleration_0_part_61;
-        let link_8_by_link_9 = acceleration_0_part_34 * per_acceleration_0_part_61;
-        let acceleration_0_part_64 = lit(2.0) * acceleration_0_part_35
-            - acceleration_0_part_32 * acceleration_0_part_32
+        let link_8_by_link_7 = acceleration_0_part_31 * per_acceleration_0_part_60;
+        let link_8_by_link_9 = acceleration_0_part_33 * per_acceleration_0_part_61;
+        let acceleration_0_part_64 = lit(2.0) * acceleration_0_part_34
+            - acceleration_0_part_31 * acceleration_0_part_31
                 * per_acceleration_0_part_60
-            - acceleration_0_part_34 * acceleration_0_part_34
+            - acceleration_0_part_33 * acceleration_0_part_33
                 * per_acceleration_0_part_61;
         let per_acceleration_0_part_64 = acceleration_0_part_64.recip();
+        let pivot_link_8 = per_m * acceleration_0_part_64;
         let acceleration_0_part_65 = (dot_x_8_minus_dot_x_9 * dot_x_8_minus_dot_x_9
             + dot_y_8_minus_dot_y_9 * dot_y_8_minus_dot_y_9)
             + acceleration_0_part_62 * link_8_by_link_7
             + acceleration_0_part_63 * link_8_by_link_9;
-        let pivot_link_8 = per_m * acceleration_0_part_64;
-        let acceleration_0_part_66 = y_8_minus_y_9 * acceleration_0_part_65
-            * per_acceleration_0_part_64;
-        let acceleration_0_part_67 = x_8_minus_x_9 * acceleration_0_part_65
-            * per_acceleration_0_part_64;
         let safe = S::select_le(
             pivot_link_8,
-            lit(0.001953125) * (acceleration_0_part_35 * per_m),
+            times_per_m * acceleration_0_part_34,
             lit(0.0),
             S::select_le(
                 pivot_link_9,
-                lit(0.001953125) * (acceleration_0_part_33 * per_m),
+                times_per_m * acceleration_0_part_32,
                 lit(0.0),
                 S::select_le(
                     pivot_link_7,
-                    lit(0.001953125) * (acceleration_0_part_31 * per_m),
+                    times_per_m * acceleration_0_part_30,
                     lit(0.0),
                     S::select_le(
                         pivot_link_10,
-                        lit(0.001953125) * (acceleration_0_part_29 * per_m),
+                        times_per_m * acceleration_0_part_28,
                         lit(0.0),
                         S::select_le(
                             pivot_link_6,
-                            lit(0.001953125) * (acceleration_0_part_27 * per_m),
+                            times_per_m * acceleration_0_part_26,
                             lit(0.0),
                             S::select_le(
                                 pivot_link_11,
-                                lit(0.001953125) * (acceleration_0_part_25 * per_m),
+                                times_per_m * acceleration_0_part_24,
                                 lit(0.0),
                                 S::select_le(
                                     pivot_link_5,
-                                    lit(0.001953125) * (acceleration_0_part_23 * per_m),
+                                    times_per_m * acceleration_0_part_22,
                                     lit(0.0),
                                     S::select_le(
                                         pivot_link_12,
-                                        lit(0.001953125) * (acceleration_0_part_21 * per_m),
+                                        times_per_m * acceleration_0_part_20,
                                         lit(0.0),
                                         S::select_le(
                                             pivot_link_4,
-                                            lit(0.001953125) * (acceleration_0_part_19 * per_m),
+                                            times_per_m * acceleration_0_part_18,
                                             lit(0.0),
                                             S::select_le(
                                                 pivot_link_13,
-                                                lit(0.001953125) * (acceleration_0_part_17 * per_m),
+                                                times_per_m * acceleration_0_part_16,
                                                 lit(0.0),
                                                 S::select_le(
                                                     pivot_link_3,
-                                                    lit(0.001953125) * (acceleration_0_part_15 * per_m),
+                                                    times_per_m * acceleration_0_part_14,
                                                     lit(0.0),
                                                     S::select_le(
                                                         pivot_link_14,
-                                                        lit(0.001953125) * (acceleration_0_part_13 * per_m),
+                                                        times_per_m * acceleration_0_part_12,
                                                         lit(0.0),
                                                         S::select_le(
                                                             pivot_link_2,
-                                                            lit(0.001953125) * (acceleration_0_part_11 * per_m),
+                                                            times_per_m * acceleration_0_part_10,
                                                             lit(0.0),
                                                             S::select_le(
                                                                 pivot_link_15,
-                                                                lit(0.001953125) * (acceleration_0_part_9 * per_m),
+                                                                times_per_m * acceleration_0_part_8,
                                                                 lit(0.0),
                                                                 S::select_le(
                                                                     pivot_link_1,
-                                                                    lit(0.001953125) * (acceleration_0_part_7 * per_m),
+                                                                    times_per_m * acceleration_0_part_6,
                                                                     lit(0.0),
                                                                     S::select_le(
                                                                         pivot_support,
                                                                         lit(0.0),
                                                                         lit(0.0),
                                                                         S::select_le(
-                                                                            lit(2.0) * pivot_link_0,
+                                                                            twice_per_m * acceleration_0_part_3,
                                                                             lit(0.0),
                                                                             lit(0.0),
-                                                                            S::select_le(m, lit(0.0), lit(0.0), lit(1.0)),
+                                                                            prepared_part,
                                                                         ),
                                                                     ),
                                                                 ),
@@ -1613,50 +1650,54 @@ impl ::ukcore::Mechanism for UChain {
                 ),
             ),
         );
-        let safe_part = acceleration_0_part_63 * per_acceleration_0_part_61
+        let safe_part = y_8_minus_y_9 * acceleration_0_part_65
+            * per_acceleration_0_part_64;
+        let safe_part_2 = x_8_minus_x_9 * acceleration_0_part_65
+            * per_acceleration_0_part_64;
+        let safe_part_3 = acceleration_0_part_63 * per_acceleration_0_part_61
             + link_8_by_link_9 * acceleration_0_part_65 * per_acceleration_0_part_64;
-        let safe_part_2 = acceleration_0_part_62 * per_acceleration_0_part_60
+        let safe_part_4 = acceleration_0_part_62 * per_acceleration_0_part_60
             + link_8_by_link_7 * acceleration_0_part_65 * per_acceleration_0_part_64;
-        let y_9_minus_y_10_safe_part = y_9_minus_y_10 * safe_part;
-        let y_7_minus_y_8_safe_part_2 = y_7_minus_y_8 * safe_part_2;
-        let x_9_minus_x_10_safe_part = x_9_minus_x_10 * safe_part;
-        let x_7_minus_x_8_safe_part_2 = x_7_minus_x_8 * safe_part_2;
-        let safe_part_3 = acceleration_0_part_59 * per_acceleration_0_part_57
-            + link_9_by_link_10 * safe_part;
-        let safe_part_4 = acceleration_0_part_58 * per_acceleration_0_part_56
-            + link_7_by_link_6 * safe_part_2;
-        out[25] = g - acceleration_0_part_66 + y_7_minus_y_8_safe_part_2;
-        out[26] = g + acceleration_0_part_66 - y_9_minus_y_10_safe_part;
-        let y_10_minus_y_11_safe_part_3 = y_10_minus_y_11 * safe_part_3;
-        let y_6_minus_y_7_safe_part_4 = y_6_minus_y_7 * safe_part_4;
-        let x_10_minus_x_11_safe_part_3 = x_10_minus_x_11 * safe_part_3;
-        let x_6_minus_x_7_safe_part_4 = x_6_minus_x_7 * safe_part_4;
-        out[8] = x_7_minus_x_8_safe_part_2 - acceleration_0_part_67;
-        out[9] = acceleration_0_part_67 - x_9_minus_x_10_safe_part;
+        let y_9_minus_y_10_safe_part_3 = y_9_minus_y_10 * safe_part_3;
+        let y_7_minus_y_8_safe_part_4 = y_7_minus_y_8 * safe_part_4;
+        let x_9_minus_x_10_safe_part_3 = x_9_minus_x_10 * safe_part_3;
+        let x_7_minus_x_8_safe_part_4 = x_7_minus_x_8 * safe_part_4;
+        let safe_part_5 = acceleration_0_part_59 * per_acceleration_0_part_57
+            + link_9_by_link_10 * safe_part_3;
+        let safe_part_6 = acceleration_0_part_58 * per_acceleration_0_part_56
+            + link_7_by_link_6 * safe_part_4;
+        out[25] = g - safe_part + y_7_minus_y_8_safe_part_4;
+        out[26] = g + safe_part - y_9_minus_y_10_safe_part_3;
+        let y_10_minus_y_11_safe_part_5 = y_10_minus_y_11 * safe_part_5;
+        let y_6_minus_y_7_safe_part_6 = y_6_minus_y_7 * safe_part_6;
+        let x_10_minus_x_11_safe_part_5 = x_10_minus_x_11 * safe_part_5;
+        let x_6_minus_x_7_safe_part_6 = x_6_minus_x_7 * safe_part_6;
+        out[8] = x_7_minus_x_8_safe_part_4 - safe_part_2;
+        out[9] = safe_part_2 - x_9_minus_x_10_safe_part_3;
         let acceleration_10_part = acceleration_0_part_55 * per_acceleration_0_part_53
-            + link_10_by_link_11 * safe_part_3;
+            + link_10_by_link_11 * safe_part_5;
         let acceleration_10_part_2 = acceleration_0_part_54 * per_acceleration_0_part_52
-            + link_6_by_link_5 * safe_part_4;
-        out[24] = g - y_7_minus_y_8_safe_part_2 + y_6_minus_y_7_safe_part_4;
-        out[27] = g + y_9_minus_y_10_safe_part - y_10_minus_y_11_safe_part_3;
+            + link_6_by_link_5 * safe_part_6;
+        out[24] = g - y_7_minus_y_8_safe_part_4 + y_6_minus_y_7_safe_part_6;
+        out[27] = g + y_9_minus_y_10_safe_part_3 - y_10_minus_y_11_safe_part_5;
         let acceleration_28_part = y_11_minus_y_12 * acceleration_10_part;
         let acceleration_28_part_2 = y_5_minus_y_6 * acceleration_10_part_2;
         let acceleration_28_part_3 = x_11_minus_x_12 * acceleration_10_part;
         let acceleration_28_part_4 = x_5_minus_x_6 * acceleration_10_part_2;
-        out[7] = x_6_minus_x_7_safe_part_4 - x_7_minus_x_8_safe_part_2;
-        out[10] = x_9_minus_x_10_safe_part - x_10_minus_x_11_safe_part_3;
+        out[7] = x_6_minus_x_7_safe_part_6 - x_7_minus_x_8_safe_part_4;
+        out[10] = x_9_minus_x_10_safe_part_3 - x_10_minus_x_11_safe_part_5;
         let acceleration_11_part = acceleration_0_part_51 * per_acceleration_0_part_49
             + link_11_by_link_12 * acceleration_10_part;
         let acceleration_11_part_2 = acceleration_0_part_50 * per_acceleration_0_part_48
             + link_5_by_link_4 * acceleration_10_part_2;
-        out[23] = g - y_6_minus_y_7_safe_part_4 + acceleration_28_part_2;
-        out[28] = g + y_10_minus_y_11_safe_part_3 - acceleration_28_part;
+        out[23] = g - y_6_minus_y_7_safe_part_6 + acceleration_28_part_2;
+        out[28] = g + y_10_minus_y_11_safe_part_5 - acceleration_28_part;
         let acceleration_29_part = y_12_minus_y_13 * acceleration_11_part;
         let acceleration_29_part_2 = y_4_minus_y_5 * acceleration_11_part_2;
         let acceleration_29_part_3 = x_12_minus_x_13 * acceleration_11_part;
         let acceleration_29_part_4 = x_4_minus_x_5 * acceleration_11_part_2;
-        out[6] = acceleration_28_part_4 - x_6_minus_x_7_safe_part_4;
-        out[11] = x_10_minus_x_11_safe_part_3 - acceleration_28_part_3;
+        out[6] = acceleration_28_part_4 - x_6_minus_x_7_safe_part_6;
+        out[11] = x_10_minus_x_11_safe_part_5 - acceleration_28_part_3;
         let acceleration_12_part = acceleration_0_part_47 * per_acceleration_0_part_45
             + link_12_by_link_13 * acceleration_11_part;
         let acceleration_12_part_2 = acceleration_0_part_46 * per_acceleration_0_part_44
@@ -1693,7 +1734,7 @@ impl ::ukcore::Mechanism for UChain {
         let acceleration_32_part_4 = x_1_minus_x_2 * acceleration_14_part_2;
         out[3] = acceleration_31_part_4 - acceleration_30_part_4;
         out[14] = acceleration_30_part_3 - acceleration_31_part_3;
-        let acceleration_15_part = acceleration_0_part_5 * per_acceleration_0_part
+        let acceleration_15_part = acceleration_0_part_35 * per_acceleration_0_part
             + link_15_by_support * acceleration_14_part;
         let acceleration_15_part_2 = acceleration_0_part_2 * per_acceleration_0_part_3
             - link_1_by_link_0 * acceleration_14_part_2;
@@ -1712,7 +1753,7 @@ impl ::ukcore::Mechanism for UChain {
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
-        &self,
+        prepared: &[S],
         t: S,
         q: &[S],
         v: &[S],
@@ -1720,6 +1761,10 @@ impl ::ukcore::Mechanism for UChain {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 34>(out, "out");
+        let [_, _, _, _, per_m, twice_per_m, prepared_part, times_per_m] = *::ukcore::emitted::exact::<
+            S,
+            8,
+        >(prepared, "prepared");
         let [x_0, x_1, x_2, x_3, x_4, x_5, x_6, x_7, x_8, x_9, x_10, x_11, x_12, x_13,
         x_14, x_15, x_16, y_0, y_1, y_2, y_3, y_4, y_5, y_6, y_7, y_8, y_9, y_10, y_11,
         y_12, y_13, y_14, y_15, y_16] = *::ukcore::emitted::exact::<S, 34>(q, "q");
@@ -1730,8 +1775,6 @@ impl ::ukcore::Mechanism for UChain {
             17,
         >(residual, "residual");
         let lit = S::from_f64;
-        let m = lit(self.m);
-        let per_m = m.recip();
         let x_1_minus_x_0 = x_1 - x_0;
         let y_0_minus_y_1 = y_0 - y_1;
         let x_1_minus_x_2 = x_1 - x_2;
@@ -1829,9 +1872,8 @@ impl ::ukcore::Mechanism for UChain {
             + y_8_minus_y_9 * y_9_minus_y_10;
         let correction_0_part_33 = x_8_minus_x_9 * x_8_minus_x_9
             + y_8_minus_y_9 * y_8_minus_y_9;
+        let pivot_support = per_m * correction_0_part;
         let per_correction_0_part_2 = correction_0_part_2.recip();
-        let pivot_support = correction_0_part * per_m;
-        let pivot_link_0 = correction_0_part_2 * per_m;
         let link_1_by_link_0 = correction_0_part_3 * per_correction_0_part_2;
         let link_15_by_support = correction_0_part_4 * per_correction_0_part;
         let correction_0_part_34 = lit(2.0) * correction_0_part_5
@@ -1845,8 +1887,8 @@ impl ::ukcore::Mechanism for UChain {
             - lit(0.25) * (residual_0 * link_1_by_link_0);
         let correction_0_part_37 = residual_15 + residual_16 * link_15_by_support;
         let pivot_link_1 = per_m * correction_0_part_34;
-        let link_2_by_link_1 = correction_0_part_6 * per_correction_0_part_34;
         let pivot_link_15 = per_m * correction_0_part_35;
+        let link_2_by_link_1 = correction_0_part_6 * per_correction_0_part_34;
         let link_14_by_link_15 = correction_0_part_8 * per_correction_0_part_35;
         let correction_0_part_38 = lit(2.0) * correction_0_part_9
             - correction_0_part_6 * correction_0_part_6 * per_correction_0_part_34;
@@ -1859,8 +1901,8 @@ impl ::ukcore::Mechanism for UChain {
         let correction_0_part_41 = residual_14
             + correction_0_part_37 * link_14_by_link_15;
         let pivot_link_2 = per_m * correction_0_part_38;
-        let link_3_by_link_2 = correction_0_part_10 * per_correction_0_part_38;
         let pivot_link_14 = per_m * correction_0_part_39;
+        let link_3_by_link_2 = correction_0_part_10 * per_correction_0_part_38;
         let link_13_by_link_14 = correction_0_part_12 * per_correction_0_part_39;
         let correction_0_part_42 = lit(2.0) * correction_0_part_13
             - correction_0_part_10 * correction_0_part_10 * per_correction_0_part_38;
@@ -1873,8 +1915,8 @@ impl ::ukcore::Mechanism for UChain {
         let correction_0_part_45 = residual_13
             + correction_0_part_41 * link_13_by_link_14;
         let pivot_link_3 = per_m * correction_0_part_42;
-        let link_4_by_link_3 = correction_0_part_14 * per_correction_0_part_42;
         let pivot_link_13 = per_m * correction_0_part_43;
+        let link_4_by_link_3 = correction_0_part_14 * per_correction_0_part_42;
         let link_12_by_link_13 = correction_0_part_16 * per_correction_0_part_43;
         let correction_0_part_46 = lit(2.0) * correction_0_part_17
             - correction_0_part_14 * correction_0_part_14 * per_correction_0_part_42;
@@ -1887,8 +1929,8 @@ impl ::ukcore::Mechanism for UChain {
         let correction_0_part_49 = residual_12
             + correction_0_part_45 * link_12_by_link_13;
         let pivot_link_4 = per_m * correction_0_part_46;
-        let link_5_by_link_4 = correction_0_part_18 * per_correction_0_part_46;
         let pivot_link_12 = per_m * correction_0_part_47;
+        let link_5_by_link_4 = correction_0_part_18 * per_correction_0_part_46;
         let link_11_by_link_12 = correction_0_part_20 * per_correction_0_part_47;
         let correction_0_part_50 = lit(2.0) * correction_0_part_21
             - correction_0_part_18 * correction_0_part_18 * per_correction_0_part_46;
@@ -1901,8 +1943,8 @@ impl ::ukcore::Mechanism for UChain {
         let correction_0_part_53 = residual_11
             + correction_0_part_49 * link_11_by_link_12;
         let pivot_link_5 = per_m * correction_0_part_50;
-        let link_6_by_link_5 = correction_0_part_22 * per_correction_0_part_50;
         let pivot_link_11 = per_m * correction_0_part_51;
+        let link_6_by_link_5 = correction_0_part_22 * per_correction_0_part_50;
         let link_10_by_link_11 = correction_0_part_24 * per_correction_0_part_51;
         let correction_0_part_54 = lit(2.0) * correction_0_part_25
             - correction_0_part_22 * correction_0_part_22 * per_correction_0_part_50;
@@ -1915,8 +1957,8 @@ impl ::ukcore::Mechanism for UChain {
         let correction_0_part_57 = residual_10
             + correction_0_part_53 * link_10_by_link_11;
         let pivot_link_6 = per_m * correction_0_part_54;
-        let link_7_by_link_6 = correction_0_part_26 * per_correction_0_part_54;
         let pivot_link_10 = per_m * correction_0_part_55;
+        let link_7_by_link_6 = correction_0_part_26 * per_correction_0_part_54;
         let link_9_by_link_10 = correction_0_part_28 * per_correction_0_part_55;
         let correction_0_part_58 = lit(2.0) * correction_0_part_29
             - correction_0_part_26 * correction_0_part_26 * per_correction_0_part_54;
@@ -1928,8 +1970,8 @@ impl ::ukcore::Mechanism for UChain {
             + correction_0_part_56 * link_7_by_link_6;
         let correction_0_part_61 = residual_9 + correction_0_part_57 * link_9_by_link_10;
         let pivot_link_7 = per_m * correction_0_part_58;
-        let link_8_by_link_7 = correction_0_part_30 * per_correction_0_part_58;
         let pivot_link_9 = per_m * correction_0_part_59;
+        let link_8_by_link_7 = correction_0_part_30 * per_correction_0_part_58;
         let link_8_by_link_9 = correction_0_part_32 * per_correction_0_part_59;
         let correction_0_part_62 = lit(2.0) * correction_0_part_33
             - correction_0_part_30 * correction_0_part_30 * per_correction_0_part_58
@@ -1939,79 +1981,75 @@ impl ::ukcore::Mechanism for UChain {
             + correction_0_part_60 * link_8_by_link_7
             + lit(0.5) * (correction_0_part_61 * link_8_by_link_9);
         let pivot_link_8 = per_m * correction_0_part_62;
-        let correction_0_part_64 = y_8_minus_y_9 * correction_0_part_63
-            * per_correction_0_part_62;
-        let correction_0_part_65 = x_8_minus_x_9 * correction_0_part_63
-            * per_correction_0_part_62;
         let safe = S::select_le(
             pivot_link_8,
-            lit(0.001953125) * (correction_0_part_33 * per_m),
+            times_per_m * correction_0_part_33,
             lit(0.0),
             S::select_le(
                 pivot_link_9,
-                lit(0.001953125) * (correction_0_part_31 * per_m),
+                times_per_m * correction_0_part_31,
                 lit(0.0),
                 S::select_le(
                     pivot_link_7,
-                    lit(0.001953125) * (correction_0_part_29 * per_m),
+                    times_per_m * correction_0_part_29,
                     lit(0.0),
                     S::select_le(
                         pivot_link_10,
-                        lit(0.001953125) * (correction_0_part_27 * per_m),
+                        times_per_m * correction_0_part_27,
                         lit(0.0),
                         S::select_le(
                             pivot_link_6,
-                            lit(0.001953125) * (correction_0_part_25 * per_m),
+                            times_per_m * correction_0_part_25,
                             lit(0.0),
                             S::select_le(
                                 pivot_link_11,
-                                lit(0.001953125) * (correction_0_part_23 * per_m),
+                                times_per_m * correction_0_part_23,
                                 lit(0.0),
                                 S::select_le(
                                     pivot_link_5,
-                                    lit(0.001953125) * (correction_0_part_21 * per_m),
+                                    times_per_m * correction_0_part_21,
                                     lit(0.0),
                                     S::select_le(
                                         pivot_link_12,
-                                        lit(0.001953125) * (correction_0_part_19 * per_m),
+                                        times_per_m * correction_0_part_19,
                                         lit(0.0),
                                         S::select_le(
                                             pivot_link_4,
-                                            lit(0.001953125) * (correction_0_part_17 * per_m),
+                                            times_per_m * correction_0_part_17,
                                             lit(0.0),
                                             S::select_le(
                                                 pivot_link_13,
-                                                lit(0.001953125) * (correction_0_part_15 * per_m),
+                                                times_per_m * correction_0_part_15,
                                                 lit(0.0),
                                                 S::select_le(
                                                     pivot_link_3,
-                                                    lit(0.001953125) * (correction_0_part_13 * per_m),
+                                                    times_per_m * correction_0_part_13,
                                                     lit(0.0),
                                                     S::select_le(
                                                         pivot_link_14,
-                                                        lit(0.001953125) * (correction_0_part_11 * per_m),
+                                                        times_per_m * correction_0_part_11,
                                                         lit(0.0),
                                                         S::select_le(
                                                             pivot_link_2,
-                                                            lit(0.001953125) * (correction_0_part_9 * per_m),
+                                                            times_per_m * correction_0_part_9,
                                                             lit(0.0),
                                                             S::select_le(
                                                                 pivot_link_15,
-                                                                lit(0.001953125) * (correction_0_part_7 * per_m),
+                                                                times_per_m * correction_0_part_7,
                                                                 lit(0.0),
                                                                 S::select_le(
                                                                     pivot_link_1,
-                                                                    lit(0.001953125) * (correction_0_part_5 * per_m),
+                                                                    times_per_m * correction_0_part_5,
                                                                     lit(0.0),
                                                                     S::select_le(
                                                                         pivot_support,
                                                                         lit(0.0),
                                                                         lit(0.0),
                                                                         S::select_le(
-                                                                            lit(2.0) * pivot_link_0,
+                                                                            twice_per_m * correction_0_part_2,
                                                                             lit(0.0),
                                                                             lit(0.0),
-                                                                            S::select_le(m, lit(0.0), lit(0.0), lit(1.0)),
+                                                                            prepared_part,
                                                                         ),
                                                                     ),
                                                                 ),
@@ -2029,39 +2067,42 @@ impl ::ukcore::Mechanism for UChain {
                 ),
             ),
         );
-        let safe_part = lit(0.5) * (correction_0_part_61 * per_correction_0_part_59)
+        let safe_part = y_8_minus_y_9 * correction_0_part_63 * per_correction_0_part_62;
+        let safe_part_2 = x_8_minus_x_9 * correction_0_part_63
+            * per_correction_0_part_62;
+        let safe_part_3 = lit(0.5) * (correction_0_part_61 * per_correction_0_part_59)
             + link_8_by_link_9 * correction_0_part_63 * per_correction_0_part_62;
-        let safe_part_2 = correction_0_part_60 * per_correction_0_part_58
+        let safe_part_4 = correction_0_part_60 * per_correction_0_part_58
             + link_8_by_link_7 * correction_0_part_63 * per_correction_0_part_62;
-        let y_9_minus_y_10_safe_part = y_9_minus_y_10 * safe_part;
-        let y_7_minus_y_8_safe_part_2 = y_7_minus_y_8 * safe_part_2;
-        let x_9_minus_x_10_safe_part = x_9_minus_x_10 * safe_part;
-        let x_7_minus_x_8_safe_part_2 = x_7_minus_x_8 * safe_part_2;
-        let safe_part_3 = lit(0.5) * (correction_0_part_57 * per_correction_0_part_55)
-            + link_9_by_link_10 * safe_part;
-        let safe_part_4 = correction_0_part_56 * per_correction_0_part_54
-            + link_7_by_link_6 * safe_part_2;
-        let y_10_minus_y_11_safe_part_3 = y_10_minus_y_11 * safe_part_3;
-        let y_6_minus_y_7_safe_part_4 = y_6_minus_y_7 * safe_part_4;
-        let x_10_minus_x_11_safe_part_3 = x_10_minus_x_11 * safe_part_3;
-        let x_6_minus_x_7_safe_part_4 = x_6_minus_x_7 * safe_part_4;
-        out[8] = x_7_minus_x_8_safe_part_2 - correction_0_part_65;
-        out[9] = correction_0_part_65 - x_9_minus_x_10_safe_part;
-        out[25] = y_7_minus_y_8_safe_part_2 - correction_0_part_64;
-        out[26] = correction_0_part_64 - y_9_minus_y_10_safe_part;
+        let y_9_minus_y_10_safe_part_3 = y_9_minus_y_10 * safe_part_3;
+        let y_7_minus_y_8_safe_part_4 = y_7_minus_y_8 * safe_part_4;
+        let x_9_minus_x_10_safe_part_3 = x_9_minus_x_10 * safe_part_3;
+        let x_7_minus_x_8_safe_part_4 = x_7_minus_x_8 * safe_part_4;
+        let safe_part_5 = lit(0.5) * (correction_0_part_57 * per_correction_0_part_55)
+            + link_9_by_link_10 * safe_part_3;
+        let safe_part_6 = correction_0_part_56 * per_correction_0_part_54
+            + link_7_by_link_6 * safe_part_4;
+        let y_10_minus_y_11_safe_part_5 = y_10_minus_y_11 * safe_part_5;
+        let y_6_minus_y_7_safe_part_6 = y_6_minus_y_7 * safe_part_6;
+        let x_10_minus_x_11_safe_part_5 = x_10_minus_x_11 * safe_part_5;
+        let x_6_minus_x_7_safe_part_6 = x_6_minus_x_7 * safe_part_6;
+        out[8] = x_7_minus_x_8_safe_part_4 - safe_part_2;
+        out[9] = safe_part_2 - x_9_minus_x_10_safe_part_3;
+        out[25] = y_7_minus_y_8_safe_part_4 - safe_part;
+        out[26] = safe_part - y_9_minus_y_10_safe_part_3;
         let correction_27_part = lit(0.5)
             * (correction_0_part_53 * per_correction_0_part_51)
-            + link_10_by_link_11 * safe_part_3;
+            + link_10_by_link_11 * safe_part_5;
         let correction_27_part_2 = correction_0_part_52 * per_correction_0_part_50
-            + link_6_by_link_5 * safe_part_4;
+            + link_6_by_link_5 * safe_part_6;
         let correction_27_part_3 = y_11_minus_y_12 * correction_27_part;
         let correction_27_part_4 = y_5_minus_y_6 * correction_27_part_2;
         let correction_27_part_5 = x_11_minus_x_12 * correction_27_part;
         let correction_27_part_6 = x_5_minus_x_6 * correction_27_part_2;
-        out[7] = x_6_minus_x_7_safe_part_4 - x_7_minus_x_8_safe_part_2;
-        out[10] = x_9_minus_x_10_safe_part - x_10_minus_x_11_safe_part_3;
-        out[24] = y_6_minus_y_7_safe_part_4 - y_7_minus_y_8_safe_part_2;
-        out[27] = y_9_minus_y_10_safe_part - y_10_minus_y_11_safe_part_3;
+        out[7] = x_6_minus_x_7_safe_part_6 - x_7_minus_x_8_safe_part_4;
+        out[10] = x_9_minus_x_10_safe_part_3 - x_10_minus_x_11_safe_part_5;
+        out[24] = y_6_minus_y_7_safe_part_6 - y_7_minus_y_8_safe_part_4;
+        out[27] = y_9_minus_y_10_safe_part_3 - y_10_minus_y_11_safe_part_5;
         let correction_28_part = lit(0.5)
             * (correction_0_part_49 * per_correction_0_part_47)
             + link_11_by_link_12 * correction_27_part;
@@ -2071,10 +2112,10 @@ impl ::ukcore::Mechanism for UChain {
         let correction_28_part_4 = y_4_minus_y_5 * correction_28_part_2;
         let correction_28_part_5 = x_12_minus_x_13 * correction_28_part;
         let correction_28_part_6 = x_4_minus_x_5 * correction_28_part_2;
-        out[6] = correction_27_part_6 - x_6_minus_x_7_safe_part_4;
-        out[11] = x_10_minus_x_11_safe_part_3 - correction_27_part_5;
-        out[23] = correction_27_part_4 - y_6_minus_y_7_safe_part_4;
-        out[28] = y_10_minus_y_11_safe_part_3 - correction_27_part_3;
+        out[6] = correction_27_part_6 - x_6_minus_x_7_safe_part_6;
+        out[11] = x_10_minus_x_11_safe_part_5 - correction_27_part_5;
+        out[23] = correction_27_part_4 - y_6_minus_y_7_safe_part_6;
+        out[28] = y_10_minus_y_11_safe_part_5 - correction_27_part_3;
         let correction_29_part = lit(0.5)
             * (correction_0_part_45 * per_correction_0_part_43)
             + link_12_by_link_13 * correction_28_part;

@@ -123,7 +123,18 @@ fn expand(input: TokenStream) -> (TokenStream, diag::Diagnostics) {
             let names: Vec<String> = coordinates.chain(constraints).collect();
             let straight = analysis::eliminate(&dynamics, &names, &mut system.graph)
                 .map(|elimination| analysis::Straight::new(elimination, &mut system));
-            let code = emit::emit(&decl, &model, &system, &dynamics, &structure, &straight);
+            let hoisted = analysis::hoist(&mut system, &dynamics, &straight);
+            if cfg!(debug_assertions)
+                && let Some(k) = analysis::verify_hoisting(&system, &dynamics, &straight, &hoisted)
+            {
+                diag.error(
+                    decl.name.span(),
+                    format!(
+                        "defect in `multibody!`: value {k} changed by hoisting; please report it"
+                    ),
+                );
+            }
+            let code = emit::emit(&decl, &model, &system, &dynamics, &structure, &hoisted);
             if diag.is_empty() {
                 return (code, diag);
             }

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use crate::error::Error;
 use crate::events::{EventHit, States, Watch};
 use crate::integrate::{Next, Problem, Step};
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, Prepared};
 use crate::solver::Solver;
 use crate::stabilise::Projector;
 use crate::trajectory::{Ending, Trajectory, Work};
@@ -80,7 +80,7 @@ impl Agenda {
 
 /// The simulation as a problem for the integrator.
 pub(super) struct Run<'a, M> {
-    pub(super) mechanism: &'a M,
+    pub(super) mechanism: &'a Prepared<M>,
     pub(super) solver: Solver,
     pub(super) projector: Projector,
     pub(super) project: bool,
@@ -240,7 +240,7 @@ impl<M: Mechanism> Problem for Run<'_, M> {
 
 /// Projects y = [q; q̇], positions first, and counts it.
 fn project<M: Mechanism>(
-    mechanism: &M,
+    mechanism: &Prepared<M>,
     projector: &mut Projector,
     work: &mut Work,
     t: f64,
@@ -257,7 +257,7 @@ fn project<M: Mechanism>(
 
 /// The states of one step.
 struct Within<'a, 'b, M> {
-    mechanism: &'a M,
+    mechanism: &'a Prepared<M>,
     projector: &'a mut Projector,
     project: bool,
     step: &'a Step<'b>,

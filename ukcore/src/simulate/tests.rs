@@ -42,6 +42,7 @@ static SPEC: Spec = Spec {
     name: "Pendulum",
     doc: "",
     params: &[param("l", 1.0), param("g", 9.8), param("limit", 1e6)],
+    prepared: &[("l", "l"), ("g", "g"), ("limit", "limit")],
     coords: &["x", "y"],
     constraints: &[ConstraintSpec {
         name: "rod",
@@ -103,36 +104,39 @@ impl Mechanism for Pendulum {
     fn set_parameter(&mut self, index: usize, value: f64) {
         *[&mut self.l, &mut self.g, &mut self.limit][index] = value;
     }
-    fn dynamics<S: Scalar>(&self, t: S, q: &[S], v: &[S], out: &mut Terms<'_, S>) {
-        self.mass_matrix(t, q, out.mass);
-        self.jacobian(t, q, v, out.jacobian);
+    fn prepare<S: Scalar>(given: &[S], prepared: &mut [S]) {
+        prepared.copy_from_slice(given);
+    }
+    fn dynamics<S: Scalar>(p: &[S], t: S, q: &[S], v: &[S], out: &mut Terms<'_, S>) {
+        Self::mass_matrix(p, t, q, out.mass);
+        Self::jacobian(p, t, q, v, out.jacobian);
         let none = S::from_f64(0.0);
-        out.force[0] = none * (S::from_f64(self.limit) - t).sqrt();
-        out.force[1] = S::from_f64(-self.g);
+        out.force[0] = none * (p[2] - t).sqrt();
+        out.force[1] = -p[1];
         out.nonideal.fill(none);
         out.rhs[0] = -S::from_f64(2.0) * (v[0] * v[0] + v[1] * v[1]);
     }
-    fn mass_matrix<S: Scalar>(&self, _: S, _: &[S], mass: &mut [S]) {
+    fn mass_matrix<S: Scalar>(_p: &[S], _: S, _: &[S], mass: &mut [S]) {
         mass[0] = S::from_f64(1.0);
         mass[3] = S::from_f64(1.0);
     }
-    fn jacobian<S: Scalar>(&self, _: S, q: &[S], _: &[S], jacobian: &mut [S]) {
+    fn jacobian<S: Scalar>(_p: &[S], _: S, q: &[S], _: &[S], jacobian: &mut [S]) {
         jacobian[0] = q[0] + q[0];
         jacobian[1] = q[1] + q[1];
     }
-    fn residual<S: Scalar>(&self, _: S, q: &[S], phi: &mut [S]) {
-        phi[0] = q[0] * q[0] + q[1] * q[1] - S::from_f64(self.l * self.l);
+    fn residual<S: Scalar>(p: &[S], _: S, q: &[S], phi: &mut [S]) {
+        phi[0] = q[0] * q[0] + q[1] * q[1] - p[0] * p[0];
     }
-    fn residual_rate<S: Scalar>(&self, _: S, q: &[S], v: &[S], rate: &mut [S]) {
+    fn residual_rate<S: Scalar>(_p: &[S], _: S, q: &[S], v: &[S], rate: &mut [S]) {
         rate[0] = S::from_f64(2.0) * (q[0] * v[0] + q[1] * v[1]);
     }
-    fn energy<S: Scalar>(&self, _: S, q: &[S], v: &[S]) -> Energy<S> {
+    fn energy<S: Scalar>(p: &[S], _: S, q: &[S], v: &[S]) -> Energy<S> {
         Energy {
             kinetic: S::from_f64(0.5) * (v[0] * v[0] + v[1] * v[1]),
-            potential: S::from_f64(self.g) * q[1],
+            potential: p[1] * q[1],
         }
     }
-    fn outputs<S: Scalar>(&self, _: S, q: &[S], _: &[S], outputs: &mut [S]) {
+    fn outputs<S: Scalar>(_p: &[S], _: S, q: &[S], _: &[S], outputs: &mut [S]) {
         outputs[0] = q[0].atan2(-q[1]);
     }
 }

@@ -29,7 +29,7 @@ struct Printed {
 fn printed<M: Mechanism>(mech: &M, t: f64, q: &[f64], v: &[f64]) -> Printed {
     let (n, m) = (M::SPEC.n(), M::SPEC.m());
     let mut terms = Evaluated::new(n, m);
-    terms.dynamics(mech, t, q, v);
+    terms.dynamics(&mech.prepared(), t, q, v);
     Printed {
         mass: DMatrix::from_column_slice(n, n, &terms.mass),
         force: DVector::from_vec(terms.force),
@@ -50,8 +50,8 @@ fn solver<M: Mechanism>(formula: Formula) -> Solver {
 fn consistent<M: Mechanism>(mech: &M, t: f64, q: &[f64], v: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let (mut q, mut v) = (q.to_vec(), v.to_vec());
     let mut projector = Projector::new::<M>();
-    projector.position(mech, t, &mut q, &v).unwrap();
-    projector.velocity(mech, t, &q, &mut v).unwrap();
+    projector.position(&mech.prepared(), t, &mut q, &v).unwrap();
+    projector.velocity(&mech.prepared(), t, &q, &mut v).unwrap();
     (q, v)
 }
 
@@ -66,7 +66,9 @@ fn close(a: &[f64], b: &[f64], relative: f64, what: &str) {
 fn agree<M: Mechanism>(mech: &M, t: f64, q: &[f64], v: &[f64]) -> Solution {
     let (q, v) = consistent(mech, t, q, v);
     let p = printed(mech, t, &q, &v);
-    let solution = solver::<M>(Formula::Auto).solve(mech, t, &q, &v).unwrap();
+    let solution = solver::<M>(Formula::Auto)
+        .solve(&mech.prepared(), t, &q, &v)
+        .unwrap();
     let total = &p.force + &p.nonideal;
     let oracle = up::acceleration(&p.mass, &total, &p.jacobian, &p.rhs, TOLERANCE).unwrap();
     close(&solution.acceleration, oracle.as_slice(), 1e-9, "eq. 19");
@@ -100,9 +102,11 @@ fn agree<M: Mechanism>(mech: &M, t: f64, q: &[f64], v: &[f64]) -> Solution {
     for formula in formulas {
         let mut other = solver::<M>(*formula);
         let mut out = vec![f64::NAN; q.len()];
-        other.acceleration(mech, t, &q, &v, &mut out).unwrap();
+        other
+            .acceleration(&mech.prepared(), t, &q, &v, &mut out)
+            .unwrap();
         close(&out, &solution.acceleration, 1e-9, "acceleration()");
-        let other = other.solve(mech, t, &q, &v).unwrap();
+        let other = other.solve(&mech.prepared(), t, &q, &v).unwrap();
         close(
             &other.acceleration,
             &solution.acceleration,
@@ -224,7 +228,7 @@ fn pendulum_tension_and_acceleration() {
     let mech = Pendulum::default();
     let (q, v) = ([s, -c], [omega * c, omega * s]);
     let solution = solver::<Pendulum>(Formula::Auto)
-        .solve(&mech, 0.0, &q, &v)
+        .solve(&mech.prepared(), 0.0, &q, &v)
         .unwrap();
     // θ̈ = −g sin θ; tension m (g cos θ + ω²) along the rod.
     let alpha = -9.8 * s;
@@ -252,7 +256,7 @@ fn without_force_and_with_equal_masses() {
     let p = printed(&mech, 0.0, &q, &v);
     let force = uk::equal_masses_free(3.0, &p.jacobian, &p.rhs, TOLERANCE);
     let solution = solver::<Pendulum>(Formula::Auto)
-        .solve(&mech, 0.0, &q, &v)
+        .solve(&mech.prepared(), 0.0, &q, &v)
         .unwrap();
     close(&solution.ideal_force, force.as_slice(), 1e-14, "eq. 18");
     close(
@@ -309,7 +313,7 @@ fn duplicates_are_redundant_at_any_scale() {
                 .map(|(q, d)| q + off * d)
                 .collect();
             let solution = solver::<Twice>(Formula::Auto)
-                .solve(&mech, 0.0, &q, &v)
+                .solve(&mech.prepared(), 0.0, &q, &v)
                 .unwrap();
             assert_eq!(
                 (
@@ -344,7 +348,9 @@ fn constraint_scaling_changes_nothing() {
             params: vec![scale, 1.0],
         };
         let mut solver = solver::<Parallelogram>(Formula::Auto);
-        let solution = solver.solve(&mech, 0.0, &state.0, &state.1).unwrap();
+        let solution = solver
+            .solve(&mech.prepared(), 0.0, &state.0, &state.1)
+            .unwrap();
         assert_eq!((solution.rank, solution.degrees_of_freedom), (3, 1));
         if i == 0 {
             reference.clone_from(&solution.acceleration);
@@ -382,7 +388,9 @@ fn sets_redundant_only_on_the_manifold_survive_drift() {
                         |x: &[f64; 4], next: &mut dyn FnMut() -> f64| x.map(|x| x + delta * next());
                     let (q, v) = (off(&q, &mut next), off(&v, &mut next));
                     let mut out = [0.0; 4];
-                    solver.acceleration(&mech, 0.0, &q, &v, &mut out).unwrap();
+                    solver
+                        .acceleration(&mech.prepared(), 0.0, &q, &v, &mut out)
+                        .unwrap();
                     let expected = [exact[0], exact[1], exact[0], exact[1]];
                     close(
                         &out,
@@ -401,8 +409,12 @@ fn contradictions_are_named() {
     let mech = Contradiction::default();
     for (t, expected) in [(0.0, true), (1.0, true)] {
         let x = f64::sin(t);
-        let result =
-            solver::<Contradiction>(Formula::Auto).solve(&mech, t, &[x, 0.0], &[f64::cos(t), 0.0]);
+        let result = solver::<Contradiction>(Formula::Auto).solve(
+            &mech.prepared(),
+            t,
+            &[x, 0.0],
+            &[f64::cos(t), 0.0],
+        );
         assert_eq!(result.is_err(), expected);
         let Err(Error::Inconsistent { constraints }) = result else {
             panic!("{result:?}")
@@ -415,7 +427,7 @@ fn contradictions_are_named() {
             params: vec![1.0, 2.0, scale, 1e-6],
         };
         let (q, v) = ([0.6, -0.8, 1.2, -1.6], [0.0; 4]);
-        let result = solver::<Twice>(Formula::Auto).solve(&mech, 0.0, &q, &v);
+        let result = solver::<Twice>(Formula::Auto).solve(&mech.prepared(), 0.0, &q, &v);
         let Err(Error::Inconsistent { constraints }) = result else {
             panic!("{result:?}")
         };
@@ -427,7 +439,8 @@ fn contradictions_are_named() {
 #[test]
 fn undetermined_coordinates_are_named() {
     for formula in [Formula::Auto, Formula::UdwadiaPhohomsiri, Formula::Kkt] {
-        let result = solver::<Loose>(formula).solve(&Loose::default(), 0.0, &[0.0; 3], &[0.0; 3]);
+        let result =
+            solver::<Loose>(formula).solve(&Loose::default().prepared(), 0.0, &[0.0; 3], &[0.0; 3]);
         let Err(Error::Underdetermined {
             coordinates,
             rank,
@@ -454,7 +467,7 @@ fn a_mass_that_vanishes_at_run_time() {
     let mut out = [0.0; 2];
     solver
         .acceleration(
-            &mech,
+            &mech.prepared(),
             0.5,
             &[0.5_f64.sin(), 0.0],
             &[0.5_f64.cos(), 0.0],
@@ -467,7 +480,7 @@ fn a_mass_that_vanishes_at_run_time() {
         params: vec![0.0, 1.0, 9.8],
     };
     let result = Solver::new::<Pendulum>(SolverOptions::default()).solve(
-        &pendulum,
+        &pendulum.prepared(),
         0.0,
         &[1.0, 0.0],
         &[0.0; 2],
@@ -480,7 +493,7 @@ fn a_mass_that_vanishes_at_run_time() {
         params: vec![-1.0, 1.0, 9.8],
     };
     let result = Solver::new::<Pendulum>(SolverOptions::default()).solve(
-        &negative,
+        &negative.prepared(),
         0.0,
         &[1.0, 0.0],
         &[0.0; 2],
@@ -498,7 +511,7 @@ fn a_quaternion_body_obeys_eulers_equations() {
     let mech = Quaternion::default();
     let (q, v) = consistent(&mech, 0.0, &[0.5, 0.6, -0.3, 0.5], &[1.0, -2.0, 0.5, 0.2]);
     let mut solver = solver::<Quaternion>(Formula::Auto);
-    let solution = solver.solve(&mech, 0.0, &q, &v).unwrap();
+    let solution = solver.solve(&mech.prepared(), 0.0, &q, &v).unwrap();
     assert_eq!(solution.formula, Formula::UdwadiaPhohomsiri);
     assert_eq!(solver.work().fallbacks, 1);
     // ω = 2 G(e) ė, ω̇ = 2 G(e) ë (G(ė) ė = 0); J ω̇ = J ω × ω.
@@ -522,7 +535,7 @@ fn what_is_not_finite_is_named() {
     let what = |mech: &Skate, t: f64, q: [f64; 3], v: [f64; 3]| match Solver::new::<Skate>(
         SolverOptions::default(),
     )
-    .solve(mech, t, &q, &v)
+    .solve(&mech.prepared(), t, &q, &v)
     {
         Err(Error::NonFinite { what }) => what,
         other => panic!("{other:?}"),
@@ -549,7 +562,7 @@ fn what_is_not_finite_is_named() {
         params: vec![1e-300, 1.0, 1.7e308],
     };
     let result = Solver::new::<Pendulum>(SolverOptions::default()).solve(
-        &light,
+        &light.prepared(),
         0.0,
         &[0.0, 1.0],
         &[0.0; 2],
@@ -564,7 +577,7 @@ fn what_is_not_finite_is_named() {
         params: vec![1e300, 1.0, 1e300],
     };
     let result = Solver::new::<Pendulum>(SolverOptions::default()).solve(
-        &heavy,
+        &heavy.prepared(),
         0.0,
         &[1.0, 0.0],
         &[0.0; 2],
@@ -585,7 +598,9 @@ fn mass_ratios_do_not_cost_constraints() {
         };
         for formula in [Formula::Auto, Formula::UdwadiaPhohomsiri] {
             let (q, v) = consistent(&mech, 0.0, &[0.6, -0.8, 1.4, -1.4], &[1.0, 0.0, 0.5, 0.5]);
-            let solution = solver::<Twice>(formula).solve(&mech, 0.0, &q, &v).unwrap();
+            let solution = solver::<Twice>(formula)
+                .solve(&mech.prepared(), 0.0, &q, &v)
+                .unwrap();
             assert_eq!(
                 (solution.rank, &solution.redundant[..]),
                 (2, &[2][..]),
@@ -617,7 +632,9 @@ fn baumgarte_feeds_the_residuals_back() {
     let (q, v) = ([0.61, -0.83], [0.4, 0.5]);
     let mut out = [0.0; 2];
     for _ in 0..2 {
-        solver.acceleration(&mech, 0.0, &q, &v, &mut out).unwrap();
+        solver
+            .acceleration(&mech.prepared(), 0.0, &q, &v, &mut out)
+            .unwrap();
         let second = 2.0 * (q[0] * out[0] + q[1] * out[1] + v[0] * v[0] + v[1] * v[1]);
         let first = 2.0 * (q[0] * v[0] + q[1] * v[1]);
         let phi = q[0] * q[0] + q[1] * q[1] - 1.0;
@@ -629,7 +646,7 @@ fn baumgarte_feeds_the_residuals_back() {
 fn wrong_uses_are_refused() {
     let mech = Pendulum::default();
     let mut solver = solver::<Pendulum>(Formula::UdwadiaKalaba);
-    let wrong = solver.solve(&mech, 0.0, &[0.0; 3], &[0.0; 2]);
+    let wrong = solver.solve(&mech.prepared(), 0.0, &[0.0; 3], &[0.0; 2]);
     assert_eq!(
         wrong,
         Err(Error::WrongLength {
@@ -638,7 +655,7 @@ fn wrong_uses_are_refused() {
             expected: 2
         })
     );
-    let other = solver.solve(&Springs::default(), 0.0, &[0.0; 2], &[0.0; 2]);
+    let other = solver.solve(&Springs::default().prepared(), 0.0, &[0.0; 2], &[0.0; 2]);
     assert!(matches!(
         other,
         Err(Error::InvalidSetting {
@@ -650,7 +667,7 @@ fn wrong_uses_are_refused() {
         formula: Formula::UdwadiaKalaba,
         ..SolverOptions::default()
     });
-    let singular = solver.solve(&Springs::default(), 0.0, &[0.0; 2], &[0.0; 2]);
+    let singular = solver.solve(&Springs::default().prepared(), 0.0, &[0.0; 2], &[0.0; 2]);
     assert!(matches!(
         singular,
         Err(Error::InvalidSetting {

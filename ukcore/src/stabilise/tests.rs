@@ -12,8 +12,8 @@ fn numbers(mut state: u64) -> impl FnMut() -> f64 {
 
 fn residuals<M: Mechanism>(mech: &M, t: f64, q: &[f64], v: &[f64]) -> (f64, f64) {
     let (mut phi, mut rate) = (vec![0.0; M::SPEC.holonomic], vec![0.0; M::SPEC.m()]);
-    mech.residual(t, q, &mut phi);
-    mech.residual_rate(t, q, v, &mut rate);
+    mech.prepared().residual(t, q, &mut phi);
+    mech.prepared().residual_rate(t, q, v, &mut rate);
     let largest = |x: &[f64]| x.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
     (largest(&phi), largest(&rate))
 }
@@ -26,8 +26,8 @@ fn project<M: Mechanism>(mech: &M, t: f64, q: &[f64], v: &[f64], off: f64, withi
     for _ in 0..30 {
         let mut q: Vec<f64> = q.iter().map(|q| q + off * next()).collect();
         let mut v: Vec<f64> = v.iter().map(|v| v + off * next()).collect();
-        let position = projector.position(mech, t, &mut q, &v).unwrap();
-        let velocity = projector.velocity(mech, t, &q, &mut v).unwrap();
+        let position = projector.position(&mech.prepared(), t, &mut q, &v).unwrap();
+        let velocity = projector.velocity(&mech.prepared(), t, &q, &mut v).unwrap();
         let (phi, rate) = residuals(mech, t, &q, &v);
         assert_eq!((phi, rate), (position.residual, velocity.residual));
         assert!(
@@ -36,10 +36,13 @@ fn project<M: Mechanism>(mech: &M, t: f64, q: &[f64], v: &[f64], off: f64, withi
             M::SPEC.name
         );
         most = most.max(position.iterations).max(velocity.iterations);
-        let again = projector.position(mech, t, &mut q, &v).unwrap();
+        let again = projector.position(&mech.prepared(), t, &mut q, &v).unwrap();
         assert_eq!((again.iterations, again.norm), (0, 0.0));
         assert_eq!(
-            projector.velocity(mech, t, &q, &mut v).unwrap().iterations,
+            projector
+                .velocity(&mech.prepared(), t, &q, &mut v)
+                .unwrap()
+                .iterations,
             0
         );
     }
@@ -125,10 +128,12 @@ fn the_change_is_minimal_in_the_mass_metric() {
     let mut projector = Projector::new::<Twice>();
     let q0 = [0.6, -0.8001, 1.2, -1.6];
     let mut q = q0;
-    let correction = projector.position(&mech, 0.0, &mut q, &[0.0; 4]).unwrap();
+    let correction = projector
+        .position(&mech.prepared(), 0.0, &mut q, &[0.0; 4])
+        .unwrap();
     // Δ = M⁻¹Aᵀμ: stationary.
     let (mut jacobian, m) = ([0.0; 12], [1e-3, 1e-3, 1.0, 1.0]);
-    mech.jacobian(0.0, &q, &[0.0; 4], &mut jacobian);
+    mech.prepared().jacobian(0.0, &q, &[0.0; 4], &mut jacobian);
     let pull: Vec<f64> = (0..4).map(|j| m[j] * (q[j] - q0[j])).collect();
     let (a, _) = crate::pinv::pseudo_inverse(
         &nalgebra::DMatrix::from_column_slice(3, 4, &jacobian),
@@ -155,7 +160,7 @@ fn scaled_constraints_and_masses_project_alike() {
             };
             let mut q = [0.61, -0.83, 1.2, -1.55];
             Projector::new::<Twice>()
-                .position(&mech, 0.0, &mut q, &[0.0; 4])
+                .position(&mech.prepared(), 0.0, &mut q, &[0.0; 4])
                 .unwrap();
             let (a, b) = (
                 q[0].hypot(q[1]) - 1.0,
@@ -178,9 +183,17 @@ fn what_cannot_be_met_is_named_and_the_state_left_alone() {
         ),
         other => panic!("{other:?}"),
     };
-    let position = names(projector.position(&mech, 0.0, &mut q, &v).unwrap_err());
+    let position = names(
+        projector
+            .position(&mech.prepared(), 0.0, &mut q, &v)
+            .unwrap_err(),
+    );
     assert_eq!(position, ("position", vec!["sine".into(), "cosine".into()]));
-    let velocity = names(projector.velocity(&mech, 0.0, &q, &mut v).unwrap_err());
+    let velocity = names(
+        projector
+            .velocity(&mech.prepared(), 0.0, &q, &mut v)
+            .unwrap_err(),
+    );
     assert_eq!(velocity, ("velocity", vec!["sine".into(), "cosine".into()]));
     assert_eq!((q, v), ([0.1, 0.2], [0.3, 0.0]));
     // A third crank that is too long for the parallelogram fits only near it, or not at all.
@@ -189,11 +202,11 @@ fn what_cannot_be_met_is_named_and_the_state_left_alone() {
     };
     let mut q = [0.6, 0.8, 2.6, 0.8];
     let error = Projector::new::<Parallelogram>()
-        .position(&mech, 0.0, &mut q, &[0.0; 4])
+        .position(&mech.prepared(), 0.0, &mut q, &[0.0; 4])
         .unwrap_err();
     assert_eq!(names(error).0, "position");
     let bad = Projector::new::<Pendulum>().position(
-        &Pendulum::default(),
+        &Pendulum::default().prepared(),
         0.0,
         &mut [f64::NAN, 0.0],
         &[0.0; 2],
@@ -214,7 +227,7 @@ fn through_a_singular_configuration() {
         let (s, c) = angle.sin_cos();
         let mut q = [c + 1e-7, s - 1e-7, 2.0 + c, s + 1e-7];
         let correction = Projector::new::<Parallelogram>()
-            .position(&mech, 0.0, &mut q, &[0.0; 4])
+            .position(&mech.prepared(), 0.0, &mut q, &[0.0; 4])
             .unwrap();
         assert!(correction.residual < 1e-12, "{angle}: {correction:?}");
     }

@@ -4,6 +4,7 @@ use crate::expr::{Derivative, Graph, Id, Kind, Symbol, System};
 use std::collections::BTreeMap;
 
 /// The equations of motion as nodes. Notation as in Zhao, Zhen & Chen 2013.
+#[derive(Clone)]
 pub(crate) struct Dynamics {
     /// Lower triangle of M (row ≥ column), structural non-zeros.
     pub(crate) mass: BTreeMap<(usize, usize), Id>,
@@ -23,6 +24,21 @@ pub(crate) struct Dynamics {
     pub(crate) kinetic: Id,
     /// V, 0 where none is declared.
     pub(crate) potential: Id,
+}
+
+impl Dynamics {
+    /// All values, in a fixed order.
+    pub(crate) fn values_mut(&mut self) -> impl Iterator<Item = &mut Id> {
+        let matrices = self.mass.values_mut().chain(self.jacobian.values_mut());
+        let vectors = self.force.iter_mut().chain(&mut self.nonideal);
+        let constraints = self
+            .rhs
+            .iter_mut()
+            .chain(&mut self.phi)
+            .chain(&mut self.rate);
+        let energies = [&mut self.kinetic, &mut self.potential];
+        matrices.chain(vectors).chain(constraints).chain(energies)
+    }
 }
 
 /// Derives the equations of motion of a system with `n` coordinates.

@@ -21,6 +21,7 @@ pub(crate) struct Pivot {
 }
 
 /// The straight-line solve.
+#[derive(Clone)]
 pub(crate) struct Elimination {
     /// q̈.
     pub(crate) acceleration: Vec<Id>,
@@ -116,6 +117,7 @@ fn share(d: &Dynamics, row: usize, g: &Graph) -> f64 {
 }
 
 /// An elimination with its certificate.
+#[derive(Clone)]
 pub(crate) struct Straight {
     pub(crate) elimination: Elimination,
     /// 1 where every pivot is safe, 0 where one is not.
@@ -123,6 +125,17 @@ pub(crate) struct Straight {
 }
 
 impl Straight {
+    /// All values, in a fixed order.
+    pub(crate) fn values_mut(&mut self) -> impl Iterator<Item = &mut Id> {
+        let Elimination {
+            acceleration,
+            correction,
+            ..
+        } = &mut self.elimination;
+        let solutions = acceleration.iter_mut().chain(correction);
+        solutions.chain([&mut self.certificate])
+    }
+
     /// Adds the certificate, and enters the names.
     pub(crate) fn new(mut elimination: Elimination, system: &mut System) -> Self {
         let g = &mut system.graph;

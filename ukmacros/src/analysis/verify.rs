@@ -67,6 +67,7 @@ impl Motion<'_> {
             v: &self.v,
             t: self.t,
             residual: &[],
+            prepared: &[],
         };
         let places = dynamics.jacobian.keys();
         let entries: Vec<Id> = dynamics.jacobian.values().copied().collect();
@@ -115,7 +116,7 @@ impl Motion<'_> {
             Node::Symbol(Symbol::Coord(i)) => Jet(self.q[*i], self.v[*i], self.a[*i]),
             Node::Symbol(Symbol::Velocity(i)) => Jet(self.v[*i], self.a[*i], 0.0),
             Node::Symbol(Symbol::Time) => Jet(self.t, 1.0, 0.0),
-            Node::Symbol(Symbol::Residual(_)) => Jet(0.0, 0.0, 0.0),
+            Node::Symbol(Symbol::Residual(_) | Symbol::Prepared(_)) => Jet(0.0, 0.0, 0.0),
             Node::Sum(c, terms) => terms.iter().fold(Jet(c.get(), 0.0, 0.0), |sum, (k, t)| {
                 sum.plus(at(t).times(Jet(k.get(), 0.0, 0.0)))
             }),

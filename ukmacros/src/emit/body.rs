@@ -21,15 +21,21 @@ pub(super) struct Body {
 }
 
 /// Writes straight-line code for `roots`, with the coordinates, velocities and parameters that it reads.
-pub(super) fn body(system: &System, model: &Model, roots: &[Root], sequence: Sequence) -> Body {
+pub(super) fn body(
+    system: &System,
+    model: &Model,
+    prepared: &[Id],
+    roots: &[Root],
+    sequence: Sequence,
+) -> Body {
     let g = &system.graph;
     let ids: Vec<Id> = roots.iter().map(|r| r.id).collect();
     let program = schedule(g, &ids, &system.hints, sequence);
     let mut writer = Writer {
         graph: g,
-        namer: Namer::new(g, model, system.constraints.len(), &system.hints),
+        namer: Namer::new(g, model, system.constraints.len(), &system.hints, prepared),
     };
-    let inputs = writer.inputs(model, system.constraints.len(), &program);
+    let inputs = writer.inputs(model, system.constraints.len(), prepared.len(), &program);
     let mut statements = TokenStream::new();
     // Helpers are named for the value whose computation needs them first: the next one stored.
     let mut next = 0;
@@ -88,7 +94,13 @@ struct Writer<'a> {
 
 impl Writer<'_> {
     /// `lit`, and the inputs that the program reads.
-    fn inputs(&self, model: &Model, constraints: usize, program: &Program) -> TokenStream {
+    fn inputs(
+        &self,
+        model: &Model,
+        constraints: usize,
+        prepared: usize,
+        program: &Program,
+    ) -> TokenStream {
         let used = |symbol: Symbol| {
             let node = program.needed.iter();
             let mut nodes = node.map(|id| self.graph.node(*id));
@@ -96,8 +108,11 @@ impl Writer<'_> {
         };
         let mut out = TokenStream::new();
         let n = model.coord_elements.len();
+        let params = model.param_elements.len();
         for (text, n, symbol) in [
-            ("q", n, Symbol::Coord as fn(usize) -> Symbol),
+            ("given", params, Symbol::Param as fn(usize) -> Symbol),
+            ("prepared", prepared, Symbol::Prepared),
+            ("q", n, Symbol::Coord),
             ("v", n, Symbol::Velocity),
             ("residual", constraints, Symbol::Residual),
         ] {
@@ -116,27 +131,10 @@ impl Writer<'_> {
                 });
             }
         }
-        let mut literals = program.needed.iter().any(|id| self.has_literal(*id));
-        let mut params = TokenStream::new();
-        for (i, element) in model.param_elements.iter().enumerate() {
-            if used(Symbol::Param(i)) {
-                literals = true;
-                let local = self.namer.symbol(Symbol::Param(i));
-                let field = &model.params[element.family].name;
-                let access = match element.index {
-                    None => quote! { self.#field },
-                    Some(k) => {
-                        let k = Literal::usize_unsuffixed(k);
-                        quote! { self.#field[#k] }
-                    }
-                };
-                params.extend(quote! { let #local = lit(#access); });
-            }
-        }
-        if literals {
+        if program.needed.iter().any(|id| self.has_literal(*id)) {
             out.extend(quote! { let lit = S::from_f64; });
         }
-        quote! { #out #params }
+        out
     }
 
     /// Whether the code of node `id` writes a number with `lit`.

@@ -1,7 +1,8 @@
 //! The derived equations as text, for rustdoc and `SPEC`.
 
+use super::names::Namer;
 use crate::analysis::Dynamics;
-use crate::expr::{Id, Printer, System};
+use crate::expr::{Id, Printer, Symbol, System};
 use crate::model::Model;
 use std::collections::HashMap;
 use std::fmt::Write as _;
@@ -20,10 +21,17 @@ pub(super) struct Listing {
     pub(super) jacobian: Vec<(usize, usize, String)>,
     pub(super) rhs: Vec<(usize, String)>,
     pub(super) phi: Vec<String>,
+    /// Name and expression of the prepared values.
+    pub(super) prepared: Vec<(String, String)>,
 }
 
 /// Prints the equations of `system`.
-pub(super) fn listing(system: &System, dynamics: &Dynamics, model: &Model) -> Listing {
+pub(super) fn listing(
+    system: &System,
+    dynamics: &Dynamics,
+    prepared: &[Id],
+    model: &Model,
+) -> Listing {
     let coords: Vec<String> = model
         .coord_elements
         .iter()
@@ -63,7 +71,10 @@ pub(super) fn listing(system: &System, dynamics: &Dynamics, model: &Model) -> Li
             .map(|((i, j), id)| (*i, *j, printer.text(*id)))
             .collect()
     };
+    let names = prepared_names(system, model, prepared);
+    let texts = prepared.iter().map(|id| printer.text(*id));
     Listing {
+        prepared: names.into_iter().zip(texts).collect(),
         mass: matrix(&dynamics.mass),
         force: vector(&dynamics.force),
         nonideal: vector(&dynamics.nonideal),
@@ -173,4 +184,12 @@ impl Listing {
         block("Non-ideal force c, eq. 8:", nonideal.collect());
         out
     }
+}
+
+/// Names of the prepared values, as in the emitted code.
+fn prepared_names(system: &System, model: &Model, prepared: &[Id]) -> Vec<String> {
+    let constraints = system.constraints.len();
+    let namer = Namer::new(&system.graph, model, constraints, &system.hints, prepared);
+    let symbols = (0..prepared.len()).map(Symbol::Prepared);
+    symbols.map(|s| namer.symbol(s).to_string()).collect()
 }

@@ -26,6 +26,7 @@ pub(crate) fn fallback(decl: &Declaration, model: &Model, system: &System) -> To
                 name: #text,
                 doc: "",
                 params: &[],
+                prepared: &[],
                 coords: &[],
                 constraints: &[],
                 holonomic: 0,
@@ -57,15 +58,16 @@ pub(crate) fn fallback(decl: &Declaration, model: &Model, system: &System) -> To
                 },
             };
             #parameters
-            fn dynamics<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], out: &mut ::ukcore::Terms<'_, S>) {}
-            fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) {}
-            fn jacobian<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {}
-            fn residual<S: ::ukcore::Scalar>(&self, t: S, q: &[S], phi: &mut [S]) {}
-            fn residual_rate<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], rate: &mut [S]) {}
-            fn energy<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S]) -> ::ukcore::Energy<S> {
+            fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {}
+            fn dynamics<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], out: &mut ::ukcore::Terms<'_, S>) {}
+            fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {}
+            fn jacobian<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], jacobian: &mut [S]) {}
+            fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {}
+            fn residual_rate<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], rate: &mut [S]) {}
+            fn energy<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], v: &[S]) -> ::ukcore::Energy<S> {
                 ::ukcore::Energy { kinetic: t, potential: t }
             }
-            fn outputs<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) {}
+            fn outputs<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], outputs: &mut [S]) {}
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::body::{Body, Root, body, float};
 use super::docs::{Listing, listing};
 use super::names::{constant, plain};
-use crate::analysis::{Dynamics, Operations, Pivoting, Sequence, Straight, Structure};
+use crate::analysis::{Dynamics, Hoisted, Operations, Pivoting, Sequence, Structure};
 use crate::expr::{ConstraintRef, Id, Kind, System};
 use crate::model::Model;
 use crate::parse::Declaration;
@@ -17,9 +17,9 @@ pub(crate) fn emit(
     system: &System,
     dynamics: &Dynamics,
     structure: &Structure,
-    straight: &Result<Straight, String>,
+    hoisted: &Hoisted,
 ) -> TokenStream {
-    let listing = listing(system, dynamics, model);
+    let listing = listing(system, dynamics, &hoisted.values, model);
     let heading = "# Equations of motion\n\nDerived from the declaration at compile time, in the notation of Zhao, Zhen & Chen 2013: \
                    M q̈ = Q is the unconstrained motion, A q̈ = b what the constraints demand.";
     let equations = format!("{heading}\n\n{}", listing.markdown(system, model));
@@ -28,8 +28,8 @@ pub(crate) fn emit(
     let functions = Functions {
         system,
         model,
-        dynamics,
-        straight,
+        dynamics: &hoisted.dynamics,
+        hoisted,
     };
     let implementation = functions.implementation(decl, structure, &listing);
     quote! {
@@ -223,7 +223,7 @@ struct Functions<'a> {
     system: &'a System,
     model: &'a Model,
     dynamics: &'a Dynamics,
-    straight: &'a Result<Straight, String>,
+    hoisted: &'a Hoisted,
 }
 
 impl Functions<'_> {
@@ -236,7 +236,13 @@ impl Functions<'_> {
     }
 
     fn body(&self, roots: &[Root]) -> Body {
-        body(self.system, self.model, roots, Sequence::Roots)
+        body(
+            self.system,
+            self.model,
+            &self.hoisted.values,
+            roots,
+            Sequence::Roots,
+        )
     }
 
     fn implementation(
@@ -267,12 +273,13 @@ impl Functions<'_> {
             vector("phi", "phi", &self.dynamics.phi),
         );
         let rate = self.function("rate", m, vector("rate", "rate", &self.dynamics.rate));
-        let outputs: Vec<Id> = self.system.outputs.iter().map(|o| o.value).collect();
+        let outputs = &self.hoisted.outputs;
         let outputs = self.function(
             "outputs",
             outputs.len(),
-            vector("outputs", "output", &outputs),
+            vector("outputs", "output", outputs),
         );
+        let prepare = self.prepare();
         let energy = self.body(&[
             Root {
                 id: self.dynamics.kinetic,
@@ -293,8 +300,9 @@ impl Functions<'_> {
             impl ::ukcore::Mechanism for #name {
                 #spec
                 #parameters
+                fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) { #prepare }
                 #counts
-                fn dynamics<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], out: &mut ::ukcore::Terms<'_, S>) {
+                fn dynamics<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], out: &mut ::ukcore::Terms<'_, S>) {
                     let mass = ::ukcore::emitted::exact_mut::<S, #nn>(out.mass, "mass");
                     let force = ::ukcore::emitted::exact_mut::<S, #n>(out.force, "force");
                     let nonideal = ::ukcore::emitted::exact_mut::<S, #n>(out.nonideal, "nonideal");
@@ -302,15 +310,15 @@ impl Functions<'_> {
                     let rhs = ::ukcore::emitted::exact_mut::<S, #m>(out.rhs, "rhs");
                     #tokens
                 }
-                fn mass_matrix<S: ::ukcore::Scalar>(&self, t: S, q: &[S], mass: &mut [S]) { #mass }
-                fn jacobian<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) { #jacobian }
-                fn residual<S: ::ukcore::Scalar>(&self, t: S, q: &[S], phi: &mut [S]) { #phi }
-                fn residual_rate<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], rate: &mut [S]) { #rate }
-                fn energy<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S]) -> ::ukcore::Energy<S> {
+                fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) { #mass }
+                fn jacobian<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], jacobian: &mut [S]) { #jacobian }
+                fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) { #phi }
+                fn residual_rate<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], rate: &mut [S]) { #rate }
+                fn energy<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], v: &[S]) -> ::ukcore::Energy<S> {
                     #energy
                     ::ukcore::Energy { kinetic, potential }
                 }
-                fn outputs<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) { #outputs }
+                fn outputs<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], outputs: &mut [S]) { #outputs }
                 #solve
             }
         }
@@ -318,7 +326,7 @@ impl Functions<'_> {
 
     /// The straight-line solves, where there are any.
     fn solve(&self) -> (TokenStream, Operations) {
-        let Ok(straight) = self.straight else {
+        let Ok(straight) = &self.hoisted.straight else {
             return (TokenStream::new(), Operations::default());
         };
         let n = Literal::usize_unsuffixed(self.n());
@@ -329,7 +337,13 @@ impl Functions<'_> {
                 place: quote! { let safe },
                 purpose: "safe".to_owned(),
             });
-            body(self.system, self.model, &roots, Sequence::Latency)
+            body(
+                self.system,
+                self.model,
+                &self.hoisted.values,
+                &roots,
+                Sequence::Latency,
+            )
         };
         let acceleration = function(&straight.elimination.acceleration, "acceleration");
         let operations = acceleration.operations;
@@ -338,12 +352,12 @@ impl Functions<'_> {
         let correction = function(&straight.elimination.correction, "correction").tokens;
         let tokens = quote! {
             #counts
-            fn acceleration<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], out: &mut [S]) -> S {
+            fn acceleration<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], out: &mut [S]) -> S {
                 let out = ::ukcore::emitted::exact_mut::<S, #n>(out, "out");
                 #acceleration
                 safe
             }
-            fn correction<S: ::ukcore::Scalar>(&self, t: S, q: &[S], v: &[S], residual: &[S], out: &mut [S]) -> S {
+            fn correction<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], residual: &[S], out: &mut [S]) -> S {
                 let out = ::ukcore::emitted::exact_mut::<S, #n>(out, "out");
                 #correction
                 safe
@@ -352,13 +366,29 @@ impl Functions<'_> {
         (tokens, operations)
     }
 
+    /// The prepared values, from the parameters.
+    fn prepare(&self) -> TokenStream {
+        let values = &self.hoisted.values;
+        if values.is_empty() {
+            return TokenStream::new();
+        }
+        let len = Literal::usize_unsuffixed(values.len());
+        let roots = vector("prepared", "prepared", values);
+        let body = body(self.system, self.model, &[], &roots, Sequence::Roots);
+        let tokens = body.tokens;
+        quote! {
+            let prepared = ::ukcore::emitted::exact_mut::<S, #len>(prepared, "prepared");
+            #tokens
+        }
+    }
+
     /// How q̈ is solved for, in a sentence.
     fn plan(&self) -> String {
         let name = |k: usize| match k.checked_sub(self.n()) {
             None => self.model.coord_elements[k].name.clone(),
             Some(row) => self.system.constraints[row].item.text(),
         };
-        match self.straight {
+        match &self.hoisted.straight {
             Err(reason) => format!("by the rank-revealing solve, since {reason}"),
             Ok(straight) => {
                 let steps = straight.elimination.order.iter().map(|step| match *step {
@@ -468,6 +498,7 @@ impl Functions<'_> {
             let (name, docs) = (o.item.text(), o.docs.join(" "));
             quote! { ::ukcore::OutputSpec { name: #name, doc: #docs } }
         });
+        let prepared = listing.prepared.iter().map(|(n, t)| quote! { (#n, #t) });
         let structure = self.structure(structure, operations);
         let equations = equations(listing);
         quote! {
@@ -475,6 +506,7 @@ impl Functions<'_> {
                 name: #name,
                 doc: #docs,
                 params: &[#(#params),*],
+                prepared: &[#(#prepared),*],
                 coords: &[#(#coords),*],
                 constraints: &[#(#constraints),*],
                 holonomic: #holonomic,
@@ -513,7 +545,7 @@ impl Functions<'_> {
             ..
         } = s;
         let [operations, solve_operations] = operations.map(operations_literal);
-        let straight_line = self.straight.is_ok();
+        let straight_line = self.hoisted.straight.is_ok();
         let solve = self.plan();
         quote! {
             ::ukcore::Structure {

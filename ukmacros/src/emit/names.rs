@@ -7,7 +7,9 @@ use quote::format_ident;
 use std::collections::{HashMap, HashSet};
 
 /// Names that emitted functions use themselves, or that Rust reserves.
-const TAKEN: [&str; 64] = [
+const TAKEN: [&str; 66] = [
+    "given",
+    "prepared",
     "t",
     "q",
     "v",
@@ -116,6 +118,7 @@ impl<'a> Namer<'a> {
         model: &Model,
         constraints: usize,
         hints: &'a HashMap<Id, String>,
+        prepared: &[Id],
     ) -> Self {
         let mut namer = Namer {
             graph,
@@ -141,6 +144,18 @@ impl<'a> Namer<'a> {
         }
         for (i, parameter) in model.param_elements.iter().enumerate() {
             enter(Symbol::Param(i), &parameter.name);
+        }
+        for (i, value) in prepared.iter().enumerate() {
+            let name = match (graph.node(*value), hints.get(value)) {
+                // The prepared values that are parameters take their names.
+                (Node::Symbol(s), _) => namer.symbols[s].clone(),
+                (_, Some(hint)) => namer.fresh(&snake(hint)),
+                _ => {
+                    let wish = namer.describe(*value).filter(|name| name.len() <= LONGEST);
+                    namer.fresh(&wish.unwrap_or_else(|| "prepared_part".to_owned()))
+                }
+            };
+            namer.symbols.insert(Symbol::Prepared(i), name);
         }
         namer
     }
@@ -220,6 +235,46 @@ impl<'a> Namer<'a> {
             _ => return None,
         };
         (name.len() <= LONGEST).then_some(name)
+    }
+
+    /// A name made of the names of all symbols below.
+    fn describe(&self, id: Id) -> Option<String> {
+        let name = match self.graph.node(id) {
+            Node::Symbol(s) => self.symbols[s].clone(),
+            Node::Held(inner) => self.describe(*inner)?,
+            Node::Scale(c, inner) => {
+                let times = match c.get() {
+                    0.5 => "half",
+                    2.0 => "twice",
+                    -1.0 => "minus",
+                    _ => "times",
+                };
+                format!("{times}_{}", self.describe(*inner)?)
+            }
+            Node::Product(factors) => {
+                let part = |(base, exponent): &(Id, i32)| {
+                    let base = self.describe(*base)?;
+                    match exponent {
+                        1 => Some(base),
+                        2 => Some(format!("sq_{base}")),
+                        -1 => Some(format!("per_{base}")),
+                        _ => None,
+                    }
+                };
+                let parts: Option<Vec<String>> = factors.iter().map(part).collect();
+                parts?.join("_")
+            }
+            Node::Sum(c, terms) if c.get() == 0.0 && terms.len() <= 3 => {
+                let parts: Option<Vec<String>> =
+                    terms.iter().map(|(_, term)| self.describe(*term)).collect();
+                parts?.join("_and_")
+            }
+            Node::Call(func, args) if args.len() == 1 => {
+                format!("{}_{}", func.name(), self.describe(args[0])?)
+            }
+            _ => return None,
+        };
+        (name.len() <= 2 * LONGEST).then_some(name)
     }
 
     fn atom(&self, id: Id) -> Option<String> {

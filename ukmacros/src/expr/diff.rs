@@ -53,7 +53,7 @@ impl Derivative {
         match self.seed {
             Seed::Partial(s @ (Symbol::Coord(_) | Symbol::Velocity(_))) => !g.depends(id, s),
             Seed::Partial(Symbol::Time) => !uses.time,
-            Seed::Partial(Symbol::Param(_)) => !uses.param,
+            Seed::Partial(Symbol::Param(_) | Symbol::Prepared(_)) => !uses.param,
             Seed::Partial(Symbol::Residual(_)) => !uses.residual,
             Seed::Total => !(uses.coord || uses.time),
         }

@@ -99,6 +99,7 @@ impl Printer<'_> {
             Symbol::Velocity(i) => format!("dot({})", self.coords[i]),
             Symbol::Time => "t".to_owned(),
             Symbol::Residual(i) => format!("residual[{i}]"),
+            Symbol::Prepared(i) => format!("prepared[{i}]"),
         }
     }
 

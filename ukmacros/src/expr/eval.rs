@@ -9,6 +9,7 @@ pub(crate) struct Point<'a> {
     pub(crate) v: &'a [f64],
     pub(crate) t: f64,
     pub(crate) residual: &'a [f64],
+    pub(crate) prepared: &'a [f64],
 }
 
 /// Values of all nodes up to the highest of `roots`, in one sweep; returns those of `roots`.
@@ -41,6 +42,7 @@ fn value(node: &Node, values: &[f64], point: &Point<'_>) -> f64 {
         Node::Symbol(Symbol::Velocity(i)) => pick(point.v, *i),
         Node::Symbol(Symbol::Time) => point.t,
         Node::Symbol(Symbol::Residual(i)) => pick(point.residual, *i),
+        Node::Symbol(Symbol::Prepared(i)) => pick(point.prepared, *i),
         Node::Sum(c, terms) => c.get() + terms.iter().map(|(k, t)| k.get() * at(t)).sum::<f64>(),
         Node::Scale(c, inner) => c.get() * at(inner),
         Node::Held(inner) => at(inner),

@@ -47,6 +47,8 @@ pub(crate) enum Symbol {
     Time,
     /// Residual of a constraint, by its position.
     Residual(usize),
+    /// A value that depends on parameters only, by its position among the prepared ones.
+    Prepared(usize),
 }
 
 /// A function of one or two arguments.
@@ -235,7 +237,7 @@ impl Graph {
         let mut support = Vec::new();
         if let Node::Symbol(s) = node {
             match s {
-                Symbol::Param(_) => uses.param = true,
+                Symbol::Param(_) | Symbol::Prepared(_) => uses.param = true,
                 Symbol::Coord(_) => uses.coord = true,
                 Symbol::Velocity(_) => uses.velocity = true,
                 Symbol::Time => uses.time = true,

@@ -13,6 +13,7 @@ fn at(g: &Graph, id: Id, x: f64, y: f64) -> f64 {
         v: &[0.3, -0.7],
         t: 0.4,
         residual: &[],
+        prepared: &[],
     };
     eval(g, &[id], &point)[0]
 }

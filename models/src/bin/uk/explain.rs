@@ -33,7 +33,7 @@ impl Visitor for Explain<'_> {
         let ready = scene::ready::<M>(&self.args.scene)?;
         let state = &ready.state;
         let solution = Solver::new::<M>(SolverOptions::default()).solve(
-            &ready.mechanism,
+            &ready.mechanism.prepared(),
             state.t,
             &state.q,
             &state.v,

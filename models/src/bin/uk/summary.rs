@@ -94,8 +94,10 @@ impl Summary {
         let mechanism = trajectory.mechanism();
         let last = trajectory.last().map(|last| {
             let mut outputs = vec![0.0; spec.outputs.len()];
-            mechanism.outputs(last.t, last.q, last.v, &mut outputs);
-            let energy = mechanism.energy(last.t, last.q, last.v);
+            mechanism
+                .prepared()
+                .outputs(last.t, last.q, last.v, &mut outputs);
+            let energy = mechanism.prepared().energy(last.t, last.q, last.v);
             Last {
                 t: last.t,
                 q: named(spec.coords.iter().copied(), last.q.iter().copied()),

@@ -244,6 +244,7 @@ impl<'m> Lowering<'m> {
                     v: &[],
                     t: 0.0,
                     residual: &[],
+                    prepared: &[],
                 };
                 value = eval(&self.graph, &[id], &point)[0];
                 if !value.is_finite() && self.diag.is_empty() {

@@ -114,7 +114,7 @@ impl<M: Model> Motion<M> {
         let state = self.state(t)?;
         let mut out = vec![0.0; state.q.len()];
         self.solver
-            .acceleration(&self.mechanism, t, &state.q, &state.v, &mut out)?;
+            .acceleration(&self.mechanism.prepared(), t, &state.q, &state.v, &mut out)?;
         Ok(out)
     }
 

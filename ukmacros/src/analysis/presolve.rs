@@ -1,0 +1,247 @@
+//! Hoisting: what depends on parameters only is computed once for a set of them, not at each evaluation.
+//!
+//! Subexpressions of parameters become [`Symbol::Prepared`]. Products are split for that, and sums: of ½ ρ c S v |v| the part
+//! ½ ρ c S is one prepared number, and a division by a parameter becomes a multiplication. Signs stay outside, so that a and −a are one
+//! prepared number.
+
+use super::dynamics::Dynamics;
+use super::elimination::Straight;
+use crate::expr::{Graph, Id, Node, Point, Symbol, System, eval};
+use std::collections::{HashMap, HashSet};
+
+/// The equations as they are emitted.
+pub(crate) struct Hoisted {
+    pub(crate) dynamics: Dynamics,
+    pub(crate) outputs: Vec<Id>,
+    /// The solve, or why there is none.
+    pub(crate) straight: Result<Straight, String>,
+    /// Expressions of the prepared values, in parameters.
+    pub(crate) values: Vec<Id>,
+}
+
+/// Hoists what depends on parameters only out of all equations.
+pub(crate) fn hoist(
+    system: &mut System,
+    dynamics: &Dynamics,
+    straight: &Result<Straight, String>,
+) -> Hoisted {
+    let mut dynamics = dynamics.clone();
+    let mut straight = straight.clone();
+    let mut outputs: Vec<Id> = system.outputs.iter().map(|o| o.value).collect();
+    let mut places: Vec<&mut Id> = dynamics.values_mut().chain(&mut outputs).collect();
+    if let Ok(straight) = &mut straight {
+        places.extend(straight.values_mut());
+    }
+    let roots: Vec<Id> = places.iter().map(|id| **id).collect();
+    let mut pass = Pass::new(&mut system.graph, &roots);
+    for (place, root) in places.into_iter().zip(&roots) {
+        *place = pass.value(*root);
+    }
+    let (known, values) = (pass.known, pass.values);
+    // Names go with the values.
+    for (old, new) in known {
+        let (_, inner) = system.graph.unscaled(new);
+        if let Some(name) = system.hints.get(&old).cloned()
+            && !system.graph.operands(inner).is_empty()
+        {
+            system.hints.entry(inner).or_insert(name);
+        }
+    }
+    Hoisted {
+        dynamics,
+        outputs,
+        straight,
+        values,
+    }
+}
+
+struct Pass<'g> {
+    g: &'g mut Graph,
+    /// New node of each old one that varies.
+    known: HashMap<Id, Id>,
+    /// How many nodes read each old one.
+    readers: HashMap<Id, usize>,
+    values: Vec<Id>,
+    places: HashMap<Id, usize>,
+}
+
+impl<'g> Pass<'g> {
+    fn new(g: &'g mut Graph, roots: &[Id]) -> Self {
+        let mut readers: HashMap<Id, usize> = HashMap::new();
+        let mut reached: HashSet<Id> = HashSet::new();
+        let mut stack = roots.to_vec();
+        while let Some(id) = stack.pop() {
+            if reached.insert(id) {
+                for operand in g.operands(id) {
+                    *readers.entry(operand).or_insert(0) += 1;
+                    stack.push(operand);
+                }
+            }
+        }
+        for root in roots {
+            *readers.entry(*root).or_insert(0) += 1;
+        }
+        let mut pass = Pass {
+            g,
+            known: HashMap::new(),
+            readers,
+            values: Vec::new(),
+            places: HashMap::new(),
+        };
+        let mut order: Vec<Id> = reached.into_iter().collect();
+        order.sort_unstable();
+        for id in order {
+            if !pass.g.uses(id).constant() {
+                let new = pass.rewrite(id);
+                pass.known.insert(id, new);
+            }
+        }
+        pass
+    }
+
+    /// The new node of `id`: the prepared value if it depends on parameters only.
+    fn value(&mut self, id: Id) -> Id {
+        if self.g.as_const(id).is_some() {
+            return id;
+        }
+        if !self.g.uses(id).constant() {
+            return self.known[&id];
+        }
+        let (c, inner) = self.g.unscaled(id);
+        let (sign, of) = if c == -1.0 { (c, inner) } else { (1.0, id) };
+        let next = self.values.len();
+        let place = *self.places.entry(of).or_insert(next);
+        if place == next {
+            self.values.push(of);
+        }
+        let symbol = self.g.symbol(Symbol::Prepared(place));
+        self.g.scale(sign, symbol)
+    }
+
+    fn rewrite(&mut self, id: Id) -> Id {
+        match self.g.node(id).clone() {
+            Node::Const(_) | Node::Symbol(_) => id,
+            Node::Sum(c, terms) => {
+                let fixed = |(_, t): &(_, Id)| self.g.uses(*t).constant();
+                let (fixed, varying): (Vec<_>, Vec<_>) = terms.iter().copied().partition(fixed);
+                let mut out = Vec::with_capacity(terms.len());
+                if fixed.is_empty() {
+                    let one = self.g.one();
+                    out.push((c.get(), one));
+                } else {
+                    let mut parts: Vec<(f64, Id)> =
+                        fixed.iter().map(|(k, t)| (k.get(), *t)).collect();
+                    parts.push((c.get(), self.g.one()));
+                    let part = self.g.sum(&parts);
+                    out.push((1.0, self.value(part)));
+                }
+                for (k, term) in varying {
+                    let k = k.get();
+                    out.push((k.signum(), self.scaled(k.abs(), term)));
+                }
+                self.g.sum(&out)
+            }
+            Node::Scale(c, inner) => {
+                let scaled = self.scaled(c.get().abs(), inner);
+                self.g.scale(c.get().signum(), scaled)
+            }
+            Node::Product(factors) => self.product(1.0, &factors),
+            Node::Call(func, args) => match args[..] {
+                [a] => {
+                    let a = self.value(a);
+                    self.g.call1(func, a)
+                }
+                _ => {
+                    let (a, b) = (self.value(args[0]), self.value(args[1]));
+                    self.g.call2(func, a, b)
+                }
+            },
+            Node::Held(inner) => {
+                let inner = self.value(inner);
+                self.g.hold(inner)
+            }
+            Node::Select {
+                a,
+                b,
+                then,
+                otherwise,
+            } => {
+                let [a, b, then, otherwise] = [a, b, then, otherwise].map(|id| self.value(id));
+                self.g.select(a, b, then, otherwise)
+            }
+        }
+    }
+
+    /// k · id, with k > 0 in the prepared part of a product that nothing else reads.
+    fn scaled(&mut self, k: f64, id: Id) -> Id {
+        match self.g.node(id).clone() {
+            Node::Product(factors) if k != 1.0 && self.readers[&id] == 1 => {
+                self.product(k, &factors)
+            }
+            _ => {
+                let value = self.value(id);
+                self.g.scale(k, value)
+            }
+        }
+    }
+
+    fn product(&mut self, k: f64, factors: &[(Id, i32)]) -> Id {
+        let fixed = |(f, _): &(Id, i32)| self.g.uses(*f).constant();
+        let (fixed, varying): (Vec<_>, Vec<_>) = factors.iter().copied().partition(fixed);
+        let mut out = Vec::with_capacity(varying.len() + 1);
+        let mut k = k;
+        if !fixed.is_empty() {
+            let part = self.g.product(&fixed);
+            let part = self.g.scale(k, part);
+            out.push((self.value(part), 1));
+            k = 1.0;
+        }
+        for (factor, exponent) in varying {
+            out.push((self.value(factor), exponent));
+        }
+        let product = self.g.product(&out);
+        self.g.scale(k, product)
+    }
+}
+
+/// Whether both forms of the equations agree at a point, checked in debug builds of the macro: numbers of the first value that does not.
+pub(crate) fn verify_hoisting(
+    system: &System,
+    dynamics: &Dynamics,
+    straight: &Result<Straight, String>,
+    hoisted: &Hoisted,
+) -> Option<usize> {
+    let n = dynamics.force.len();
+    let point = |k: usize| 0.3 + 0.7 * (k as f64 * 0.618_033_988).fract();
+    let draw = |offset: usize, len: usize| (0..len).map(|i| point(i + offset)).collect::<Vec<_>>();
+    let (q, v, residual) = (draw(1, n), draw(7, n), draw(3, dynamics.rhs.len()));
+    let at = |prepared: &[f64], ids: &[Id]| {
+        let point = Point {
+            params: &system.defaults,
+            q: &q,
+            v: &v,
+            t: 0.7,
+            residual: &residual,
+            prepared,
+        };
+        eval(&system.graph, ids, &point)
+    };
+    let prepared = at(&[], &hoisted.values);
+    let roots = |dynamics: &Dynamics, straight: &Result<Straight, String>| -> Vec<Id> {
+        let (mut dynamics, mut straight) = (dynamics.clone(), straight.clone());
+        let mut ids: Vec<Id> = dynamics.values_mut().map(|id| *id).collect();
+        if let Ok(straight) = &mut straight {
+            ids.extend(straight.values_mut().map(|id| *id));
+        }
+        ids
+    };
+    let before = at(&[], &roots(dynamics, straight));
+    let after = at(&prepared, &roots(&hoisted.dynamics, &hoisted.straight));
+    let size = before
+        .iter()
+        .filter(|x| x.is_finite())
+        .fold(1.0, |s: f64, x| s.max(x.abs()));
+    // Rounding grows along an elimination; a wrong factor is off by far more.
+    let differ = |(a, b): (&f64, &f64)| (a - b).abs() > 1e-6 * size && a.is_finite();
+    before.iter().zip(&after).position(differ)
+}
