@@ -137,7 +137,7 @@ impl ::ukcore::Mechanism for DoublePendulum {
             ("g", "g"),
             ("half_per_m1", "0.5/m1"),
             ("half_per_m2", "0.5/m2"),
-            ("prepared_part", "(m1 ≤ 0 ? 0 : (m2 ≤ 0 ? 0 : 1))"),
+            ("safe_x1", "(m1 ≤ 0 ? 0 : (m2 ≤ 0 ? 0 : 1))"),
         ],
         coords: &["x1", "y1", "x2", "y2"],
         constraints: &[
@@ -194,7 +194,7 @@ impl ::ukcore::Mechanism for DoublePendulum {
             },
             solve_operations: ::ukcore::Operations {
                 additions: 24,
-                multiplications: 43,
+                multiplications: 44,
                 divisions: 2,
                 square_roots: 0,
                 transcendentals: 0,
@@ -257,12 +257,9 @@ impl ::ukcore::Mechanism for DoublePendulum {
         prepared[8] = g;
         prepared[9] = lit(0.5) * per_m1;
         prepared[10] = lit(0.5) * per_m2;
-        prepared[11] = S::select_le(
-            m1,
-            lit(0.0),
-            lit(0.0),
-            S::select_le(m2, lit(0.0), lit(0.0), lit(1.0)),
-        );
+        let safe_x2 = S::select_le(m2, lit(0.0), lit(0.0), lit(1.0));
+        let safe_x1 = S::select_le(m1, lit(0.0), lit(0.0), safe_x2);
+        prepared[11] = safe_x1;
     }
     /// 8 additions, 12 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
@@ -402,7 +399,7 @@ impl ::ukcore::Mechanism for DoublePendulum {
         outputs[0] = x1.atan2(-y1);
         outputs[1] = (x2 - x1).atan2(y1 - y2);
     }
-    /// 24 additions, 43 multiplications, 2 divisions, 0 square roots, 0 transcendentals, 2 selections.
+    /// 24 additions, 44 multiplications, 2 divisions, 0 square roots, 0 transcendentals, 2 selections.
     fn acceleration<S: ::ukcore::Scalar>(
         prepared: &[S],
         t: S,
@@ -411,47 +408,50 @@ impl ::ukcore::Mechanism for DoublePendulum {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 4>(out, "out");
-        let [_, _, _, _, m1, _, per_m2, per_m1, g, _, _, prepared_part] = *::ukcore::emitted::exact::<
+        let [_, _, _, _, m1, _, per_m2, per_m1, g, _, _, safe_x1] = *::ukcore::emitted::exact::<
             S,
             12,
         >(prepared, "prepared");
         let [x1, y1, x2, y2] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let [dot_x1, dot_y1, dot_x2, dot_y2] = *::ukcore::emitted::exact::<S, 4>(v, "v");
         let lit = S::from_f64;
-        let x1_minus_x2 = x1 - x2;
-        let y1_minus_y2 = y1 - y2;
-        let dot_x1_minus_dot_x2 = dot_x1 - dot_x2;
-        let dot_y1_minus_dot_y2 = dot_y1 - dot_y2;
         let acceleration_0_part = x1 * x1 + y1 * y1;
         let per_acceleration_0_part = acceleration_0_part.recip();
-        let acceleration_0_part_2 = x1 * x1_minus_x2 + y1 * y1_minus_y2;
         let pivot_inner = per_m1 * acceleration_0_part;
-        let acceleration_0_part_3 = (dot_x1 * dot_x1 + dot_y1 * dot_y1) - y1 * g;
-        let acceleration_0_part_4 = per_m2 * x1_minus_x2 * x1_minus_x2
-            + per_m2 * y1_minus_y2 * y1_minus_y2 + per_m1 * x1_minus_x2 * x1_minus_x2
-            + per_m1 * y1_minus_y2 * y1_minus_y2;
-        let outer_by_inner = acceleration_0_part_2 * per_acceleration_0_part;
-        let pivot_outer = per_m1 * acceleration_0_part_2 * acceleration_0_part_2
-            * per_acceleration_0_part - acceleration_0_part_4;
-        let per_pivot_outer = pivot_outer.recip();
-        let acceleration_0_part_5 = (dot_x1_minus_dot_x2 * dot_x1_minus_dot_x2
-            + dot_y1_minus_dot_y2 * dot_y1_minus_dot_y2)
-            - acceleration_0_part_3 * outer_by_inner;
-        let safe = S::select_le(
-            -pivot_outer,
-            lit(0.0009765625) * acceleration_0_part_4,
+        let safe_inner = S::select_le(pivot_inner, lit(0.0), lit(0.0), safe_x1);
+        let x1_minus_x2 = x1 - x2;
+        let y1_minus_y2 = y1 - y2;
+        let acceleration_0_part_2 = x1 * x1_minus_x2 + y1 * y1_minus_y2;
+        let acceleration_0_part_3 = acceleration_0_part
+            * (per_m2 * x1_minus_x2 * x1_minus_x2 + per_m2 * y1_minus_y2 * y1_minus_y2
+                + per_m1 * x1_minus_x2 * x1_minus_x2
+                + per_m1 * y1_minus_y2 * y1_minus_y2);
+        let acceleration_0_part_4 = per_m1 * acceleration_0_part_2
+            * acceleration_0_part_2 - acceleration_0_part_3;
+        let per_acceleration_0_part_4 = acceleration_0_part_4.recip();
+        let safe_outer = S::select_le(
+            -acceleration_0_part_4,
+            lit(0.0009765625) * acceleration_0_part_3,
             lit(0.0),
-            S::select_le(pivot_inner, lit(0.0), lit(0.0), prepared_part),
+            safe_inner,
         );
-        let lambda_inner = m1 * acceleration_0_part_3 * per_acceleration_0_part
-            + outer_by_inner * acceleration_0_part_5 * per_pivot_outer;
-        out[2] = -(per_m2 * x1_minus_x2 * acceleration_0_part_5 * per_pivot_outer);
-        out[3] = -g - per_m2 * y1_minus_y2 * acceleration_0_part_5 * per_pivot_outer;
-        out[1] = per_m1 * y1_minus_y2 * acceleration_0_part_5 * per_pivot_outer - g
-            - y1 * per_m1 * lambda_inner;
+        let safe = safe_outer;
+        let dot_x1_minus_dot_x2 = dot_x1 - dot_x2;
+        let dot_y1_minus_dot_y2 = dot_y1 - dot_y2;
+        let safe_part = (dot_x1 * dot_x1 + dot_y1 * dot_y1) - y1 * g;
+        let safe_part_2 = acceleration_0_part
+            * (dot_x1_minus_dot_x2 * dot_x1_minus_dot_x2
+                + dot_y1_minus_dot_y2 * dot_y1_minus_dot_y2)
+            - acceleration_0_part_2 * safe_part;
+        out[2] = -(per_m2 * x1_minus_x2 * safe_part_2 * per_acceleration_0_part_4);
+        out[3] = -g - per_m2 * y1_minus_y2 * safe_part_2 * per_acceleration_0_part_4;
+        let safe_part_3 = m1 * safe_part
+            + acceleration_0_part_2 * safe_part_2 * per_acceleration_0_part_4;
+        out[1] = per_m1 * y1_minus_y2 * safe_part_2 * per_acceleration_0_part_4 - g
+            - y1 * per_m1 * per_acceleration_0_part * safe_part_3;
         out[0] = -(per_m1
-            * (x1 * lambda_inner
-                - x1_minus_x2 * acceleration_0_part_5 * per_pivot_outer));
+            * (x1 * per_acceleration_0_part * safe_part_3
+                - x1_minus_x2 * safe_part_2 * per_acceleration_0_part_4));
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
@@ -463,42 +463,49 @@ impl ::ukcore::Mechanism for DoublePendulum {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 4>(out, "out");
-        let [_, _, _, _, m1, _, per_m2, per_m1, _, half_per_m1, half_per_m2,
-        prepared_part] = *::ukcore::emitted::exact::<S, 12>(prepared, "prepared");
+        let [_, _, _, _, m1, _, per_m2, per_m1, _, half_per_m1, half_per_m2, safe_x1] = *::ukcore::emitted::exact::<
+            S,
+            12,
+        >(prepared, "prepared");
         let [x1, y1, x2, y2] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let [residual_0, residual_1] = *::ukcore::emitted::exact::<
             S,
             2,
         >(residual, "residual");
         let lit = S::from_f64;
-        let x1_minus_x2 = x1 - x2;
-        let y1_minus_y2 = y1 - y2;
         let correction_0_part = x1 * x1 + y1 * y1;
         let per_correction_0_part = correction_0_part.recip();
-        let correction_0_part_2 = x1 * x1_minus_x2 + y1 * y1_minus_y2;
         let pivot_inner = per_m1 * correction_0_part;
-        let correction_0_part_3 = per_m2 * x1_minus_x2 * x1_minus_x2
-            + per_m2 * y1_minus_y2 * y1_minus_y2 + per_m1 * x1_minus_x2 * x1_minus_x2
-            + per_m1 * y1_minus_y2 * y1_minus_y2;
-        let outer_by_inner = correction_0_part_2 * per_correction_0_part;
-        let pivot_outer = per_m1 * correction_0_part_2 * correction_0_part_2
-            * per_correction_0_part - correction_0_part_3;
-        let per_pivot_outer = pivot_outer.recip();
-        let correction_0_part_4 = residual_1 - residual_0 * outer_by_inner;
-        let safe = S::select_le(
-            -pivot_outer,
+        let safe_inner = S::select_le(pivot_inner, lit(0.0), lit(0.0), safe_x1);
+        let x1_minus_x2 = x1 - x2;
+        let y1_minus_y2 = y1 - y2;
+        let correction_0_part_2 = x1 * x1_minus_x2 + y1 * y1_minus_y2;
+        let correction_0_part_3 = correction_0_part
+            * (per_m2 * x1_minus_x2 * x1_minus_x2 + per_m2 * y1_minus_y2 * y1_minus_y2
+                + per_m1 * x1_minus_x2 * x1_minus_x2
+                + per_m1 * y1_minus_y2 * y1_minus_y2);
+        let correction_0_part_4 = per_m1 * correction_0_part_2 * correction_0_part_2
+            - correction_0_part_3;
+        let per_correction_0_part_4 = correction_0_part_4.recip();
+        let safe_outer = S::select_le(
+            -correction_0_part_4,
             lit(0.0009765625) * correction_0_part_3,
             lit(0.0),
-            S::select_le(pivot_inner, lit(0.0), lit(0.0), prepared_part),
+            safe_inner,
         );
-        let lambda_inner = residual_0 * m1 * per_correction_0_part
-            + outer_by_inner * correction_0_part_4 * per_pivot_outer;
-        out[2] = -(half_per_m2 * x1_minus_x2 * correction_0_part_4 * per_pivot_outer);
-        out[3] = -(half_per_m2 * y1_minus_y2 * correction_0_part_4 * per_pivot_outer);
+        let safe = safe_outer;
+        let safe_part = residual_0 * correction_0_part_2
+            - residual_1 * correction_0_part;
+        out[2] = half_per_m2 * x1_minus_x2 * safe_part * per_correction_0_part_4;
+        out[3] = half_per_m2 * y1_minus_y2 * safe_part * per_correction_0_part_4;
+        let safe_part_2 = residual_0 * m1
+            - correction_0_part_2 * safe_part * per_correction_0_part_4;
         out[0] = -(half_per_m1
-            * (x1 * lambda_inner - x1_minus_x2 * correction_0_part_4 * per_pivot_outer));
+            * (x1_minus_x2 * safe_part * per_correction_0_part_4
+                + x1 * per_correction_0_part * safe_part_2));
         out[1] = -(half_per_m1
-            * (y1 * lambda_inner - y1_minus_y2 * correction_0_part_4 * per_pivot_outer));
+            * (y1_minus_y2 * safe_part * per_correction_0_part_4
+                + y1 * per_correction_0_part * safe_part_2));
         safe
     }
 }

@@ -107,12 +107,13 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
             ("l2", "l2"),
             ("m2_l2", "m2*l2"),
             ("m1_and_m2_g", "(m1 + m2)*g"),
-            ("m2_per_m1_and_m2_per_l1_l2", "m2*l2/((m1 + m2)*l1)"),
             ("per_m1_and_m2_per_l1", "1/((m1 + m2)*l1)"),
+            ("m2_per_m1_and_m2_per_l1_l2", "m2*l2/((m1 + m2)*l1)"),
             ("m2_per_m1_and_m2", "m2/(m1 + m2)"),
             ("prepared_part", "1/(m2*sq(l2))"),
-            ("times_m2_sq_l2", "0.0009765625*m2*sq(l2)"),
-            ("prepared_part_2", "((m1 + m2)*sq(l1) ≤ 0 ? 0 : 1)"),
+            ("m2", "m2"),
+            ("times_m2", "0.0009765625*m2"),
+            ("safe_th1", "((m1 + m2)*sq(l1) ≤ 0 ? 0 : 1)"),
         ],
         coords: &["th1", "th2"],
         constraints: &[],
@@ -213,7 +214,7 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         }
     }
     fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
-        let prepared = ::ukcore::emitted::exact_mut::<S, 17>(prepared, "prepared");
+        let prepared = ::ukcore::emitted::exact_mut::<S, 18>(prepared, "prepared");
         let [m1, m2, l1, l2, g] = *::ukcore::emitted::exact::<S, 5>(given, "given");
         let lit = S::from_f64;
         let m1_plus_m2 = m1 + m2;
@@ -232,12 +233,14 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         prepared[8] = l2;
         prepared[9] = m2 * l2;
         prepared[10] = g * m1_plus_m2;
-        prepared[11] = m2 * l2 * per_l1 * per_m1_plus_m2;
-        prepared[12] = per_l1 * per_m1_plus_m2;
+        prepared[11] = per_l1 * per_m1_plus_m2;
+        prepared[12] = m2 * l2 * per_l1 * per_m1_plus_m2;
         prepared[13] = m2 * per_m1_plus_m2;
         prepared[14] = (m2 * l2 * l2).recip();
-        prepared[15] = lit(0.0009765625) * m2_sq_l2;
-        prepared[16] = S::select_le(pivot_th1, lit(0.0), lit(0.0), lit(1.0));
+        prepared[15] = m2;
+        prepared[16] = lit(0.0009765625) * m2;
+        let safe_th1 = S::select_le(pivot_th1, lit(0.0), lit(0.0), lit(1.0));
+        prepared[17] = safe_th1;
     }
     /// 6 additions, 12 multiplications, 0 divisions, 0 square roots, 3 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
@@ -253,7 +256,7 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 0>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 0>(out.rhs, "rhs");
         let [pivot_th1, m2_sq_l2, m2_l1_l2, _, _, m1_and_m2_l1_g, m2_l2_g, _, _, _, _, _,
-        _, _, _, _, _] = *::ukcore::emitted::exact::<S, 17>(prepared, "prepared");
+        _, _, _, _, _, _] = *::ukcore::emitted::exact::<S, 18>(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_th1, dot_th2] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
@@ -275,10 +278,8 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
     }
     fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 4>(mass, "mass");
-        let [pivot_th1, m2_sq_l2, m2_l1_l2, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            17,
-        >(prepared, "prepared");
+        let [pivot_th1, m2_sq_l2, m2_l1_l2, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+        ] = *::ukcore::emitted::exact::<S, 18>(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         mass[0] = pivot_th1;
         let mass_th2_th1 = m2_l1_l2 * (th1 - th2).cos();
@@ -314,9 +315,9 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         v: &[S],
     ) -> ::ukcore::Energy<S> {
         let [_, _, m2_l1_l2, half_m1_and_m2_sq_l1, half_m2_sq_l2, m1_and_m2_l1_g,
-        m2_l2_g, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        m2_l2_g, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            17,
+            18,
         >(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_th1, dot_th2] = *::ukcore::emitted::exact::<S, 2>(v, "v");
@@ -337,9 +338,9 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         outputs: &mut [S],
     ) {
         let outputs = ::ukcore::emitted::exact_mut::<S, 4>(outputs, "outputs");
-        let [_, _, _, _, _, _, _, l1, l2, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [_, _, _, _, _, _, _, l1, l2, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            17,
+            18,
         >(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let (sin_th1, cos_th1) = th1.sin_cos();
@@ -360,35 +361,40 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
-        let [_, m2_sq_l2, m2_l1_l2, _, _, _, m2_l2_g, l1, _, m2_l2, m1_and_m2_g,
-        m2_per_m1_and_m2_per_l1_l2, per_m1_and_m2_per_l1, m2_per_m1_and_m2,
-        prepared_part, times_m2_sq_l2, prepared_part_2] = *::ukcore::emitted::exact::<
+        let [_, _, m2_l1_l2, _, _, _, m2_l2_g, l1, _, m2_l2, m1_and_m2_g,
+        per_m1_and_m2_per_l1, m2_per_m1_and_m2_per_l1_l2, m2_per_m1_and_m2,
+        prepared_part, m2, times_m2, safe_th1] = *::ukcore::emitted::exact::<
             S,
-            17,
+            18,
         >(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_th1, dot_th2] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
         let th1_minus_th2 = th1 - th2;
-        let dot_th1_minus_dot_th2 = dot_th1 - dot_th2;
         let (sin_th1_minus_th2, cos_th1_minus_th2) = th1_minus_th2.sin_cos();
-        let th2_by_th1 = m2_per_m1_and_m2_per_l1_l2 * cos_th1_minus_th2;
-        let acceleration_0_part = dot_th2 * m2_l2 * dot_th1_minus_dot_th2
+        let acceleration_0_part = lit(1.0)
+            - m2_per_m1_and_m2 * cos_th1_minus_th2 * cos_th1_minus_th2;
+        let per_acceleration_0_part = acceleration_0_part.recip();
+        let safe_th2 = S::select_le(
+            m2 * acceleration_0_part,
+            times_m2,
+            lit(0.0),
+            safe_th1,
+        );
+        let dot_th1_minus_dot_th2 = dot_th1 - dot_th2;
+        let acceleration_0_part_2 = dot_th2 * m2_l2 * dot_th1_minus_dot_th2
             * sin_th1_minus_th2 - m1_and_m2_g * th1.sin()
             - dot_th1 * dot_th2 * m2_l2 * sin_th1_minus_th2;
-        let acceleration_0_part_2 = lit(1.0)
-            - m2_per_m1_and_m2 * cos_th1_minus_th2 * cos_th1_minus_th2;
-        let per_acceleration_0_part_2 = acceleration_0_part_2.recip();
-        let pivot_th2 = m2_sq_l2 * acceleration_0_part_2;
+        let th2_by_th1 = m2_per_m1_and_m2_per_l1_l2 * cos_th1_minus_th2;
         let acceleration_0_part_3 = (dot_th1 * dot_th2 * m2_l1_l2 * sin_th1_minus_th2
             - m2_l2_g * th2.sin()
             + dot_th1 * m2_l1_l2 * dot_th1_minus_dot_th2 * sin_th1_minus_th2)
-            - l1 * th2_by_th1 * acceleration_0_part;
-        let safe = S::select_le(pivot_th2, times_m2_sq_l2, lit(0.0), prepared_part_2);
-        out[1] = prepared_part * acceleration_0_part_3 * per_acceleration_0_part_2;
-        out[0] = per_m1_and_m2_per_l1 * acceleration_0_part
+            - l1 * th2_by_th1 * acceleration_0_part_2;
+        let safe = safe_th2;
+        out[1] = prepared_part * acceleration_0_part_3 * per_acceleration_0_part;
+        out[0] = per_m1_and_m2_per_l1 * acceleration_0_part_2
             - prepared_part * th2_by_th1 * acceleration_0_part_3
-                * per_acceleration_0_part_2;
+                * per_acceleration_0_part;
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
@@ -400,18 +406,20 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
-        let [_, m2_sq_l2, _, _, _, _, _, _, _, _, _, _, _, m2_per_m1_and_m2, _,
-        times_m2_sq_l2, prepared_part_2] = *::ukcore::emitted::exact::<
-            S,
-            17,
-        >(prepared, "prepared");
+        let [_, _, _, _, _, _, _, _, _, _, _, _, _, m2_per_m1_and_m2, _, m2, times_m2,
+        safe_th1] = *::ukcore::emitted::exact::<S, 18>(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let lit = S::from_f64;
+        let correction_0_part = (th1 - th2).cos();
+        let safe_th2 = S::select_le(
+            m2 * (lit(1.0) - m2_per_m1_and_m2 * correction_0_part * correction_0_part),
+            times_m2,
+            lit(0.0),
+            safe_th1,
+        );
         out[0] = lit(0.0);
         out[1] = lit(0.0);
-        let safe_part = (th1 - th2).cos();
-        let pivot_th2 = m2_sq_l2 * (lit(1.0) - m2_per_m1_and_m2 * safe_part * safe_part);
-        let safe = S::select_le(pivot_th2, times_m2_sq_l2, lit(0.0), prepared_part_2);
+        let safe = safe_th2;
         safe
     }
 }

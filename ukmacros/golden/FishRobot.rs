@@ -321,19 +321,23 @@ impl ::ukcore::Mechanism for FishRobot {
                 "times_rho_span_half_chord_per_m3",
                 "6.283185307179586*rho*span*half_chord/m3",
             ),
-            ("joint1_0_by_joint2_0", "1/(m2*(1/m3 + 1/m2))"),
-            ("per_per_m3_and_per_m2", "1/(1/m3 + 1/m2)"),
-            ("per_m1_and_per_m2", "1/m1 + 1/m2"),
-            ("prepared_part", "1/(sq(m2)*(1/m3 + 1/m2))"),
-            ("half_rho_per_m1_s_cd", "0.5*rho*s*cd/m1"),
-            ("prepared_part_2", "a^4/sq(i1)"),
-            ("half_rho_per_m1_cd_s1", "0.5*rho*cd*s1/m1"),
             ("per_m2", "1/m2"),
+            ("per_per_m3_and_per_m2", "1/(1/m3 + 1/m2)"),
+            ("joint1_1_by_joint2_1", "1/(m2*(1/m3 + 1/m2))"),
+            ("per_m1_and_per_m2", "1/m1 + 1/m2"),
+            ("half_rho_per_m1_s_cd", "0.5*rho*s*cd/m1"),
+            ("pivot_joint2_0", "1/m3 + 1/m2"),
+            ("prepared_part", "1/sq(m2)"),
+            ("prepared_part_2", "a^4*(1/m3 + 1/m2)/sq(i1)"),
+            ("prepared_part_3", "1/(sq(m2)*(1/m3 + 1/m2))"),
+            ("half_rho_per_m1_cd_s1", "0.5*rho*cd*s1/m1"),
+            ("per_i1_sq_a_per_m3_and_per_m2", "sq(a)*(1/m3 + 1/m2)/i1"),
             ("per_i1_a", "a/i1"),
             ("per_m3", "1/m3"),
             ("per_m1", "1/m1"),
+            ("per_m3_per_per_m3_and_per_m2", "1/(m3*(1/m3 + 1/m2))"),
             (
-                "prepared_part_3",
+                "safe_joint2_0",
                 "(1/m3 + 1/m2 ≤ 0 ? 0 : (m2 ≤ 0 ? 0 : (i1 ≤ 0 ? 0 : (m3 ≤ 0 ? 0 : (m1 ≤ 0 ? 0 : 1)))))",
             ),
         ],
@@ -445,7 +449,7 @@ impl ::ukcore::Mechanism for FishRobot {
             },
             solve_operations: ::ukcore::Operations {
                 additions: 47,
-                multiplications: 106,
+                multiplications: 113,
                 divisions: 2,
                 square_roots: 0,
                 transcendentals: 5,
@@ -556,7 +560,7 @@ impl ::ukcore::Mechanism for FishRobot {
         }
     }
     fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
-        let prepared = ::ukcore::emitted::exact_mut::<S, 47>(prepared, "prepared");
+        let prepared = ::ukcore::emitted::exact_mut::<S, 51>(prepared, "prepared");
         let [m1, i1, a, s, s1, m2, l2, s2, m3, b, s3, rho, cd, span, half_chord, a2, a3,
         w, phi_2] = *::ukcore::emitted::exact::<S, 19>(given, "given");
         let lit = S::from_f64;
@@ -605,41 +609,30 @@ impl ::ukcore::Mechanism for FishRobot {
         prepared[32] = a * a * per_i1;
         prepared[33] = rho * cd * s2 * per_m2;
         prepared[34] = lit(::core::f64::consts::TAU) * rho_span_half_chord_per_m3;
+        prepared[35] = per_m2;
         let pivot_joint2_0 = per_m3 + per_m2;
         let per_pivot_joint2_0 = pivot_joint2_0.recip();
-        let joint1_0_by_joint2_0 = per_m2 * per_pivot_joint2_0;
-        prepared[35] = joint1_0_by_joint2_0;
         prepared[36] = per_pivot_joint2_0;
-        prepared[37] = per_m1 + per_m2;
-        prepared[38] = per_pivot_joint2_0 / (m2 * m2);
+        let joint1_1_by_joint2_1 = per_m2 * per_pivot_joint2_0;
+        prepared[37] = joint1_1_by_joint2_1;
+        prepared[38] = per_m1 + per_m2;
         prepared[39] = lit(0.5) * rho_per_m1_s_cd;
-        prepared[40] = a.powi(4) / (i1 * i1);
-        prepared[41] = lit(0.5) * rho_per_m1_cd_s1;
-        prepared[42] = per_m2;
-        prepared[43] = a * per_i1;
-        prepared[44] = per_m3;
-        prepared[45] = per_m1;
-        prepared[46] = S::select_le(
-            pivot_joint2_0,
-            lit(0.0),
-            lit(0.0),
-            S::select_le(
-                m2,
-                lit(0.0),
-                lit(0.0),
-                S::select_le(
-                    i1,
-                    lit(0.0),
-                    lit(0.0),
-                    S::select_le(
-                        m3,
-                        lit(0.0),
-                        lit(0.0),
-                        S::select_le(m1, lit(0.0), lit(0.0), lit(1.0)),
-                    ),
-                ),
-            ),
-        );
+        prepared[40] = pivot_joint2_0;
+        prepared[41] = (m2 * m2).recip();
+        prepared[42] = a.powi(4) * pivot_joint2_0 / (i1 * i1);
+        prepared[43] = per_pivot_joint2_0 / (m2 * m2);
+        prepared[44] = lit(0.5) * rho_per_m1_cd_s1;
+        prepared[45] = a * a * per_i1 * pivot_joint2_0;
+        prepared[46] = a * per_i1;
+        prepared[47] = per_m3;
+        prepared[48] = per_m1;
+        prepared[49] = per_m3 * per_pivot_joint2_0;
+        let safe_x1 = S::select_le(m1, lit(0.0), lit(0.0), lit(1.0));
+        let safe_x3 = S::select_le(m3, lit(0.0), lit(0.0), safe_x1);
+        let safe_th1 = S::select_le(i1, lit(0.0), lit(0.0), safe_x3);
+        let safe_x2 = S::select_le(m2, lit(0.0), lit(0.0), safe_th1);
+        let safe_joint2_0 = S::select_le(pivot_joint2_0, lit(0.0), lit(0.0), safe_x2);
+        prepared[50] = safe_joint2_0;
     }
     /// 12 additions, 56 multiplications, 0 divisions, 0 square roots, 5 transcendentals, 4 selections.
     fn dynamics<S: ::ukcore::Scalar>(
@@ -656,9 +649,9 @@ impl ::ukcore::Mechanism for FishRobot {
         let rhs = ::ukcore::emitted::exact_mut::<S, 6>(out.rhs, "rhs");
         let [rho_span_half_chord, rho_s_cd, rho_cd_s1, rho_cd_s2, _, half_rho_cd_s3, a,
         l2, b, w, _, phi_2, _, m1, i1, m2, m3, _, a2_sq_w, _, sq_w_a3, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            47,
+            51,
         >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
             S,
@@ -735,10 +728,8 @@ impl ::ukcore::Mechanism for FishRobot {
     fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 81>(mass, "mass");
         let [_, _, _, _, _, _, _, _, _, _, _, _, _, m1, i1, m2, m3, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            47,
-        >(prepared, "prepared");
+        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+        ] = *::ukcore::emitted::exact::<S, 51>(prepared, "prepared");
         mass[0] = m1;
         mass[10] = m1;
         mass[20] = i1;
@@ -756,9 +747,9 @@ impl ::ukcore::Mechanism for FishRobot {
     ) {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 54>(jacobian, "jacobian");
         let [_, _, _, _, _, _, a, l2, b, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            47,
+            51,
         >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
             S,
@@ -792,10 +783,8 @@ impl ::ukcore::Mechanism for FishRobot {
     fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
         let phi = ::ukcore::emitted::exact_mut::<S, 6>(phi, "phi");
         let [_, _, _, _, _, _, a, l2, b, w, a2, phi_2, a3, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            47,
-        >(prepared, "prepared");
+        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+        _] = *::ukcore::emitted::exact::<S, 51>(prepared, "prepared");
         let [x1, y1, th1, x2, y2, th2, x3, y3, th3] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -823,10 +812,8 @@ impl ::ukcore::Mechanism for FishRobot {
     ) {
         let rate = ::ukcore::emitted::exact_mut::<S, 6>(rate, "rate");
         let [_, _, _, _, _, _, a, l2, b, w, _, phi_2, _, _, _, _, _, a2_w, _, w_a3, _, _,
-        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            47,
-        >(prepared, "prepared");
+        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+        _, _] = *::ukcore::emitted::exact::<S, 51>(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -858,10 +845,8 @@ impl ::ukcore::Mechanism for FishRobot {
         v: &[S],
     ) -> ::ukcore::Energy<S> {
         let [_, _, _, _, _, _, _, _, _, _, _, _, _, m1, i1, m2, m3, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            47,
-        >(prepared, "prepared");
+        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+        ] = *::ukcore::emitted::exact::<S, 51>(prepared, "prepared");
         let [dot_x1, dot_y1, dot_th1, dot_x2, dot_y2, _, dot_x3, dot_y3, _] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -887,7 +872,7 @@ impl ::ukcore::Mechanism for FishRobot {
         let outputs = ::ukcore::emitted::exact_mut::<S, 6>(outputs, "outputs");
         let [rho_span_half_chord, _, _, _, _, _, _, _, b, _, _, _, _, _, _, _, _, _, _,
         _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _] = *::ukcore::emitted::exact::<S, 47>(prepared, "prepared");
+        _, _, _, _, _] = *::ukcore::emitted::exact::<S, 51>(prepared, "prepared");
         let [_, _, th1, _, _, _, x3, y3, th3] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -909,7 +894,7 @@ impl ::ukcore::Mechanism for FishRobot {
         outputs[4] = x3 + b * cos_th3;
         outputs[5] = y3 + b * sin_th3;
     }
-    /// 47 additions, 106 multiplications, 2 divisions, 0 square roots, 5 transcendentals, 6 selections.
+    /// 47 additions, 113 multiplications, 2 divisions, 0 square roots, 5 transcendentals, 6 selections.
     fn acceleration<S: ::ukcore::Scalar>(
         prepared: &[S],
         t: S,
@@ -921,10 +906,14 @@ impl ::ukcore::Mechanism for FishRobot {
         let [rho_span_half_chord, rho_s_cd, rho_cd_s1, rho_cd_s2, _, _, a, l2, b, w, _,
         phi_2, _, _, _, _, _, _, a2_sq_w, _, sq_w_a3, l2_a2_sq_w, b_sq_w_a3, _, _, _, _,
         _, times_span_half_chord, half_cd_s3, rho, rho_per_m3, per_i1_sq_a,
-        rho_per_m2_cd_s2, times_rho_span_half_chord_per_m3, joint1_0_by_joint2_0,
-        per_per_m3_and_per_m2, per_m1_and_per_m2, prepared_part, half_rho_per_m1_s_cd,
-        prepared_part_2, half_rho_per_m1_cd_s1, per_m2, per_i1_a, per_m3, per_m1,
-        prepared_part_3] = *::ukcore::emitted::exact::<S, 47>(prepared, "prepared");
+        rho_per_m2_cd_s2, times_rho_span_half_chord_per_m3, per_m2,
+        per_per_m3_and_per_m2, joint1_1_by_joint2_1, per_m1_and_per_m2,
+        half_rho_per_m1_s_cd, pivot_joint2_0, prepared_part, prepared_part_2,
+        prepared_part_3, half_rho_per_m1_cd_s1, per_i1_sq_a_per_m3_and_per_m2, per_i1_a,
+        per_m3, per_m1, _, safe_joint2_0] = *::ukcore::emitted::exact::<
+            S,
+            51,
+        >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -936,83 +925,92 @@ impl ::ukcore::Mechanism for FishRobot {
         let lit = S::from_f64;
         let abs_dot_x1 = dot_x1.abs();
         let abs_dot_y1 = dot_y1.abs();
-        let abs_dot_y2 = dot_y2.abs();
-        let t_w = t * w;
-        let acceleration_0_part = dot_y2 * rho_per_m2_cd_s2 * abs_dot_y2;
         let (sin_th3, cos_th3) = th3.sin_cos();
-        let (sin_th1, cos_th1) = th1.sin_cos();
-        let (sin_th2, cos_th2) = th2.sin_cos();
-        let sin_t_w = t_w.sin();
-        let cos_th2_sq_dot_th2_l2 = dot_th2 * dot_th2 * l2 * cos_th2;
-        let sin_th2_sq_dot_th2_l2 = dot_th2 * dot_th2 * l2 * sin_th2;
-        let acceleration_0_part_2 = dot_x3 * dot_y3 * sin_th3
-            - dot_y3 * dot_y3 * cos_th3;
-        let acceleration_0_part_3 = (t_w - phi_2).sin();
-        let sin_th2_sin_t_w_l2_a2_sq_w = l2_a2_sq_w * sin_th2 * sin_t_w;
-        let cos_th2_sin_t_w_l2_a2_sq_w = l2_a2_sq_w * cos_th2 * sin_t_w;
-        let acceleration_0_part_4 = per_m1_and_per_m2 + per_i1_sq_a * sin_th1 * sin_th1;
-        let acceleration_0_part_5 = per_m1_and_per_m2 + per_i1_sq_a * cos_th1 * cos_th1;
-        let pivot_joint1_0 = acceleration_0_part_4 - prepared_part;
-        let per_pivot_joint1_0 = pivot_joint1_0.recip();
-        out[5] = -(a2_sq_w * sin_t_w);
-        let acceleration_6_part = times_span_half_chord
+        let acceleration_0_part = dot_x3 * dot_y3 * sin_th3 - dot_y3 * dot_y3 * cos_th3;
+        let acceleration_0_part_2 = times_span_half_chord
             * (dot_x3 * dot_y3 * cos_th3 - dot_x3 * dot_x3 * sin_th3)
             - dot_y3 * half_cd_s3 * dot_y3.abs();
-        let acceleration_6_part_2 = (lit(0.5) * cos_th2_sq_dot_th2_l2
+        let abs_dot_y2 = dot_y2.abs();
+        let (sin_th2, cos_th2) = th2.sin_cos();
+        let cos_th2_sq_dot_th2_l2 = dot_th2 * dot_th2 * l2 * cos_th2;
+        let t_w = t * w;
+        let sin_t_w = t_w.sin();
+        let sin_th2_sin_t_w_l2_a2_sq_w = l2_a2_sq_w * sin_th2 * sin_t_w;
+        let acceleration_0_part_3 = (t_w - phi_2).sin();
+        let acceleration_0_part_4 = (lit(0.5) * cos_th2_sq_dot_th2_l2
             + dot_th3 * dot_th3 * b * cos_th3) - lit(0.5) * sin_th2_sin_t_w_l2_a2_sq_w
             - b_sq_w_a3 * sin_th3 * acceleration_0_part_3
-            + times_rho_span_half_chord_per_m3 * acceleration_0_part_2;
-        out[8] = -(sq_w_a3 * acceleration_0_part_3);
-        let safe_part = lit(0.5) * acceleration_0_part
+            + times_rho_span_half_chord_per_m3 * acceleration_0_part;
+        let sin_th2_sq_dot_th2_l2 = dot_th2 * dot_th2 * l2 * sin_th2;
+        let cos_th2_sin_t_w_l2_a2_sq_w = l2_a2_sq_w * cos_th2 * sin_t_w;
+        let acceleration_0_part_5 = dot_y2 * rho_per_m2_cd_s2 * abs_dot_y2;
+        let acceleration_0_part_6 = lit(0.5) * acceleration_0_part_5
             + (lit(0.5) * sin_th2_sq_dot_th2_l2 + dot_th3 * dot_th3 * b * sin_th3)
             + lit(0.5) * cos_th2_sin_t_w_l2_a2_sq_w
             + b_sq_w_a3 * cos_th3 * acceleration_0_part_3
-            + rho_per_m3 * acceleration_6_part;
-        let safe_part_2 = (dot_x1 * half_rho_per_m1_s_cd * abs_dot_x1
-            + (dot_th1 * dot_th1 * a * cos_th1 + lit(0.5) * cos_th2_sq_dot_th2_l2)
-            - lit(0.5) * sin_th2_sin_t_w_l2_a2_sq_w)
-            + joint1_0_by_joint2_0 * acceleration_6_part_2;
-        let joint1_1_by_joint1_0 = per_i1_sq_a * cos_th1 * sin_th1 * per_pivot_joint1_0;
-        let pivot_joint1_1 = prepared_part - acceleration_0_part_5
-            + prepared_part_2 * cos_th1 * cos_th1 * sin_th1 * sin_th1
-                * per_pivot_joint1_0;
-        let per_pivot_joint1_1 = pivot_joint1_1.recip();
-        let safe_part_3 = (dot_y1 * half_rho_per_m1_cd_s1 * abs_dot_y1
-            - lit(0.5) * acceleration_0_part
-            + (dot_th1 * dot_th1 * a * sin_th1 + lit(0.5) * sin_th2_sq_dot_th2_l2)
-            + lit(0.5) * cos_th2_sin_t_w_l2_a2_sq_w) + joint1_0_by_joint2_0 * safe_part
-            + safe_part_2 * joint1_1_by_joint1_0;
-        let safe = S::select_le(
-            -pivot_joint1_1,
-            lit(0.0009765625) * acceleration_0_part_5,
+            + rho_per_m3 * acceleration_0_part_2;
+        let (sin_th1, cos_th1) = th1.sin_cos();
+        let acceleration_0_part_7 = pivot_joint2_0
+            * (per_m1_and_per_m2 + per_i1_sq_a * sin_th1 * sin_th1);
+        let pivot_joint1_0 = acceleration_0_part_7 - prepared_part;
+        let per_pivot_joint1_0 = pivot_joint1_0.recip();
+        let safe_joint1_0 = S::select_le(
+            pivot_joint1_0,
+            lit(0.0009765625) * acceleration_0_part_7,
             lit(0.0),
-            S::select_le(
-                pivot_joint1_0,
-                lit(0.0009765625) * acceleration_0_part_4,
-                lit(0.0),
-                prepared_part_3,
-            ),
+            safe_joint2_0,
         );
-        let lambda_joint1_1 = safe_part_3 * per_pivot_joint1_1;
-        let lambda_joint1_0 = safe_part_2 * per_pivot_joint1_0
-            - joint1_1_by_joint1_0 * safe_part_3 * per_pivot_joint1_1;
-        let lambda_joint2_1 = per_per_m3_and_per_m2 * safe_part
-            - joint1_0_by_joint2_0 * safe_part_3 * per_pivot_joint1_1;
-        let lambda_joint2_0 = per_per_m3_and_per_m2 * acceleration_6_part_2
-            + joint1_0_by_joint2_0 * lambda_joint1_0;
+        let acceleration_0_part_8 = pivot_joint2_0
+            * (dot_x1 * half_rho_per_m1_s_cd * abs_dot_x1
+                + (dot_th1 * dot_th1 * a * cos_th1 + lit(0.5) * cos_th2_sq_dot_th2_l2)
+                - lit(0.5) * sin_th2_sin_t_w_l2_a2_sq_w)
+            + per_m2 * acceleration_0_part_4;
+        let acceleration_0_part_9 = per_m1_and_per_m2 + per_i1_sq_a * cos_th1 * cos_th1;
+        let pivot_joint1_1 = prepared_part_2 * cos_th1 * cos_th1 * sin_th1 * sin_th1
+            - (acceleration_0_part_9 - prepared_part_3) * pivot_joint1_0;
+        let per_pivot_joint1_1 = pivot_joint1_1.recip();
+        let safe_joint1_1 = S::select_le(
+            -pivot_joint1_1,
+            lit(0.0009765625) * (acceleration_0_part_9 * pivot_joint1_0),
+            lit(0.0),
+            safe_joint1_0,
+        );
+        let acceleration_0_part_10 = per_i1_sq_a * cos_th1 * sin_th1
+            * acceleration_0_part_8
+            + pivot_joint1_0
+                * ((dot_y1 * half_rho_per_m1_cd_s1 * abs_dot_y1
+                    - lit(0.5) * acceleration_0_part_5
+                    + (dot_th1 * dot_th1 * a * sin_th1
+                        + lit(0.5) * sin_th2_sq_dot_th2_l2)
+                    + lit(0.5) * cos_th2_sin_t_w_l2_a2_sq_w)
+                    + joint1_1_by_joint2_1 * acceleration_0_part_6);
+        out[5] = -(a2_sq_w * sin_t_w);
+        out[8] = -(sq_w_a3 * acceleration_0_part_3);
+        let safe = safe_joint1_1;
+        let lambda_joint1_1 = per_pivot_joint1_1 * acceleration_0_part_10;
         out[1] = -(per_m1
             * (lit(0.5) * (dot_y1 * rho_cd_s1 * abs_dot_y1) + lambda_joint1_1));
-        out[7] = per_m3 * (rho * acceleration_6_part - lambda_joint2_1);
-        out[0] = -(per_m1
-            * (lit(0.5) * (dot_x1 * rho_s_cd * abs_dot_x1) - lambda_joint1_0));
+        let lambda_joint2_1 = per_per_m3_and_per_m2 * acceleration_0_part_6
+            - joint1_1_by_joint2_1 * per_pivot_joint1_1 * acceleration_0_part_10;
+        out[7] = per_m3 * (rho * acceleration_0_part_2 - lambda_joint2_1);
         out[4] = -(per_m2
             * (lit(0.5) * (dot_y2 * rho_cd_s2 * abs_dot_y2) - lambda_joint1_1
                 - lambda_joint2_1));
+        let acceleration_5_part = acceleration_0_part_8
+            - per_i1_sq_a_per_m3_and_per_m2 * cos_th1 * sin_th1 * per_pivot_joint1_1
+                * acceleration_0_part_10;
+        let lambda_joint1_0 = per_pivot_joint1_0 * acceleration_5_part;
+        out[0] = -(per_m1
+            * (lit(0.5) * (dot_x1 * rho_s_cd * abs_dot_x1) - lambda_joint1_0));
         out[2] = -(per_i1_a
-            * (cos_th1 * safe_part_3 * per_pivot_joint1_1 + sin_th1 * lambda_joint1_0));
+            * (cos_th1 * per_pivot_joint1_1 * acceleration_0_part_10
+                + sin_th1 * per_pivot_joint1_0 * acceleration_5_part));
+        let lambda_joint2_0 = per_per_m3_and_per_m2
+            * (acceleration_0_part_4
+                + per_m2 * per_pivot_joint1_0 * acceleration_5_part);
         out[6] = per_m3
             * (lit(::core::f64::consts::TAU)
-                * (rho_span_half_chord * acceleration_0_part_2) - lambda_joint2_0);
+                * (rho_span_half_chord * acceleration_0_part) - lambda_joint2_0);
         out[3] = -(per_m2 * (lambda_joint1_0 - lambda_joint2_0));
         safe
     }
@@ -1026,11 +1024,12 @@ impl ::ukcore::Mechanism for FishRobot {
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 9>(out, "out");
         let [_, _, _, _, _, _, _, l2, b, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, per_i1_sq_a, _, _, joint1_0_by_joint2_0,
-        per_per_m3_and_per_m2, per_m1_and_per_m2, prepared_part, _, prepared_part_2, _,
-        per_m2, per_i1_a, per_m3, per_m1, prepared_part_3] = *::ukcore::emitted::exact::<
+        _, _, _, _, _, _, _, per_i1_sq_a, _, _, per_m2, per_per_m3_and_per_m2,
+        joint1_1_by_joint2_1, per_m1_and_per_m2, _, pivot_joint2_0, prepared_part,
+        prepared_part_2, prepared_part_3, _, per_i1_sq_a_per_m3_and_per_m2, per_i1_a,
+        per_m3, per_m1, per_m3_per_per_m3_and_per_m2, safe_joint2_0] = *::ukcore::emitted::exact::<
             S,
-            47,
+            51,
         >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
             S,
@@ -1041,55 +1040,62 @@ impl ::ukcore::Mechanism for FishRobot {
             6,
         >(residual, "residual");
         let lit = S::from_f64;
+        let (sin_th1, cos_th1) = th1.sin_cos();
+        let correction_0_part = pivot_joint2_0
+            * (per_m1_and_per_m2 + per_i1_sq_a * sin_th1 * sin_th1);
+        let pivot_joint1_0 = correction_0_part - prepared_part;
+        let per_pivot_joint1_0 = pivot_joint1_0.recip();
+        let safe_joint1_0 = S::select_le(
+            pivot_joint1_0,
+            lit(0.0009765625) * correction_0_part,
+            lit(0.0),
+            safe_joint2_0,
+        );
+        let correction_0_part_2 = per_m1_and_per_m2 + per_i1_sq_a * cos_th1 * cos_th1;
+        let pivot_joint1_1 = prepared_part_2 * cos_th1 * cos_th1 * sin_th1 * sin_th1
+            - (correction_0_part_2 - prepared_part_3) * pivot_joint1_0;
+        let per_pivot_joint1_1 = pivot_joint1_1.recip();
+        let safe_joint1_1 = S::select_le(
+            -pivot_joint1_1,
+            lit(0.0009765625) * (correction_0_part_2 * pivot_joint1_0),
+            lit(0.0),
+            safe_joint1_0,
+        );
         out[5] = -residual_4;
         out[8] = -residual_5;
-        let (sin_th3, cos_th3) = th3.sin_cos();
-        let (sin_th1, cos_th1) = th1.sin_cos();
+        let safe = safe_joint1_1;
         let (sin_th2, cos_th2) = th2.sin_cos();
         let sin_th2_residual_4_l2 = residual_4 * l2 * sin_th2;
-        let cos_th2_residual_4_l2 = residual_4 * l2 * cos_th2;
-        let safe_part = per_m1_and_per_m2 + per_i1_sq_a * sin_th1 * sin_th1;
-        let safe_part_2 = per_m1_and_per_m2 + per_i1_sq_a * cos_th1 * cos_th1;
-        let safe_part_3 = residual_2 + lit(0.5) * sin_th2_residual_4_l2
+        let (sin_th3, cos_th3) = th3.sin_cos();
+        let safe_part = residual_2 + lit(0.5) * sin_th2_residual_4_l2
             + residual_5 * b * sin_th3;
-        let safe_part_4 = residual_3 - lit(0.5) * cos_th2_residual_4_l2
+        let safe_part_2 = per_m2 * safe_part
+            + pivot_joint2_0 * (residual_0 + lit(0.5) * sin_th2_residual_4_l2);
+        let cos_th2_residual_4_l2 = residual_4 * l2 * cos_th2;
+        let safe_part_3 = residual_3 - lit(0.5) * cos_th2_residual_4_l2
             - residual_5 * b * cos_th3;
-        let pivot_joint1_0 = safe_part - prepared_part;
-        let per_pivot_joint1_0 = pivot_joint1_0.recip();
-        let safe_part_5 = (residual_0 + lit(0.5) * sin_th2_residual_4_l2)
-            + joint1_0_by_joint2_0 * safe_part_3;
-        let joint1_1_by_joint1_0 = per_i1_sq_a * cos_th1 * sin_th1 * per_pivot_joint1_0;
-        let pivot_joint1_1 = prepared_part - safe_part_2
-            + prepared_part_2 * cos_th1 * cos_th1 * sin_th1 * sin_th1
-                * per_pivot_joint1_0;
-        let per_pivot_joint1_1 = pivot_joint1_1.recip();
-        let safe_part_6 = (residual_1 - lit(0.5) * cos_th2_residual_4_l2)
-            + joint1_0_by_joint2_0 * safe_part_4 + safe_part_5 * joint1_1_by_joint1_0;
-        let safe = S::select_le(
-            -pivot_joint1_1,
-            lit(0.0009765625) * safe_part_2,
-            lit(0.0),
-            S::select_le(
-                pivot_joint1_0,
-                lit(0.0009765625) * safe_part,
-                lit(0.0),
-                prepared_part_3,
-            ),
-        );
-        let lambda_joint1_1 = safe_part_6 * per_pivot_joint1_1;
-        out[1] = per_m1 * safe_part_6 * per_pivot_joint1_1;
-        let lambda_joint1_0 = safe_part_5 * per_pivot_joint1_0
-            - joint1_1_by_joint1_0 * safe_part_6 * per_pivot_joint1_1;
-        let lambda_joint2_1 = per_per_m3_and_per_m2 * safe_part_4
-            - joint1_0_by_joint2_0 * safe_part_6 * per_pivot_joint1_1;
+        let safe_part_4 = per_i1_sq_a * cos_th1 * sin_th1 * safe_part_2
+            + pivot_joint1_0
+                * ((residual_1 - lit(0.5) * cos_th2_residual_4_l2)
+                    + joint1_1_by_joint2_1 * safe_part_3);
+        out[1] = per_m1 * safe_part_4 * per_pivot_joint1_1;
+        let lambda_joint2_1 = per_per_m3_and_per_m2 * safe_part_3
+            - joint1_1_by_joint2_1 * safe_part_4 * per_pivot_joint1_1;
         out[7] = per_m3 * lambda_joint2_1;
-        let lambda_joint2_0 = per_per_m3_and_per_m2 * safe_part_3
-            + joint1_0_by_joint2_0 * lambda_joint1_0;
-        out[0] = -(per_m1 * lambda_joint1_0);
-        out[2] = per_i1_a
-            * (cos_th1 * safe_part_6 * per_pivot_joint1_1 + sin_th1 * lambda_joint1_0);
+        let lambda_joint1_1 = safe_part_4 * per_pivot_joint1_1;
         out[4] = -(per_m2 * (lambda_joint1_1 + lambda_joint2_1));
-        out[6] = per_m3 * lambda_joint2_0;
+        let correction_5_part = safe_part_2
+            - per_i1_sq_a_per_m3_and_per_m2 * cos_th1 * sin_th1 * safe_part_4
+                * per_pivot_joint1_1;
+        out[0] = -(per_m1 * per_pivot_joint1_0 * correction_5_part);
+        out[2] = per_i1_a
+            * (cos_th1 * safe_part_4 * per_pivot_joint1_1
+                + sin_th1 * per_pivot_joint1_0 * correction_5_part);
+        let correction_3_part = safe_part
+            + per_m2 * per_pivot_joint1_0 * correction_5_part;
+        out[6] = per_m3_per_per_m3_and_per_m2 * correction_3_part;
+        let lambda_joint1_0 = per_pivot_joint1_0 * correction_5_part;
+        let lambda_joint2_0 = per_per_m3_and_per_m2 * correction_3_part;
         out[3] = per_m2 * (lambda_joint1_0 - lambda_joint2_0);
         safe
     }

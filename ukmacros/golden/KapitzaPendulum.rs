@@ -127,7 +127,7 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
             ("a_sq_w", "a*sq(w)"),
             ("g", "g"),
             ("per_m", "1/m"),
-            ("prepared_part", "(m ≤ 0 ? 0 : 1)"),
+            ("safe_x", "(m ≤ 0 ? 0 : 1)"),
         ],
         coords: &["x", "y"],
         constraints: &[
@@ -231,7 +231,8 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         prepared[6] = a * w * w;
         prepared[7] = g;
         prepared[8] = m.recip();
-        prepared[9] = S::select_le(m, lit(0.0), lit(0.0), lit(1.0));
+        let safe_x = S::select_le(m, lit(0.0), lit(0.0), lit(1.0));
+        prepared[9] = safe_x;
     }
     /// 5 additions, 10 multiplications, 0 divisions, 0 square roots, 1 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
@@ -373,7 +374,7 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
-        let [w, a, _, _, _, a_w, a_sq_w, g, per_m, prepared_part] = *::ukcore::emitted::exact::<
+        let [w, a, _, _, _, a_w, a_sq_w, g, per_m, safe_x] = *::ukcore::emitted::exact::<
             S,
             10,
         >(prepared, "prepared");
@@ -384,16 +385,16 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         let (sin_t_w, cos_t_w) = t_w.sin_cos();
         let pivot = a * cos_t_w;
         let y_minus_pivot = y - pivot;
-        let acceleration_0_part = dot_y + a_w * sin_t_w;
-        let acceleration_0_part_2 = x * x + y_minus_pivot * y_minus_pivot;
-        let per_acceleration_0_part_2 = acceleration_0_part_2.recip();
-        let pivot_rod = per_m * acceleration_0_part_2;
-        let acceleration_0_part_3 = (dot_x * dot_x
-            + acceleration_0_part * acceleration_0_part
+        let acceleration_0_part = x * x + y_minus_pivot * y_minus_pivot;
+        let per_acceleration_0_part = acceleration_0_part.recip();
+        let pivot_rod = per_m * acceleration_0_part;
+        let safe_rod = S::select_le(pivot_rod, lit(0.0), lit(0.0), safe_x);
+        let safe = safe_rod;
+        let safe_part = dot_y + a_w * sin_t_w;
+        let safe_part_2 = (dot_x * dot_x + safe_part * safe_part
             + a_sq_w * cos_t_w * y_minus_pivot) - g * y_minus_pivot;
-        let safe = S::select_le(pivot_rod, lit(0.0), lit(0.0), prepared_part);
-        out[0] = -(x * acceleration_0_part_3 * per_acceleration_0_part_2);
-        out[1] = -g - y_minus_pivot * acceleration_0_part_3 * per_acceleration_0_part_2;
+        out[0] = -(x * safe_part_2 * per_acceleration_0_part);
+        out[1] = -g - y_minus_pivot * safe_part_2 * per_acceleration_0_part;
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
@@ -405,7 +406,7 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
-        let [w, a, _, _, _, _, _, _, per_m, prepared_part] = *::ukcore::emitted::exact::<
+        let [w, a, _, _, _, _, _, _, per_m, safe_x] = *::ukcore::emitted::exact::<
             S,
             10,
         >(prepared, "prepared");
@@ -417,7 +418,8 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         let correction_0_part = x * x + y_minus_pivot * y_minus_pivot;
         let per_correction_0_part = correction_0_part.recip();
         let pivot_rod = per_m * correction_0_part;
-        let safe = S::select_le(pivot_rod, lit(0.0), lit(0.0), prepared_part);
+        let safe_rod = S::select_le(pivot_rod, lit(0.0), lit(0.0), safe_x);
+        let safe = safe_rod;
         out[0] = lit(-0.5) * (x * residual_0 * per_correction_0_part);
         out[1] = lit(-0.5) * (residual_0 * y_minus_pivot * per_correction_0_part);
         safe

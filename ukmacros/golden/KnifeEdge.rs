@@ -112,7 +112,7 @@ impl ::ukcore::Mechanism for KnifeEdge {
             ("i", "i"),
             ("g_sin_slope", "g*sin(slope)"),
             ("per_m", "1/m"),
-            ("prepared_part", "(m ≤ 0 ? 0 : (i ≤ 0 ? 0 : 1))"),
+            ("safe_x", "(m ≤ 0 ? 0 : (i ≤ 0 ? 0 : 1))"),
         ],
         coords: &["x", "y", "th"],
         constraints: &[
@@ -208,12 +208,9 @@ impl ::ukcore::Mechanism for KnifeEdge {
         prepared[2] = i;
         prepared[3] = g * sin_slope;
         prepared[4] = m.recip();
-        prepared[5] = S::select_le(
-            m,
-            lit(0.0),
-            lit(0.0),
-            S::select_le(i, lit(0.0), lit(0.0), lit(1.0)),
-        );
+        let safe_th = S::select_le(i, lit(0.0), lit(0.0), lit(1.0));
+        let safe_x = S::select_le(m, lit(0.0), lit(0.0), safe_th);
+        prepared[5] = safe_x;
     }
     /// 3 additions, 4 multiplications, 0 divisions, 0 square roots, 1 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
@@ -329,23 +326,24 @@ impl ::ukcore::Mechanism for KnifeEdge {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 3>(out, "out");
-        let [_, _, _, g_sin_slope, per_m, prepared_part] = *::ukcore::emitted::exact::<
+        let [_, _, _, g_sin_slope, per_m, safe_x] = *::ukcore::emitted::exact::<
             S,
             6,
         >(prepared, "prepared");
         let [_, _, th] = *::ukcore::emitted::exact::<S, 3>(q, "q");
         let [dot_x, dot_y, dot_th] = *::ukcore::emitted::exact::<S, 3>(v, "v");
         let lit = S::from_f64;
-        out[2] = lit(0.0);
         let (sin_th, cos_th) = th.sin_cos();
-        let safe_part = sin_th * sin_th + cos_th * cos_th;
-        let per_safe_part = safe_part.recip();
-        let pivot_edge = per_m * safe_part;
-        let safe_part_2 = g_sin_slope * sin_th
+        let acceleration_0_part = sin_th * sin_th + cos_th * cos_th;
+        let per_acceleration_0_part = acceleration_0_part.recip();
+        let pivot_edge = per_m * acceleration_0_part;
+        let safe_edge = S::select_le(pivot_edge, lit(0.0), lit(0.0), safe_x);
+        out[2] = lit(0.0);
+        let safe = safe_edge;
+        let safe_part = g_sin_slope * sin_th
             + (dot_x * dot_th * cos_th + dot_y * dot_th * sin_th);
-        let safe = S::select_le(pivot_edge, lit(0.0), lit(0.0), prepared_part);
-        out[1] = cos_th * safe_part_2 * per_safe_part;
-        out[0] = g_sin_slope - sin_th * safe_part_2 * per_safe_part;
+        out[1] = cos_th * safe_part * per_acceleration_0_part;
+        out[0] = g_sin_slope - sin_th * safe_part * per_acceleration_0_part;
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
@@ -357,21 +355,22 @@ impl ::ukcore::Mechanism for KnifeEdge {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 3>(out, "out");
-        let [_, _, _, _, per_m, prepared_part] = *::ukcore::emitted::exact::<
+        let [_, _, _, _, per_m, safe_x] = *::ukcore::emitted::exact::<
             S,
             6,
         >(prepared, "prepared");
         let [_, _, th] = *::ukcore::emitted::exact::<S, 3>(q, "q");
         let [residual_0] = *::ukcore::emitted::exact::<S, 1>(residual, "residual");
         let lit = S::from_f64;
-        out[2] = lit(0.0);
         let (sin_th, cos_th) = th.sin_cos();
-        let safe_part = sin_th * sin_th + cos_th * cos_th;
-        let per_safe_part = safe_part.recip();
-        let pivot_edge = per_m * safe_part;
-        let safe = S::select_le(pivot_edge, lit(0.0), lit(0.0), prepared_part);
-        out[1] = residual_0 * cos_th * per_safe_part;
-        out[0] = -(residual_0 * sin_th * per_safe_part);
+        let correction_0_part = sin_th * sin_th + cos_th * cos_th;
+        let per_correction_0_part = correction_0_part.recip();
+        let pivot_edge = per_m * correction_0_part;
+        let safe_edge = S::select_le(pivot_edge, lit(0.0), lit(0.0), safe_x);
+        out[2] = lit(0.0);
+        let safe = safe_edge;
+        out[1] = residual_0 * cos_th * per_correction_0_part;
+        out[0] = -(residual_0 * sin_th * per_correction_0_part);
         safe
     }
 }

@@ -101,7 +101,7 @@ impl ::ukcore::Mechanism for Pendulum {
             ("m_per_l", "m/l"),
             ("m", "m"),
             ("per_m", "1/m"),
-            ("prepared_part", "(m ≤ 0 ? 0 : 1)"),
+            ("safe_x", "(m ≤ 0 ? 0 : 1)"),
         ],
         coords: &["x", "y"],
         constraints: &[
@@ -194,7 +194,8 @@ impl ::ukcore::Mechanism for Pendulum {
         prepared[3] = m / l;
         prepared[4] = m;
         prepared[5] = m.recip();
-        prepared[6] = S::select_le(m, lit(0.0), lit(0.0), lit(1.0));
+        let safe_x = S::select_le(m, lit(0.0), lit(0.0), lit(1.0));
+        prepared[6] = safe_x;
     }
     /// 2 additions, 5 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
@@ -316,7 +317,7 @@ impl ::ukcore::Mechanism for Pendulum {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
-        let [_, _, g, _, _, per_m, prepared_part] = *::ukcore::emitted::exact::<
+        let [_, _, g, _, _, per_m, safe_x] = *::ukcore::emitted::exact::<
             S,
             7,
         >(prepared, "prepared");
@@ -326,8 +327,9 @@ impl ::ukcore::Mechanism for Pendulum {
         let acceleration_0_part = x * x + y * y;
         let per_acceleration_0_part = acceleration_0_part.recip();
         let pivot_rod = per_m * acceleration_0_part;
+        let safe_rod = S::select_le(pivot_rod, lit(0.0), lit(0.0), safe_x);
         let acceleration_0_part_2 = (dot_x * dot_x + dot_y * dot_y) - y * g;
-        let safe = S::select_le(pivot_rod, lit(0.0), lit(0.0), prepared_part);
+        let safe = safe_rod;
         out[0] = -(x * acceleration_0_part_2 * per_acceleration_0_part);
         out[1] = -g - y * acceleration_0_part_2 * per_acceleration_0_part;
         safe
@@ -341,7 +343,7 @@ impl ::ukcore::Mechanism for Pendulum {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
-        let [_, _, _, _, _, per_m, prepared_part] = *::ukcore::emitted::exact::<
+        let [_, _, _, _, _, per_m, safe_x] = *::ukcore::emitted::exact::<
             S,
             7,
         >(prepared, "prepared");
@@ -351,7 +353,8 @@ impl ::ukcore::Mechanism for Pendulum {
         let correction_0_part = x * x + y * y;
         let per_correction_0_part = correction_0_part.recip();
         let pivot_rod = per_m * correction_0_part;
-        let safe = S::select_le(pivot_rod, lit(0.0), lit(0.0), prepared_part);
+        let safe_rod = S::select_le(pivot_rod, lit(0.0), lit(0.0), safe_x);
+        let safe = safe_rod;
         out[0] = lit(-0.5) * (x * residual_0 * per_correction_0_part);
         out[1] = lit(-0.5) * (y * residual_0 * per_correction_0_part);
         safe

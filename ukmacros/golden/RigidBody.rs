@@ -502,110 +502,113 @@ impl ::ukcore::Mechanism for RigidBody {
         let [e0, e1, e2, e3] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let [dot_e0, dot_e1, dot_e2, dot_e3] = *::ukcore::emitted::exact::<S, 4>(v, "v");
         let lit = S::from_f64;
+        let pivot_e0 = e1 * e1 * i1 + e2 * e2 * i2 + e3 * e3 * i3;
+        let per_pivot_e0 = pivot_e0.recip();
+        let safe_e0 = S::select_le(lit(4.0) * pivot_e0, lit(0.0), lit(0.0), lit(1.0));
         let acceleration_0_part = e1 * dot_e0 - e0 * dot_e1 - e3 * dot_e2 + e2 * dot_e3;
         let acceleration_0_part_2 = dot_e0 * e2 + dot_e1 * e3 - e0 * dot_e2
             - e1 * dot_e3;
         let acceleration_0_part_3 = dot_e0 * e3 - dot_e1 * e2 + e1 * dot_e2
             - e0 * dot_e3;
-        let pivot_e0 = e1 * e1 * i1 + e2 * e2 * i2 + e3 * e3 * i3;
-        let acceleration_0_part_4 = e1 * e0 * i1 - e3 * e2 * i2 + e3 * e2 * i3;
-        let acceleration_0_part_5 = e0 * e0 * i1 + e3 * e3 * i2 + e2 * e2 * i3;
-        let acceleration_0_part_6 = e1 * e3 * i1 + e0 * e2 * i2 - e1 * e3 * i3;
-        let acceleration_0_part_7 = e3 * e3 * i1 + e0 * e0 * i2 + e1 * e1 * i3;
-        let acceleration_0_part_8 = e1 * e2 * i1 - e1 * e2 * i2 - e0 * e3 * i3;
-        let acceleration_0_part_9 = e2 * e2 * i1 + e1 * e1 * i2 + e0 * e0 * i3;
-        let per_pivot_e0 = pivot_e0.recip();
-        let acceleration_0_part_10 = dot_e1 * i1 * acceleration_0_part
+        let acceleration_0_part_4 = dot_e1 * i1 * acceleration_0_part
             + dot_e2 * i2 * acceleration_0_part_2 + dot_e3 * i3 * acceleration_0_part_3;
-        let e1_by_e0 = acceleration_0_part_4 * per_pivot_e0;
-        let e2_by_e0 = acceleration_0_part_6 * per_pivot_e0;
-        let e3_by_e0 = acceleration_0_part_8 * per_pivot_e0;
-        let unit_by_e0 = e0 * per_pivot_e0;
+        let acceleration_0_part_5 = e0 * e0 * i1 + e3 * e3 * i2 + e2 * e2 * i3;
+        let acceleration_0_part_6 = e1 * e0 * i1 - e3 * e2 * i2 + e3 * e2 * i3;
         let pivot_e1 = acceleration_0_part_5
-            - acceleration_0_part_4 * acceleration_0_part_4 * per_pivot_e0;
+            - acceleration_0_part_6 * acceleration_0_part_6 * per_pivot_e0;
         let per_pivot_e1 = pivot_e1.recip();
-        let acceleration_0_part_11 = (dot_e0 * i1 * acceleration_0_part
-            - dot_e3 * i2 * acceleration_0_part_2 + dot_e2 * i3 * acceleration_0_part_3)
-            - acceleration_0_part_10 * e1_by_e0;
-        let acceleration_0_part_12 = (e0 * e3 * i1 - e0 * e3 * i2 - e1 * e2 * i3)
-            - acceleration_0_part_4 * e2_by_e0;
-        let acceleration_0_part_13 = (e0 * e2 * i1 + e1 * e3 * i2 - e0 * e2 * i3)
-            - acceleration_0_part_4 * e3_by_e0;
-        let acceleration_0_part_14 = e1 + acceleration_0_part_4 * unit_by_e0;
-        let e2_by_e1 = acceleration_0_part_12 * per_pivot_e1;
-        let e3_by_e1 = acceleration_0_part_13 * per_pivot_e1;
-        let unit_by_e1 = acceleration_0_part_14 * per_pivot_e1;
+        let safe_e1 = S::select_le(
+            lit(4.0) * pivot_e1,
+            lit(0.00390625) * acceleration_0_part_5,
+            lit(0.0),
+            safe_e0,
+        );
+        let acceleration_0_part_7 = e3 * e3 * i1 + e0 * e0 * i2 + e1 * e1 * i3;
+        let acceleration_0_part_8 = e1 * e3 * i1 + e0 * e2 * i2 - e1 * e3 * i3;
+        let e2_by_e0 = acceleration_0_part_8 * per_pivot_e0;
+        let acceleration_0_part_9 = (e0 * e3 * i1 - e0 * e3 * i2 - e1 * e2 * i3)
+            - acceleration_0_part_6 * e2_by_e0;
         let pivot_e2 = acceleration_0_part_7
-            - acceleration_0_part_6 * acceleration_0_part_6 * per_pivot_e0
-            - acceleration_0_part_12 * acceleration_0_part_12 * per_pivot_e1;
-        let per_pivot_e2 = pivot_e2.recip();
-        let acceleration_0_part_15 = (dot_e3 * i1 * acceleration_0_part
-            + dot_e0 * i2 * acceleration_0_part_2 - dot_e1 * i3 * acceleration_0_part_3)
-            - acceleration_0_part_10 * e2_by_e0 - acceleration_0_part_11 * e2_by_e1;
-        let acceleration_0_part_16 = (e3 * e2 * i1 - e1 * e0 * i2 + e1 * e0 * i3)
-            - acceleration_0_part_6 * e3_by_e0 - acceleration_0_part_12 * e3_by_e1;
-        let acceleration_0_part_17 = e2 + acceleration_0_part_6 * unit_by_e0
-            - acceleration_0_part_12 * unit_by_e1;
-        let e3_by_e2 = acceleration_0_part_16 * per_pivot_e2;
-        let unit_by_e2 = acceleration_0_part_17 * per_pivot_e2;
-        let pivot_e3 = acceleration_0_part_9
             - acceleration_0_part_8 * acceleration_0_part_8 * per_pivot_e0
-            - acceleration_0_part_13 * acceleration_0_part_13 * per_pivot_e1
-            - acceleration_0_part_16 * acceleration_0_part_16 * per_pivot_e2;
+            - acceleration_0_part_9 * acceleration_0_part_9 * per_pivot_e1;
+        let per_pivot_e2 = pivot_e2.recip();
+        let safe_e2 = S::select_le(
+            lit(4.0) * pivot_e2,
+            lit(0.00390625) * acceleration_0_part_7,
+            lit(0.0),
+            safe_e1,
+        );
+        let acceleration_0_part_10 = e2 * e2 * i1 + e1 * e1 * i2 + e0 * e0 * i3;
+        let acceleration_0_part_11 = e1 * e2 * i1 - e1 * e2 * i2 - e0 * e3 * i3;
+        let e3_by_e0 = acceleration_0_part_11 * per_pivot_e0;
+        let acceleration_0_part_12 = (e0 * e2 * i1 + e1 * e3 * i2 - e0 * e2 * i3)
+            - acceleration_0_part_6 * e3_by_e0;
+        let e3_by_e1 = acceleration_0_part_12 * per_pivot_e1;
+        let acceleration_0_part_13 = (e3 * e2 * i1 - e1 * e0 * i2 + e1 * e0 * i3)
+            - acceleration_0_part_8 * e3_by_e0 - acceleration_0_part_9 * e3_by_e1;
+        let pivot_e3 = acceleration_0_part_10
+            - acceleration_0_part_11 * acceleration_0_part_11 * per_pivot_e0
+            - acceleration_0_part_12 * acceleration_0_part_12 * per_pivot_e1
+            - acceleration_0_part_13 * acceleration_0_part_13 * per_pivot_e2;
         let per_pivot_e3 = pivot_e3.recip();
-        let acceleration_0_part_18 = (dot_e2 * i1 * acceleration_0_part
-            - dot_e1 * i2 * acceleration_0_part_2 - dot_e0 * i3 * acceleration_0_part_3)
-            - acceleration_0_part_10 * e3_by_e0 - acceleration_0_part_11 * e3_by_e1
-            - acceleration_0_part_15 * e3_by_e2;
-        let acceleration_0_part_19 = e3 - acceleration_0_part_8 * unit_by_e0
-            + acceleration_0_part_13 * unit_by_e1 + acceleration_0_part_16 * unit_by_e2;
+        let safe_e3 = S::select_le(
+            lit(4.0) * pivot_e3,
+            lit(0.00390625) * acceleration_0_part_10,
+            lit(0.0),
+            safe_e2,
+        );
+        let unit_by_e0 = e0 * per_pivot_e0;
+        let acceleration_0_part_14 = e1 + acceleration_0_part_6 * unit_by_e0;
+        let unit_by_e1 = acceleration_0_part_14 * per_pivot_e1;
+        let acceleration_0_part_15 = e2 + acceleration_0_part_8 * unit_by_e0
+            - acceleration_0_part_9 * unit_by_e1;
+        let unit_by_e2 = acceleration_0_part_15 * per_pivot_e2;
+        let acceleration_0_part_16 = e3 - acceleration_0_part_11 * unit_by_e0
+            + acceleration_0_part_12 * unit_by_e1 + acceleration_0_part_13 * unit_by_e2;
         let pivot_unit = e0 * e0 * per_pivot_e0
             + acceleration_0_part_14 * acceleration_0_part_14 * per_pivot_e1
-            + acceleration_0_part_17 * acceleration_0_part_17 * per_pivot_e2
-            + acceleration_0_part_19 * acceleration_0_part_19 * per_pivot_e3;
-        let acceleration_0_part_20 = (dot_e0 * dot_e0 + dot_e1 * dot_e1 + dot_e2 * dot_e2
-            + dot_e3 * dot_e3) - lit(2.0) * (acceleration_0_part_10 * unit_by_e0)
-            + lit(2.0) * (acceleration_0_part_11 * unit_by_e1)
-            + lit(2.0) * (acceleration_0_part_15 * unit_by_e2)
-            - lit(2.0)
-                * (acceleration_0_part_18 * acceleration_0_part_19 * per_pivot_e3);
+            + acceleration_0_part_15 * acceleration_0_part_15 * per_pivot_e2
+            + acceleration_0_part_16 * acceleration_0_part_16 * per_pivot_e3;
         let per_pivot_unit = pivot_unit.recip();
-        let safe = S::select_le(
+        let safe_unit = S::select_le(
             lit(0.25) * pivot_unit,
             lit(0.0),
             lit(0.0),
-            S::select_le(
-                lit(4.0) * pivot_e3,
-                lit(0.00390625) * acceleration_0_part_9,
-                lit(0.0),
-                S::select_le(
-                    lit(4.0) * pivot_e2,
-                    lit(0.00390625) * acceleration_0_part_7,
-                    lit(0.0),
-                    S::select_le(
-                        lit(4.0) * pivot_e1,
-                        lit(0.00390625) * acceleration_0_part_5,
-                        lit(0.0),
-                        S::select_le(lit(4.0) * pivot_e0, lit(0.0), lit(0.0), lit(1.0)),
-                    ),
-                ),
-            ),
+            safe_e3,
         );
-        let safe_part = lit(2.0) * acceleration_0_part_18
-            + acceleration_0_part_19 * acceleration_0_part_20 * per_pivot_unit;
-        let safe_part_2 = lit(2.0) * (acceleration_0_part_15 * per_pivot_e2)
-            - unit_by_e2 * acceleration_0_part_20 * per_pivot_unit
-            - e3_by_e2 * per_pivot_e3 * safe_part;
-        out[2] = safe_part_2;
-        out[3] = -(per_pivot_e3 * safe_part);
-        let safe_part_3 = lit(2.0) * (acceleration_0_part_11 * per_pivot_e1)
-            - unit_by_e1 * acceleration_0_part_20 * per_pivot_unit
-            - e3_by_e1 * per_pivot_e3 * safe_part - e2_by_e1 * safe_part_2;
-        out[1] = safe_part_3;
-        out[0] = e3_by_e0 * per_pivot_e3 * safe_part
-            - lit(2.0) * (acceleration_0_part_10 * per_pivot_e0)
-            - unit_by_e0 * acceleration_0_part_20 * per_pivot_unit
-            + e2_by_e0 * safe_part_2 + e1_by_e0 * safe_part_3;
+        let safe = safe_unit;
+        let e1_by_e0 = acceleration_0_part_6 * per_pivot_e0;
+        let safe_part = (dot_e0 * i1 * acceleration_0_part
+            - dot_e3 * i2 * acceleration_0_part_2 + dot_e2 * i3 * acceleration_0_part_3)
+            - acceleration_0_part_4 * e1_by_e0;
+        let e2_by_e1 = acceleration_0_part_9 * per_pivot_e1;
+        let safe_part_2 = (dot_e3 * i1 * acceleration_0_part
+            + dot_e0 * i2 * acceleration_0_part_2 - dot_e1 * i3 * acceleration_0_part_3)
+            - acceleration_0_part_4 * e2_by_e0 - safe_part * e2_by_e1;
+        let e3_by_e2 = acceleration_0_part_13 * per_pivot_e2;
+        let safe_part_3 = (dot_e2 * i1 * acceleration_0_part
+            - dot_e1 * i2 * acceleration_0_part_2 - dot_e0 * i3 * acceleration_0_part_3)
+            - acceleration_0_part_4 * e3_by_e0 - safe_part * e3_by_e1
+            - safe_part_2 * e3_by_e2;
+        let safe_part_4 = (dot_e0 * dot_e0 + dot_e1 * dot_e1 + dot_e2 * dot_e2
+            + dot_e3 * dot_e3) - lit(2.0) * (acceleration_0_part_4 * unit_by_e0)
+            + lit(2.0) * (safe_part * unit_by_e1) + lit(2.0) * (safe_part_2 * unit_by_e2)
+            - lit(2.0) * (safe_part_3 * acceleration_0_part_16 * per_pivot_e3);
+        let safe_part_5 = lit(2.0) * safe_part_3
+            + acceleration_0_part_16 * safe_part_4 * per_pivot_unit;
+        let safe_part_6 = lit(2.0) * (safe_part_2 * per_pivot_e2)
+            - unit_by_e2 * safe_part_4 * per_pivot_unit
+            - e3_by_e2 * per_pivot_e3 * safe_part_5;
+        out[2] = safe_part_6;
+        out[3] = -(per_pivot_e3 * safe_part_5);
+        let safe_part_7 = lit(2.0) * (safe_part * per_pivot_e1)
+            - unit_by_e1 * safe_part_4 * per_pivot_unit
+            - e3_by_e1 * per_pivot_e3 * safe_part_5 - e2_by_e1 * safe_part_6;
+        out[1] = safe_part_7;
+        out[0] = e3_by_e0 * per_pivot_e3 * safe_part_5
+            - lit(2.0) * (acceleration_0_part_4 * per_pivot_e0)
+            - unit_by_e0 * safe_part_4 * per_pivot_unit + e2_by_e0 * safe_part_6
+            + e1_by_e0 * safe_part_7;
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
@@ -625,85 +628,87 @@ impl ::ukcore::Mechanism for RigidBody {
         let [residual_0] = *::ukcore::emitted::exact::<S, 1>(residual, "residual");
         let lit = S::from_f64;
         let pivot_e0 = e1 * e1 * i1 + e2 * e2 * i2 + e3 * e3 * i3;
-        let correction_0_part = e1 * e0 * i1 - e3 * e2 * i2 + e3 * e2 * i3;
-        let correction_0_part_2 = e0 * e0 * i1 + e3 * e3 * i2 + e2 * e2 * i3;
-        let correction_0_part_3 = e1 * e3 * i1 + e0 * e2 * i2 - e1 * e3 * i3;
-        let correction_0_part_4 = e3 * e3 * i1 + e0 * e0 * i2 + e1 * e1 * i3;
-        let correction_0_part_5 = e1 * e2 * i1 - e1 * e2 * i2 - e0 * e3 * i3;
-        let correction_0_part_6 = e2 * e2 * i1 + e1 * e1 * i2 + e0 * e0 * i3;
         let per_pivot_e0 = pivot_e0.recip();
-        let e1_by_e0 = correction_0_part * per_pivot_e0;
-        let e2_by_e0 = correction_0_part_3 * per_pivot_e0;
-        let e3_by_e0 = correction_0_part_5 * per_pivot_e0;
-        let unit_by_e0 = e0 * per_pivot_e0;
-        let pivot_e1 = correction_0_part_2
-            - correction_0_part * correction_0_part * per_pivot_e0;
+        let safe_e0 = S::select_le(lit(4.0) * pivot_e0, lit(0.0), lit(0.0), lit(1.0));
+        let correction_0_part = e0 * e0 * i1 + e3 * e3 * i2 + e2 * e2 * i3;
+        let correction_0_part_2 = e1 * e0 * i1 - e3 * e2 * i2 + e3 * e2 * i3;
+        let pivot_e1 = correction_0_part
+            - correction_0_part_2 * correction_0_part_2 * per_pivot_e0;
         let per_pivot_e1 = pivot_e1.recip();
-        let correction_0_part_7 = (e0 * e3 * i1 - e0 * e3 * i2 - e1 * e2 * i3)
-            - correction_0_part * e2_by_e0;
-        let correction_0_part_8 = (e0 * e2 * i1 + e1 * e3 * i2 - e0 * e2 * i3)
-            - correction_0_part * e3_by_e0;
-        let correction_0_part_9 = e1 + correction_0_part * unit_by_e0;
-        let e2_by_e1 = correction_0_part_7 * per_pivot_e1;
-        let e3_by_e1 = correction_0_part_8 * per_pivot_e1;
-        let unit_by_e1 = correction_0_part_9 * per_pivot_e1;
-        let pivot_e2 = correction_0_part_4
-            - correction_0_part_3 * correction_0_part_3 * per_pivot_e0
-            - correction_0_part_7 * correction_0_part_7 * per_pivot_e1;
+        let safe_e1 = S::select_le(
+            lit(4.0) * pivot_e1,
+            lit(0.00390625) * correction_0_part,
+            lit(0.0),
+            safe_e0,
+        );
+        let correction_0_part_3 = e3 * e3 * i1 + e0 * e0 * i2 + e1 * e1 * i3;
+        let correction_0_part_4 = e1 * e3 * i1 + e0 * e2 * i2 - e1 * e3 * i3;
+        let e2_by_e0 = correction_0_part_4 * per_pivot_e0;
+        let correction_0_part_5 = (e0 * e3 * i1 - e0 * e3 * i2 - e1 * e2 * i3)
+            - correction_0_part_2 * e2_by_e0;
+        let pivot_e2 = correction_0_part_3
+            - correction_0_part_4 * correction_0_part_4 * per_pivot_e0
+            - correction_0_part_5 * correction_0_part_5 * per_pivot_e1;
         let per_pivot_e2 = pivot_e2.recip();
-        let correction_0_part_10 = (e3 * e2 * i1 - e1 * e0 * i2 + e1 * e0 * i3)
-            - correction_0_part_3 * e3_by_e0 - correction_0_part_7 * e3_by_e1;
-        let correction_0_part_11 = e2 + correction_0_part_3 * unit_by_e0
-            - correction_0_part_7 * unit_by_e1;
-        let e3_by_e2 = correction_0_part_10 * per_pivot_e2;
-        let unit_by_e2 = correction_0_part_11 * per_pivot_e2;
+        let safe_e2 = S::select_le(
+            lit(4.0) * pivot_e2,
+            lit(0.00390625) * correction_0_part_3,
+            lit(0.0),
+            safe_e1,
+        );
+        let correction_0_part_6 = e2 * e2 * i1 + e1 * e1 * i2 + e0 * e0 * i3;
+        let correction_0_part_7 = e1 * e2 * i1 - e1 * e2 * i2 - e0 * e3 * i3;
+        let e3_by_e0 = correction_0_part_7 * per_pivot_e0;
+        let correction_0_part_8 = (e0 * e2 * i1 + e1 * e3 * i2 - e0 * e2 * i3)
+            - correction_0_part_2 * e3_by_e0;
+        let e3_by_e1 = correction_0_part_8 * per_pivot_e1;
+        let correction_0_part_9 = (e3 * e2 * i1 - e1 * e0 * i2 + e1 * e0 * i3)
+            - correction_0_part_4 * e3_by_e0 - correction_0_part_5 * e3_by_e1;
         let pivot_e3 = correction_0_part_6
-            - correction_0_part_5 * correction_0_part_5 * per_pivot_e0
+            - correction_0_part_7 * correction_0_part_7 * per_pivot_e0
             - correction_0_part_8 * correction_0_part_8 * per_pivot_e1
-            - correction_0_part_10 * correction_0_part_10 * per_pivot_e2;
+            - correction_0_part_9 * correction_0_part_9 * per_pivot_e2;
         let per_pivot_e3 = pivot_e3.recip();
-        let correction_0_part_12 = e3 - correction_0_part_5 * unit_by_e0
-            + correction_0_part_8 * unit_by_e1 + correction_0_part_10 * unit_by_e2;
+        let safe_e3 = S::select_le(
+            lit(4.0) * pivot_e3,
+            lit(0.00390625) * correction_0_part_6,
+            lit(0.0),
+            safe_e2,
+        );
+        let unit_by_e0 = e0 * per_pivot_e0;
+        let correction_0_part_10 = e1 + correction_0_part_2 * unit_by_e0;
+        let unit_by_e1 = correction_0_part_10 * per_pivot_e1;
+        let correction_0_part_11 = e2 + correction_0_part_4 * unit_by_e0
+            - correction_0_part_5 * unit_by_e1;
+        let unit_by_e2 = correction_0_part_11 * per_pivot_e2;
+        let correction_0_part_12 = e3 - correction_0_part_7 * unit_by_e0
+            + correction_0_part_8 * unit_by_e1 + correction_0_part_9 * unit_by_e2;
         let pivot_unit = e0 * e0 * per_pivot_e0
-            + correction_0_part_9 * correction_0_part_9 * per_pivot_e1
+            + correction_0_part_10 * correction_0_part_10 * per_pivot_e1
             + correction_0_part_11 * correction_0_part_11 * per_pivot_e2
             + correction_0_part_12 * correction_0_part_12 * per_pivot_e3;
-        let correction_0_part_13 = unit_by_e2
-            + e3_by_e2 * correction_0_part_12 * per_pivot_e3;
         let per_pivot_unit = pivot_unit.recip();
-        let correction_0_part_14 = unit_by_e1
-            + e3_by_e1 * correction_0_part_12 * per_pivot_e3
-            - e2_by_e1 * correction_0_part_13;
-        let safe = S::select_le(
+        let safe_unit = S::select_le(
             lit(0.25) * pivot_unit,
             lit(0.0),
             lit(0.0),
-            S::select_le(
-                lit(4.0) * pivot_e3,
-                lit(0.00390625) * correction_0_part_6,
-                lit(0.0),
-                S::select_le(
-                    lit(4.0) * pivot_e2,
-                    lit(0.00390625) * correction_0_part_4,
-                    lit(0.0),
-                    S::select_le(
-                        lit(4.0) * pivot_e1,
-                        lit(0.00390625) * correction_0_part_2,
-                        lit(0.0),
-                        S::select_le(lit(4.0) * pivot_e0, lit(0.0), lit(0.0), lit(1.0)),
-                    ),
-                ),
-            ),
+            safe_e3,
         );
-        out[2] = lit(-0.5) * (residual_0 * correction_0_part_13 * per_pivot_unit);
+        let safe = safe_unit;
+        let e3_by_e2 = correction_0_part_9 * per_pivot_e2;
+        let safe_part = unit_by_e2 + e3_by_e2 * correction_0_part_12 * per_pivot_e3;
+        out[2] = lit(-0.5) * (residual_0 * safe_part * per_pivot_unit);
         out[3] = lit(-0.5)
             * (residual_0 * correction_0_part_12 * per_pivot_e3 * per_pivot_unit);
-        out[1] = lit(-0.5) * (residual_0 * correction_0_part_14 * per_pivot_unit);
+        let e2_by_e1 = correction_0_part_5 * per_pivot_e1;
+        let safe_part_2 = unit_by_e1 + e3_by_e1 * correction_0_part_12 * per_pivot_e3
+            - e2_by_e1 * safe_part;
+        out[1] = lit(-0.5) * (residual_0 * safe_part_2 * per_pivot_unit);
+        let e1_by_e0 = correction_0_part_2 * per_pivot_e0;
         out[0] = lit(-0.5)
             * (residual_0 * per_pivot_unit
                 * (unit_by_e0 - e3_by_e0 * correction_0_part_12 * per_pivot_e3
-                    + e2_by_e0 * correction_0_part_13
-                    + e1_by_e0 * correction_0_part_14));
+                    + e2_by_e0 * safe_part + e1_by_e0 * safe_part_2));
         safe
     }
 }

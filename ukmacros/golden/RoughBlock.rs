@@ -129,7 +129,7 @@ impl ::ukcore::Mechanism for RoughBlock {
             ("cos_slope_g", "cos(slope)*g"),
             ("prepared_part_3", "cos(slope)/(sq(sin(slope)) + sq(cos(slope)))"),
             (
-                "prepared_part_4",
+                "safe_plane",
                 "((sq(sin(slope)) + sq(cos(slope)))/m ≤ 0 ? 0 : (m ≤ 0 ? 0 : 1))",
             ),
         ],
@@ -245,12 +245,9 @@ impl ::ukcore::Mechanism for RoughBlock {
         prepared[12] = g * cos_slope;
         prepared[13] = cos_slope * per_prepared_8_part;
         let pivot_plane = prepared_8_part / m;
-        prepared[14] = S::select_le(
-            pivot_plane,
-            lit(0.0),
-            lit(0.0),
-            S::select_le(m, lit(0.0), lit(0.0), lit(1.0)),
-        );
+        let safe_x = S::select_le(m, lit(0.0), lit(0.0), lit(1.0));
+        let safe_plane = S::select_le(pivot_plane, lit(0.0), lit(0.0), safe_x);
+        prepared[14] = safe_plane;
     }
     /// 3 additions, 4 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 1 selections.
     fn dynamics<S: ::ukcore::Scalar>(
@@ -380,15 +377,15 @@ impl ::ukcore::Mechanism for RoughBlock {
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
         let [cos_slope, sin_slope, _, _, _, _, _, cos_slope_sin_slope_mu, prepared_part,
-        g, cos_slope_mu, prepared_part_2, cos_slope_g, _, prepared_part_4] = *::ukcore::emitted::exact::<
+        g, cos_slope_mu, prepared_part_2, cos_slope_g, _, safe_plane] = *::ukcore::emitted::exact::<
             S,
             15,
         >(prepared, "prepared");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
-        let safe = prepared_part_4;
         let speed_down = dot_x * cos_slope - dot_y * sin_slope;
         let sign_speed_down = speed_down.sign();
+        let safe = safe_plane;
         let safe_part = cos_slope_sin_slope_mu * sign_speed_down;
         let safe_part_2 = lit(1.0) - safe_part;
         let safe_part_plus_safe_part_2 = safe_part + safe_part_2;
@@ -408,9 +405,9 @@ impl ::ukcore::Mechanism for RoughBlock {
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
         let [_, _, _, _, _, _, _, _, _, _, _, prepared_part_2, _, prepared_part_3,
-        prepared_part_4] = *::ukcore::emitted::exact::<S, 15>(prepared, "prepared");
+        safe_plane] = *::ukcore::emitted::exact::<S, 15>(prepared, "prepared");
         let [residual_0] = *::ukcore::emitted::exact::<S, 1>(residual, "residual");
-        let safe = prepared_part_4;
+        let safe = safe_plane;
         out[0] = -(residual_0 * prepared_part_2);
         out[1] = -(residual_0 * prepared_part_3);
         safe

@@ -241,7 +241,7 @@ impl ::ukcore::Mechanism for SliderCrank {
             ("per_i1_r", "r/i1"),
             ("half_per_i1_r", "0.5*r/i1"),
             (
-                "prepared_part_4",
+                "safe_th2",
                 "(i2 ≤ 0 ? 0 : (i1 ≤ 0 ? 0 : (m2 ≤ 0 ? 0 : (m1 ≤ 0 ? 0 : (m3 ≤ 0 ? 0 : 1)))))",
             ),
         ],
@@ -366,7 +366,7 @@ impl ::ukcore::Mechanism for SliderCrank {
             },
             solve_operations: ::ukcore::Operations {
                 additions: 83,
-                multiplications: 195,
+                multiplications: 202,
                 divisions: 6,
                 square_roots: 0,
                 transcendentals: 2,
@@ -501,27 +501,12 @@ impl ::ukcore::Mechanism for SliderCrank {
         let per_i1_r = r * per_i1;
         prepared[32] = per_i1_r;
         prepared[33] = lit(0.5) * per_i1_r;
-        prepared[34] = S::select_le(
-            i2,
-            lit(0.0),
-            lit(0.0),
-            S::select_le(
-                i1,
-                lit(0.0),
-                lit(0.0),
-                S::select_le(
-                    m2,
-                    lit(0.0),
-                    lit(0.0),
-                    S::select_le(
-                        m1,
-                        lit(0.0),
-                        lit(0.0),
-                        S::select_le(m3, lit(0.0), lit(0.0), lit(1.0)),
-                    ),
-                ),
-            ),
-        );
+        let safe_x3 = S::select_le(m3, lit(0.0), lit(0.0), lit(1.0));
+        let safe_x1 = S::select_le(m1, lit(0.0), lit(0.0), safe_x3);
+        let safe_x2 = S::select_le(m2, lit(0.0), lit(0.0), safe_x1);
+        let safe_th1 = S::select_le(i1, lit(0.0), lit(0.0), safe_x2);
+        let safe_th2 = S::select_le(i2, lit(0.0), lit(0.0), safe_th1);
+        prepared[34] = safe_th2;
     }
     /// 5 additions, 28 multiplications, 0 divisions, 0 square roots, 2 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
@@ -772,7 +757,7 @@ impl ::ukcore::Mechanism for SliderCrank {
         outputs[1] = x3;
         outputs[2] = dot_x3;
     }
-    /// 83 additions, 195 multiplications, 6 divisions, 0 square roots, 2 transcendentals, 6 selections.
+    /// 83 additions, 202 multiplications, 6 divisions, 0 square roots, 2 transcendentals, 6 selections.
     fn acceleration<S: ::ukcore::Scalar>(
         prepared: &[S],
         t: S,
@@ -784,169 +769,188 @@ impl ::ukcore::Mechanism for SliderCrank {
         let [_, _, _, torque, r, l, _, _, _, _, _, _, per_i1_sq_r, per_i1_torque_r,
         per_i2_sq_l, per_m1, per_i1_torque, prepared_part, g, times_per_i1_sq_r,
         per_m3_and_per_m2, per_m2, prepared_part_2, times_per_i2_sq_l, per_m1_and_per_m2,
-        prepared_part_3, half_r, half_l, _, half_per_i2_l, per_i1, per_m3, _, _,
-        prepared_part_4] = *::ukcore::emitted::exact::<S, 35>(prepared, "prepared");
+        prepared_part_3, half_r, half_l, _, half_per_i2_l, per_i1, per_m3, _, _, safe_th2,
+        ] = *::ukcore::emitted::exact::<S, 35>(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [_, _, dot_th1, _, _, dot_th2, _, _, _] = *::ukcore::emitted::exact::<
             S,
             9,
         >(v, "v");
         let lit = S::from_f64;
-        out[7] = lit(0.0);
-        out[8] = lit(0.0);
         let (sin_th1, cos_th1) = th1.sin_cos();
-        let (sin_th2, cos_th2) = th2.sin_cos();
-        let sin_th1_sq_dot_th1_r = dot_th1 * dot_th1 * r * sin_th1;
-        let sin_th2_sq_dot_th2_l = dot_th2 * dot_th2 * l * sin_th2;
         let sq_sin_th1_per_i1_sq_r = per_i1_sq_r * sin_th1 * sin_th1;
-        let sq_cos_th1_per_i1_sq_r = per_i1_sq_r * cos_th1 * cos_th1;
-        let cos_th1_per_i1_torque_r = per_i1_torque_r * cos_th1;
-        let sq_sin_th2_per_i2_sq_l = per_i2_sq_l * sin_th2 * sin_th2;
-        let cos_th2_sin_th2_per_i2_sq_l = per_i2_sq_l * cos_th2 * sin_th2;
-        let sq_cos_th2_per_i2_sq_l = per_i2_sq_l * cos_th2 * cos_th2;
         let pivot_bearing_0 = per_m1 + lit(0.25) * sq_sin_th1_per_i1_sq_r;
-        let safe_part = dot_th1 * dot_th1 * cos_th1 + per_i1_torque * sin_th1;
-        let safe_part_2 = lit(0.25) * sq_sin_th1_per_i1_sq_r - per_m1;
-        let safe_part_3 = per_m1 + lit(0.25) * sq_cos_th1_per_i1_sq_r;
-        let pivot_wrist_pin_0 = per_m3_and_per_m2 + lit(0.25) * sq_sin_th2_per_i2_sq_l;
-        let safe_part_4 = lit(0.25) * sq_sin_th2_per_i2_sq_l - per_m2;
-        let safe_part_5 = per_m2 + lit(0.25) * sq_cos_th2_per_i2_sq_l;
-        let safe_part_6 = per_m1_and_per_m2 + lit(0.25) * sq_sin_th1_per_i1_sq_r
-            + lit(0.25) * sq_sin_th2_per_i2_sq_l;
-        let safe_part_7 = per_m1_and_per_m2 + lit(0.25) * sq_cos_th1_per_i1_sq_r
-            + lit(0.25) * sq_cos_th2_per_i2_sq_l;
         let per_pivot_bearing_0 = pivot_bearing_0.recip();
+        let safe_bearing_0 = S::select_le(pivot_bearing_0, lit(0.0), lit(0.0), safe_th2);
+        let acceleration_0_part = prepared_part * cos_th1 * cos_th1 * sin_th1 * sin_th1
+            * per_pivot_bearing_0;
+        let sq_cos_th1_per_i1_sq_r = per_i1_sq_r * cos_th1 * cos_th1;
+        let acceleration_0_part_2 = per_m1 + lit(0.25) * sq_cos_th1_per_i1_sq_r;
+        let pivot_bearing_1 = lit(0.0625) * acceleration_0_part - acceleration_0_part_2;
+        let per_pivot_bearing_1 = pivot_bearing_1.recip();
+        let safe_bearing_1 = S::select_le(
+            -pivot_bearing_1,
+            lit(0.0009765625) * acceleration_0_part_2,
+            lit(0.0),
+            safe_bearing_0,
+        );
+        let (sin_th2, cos_th2) = th2.sin_cos();
+        let sq_sin_th2_per_i2_sq_l = per_i2_sq_l * sin_th2 * sin_th2;
+        let pivot_wrist_pin_0 = per_m3_and_per_m2 + lit(0.25) * sq_sin_th2_per_i2_sq_l;
         let per_pivot_wrist_pin_0 = pivot_wrist_pin_0.recip();
-        let bearing_1_by_bearing_0 = per_i1_sq_r * cos_th1 * sin_th1
-            * per_pivot_bearing_0;
-        let crank_pin_0_by_bearing_0 = safe_part_2 * per_pivot_bearing_0;
-        let safe_part_8 = prepared_part * cos_th1 * cos_th1 * sin_th1 * sin_th1
-            * per_pivot_bearing_0;
-        let crank_pin_0_by_wrist_pin_0 = safe_part_4 * per_pivot_wrist_pin_0;
+        let safe_wrist_pin_0 = S::select_le(
+            pivot_wrist_pin_0,
+            lit(0.0),
+            lit(0.0),
+            safe_bearing_1,
+        );
+        let acceleration_0_part_3 = prepared_part_2 * cos_th2 * cos_th2 * sin_th2
+            * sin_th2 * per_pivot_wrist_pin_0;
+        let sq_cos_th2_per_i2_sq_l = per_i2_sq_l * cos_th2 * cos_th2;
+        let acceleration_0_part_4 = per_m2 + lit(0.25) * sq_cos_th2_per_i2_sq_l;
+        let pivot_wrist_pin_1 = lit(0.0625) * acceleration_0_part_3
+            - acceleration_0_part_4;
+        let per_pivot_wrist_pin_1 = pivot_wrist_pin_1.recip();
+        let safe_wrist_pin_1 = S::select_le(
+            -pivot_wrist_pin_1,
+            lit(0.0009765625) * acceleration_0_part_4,
+            lit(0.0),
+            safe_wrist_pin_0,
+        );
         let crank_pin_1_by_wrist_pin_0 = per_i2_sq_l * cos_th2 * sin_th2
             * per_pivot_wrist_pin_0;
-        let safe_part_9 = prepared_part_2 * cos_th2 * cos_th2 * sin_th2 * sin_th2
-            * per_pivot_wrist_pin_0;
-        let safe_part_10 = r * safe_part * bearing_1_by_bearing_0;
-        let pivot_bearing_1 = lit(0.0625) * safe_part_8 - safe_part_3;
-        let safe_part_11 = lit(1.0) - crank_pin_0_by_bearing_0;
-        let safe_part_12 = safe_part_4 * crank_pin_1_by_wrist_pin_0;
-        let safe_part_13 = dot_th2 * dot_th2 * l * cos_th2 * crank_pin_1_by_wrist_pin_0;
-        let pivot_wrist_pin_1 = lit(0.0625) * safe_part_9 - safe_part_5;
-        let per_pivot_bearing_1 = pivot_bearing_1.recip();
-        let per_pivot_wrist_pin_1 = pivot_wrist_pin_1.recip();
-        let safe_part_14 = (lit(0.5) * sin_th1_sq_dot_th1_r - g
-            - lit(0.5) * cos_th1_per_i1_torque_r) + lit(0.125) * safe_part_10;
-        let safe_part_15 = (lit(0.25) * sq_cos_th1_per_i1_sq_r - per_m1)
-            - times_per_i1_sq_r * cos_th1 * sin_th1 * bearing_1_by_bearing_0;
-        let safe_part_16 = (g + lit(0.5) * sin_th2_sq_dot_th2_l)
-            + lit(0.125) * safe_part_13;
-        let safe_part_17 = cos_th2_sin_th2_per_i2_sq_l - safe_part_12;
-        let safe_part_18 = (lit(0.25) * sq_cos_th2_per_i2_sq_l - per_m2)
-            - times_per_i2_sq_l * cos_th2 * sin_th2 * crank_pin_1_by_wrist_pin_0;
-        let crank_pin_0_by_bearing_1 = per_i1_sq_r * cos_th1 * sin_th1 * safe_part_11
-            * per_pivot_bearing_1;
-        let crank_pin_1_by_bearing_1 = safe_part_15 * per_pivot_bearing_1;
-        let crank_pin_0_by_wrist_pin_1 = safe_part_17 * per_pivot_wrist_pin_1;
-        let crank_pin_1_by_wrist_pin_1 = safe_part_18 * per_pivot_wrist_pin_1;
-        let pivot_crank_pin_0 = safe_part_2 * safe_part_2 * per_pivot_bearing_0
-            - safe_part_6 + safe_part_4 * safe_part_4 * per_pivot_wrist_pin_0
-            - prepared_part_3 * cos_th1 * cos_th1 * sin_th1 * sin_th1 * safe_part_11
-                * safe_part_11 * per_pivot_bearing_1
-            - lit(0.0625) * (safe_part_17 * safe_part_17 * per_pivot_wrist_pin_1);
+        let acceleration_0_part_5 = dot_th2 * dot_th2 * l * cos_th2
+            * crank_pin_1_by_wrist_pin_0;
+        let sin_th2_sq_dot_th2_l = dot_th2 * dot_th2 * l * sin_th2;
+        let acceleration_0_part_6 = (g + lit(0.5) * sin_th2_sq_dot_th2_l)
+            + lit(0.125) * acceleration_0_part_5;
+        let acceleration_0_part_7 = lit(0.25) * sq_sin_th1_per_i1_sq_r - per_m1;
+        let acceleration_0_part_8 = lit(0.25) * sq_sin_th2_per_i2_sq_l - per_m2;
+        let cos_th2_sin_th2_per_i2_sq_l = per_i2_sq_l * cos_th2 * sin_th2;
+        let acceleration_0_part_9 = acceleration_0_part_8 * crank_pin_1_by_wrist_pin_0;
+        let acceleration_0_part_10 = cos_th2_sin_th2_per_i2_sq_l - acceleration_0_part_9;
+        let acceleration_0_part_11 = per_m1_and_per_m2
+            + lit(0.25) * sq_sin_th1_per_i1_sq_r + lit(0.25) * sq_sin_th2_per_i2_sq_l;
+        let crank_pin_0_by_bearing_0 = acceleration_0_part_7 * per_pivot_bearing_0;
+        let acceleration_0_part_12 = lit(1.0) - crank_pin_0_by_bearing_0;
+        let pivot_crank_pin_0 = acceleration_0_part_7 * acceleration_0_part_7
+            * per_pivot_bearing_0 - acceleration_0_part_11
+            + acceleration_0_part_8 * acceleration_0_part_8 * per_pivot_wrist_pin_0
+            - prepared_part_3 * cos_th1 * cos_th1 * sin_th1 * sin_th1
+                * acceleration_0_part_12 * acceleration_0_part_12 * per_pivot_bearing_1
+            - lit(0.0625)
+                * (acceleration_0_part_10 * acceleration_0_part_10
+                    * per_pivot_wrist_pin_1);
         let per_pivot_crank_pin_0 = pivot_crank_pin_0.recip();
-        let safe_part_19 = half_r * safe_part * crank_pin_0_by_bearing_0
+        let safe_crank_pin_0 = S::select_le(
+            -pivot_crank_pin_0,
+            lit(0.0009765625) * acceleration_0_part_11,
+            lit(0.0),
+            safe_wrist_pin_1,
+        );
+        let acceleration_0_part_13 = dot_th1 * dot_th1 * cos_th1
+            + per_i1_torque * sin_th1;
+        let bearing_1_by_bearing_0 = per_i1_sq_r * cos_th1 * sin_th1
+            * per_pivot_bearing_0;
+        let acceleration_0_part_14 = r * acceleration_0_part_13 * bearing_1_by_bearing_0;
+        let sin_th1_sq_dot_th1_r = dot_th1 * dot_th1 * r * sin_th1;
+        let cos_th1_per_i1_torque_r = per_i1_torque_r * cos_th1;
+        let acceleration_0_part_15 = (lit(0.5) * sin_th1_sq_dot_th1_r - g
+            - lit(0.5) * cos_th1_per_i1_torque_r) + lit(0.125) * acceleration_0_part_14;
+        let crank_pin_0_by_bearing_1 = per_i1_sq_r * cos_th1 * sin_th1
+            * acceleration_0_part_12 * per_pivot_bearing_1;
+        let crank_pin_0_by_wrist_pin_1 = acceleration_0_part_10 * per_pivot_wrist_pin_1;
+        let crank_pin_0_by_wrist_pin_0 = acceleration_0_part_8 * per_pivot_wrist_pin_0;
+        let acceleration_0_part_16 = half_r * acceleration_0_part_13
+            * crank_pin_0_by_bearing_0
             - lit(0.5)
                 * (per_i1_torque_r * sin_th1
                     + (dot_th1 * dot_th1 * r * cos_th1
                         + dot_th2 * dot_th2 * l * cos_th2))
             + dot_th2 * dot_th2 * half_l * cos_th2 * crank_pin_0_by_wrist_pin_0
-            + lit(0.25) * (safe_part_14 * crank_pin_0_by_bearing_1)
-            + lit(0.25) * (safe_part_16 * crank_pin_0_by_wrist_pin_1);
-        let safe_part_20 = safe_part_2 * bearing_1_by_bearing_0
+            + lit(0.25) * (acceleration_0_part_15 * crank_pin_0_by_bearing_1)
+            + lit(0.25) * (acceleration_0_part_6 * crank_pin_0_by_wrist_pin_1);
+        let acceleration_0_part_17 = (lit(0.25) * sq_cos_th1_per_i1_sq_r - per_m1)
+            - times_per_i1_sq_r * cos_th1 * sin_th1 * bearing_1_by_bearing_0;
+        let crank_pin_1_by_bearing_1 = acceleration_0_part_17 * per_pivot_bearing_1;
+        let acceleration_0_part_18 = (lit(0.25) * sq_cos_th2_per_i2_sq_l - per_m2)
+            - times_per_i2_sq_l * cos_th2 * sin_th2 * crank_pin_1_by_wrist_pin_0;
+        let crank_pin_1_by_wrist_pin_1 = acceleration_0_part_18 * per_pivot_wrist_pin_1;
+        let acceleration_0_part_19 = acceleration_0_part_7 * bearing_1_by_bearing_0
             - (per_i1_sq_r * cos_th1 * sin_th1 + cos_th2_sin_th2_per_i2_sq_l)
-            + safe_part_12
-            - per_i1_sq_r * cos_th1 * sin_th1 * safe_part_11 * crank_pin_1_by_bearing_1
-            - safe_part_17 * crank_pin_1_by_wrist_pin_1;
-        let crank_pin_1_by_crank_pin_0 = safe_part_20 * per_pivot_crank_pin_0;
-        let pivot_crank_pin_1 = lit(0.0625) * safe_part_8 - safe_part_7
-            + lit(0.0625) * safe_part_9
-            - safe_part_15 * safe_part_15 * per_pivot_bearing_1
-            - safe_part_18 * safe_part_18 * per_pivot_wrist_pin_1
-            - lit(0.0625) * (safe_part_20 * safe_part_20 * per_pivot_crank_pin_0);
+            + acceleration_0_part_9
+            - per_i1_sq_r * cos_th1 * sin_th1 * acceleration_0_part_12
+                * crank_pin_1_by_bearing_1
+            - acceleration_0_part_10 * crank_pin_1_by_wrist_pin_1;
+        let acceleration_0_part_20 = per_m1_and_per_m2
+            + lit(0.25) * sq_cos_th1_per_i1_sq_r + lit(0.25) * sq_cos_th2_per_i2_sq_l;
+        let pivot_crank_pin_1 = lit(0.0625)
+            * (acceleration_0_part_19 * acceleration_0_part_19)
+            - pivot_crank_pin_0
+                * (lit(0.0625) * acceleration_0_part - acceleration_0_part_20
+                    + lit(0.0625) * acceleration_0_part_3
+                    - acceleration_0_part_17 * acceleration_0_part_17
+                        * per_pivot_bearing_1
+                    - acceleration_0_part_18 * acceleration_0_part_18
+                        * per_pivot_wrist_pin_1);
         let per_pivot_crank_pin_1 = pivot_crank_pin_1.recip();
-        let safe_part_21 = lit(0.5)
-            * ((sin_th1_sq_dot_th1_r + sin_th2_sq_dot_th2_l) - cos_th1_per_i1_torque_r)
-            + lit(0.125) * safe_part_10 + lit(0.125) * safe_part_13
-            + safe_part_14 * crank_pin_1_by_bearing_1
-            + safe_part_16 * crank_pin_1_by_wrist_pin_1
-            - lit(0.25) * (safe_part_19 * crank_pin_1_by_crank_pin_0);
-        let safe = S::select_le(
+        let safe_crank_pin_1 = S::select_le(
             -pivot_crank_pin_1,
-            lit(0.0009765625) * safe_part_7,
+            lit(-0.0009765625) * (acceleration_0_part_20 * pivot_crank_pin_0),
             lit(0.0),
-            S::select_le(
-                -pivot_crank_pin_0,
-                lit(0.0009765625) * safe_part_6,
-                lit(0.0),
-                S::select_le(
-                    -pivot_wrist_pin_1,
-                    lit(0.0009765625) * safe_part_5,
-                    lit(0.0),
-                    S::select_le(
-                        pivot_wrist_pin_0,
-                        lit(0.0),
-                        lit(0.0),
-                        S::select_le(
-                            -pivot_bearing_1,
-                            lit(0.0009765625) * safe_part_3,
-                            lit(0.0),
-                            S::select_le(
-                                pivot_bearing_0,
-                                lit(0.0),
-                                lit(0.0),
-                                prepared_part_4,
-                            ),
-                        ),
-                    ),
-                ),
-            ),
+            safe_crank_pin_0,
         );
-        let lambda_crank_pin_0 = safe_part_19 * per_pivot_crank_pin_0
+        let acceleration_0_part_21 = lit(0.25)
+            * (acceleration_0_part_16 * acceleration_0_part_19)
+            - pivot_crank_pin_0
+                * (lit(0.5)
+                    * ((sin_th1_sq_dot_th1_r + sin_th2_sq_dot_th2_l)
+                        - cos_th1_per_i1_torque_r) + lit(0.125) * acceleration_0_part_14
+                    + lit(0.125) * acceleration_0_part_5
+                    + acceleration_0_part_15 * crank_pin_1_by_bearing_1
+                    + acceleration_0_part_6 * crank_pin_1_by_wrist_pin_1);
+        out[7] = lit(0.0);
+        out[8] = lit(0.0);
+        let safe = safe_crank_pin_1;
+        let safe_part = acceleration_0_part_16
             - lit(0.25)
-                * (crank_pin_1_by_crank_pin_0 * safe_part_21 * per_pivot_crank_pin_1);
-        let lambda_wrist_pin_1 = safe_part_16 * per_pivot_wrist_pin_1
-            + crank_pin_1_by_wrist_pin_1 * safe_part_21 * per_pivot_crank_pin_1
-            + lit(0.25) * (crank_pin_0_by_wrist_pin_1 * lambda_crank_pin_0);
-        let lambda_bearing_1 = safe_part_14 * per_pivot_bearing_1
-            + crank_pin_1_by_bearing_1 * safe_part_21 * per_pivot_crank_pin_1
-            + lit(0.25) * (crank_pin_0_by_bearing_1 * lambda_crank_pin_0);
-        let lambda_wrist_pin_0 = lit(0.25)
-            * (crank_pin_1_by_wrist_pin_0 * safe_part_21 * per_pivot_crank_pin_1)
-            - dot_th2 * dot_th2 * half_l * cos_th2 * per_pivot_wrist_pin_0
-            + crank_pin_0_by_wrist_pin_0 * lambda_crank_pin_0
-            + lit(0.25) * (crank_pin_1_by_wrist_pin_0 * lambda_wrist_pin_1);
-        let lambda_bearing_0 = lit(0.25)
-            * (bearing_1_by_bearing_0 * safe_part_21 * per_pivot_crank_pin_1)
-            - half_r * safe_part * per_pivot_bearing_0
-            + crank_pin_0_by_bearing_0 * lambda_crank_pin_0
-            + lit(0.25) * (bearing_1_by_bearing_0 * lambda_bearing_1);
+                * (acceleration_0_part_19 * acceleration_0_part_21
+                    * per_pivot_crank_pin_1);
+        let lambda_bearing_1 = acceleration_0_part_15 * per_pivot_bearing_1
+            + crank_pin_1_by_bearing_1 * acceleration_0_part_21 * per_pivot_crank_pin_1
+            + lit(0.25) * (crank_pin_0_by_bearing_1 * per_pivot_crank_pin_0 * safe_part);
         out[1] = per_m1 * lambda_bearing_1 - g
-            - per_m1 * safe_part_21 * per_pivot_crank_pin_1;
-        out[4] = per_m2 * safe_part_21 * per_pivot_crank_pin_1 - g
+            - per_m1 * acceleration_0_part_21 * per_pivot_crank_pin_1;
+        let lambda_wrist_pin_1 = acceleration_0_part_6 * per_pivot_wrist_pin_1
+            + crank_pin_1_by_wrist_pin_1 * acceleration_0_part_21 * per_pivot_crank_pin_1
+            + lit(0.25)
+                * (crank_pin_0_by_wrist_pin_1 * per_pivot_crank_pin_0 * safe_part);
+        out[4] = per_m2 * acceleration_0_part_21 * per_pivot_crank_pin_1 - g
             - per_m2 * lambda_wrist_pin_1;
+        let lambda_wrist_pin_0 = lit(0.25)
+            * (crank_pin_1_by_wrist_pin_0 * acceleration_0_part_21
+                * per_pivot_crank_pin_1)
+            - dot_th2 * dot_th2 * half_l * cos_th2 * per_pivot_wrist_pin_0
+            + crank_pin_0_by_wrist_pin_0 * per_pivot_crank_pin_0 * safe_part
+            + lit(0.25) * (crank_pin_1_by_wrist_pin_0 * lambda_wrist_pin_1);
         out[6] = per_m3 * lambda_wrist_pin_0;
+        let lambda_crank_pin_0 = per_pivot_crank_pin_0 * safe_part;
+        let lambda_bearing_0 = lit(0.25)
+            * (bearing_1_by_bearing_0 * acceleration_0_part_21 * per_pivot_crank_pin_1)
+            - half_r * acceleration_0_part_13 * per_pivot_bearing_0
+            + crank_pin_0_by_bearing_0 * per_pivot_crank_pin_0 * safe_part
+            + lit(0.25) * (bearing_1_by_bearing_0 * lambda_bearing_1);
         out[0] = per_m1 * (lambda_crank_pin_0 + lambda_bearing_0);
         out[2] = per_i1
-            * (torque - half_r * cos_th1 * safe_part_21 * per_pivot_crank_pin_1
-                - half_r * sin_th1 * lambda_crank_pin_0
+            * (torque - half_r * cos_th1 * acceleration_0_part_21 * per_pivot_crank_pin_1
+                - half_r * sin_th1 * per_pivot_crank_pin_0 * safe_part
                 - half_r * cos_th1 * lambda_bearing_1
                 + half_r * sin_th1 * lambda_bearing_0);
         out[3] = -(per_m2 * (lambda_crank_pin_0 + lambda_wrist_pin_0));
         out[5] = -(half_per_i2_l
-            * (cos_th2 * safe_part_21 * per_pivot_crank_pin_1
-                + sin_th2 * lambda_crank_pin_0 + cos_th2 * lambda_wrist_pin_1
-                - sin_th2 * lambda_wrist_pin_0));
+            * (cos_th2 * acceleration_0_part_21 * per_pivot_crank_pin_1
+                + sin_th2 * per_pivot_crank_pin_0 * safe_part
+                + cos_th2 * lambda_wrist_pin_1 - sin_th2 * lambda_wrist_pin_0));
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
@@ -961,7 +965,7 @@ impl ::ukcore::Mechanism for SliderCrank {
         let [_, _, _, _, _, _, _, _, _, _, _, _, per_i1_sq_r, _, per_i2_sq_l, per_m1, _,
         prepared_part, _, times_per_i1_sq_r, per_m3_and_per_m2, per_m2, prepared_part_2,
         times_per_i2_sq_l, per_m1_and_per_m2, prepared_part_3, _, _, _, half_per_i2_l, _,
-        per_m3, _, half_per_i1_r, prepared_part_4] = *::ukcore::emitted::exact::<
+        per_m3, _, half_per_i1_r, safe_th2] = *::ukcore::emitted::exact::<
             S,
             35,
         >(prepared, "prepared");
@@ -972,145 +976,154 @@ impl ::ukcore::Mechanism for SliderCrank {
             8,
         >(residual, "residual");
         let lit = S::from_f64;
-        out[7] = -residual_6;
-        out[8] = -residual_7;
         let (sin_th1, cos_th1) = th1.sin_cos();
-        let (sin_th2, cos_th2) = th2.sin_cos();
         let sq_sin_th1_per_i1_sq_r = per_i1_sq_r * sin_th1 * sin_th1;
-        let sq_cos_th1_per_i1_sq_r = per_i1_sq_r * cos_th1 * cos_th1;
-        let sq_sin_th2_per_i2_sq_l = per_i2_sq_l * sin_th2 * sin_th2;
-        let cos_th2_sin_th2_per_i2_sq_l = per_i2_sq_l * cos_th2 * sin_th2;
-        let sq_cos_th2_per_i2_sq_l = per_i2_sq_l * cos_th2 * cos_th2;
         let pivot_bearing_0 = per_m1 + lit(0.25) * sq_sin_th1_per_i1_sq_r;
-        let safe_part = lit(0.25) * sq_sin_th1_per_i1_sq_r - per_m1;
-        let safe_part_2 = per_m1 + lit(0.25) * sq_cos_th1_per_i1_sq_r;
-        let pivot_wrist_pin_0 = per_m3_and_per_m2 + lit(0.25) * sq_sin_th2_per_i2_sq_l;
-        let safe_part_3 = lit(0.25) * sq_sin_th2_per_i2_sq_l - per_m2;
-        let safe_part_4 = per_m2 + lit(0.25) * sq_cos_th2_per_i2_sq_l;
-        let safe_part_5 = per_m1_and_per_m2 + lit(0.25) * sq_sin_th1_per_i1_sq_r
-            + lit(0.25) * sq_sin_th2_per_i2_sq_l;
-        let safe_part_6 = per_m1_and_per_m2 + lit(0.25) * sq_cos_th1_per_i1_sq_r
-            + lit(0.25) * sq_cos_th2_per_i2_sq_l;
         let per_pivot_bearing_0 = pivot_bearing_0.recip();
+        let safe_bearing_0 = S::select_le(pivot_bearing_0, lit(0.0), lit(0.0), safe_th2);
+        let correction_0_part = prepared_part * cos_th1 * cos_th1 * sin_th1 * sin_th1
+            * per_pivot_bearing_0;
+        let sq_cos_th1_per_i1_sq_r = per_i1_sq_r * cos_th1 * cos_th1;
+        let correction_0_part_2 = per_m1 + lit(0.25) * sq_cos_th1_per_i1_sq_r;
+        let pivot_bearing_1 = lit(0.0625) * correction_0_part - correction_0_part_2;
+        let per_pivot_bearing_1 = pivot_bearing_1.recip();
+        let safe_bearing_1 = S::select_le(
+            -pivot_bearing_1,
+            lit(0.0009765625) * correction_0_part_2,
+            lit(0.0),
+            safe_bearing_0,
+        );
+        let (sin_th2, cos_th2) = th2.sin_cos();
+        let sq_sin_th2_per_i2_sq_l = per_i2_sq_l * sin_th2 * sin_th2;
+        let pivot_wrist_pin_0 = per_m3_and_per_m2 + lit(0.25) * sq_sin_th2_per_i2_sq_l;
         let per_pivot_wrist_pin_0 = pivot_wrist_pin_0.recip();
-        let bearing_1_by_bearing_0 = per_i1_sq_r * cos_th1 * sin_th1
-            * per_pivot_bearing_0;
-        let crank_pin_0_by_bearing_0 = safe_part * per_pivot_bearing_0;
-        let safe_part_7 = prepared_part * cos_th1 * cos_th1 * sin_th1 * sin_th1
-            * per_pivot_bearing_0;
-        let crank_pin_0_by_wrist_pin_0 = safe_part_3 * per_pivot_wrist_pin_0;
+        let safe_wrist_pin_0 = S::select_le(
+            pivot_wrist_pin_0,
+            lit(0.0),
+            lit(0.0),
+            safe_bearing_1,
+        );
+        let correction_0_part_3 = prepared_part_2 * cos_th2 * cos_th2 * sin_th2 * sin_th2
+            * per_pivot_wrist_pin_0;
+        let sq_cos_th2_per_i2_sq_l = per_i2_sq_l * cos_th2 * cos_th2;
+        let correction_0_part_4 = per_m2 + lit(0.25) * sq_cos_th2_per_i2_sq_l;
+        let pivot_wrist_pin_1 = lit(0.0625) * correction_0_part_3 - correction_0_part_4;
+        let per_pivot_wrist_pin_1 = pivot_wrist_pin_1.recip();
+        let safe_wrist_pin_1 = S::select_le(
+            -pivot_wrist_pin_1,
+            lit(0.0009765625) * correction_0_part_4,
+            lit(0.0),
+            safe_wrist_pin_0,
+        );
+        let correction_0_part_5 = lit(0.25) * sq_sin_th1_per_i1_sq_r - per_m1;
+        let correction_0_part_6 = lit(0.25) * sq_sin_th2_per_i2_sq_l - per_m2;
+        let cos_th2_sin_th2_per_i2_sq_l = per_i2_sq_l * cos_th2 * sin_th2;
         let crank_pin_1_by_wrist_pin_0 = per_i2_sq_l * cos_th2 * sin_th2
             * per_pivot_wrist_pin_0;
-        let safe_part_8 = prepared_part_2 * cos_th2 * cos_th2 * sin_th2 * sin_th2
-            * per_pivot_wrist_pin_0;
-        let pivot_bearing_1 = lit(0.0625) * safe_part_7 - safe_part_2;
-        let safe_part_9 = lit(1.0) - crank_pin_0_by_bearing_0;
-        let safe_part_10 = safe_part_3 * crank_pin_1_by_wrist_pin_0;
-        let pivot_wrist_pin_1 = lit(0.0625) * safe_part_8 - safe_part_4;
-        let safe_part_11 = residual_0 * bearing_1_by_bearing_0;
-        let safe_part_12 = residual_4 * crank_pin_1_by_wrist_pin_0;
-        let per_pivot_bearing_1 = pivot_bearing_1.recip();
-        let per_pivot_wrist_pin_1 = pivot_wrist_pin_1.recip();
-        let safe_part_13 = (lit(0.25) * sq_cos_th1_per_i1_sq_r - per_m1)
-            - times_per_i1_sq_r * cos_th1 * sin_th1 * bearing_1_by_bearing_0;
-        let safe_part_14 = cos_th2_sin_th2_per_i2_sq_l - safe_part_10;
-        let safe_part_15 = (lit(0.25) * sq_cos_th2_per_i2_sq_l - per_m2)
-            - times_per_i2_sq_l * cos_th2 * sin_th2 * crank_pin_1_by_wrist_pin_0;
-        let safe_part_16 = residual_1 + lit(0.25) * safe_part_11;
-        let safe_part_17 = (residual_5 + residual_6) + lit(0.25) * safe_part_12;
-        let crank_pin_0_by_bearing_1 = per_i1_sq_r * cos_th1 * sin_th1 * safe_part_9
-            * per_pivot_bearing_1;
-        let crank_pin_1_by_bearing_1 = safe_part_13 * per_pivot_bearing_1;
-        let crank_pin_0_by_wrist_pin_1 = safe_part_14 * per_pivot_wrist_pin_1;
-        let crank_pin_1_by_wrist_pin_1 = safe_part_15 * per_pivot_wrist_pin_1;
-        let pivot_crank_pin_0 = safe_part * safe_part * per_pivot_bearing_0 - safe_part_5
-            + safe_part_3 * safe_part_3 * per_pivot_wrist_pin_0
-            - prepared_part_3 * cos_th1 * cos_th1 * sin_th1 * sin_th1 * safe_part_9
-                * safe_part_9 * per_pivot_bearing_1
-            - lit(0.0625) * (safe_part_14 * safe_part_14 * per_pivot_wrist_pin_1);
+        let correction_0_part_7 = correction_0_part_6 * crank_pin_1_by_wrist_pin_0;
+        let correction_0_part_8 = cos_th2_sin_th2_per_i2_sq_l - correction_0_part_7;
+        let correction_0_part_9 = per_m1_and_per_m2 + lit(0.25) * sq_sin_th1_per_i1_sq_r
+            + lit(0.25) * sq_sin_th2_per_i2_sq_l;
+        let crank_pin_0_by_bearing_0 = correction_0_part_5 * per_pivot_bearing_0;
+        let correction_0_part_10 = lit(1.0) - crank_pin_0_by_bearing_0;
+        let pivot_crank_pin_0 = correction_0_part_5 * correction_0_part_5
+            * per_pivot_bearing_0 - correction_0_part_9
+            + correction_0_part_6 * correction_0_part_6 * per_pivot_wrist_pin_0
+            - prepared_part_3 * cos_th1 * cos_th1 * sin_th1 * sin_th1
+                * correction_0_part_10 * correction_0_part_10 * per_pivot_bearing_1
+            - lit(0.0625)
+                * (correction_0_part_8 * correction_0_part_8 * per_pivot_wrist_pin_1);
         let per_pivot_crank_pin_0 = pivot_crank_pin_0.recip();
-        let safe_part_18 = safe_part * bearing_1_by_bearing_0
-            - (per_i1_sq_r * cos_th1 * sin_th1 + cos_th2_sin_th2_per_i2_sq_l)
-            + safe_part_10
-            - per_i1_sq_r * cos_th1 * sin_th1 * safe_part_9 * crank_pin_1_by_bearing_1
-            - safe_part_14 * crank_pin_1_by_wrist_pin_1;
-        let safe_part_19 = residual_2 + residual_0 * crank_pin_0_by_bearing_0
-            - residual_4 * crank_pin_0_by_wrist_pin_0
-            + lit(0.25) * (safe_part_16 * crank_pin_0_by_bearing_1)
-            - lit(0.25) * (safe_part_17 * crank_pin_0_by_wrist_pin_1);
-        let crank_pin_1_by_crank_pin_0 = safe_part_18 * per_pivot_crank_pin_0;
-        let pivot_crank_pin_1 = lit(0.0625) * safe_part_7 - safe_part_6
-            + lit(0.0625) * safe_part_8
-            - safe_part_13 * safe_part_13 * per_pivot_bearing_1
-            - safe_part_15 * safe_part_15 * per_pivot_wrist_pin_1
-            - lit(0.0625) * (safe_part_18 * safe_part_18 * per_pivot_crank_pin_0);
-        let per_pivot_crank_pin_1 = pivot_crank_pin_1.recip();
-        let safe_part_20 = residual_3 - lit(0.25) * safe_part_11
-            + lit(0.25) * safe_part_12 - safe_part_16 * crank_pin_1_by_bearing_1
-            + safe_part_17 * crank_pin_1_by_wrist_pin_1
-            + lit(0.25) * (safe_part_19 * crank_pin_1_by_crank_pin_0);
-        let safe = S::select_le(
-            -pivot_crank_pin_1,
-            lit(0.0009765625) * safe_part_6,
+        let safe_crank_pin_0 = S::select_le(
+            -pivot_crank_pin_0,
+            lit(0.0009765625) * correction_0_part_9,
             lit(0.0),
-            S::select_le(
-                -pivot_crank_pin_0,
-                lit(0.0009765625) * safe_part_5,
-                lit(0.0),
-                S::select_le(
-                    -pivot_wrist_pin_1,
-                    lit(0.0009765625) * safe_part_4,
-                    lit(0.0),
-                    S::select_le(
-                        pivot_wrist_pin_0,
-                        lit(0.0),
-                        lit(0.0),
-                        S::select_le(
-                            -pivot_bearing_1,
-                            lit(0.0009765625) * safe_part_2,
-                            lit(0.0),
-                            S::select_le(
-                                pivot_bearing_0,
-                                lit(0.0),
-                                lit(0.0),
-                                prepared_part_4,
-                            ),
-                        ),
-                    ),
-                ),
-            ),
+            safe_wrist_pin_1,
         );
-        let lambda_crank_pin_1 = safe_part_20 * per_pivot_crank_pin_1;
-        let lambda_crank_pin_0 = safe_part_19 * per_pivot_crank_pin_0
-            + lit(0.25)
-                * (crank_pin_1_by_crank_pin_0 * safe_part_20 * per_pivot_crank_pin_1);
-        let lambda_wrist_pin_1 = safe_part_17 * per_pivot_wrist_pin_1
-            + crank_pin_1_by_wrist_pin_1 * safe_part_20 * per_pivot_crank_pin_1
-            - lit(0.25) * (crank_pin_0_by_wrist_pin_1 * lambda_crank_pin_0);
-        let lambda_bearing_1 = safe_part_16 * per_pivot_bearing_1
-            - crank_pin_1_by_bearing_1 * safe_part_20 * per_pivot_crank_pin_1
-            + lit(0.25) * (crank_pin_0_by_bearing_1 * lambda_crank_pin_0);
-        let lambda_wrist_pin_0 = residual_4 * per_pivot_wrist_pin_0
+        let bearing_1_by_bearing_0 = per_i1_sq_r * cos_th1 * sin_th1
+            * per_pivot_bearing_0;
+        let correction_0_part_11 = (lit(0.25) * sq_cos_th1_per_i1_sq_r - per_m1)
+            - times_per_i1_sq_r * cos_th1 * sin_th1 * bearing_1_by_bearing_0;
+        let crank_pin_1_by_bearing_1 = correction_0_part_11 * per_pivot_bearing_1;
+        let correction_0_part_12 = (lit(0.25) * sq_cos_th2_per_i2_sq_l - per_m2)
+            - times_per_i2_sq_l * cos_th2 * sin_th2 * crank_pin_1_by_wrist_pin_0;
+        let crank_pin_1_by_wrist_pin_1 = correction_0_part_12 * per_pivot_wrist_pin_1;
+        let correction_0_part_13 = correction_0_part_5 * bearing_1_by_bearing_0
+            - (per_i1_sq_r * cos_th1 * sin_th1 + cos_th2_sin_th2_per_i2_sq_l)
+            + correction_0_part_7
+            - per_i1_sq_r * cos_th1 * sin_th1 * correction_0_part_10
+                * crank_pin_1_by_bearing_1
+            - correction_0_part_8 * crank_pin_1_by_wrist_pin_1;
+        let correction_0_part_14 = per_m1_and_per_m2 + lit(0.25) * sq_cos_th1_per_i1_sq_r
+            + lit(0.25) * sq_cos_th2_per_i2_sq_l;
+        let pivot_crank_pin_1 = lit(0.0625)
+            * (correction_0_part_13 * correction_0_part_13)
+            - pivot_crank_pin_0
+                * (lit(0.0625) * correction_0_part - correction_0_part_14
+                    + lit(0.0625) * correction_0_part_3
+                    - correction_0_part_11 * correction_0_part_11 * per_pivot_bearing_1
+                    - correction_0_part_12 * correction_0_part_12
+                        * per_pivot_wrist_pin_1);
+        let per_pivot_crank_pin_1 = pivot_crank_pin_1.recip();
+        let safe_crank_pin_1 = S::select_le(
+            -pivot_crank_pin_1,
+            lit(-0.0009765625) * (correction_0_part_14 * pivot_crank_pin_0),
+            lit(0.0),
+            safe_crank_pin_0,
+        );
+        out[7] = -residual_6;
+        out[8] = -residual_7;
+        let safe = safe_crank_pin_1;
+        let crank_pin_0_by_bearing_1 = per_i1_sq_r * cos_th1 * sin_th1
+            * correction_0_part_10 * per_pivot_bearing_1;
+        let safe_part = residual_0 * bearing_1_by_bearing_0;
+        let safe_part_2 = residual_1 + lit(0.25) * safe_part;
+        let crank_pin_0_by_wrist_pin_0 = correction_0_part_6 * per_pivot_wrist_pin_0;
+        let crank_pin_0_by_wrist_pin_1 = correction_0_part_8 * per_pivot_wrist_pin_1;
+        let safe_part_3 = residual_4 * crank_pin_1_by_wrist_pin_0;
+        let safe_part_4 = (residual_5 + residual_6) + lit(0.25) * safe_part_3;
+        let safe_part_5 = residual_2 + residual_0 * crank_pin_0_by_bearing_0
+            - residual_4 * crank_pin_0_by_wrist_pin_0
+            + lit(0.25) * (safe_part_2 * crank_pin_0_by_bearing_1)
+            - lit(0.25) * (safe_part_4 * crank_pin_0_by_wrist_pin_1);
+        let safe_part_6 = lit(0.25) * (correction_0_part_13 * safe_part_5)
+            + pivot_crank_pin_0
+                * (residual_3 - lit(0.25) * safe_part + lit(0.25) * safe_part_3
+                    - safe_part_2 * crank_pin_1_by_bearing_1
+                    + safe_part_4 * crank_pin_1_by_wrist_pin_1);
+        let lambda_crank_pin_1 = safe_part_6 * per_pivot_crank_pin_1;
+        let safe_part_7 = safe_part_5
+            - lit(0.25) * (correction_0_part_13 * safe_part_6 * per_pivot_crank_pin_1);
+        let lambda_wrist_pin_1 = safe_part_4 * per_pivot_wrist_pin_1
+            - crank_pin_1_by_wrist_pin_1 * safe_part_6 * per_pivot_crank_pin_1
             - lit(0.25)
-                * (crank_pin_1_by_wrist_pin_0 * safe_part_20 * per_pivot_crank_pin_1)
-            + crank_pin_0_by_wrist_pin_0 * lambda_crank_pin_0
+                * (crank_pin_0_by_wrist_pin_1 * per_pivot_crank_pin_0 * safe_part_7);
+        out[4] = per_m2 * (lambda_crank_pin_1 + lambda_wrist_pin_1);
+        let lambda_bearing_1 = safe_part_2 * per_pivot_bearing_1
+            + crank_pin_1_by_bearing_1 * safe_part_6 * per_pivot_crank_pin_1
+            + lit(0.25)
+                * (crank_pin_0_by_bearing_1 * per_pivot_crank_pin_0 * safe_part_7);
+        out[1] = -(per_m1 * (lambda_crank_pin_1 - lambda_bearing_1));
+        let lambda_wrist_pin_0 = residual_4 * per_pivot_wrist_pin_0
+            + lit(0.25)
+                * (crank_pin_1_by_wrist_pin_0 * safe_part_6 * per_pivot_crank_pin_1)
+            + crank_pin_0_by_wrist_pin_0 * per_pivot_crank_pin_0 * safe_part_7
             - lit(0.25) * (crank_pin_1_by_wrist_pin_0 * lambda_wrist_pin_1);
-        let lambda_bearing_0 = residual_0 * per_pivot_bearing_0
-            + lit(0.25) * (bearing_1_by_bearing_0 * safe_part_20 * per_pivot_crank_pin_1)
-            - crank_pin_0_by_bearing_0 * lambda_crank_pin_0
-            - lit(0.25) * (bearing_1_by_bearing_0 * lambda_bearing_1);
-        out[1] = per_m1 * (lambda_crank_pin_1 + lambda_bearing_1);
-        out[4] = -(per_m2 * (lambda_crank_pin_1 - lambda_wrist_pin_1));
         out[6] = per_m3 * lambda_wrist_pin_0;
+        let lambda_crank_pin_0 = per_pivot_crank_pin_0 * safe_part_7;
+        let lambda_bearing_0 = residual_0 * per_pivot_bearing_0
+            - lit(0.25) * (bearing_1_by_bearing_0 * safe_part_6 * per_pivot_crank_pin_1)
+            - crank_pin_0_by_bearing_0 * per_pivot_crank_pin_0 * safe_part_7
+            - lit(0.25) * (bearing_1_by_bearing_0 * lambda_bearing_1);
         out[0] = per_m1 * (lambda_crank_pin_0 - lambda_bearing_0);
         out[3] = -(per_m2 * (lambda_crank_pin_0 + lambda_wrist_pin_0));
         out[2] = -(half_per_i1_r
-            * (sin_th1 * lambda_crank_pin_0
-                - cos_th1 * safe_part_20 * per_pivot_crank_pin_1
+            * (cos_th1 * safe_part_6 * per_pivot_crank_pin_1
+                + sin_th1 * per_pivot_crank_pin_0 * safe_part_7
                 + cos_th1 * lambda_bearing_1 + sin_th1 * lambda_bearing_0));
         out[5] = -(half_per_i2_l
-            * (sin_th2 * lambda_crank_pin_0
-                - cos_th2 * safe_part_20 * per_pivot_crank_pin_1
+            * (cos_th2 * safe_part_6 * per_pivot_crank_pin_1
+                + sin_th2 * per_pivot_crank_pin_0 * safe_part_7
                 - cos_th2 * lambda_wrist_pin_1 - sin_th2 * lambda_wrist_pin_0));
         safe
     }

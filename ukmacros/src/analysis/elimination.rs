@@ -10,15 +10,21 @@
 //! Every 1 × 1 pivot is compared at run time with the diagonal it started from: see `Mechanism::acceleration`.
 
 use super::dynamics::Dynamics;
-use crate::expr::{Graph, Id, Symbol, System};
+use crate::expr::{Graph, Id, Node, Symbol, System};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A 1 × 1 pivot d and the diagonal G it started from: rank is lost where d/G falls to rounding.
-#[derive(Clone, Copy)]
+/// A 1 × 1 pivot d and the diagonal G it started from, both times a positive number: rank is lost where d/G falls to rounding.
+#[derive(Clone)]
 pub(crate) struct Pivot {
+    /// Of the coordinate or constraint.
+    pub(crate) name: String,
     pub(crate) value: Id,
     pub(crate) reference: Id,
 }
+
+/// Longest chain of pivots whose divisions are put off. Their numerators are products of as many pivots, and must stay in the range of
+/// numbers: with lengths of 1e-15 or 1e15 a constraint's pivot is 1e∓30, and its ninth power still has room.
+const CHAIN: usize = 8;
 
 /// The straight-line solve.
 #[derive(Clone)]
@@ -28,6 +34,8 @@ pub(crate) struct Elimination {
     /// Δ of least M-norm with A Δ = −residual (residuals are [`Symbol::Residual`]).
     pub(crate) correction: Vec<Id>,
     pub(crate) pivots: Vec<Pivot>,
+    /// Pivots with their right-hand sides, in the order of elimination: the order in which they are best computed.
+    pub(crate) stages: Vec<[Id; 2]>,
     /// The order: names of coordinates (positions below n) and constraints (n + row); pairs for 2 × 2 pivots.
     pub(crate) order: Vec<Pivoting>,
     /// Names of pivots, factors and multipliers.
@@ -60,7 +68,7 @@ pub(crate) fn eliminate(
     let n = d.force.len();
     let order = order(d, g)?;
     let zero = g.zero();
-    let mut pivots = Vec::new();
+    let (mut pivots, mut stages) = (Vec::new(), Vec::new());
     let force: Vec<Id> = (0..n).map(|i| g.add(d.force[i], d.nonideal[i])).collect();
     // A constraint may be divided by a number: one that all its coefficients share would be multiplied through everything.
     let scales: Vec<f64> = (0..d.rhs.len()).map(|row| share(d, row, g)).collect();
@@ -76,7 +84,8 @@ pub(crate) fn eliminate(
     let mut system = Matrix::new(d, &jacobian, g);
     system.load(&force, &rhs);
     let mut hints = Vec::new();
-    let acceleration = system.solve(&order, names, g, &mut hints, Some(&mut pivots))?;
+    let acceleration =
+        system.solve(&order, names, g, &mut hints, Some(&mut pivots), &mut stages)?;
     let residuals: Vec<Id> = (0..d.rhs.len())
         .map(|i| {
             let r = g.symbol(Symbol::Residual(i));
@@ -86,11 +95,12 @@ pub(crate) fn eliminate(
     let residuals = scaled(&residuals, g);
     let mut system = Matrix::new(d, &jacobian, g);
     system.load(&vec![zero; n], &residuals);
-    let correction = system.solve(&order, names, g, &mut hints, None)?;
+    let correction = system.solve(&order, names, g, &mut hints, None, &mut stages)?;
     Ok(Elimination {
         acceleration,
         correction,
         pivots,
+        stages,
         order,
         hints,
     })
@@ -122,6 +132,8 @@ pub(crate) struct Straight {
     pub(crate) elimination: Elimination,
     /// 1 where every pivot is safe, 0 where one is not.
     pub(crate) certificate: Id,
+    /// What is computed first, in this order: pivots, their right-hand sides, links of the certificate.
+    pub(crate) stages: Vec<Id>,
 }
 
 impl Straight {
@@ -139,7 +151,19 @@ impl Straight {
     /// Adds the certificate, and enters the names.
     pub(crate) fn new(mut elimination: Elimination, system: &mut System) -> Self {
         let g = &mut system.graph;
-        let certificate = elimination.certificate(g);
+        let (certificate, chain) = elimination.certificate(g);
+        let mut stages = Vec::new();
+        let count = elimination.pivots.len();
+        for (k, [pivot, right]) in elimination.stages.iter().enumerate() {
+            stages.push(*pivot);
+            let links = chain.iter().filter(|(of, _)| *of == k % count);
+            stages.extend(links.map(|(_, link)| *link));
+            stages.push(*right);
+        }
+        for (of, link) in chain {
+            let name = &elimination.pivots[of].name;
+            system.hints.insert(link, format!("safe_{name}"));
+        }
         for (id, name) in std::mem::take(&mut elimination.hints) {
             let (_, inner) = g.unscaled(id);
             if !g.operands(inner).is_empty() {
@@ -149,31 +173,85 @@ impl Straight {
         Straight {
             elimination,
             certificate,
+            stages,
         }
     }
 }
 
 impl Elimination {
-    /// 1 where every pivot is safe, 0 where one is not, as a chain of selections.
-    fn certificate(&self, g: &mut Graph) -> Id {
+    /// 1 where every pivot is safe, 0 where one is not, as a chain of selections, and its links with the
+    /// pivots they check: what depends on parameters only first, then
+    /// in the order of the elimination, so that no pivot has to be kept for it.
+    fn certificate(&self, g: &mut Graph) -> (Id, Vec<(usize, Id)>) {
         let zero = g.zero();
-        let mut safe = g.one();
-        let mut seen: Vec<(Id, Id)> = Vec::new();
-        for Pivot { value, reference } in &self.pivots {
-            let positive = g.as_const(*value).is_some_and(|x| x > 0.0);
-            if seen.contains(&(*value, *reference)) || (positive && value == reference) {
-                continue;
-            }
-            seen.push((*value, *reference));
-            let least = if value == reference {
-                zero
+        let positive: BTreeSet<Id> = self
+            .pivots
+            .iter()
+            .filter(|p| p.value == p.reference)
+            .map(|p| g.unscaled(p.value).1)
+            .collect();
+        let mut conditions: Vec<(usize, Id, Id)> = Vec::new();
+        for (
+            k,
+            Pivot {
+                value, reference, ..
+            },
+        ) in self.pivots.iter().enumerate()
+        {
+            let (value, least) = if value == reference {
+                (*value, zero)
             } else {
-                g.scale(SAFE_SHARE, *reference)
+                let (value, reference) = reduced(*value, *reference, &positive, g);
+                (value, g.scale(SAFE_SHARE, reference))
             };
-            safe = g.select(*value, least, zero, safe);
+            let holds = g.as_const(value).is_some_and(|x| x > 0.0) && least == zero;
+            let known = conditions.iter().any(|c| (c.1, c.2) == (value, least));
+            if !holds && !known {
+                conditions.push((k, value, least));
+            }
         }
-        safe
+        conditions.sort_by_key(|(_, a, b)| !(g.uses(*a).constant() && g.uses(*b).constant()));
+        let mut safe = g.one();
+        let mut chain = Vec::new();
+        for (k, value, least) in conditions {
+            safe = g.select(value, least, zero, safe);
+            chain.push((k, safe));
+        }
+        (safe, chain)
     }
+}
+
+/// Both without the factors that they share and that are positive: even powers, and `positive` ones.
+fn reduced(a: Id, b: Id, positive: &BTreeSet<Id>, g: &mut Graph) -> (Id, Id) {
+    let factors = |id: Id, g: &Graph| match g.node(g.unscaled(id).1) {
+        Node::Product(factors) => factors.clone(),
+        _ => vec![(g.unscaled(id).1, 1)],
+    };
+    let others = factors(b, g);
+    let mut common = Vec::new();
+    for (base, e) in factors(a, g) {
+        let Some((_, other)) = others.iter().find(|(b, _)| *b == base) else {
+            continue;
+        };
+        if (e > 0) == (*other > 0) {
+            let least = if e > 0 { e.min(*other) } else { e.max(*other) };
+            let even = least - least % 2;
+            let power = if positive.contains(&base) {
+                least
+            } else {
+                even
+            };
+            if power != 0 {
+                common.push((base, -power));
+            }
+        }
+    }
+    let mut divide = |id: Id| {
+        let mut all = common.clone();
+        all.push((id, 1));
+        g.product(&all)
+    };
+    (divide(a), divide(b))
 }
 
 /// Adjacency of K = [M Aᵀ; A 0]: coordinates 0..n, constraints n..n + m.
@@ -308,6 +386,28 @@ struct Matrix {
     entries: BTreeMap<(usize, usize), Entry>,
     rows: Vec<BTreeSet<usize>>,
     rhs: Vec<Entry>,
+    /// What one constraint before takes off each, its division put off.
+    deferred: Vec<Option<Deferred>>,
+    /// How many divisions in a row were put off.
+    depth: Vec<usize>,
+}
+
+/// An update d − p²/(N/D), r + p (R/D)/(N/D) that is not yet divided by N.
+#[derive(Clone, Copy)]
+struct Deferred {
+    /// N.
+    pivot: Id,
+    /// p² D.
+    square: Id,
+    /// p R.
+    right: Id,
+}
+
+/// A pivot numerator/denominator (without its sign), with its right-hand side right/denominator.
+struct Fraction {
+    numerator: Id,
+    denominator: Id,
+    right: Id,
 }
 
 /// Σ gram + Σ schur: what makes up an entry of M or G, and what elimination takes off it.
@@ -360,6 +460,8 @@ impl Matrix {
         Matrix {
             n,
             entries,
+            deferred: vec![None; rows.len()],
+            depth: vec![0; rows.len()],
             rows,
             rhs: Vec::new(),
         }
@@ -419,6 +521,36 @@ impl Matrix {
         neighbours
     }
 
+    /// The pivot of `k`. In a chain of constraints (each coupled to the next alone) divisions would wait for each other; written as
+    /// N' = d N − p² D over D' = N the pivots need none, and all reciprocals are independent.
+    fn fraction(&self, k: usize, diagonal: Id, right: Id, g: &mut Graph) -> Fraction {
+        let Some(Deferred {
+            pivot,
+            square,
+            right: before,
+        }) = self.deferred[k]
+        else {
+            return Fraction {
+                numerator: diagonal,
+                denominator: g.one(),
+                right,
+            };
+        };
+        let (diagonal, right) = (g.mul(diagonal, pivot), g.mul(right, pivot));
+        Fraction {
+            numerator: g.factored_sum(&[(1.0, diagonal), (-1.0, square)]),
+            denominator: pivot,
+            right: g.factored_sum(&[(1.0, right), (1.0, before)]),
+        }
+    }
+
+    /// Whether constraint `k` puts off its division, with `a` its only neighbour: not where another one is eliminated into `a`, nor after
+    /// [`CHAIN`] in a row.
+    fn defers(&self, k: usize, a: usize, position: &[usize]) -> bool {
+        let another = self.rows[a].iter().any(|b| position[*b] < position[a]);
+        !another && self.deferred[a].is_none() && self.depth[k] < CHAIN
+    }
+
     /// Forward elimination and back substitution; the coordinates' part of the solution.
     fn solve(
         mut self,
@@ -427,43 +559,72 @@ impl Matrix {
         g: &mut Graph,
         hints: &mut Vec<(Id, String)>,
         mut pivots: Option<&mut Vec<Pivot>>,
+        stages: &mut Vec<[Id; 2]>,
     ) -> Result<Vec<Id>, String> {
         let size = self.rows.len();
+        let mut position = vec![0; size];
+        for (at, step) in order.iter().enumerate() {
+            if let Pivoting::One(k) = *step {
+                position[k] = at;
+            }
+        }
         // For back substitution, each divided by the pivot: the row's entries, the right-hand side.
         let mut eliminated: Vec<(Vec<(usize, Id)>, Id)> = Vec::new();
         for step in order {
             match *step {
                 Pivoting::One(k) => {
-                    let (reference, pivot) = match self.entries.get(&(k, k)) {
-                        Some(entry) => entry.values(g),
-                        None => return Err("a pivot vanished".to_owned()),
+                    let Some(entry) = self.entries.get(&(k, k)) else {
+                        return Err("a pivot vanished".to_owned());
                     };
-                    if g.is_zero(pivot) {
+                    let (reference, diagonal) = entry.values(g);
+                    let constraint = k >= self.n;
+                    // Constraint pivots are negative in K.
+                    let sign = if constraint { -1.0 } else { 1.0 };
+                    let (reference, diagonal) = (g.scale(sign, reference), g.scale(sign, diagonal));
+                    let right = self.rhs[k].values(g).1;
+                    let pivot = self.fraction(k, diagonal, right, g);
+                    if g.is_zero(pivot.numerator) {
                         return Err("a pivot vanished".to_owned());
                     }
                     if let Some(pivots) = pivots.as_deref_mut() {
-                        // Constraint pivots are negative in K.
-                        let sign = if k < self.n { 1.0 } else { -1.0 };
                         pivots.push(Pivot {
-                            value: g.scale(sign, pivot),
-                            reference: g.scale(sign, reference),
+                            name: names[k].clone(),
+                            value: pivot.numerator,
+                            reference: g.mul(reference, pivot.denominator),
                         });
                     }
-                    let constraint = k >= self.n;
-                    hints.push((pivot, format!("pivot_{}", names[k])));
-                    let right = self.rhs[k].values(g).1;
+                    stages.push([pivot.numerator, pivot.right]);
+                    hints.push((pivot.numerator, format!("pivot_{}", names[k])));
+                    // x_k = right / value
+                    let value = g.div(pivot.numerator, pivot.denominator);
+                    let value = g.scale(sign, value);
+                    let solved = g.div(pivot.right, pivot.numerator);
+                    let solved = g.scale(sign, solved);
                     let neighbours = self.take(k);
                     let row: Vec<(usize, Id)> = neighbours
                         .iter()
                         .map(|a| (*a, self.value(*a, k, g)))
                         .collect();
+                    if let [(a, off)] = row[..]
+                        && constraint
+                        && self.defers(k, a, &position)
+                    {
+                        self.depth[a] = self.depth[k] + 1;
+                        self.deferred[a] = Some(Deferred {
+                            pivot: pivot.numerator,
+                            square: g.product(&[(off, 2), (pivot.denominator, 1)]),
+                            right: g.mul(off, pivot.right),
+                        });
+                        eliminated.push((vec![(a, g.div(off, value))], solved));
+                        continue;
+                    }
                     // What constraints or shared inertia divide by is computed once; for a coordinate that shares none, the product is
                     // left open, so that terms of different coordinates can be collected.
                     let shared = constraint || neighbours.iter().any(|a| *a < self.n);
                     let factors: Vec<(usize, Id)> = row
                         .iter()
                         .map(|(a, ka)| {
-                            let factor = g.div(*ka, pivot);
+                            let factor = g.div(*ka, value);
                             let factor = if shared { g.hold(factor) } else { factor };
                             if shared {
                                 hints.push((factor, format!("{}_by_{}", names[*a], names[k])));
@@ -475,18 +636,20 @@ impl Matrix {
                         for (b, kb) in &row[..=p] {
                             // The square is known before the pivot is: one multiplication less on the critical path.
                             let term = if a == b {
-                                g.product(&[(*kb, 2), (pivot, -1)])
+                                g.product(&[(*kb, 2), (value, -1)])
                             } else {
                                 g.mul(*factor, *kb)
                             };
                             // What a coordinate adds to constraints makes up G; all else is taken off a diagonal that stood before.
                             self.update(*a, *b, constraint || *a < self.n, term, g);
                         }
-                        let term = g.mul(*factor, right);
+                        let term = match self.deferred[k] {
+                            None => g.mul(*factor, right),
+                            Some(_) => g.mul(row[p].1, solved),
+                        };
                         self.update_rhs(*a, constraint, term, g);
                     }
-                    let right = g.div(right, pivot);
-                    eliminated.push((factors, right));
+                    eliminated.push((factors, solved));
                 }
                 Pivoting::Two(j, c) => {
                     let a = self.value(j, c, g);

@@ -38,6 +38,10 @@ pub(crate) fn hoist(
         *place = pass.value(*root);
     }
     let (known, values) = (pass.known, pass.values);
+    if let Ok(straight) = &mut straight {
+        let stages = straight.stages.iter().filter_map(|id| known.get(id));
+        straight.stages = stages.copied().collect();
+    }
     // Names go with the values.
     for (old, new) in known {
         let (_, inner) = system.graph.unscaled(new);

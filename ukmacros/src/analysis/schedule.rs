@@ -14,12 +14,12 @@ pub(crate) struct Program {
 
 /// The order of statements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Sequence {
-    /// Each root after what it needs, in the order of the roots: reads well.
+pub(crate) enum Sequence<'a> {
+    /// Each root after what it needs, in the order of the roots.
     Roots,
-    /// As values can be known: chains that do not depend on each other advance side by side, which is a third faster where
-    /// divisions follow divisions.
-    Latency,
+    /// First these values, each after what it needs, then the roots as they can be known. With the stages of an elimination, chains that do
+    /// not depend on each other advance side by side, and what a stage needs is computed just before it, so that little has to be kept.
+    Stages(&'a [Id]),
 }
 
 /// One statement.
@@ -41,7 +41,7 @@ pub(crate) fn schedule(
     g: &Graph,
     roots: &[Id],
     named: &HashMap<Id, String>,
-    sequence: Sequence,
+    sequence: Sequence<'_>,
 ) -> Program {
     let needed = reachable(g, roots);
     let mut order: Vec<Id> = needed.iter().copied().collect();
@@ -79,9 +79,24 @@ pub(crate) fn schedule(
     };
     let mut steps = Vec::new();
     let mut done: HashSet<Id> = HashSet::new();
-    for (k, root) in roots.iter().enumerate() {
+    let mut goals: Vec<(Id, Option<usize>)> = Vec::new();
+    let mut stores: Vec<usize> = (0..roots.len()).collect();
+    if let Sequence::Stages(stages) = sequence {
+        // A product may have been taken apart: then its factors are the goals.
+        let mut stack: Vec<Id> = stages.iter().rev().copied().collect();
+        while let Some(id) = stack.pop() {
+            match g.node(id) {
+                _ if needed.contains(&id) => goals.push((id, None)),
+                Node::Scale(..) | Node::Product(_) | Node::Held(_) => stack.extend(g.operands(id)),
+                _ => {}
+            }
+        }
+        stores.sort_by_key(|k| g.latency(roots[*k]));
+    }
+    goals.extend(stores.into_iter().map(|k| (roots[k], Some(k))));
+    for (goal, store) in goals {
         // Depth-first, operands before users, without recursion.
-        let mut stack = vec![(*root, false)];
+        let mut stack = vec![(goal, false)];
         while let Some((id, expanded)) = stack.pop() {
             if done.contains(&id) {
                 continue;
@@ -107,16 +122,7 @@ pub(crate) fn schedule(
                 steps.push(Step::Reciprocal(id));
             }
         }
-        steps.push(Step::Store(k));
-    }
-    let rank = |step: &Step| match *step {
-        Step::Let(id) => (g.latency(id), 0, id.index()),
-        Step::SinCos { sin, .. } => (g.latency(sin), 0, sin.index()),
-        Step::Reciprocal(id) => (g.latency(id) + 1, 0, id.index()),
-        Step::Store(k) => (g.latency(roots[k]) + 1, 1, k),
-    };
-    if sequence == Sequence::Latency {
-        steps.sort_by_key(rank);
+        steps.extend(store.map(Step::Store));
     }
     Program {
         steps,

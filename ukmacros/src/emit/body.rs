@@ -26,7 +26,7 @@ pub(super) fn body(
     model: &Model,
     prepared: &[Id],
     roots: &[Root],
-    sequence: Sequence,
+    sequence: Sequence<'_>,
 ) -> Body {
     let g = &system.graph;
     let ids: Vec<Id> = roots.iter().map(|r| r.id).collect();

@@ -342,7 +342,7 @@ impl Functions<'_> {
                 self.model,
                 &self.hoisted.values,
                 &roots,
-                Sequence::Latency,
+                Sequence::Stages(&straight.stages),
             )
         };
         let acceleration = function(&straight.elimination.acceleration, "acceleration");
