@@ -20,6 +20,16 @@ pub trait Scalar:
     fn from_f64(x: f64) -> Self;
     /// `then` where `a ≤ b`, else `otherwise` (also where a or b is NaN).
     fn select_le(a: Self, b: Self, then: Self, otherwise: Self) -> Self;
+    /// self · b + c; rounded once where the target has an instruction for it, never by a library call.
+    #[inline]
+    fn mul_add(self, b: Self, c: Self) -> Self {
+        self * b + c
+    }
+    /// c − self · b, rounded like [`Scalar::mul_add`].
+    #[inline]
+    fn neg_mul_add(self, b: Self, c: Self) -> Self {
+        c - self * b
+    }
     /// 1/x.
     #[inline]
     fn recip(self) -> Self {
@@ -86,6 +96,22 @@ macro_rules! float {
             #[inline]
             fn select_le(a: Self, b: Self, then: Self, otherwise: Self) -> Self {
                 if a <= b { then } else { otherwise }
+            }
+            #[inline]
+            fn mul_add(self, b: Self, c: Self) -> Self {
+                if cfg!(target_feature = "fma") {
+                    $f::mul_add(self, b, c)
+                } else {
+                    self * b + c
+                }
+            }
+            #[inline]
+            fn neg_mul_add(self, b: Self, c: Self) -> Self {
+                if cfg!(target_feature = "fma") {
+                    $f::mul_add(-self, b, c)
+                } else {
+                    c - self * b
+                }
             }
             #[inline]
             fn sin_cos(self) -> (Self, Self) {

@@ -194,7 +194,7 @@ impl ::ukcore::Mechanism for DoublePendulum {
             },
             solve_operations: ::ukcore::Operations {
                 additions: 24,
-                multiplications: 44,
+                multiplications: 43,
                 divisions: 2,
                 square_roots: 0,
                 transcendentals: 0,
@@ -301,12 +301,12 @@ impl ::ukcore::Mechanism for DoublePendulum {
         jacobian[3] = lit(2.0) * y1_minus_y2;
         jacobian[5] = lit(-2.0) * x1_minus_x2;
         jacobian[7] = lit(-2.0) * y1_minus_y2;
-        rhs[0] = lit(-2.0) * (dot_x1 * dot_x1 + dot_y1 * dot_y1);
+        rhs[0] = lit(-2.0) * dot_y1.mul_add(dot_y1, dot_x1 * dot_x1);
         let dot_x1_minus_dot_x2 = dot_x1 - dot_x2;
         let dot_y1_minus_dot_y2 = dot_y1 - dot_y2;
         rhs[1] = lit(-2.0)
-            * (dot_x1_minus_dot_x2 * dot_x1_minus_dot_x2
-                + dot_y1_minus_dot_y2 * dot_y1_minus_dot_y2);
+            * dot_y1_minus_dot_y2
+                .mul_add(dot_y1_minus_dot_y2, dot_x1_minus_dot_x2 * dot_x1_minus_dot_x2);
     }
     fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 16>(mass, "mass");
@@ -345,10 +345,10 @@ impl ::ukcore::Mechanism for DoublePendulum {
             12,
         >(prepared, "prepared");
         let [x1, y1, x2, y2] = *::ukcore::emitted::exact::<S, 4>(q, "q");
-        phi[0] = x1 * x1 - sq_l1 + y1 * y1;
+        phi[0] = y1.mul_add(y1, x1 * x1 - sq_l1);
         let x1_minus_x2 = x1 - x2;
         let y1_minus_y2 = y1 - y2;
-        phi[1] = x1_minus_x2 * x1_minus_x2 - sq_l2 + y1_minus_y2 * y1_minus_y2;
+        phi[1] = y1_minus_y2.mul_add(y1_minus_y2, x1_minus_x2 * x1_minus_x2 - sq_l2);
     }
     fn residual_rate<S: ::ukcore::Scalar>(
         prepared: &[S],
@@ -361,9 +361,9 @@ impl ::ukcore::Mechanism for DoublePendulum {
         let [x1, y1, x2, y2] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let [dot_x1, dot_y1, dot_x2, dot_y2] = *::ukcore::emitted::exact::<S, 4>(v, "v");
         let lit = S::from_f64;
-        rate[0] = lit(2.0) * (x1 * dot_x1 + y1 * dot_y1);
+        rate[0] = lit(2.0) * y1.mul_add(dot_y1, x1 * dot_x1);
         rate[1] = lit(2.0)
-            * ((x1 - x2) * (dot_x1 - dot_x2) + (y1 - y2) * (dot_y1 - dot_y2));
+            * (y1 - y2).mul_add((dot_y1 - dot_y2), (x1 - x2) * (dot_x1 - dot_x2));
     }
     fn energy<S: ::ukcore::Scalar>(
         prepared: &[S],
@@ -379,9 +379,13 @@ impl ::ukcore::Mechanism for DoublePendulum {
         let [dot_x1, dot_y1, dot_x2, dot_y2] = *::ukcore::emitted::exact::<S, 4>(v, "v");
         let lit = S::from_f64;
         let kinetic = lit(0.5)
-            * (dot_x1 * dot_x1 * m1 + dot_y1 * dot_y1 * m1 + dot_x2 * dot_x2 * m2
-                + dot_y2 * dot_y2 * m2);
-        let potential = y1 * m1_g + y2 * m2_g;
+            * (dot_y2 * dot_y2)
+                .mul_add(
+                    m2,
+                    (dot_x2 * dot_x2)
+                        .mul_add(m2, (dot_y1 * dot_y1).mul_add(m1, dot_x1 * dot_x1 * m1)),
+                );
+        let potential = y2.mul_add(m2_g, y1 * m1_g);
         ::ukcore::Energy {
             kinetic,
             potential,
@@ -399,7 +403,7 @@ impl ::ukcore::Mechanism for DoublePendulum {
         outputs[0] = x1.atan2(-y1);
         outputs[1] = (x2 - x1).atan2(y1 - y2);
     }
-    /// 24 additions, 44 multiplications, 2 divisions, 0 square roots, 0 transcendentals, 2 selections.
+    /// 24 additions, 43 multiplications, 2 divisions, 0 square roots, 0 transcendentals, 2 selections.
     fn acceleration<S: ::ukcore::Scalar>(
         prepared: &[S],
         t: S,
@@ -415,43 +419,58 @@ impl ::ukcore::Mechanism for DoublePendulum {
         let [x1, y1, x2, y2] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let [dot_x1, dot_y1, dot_x2, dot_y2] = *::ukcore::emitted::exact::<S, 4>(v, "v");
         let lit = S::from_f64;
-        let acceleration_0_part = x1 * x1 + y1 * y1;
-        let per_acceleration_0_part = acceleration_0_part.recip();
-        let pivot_inner = per_m1 * acceleration_0_part;
+        let pivot_inner = y1.mul_add(y1, x1 * x1);
+        let per_pivot_inner = pivot_inner.recip();
         let safe_inner = S::select_le(pivot_inner, lit(0.0), lit(0.0), safe_x1);
         let x1_minus_x2 = x1 - x2;
         let y1_minus_y2 = y1 - y2;
-        let acceleration_0_part_2 = x1 * x1_minus_x2 + y1 * y1_minus_y2;
-        let acceleration_0_part_3 = acceleration_0_part
-            * (per_m2 * x1_minus_x2 * x1_minus_x2 + per_m2 * y1_minus_y2 * y1_minus_y2
-                + per_m1 * x1_minus_x2 * x1_minus_x2
-                + per_m1 * y1_minus_y2 * y1_minus_y2);
-        let acceleration_0_part_4 = per_m1 * acceleration_0_part_2
-            * acceleration_0_part_2 - acceleration_0_part_3;
-        let per_acceleration_0_part_4 = acceleration_0_part_4.recip();
+        let outer_with_inner = y1.mul_add(y1_minus_y2, x1 * x1_minus_x2);
+        let acceleration_0_part = pivot_inner
+            * (per_m1 * y1_minus_y2)
+                .mul_add(
+                    y1_minus_y2,
+                    (per_m1 * x1_minus_x2)
+                        .mul_add(
+                            x1_minus_x2,
+                            (per_m2 * y1_minus_y2)
+                                .mul_add(y1_minus_y2, per_m2 * x1_minus_x2 * x1_minus_x2),
+                        ),
+                );
+        let pivot_outer = per_m1 * outer_with_inner * outer_with_inner
+            - acceleration_0_part;
+        let per_pivot_outer = pivot_outer.recip();
         let safe_outer = S::select_le(
-            -acceleration_0_part_4,
-            lit(0.0009765625) * acceleration_0_part_3,
+            -pivot_outer,
+            lit(0.0009765625) * acceleration_0_part,
             lit(0.0),
             safe_inner,
         );
         let safe = safe_outer;
         let dot_x1_minus_dot_x2 = dot_x1 - dot_x2;
         let dot_y1_minus_dot_y2 = dot_y1 - dot_y2;
-        let safe_part = (dot_x1 * dot_x1 + dot_y1 * dot_y1) - y1 * g;
-        let safe_part_2 = acceleration_0_part
-            * (dot_x1_minus_dot_x2 * dot_x1_minus_dot_x2
-                + dot_y1_minus_dot_y2 * dot_y1_minus_dot_y2)
-            - acceleration_0_part_2 * safe_part;
-        out[2] = -(per_m2 * x1_minus_x2 * safe_part_2 * per_acceleration_0_part_4);
-        out[3] = -g - per_m2 * y1_minus_y2 * safe_part_2 * per_acceleration_0_part_4;
-        let safe_part_3 = m1 * safe_part
-            + acceleration_0_part_2 * safe_part_2 * per_acceleration_0_part_4;
-        out[1] = per_m1 * y1_minus_y2 * safe_part_2 * per_acceleration_0_part_4 - g
-            - y1 * per_m1 * per_acceleration_0_part * safe_part_3;
+        let safe_part = y1.neg_mul_add(g, dot_y1.mul_add(dot_y1, dot_x1 * dot_x1));
+        let safe_part_2 = outer_with_inner
+            .neg_mul_add(
+                safe_part,
+                pivot_inner
+                    * dot_y1_minus_dot_y2
+                        .mul_add(
+                            dot_y1_minus_dot_y2,
+                            dot_x1_minus_dot_x2 * dot_x1_minus_dot_x2,
+                        ),
+            );
+        out[2] = -(per_m2 * x1_minus_x2 * safe_part_2 * per_pivot_outer);
+        out[3] = (per_m2 * y1_minus_y2 * safe_part_2).neg_mul_add(per_pivot_outer, -g);
+        let safe_part_3 = (outer_with_inner * safe_part_2)
+            .mul_add(per_pivot_outer, m1 * safe_part);
+        out[1] = (y1 * per_m1 * per_pivot_inner)
+            .neg_mul_add(
+                safe_part_3,
+                per_m1 * y1_minus_y2 * safe_part_2 * per_pivot_outer - g,
+            );
         out[0] = -(per_m1
-            * (x1 * per_acceleration_0_part * safe_part_3
-                - x1_minus_x2 * safe_part_2 * per_acceleration_0_part_4));
+            * (x1_minus_x2 * safe_part_2)
+                .neg_mul_add(per_pivot_outer, x1 * per_pivot_inner * safe_part_3));
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
@@ -473,39 +492,45 @@ impl ::ukcore::Mechanism for DoublePendulum {
             2,
         >(residual, "residual");
         let lit = S::from_f64;
-        let correction_0_part = x1 * x1 + y1 * y1;
-        let per_correction_0_part = correction_0_part.recip();
-        let pivot_inner = per_m1 * correction_0_part;
+        let pivot_inner = y1.mul_add(y1, x1 * x1);
+        let per_pivot_inner = pivot_inner.recip();
         let safe_inner = S::select_le(pivot_inner, lit(0.0), lit(0.0), safe_x1);
         let x1_minus_x2 = x1 - x2;
         let y1_minus_y2 = y1 - y2;
-        let correction_0_part_2 = x1 * x1_minus_x2 + y1 * y1_minus_y2;
-        let correction_0_part_3 = correction_0_part
-            * (per_m2 * x1_minus_x2 * x1_minus_x2 + per_m2 * y1_minus_y2 * y1_minus_y2
-                + per_m1 * x1_minus_x2 * x1_minus_x2
-                + per_m1 * y1_minus_y2 * y1_minus_y2);
-        let correction_0_part_4 = per_m1 * correction_0_part_2 * correction_0_part_2
-            - correction_0_part_3;
-        let per_correction_0_part_4 = correction_0_part_4.recip();
+        let outer_with_inner = y1.mul_add(y1_minus_y2, x1 * x1_minus_x2);
+        let correction_0_part = pivot_inner
+            * (per_m1 * y1_minus_y2)
+                .mul_add(
+                    y1_minus_y2,
+                    (per_m1 * x1_minus_x2)
+                        .mul_add(
+                            x1_minus_x2,
+                            (per_m2 * y1_minus_y2)
+                                .mul_add(y1_minus_y2, per_m2 * x1_minus_x2 * x1_minus_x2),
+                        ),
+                );
+        let pivot_outer = per_m1 * outer_with_inner * outer_with_inner
+            - correction_0_part;
+        let per_pivot_outer = pivot_outer.recip();
         let safe_outer = S::select_le(
-            -correction_0_part_4,
-            lit(0.0009765625) * correction_0_part_3,
+            -pivot_outer,
+            lit(0.0009765625) * correction_0_part,
             lit(0.0),
             safe_inner,
         );
         let safe = safe_outer;
-        let safe_part = residual_0 * correction_0_part_2
-            - residual_1 * correction_0_part;
-        out[2] = half_per_m2 * x1_minus_x2 * safe_part * per_correction_0_part_4;
-        out[3] = half_per_m2 * y1_minus_y2 * safe_part * per_correction_0_part_4;
-        let safe_part_2 = residual_0 * m1
-            - correction_0_part_2 * safe_part * per_correction_0_part_4;
+        let safe_part = residual_1
+            .neg_mul_add(pivot_inner, residual_0 * outer_with_inner);
+        out[2] = half_per_m2 * x1_minus_x2 * safe_part * per_pivot_outer;
+        out[3] = half_per_m2 * y1_minus_y2 * safe_part * per_pivot_outer;
+        let safe_part_2 = (outer_with_inner * safe_part)
+            .neg_mul_add(per_pivot_outer, residual_0 * m1);
         out[0] = -(half_per_m1
-            * (x1_minus_x2 * safe_part * per_correction_0_part_4
-                + x1 * per_correction_0_part * safe_part_2));
+            * (x1 * per_pivot_inner)
+                .mul_add(safe_part_2, x1_minus_x2 * safe_part * per_pivot_outer));
         out[1] = -(half_per_m1
-            * (y1_minus_y2 * safe_part * per_correction_0_part_4
-                + y1 * per_correction_0_part * safe_part_2));
+            * (y1 * per_pivot_inner)
+                .mul_add(safe_part_2, y1_minus_y2 * safe_part * per_pivot_outer));
         safe
     }
 }

@@ -97,7 +97,7 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         ],
         prepared: &[
             ("pivot_th1", "(m1 + m2)*sq(l1)"),
-            ("m2_sq_l2", "m2*sq(l2)"),
+            ("diagonal_th2", "m2*sq(l2)"),
             ("m2_l1_l2", "m2*l1*l2"),
             ("half_m1_and_m2_sq_l1", "0.5*(m1 + m2)*sq(l1)"),
             ("half_m2_sq_l2", "0.5*m2*sq(l2)"),
@@ -113,7 +113,7 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
             ("prepared_part", "1/(m2*sq(l2))"),
             ("m2", "m2"),
             ("times_m2", "0.0009765625*m2"),
-            ("safe_th1", "((m1 + m2)*sq(l1) ≤ 0 ? 0 : 1)"),
+            ("safe_th1", "(m1 + m2 ≤ 0 ? 0 : 1)"),
         ],
         coords: &["th1", "th2"],
         constraints: &[],
@@ -222,11 +222,11 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         let per_l1 = l1.recip();
         let pivot_th1 = l1 * l1 * m1_plus_m2;
         prepared[0] = pivot_th1;
-        let m2_sq_l2 = m2 * l2 * l2;
-        prepared[1] = m2_sq_l2;
+        let diagonal_th2 = m2 * l2 * l2;
+        prepared[1] = diagonal_th2;
         prepared[2] = m2 * l1 * l2;
         prepared[3] = lit(0.5) * pivot_th1;
-        prepared[4] = lit(0.5) * m2_sq_l2;
+        prepared[4] = lit(0.5) * diagonal_th2;
         prepared[5] = l1 * g * m1_plus_m2;
         prepared[6] = m2 * l2 * g;
         prepared[7] = l1;
@@ -239,7 +239,7 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         prepared[14] = (m2 * l2 * l2).recip();
         prepared[15] = m2;
         prepared[16] = lit(0.0009765625) * m2;
-        let safe_th1 = S::select_le(pivot_th1, lit(0.0), lit(0.0), lit(1.0));
+        let safe_th1 = S::select_le(m1_plus_m2, lit(0.0), lit(0.0), lit(1.0));
         prepared[17] = safe_th1;
     }
     /// 6 additions, 12 multiplications, 0 divisions, 0 square roots, 3 transcendentals, 0 selections.
@@ -255,8 +255,11 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 0>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 0>(out.rhs, "rhs");
-        let [pivot_th1, m2_sq_l2, m2_l1_l2, _, _, m1_and_m2_l1_g, m2_l2_g, _, _, _, _, _,
-        _, _, _, _, _, _] = *::ukcore::emitted::exact::<S, 18>(prepared, "prepared");
+        let [pivot_th1, diagonal_th2, m2_l1_l2, _, _, m1_and_m2_l1_g, m2_l2_g, _, _, _,
+        _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            18,
+        >(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_th1, dot_th2] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
@@ -266,26 +269,29 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         let cos_th1_minus_th2_m2_l1_l2 = m2_l1_l2 * cos_th1_minus_th2;
         mass[1] = cos_th1_minus_th2_m2_l1_l2;
         mass[2] = cos_th1_minus_th2_m2_l1_l2;
-        mass[3] = m2_sq_l2;
+        mass[3] = diagonal_th2;
         let dot_th1_minus_dot_th2 = dot_th1 - dot_th2;
         let force_0_part = dot_th1 * dot_th2 * m2_l1_l2 * sin_th1_minus_th2;
-        force[0] = dot_th2 * m2_l1_l2 * dot_th1_minus_dot_th2 * sin_th1_minus_th2
-            - m1_and_m2_l1_g * th1.sin() - force_0_part;
-        force[1] = force_0_part - m2_l2_g * th2.sin()
-            + dot_th1 * m2_l1_l2 * dot_th1_minus_dot_th2 * sin_th1_minus_th2;
+        force[0] = m1_and_m2_l1_g
+            .neg_mul_add(
+                th1.sin(),
+                dot_th2 * m2_l1_l2 * dot_th1_minus_dot_th2 * sin_th1_minus_th2,
+            ) - force_0_part;
+        force[1] = (dot_th1 * m2_l1_l2 * dot_th1_minus_dot_th2)
+            .mul_add(sin_th1_minus_th2, m2_l2_g.neg_mul_add(th2.sin(), force_0_part));
         nonideal[0] = lit(0.0);
         nonideal[1] = lit(0.0);
     }
     fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 4>(mass, "mass");
-        let [pivot_th1, m2_sq_l2, m2_l1_l2, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        ] = *::ukcore::emitted::exact::<S, 18>(prepared, "prepared");
+        let [pivot_th1, diagonal_th2, m2_l1_l2, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+        _] = *::ukcore::emitted::exact::<S, 18>(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         mass[0] = pivot_th1;
         let mass_th2_th1 = m2_l1_l2 * (th1 - th2).cos();
         mass[1] = mass_th2_th1;
         mass[2] = mass_th2_th1;
-        mass[3] = m2_sq_l2;
+        mass[3] = diagonal_th2;
     }
     fn jacobian<S: ::ukcore::Scalar>(
         prepared: &[S],
@@ -321,10 +327,13 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         >(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_th1, dot_th2] = *::ukcore::emitted::exact::<S, 2>(v, "v");
-        let kinetic = dot_th1 * dot_th1 * half_m1_and_m2_sq_l1
-            + dot_th2 * dot_th2 * half_m2_sq_l2
-            + dot_th1 * dot_th2 * m2_l1_l2 * (th1 - th2).cos();
-        let potential = -(m1_and_m2_l1_g * th1.cos()) - m2_l2_g * th2.cos();
+        let kinetic = (dot_th1 * dot_th2 * m2_l1_l2)
+            .mul_add(
+                (th1 - th2).cos(),
+                (dot_th2 * dot_th2)
+                    .mul_add(half_m2_sq_l2, dot_th1 * dot_th1 * half_m1_and_m2_sq_l1),
+            );
+        let potential = m2_l2_g.neg_mul_add(th2.cos(), -(m1_and_m2_l1_g * th1.cos()));
         ::ukcore::Energy {
             kinetic,
             potential,
@@ -349,8 +358,8 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         let cos_th1_l1 = l1 * cos_th1;
         outputs[1] = -cos_th1_l1;
         let (sin_th2, cos_th2) = th2.sin_cos();
-        outputs[2] = sin_th1_l1 + l2 * sin_th2;
-        outputs[3] = -cos_th1_l1 - l2 * cos_th2;
+        outputs[2] = l2.mul_add(sin_th2, sin_th1_l1);
+        outputs[3] = l2.neg_mul_add(cos_th2, -cos_th1_l1);
     }
     /// 9 additions, 26 multiplications, 1 divisions, 0 square roots, 3 transcendentals, 1 selections.
     fn acceleration<S: ::ukcore::Scalar>(
@@ -372,29 +381,38 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         let lit = S::from_f64;
         let th1_minus_th2 = th1 - th2;
         let (sin_th1_minus_th2, cos_th1_minus_th2) = th1_minus_th2.sin_cos();
-        let acceleration_0_part = lit(1.0)
-            - m2_per_m1_and_m2 * cos_th1_minus_th2 * cos_th1_minus_th2;
-        let per_acceleration_0_part = acceleration_0_part.recip();
-        let safe_th2 = S::select_le(
-            m2 * acceleration_0_part,
-            times_m2,
-            lit(0.0),
-            safe_th1,
-        );
+        let pivot_th2 = (m2_per_m1_and_m2 * cos_th1_minus_th2)
+            .neg_mul_add(cos_th1_minus_th2, lit(1.0));
+        let per_pivot_th2 = pivot_th2.recip();
+        let safe_th2 = S::select_le(m2 * pivot_th2, times_m2, lit(0.0), safe_th1);
         let dot_th1_minus_dot_th2 = dot_th1 - dot_th2;
-        let acceleration_0_part_2 = dot_th2 * m2_l2 * dot_th1_minus_dot_th2
-            * sin_th1_minus_th2 - m1_and_m2_g * th1.sin()
-            - dot_th1 * dot_th2 * m2_l2 * sin_th1_minus_th2;
+        let acceleration_0_part = (dot_th1 * dot_th2 * m2_l2)
+            .neg_mul_add(
+                sin_th1_minus_th2,
+                m1_and_m2_g
+                    .neg_mul_add(
+                        th1.sin(),
+                        dot_th2 * m2_l2 * dot_th1_minus_dot_th2 * sin_th1_minus_th2,
+                    ),
+            );
         let th2_by_th1 = m2_per_m1_and_m2_per_l1_l2 * cos_th1_minus_th2;
-        let acceleration_0_part_3 = (dot_th1 * dot_th2 * m2_l1_l2 * sin_th1_minus_th2
-            - m2_l2_g * th2.sin()
-            + dot_th1 * m2_l1_l2 * dot_th1_minus_dot_th2 * sin_th1_minus_th2)
-            - l1 * th2_by_th1 * acceleration_0_part_2;
+        let acceleration_0_part_2 = (l1 * th2_by_th1)
+            .neg_mul_add(
+                acceleration_0_part,
+                (dot_th1 * m2_l1_l2 * dot_th1_minus_dot_th2)
+                    .mul_add(
+                        sin_th1_minus_th2,
+                        m2_l2_g
+                            .neg_mul_add(
+                                th2.sin(),
+                                dot_th1 * dot_th2 * m2_l1_l2 * sin_th1_minus_th2,
+                            ),
+                    ),
+            );
         let safe = safe_th2;
-        out[1] = prepared_part * acceleration_0_part_3 * per_acceleration_0_part;
-        out[0] = per_m1_and_m2_per_l1 * acceleration_0_part_2
-            - prepared_part * th2_by_th1 * acceleration_0_part_3
-                * per_acceleration_0_part;
+        out[1] = prepared_part * acceleration_0_part_2 * per_pivot_th2;
+        out[0] = (prepared_part * th2_by_th1 * acceleration_0_part_2)
+            .neg_mul_add(per_pivot_th2, per_m1_and_m2_per_l1 * acceleration_0_part);
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
@@ -411,12 +429,9 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let lit = S::from_f64;
         let correction_0_part = (th1 - th2).cos();
-        let safe_th2 = S::select_le(
-            m2 * (lit(1.0) - m2_per_m1_and_m2 * correction_0_part * correction_0_part),
-            times_m2,
-            lit(0.0),
-            safe_th1,
-        );
+        let pivot_th2 = (m2_per_m1_and_m2 * correction_0_part)
+            .neg_mul_add(correction_0_part, lit(1.0));
+        let safe_th2 = S::select_le(m2 * pivot_th2, times_m2, lit(0.0), safe_th1);
         out[0] = lit(0.0);
         out[1] = lit(0.0);
         let safe = safe_th2;

@@ -321,7 +321,7 @@ impl ::ukcore::Mechanism for FishRobot {
                 "times_rho_span_half_chord_per_m3",
                 "6.283185307179586*rho*span*half_chord/m3",
             ),
-            ("per_m2", "1/m2"),
+            ("joint1_0_with_joint2_0", "1/m2"),
             ("per_per_m3_and_per_m2", "1/(1/m3 + 1/m2)"),
             ("joint1_1_by_joint2_1", "1/(m2*(1/m3 + 1/m2))"),
             ("per_m1_and_per_m2", "1/m1 + 1/m2"),
@@ -678,11 +678,13 @@ impl ::ukcore::Mechanism for FishRobot {
         let (sin_th3, cos_th3) = th3.sin_cos();
         force[6] = lit(::core::f64::consts::TAU)
             * (rho_span_half_chord
-                * (dot_x3 * dot_y3 * sin_th3 - dot_y3 * dot_y3 * cos_th3));
-        force[7] = lit(::core::f64::consts::TAU)
-            * (rho_span_half_chord
-                * (dot_x3 * dot_y3 * cos_th3 - dot_x3 * dot_x3 * sin_th3))
-            - dot_y3 * half_rho_cd_s3 * dot_y3.abs();
+                * (dot_y3 * dot_y3).neg_mul_add(cos_th3, dot_x3 * dot_y3 * sin_th3));
+        force[7] = (dot_y3 * half_rho_cd_s3)
+            .neg_mul_add(
+                dot_y3.abs(),
+                lit(::core::f64::consts::TAU) * rho_span_half_chord
+                    * (dot_x3 * dot_x3).neg_mul_add(sin_th3, dot_x3 * dot_y3 * cos_th3),
+            );
         force[8] = lit(0.0);
         nonideal[0] = lit(0.0);
         nonideal[1] = lit(0.0);
@@ -716,11 +718,15 @@ impl ::ukcore::Mechanism for FishRobot {
         jacobian[34] = lit(1.0);
         jacobian[53] = lit(1.0);
         let cos_th2_sq_dot_th2_l2 = dot_th2 * dot_th2 * l2 * cos_th2;
-        rhs[0] = dot_th1 * dot_th1 * a * cos_th1 + lit(0.5) * cos_th2_sq_dot_th2_l2;
+        rhs[0] = lit(0.5)
+            .mul_add(cos_th2_sq_dot_th2_l2, dot_th1 * dot_th1 * a * cos_th1);
         let sin_th2_sq_dot_th2_l2 = dot_th2 * dot_th2 * l2 * sin_th2;
-        rhs[1] = dot_th1 * dot_th1 * a * sin_th1 + lit(0.5) * sin_th2_sq_dot_th2_l2;
-        rhs[2] = lit(0.5) * cos_th2_sq_dot_th2_l2 + dot_th3 * dot_th3 * b * cos_th3;
-        rhs[3] = lit(0.5) * sin_th2_sq_dot_th2_l2 + dot_th3 * dot_th3 * b * sin_th3;
+        rhs[1] = lit(0.5)
+            .mul_add(sin_th2_sq_dot_th2_l2, dot_th1 * dot_th1 * a * sin_th1);
+        rhs[2] = (dot_th3 * dot_th3 * b)
+            .mul_add(cos_th3, lit(0.5) * cos_th2_sq_dot_th2_l2);
+        rhs[3] = (dot_th3 * dot_th3 * b)
+            .mul_add(sin_th3, lit(0.5) * sin_th2_sq_dot_th2_l2);
         let t_w = t * w;
         rhs[4] = -(a2_sq_w * t_w.sin());
         rhs[5] = -(sq_w_a3 * (t_w - phi_2).sin());
@@ -793,15 +799,15 @@ impl ::ukcore::Mechanism for FishRobot {
         let (sin_th1, cos_th1) = th1.sin_cos();
         let (sin_th2, cos_th2) = th2.sin_cos();
         let cos_th2_l2 = l2 * cos_th2;
-        phi[0] = x1 - x2 + a * cos_th1 + lit(0.5) * cos_th2_l2;
+        phi[0] = lit(0.5).mul_add(cos_th2_l2, a.mul_add(cos_th1, x1 - x2));
         let sin_th2_l2 = l2 * sin_th2;
-        phi[1] = y1 - y2 + a * sin_th1 + lit(0.5) * sin_th2_l2;
+        phi[1] = lit(0.5).mul_add(sin_th2_l2, a.mul_add(sin_th1, y1 - y2));
         let (sin_th3, cos_th3) = th3.sin_cos();
-        phi[2] = x2 - x3 + lit(0.5) * cos_th2_l2 + b * cos_th3;
-        phi[3] = y2 - y3 + lit(0.5) * sin_th2_l2 + b * sin_th3;
+        phi[2] = b.mul_add(cos_th3, lit(0.5).mul_add(cos_th2_l2, x2 - x3));
+        phi[3] = b.mul_add(sin_th3, lit(0.5).mul_add(sin_th2_l2, y2 - y3));
         let t_w = t * w;
-        phi[4] = th2 - a2 * t_w.sin();
-        phi[5] = th3 - a3 * (t_w - phi_2).sin();
+        phi[4] = a2.neg_mul_add(t_w.sin(), th2);
+        phi[5] = a3.neg_mul_add((t_w - phi_2).sin(), th3);
     }
     fn residual_rate<S: ::ukcore::Scalar>(
         prepared: &[S],
@@ -824,19 +830,28 @@ impl ::ukcore::Mechanism for FishRobot {
         let (sin_th1, cos_th1) = th1.sin_cos();
         let (sin_th2, cos_th2) = th2.sin_cos();
         let sin_th2_dot_th2_l2 = dot_th2 * l2 * sin_th2;
-        rate[0] = dot_x1 - dot_x2 - dot_th1 * a * sin_th1
-            - lit(0.5) * sin_th2_dot_th2_l2;
+        rate[0] = lit(0.5)
+            .neg_mul_add(
+                sin_th2_dot_th2_l2,
+                (dot_th1 * a).neg_mul_add(sin_th1, dot_x1 - dot_x2),
+            );
         let cos_th2_dot_th2_l2 = dot_th2 * l2 * cos_th2;
-        rate[1] = dot_y1 - dot_y2 + dot_th1 * a * cos_th1
-            + lit(0.5) * cos_th2_dot_th2_l2;
+        rate[1] = lit(0.5)
+            .mul_add(
+                cos_th2_dot_th2_l2,
+                (dot_th1 * a).mul_add(cos_th1, dot_y1 - dot_y2),
+            );
         let (sin_th3, cos_th3) = th3.sin_cos();
-        rate[2] = dot_x2 - dot_x3 - lit(0.5) * sin_th2_dot_th2_l2
-            - dot_th3 * b * sin_th3;
-        rate[3] = dot_y2 - dot_y3 + lit(0.5) * cos_th2_dot_th2_l2
-            + dot_th3 * b * cos_th3;
+        rate[2] = (dot_th3 * b)
+            .neg_mul_add(
+                sin_th3,
+                lit(0.5).neg_mul_add(sin_th2_dot_th2_l2, dot_x2 - dot_x3),
+            );
+        rate[3] = (dot_th3 * b)
+            .mul_add(cos_th3, lit(0.5).mul_add(cos_th2_dot_th2_l2, dot_y2 - dot_y3));
         let t_w = t * w;
-        rate[4] = dot_th2 - a2_w * t_w.cos();
-        rate[5] = dot_th3 - w_a3 * (t_w - phi_2).cos();
+        rate[4] = a2_w.neg_mul_add(t_w.cos(), dot_th2);
+        rate[5] = w_a3.neg_mul_add((t_w - phi_2).cos(), dot_th3);
     }
     fn energy<S: ::ukcore::Scalar>(
         prepared: &[S],
@@ -853,9 +868,27 @@ impl ::ukcore::Mechanism for FishRobot {
         >(v, "v");
         let lit = S::from_f64;
         let kinetic = lit(0.5)
-            * (dot_x1 * dot_x1 * m1 + dot_y1 * dot_y1 * m1 + dot_th1 * dot_th1 * i1
-                + dot_x2 * dot_x2 * m2 + dot_y2 * dot_y2 * m2 + dot_x3 * dot_x3 * m3
-                + dot_y3 * dot_y3 * m3);
+            * (dot_y3 * dot_y3)
+                .mul_add(
+                    m3,
+                    (dot_x3 * dot_x3)
+                        .mul_add(
+                            m3,
+                            (dot_y2 * dot_y2)
+                                .mul_add(
+                                    m2,
+                                    (dot_x2 * dot_x2)
+                                        .mul_add(
+                                            m2,
+                                            (dot_th1 * dot_th1)
+                                                .mul_add(
+                                                    i1,
+                                                    (dot_y1 * dot_y1).mul_add(m1, dot_x1 * dot_x1 * m1),
+                                                ),
+                                        ),
+                                ),
+                        ),
+                );
         let potential = lit(0.0);
         ::ukcore::Energy {
             kinetic,
@@ -887,12 +920,12 @@ impl ::ukcore::Mechanism for FishRobot {
         let (sin_th3, cos_th3) = th3.sin_cos();
         outputs[2] = lit(::core::f64::consts::TAU)
             * (rho_span_half_chord
-                * (dot_x3 * dot_y3 * sin_th3 - dot_y3 * dot_y3 * cos_th3));
+                * (dot_y3 * dot_y3).neg_mul_add(cos_th3, dot_x3 * dot_y3 * sin_th3));
         outputs[3] = lit(::core::f64::consts::TAU)
             * (rho_span_half_chord
-                * (dot_x3 * dot_y3 * cos_th3 - dot_x3 * dot_x3 * sin_th3));
-        outputs[4] = x3 + b * cos_th3;
-        outputs[5] = y3 + b * sin_th3;
+                * (dot_x3 * dot_x3).neg_mul_add(sin_th3, dot_x3 * dot_y3 * cos_th3));
+        outputs[4] = b.mul_add(cos_th3, x3);
+        outputs[5] = b.mul_add(sin_th3, y3);
     }
     /// 47 additions, 113 multiplications, 2 divisions, 0 square roots, 5 transcendentals, 6 selections.
     fn acceleration<S: ::ukcore::Scalar>(
@@ -906,7 +939,7 @@ impl ::ukcore::Mechanism for FishRobot {
         let [rho_span_half_chord, rho_s_cd, rho_cd_s1, rho_cd_s2, _, _, a, l2, b, w, _,
         phi_2, _, _, _, _, _, _, a2_sq_w, _, sq_w_a3, l2_a2_sq_w, b_sq_w_a3, _, _, _, _,
         _, times_span_half_chord, half_cd_s3, rho, rho_per_m3, per_i1_sq_a,
-        rho_per_m2_cd_s2, times_rho_span_half_chord_per_m3, per_m2,
+        rho_per_m2_cd_s2, times_rho_span_half_chord_per_m3, joint1_0_with_joint2_0,
         per_per_m3_and_per_m2, joint1_1_by_joint2_1, per_m1_and_per_m2,
         half_rho_per_m1_s_cd, pivot_joint2_0, prepared_part, prepared_part_2,
         prepared_part_3, half_rho_per_m1_cd_s1, per_i1_sq_a_per_m3_and_per_m2, per_i1_a,
@@ -926,10 +959,14 @@ impl ::ukcore::Mechanism for FishRobot {
         let abs_dot_x1 = dot_x1.abs();
         let abs_dot_y1 = dot_y1.abs();
         let (sin_th3, cos_th3) = th3.sin_cos();
-        let acceleration_0_part = dot_x3 * dot_y3 * sin_th3 - dot_y3 * dot_y3 * cos_th3;
-        let acceleration_0_part_2 = times_span_half_chord
-            * (dot_x3 * dot_y3 * cos_th3 - dot_x3 * dot_x3 * sin_th3)
-            - dot_y3 * half_cd_s3 * dot_y3.abs();
+        let acceleration_0_part = (dot_y3 * dot_y3)
+            .neg_mul_add(cos_th3, dot_x3 * dot_y3 * sin_th3);
+        let acceleration_0_part_2 = (dot_y3 * half_cd_s3)
+            .neg_mul_add(
+                dot_y3.abs(),
+                times_span_half_chord
+                    * (dot_x3 * dot_x3).neg_mul_add(sin_th3, dot_x3 * dot_y3 * cos_th3),
+            );
         let abs_dot_y2 = dot_y2.abs();
         let (sin_th2, cos_th2) = th2.sin_cos();
         let cos_th2_sq_dot_th2_l2 = dot_th2 * dot_th2 * l2 * cos_th2;
@@ -937,81 +974,136 @@ impl ::ukcore::Mechanism for FishRobot {
         let sin_t_w = t_w.sin();
         let sin_th2_sin_t_w_l2_a2_sq_w = l2_a2_sq_w * sin_th2 * sin_t_w;
         let acceleration_0_part_3 = (t_w - phi_2).sin();
-        let acceleration_0_part_4 = (lit(0.5) * cos_th2_sq_dot_th2_l2
-            + dot_th3 * dot_th3 * b * cos_th3) - lit(0.5) * sin_th2_sin_t_w_l2_a2_sq_w
-            - b_sq_w_a3 * sin_th3 * acceleration_0_part_3
-            + times_rho_span_half_chord_per_m3 * acceleration_0_part;
+        let acceleration_0_part_4 = times_rho_span_half_chord_per_m3
+            .mul_add(
+                acceleration_0_part,
+                (b_sq_w_a3 * sin_th3)
+                    .neg_mul_add(
+                        acceleration_0_part_3,
+                        lit(0.5)
+                            .neg_mul_add(
+                                sin_th2_sin_t_w_l2_a2_sq_w,
+                                (dot_th3 * dot_th3 * b)
+                                    .mul_add(cos_th3, lit(0.5) * cos_th2_sq_dot_th2_l2),
+                            ),
+                    ),
+            );
         let sin_th2_sq_dot_th2_l2 = dot_th2 * dot_th2 * l2 * sin_th2;
         let cos_th2_sin_t_w_l2_a2_sq_w = l2_a2_sq_w * cos_th2 * sin_t_w;
         let acceleration_0_part_5 = dot_y2 * rho_per_m2_cd_s2 * abs_dot_y2;
-        let acceleration_0_part_6 = lit(0.5) * acceleration_0_part_5
-            + (lit(0.5) * sin_th2_sq_dot_th2_l2 + dot_th3 * dot_th3 * b * sin_th3)
-            + lit(0.5) * cos_th2_sin_t_w_l2_a2_sq_w
-            + b_sq_w_a3 * cos_th3 * acceleration_0_part_3
-            + rho_per_m3 * acceleration_0_part_2;
+        let acceleration_0_part_6 = rho_per_m3
+            .mul_add(
+                acceleration_0_part_2,
+                (b_sq_w_a3 * cos_th3)
+                    .mul_add(
+                        acceleration_0_part_3,
+                        lit(0.5)
+                            .mul_add(
+                                cos_th2_sin_t_w_l2_a2_sq_w,
+                                lit(0.5) * acceleration_0_part_5
+                                    + (dot_th3 * dot_th3 * b)
+                                        .mul_add(sin_th3, lit(0.5) * sin_th2_sq_dot_th2_l2),
+                            ),
+                    ),
+            );
         let (sin_th1, cos_th1) = th1.sin_cos();
-        let acceleration_0_part_7 = pivot_joint2_0
-            * (per_m1_and_per_m2 + per_i1_sq_a * sin_th1 * sin_th1);
-        let pivot_joint1_0 = acceleration_0_part_7 - prepared_part;
+        let diagonal_joint1_0 = (per_i1_sq_a * sin_th1)
+            .mul_add(sin_th1, per_m1_and_per_m2);
+        let diagonal_joint1_0_pivot_joint2_0 = pivot_joint2_0 * diagonal_joint1_0;
+        let pivot_joint1_0 = diagonal_joint1_0_pivot_joint2_0 - prepared_part;
         let per_pivot_joint1_0 = pivot_joint1_0.recip();
         let safe_joint1_0 = S::select_le(
             pivot_joint1_0,
-            lit(0.0009765625) * acceleration_0_part_7,
+            lit(0.0009765625) * diagonal_joint1_0_pivot_joint2_0,
             lit(0.0),
             safe_joint2_0,
         );
-        let acceleration_0_part_8 = pivot_joint2_0
-            * (dot_x1 * half_rho_per_m1_s_cd * abs_dot_x1
-                + (dot_th1 * dot_th1 * a * cos_th1 + lit(0.5) * cos_th2_sq_dot_th2_l2)
-                - lit(0.5) * sin_th2_sin_t_w_l2_a2_sq_w)
-            + per_m2 * acceleration_0_part_4;
-        let acceleration_0_part_9 = per_m1_and_per_m2 + per_i1_sq_a * cos_th1 * cos_th1;
-        let pivot_joint1_1 = prepared_part_2 * cos_th1 * cos_th1 * sin_th1 * sin_th1
-            - (acceleration_0_part_9 - prepared_part_3) * pivot_joint1_0;
+        let acceleration_0_part_7 = joint1_0_with_joint2_0
+            .mul_add(
+                acceleration_0_part_4,
+                pivot_joint2_0
+                    * lit(0.5)
+                        .neg_mul_add(
+                            sin_th2_sin_t_w_l2_a2_sq_w,
+                            dot_x1 * half_rho_per_m1_s_cd * abs_dot_x1
+                                + lit(0.5)
+                                    .mul_add(
+                                        cos_th2_sq_dot_th2_l2,
+                                        dot_th1 * dot_th1 * a * cos_th1,
+                                    ),
+                        ),
+            );
+        let acceleration_0_part_8 = (per_i1_sq_a * cos_th1)
+            .mul_add(cos_th1, per_m1_and_per_m2);
+        let pivot_joint1_1 = (acceleration_0_part_8 - prepared_part_3)
+            .neg_mul_add(
+                pivot_joint1_0,
+                prepared_part_2 * cos_th1 * cos_th1 * sin_th1 * sin_th1,
+            );
         let per_pivot_joint1_1 = pivot_joint1_1.recip();
+        let diagonal_joint1_1 = acceleration_0_part_8 * pivot_joint1_0;
         let safe_joint1_1 = S::select_le(
             -pivot_joint1_1,
-            lit(0.0009765625) * (acceleration_0_part_9 * pivot_joint1_0),
+            lit(0.0009765625) * diagonal_joint1_1,
             lit(0.0),
             safe_joint1_0,
         );
-        let acceleration_0_part_10 = per_i1_sq_a * cos_th1 * sin_th1
-            * acceleration_0_part_8
-            + pivot_joint1_0
-                * ((dot_y1 * half_rho_per_m1_cd_s1 * abs_dot_y1
-                    - lit(0.5) * acceleration_0_part_5
-                    + (dot_th1 * dot_th1 * a * sin_th1
-                        + lit(0.5) * sin_th2_sq_dot_th2_l2)
-                    + lit(0.5) * cos_th2_sin_t_w_l2_a2_sq_w)
-                    + joint1_1_by_joint2_1 * acceleration_0_part_6);
+        let acceleration_0_part_9 = pivot_joint1_0
+            .mul_add(
+                joint1_1_by_joint2_1
+                    .mul_add(
+                        acceleration_0_part_6,
+                        lit(0.5)
+                            .mul_add(
+                                cos_th2_sin_t_w_l2_a2_sq_w,
+                                lit(0.5)
+                                    .neg_mul_add(
+                                        acceleration_0_part_5,
+                                        dot_y1 * half_rho_per_m1_cd_s1 * abs_dot_y1,
+                                    )
+                                    + lit(0.5)
+                                        .mul_add(
+                                            sin_th2_sq_dot_th2_l2,
+                                            dot_th1 * dot_th1 * a * sin_th1,
+                                        ),
+                            ),
+                    ),
+                per_i1_sq_a * cos_th1 * sin_th1 * acceleration_0_part_7,
+            );
         out[5] = -(a2_sq_w * sin_t_w);
         out[8] = -(sq_w_a3 * acceleration_0_part_3);
         let safe = safe_joint1_1;
-        let lambda_joint1_1 = per_pivot_joint1_1 * acceleration_0_part_10;
+        let lambda_joint1_1 = per_pivot_joint1_1 * acceleration_0_part_9;
         out[1] = -(per_m1
-            * (lit(0.5) * (dot_y1 * rho_cd_s1 * abs_dot_y1) + lambda_joint1_1));
-        let lambda_joint2_1 = per_per_m3_and_per_m2 * acceleration_0_part_6
-            - joint1_1_by_joint2_1 * per_pivot_joint1_1 * acceleration_0_part_10;
+            * (lit(0.5) * dot_y1 * rho_cd_s1 * abs_dot_y1 + lambda_joint1_1));
+        let lambda_joint2_1 = (joint1_1_by_joint2_1 * per_pivot_joint1_1)
+            .neg_mul_add(
+                acceleration_0_part_9,
+                per_per_m3_and_per_m2 * acceleration_0_part_6,
+            );
         out[7] = per_m3 * (rho * acceleration_0_part_2 - lambda_joint2_1);
-        out[4] = -(per_m2
-            * (lit(0.5) * (dot_y2 * rho_cd_s2 * abs_dot_y2) - lambda_joint1_1
+        out[4] = -(joint1_0_with_joint2_0
+            * (lit(0.5) * dot_y2 * rho_cd_s2 * abs_dot_y2 - lambda_joint1_1
                 - lambda_joint2_1));
-        let acceleration_5_part = acceleration_0_part_8
-            - per_i1_sq_a_per_m3_and_per_m2 * cos_th1 * sin_th1 * per_pivot_joint1_1
-                * acceleration_0_part_10;
+        let acceleration_5_part = (per_i1_sq_a_per_m3_and_per_m2 * cos_th1 * sin_th1
+            * per_pivot_joint1_1)
+            .neg_mul_add(acceleration_0_part_9, acceleration_0_part_7);
         let lambda_joint1_0 = per_pivot_joint1_0 * acceleration_5_part;
         out[0] = -(per_m1
-            * (lit(0.5) * (dot_x1 * rho_s_cd * abs_dot_x1) - lambda_joint1_0));
+            * (lit(0.5) * dot_x1 * rho_s_cd * abs_dot_x1 - lambda_joint1_0));
         out[2] = -(per_i1_a
-            * (cos_th1 * per_pivot_joint1_1 * acceleration_0_part_10
-                + sin_th1 * per_pivot_joint1_0 * acceleration_5_part));
-        let lambda_joint2_0 = per_per_m3_and_per_m2
-            * (acceleration_0_part_4
-                + per_m2 * per_pivot_joint1_0 * acceleration_5_part);
+            * (sin_th1 * per_pivot_joint1_0)
+                .mul_add(
+                    acceleration_5_part,
+                    cos_th1 * per_pivot_joint1_1 * acceleration_0_part_9,
+                ));
+        let lambda_joint2_0 = (joint1_0_with_joint2_0 * per_pivot_joint1_0)
+            .mul_add(acceleration_5_part, acceleration_0_part_4);
+        let acceleration_3_part = per_per_m3_and_per_m2 * lambda_joint2_0;
         out[6] = per_m3
-            * (lit(::core::f64::consts::TAU)
-                * (rho_span_half_chord * acceleration_0_part) - lambda_joint2_0);
-        out[3] = -(per_m2 * (lambda_joint1_0 - lambda_joint2_0));
+            * (lit(::core::f64::consts::TAU) * rho_span_half_chord * acceleration_0_part
+                - acceleration_3_part);
+        out[3] = -(joint1_0_with_joint2_0 * (lambda_joint1_0 - acceleration_3_part));
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
@@ -1024,10 +1116,11 @@ impl ::ukcore::Mechanism for FishRobot {
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 9>(out, "out");
         let [_, _, _, _, _, _, _, l2, b, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, per_i1_sq_a, _, _, per_m2, per_per_m3_and_per_m2,
-        joint1_1_by_joint2_1, per_m1_and_per_m2, _, pivot_joint2_0, prepared_part,
-        prepared_part_2, prepared_part_3, _, per_i1_sq_a_per_m3_and_per_m2, per_i1_a,
-        per_m3, per_m1, per_m3_per_per_m3_and_per_m2, safe_joint2_0] = *::ukcore::emitted::exact::<
+        _, _, _, _, _, _, _, per_i1_sq_a, _, _, joint1_0_with_joint2_0,
+        per_per_m3_and_per_m2, joint1_1_by_joint2_1, per_m1_and_per_m2, _,
+        pivot_joint2_0, prepared_part, prepared_part_2, prepared_part_3, _,
+        per_i1_sq_a_per_m3_and_per_m2, per_i1_a, per_m3, per_m1,
+        per_m3_per_per_m3_and_per_m2, safe_joint2_0] = *::ukcore::emitted::exact::<
             S,
             51,
         >(prepared, "prepared");
@@ -1041,23 +1134,29 @@ impl ::ukcore::Mechanism for FishRobot {
         >(residual, "residual");
         let lit = S::from_f64;
         let (sin_th1, cos_th1) = th1.sin_cos();
-        let correction_0_part = pivot_joint2_0
-            * (per_m1_and_per_m2 + per_i1_sq_a * sin_th1 * sin_th1);
-        let pivot_joint1_0 = correction_0_part - prepared_part;
+        let diagonal_joint1_0 = (per_i1_sq_a * sin_th1)
+            .mul_add(sin_th1, per_m1_and_per_m2);
+        let diagonal_joint1_0_pivot_joint2_0 = pivot_joint2_0 * diagonal_joint1_0;
+        let pivot_joint1_0 = diagonal_joint1_0_pivot_joint2_0 - prepared_part;
         let per_pivot_joint1_0 = pivot_joint1_0.recip();
         let safe_joint1_0 = S::select_le(
             pivot_joint1_0,
-            lit(0.0009765625) * correction_0_part,
+            lit(0.0009765625) * diagonal_joint1_0_pivot_joint2_0,
             lit(0.0),
             safe_joint2_0,
         );
-        let correction_0_part_2 = per_m1_and_per_m2 + per_i1_sq_a * cos_th1 * cos_th1;
-        let pivot_joint1_1 = prepared_part_2 * cos_th1 * cos_th1 * sin_th1 * sin_th1
-            - (correction_0_part_2 - prepared_part_3) * pivot_joint1_0;
+        let correction_0_part = (per_i1_sq_a * cos_th1)
+            .mul_add(cos_th1, per_m1_and_per_m2);
+        let pivot_joint1_1 = (correction_0_part - prepared_part_3)
+            .neg_mul_add(
+                pivot_joint1_0,
+                prepared_part_2 * cos_th1 * cos_th1 * sin_th1 * sin_th1,
+            );
         let per_pivot_joint1_1 = pivot_joint1_1.recip();
+        let diagonal_joint1_1 = correction_0_part * pivot_joint1_0;
         let safe_joint1_1 = S::select_le(
             -pivot_joint1_1,
-            lit(0.0009765625) * (correction_0_part_2 * pivot_joint1_0),
+            lit(0.0009765625) * diagonal_joint1_1,
             lit(0.0),
             safe_joint1_0,
         );
@@ -1067,36 +1166,47 @@ impl ::ukcore::Mechanism for FishRobot {
         let (sin_th2, cos_th2) = th2.sin_cos();
         let sin_th2_residual_4_l2 = residual_4 * l2 * sin_th2;
         let (sin_th3, cos_th3) = th3.sin_cos();
-        let safe_part = residual_2 + lit(0.5) * sin_th2_residual_4_l2
-            + residual_5 * b * sin_th3;
-        let safe_part_2 = per_m2 * safe_part
-            + pivot_joint2_0 * (residual_0 + lit(0.5) * sin_th2_residual_4_l2);
+        let safe_part = (residual_5 * b)
+            .mul_add(sin_th3, lit(0.5).mul_add(sin_th2_residual_4_l2, residual_2));
+        let safe_part_2 = pivot_joint2_0
+            .mul_add(
+                lit(0.5).mul_add(sin_th2_residual_4_l2, residual_0),
+                joint1_0_with_joint2_0 * safe_part,
+            );
         let cos_th2_residual_4_l2 = residual_4 * l2 * cos_th2;
-        let safe_part_3 = residual_3 - lit(0.5) * cos_th2_residual_4_l2
-            - residual_5 * b * cos_th3;
-        let safe_part_4 = per_i1_sq_a * cos_th1 * sin_th1 * safe_part_2
-            + pivot_joint1_0
-                * ((residual_1 - lit(0.5) * cos_th2_residual_4_l2)
-                    + joint1_1_by_joint2_1 * safe_part_3);
+        let safe_part_3 = (residual_5 * b)
+            .neg_mul_add(
+                cos_th3,
+                lit(0.5).neg_mul_add(cos_th2_residual_4_l2, residual_3),
+            );
+        let safe_part_4 = pivot_joint1_0
+            .mul_add(
+                joint1_1_by_joint2_1
+                    .mul_add(
+                        safe_part_3,
+                        lit(0.5).neg_mul_add(cos_th2_residual_4_l2, residual_1),
+                    ),
+                per_i1_sq_a * cos_th1 * sin_th1 * safe_part_2,
+            );
         out[1] = per_m1 * safe_part_4 * per_pivot_joint1_1;
-        let lambda_joint2_1 = per_per_m3_and_per_m2 * safe_part_3
-            - joint1_1_by_joint2_1 * safe_part_4 * per_pivot_joint1_1;
+        let lambda_joint2_1 = (joint1_1_by_joint2_1 * safe_part_4)
+            .neg_mul_add(per_pivot_joint1_1, per_per_m3_and_per_m2 * safe_part_3);
         out[7] = per_m3 * lambda_joint2_1;
         let lambda_joint1_1 = safe_part_4 * per_pivot_joint1_1;
-        out[4] = -(per_m2 * (lambda_joint1_1 + lambda_joint2_1));
-        let correction_5_part = safe_part_2
-            - per_i1_sq_a_per_m3_and_per_m2 * cos_th1 * sin_th1 * safe_part_4
-                * per_pivot_joint1_1;
+        out[4] = -(joint1_0_with_joint2_0 * (lambda_joint1_1 + lambda_joint2_1));
+        let correction_5_part = (per_i1_sq_a_per_m3_and_per_m2 * cos_th1 * sin_th1
+            * safe_part_4)
+            .neg_mul_add(per_pivot_joint1_1, safe_part_2);
         out[0] = -(per_m1 * per_pivot_joint1_0 * correction_5_part);
         out[2] = per_i1_a
-            * (cos_th1 * safe_part_4 * per_pivot_joint1_1
-                + sin_th1 * per_pivot_joint1_0 * correction_5_part);
-        let correction_3_part = safe_part
-            + per_m2 * per_pivot_joint1_0 * correction_5_part;
-        out[6] = per_m3_per_per_m3_and_per_m2 * correction_3_part;
+            * (sin_th1 * per_pivot_joint1_0)
+                .mul_add(correction_5_part, cos_th1 * safe_part_4 * per_pivot_joint1_1);
+        let lambda_joint2_0 = (joint1_0_with_joint2_0 * per_pivot_joint1_0)
+            .mul_add(correction_5_part, safe_part);
+        out[6] = per_m3_per_per_m3_and_per_m2 * lambda_joint2_0;
         let lambda_joint1_0 = per_pivot_joint1_0 * correction_5_part;
-        let lambda_joint2_0 = per_per_m3_and_per_m2 * correction_3_part;
-        out[3] = per_m2 * (lambda_joint1_0 - lambda_joint2_0);
+        out[3] = joint1_0_with_joint2_0
+            * per_per_m3_and_per_m2.neg_mul_add(lambda_joint2_0, lambda_joint1_0);
         safe
     }
 }

@@ -126,7 +126,6 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
             ("a_w", "a*w"),
             ("a_sq_w", "a*sq(w)"),
             ("g", "g"),
-            ("per_m", "1/m"),
             ("safe_x", "(m ≤ 0 ? 0 : 1)"),
         ],
         coords: &["x", "y"],
@@ -177,7 +176,7 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
             },
             solve_operations: ::ukcore::Operations {
                 additions: 9,
-                multiplications: 15,
+                multiplications: 14,
                 divisions: 1,
                 square_roots: 0,
                 transcendentals: 1,
@@ -219,7 +218,7 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         }
     }
     fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
-        let prepared = ::ukcore::emitted::exact_mut::<S, 10>(prepared, "prepared");
+        let prepared = ::ukcore::emitted::exact_mut::<S, 9>(prepared, "prepared");
         let [m, l, g, a, w] = *::ukcore::emitted::exact::<S, 5>(given, "given");
         let lit = S::from_f64;
         prepared[0] = w;
@@ -230,9 +229,8 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         prepared[5] = a * w;
         prepared[6] = a * w * w;
         prepared[7] = g;
-        prepared[8] = m.recip();
         let safe_x = S::select_le(m, lit(0.0), lit(0.0), lit(1.0));
-        prepared[9] = safe_x;
+        prepared[8] = safe_x;
     }
     /// 5 additions, 10 multiplications, 0 divisions, 0 square roots, 1 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
@@ -247,9 +245,9 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
-        let [w, a, m_g, _, m, a_w, a_sq_w, _, _, _] = *::ukcore::emitted::exact::<
+        let [w, a, m_g, _, m, a_w, a_sq_w, _, _] = *::ukcore::emitted::exact::<
             S,
-            10,
+            9,
         >(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
@@ -266,15 +264,16 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         let pivot = a * cos_t_w;
         let y_minus_pivot = y - pivot;
         jacobian[1] = lit(2.0) * y_minus_pivot;
-        let b_0_part = dot_y + a_w * sin_t_w;
+        let b_0_part = a_w.mul_add(sin_t_w, dot_y);
         rhs[0] = lit(-2.0)
-            * (dot_x * dot_x + b_0_part * b_0_part + a_sq_w * cos_t_w * y_minus_pivot);
+            * (a_sq_w * cos_t_w)
+                .mul_add(y_minus_pivot, b_0_part.mul_add(b_0_part, dot_x * dot_x));
     }
     fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 4>(mass, "mass");
-        let [_, _, _, _, m, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [_, _, _, _, m, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            10,
+            9,
         >(prepared, "prepared");
         mass[0] = m;
         mass[3] = m;
@@ -287,9 +286,9 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         jacobian: &mut [S],
     ) {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(jacobian, "jacobian");
-        let [w, a, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [w, a, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            10,
+            9,
         >(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let lit = S::from_f64;
@@ -299,14 +298,14 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
     }
     fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
         let phi = ::ukcore::emitted::exact_mut::<S, 1>(phi, "phi");
-        let [w, a, _, sq_l, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [w, a, _, sq_l, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            10,
+            9,
         >(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let pivot = a * (t * w).cos();
         let y_minus_pivot = y - pivot;
-        phi[0] = x * x - sq_l + y_minus_pivot * y_minus_pivot;
+        phi[0] = y_minus_pivot.mul_add(y_minus_pivot, x * x - sq_l);
     }
     fn residual_rate<S: ::ukcore::Scalar>(
         prepared: &[S],
@@ -316,9 +315,9 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         rate: &mut [S],
     ) {
         let rate = ::ukcore::emitted::exact_mut::<S, 1>(rate, "rate");
-        let [w, a, _, _, _, a_w, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [w, a, _, _, _, a_w, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            10,
+            9,
         >(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
@@ -326,7 +325,7 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         let t_w = t * w;
         let (sin_t_w, cos_t_w) = t_w.sin_cos();
         let pivot = a * cos_t_w;
-        rate[0] = lit(2.0) * (x * dot_x + (y - pivot) * (dot_y + a_w * sin_t_w));
+        rate[0] = lit(2.0) * (y - pivot).mul_add(a_w.mul_add(sin_t_w, dot_y), x * dot_x);
     }
     fn energy<S: ::ukcore::Scalar>(
         prepared: &[S],
@@ -334,14 +333,14 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
-        let [_, _, m_g, _, m, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [_, _, m_g, _, m, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            10,
+            9,
         >(prepared, "prepared");
         let [_, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
-        let kinetic = lit(0.5) * (dot_x * dot_x * m + dot_y * dot_y * m);
+        let kinetic = lit(0.5) * (dot_y * dot_y).mul_add(m, dot_x * dot_x * m);
         let potential = y * m_g;
         ::ukcore::Energy {
             kinetic,
@@ -356,16 +355,16 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         outputs: &mut [S],
     ) {
         let outputs = ::ukcore::emitted::exact_mut::<S, 2>(outputs, "outputs");
-        let [w, a, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [w, a, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            10,
+            9,
         >(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let pivot = a * (t * w).cos();
         outputs[0] = x.atan2(y - pivot);
         outputs[1] = pivot;
     }
-    /// 9 additions, 15 multiplications, 1 divisions, 0 square roots, 1 transcendentals, 1 selections.
+    /// 9 additions, 14 multiplications, 1 divisions, 0 square roots, 1 transcendentals, 1 selections.
     fn acceleration<S: ::ukcore::Scalar>(
         prepared: &[S],
         t: S,
@@ -374,9 +373,9 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
-        let [w, a, _, _, _, a_w, a_sq_w, g, per_m, safe_x] = *::ukcore::emitted::exact::<
+        let [w, a, _, _, _, a_w, a_sq_w, g, safe_x] = *::ukcore::emitted::exact::<
             S,
-            10,
+            9,
         >(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
@@ -385,16 +384,19 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         let (sin_t_w, cos_t_w) = t_w.sin_cos();
         let pivot = a * cos_t_w;
         let y_minus_pivot = y - pivot;
-        let acceleration_0_part = x * x + y_minus_pivot * y_minus_pivot;
-        let per_acceleration_0_part = acceleration_0_part.recip();
-        let pivot_rod = per_m * acceleration_0_part;
+        let pivot_rod = y_minus_pivot.mul_add(y_minus_pivot, x * x);
+        let per_pivot_rod = pivot_rod.recip();
         let safe_rod = S::select_le(pivot_rod, lit(0.0), lit(0.0), safe_x);
         let safe = safe_rod;
-        let safe_part = dot_y + a_w * sin_t_w;
-        let safe_part_2 = (dot_x * dot_x + safe_part * safe_part
-            + a_sq_w * cos_t_w * y_minus_pivot) - g * y_minus_pivot;
-        out[0] = -(x * safe_part_2 * per_acceleration_0_part);
-        out[1] = -g - y_minus_pivot * safe_part_2 * per_acceleration_0_part;
+        let safe_part = a_w.mul_add(sin_t_w, dot_y);
+        let safe_part_2 = g
+            .neg_mul_add(
+                y_minus_pivot,
+                (a_sq_w * cos_t_w)
+                    .mul_add(y_minus_pivot, safe_part.mul_add(safe_part, dot_x * dot_x)),
+            );
+        out[0] = -(x * safe_part_2 * per_pivot_rod);
+        out[1] = (y_minus_pivot * safe_part_2).neg_mul_add(per_pivot_rod, -g);
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
@@ -406,22 +408,21 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
-        let [w, a, _, _, _, _, _, _, per_m, safe_x] = *::ukcore::emitted::exact::<
+        let [w, a, _, _, _, _, _, _, safe_x] = *::ukcore::emitted::exact::<
             S,
-            10,
+            9,
         >(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [residual_0] = *::ukcore::emitted::exact::<S, 1>(residual, "residual");
         let lit = S::from_f64;
         let pivot = a * (t * w).cos();
         let y_minus_pivot = y - pivot;
-        let correction_0_part = x * x + y_minus_pivot * y_minus_pivot;
-        let per_correction_0_part = correction_0_part.recip();
-        let pivot_rod = per_m * correction_0_part;
+        let pivot_rod = y_minus_pivot.mul_add(y_minus_pivot, x * x);
+        let per_pivot_rod = pivot_rod.recip();
         let safe_rod = S::select_le(pivot_rod, lit(0.0), lit(0.0), safe_x);
         let safe = safe_rod;
-        out[0] = lit(-0.5) * (x * residual_0 * per_correction_0_part);
-        out[1] = lit(-0.5) * (residual_0 * y_minus_pivot * per_correction_0_part);
+        out[0] = lit(-0.5) * (x * residual_0 * per_pivot_rod);
+        out[1] = lit(-0.5) * (residual_0 * y_minus_pivot * per_pivot_rod);
         safe
     }
 }

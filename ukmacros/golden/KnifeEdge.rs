@@ -111,7 +111,6 @@ impl ::ukcore::Mechanism for KnifeEdge {
             ("m", "m"),
             ("i", "i"),
             ("g_sin_slope", "g*sin(slope)"),
-            ("per_m", "1/m"),
             ("safe_x", "(m ≤ 0 ? 0 : (i ≤ 0 ? 0 : 1))"),
         ],
         coords: &["x", "y", "th"],
@@ -164,7 +163,7 @@ impl ::ukcore::Mechanism for KnifeEdge {
             },
             solve_operations: ::ukcore::Operations {
                 additions: 4,
-                multiplications: 12,
+                multiplications: 11,
                 divisions: 1,
                 square_roots: 0,
                 transcendentals: 1,
@@ -199,7 +198,7 @@ impl ::ukcore::Mechanism for KnifeEdge {
         }
     }
     fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
-        let prepared = ::ukcore::emitted::exact_mut::<S, 6>(prepared, "prepared");
+        let prepared = ::ukcore::emitted::exact_mut::<S, 5>(prepared, "prepared");
         let [m, i, g, slope] = *::ukcore::emitted::exact::<S, 4>(given, "given");
         let lit = S::from_f64;
         let sin_slope = slope.sin();
@@ -207,10 +206,9 @@ impl ::ukcore::Mechanism for KnifeEdge {
         prepared[1] = m;
         prepared[2] = i;
         prepared[3] = g * sin_slope;
-        prepared[4] = m.recip();
         let safe_th = S::select_le(i, lit(0.0), lit(0.0), lit(1.0));
         let safe_x = S::select_le(m, lit(0.0), lit(0.0), safe_th);
-        prepared[5] = safe_x;
+        prepared[4] = safe_x;
     }
     /// 3 additions, 4 multiplications, 0 divisions, 0 square roots, 1 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
@@ -225,9 +223,9 @@ impl ::ukcore::Mechanism for KnifeEdge {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 3>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 3>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
-        let [m_g_sin_slope, m, i, _, _, _] = *::ukcore::emitted::exact::<
+        let [m_g_sin_slope, m, i, _, _] = *::ukcore::emitted::exact::<
             S,
-            6,
+            5,
         >(prepared, "prepared");
         let [_, _, th] = *::ukcore::emitted::exact::<S, 3>(q, "q");
         let [dot_x, dot_y, dot_th] = *::ukcore::emitted::exact::<S, 3>(v, "v");
@@ -244,11 +242,11 @@ impl ::ukcore::Mechanism for KnifeEdge {
         let (sin_th, cos_th) = th.sin_cos();
         jacobian[0] = sin_th;
         jacobian[1] = -cos_th;
-        rhs[0] = -(dot_x * dot_th * cos_th) - dot_y * dot_th * sin_th;
+        rhs[0] = (dot_y * dot_th).neg_mul_add(sin_th, -(dot_x * dot_th * cos_th));
     }
     fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 9>(mass, "mass");
-        let [_, m, i, _, _, _] = *::ukcore::emitted::exact::<S, 6>(prepared, "prepared");
+        let [_, m, i, _, _] = *::ukcore::emitted::exact::<S, 5>(prepared, "prepared");
         mass[0] = m;
         mass[4] = m;
         mass[8] = i;
@@ -280,7 +278,7 @@ impl ::ukcore::Mechanism for KnifeEdge {
         let [_, _, th] = *::ukcore::emitted::exact::<S, 3>(q, "q");
         let [dot_x, dot_y, _] = *::ukcore::emitted::exact::<S, 3>(v, "v");
         let (sin_th, cos_th) = th.sin_cos();
-        rate[0] = dot_x * sin_th - dot_y * cos_th;
+        rate[0] = dot_y.neg_mul_add(cos_th, dot_x * sin_th);
     }
     fn energy<S: ::ukcore::Scalar>(
         prepared: &[S],
@@ -288,15 +286,16 @@ impl ::ukcore::Mechanism for KnifeEdge {
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
-        let [m_g_sin_slope, m, i, _, _, _] = *::ukcore::emitted::exact::<
+        let [m_g_sin_slope, m, i, _, _] = *::ukcore::emitted::exact::<
             S,
-            6,
+            5,
         >(prepared, "prepared");
         let [x, _, _] = *::ukcore::emitted::exact::<S, 3>(q, "q");
         let [dot_x, dot_y, dot_th] = *::ukcore::emitted::exact::<S, 3>(v, "v");
         let lit = S::from_f64;
         let kinetic = lit(0.5)
-            * (dot_x * dot_x * m + dot_y * dot_y * m + dot_th * dot_th * i);
+            * (dot_th * dot_th)
+                .mul_add(i, (dot_y * dot_y).mul_add(m, dot_x * dot_x * m));
         let potential = -(x * m_g_sin_slope);
         ::ukcore::Energy {
             kinetic,
@@ -314,10 +313,10 @@ impl ::ukcore::Mechanism for KnifeEdge {
         let [_, _, th] = *::ukcore::emitted::exact::<S, 3>(q, "q");
         let [dot_x, dot_y, dot_th] = *::ukcore::emitted::exact::<S, 3>(v, "v");
         let (sin_th, cos_th) = th.sin_cos();
-        outputs[0] = dot_x * cos_th + dot_y * sin_th;
+        outputs[0] = dot_y.mul_add(sin_th, dot_x * cos_th);
         outputs[1] = dot_th;
     }
-    /// 4 additions, 12 multiplications, 1 divisions, 0 square roots, 1 transcendentals, 1 selections.
+    /// 4 additions, 11 multiplications, 1 divisions, 0 square roots, 1 transcendentals, 1 selections.
     fn acceleration<S: ::ukcore::Scalar>(
         prepared: &[S],
         t: S,
@@ -326,24 +325,23 @@ impl ::ukcore::Mechanism for KnifeEdge {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 3>(out, "out");
-        let [_, _, _, g_sin_slope, per_m, safe_x] = *::ukcore::emitted::exact::<
+        let [_, _, _, g_sin_slope, safe_x] = *::ukcore::emitted::exact::<
             S,
-            6,
+            5,
         >(prepared, "prepared");
         let [_, _, th] = *::ukcore::emitted::exact::<S, 3>(q, "q");
         let [dot_x, dot_y, dot_th] = *::ukcore::emitted::exact::<S, 3>(v, "v");
         let lit = S::from_f64;
         let (sin_th, cos_th) = th.sin_cos();
-        let acceleration_0_part = sin_th * sin_th + cos_th * cos_th;
-        let per_acceleration_0_part = acceleration_0_part.recip();
-        let pivot_edge = per_m * acceleration_0_part;
+        let pivot_edge = cos_th.mul_add(cos_th, sin_th * sin_th);
+        let per_pivot_edge = pivot_edge.recip();
         let safe_edge = S::select_le(pivot_edge, lit(0.0), lit(0.0), safe_x);
         out[2] = lit(0.0);
         let safe = safe_edge;
         let safe_part = g_sin_slope * sin_th
-            + (dot_x * dot_th * cos_th + dot_y * dot_th * sin_th);
-        out[1] = cos_th * safe_part * per_acceleration_0_part;
-        out[0] = g_sin_slope - sin_th * safe_part * per_acceleration_0_part;
+            + (dot_y * dot_th).mul_add(sin_th, dot_x * dot_th * cos_th);
+        out[1] = cos_th * safe_part * per_pivot_edge;
+        out[0] = (sin_th * safe_part).neg_mul_add(per_pivot_edge, g_sin_slope);
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
@@ -355,22 +353,21 @@ impl ::ukcore::Mechanism for KnifeEdge {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 3>(out, "out");
-        let [_, _, _, _, per_m, safe_x] = *::ukcore::emitted::exact::<
+        let [_, _, _, _, safe_x] = *::ukcore::emitted::exact::<
             S,
-            6,
+            5,
         >(prepared, "prepared");
         let [_, _, th] = *::ukcore::emitted::exact::<S, 3>(q, "q");
         let [residual_0] = *::ukcore::emitted::exact::<S, 1>(residual, "residual");
         let lit = S::from_f64;
         let (sin_th, cos_th) = th.sin_cos();
-        let correction_0_part = sin_th * sin_th + cos_th * cos_th;
-        let per_correction_0_part = correction_0_part.recip();
-        let pivot_edge = per_m * correction_0_part;
+        let pivot_edge = cos_th.mul_add(cos_th, sin_th * sin_th);
+        let per_pivot_edge = pivot_edge.recip();
         let safe_edge = S::select_le(pivot_edge, lit(0.0), lit(0.0), safe_x);
         out[2] = lit(0.0);
         let safe = safe_edge;
-        out[1] = residual_0 * cos_th * per_correction_0_part;
-        out[0] = -(residual_0 * sin_th * per_correction_0_part);
+        out[1] = residual_0 * cos_th * per_pivot_edge;
+        out[0] = -(residual_0 * sin_th * per_pivot_edge);
         safe
     }
 }

@@ -234,7 +234,7 @@ impl ::ukcore::Mechanism for MasslessSpring {
         let phi = ::ukcore::emitted::exact_mut::<S, 1>(phi, "phi");
         let [k1, k2, _, _, _] = *::ukcore::emitted::exact::<S, 5>(prepared, "prepared");
         let [joint, x] = *::ukcore::emitted::exact::<S, 2>(q, "q");
-        phi[0] = joint * k1 + k2 * (joint - x);
+        phi[0] = k2.mul_add((joint - x), joint * k1);
     }
     fn residual_rate<S: ::ukcore::Scalar>(
         prepared: &[S],
@@ -246,7 +246,7 @@ impl ::ukcore::Mechanism for MasslessSpring {
         let rate = ::ukcore::emitted::exact_mut::<S, 1>(rate, "rate");
         let [k1, k2, _, _, _] = *::ukcore::emitted::exact::<S, 5>(prepared, "prepared");
         let [dot_joint, dot_x] = *::ukcore::emitted::exact::<S, 2>(v, "v");
-        rate[0] = dot_joint * k1 - k2 * (dot_x - dot_joint);
+        rate[0] = k2.neg_mul_add((dot_x - dot_joint), dot_joint * k1);
     }
     fn energy<S: ::ukcore::Scalar>(
         prepared: &[S],
@@ -264,7 +264,7 @@ impl ::ukcore::Mechanism for MasslessSpring {
         let kinetic = dot_x * dot_x * half_m;
         let joint_minus_x = joint - x;
         let potential = lit(0.5)
-            * (joint * joint * k1 + k2 * joint_minus_x * joint_minus_x);
+            * (k2 * joint_minus_x).mul_add(joint_minus_x, joint * joint * k1);
         ::ukcore::Energy {
             kinetic,
             potential,

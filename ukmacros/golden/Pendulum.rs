@@ -100,7 +100,6 @@ impl ::ukcore::Mechanism for Pendulum {
             ("g", "g"),
             ("m_per_l", "m/l"),
             ("m", "m"),
-            ("per_m", "1/m"),
             ("safe_x", "(m ≤ 0 ? 0 : 1)"),
         ],
         coords: &["x", "y"],
@@ -152,7 +151,7 @@ impl ::ukcore::Mechanism for Pendulum {
             },
             solve_operations: ::ukcore::Operations {
                 additions: 6,
-                multiplications: 10,
+                multiplications: 9,
                 divisions: 1,
                 square_roots: 0,
                 transcendentals: 0,
@@ -185,7 +184,7 @@ impl ::ukcore::Mechanism for Pendulum {
         }
     }
     fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
-        let prepared = ::ukcore::emitted::exact_mut::<S, 7>(prepared, "prepared");
+        let prepared = ::ukcore::emitted::exact_mut::<S, 6>(prepared, "prepared");
         let [m, l, g] = *::ukcore::emitted::exact::<S, 3>(given, "given");
         let lit = S::from_f64;
         prepared[0] = m * g;
@@ -193,9 +192,8 @@ impl ::ukcore::Mechanism for Pendulum {
         prepared[2] = g;
         prepared[3] = m / l;
         prepared[4] = m;
-        prepared[5] = m.recip();
         let safe_x = S::select_le(m, lit(0.0), lit(0.0), lit(1.0));
-        prepared[6] = safe_x;
+        prepared[5] = safe_x;
     }
     /// 2 additions, 5 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
@@ -210,9 +208,9 @@ impl ::ukcore::Mechanism for Pendulum {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
-        let [m_g, _, _, _, m, _, _] = *::ukcore::emitted::exact::<
+        let [m_g, _, _, _, m, _] = *::ukcore::emitted::exact::<
             S,
-            7,
+            6,
         >(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
@@ -225,14 +223,11 @@ impl ::ukcore::Mechanism for Pendulum {
         nonideal[1] = lit(0.0);
         jacobian[0] = lit(2.0) * x;
         jacobian[1] = lit(2.0) * y;
-        rhs[0] = lit(-2.0) * (dot_x * dot_x + dot_y * dot_y);
+        rhs[0] = lit(-2.0) * dot_y.mul_add(dot_y, dot_x * dot_x);
     }
     fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 4>(mass, "mass");
-        let [_, _, _, _, m, _, _] = *::ukcore::emitted::exact::<
-            S,
-            7,
-        >(prepared, "prepared");
+        let [_, _, _, _, m, _] = *::ukcore::emitted::exact::<S, 6>(prepared, "prepared");
         mass[0] = m;
         mass[3] = m;
     }
@@ -251,12 +246,12 @@ impl ::ukcore::Mechanism for Pendulum {
     }
     fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
         let phi = ::ukcore::emitted::exact_mut::<S, 1>(phi, "phi");
-        let [_, sq_l, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [_, sq_l, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            7,
+            6,
         >(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
-        phi[0] = x * x - sq_l + y * y;
+        phi[0] = y.mul_add(y, x * x - sq_l);
     }
     fn residual_rate<S: ::ukcore::Scalar>(
         prepared: &[S],
@@ -269,7 +264,7 @@ impl ::ukcore::Mechanism for Pendulum {
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
-        rate[0] = lit(2.0) * (x * dot_x + y * dot_y);
+        rate[0] = lit(2.0) * y.mul_add(dot_y, x * dot_x);
     }
     fn energy<S: ::ukcore::Scalar>(
         prepared: &[S],
@@ -277,14 +272,14 @@ impl ::ukcore::Mechanism for Pendulum {
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
-        let [m_g, _, _, _, m, _, _] = *::ukcore::emitted::exact::<
+        let [m_g, _, _, _, m, _] = *::ukcore::emitted::exact::<
             S,
-            7,
+            6,
         >(prepared, "prepared");
         let [_, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
-        let kinetic = lit(0.5) * (dot_x * dot_x * m + dot_y * dot_y * m);
+        let kinetic = lit(0.5) * (dot_y * dot_y).mul_add(m, dot_x * dot_x * m);
         let potential = y * m_g;
         ::ukcore::Energy {
             kinetic,
@@ -299,16 +294,16 @@ impl ::ukcore::Mechanism for Pendulum {
         outputs: &mut [S],
     ) {
         let outputs = ::ukcore::emitted::exact_mut::<S, 2>(outputs, "outputs");
-        let [_, _, g, m_per_l, _, _, _] = *::ukcore::emitted::exact::<
+        let [_, _, g, m_per_l, _, _] = *::ukcore::emitted::exact::<
             S,
-            7,
+            6,
         >(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         outputs[0] = x.atan2(-y);
-        outputs[1] = m_per_l * (dot_x * dot_x + dot_y * dot_y - y * g);
+        outputs[1] = m_per_l * y.neg_mul_add(g, dot_y.mul_add(dot_y, dot_x * dot_x));
     }
-    /// 6 additions, 10 multiplications, 1 divisions, 0 square roots, 0 transcendentals, 1 selections.
+    /// 6 additions, 9 multiplications, 1 divisions, 0 square roots, 0 transcendentals, 1 selections.
     fn acceleration<S: ::ukcore::Scalar>(
         prepared: &[S],
         t: S,
@@ -317,21 +312,20 @@ impl ::ukcore::Mechanism for Pendulum {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
-        let [_, _, g, _, _, per_m, safe_x] = *::ukcore::emitted::exact::<
+        let [_, _, g, _, _, safe_x] = *::ukcore::emitted::exact::<
             S,
-            7,
+            6,
         >(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
-        let acceleration_0_part = x * x + y * y;
-        let per_acceleration_0_part = acceleration_0_part.recip();
-        let pivot_rod = per_m * acceleration_0_part;
+        let pivot_rod = y.mul_add(y, x * x);
+        let per_pivot_rod = pivot_rod.recip();
         let safe_rod = S::select_le(pivot_rod, lit(0.0), lit(0.0), safe_x);
-        let acceleration_0_part_2 = (dot_x * dot_x + dot_y * dot_y) - y * g;
+        let acceleration_0_part = y.neg_mul_add(g, dot_y.mul_add(dot_y, dot_x * dot_x));
         let safe = safe_rod;
-        out[0] = -(x * acceleration_0_part_2 * per_acceleration_0_part);
-        out[1] = -g - y * acceleration_0_part_2 * per_acceleration_0_part;
+        out[0] = -(x * acceleration_0_part * per_pivot_rod);
+        out[1] = (y * acceleration_0_part).neg_mul_add(per_pivot_rod, -g);
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
@@ -343,20 +337,19 @@ impl ::ukcore::Mechanism for Pendulum {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
-        let [_, _, _, _, _, per_m, safe_x] = *::ukcore::emitted::exact::<
+        let [_, _, _, _, _, safe_x] = *::ukcore::emitted::exact::<
             S,
-            7,
+            6,
         >(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [residual_0] = *::ukcore::emitted::exact::<S, 1>(residual, "residual");
         let lit = S::from_f64;
-        let correction_0_part = x * x + y * y;
-        let per_correction_0_part = correction_0_part.recip();
-        let pivot_rod = per_m * correction_0_part;
+        let pivot_rod = y.mul_add(y, x * x);
+        let per_pivot_rod = pivot_rod.recip();
         let safe_rod = S::select_le(pivot_rod, lit(0.0), lit(0.0), safe_x);
         let safe = safe_rod;
-        out[0] = lit(-0.5) * (x * residual_0 * per_correction_0_part);
-        out[1] = lit(-0.5) * (y * residual_0 * per_correction_0_part);
+        out[0] = lit(-0.5) * (x * residual_0 * per_pivot_rod);
+        out[1] = lit(-0.5) * (y * residual_0 * per_pivot_rod);
         safe
     }
 }

@@ -130,7 +130,7 @@ impl ::ukcore::Mechanism for RoughBlock {
             ("prepared_part_3", "cos(slope)/(sq(sin(slope)) + sq(cos(slope)))"),
             (
                 "safe_plane",
-                "((sq(sin(slope)) + sq(cos(slope)))/m ≤ 0 ? 0 : (m ≤ 0 ? 0 : 1))",
+                "(sq(sin(slope)) + sq(cos(slope)) ≤ 0 ? 0 : (m ≤ 0 ? 0 : 1))",
             ),
         ],
         coords: &["x", "y"],
@@ -236,7 +236,7 @@ impl ::ukcore::Mechanism for RoughBlock {
         prepared[5] = mu * m * g * cos_slope * sin_slope;
         prepared[6] = m;
         prepared[7] = mu * cos_slope * sin_slope;
-        let prepared_8_part = sin_slope * sin_slope + cos_slope * cos_slope;
+        let prepared_8_part = cos_slope.mul_add(cos_slope, sin_slope * sin_slope);
         let per_prepared_8_part = prepared_8_part.recip();
         prepared[8] = cos_slope * cos_slope * per_prepared_8_part;
         prepared[9] = g;
@@ -244,9 +244,8 @@ impl ::ukcore::Mechanism for RoughBlock {
         prepared[11] = sin_slope * per_prepared_8_part;
         prepared[12] = g * cos_slope;
         prepared[13] = cos_slope * per_prepared_8_part;
-        let pivot_plane = prepared_8_part / m;
         let safe_x = S::select_le(m, lit(0.0), lit(0.0), lit(1.0));
-        let safe_plane = S::select_le(pivot_plane, lit(0.0), lit(0.0), safe_x);
+        let safe_plane = S::select_le(prepared_8_part, lit(0.0), lit(0.0), safe_x);
         prepared[14] = safe_plane;
     }
     /// 3 additions, 4 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 1 selections.
@@ -273,7 +272,7 @@ impl ::ukcore::Mechanism for RoughBlock {
         mass[3] = m;
         force[0] = lit(0.0);
         force[1] = -m_g;
-        let speed_down = dot_x * cos_slope - dot_y * sin_slope;
+        let speed_down = dot_y.neg_mul_add(sin_slope, dot_x * cos_slope);
         let sign_speed_down = speed_down.sign();
         nonideal[0] = -(sq_cos_slope_mu_m_g * sign_speed_down);
         nonideal[1] = cos_slope_sin_slope_mu_m_g * sign_speed_down;
@@ -312,7 +311,7 @@ impl ::ukcore::Mechanism for RoughBlock {
             15,
         >(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
-        phi[0] = x * sin_slope + y * cos_slope;
+        phi[0] = y.mul_add(cos_slope, x * sin_slope);
     }
     fn residual_rate<S: ::ukcore::Scalar>(
         prepared: &[S],
@@ -327,7 +326,7 @@ impl ::ukcore::Mechanism for RoughBlock {
             15,
         >(prepared, "prepared");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
-        rate[0] = dot_x * sin_slope + dot_y * cos_slope;
+        rate[0] = dot_y.mul_add(cos_slope, dot_x * sin_slope);
     }
     fn energy<S: ::ukcore::Scalar>(
         prepared: &[S],
@@ -342,7 +341,7 @@ impl ::ukcore::Mechanism for RoughBlock {
         let [_, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
-        let kinetic = lit(0.5) * (dot_x * dot_x * m + dot_y * dot_y * m);
+        let kinetic = lit(0.5) * (dot_y * dot_y).mul_add(m, dot_x * dot_x * m);
         let potential = y * m_g;
         ::ukcore::Energy {
             kinetic,
@@ -361,8 +360,8 @@ impl ::ukcore::Mechanism for RoughBlock {
         ] = *::ukcore::emitted::exact::<S, 15>(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
-        outputs[0] = x * cos_slope - y * sin_slope;
-        let speed_down = dot_x * cos_slope - dot_y * sin_slope;
+        outputs[0] = y.neg_mul_add(sin_slope, x * cos_slope);
+        let speed_down = dot_y.neg_mul_add(sin_slope, dot_x * cos_slope);
         outputs[1] = speed_down;
         let neg_friction = cos_slope_mu_m_g * speed_down.sign();
         outputs[2] = -neg_friction;
@@ -383,16 +382,15 @@ impl ::ukcore::Mechanism for RoughBlock {
         >(prepared, "prepared");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
-        let speed_down = dot_x * cos_slope - dot_y * sin_slope;
+        let speed_down = dot_y.neg_mul_add(sin_slope, dot_x * cos_slope);
         let sign_speed_down = speed_down.sign();
         let safe = safe_plane;
         let safe_part = cos_slope_sin_slope_mu * sign_speed_down;
         let safe_part_2 = lit(1.0) - safe_part;
-        let safe_part_plus_safe_part_2 = safe_part + safe_part_2;
+        let lambda_plane = safe_part + safe_part_2;
         out[0] = -(cos_slope_g
-            * (cos_slope_mu * sign_speed_down
-                - prepared_part_2 * safe_part_plus_safe_part_2));
-        out[1] = -(g * (safe_part_2 - prepared_part * safe_part_plus_safe_part_2));
+            * prepared_part_2.neg_mul_add(lambda_plane, cos_slope_mu * sign_speed_down));
+        out[1] = -(g * prepared_part.neg_mul_add(lambda_plane, safe_part_2));
         safe
     }
     fn correction<S: ::ukcore::Scalar>(

@@ -671,16 +671,16 @@ impl ::ukcore::Mechanism for SliderCrank {
         let lit = S::from_f64;
         let (sin_th1, cos_th1) = th1.sin_cos();
         let cos_th1_r = r * cos_th1;
-        phi[0] = x1 - lit(0.5) * cos_th1_r;
+        phi[0] = lit(0.5).neg_mul_add(cos_th1_r, x1);
         let sin_th1_r = r * sin_th1;
-        phi[1] = y1 - lit(0.5) * sin_th1_r;
+        phi[1] = lit(0.5).neg_mul_add(sin_th1_r, y1);
         let (sin_th2, cos_th2) = th2.sin_cos();
         let cos_th2_l = l * cos_th2;
-        phi[2] = x1 - x2 + lit(0.5) * cos_th1_r + lit(0.5) * cos_th2_l;
+        phi[2] = lit(0.5).mul_add(cos_th2_l, lit(0.5).mul_add(cos_th1_r, x1 - x2));
         let sin_th2_l = l * sin_th2;
-        phi[3] = y1 - y2 + lit(0.5) * sin_th1_r + lit(0.5) * sin_th2_l;
-        phi[4] = x2 - x3 + lit(0.5) * cos_th2_l;
-        phi[5] = y2 - y3 + lit(0.5) * sin_th2_l;
+        phi[3] = lit(0.5).mul_add(sin_th2_l, lit(0.5).mul_add(sin_th1_r, y1 - y2));
+        phi[4] = lit(0.5).mul_add(cos_th2_l, x2 - x3);
+        phi[5] = lit(0.5).mul_add(sin_th2_l, y2 - y3);
         phi[6] = y3;
         phi[7] = th3;
     }
@@ -703,18 +703,24 @@ impl ::ukcore::Mechanism for SliderCrank {
         let lit = S::from_f64;
         let (sin_th1, cos_th1) = th1.sin_cos();
         let sin_th1_dot_th1_r = dot_th1 * r * sin_th1;
-        rate[0] = dot_x1 + lit(0.5) * sin_th1_dot_th1_r;
+        rate[0] = lit(0.5).mul_add(sin_th1_dot_th1_r, dot_x1);
         let cos_th1_dot_th1_r = dot_th1 * r * cos_th1;
-        rate[1] = dot_y1 - lit(0.5) * cos_th1_dot_th1_r;
+        rate[1] = lit(0.5).neg_mul_add(cos_th1_dot_th1_r, dot_y1);
         let (sin_th2, cos_th2) = th2.sin_cos();
         let sin_th2_dot_th2_l = dot_th2 * l * sin_th2;
-        rate[2] = dot_x1 - dot_x2 - lit(0.5) * sin_th1_dot_th1_r
-            - lit(0.5) * sin_th2_dot_th2_l;
+        rate[2] = lit(0.5)
+            .neg_mul_add(
+                sin_th2_dot_th2_l,
+                lit(0.5).neg_mul_add(sin_th1_dot_th1_r, dot_x1 - dot_x2),
+            );
         let cos_th2_dot_th2_l = dot_th2 * l * cos_th2;
-        rate[3] = dot_y1 - dot_y2 + lit(0.5) * cos_th1_dot_th1_r
-            + lit(0.5) * cos_th2_dot_th2_l;
-        rate[4] = dot_x2 - dot_x3 - lit(0.5) * sin_th2_dot_th2_l;
-        rate[5] = dot_y2 - dot_y3 + lit(0.5) * cos_th2_dot_th2_l;
+        rate[3] = lit(0.5)
+            .mul_add(
+                cos_th2_dot_th2_l,
+                lit(0.5).mul_add(cos_th1_dot_th1_r, dot_y1 - dot_y2),
+            );
+        rate[4] = lit(0.5).neg_mul_add(sin_th2_dot_th2_l, dot_x2 - dot_x3);
+        rate[5] = lit(0.5).mul_add(cos_th2_dot_th2_l, dot_y2 - dot_y3);
         rate[6] = dot_y3;
         rate[7] = dot_th3;
     }
@@ -734,10 +740,37 @@ impl ::ukcore::Mechanism for SliderCrank {
         ] = *::ukcore::emitted::exact::<S, 9>(v, "v");
         let lit = S::from_f64;
         let kinetic = lit(0.5)
-            * (dot_x1 * dot_x1 * m1 + dot_y1 * dot_y1 * m1 + dot_th1 * dot_th1 * i1
-                + dot_x2 * dot_x2 * m2 + dot_y2 * dot_y2 * m2 + dot_th2 * dot_th2 * i2
-                + dot_x3 * dot_x3 * m3 + dot_y3 * dot_y3 * m3 + dot_th3 * dot_th3 * i3);
-        let potential = y1 * m1_g + y2 * m2_g + y3 * m3_g - th1 * torque;
+            * (dot_th3 * dot_th3)
+                .mul_add(
+                    i3,
+                    (dot_y3 * dot_y3)
+                        .mul_add(
+                            m3,
+                            (dot_x3 * dot_x3)
+                                .mul_add(
+                                    m3,
+                                    (dot_th2 * dot_th2)
+                                        .mul_add(
+                                            i2,
+                                            (dot_y2 * dot_y2)
+                                                .mul_add(
+                                                    m2,
+                                                    (dot_x2 * dot_x2)
+                                                        .mul_add(
+                                                            m2,
+                                                            (dot_th1 * dot_th1)
+                                                                .mul_add(
+                                                                    i1,
+                                                                    (dot_y1 * dot_y1).mul_add(m1, dot_x1 * dot_x1 * m1),
+                                                                ),
+                                                        ),
+                                                ),
+                                        ),
+                                ),
+                        ),
+                );
+        let potential = th1
+            .neg_mul_add(torque, y3.mul_add(m3_g, y2.mul_add(m2_g, y1 * m1_g)));
         ::ukcore::Energy {
             kinetic,
             potential,
@@ -779,24 +812,25 @@ impl ::ukcore::Mechanism for SliderCrank {
         let lit = S::from_f64;
         let (sin_th1, cos_th1) = th1.sin_cos();
         let sq_sin_th1_per_i1_sq_r = per_i1_sq_r * sin_th1 * sin_th1;
-        let pivot_bearing_0 = per_m1 + lit(0.25) * sq_sin_th1_per_i1_sq_r;
+        let pivot_bearing_0 = lit(0.25).mul_add(sq_sin_th1_per_i1_sq_r, per_m1);
         let per_pivot_bearing_0 = pivot_bearing_0.recip();
         let safe_bearing_0 = S::select_le(pivot_bearing_0, lit(0.0), lit(0.0), safe_th2);
         let acceleration_0_part = prepared_part * cos_th1 * cos_th1 * sin_th1 * sin_th1
             * per_pivot_bearing_0;
         let sq_cos_th1_per_i1_sq_r = per_i1_sq_r * cos_th1 * cos_th1;
-        let acceleration_0_part_2 = per_m1 + lit(0.25) * sq_cos_th1_per_i1_sq_r;
-        let pivot_bearing_1 = lit(0.0625) * acceleration_0_part - acceleration_0_part_2;
+        let diagonal_bearing_1 = lit(0.25).mul_add(sq_cos_th1_per_i1_sq_r, per_m1);
+        let pivot_bearing_1 = lit(0.0625) * acceleration_0_part - diagonal_bearing_1;
         let per_pivot_bearing_1 = pivot_bearing_1.recip();
         let safe_bearing_1 = S::select_le(
             -pivot_bearing_1,
-            lit(0.0009765625) * acceleration_0_part_2,
+            lit(0.0009765625) * diagonal_bearing_1,
             lit(0.0),
             safe_bearing_0,
         );
         let (sin_th2, cos_th2) = th2.sin_cos();
         let sq_sin_th2_per_i2_sq_l = per_i2_sq_l * sin_th2 * sin_th2;
-        let pivot_wrist_pin_0 = per_m3_and_per_m2 + lit(0.25) * sq_sin_th2_per_i2_sq_l;
+        let pivot_wrist_pin_0 = lit(0.25)
+            .mul_add(sq_sin_th2_per_i2_sq_l, per_m3_and_per_m2);
         let per_pivot_wrist_pin_0 = pivot_wrist_pin_0.recip();
         let safe_wrist_pin_0 = S::select_le(
             pivot_wrist_pin_0,
@@ -804,153 +838,276 @@ impl ::ukcore::Mechanism for SliderCrank {
             lit(0.0),
             safe_bearing_1,
         );
-        let acceleration_0_part_3 = prepared_part_2 * cos_th2 * cos_th2 * sin_th2
+        let acceleration_0_part_2 = prepared_part_2 * cos_th2 * cos_th2 * sin_th2
             * sin_th2 * per_pivot_wrist_pin_0;
         let sq_cos_th2_per_i2_sq_l = per_i2_sq_l * cos_th2 * cos_th2;
-        let acceleration_0_part_4 = per_m2 + lit(0.25) * sq_cos_th2_per_i2_sq_l;
-        let pivot_wrist_pin_1 = lit(0.0625) * acceleration_0_part_3
-            - acceleration_0_part_4;
+        let diagonal_wrist_pin_1 = lit(0.25).mul_add(sq_cos_th2_per_i2_sq_l, per_m2);
+        let pivot_wrist_pin_1 = lit(0.0625) * acceleration_0_part_2
+            - diagonal_wrist_pin_1;
         let per_pivot_wrist_pin_1 = pivot_wrist_pin_1.recip();
         let safe_wrist_pin_1 = S::select_le(
             -pivot_wrist_pin_1,
-            lit(0.0009765625) * acceleration_0_part_4,
+            lit(0.0009765625) * diagonal_wrist_pin_1,
             lit(0.0),
             safe_wrist_pin_0,
         );
         let crank_pin_1_by_wrist_pin_0 = per_i2_sq_l * cos_th2 * sin_th2
             * per_pivot_wrist_pin_0;
-        let acceleration_0_part_5 = dot_th2 * dot_th2 * l * cos_th2
+        let acceleration_0_part_3 = dot_th2 * dot_th2 * l * cos_th2
             * crank_pin_1_by_wrist_pin_0;
         let sin_th2_sq_dot_th2_l = dot_th2 * dot_th2 * l * sin_th2;
-        let acceleration_0_part_6 = (g + lit(0.5) * sin_th2_sq_dot_th2_l)
-            + lit(0.125) * acceleration_0_part_5;
-        let acceleration_0_part_7 = lit(0.25) * sq_sin_th1_per_i1_sq_r - per_m1;
-        let acceleration_0_part_8 = lit(0.25) * sq_sin_th2_per_i2_sq_l - per_m2;
-        let cos_th2_sin_th2_per_i2_sq_l = per_i2_sq_l * cos_th2 * sin_th2;
-        let acceleration_0_part_9 = acceleration_0_part_8 * crank_pin_1_by_wrist_pin_0;
-        let acceleration_0_part_10 = cos_th2_sin_th2_per_i2_sq_l - acceleration_0_part_9;
-        let acceleration_0_part_11 = per_m1_and_per_m2
-            + lit(0.25) * sq_sin_th1_per_i1_sq_r + lit(0.25) * sq_sin_th2_per_i2_sq_l;
-        let crank_pin_0_by_bearing_0 = acceleration_0_part_7 * per_pivot_bearing_0;
-        let acceleration_0_part_12 = lit(1.0) - crank_pin_0_by_bearing_0;
-        let pivot_crank_pin_0 = acceleration_0_part_7 * acceleration_0_part_7
-            * per_pivot_bearing_0 - acceleration_0_part_11
-            + acceleration_0_part_8 * acceleration_0_part_8 * per_pivot_wrist_pin_0
-            - prepared_part_3 * cos_th1 * cos_th1 * sin_th1 * sin_th1
-                * acceleration_0_part_12 * acceleration_0_part_12 * per_pivot_bearing_1
-            - lit(0.0625)
-                * (acceleration_0_part_10 * acceleration_0_part_10
-                    * per_pivot_wrist_pin_1);
+        let acceleration_0_part_4 = lit(0.125)
+            .mul_add(acceleration_0_part_3, lit(0.5).mul_add(sin_th2_sq_dot_th2_l, g));
+        let crank_pin_0_with_bearing_0 = lit(0.25) * sq_sin_th1_per_i1_sq_r - per_m1;
+        let crank_pin_0_with_wrist_pin_0 = lit(0.25) * sq_sin_th2_per_i2_sq_l - per_m2;
+        let crank_pin_1_with_wrist_pin_0 = per_i2_sq_l * cos_th2 * sin_th2;
+        let acceleration_0_part_5 = crank_pin_0_with_wrist_pin_0
+            * crank_pin_1_by_wrist_pin_0;
+        let crank_pin_0_with_wrist_pin_1 = crank_pin_1_with_wrist_pin_0
+            - acceleration_0_part_5;
+        let diagonal_crank_pin_0 = lit(0.25)
+            .mul_add(
+                sq_sin_th2_per_i2_sq_l,
+                lit(0.25).mul_add(sq_sin_th1_per_i1_sq_r, per_m1_and_per_m2),
+            );
+        let crank_pin_0_by_bearing_0 = crank_pin_0_with_bearing_0 * per_pivot_bearing_0;
+        let acceleration_0_part_6 = lit(1.0) - crank_pin_0_by_bearing_0;
+        let pivot_crank_pin_0 = (lit(0.0625) * crank_pin_0_with_wrist_pin_1
+            * crank_pin_0_with_wrist_pin_1)
+            .neg_mul_add(
+                per_pivot_wrist_pin_1,
+                (prepared_part_3 * cos_th1 * cos_th1 * sin_th1 * sin_th1
+                    * acceleration_0_part_6 * acceleration_0_part_6)
+                    .neg_mul_add(
+                        per_pivot_bearing_1,
+                        (crank_pin_0_with_wrist_pin_0 * crank_pin_0_with_wrist_pin_0)
+                            .mul_add(
+                                per_pivot_wrist_pin_0,
+                                crank_pin_0_with_bearing_0 * crank_pin_0_with_bearing_0
+                                    * per_pivot_bearing_0 - diagonal_crank_pin_0,
+                            ),
+                    ),
+            );
         let per_pivot_crank_pin_0 = pivot_crank_pin_0.recip();
         let safe_crank_pin_0 = S::select_le(
             -pivot_crank_pin_0,
-            lit(0.0009765625) * acceleration_0_part_11,
+            lit(0.0009765625) * diagonal_crank_pin_0,
             lit(0.0),
             safe_wrist_pin_1,
         );
-        let acceleration_0_part_13 = dot_th1 * dot_th1 * cos_th1
-            + per_i1_torque * sin_th1;
+        let acceleration_0_part_7 = per_i1_torque
+            .mul_add(sin_th1, dot_th1 * dot_th1 * cos_th1);
         let bearing_1_by_bearing_0 = per_i1_sq_r * cos_th1 * sin_th1
             * per_pivot_bearing_0;
-        let acceleration_0_part_14 = r * acceleration_0_part_13 * bearing_1_by_bearing_0;
+        let acceleration_0_part_8 = r * acceleration_0_part_7 * bearing_1_by_bearing_0;
         let sin_th1_sq_dot_th1_r = dot_th1 * dot_th1 * r * sin_th1;
         let cos_th1_per_i1_torque_r = per_i1_torque_r * cos_th1;
-        let acceleration_0_part_15 = (lit(0.5) * sin_th1_sq_dot_th1_r - g
-            - lit(0.5) * cos_th1_per_i1_torque_r) + lit(0.125) * acceleration_0_part_14;
+        let acceleration_0_part_9 = lit(0.125)
+            .mul_add(
+                acceleration_0_part_8,
+                lit(0.5)
+                    .neg_mul_add(
+                        cos_th1_per_i1_torque_r,
+                        lit(0.5) * sin_th1_sq_dot_th1_r - g,
+                    ),
+            );
         let crank_pin_0_by_bearing_1 = per_i1_sq_r * cos_th1 * sin_th1
-            * acceleration_0_part_12 * per_pivot_bearing_1;
-        let crank_pin_0_by_wrist_pin_1 = acceleration_0_part_10 * per_pivot_wrist_pin_1;
-        let crank_pin_0_by_wrist_pin_0 = acceleration_0_part_8 * per_pivot_wrist_pin_0;
-        let acceleration_0_part_16 = half_r * acceleration_0_part_13
-            * crank_pin_0_by_bearing_0
-            - lit(0.5)
-                * (per_i1_torque_r * sin_th1
-                    + (dot_th1 * dot_th1 * r * cos_th1
-                        + dot_th2 * dot_th2 * l * cos_th2))
-            + dot_th2 * dot_th2 * half_l * cos_th2 * crank_pin_0_by_wrist_pin_0
-            + lit(0.25) * (acceleration_0_part_15 * crank_pin_0_by_bearing_1)
-            + lit(0.25) * (acceleration_0_part_6 * crank_pin_0_by_wrist_pin_1);
-        let acceleration_0_part_17 = (lit(0.25) * sq_cos_th1_per_i1_sq_r - per_m1)
-            - times_per_i1_sq_r * cos_th1 * sin_th1 * bearing_1_by_bearing_0;
-        let crank_pin_1_by_bearing_1 = acceleration_0_part_17 * per_pivot_bearing_1;
-        let acceleration_0_part_18 = (lit(0.25) * sq_cos_th2_per_i2_sq_l - per_m2)
-            - times_per_i2_sq_l * cos_th2 * sin_th2 * crank_pin_1_by_wrist_pin_0;
-        let crank_pin_1_by_wrist_pin_1 = acceleration_0_part_18 * per_pivot_wrist_pin_1;
-        let acceleration_0_part_19 = acceleration_0_part_7 * bearing_1_by_bearing_0
-            - (per_i1_sq_r * cos_th1 * sin_th1 + cos_th2_sin_th2_per_i2_sq_l)
-            + acceleration_0_part_9
-            - per_i1_sq_r * cos_th1 * sin_th1 * acceleration_0_part_12
-                * crank_pin_1_by_bearing_1
-            - acceleration_0_part_10 * crank_pin_1_by_wrist_pin_1;
-        let acceleration_0_part_20 = per_m1_and_per_m2
-            + lit(0.25) * sq_cos_th1_per_i1_sq_r + lit(0.25) * sq_cos_th2_per_i2_sq_l;
-        let pivot_crank_pin_1 = lit(0.0625)
-            * (acceleration_0_part_19 * acceleration_0_part_19)
-            - pivot_crank_pin_0
-                * (lit(0.0625) * acceleration_0_part - acceleration_0_part_20
-                    + lit(0.0625) * acceleration_0_part_3
-                    - acceleration_0_part_17 * acceleration_0_part_17
-                        * per_pivot_bearing_1
-                    - acceleration_0_part_18 * acceleration_0_part_18
-                        * per_pivot_wrist_pin_1);
+            * acceleration_0_part_6 * per_pivot_bearing_1;
+        let crank_pin_0_by_wrist_pin_1 = crank_pin_0_with_wrist_pin_1
+            * per_pivot_wrist_pin_1;
+        let crank_pin_0_by_wrist_pin_0 = crank_pin_0_with_wrist_pin_0
+            * per_pivot_wrist_pin_0;
+        let acceleration_0_part_10 = (lit(0.25) * acceleration_0_part_4)
+            .mul_add(
+                crank_pin_0_by_wrist_pin_1,
+                (lit(0.25) * acceleration_0_part_9)
+                    .mul_add(
+                        crank_pin_0_by_bearing_1,
+                        (dot_th2 * dot_th2 * half_l * cos_th2)
+                            .mul_add(
+                                crank_pin_0_by_wrist_pin_0,
+                                lit(0.5)
+                                    .neg_mul_add(
+                                        (per_i1_torque_r * sin_th1
+                                            + (dot_th2 * dot_th2 * l)
+                                                .mul_add(cos_th2, dot_th1 * dot_th1 * r * cos_th1)),
+                                        half_r * acceleration_0_part_7 * crank_pin_0_by_bearing_0,
+                                    ),
+                            ),
+                    ),
+            );
+        let crank_pin_1_with_bearing_1 = (times_per_i1_sq_r * cos_th1 * sin_th1)
+            .neg_mul_add(
+                bearing_1_by_bearing_0,
+                (lit(0.25) * sq_cos_th1_per_i1_sq_r - per_m1),
+            );
+        let crank_pin_1_by_bearing_1 = crank_pin_1_with_bearing_1 * per_pivot_bearing_1;
+        let crank_pin_1_with_wrist_pin_1 = (times_per_i2_sq_l * cos_th2 * sin_th2)
+            .neg_mul_add(
+                crank_pin_1_by_wrist_pin_0,
+                (lit(0.25) * sq_cos_th2_per_i2_sq_l - per_m2),
+            );
+        let crank_pin_1_by_wrist_pin_1 = crank_pin_1_with_wrist_pin_1
+            * per_pivot_wrist_pin_1;
+        let bearing_1_with_bearing_0 = per_i1_sq_r * cos_th1 * sin_th1;
+        let crank_pin_1_with_crank_pin_0 = crank_pin_0_with_wrist_pin_1
+            .neg_mul_add(
+                crank_pin_1_by_wrist_pin_1,
+                (per_i1_sq_r * cos_th1 * sin_th1 * acceleration_0_part_6)
+                    .neg_mul_add(
+                        crank_pin_1_by_bearing_1,
+                        crank_pin_0_with_bearing_0 * bearing_1_by_bearing_0
+                            - (bearing_1_with_bearing_0 + crank_pin_1_with_wrist_pin_0)
+                            + acceleration_0_part_5,
+                    ),
+            );
+        let acceleration_0_part_11 = lit(0.25)
+            .mul_add(
+                sq_cos_th2_per_i2_sq_l,
+                lit(0.25).mul_add(sq_cos_th1_per_i1_sq_r, per_m1_and_per_m2),
+            );
+        let pivot_crank_pin_1 = pivot_crank_pin_0
+            .neg_mul_add(
+                (crank_pin_1_with_wrist_pin_1 * crank_pin_1_with_wrist_pin_1)
+                    .neg_mul_add(
+                        per_pivot_wrist_pin_1,
+                        (crank_pin_1_with_bearing_1 * crank_pin_1_with_bearing_1)
+                            .neg_mul_add(
+                                per_pivot_bearing_1,
+                                lit(0.0625)
+                                    .mul_add(
+                                        acceleration_0_part_2,
+                                        lit(0.0625) * acceleration_0_part - acceleration_0_part_11,
+                                    ),
+                            ),
+                    ),
+                lit(0.0625) * crank_pin_1_with_crank_pin_0 * crank_pin_1_with_crank_pin_0,
+            );
         let per_pivot_crank_pin_1 = pivot_crank_pin_1.recip();
+        let diagonal_crank_pin_1 = acceleration_0_part_11 * pivot_crank_pin_0;
         let safe_crank_pin_1 = S::select_le(
             -pivot_crank_pin_1,
-            lit(-0.0009765625) * (acceleration_0_part_20 * pivot_crank_pin_0),
+            lit(-0.0009765625) * diagonal_crank_pin_1,
             lit(0.0),
             safe_crank_pin_0,
         );
-        let acceleration_0_part_21 = lit(0.25)
-            * (acceleration_0_part_16 * acceleration_0_part_19)
-            - pivot_crank_pin_0
-                * (lit(0.5)
-                    * ((sin_th1_sq_dot_th1_r + sin_th2_sq_dot_th2_l)
-                        - cos_th1_per_i1_torque_r) + lit(0.125) * acceleration_0_part_14
-                    + lit(0.125) * acceleration_0_part_5
-                    + acceleration_0_part_15 * crank_pin_1_by_bearing_1
-                    + acceleration_0_part_6 * crank_pin_1_by_wrist_pin_1);
+        let acceleration_0_part_12 = pivot_crank_pin_0
+            .neg_mul_add(
+                acceleration_0_part_4
+                    .mul_add(
+                        crank_pin_1_by_wrist_pin_1,
+                        acceleration_0_part_9
+                            .mul_add(
+                                crank_pin_1_by_bearing_1,
+                                lit(0.125)
+                                    .mul_add(
+                                        acceleration_0_part_3,
+                                        lit(0.125)
+                                            .mul_add(
+                                                acceleration_0_part_8,
+                                                lit(0.5)
+                                                    * ((sin_th1_sq_dot_th1_r + sin_th2_sq_dot_th2_l)
+                                                        - cos_th1_per_i1_torque_r),
+                                            ),
+                                    ),
+                            ),
+                    ),
+                lit(0.25) * acceleration_0_part_10 * crank_pin_1_with_crank_pin_0,
+            );
         out[7] = lit(0.0);
         out[8] = lit(0.0);
         let safe = safe_crank_pin_1;
-        let safe_part = acceleration_0_part_16
-            - lit(0.25)
-                * (acceleration_0_part_19 * acceleration_0_part_21
-                    * per_pivot_crank_pin_1);
-        let lambda_bearing_1 = acceleration_0_part_15 * per_pivot_bearing_1
-            + crank_pin_1_by_bearing_1 * acceleration_0_part_21 * per_pivot_crank_pin_1
-            + lit(0.25) * (crank_pin_0_by_bearing_1 * per_pivot_crank_pin_0 * safe_part);
-        out[1] = per_m1 * lambda_bearing_1 - g
-            - per_m1 * acceleration_0_part_21 * per_pivot_crank_pin_1;
-        let lambda_wrist_pin_1 = acceleration_0_part_6 * per_pivot_wrist_pin_1
-            + crank_pin_1_by_wrist_pin_1 * acceleration_0_part_21 * per_pivot_crank_pin_1
-            + lit(0.25)
-                * (crank_pin_0_by_wrist_pin_1 * per_pivot_crank_pin_0 * safe_part);
-        out[4] = per_m2 * acceleration_0_part_21 * per_pivot_crank_pin_1 - g
-            - per_m2 * lambda_wrist_pin_1;
-        let lambda_wrist_pin_0 = lit(0.25)
-            * (crank_pin_1_by_wrist_pin_0 * acceleration_0_part_21
-                * per_pivot_crank_pin_1)
-            - dot_th2 * dot_th2 * half_l * cos_th2 * per_pivot_wrist_pin_0
-            + crank_pin_0_by_wrist_pin_0 * per_pivot_crank_pin_0 * safe_part
-            + lit(0.25) * (crank_pin_1_by_wrist_pin_0 * lambda_wrist_pin_1);
+        let safe_part = (lit(0.25) * crank_pin_1_with_crank_pin_0
+            * acceleration_0_part_12)
+            .neg_mul_add(per_pivot_crank_pin_1, acceleration_0_part_10);
+        let lambda_bearing_1 = (lit(0.25) * crank_pin_0_by_bearing_1
+            * per_pivot_crank_pin_0)
+            .mul_add(
+                safe_part,
+                (crank_pin_1_by_bearing_1 * acceleration_0_part_12)
+                    .mul_add(
+                        per_pivot_crank_pin_1,
+                        acceleration_0_part_9 * per_pivot_bearing_1,
+                    ),
+            );
+        out[1] = (per_m1 * acceleration_0_part_12)
+            .neg_mul_add(per_pivot_crank_pin_1, per_m1 * lambda_bearing_1 - g);
+        let lambda_wrist_pin_1 = (lit(0.25) * crank_pin_0_by_wrist_pin_1
+            * per_pivot_crank_pin_0)
+            .mul_add(
+                safe_part,
+                (crank_pin_1_by_wrist_pin_1 * acceleration_0_part_12)
+                    .mul_add(
+                        per_pivot_crank_pin_1,
+                        acceleration_0_part_4 * per_pivot_wrist_pin_1,
+                    ),
+            );
+        out[4] = per_m2
+            .neg_mul_add(
+                lambda_wrist_pin_1,
+                per_m2 * acceleration_0_part_12 * per_pivot_crank_pin_1 - g,
+            );
+        let lambda_wrist_pin_0 = (lit(0.25) * crank_pin_1_by_wrist_pin_0)
+            .mul_add(
+                lambda_wrist_pin_1,
+                (crank_pin_0_by_wrist_pin_0 * per_pivot_crank_pin_0)
+                    .mul_add(
+                        safe_part,
+                        (dot_th2 * dot_th2 * half_l * cos_th2)
+                            .neg_mul_add(
+                                per_pivot_wrist_pin_0,
+                                lit(0.25) * crank_pin_1_by_wrist_pin_0
+                                    * acceleration_0_part_12 * per_pivot_crank_pin_1,
+                            ),
+                    ),
+            );
         out[6] = per_m3 * lambda_wrist_pin_0;
         let lambda_crank_pin_0 = per_pivot_crank_pin_0 * safe_part;
-        let lambda_bearing_0 = lit(0.25)
-            * (bearing_1_by_bearing_0 * acceleration_0_part_21 * per_pivot_crank_pin_1)
-            - half_r * acceleration_0_part_13 * per_pivot_bearing_0
-            + crank_pin_0_by_bearing_0 * per_pivot_crank_pin_0 * safe_part
-            + lit(0.25) * (bearing_1_by_bearing_0 * lambda_bearing_1);
+        let lambda_bearing_0 = (lit(0.25) * bearing_1_by_bearing_0)
+            .mul_add(
+                lambda_bearing_1,
+                (crank_pin_0_by_bearing_0 * per_pivot_crank_pin_0)
+                    .mul_add(
+                        safe_part,
+                        (half_r * acceleration_0_part_7)
+                            .neg_mul_add(
+                                per_pivot_bearing_0,
+                                lit(0.25) * bearing_1_by_bearing_0 * acceleration_0_part_12
+                                    * per_pivot_crank_pin_1,
+                            ),
+                    ),
+            );
         out[0] = per_m1 * (lambda_crank_pin_0 + lambda_bearing_0);
         out[2] = per_i1
-            * (torque - half_r * cos_th1 * acceleration_0_part_21 * per_pivot_crank_pin_1
-                - half_r * sin_th1 * per_pivot_crank_pin_0 * safe_part
-                - half_r * cos_th1 * lambda_bearing_1
-                + half_r * sin_th1 * lambda_bearing_0);
+            * (half_r * sin_th1)
+                .mul_add(
+                    lambda_bearing_0,
+                    (half_r * cos_th1)
+                        .neg_mul_add(
+                            lambda_bearing_1,
+                            (half_r * sin_th1 * per_pivot_crank_pin_0)
+                                .neg_mul_add(
+                                    safe_part,
+                                    (half_r * cos_th1 * acceleration_0_part_12)
+                                        .neg_mul_add(per_pivot_crank_pin_1, torque),
+                                ),
+                        ),
+                );
         out[3] = -(per_m2 * (lambda_crank_pin_0 + lambda_wrist_pin_0));
         out[5] = -(half_per_i2_l
-            * (cos_th2 * acceleration_0_part_21 * per_pivot_crank_pin_1
-                + sin_th2 * per_pivot_crank_pin_0 * safe_part
-                + cos_th2 * lambda_wrist_pin_1 - sin_th2 * lambda_wrist_pin_0));
+            * sin_th2
+                .neg_mul_add(
+                    lambda_wrist_pin_0,
+                    cos_th2
+                        .mul_add(
+                            lambda_wrist_pin_1,
+                            (sin_th2 * per_pivot_crank_pin_0)
+                                .mul_add(
+                                    safe_part,
+                                    cos_th2 * acceleration_0_part_12 * per_pivot_crank_pin_1,
+                                ),
+                        ),
+                ));
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
@@ -978,24 +1135,25 @@ impl ::ukcore::Mechanism for SliderCrank {
         let lit = S::from_f64;
         let (sin_th1, cos_th1) = th1.sin_cos();
         let sq_sin_th1_per_i1_sq_r = per_i1_sq_r * sin_th1 * sin_th1;
-        let pivot_bearing_0 = per_m1 + lit(0.25) * sq_sin_th1_per_i1_sq_r;
+        let pivot_bearing_0 = lit(0.25).mul_add(sq_sin_th1_per_i1_sq_r, per_m1);
         let per_pivot_bearing_0 = pivot_bearing_0.recip();
         let safe_bearing_0 = S::select_le(pivot_bearing_0, lit(0.0), lit(0.0), safe_th2);
         let correction_0_part = prepared_part * cos_th1 * cos_th1 * sin_th1 * sin_th1
             * per_pivot_bearing_0;
         let sq_cos_th1_per_i1_sq_r = per_i1_sq_r * cos_th1 * cos_th1;
-        let correction_0_part_2 = per_m1 + lit(0.25) * sq_cos_th1_per_i1_sq_r;
-        let pivot_bearing_1 = lit(0.0625) * correction_0_part - correction_0_part_2;
+        let diagonal_bearing_1 = lit(0.25).mul_add(sq_cos_th1_per_i1_sq_r, per_m1);
+        let pivot_bearing_1 = lit(0.0625) * correction_0_part - diagonal_bearing_1;
         let per_pivot_bearing_1 = pivot_bearing_1.recip();
         let safe_bearing_1 = S::select_le(
             -pivot_bearing_1,
-            lit(0.0009765625) * correction_0_part_2,
+            lit(0.0009765625) * diagonal_bearing_1,
             lit(0.0),
             safe_bearing_0,
         );
         let (sin_th2, cos_th2) = th2.sin_cos();
         let sq_sin_th2_per_i2_sq_l = per_i2_sq_l * sin_th2 * sin_th2;
-        let pivot_wrist_pin_0 = per_m3_and_per_m2 + lit(0.25) * sq_sin_th2_per_i2_sq_l;
+        let pivot_wrist_pin_0 = lit(0.25)
+            .mul_add(sq_sin_th2_per_i2_sq_l, per_m3_and_per_m2);
         let per_pivot_wrist_pin_0 = pivot_wrist_pin_0.recip();
         let safe_wrist_pin_0 = S::select_le(
             pivot_wrist_pin_0,
@@ -1003,71 +1161,111 @@ impl ::ukcore::Mechanism for SliderCrank {
             lit(0.0),
             safe_bearing_1,
         );
-        let correction_0_part_3 = prepared_part_2 * cos_th2 * cos_th2 * sin_th2 * sin_th2
+        let correction_0_part_2 = prepared_part_2 * cos_th2 * cos_th2 * sin_th2 * sin_th2
             * per_pivot_wrist_pin_0;
         let sq_cos_th2_per_i2_sq_l = per_i2_sq_l * cos_th2 * cos_th2;
-        let correction_0_part_4 = per_m2 + lit(0.25) * sq_cos_th2_per_i2_sq_l;
-        let pivot_wrist_pin_1 = lit(0.0625) * correction_0_part_3 - correction_0_part_4;
+        let diagonal_wrist_pin_1 = lit(0.25).mul_add(sq_cos_th2_per_i2_sq_l, per_m2);
+        let pivot_wrist_pin_1 = lit(0.0625) * correction_0_part_2 - diagonal_wrist_pin_1;
         let per_pivot_wrist_pin_1 = pivot_wrist_pin_1.recip();
         let safe_wrist_pin_1 = S::select_le(
             -pivot_wrist_pin_1,
-            lit(0.0009765625) * correction_0_part_4,
+            lit(0.0009765625) * diagonal_wrist_pin_1,
             lit(0.0),
             safe_wrist_pin_0,
         );
-        let correction_0_part_5 = lit(0.25) * sq_sin_th1_per_i1_sq_r - per_m1;
-        let correction_0_part_6 = lit(0.25) * sq_sin_th2_per_i2_sq_l - per_m2;
-        let cos_th2_sin_th2_per_i2_sq_l = per_i2_sq_l * cos_th2 * sin_th2;
+        let crank_pin_0_with_bearing_0 = lit(0.25) * sq_sin_th1_per_i1_sq_r - per_m1;
+        let crank_pin_0_with_wrist_pin_0 = lit(0.25) * sq_sin_th2_per_i2_sq_l - per_m2;
+        let crank_pin_1_with_wrist_pin_0 = per_i2_sq_l * cos_th2 * sin_th2;
         let crank_pin_1_by_wrist_pin_0 = per_i2_sq_l * cos_th2 * sin_th2
             * per_pivot_wrist_pin_0;
-        let correction_0_part_7 = correction_0_part_6 * crank_pin_1_by_wrist_pin_0;
-        let correction_0_part_8 = cos_th2_sin_th2_per_i2_sq_l - correction_0_part_7;
-        let correction_0_part_9 = per_m1_and_per_m2 + lit(0.25) * sq_sin_th1_per_i1_sq_r
-            + lit(0.25) * sq_sin_th2_per_i2_sq_l;
-        let crank_pin_0_by_bearing_0 = correction_0_part_5 * per_pivot_bearing_0;
-        let correction_0_part_10 = lit(1.0) - crank_pin_0_by_bearing_0;
-        let pivot_crank_pin_0 = correction_0_part_5 * correction_0_part_5
-            * per_pivot_bearing_0 - correction_0_part_9
-            + correction_0_part_6 * correction_0_part_6 * per_pivot_wrist_pin_0
-            - prepared_part_3 * cos_th1 * cos_th1 * sin_th1 * sin_th1
-                * correction_0_part_10 * correction_0_part_10 * per_pivot_bearing_1
-            - lit(0.0625)
-                * (correction_0_part_8 * correction_0_part_8 * per_pivot_wrist_pin_1);
+        let correction_0_part_3 = crank_pin_0_with_wrist_pin_0
+            * crank_pin_1_by_wrist_pin_0;
+        let crank_pin_0_with_wrist_pin_1 = crank_pin_1_with_wrist_pin_0
+            - correction_0_part_3;
+        let diagonal_crank_pin_0 = lit(0.25)
+            .mul_add(
+                sq_sin_th2_per_i2_sq_l,
+                lit(0.25).mul_add(sq_sin_th1_per_i1_sq_r, per_m1_and_per_m2),
+            );
+        let crank_pin_0_by_bearing_0 = crank_pin_0_with_bearing_0 * per_pivot_bearing_0;
+        let correction_0_part_4 = lit(1.0) - crank_pin_0_by_bearing_0;
+        let pivot_crank_pin_0 = (lit(0.0625) * crank_pin_0_with_wrist_pin_1
+            * crank_pin_0_with_wrist_pin_1)
+            .neg_mul_add(
+                per_pivot_wrist_pin_1,
+                (prepared_part_3 * cos_th1 * cos_th1 * sin_th1 * sin_th1
+                    * correction_0_part_4 * correction_0_part_4)
+                    .neg_mul_add(
+                        per_pivot_bearing_1,
+                        (crank_pin_0_with_wrist_pin_0 * crank_pin_0_with_wrist_pin_0)
+                            .mul_add(
+                                per_pivot_wrist_pin_0,
+                                crank_pin_0_with_bearing_0 * crank_pin_0_with_bearing_0
+                                    * per_pivot_bearing_0 - diagonal_crank_pin_0,
+                            ),
+                    ),
+            );
         let per_pivot_crank_pin_0 = pivot_crank_pin_0.recip();
         let safe_crank_pin_0 = S::select_le(
             -pivot_crank_pin_0,
-            lit(0.0009765625) * correction_0_part_9,
+            lit(0.0009765625) * diagonal_crank_pin_0,
             lit(0.0),
             safe_wrist_pin_1,
         );
         let bearing_1_by_bearing_0 = per_i1_sq_r * cos_th1 * sin_th1
             * per_pivot_bearing_0;
-        let correction_0_part_11 = (lit(0.25) * sq_cos_th1_per_i1_sq_r - per_m1)
-            - times_per_i1_sq_r * cos_th1 * sin_th1 * bearing_1_by_bearing_0;
-        let crank_pin_1_by_bearing_1 = correction_0_part_11 * per_pivot_bearing_1;
-        let correction_0_part_12 = (lit(0.25) * sq_cos_th2_per_i2_sq_l - per_m2)
-            - times_per_i2_sq_l * cos_th2 * sin_th2 * crank_pin_1_by_wrist_pin_0;
-        let crank_pin_1_by_wrist_pin_1 = correction_0_part_12 * per_pivot_wrist_pin_1;
-        let correction_0_part_13 = correction_0_part_5 * bearing_1_by_bearing_0
-            - (per_i1_sq_r * cos_th1 * sin_th1 + cos_th2_sin_th2_per_i2_sq_l)
-            + correction_0_part_7
-            - per_i1_sq_r * cos_th1 * sin_th1 * correction_0_part_10
-                * crank_pin_1_by_bearing_1
-            - correction_0_part_8 * crank_pin_1_by_wrist_pin_1;
-        let correction_0_part_14 = per_m1_and_per_m2 + lit(0.25) * sq_cos_th1_per_i1_sq_r
-            + lit(0.25) * sq_cos_th2_per_i2_sq_l;
-        let pivot_crank_pin_1 = lit(0.0625)
-            * (correction_0_part_13 * correction_0_part_13)
-            - pivot_crank_pin_0
-                * (lit(0.0625) * correction_0_part - correction_0_part_14
-                    + lit(0.0625) * correction_0_part_3
-                    - correction_0_part_11 * correction_0_part_11 * per_pivot_bearing_1
-                    - correction_0_part_12 * correction_0_part_12
-                        * per_pivot_wrist_pin_1);
+        let crank_pin_1_with_bearing_1 = (times_per_i1_sq_r * cos_th1 * sin_th1)
+            .neg_mul_add(
+                bearing_1_by_bearing_0,
+                (lit(0.25) * sq_cos_th1_per_i1_sq_r - per_m1),
+            );
+        let crank_pin_1_by_bearing_1 = crank_pin_1_with_bearing_1 * per_pivot_bearing_1;
+        let crank_pin_1_with_wrist_pin_1 = (times_per_i2_sq_l * cos_th2 * sin_th2)
+            .neg_mul_add(
+                crank_pin_1_by_wrist_pin_0,
+                (lit(0.25) * sq_cos_th2_per_i2_sq_l - per_m2),
+            );
+        let crank_pin_1_by_wrist_pin_1 = crank_pin_1_with_wrist_pin_1
+            * per_pivot_wrist_pin_1;
+        let bearing_1_with_bearing_0 = per_i1_sq_r * cos_th1 * sin_th1;
+        let crank_pin_1_with_crank_pin_0 = crank_pin_0_with_wrist_pin_1
+            .neg_mul_add(
+                crank_pin_1_by_wrist_pin_1,
+                (per_i1_sq_r * cos_th1 * sin_th1 * correction_0_part_4)
+                    .neg_mul_add(
+                        crank_pin_1_by_bearing_1,
+                        crank_pin_0_with_bearing_0 * bearing_1_by_bearing_0
+                            - (bearing_1_with_bearing_0 + crank_pin_1_with_wrist_pin_0)
+                            + correction_0_part_3,
+                    ),
+            );
+        let correction_0_part_5 = lit(0.25)
+            .mul_add(
+                sq_cos_th2_per_i2_sq_l,
+                lit(0.25).mul_add(sq_cos_th1_per_i1_sq_r, per_m1_and_per_m2),
+            );
+        let pivot_crank_pin_1 = pivot_crank_pin_0
+            .neg_mul_add(
+                (crank_pin_1_with_wrist_pin_1 * crank_pin_1_with_wrist_pin_1)
+                    .neg_mul_add(
+                        per_pivot_wrist_pin_1,
+                        (crank_pin_1_with_bearing_1 * crank_pin_1_with_bearing_1)
+                            .neg_mul_add(
+                                per_pivot_bearing_1,
+                                lit(0.0625)
+                                    .mul_add(
+                                        correction_0_part_2,
+                                        lit(0.0625) * correction_0_part - correction_0_part_5,
+                                    ),
+                            ),
+                    ),
+                lit(0.0625) * crank_pin_1_with_crank_pin_0 * crank_pin_1_with_crank_pin_0,
+            );
         let per_pivot_crank_pin_1 = pivot_crank_pin_1.recip();
+        let diagonal_crank_pin_1 = correction_0_part_5 * pivot_crank_pin_0;
         let safe_crank_pin_1 = S::select_le(
             -pivot_crank_pin_1,
-            lit(-0.0009765625) * (correction_0_part_14 * pivot_crank_pin_0),
+            lit(-0.0009765625) * diagonal_crank_pin_1,
             lit(0.0),
             safe_crank_pin_0,
         );
@@ -1075,56 +1273,125 @@ impl ::ukcore::Mechanism for SliderCrank {
         out[8] = -residual_7;
         let safe = safe_crank_pin_1;
         let crank_pin_0_by_bearing_1 = per_i1_sq_r * cos_th1 * sin_th1
-            * correction_0_part_10 * per_pivot_bearing_1;
+            * correction_0_part_4 * per_pivot_bearing_1;
         let safe_part = residual_0 * bearing_1_by_bearing_0;
-        let safe_part_2 = residual_1 + lit(0.25) * safe_part;
-        let crank_pin_0_by_wrist_pin_0 = correction_0_part_6 * per_pivot_wrist_pin_0;
-        let crank_pin_0_by_wrist_pin_1 = correction_0_part_8 * per_pivot_wrist_pin_1;
+        let safe_part_2 = lit(0.25).mul_add(safe_part, residual_1);
+        let crank_pin_0_by_wrist_pin_0 = crank_pin_0_with_wrist_pin_0
+            * per_pivot_wrist_pin_0;
+        let crank_pin_0_by_wrist_pin_1 = crank_pin_0_with_wrist_pin_1
+            * per_pivot_wrist_pin_1;
         let safe_part_3 = residual_4 * crank_pin_1_by_wrist_pin_0;
-        let safe_part_4 = (residual_5 + residual_6) + lit(0.25) * safe_part_3;
-        let safe_part_5 = residual_2 + residual_0 * crank_pin_0_by_bearing_0
-            - residual_4 * crank_pin_0_by_wrist_pin_0
-            + lit(0.25) * (safe_part_2 * crank_pin_0_by_bearing_1)
-            - lit(0.25) * (safe_part_4 * crank_pin_0_by_wrist_pin_1);
-        let safe_part_6 = lit(0.25) * (correction_0_part_13 * safe_part_5)
-            + pivot_crank_pin_0
-                * (residual_3 - lit(0.25) * safe_part + lit(0.25) * safe_part_3
-                    - safe_part_2 * crank_pin_1_by_bearing_1
-                    + safe_part_4 * crank_pin_1_by_wrist_pin_1);
+        let safe_part_4 = lit(0.25).mul_add(safe_part_3, (residual_5 + residual_6));
+        let safe_part_5 = (lit(0.25) * safe_part_4)
+            .neg_mul_add(
+                crank_pin_0_by_wrist_pin_1,
+                (lit(0.25) * safe_part_2)
+                    .mul_add(
+                        crank_pin_0_by_bearing_1,
+                        residual_4
+                            .neg_mul_add(
+                                crank_pin_0_by_wrist_pin_0,
+                                residual_0.mul_add(crank_pin_0_by_bearing_0, residual_2),
+                            ),
+                    ),
+            );
+        let safe_part_6 = pivot_crank_pin_0
+            .mul_add(
+                safe_part_4
+                    .mul_add(
+                        crank_pin_1_by_wrist_pin_1,
+                        safe_part_2
+                            .neg_mul_add(
+                                crank_pin_1_by_bearing_1,
+                                lit(0.25)
+                                    .mul_add(
+                                        safe_part_3,
+                                        lit(0.25).neg_mul_add(safe_part, residual_3),
+                                    ),
+                            ),
+                    ),
+                lit(0.25) * crank_pin_1_with_crank_pin_0 * safe_part_5,
+            );
         let lambda_crank_pin_1 = safe_part_6 * per_pivot_crank_pin_1;
-        let safe_part_7 = safe_part_5
-            - lit(0.25) * (correction_0_part_13 * safe_part_6 * per_pivot_crank_pin_1);
-        let lambda_wrist_pin_1 = safe_part_4 * per_pivot_wrist_pin_1
-            - crank_pin_1_by_wrist_pin_1 * safe_part_6 * per_pivot_crank_pin_1
-            - lit(0.25)
-                * (crank_pin_0_by_wrist_pin_1 * per_pivot_crank_pin_0 * safe_part_7);
+        let safe_part_7 = (lit(0.25) * crank_pin_1_with_crank_pin_0 * safe_part_6)
+            .neg_mul_add(per_pivot_crank_pin_1, safe_part_5);
+        let lambda_wrist_pin_1 = (lit(0.25) * crank_pin_0_by_wrist_pin_1
+            * per_pivot_crank_pin_0)
+            .neg_mul_add(
+                safe_part_7,
+                (crank_pin_1_by_wrist_pin_1 * safe_part_6)
+                    .neg_mul_add(
+                        per_pivot_crank_pin_1,
+                        safe_part_4 * per_pivot_wrist_pin_1,
+                    ),
+            );
         out[4] = per_m2 * (lambda_crank_pin_1 + lambda_wrist_pin_1);
-        let lambda_bearing_1 = safe_part_2 * per_pivot_bearing_1
-            + crank_pin_1_by_bearing_1 * safe_part_6 * per_pivot_crank_pin_1
-            + lit(0.25)
-                * (crank_pin_0_by_bearing_1 * per_pivot_crank_pin_0 * safe_part_7);
+        let lambda_bearing_1 = (lit(0.25) * crank_pin_0_by_bearing_1
+            * per_pivot_crank_pin_0)
+            .mul_add(
+                safe_part_7,
+                (crank_pin_1_by_bearing_1 * safe_part_6)
+                    .mul_add(per_pivot_crank_pin_1, safe_part_2 * per_pivot_bearing_1),
+            );
         out[1] = -(per_m1 * (lambda_crank_pin_1 - lambda_bearing_1));
-        let lambda_wrist_pin_0 = residual_4 * per_pivot_wrist_pin_0
-            + lit(0.25)
-                * (crank_pin_1_by_wrist_pin_0 * safe_part_6 * per_pivot_crank_pin_1)
-            + crank_pin_0_by_wrist_pin_0 * per_pivot_crank_pin_0 * safe_part_7
-            - lit(0.25) * (crank_pin_1_by_wrist_pin_0 * lambda_wrist_pin_1);
+        let lambda_wrist_pin_0 = (lit(0.25) * crank_pin_1_by_wrist_pin_0)
+            .neg_mul_add(
+                lambda_wrist_pin_1,
+                (crank_pin_0_by_wrist_pin_0 * per_pivot_crank_pin_0)
+                    .mul_add(
+                        safe_part_7,
+                        (lit(0.25) * crank_pin_1_by_wrist_pin_0 * safe_part_6)
+                            .mul_add(
+                                per_pivot_crank_pin_1,
+                                residual_4 * per_pivot_wrist_pin_0,
+                            ),
+                    ),
+            );
         out[6] = per_m3 * lambda_wrist_pin_0;
         let lambda_crank_pin_0 = per_pivot_crank_pin_0 * safe_part_7;
-        let lambda_bearing_0 = residual_0 * per_pivot_bearing_0
-            - lit(0.25) * (bearing_1_by_bearing_0 * safe_part_6 * per_pivot_crank_pin_1)
-            - crank_pin_0_by_bearing_0 * per_pivot_crank_pin_0 * safe_part_7
-            - lit(0.25) * (bearing_1_by_bearing_0 * lambda_bearing_1);
+        let lambda_bearing_0 = (lit(0.25) * bearing_1_by_bearing_0)
+            .neg_mul_add(
+                lambda_bearing_1,
+                (crank_pin_0_by_bearing_0 * per_pivot_crank_pin_0)
+                    .neg_mul_add(
+                        safe_part_7,
+                        (lit(0.25) * bearing_1_by_bearing_0 * safe_part_6)
+                            .neg_mul_add(
+                                per_pivot_crank_pin_1,
+                                residual_0 * per_pivot_bearing_0,
+                            ),
+                    ),
+            );
         out[0] = per_m1 * (lambda_crank_pin_0 - lambda_bearing_0);
         out[3] = -(per_m2 * (lambda_crank_pin_0 + lambda_wrist_pin_0));
         out[2] = -(half_per_i1_r
-            * (cos_th1 * safe_part_6 * per_pivot_crank_pin_1
-                + sin_th1 * per_pivot_crank_pin_0 * safe_part_7
-                + cos_th1 * lambda_bearing_1 + sin_th1 * lambda_bearing_0));
+            * sin_th1
+                .mul_add(
+                    lambda_bearing_0,
+                    cos_th1
+                        .mul_add(
+                            lambda_bearing_1,
+                            (sin_th1 * per_pivot_crank_pin_0)
+                                .mul_add(
+                                    safe_part_7,
+                                    cos_th1 * safe_part_6 * per_pivot_crank_pin_1,
+                                ),
+                        ),
+                ));
         out[5] = -(half_per_i2_l
-            * (cos_th2 * safe_part_6 * per_pivot_crank_pin_1
-                + sin_th2 * per_pivot_crank_pin_0 * safe_part_7
-                - cos_th2 * lambda_wrist_pin_1 - sin_th2 * lambda_wrist_pin_0));
+            * sin_th2
+                .neg_mul_add(
+                    lambda_wrist_pin_0,
+                    cos_th2
+                        .neg_mul_add(
+                            lambda_wrist_pin_1,
+                            (sin_th2 * per_pivot_crank_pin_0)
+                                .mul_add(
+                                    safe_part_7,
+                                    cos_th2 * safe_part_6 * per_pivot_crank_pin_1,
+                                ),
+                        ),
+                ));
         safe
     }
 }

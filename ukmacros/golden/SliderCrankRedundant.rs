@@ -592,14 +592,14 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         jacobian[87] = cos_th3_c;
         jacobian[78] = lit(1.0);
         jacobian[88] = -cos_th3_c;
-        let a_second_rod = lit(2.0) * x1 - lit(2.0) * x3 + cos_th1_r;
+        let a_second_rod = lit(2.0).neg_mul_add(x3, lit(2.0) * x1) + cos_th1_r;
         jacobian[9] = a_second_rod;
-        let a_second_rod_2 = lit(2.0) * y1 - lit(2.0) * y3 + sin_th1_r;
+        let a_second_rod_2 = lit(2.0).neg_mul_add(y3, lit(2.0) * y1) + sin_th1_r;
         jacobian[19] = a_second_rod_2;
-        let a_second_rod_part = x1 - x3 + lit(0.5) * cos_th1_r;
-        let a_second_rod_part_2 = y1 - y3 + lit(0.5) * sin_th1_r;
-        jacobian[29] = r * cos_th1 * a_second_rod_part_2
-            - r * sin_th1 * a_second_rod_part;
+        let a_second_rod_part = lit(0.5).mul_add(cos_th1_r, x1 - x3);
+        let a_second_rod_part_2 = lit(0.5).mul_add(sin_th1_r, y1 - y3);
+        jacobian[29] = (r * sin_th1)
+            .neg_mul_add(a_second_rod_part, r * cos_th1 * a_second_rod_part_2);
         jacobian[69] = -a_second_rod;
         jacobian[79] = -a_second_rod_2;
         let cos_th1_sq_dot_th1_r = dot_th1 * dot_th1 * r * cos_th1;
@@ -616,12 +616,18 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         let sin_th3_sq_dot_th3_c = dot_th3 * dot_th3 * c * sin_th3;
         rhs[7] = sin_th3_sq_dot_th3_c;
         rhs[8] = -sin_th3_sq_dot_th3_c;
-        let b_9_part = dot_x3 - dot_x1 + lit(0.5) * (dot_th1 * r * sin_th1);
-        let b_9_part_2 = dot_y1 - dot_y3 + lit(0.5) * (dot_th1 * r * cos_th1);
+        let b_9_part = (lit(0.5) * dot_th1 * r).mul_add(sin_th1, dot_x3 - dot_x1);
+        let b_9_part_2 = (lit(0.5) * dot_th1 * r).mul_add(cos_th1, dot_y1 - dot_y3);
         rhs[9] = lit(-2.0)
-            * (b_9_part * b_9_part + b_9_part_2 * b_9_part_2
-                - dot_th1 * dot_th1 * half_r * cos_th1 * a_second_rod_part
-                - dot_th1 * dot_th1 * half_r * sin_th1 * a_second_rod_part_2);
+            * (dot_th1 * dot_th1 * half_r * sin_th1)
+                .neg_mul_add(
+                    a_second_rod_part_2,
+                    (dot_th1 * dot_th1 * half_r * cos_th1)
+                        .neg_mul_add(
+                            a_second_rod_part,
+                            b_9_part_2.mul_add(b_9_part_2, b_9_part * b_9_part),
+                        ),
+                );
     }
     fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 81>(mass, "mass");
@@ -686,12 +692,15 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         jacobian[87] = a_front_shoe;
         jacobian[78] = lit(1.0);
         jacobian[88] = -a_front_shoe;
-        let a_second_rod = lit(2.0) * x1 - lit(2.0) * x3 + cos_th1_r;
+        let a_second_rod = lit(2.0).neg_mul_add(x3, lit(2.0) * x1) + cos_th1_r;
         jacobian[9] = a_second_rod;
-        let a_second_rod_2 = lit(2.0) * y1 - lit(2.0) * y3 + sin_th1_r;
+        let a_second_rod_2 = lit(2.0).neg_mul_add(y3, lit(2.0) * y1) + sin_th1_r;
         jacobian[19] = a_second_rod_2;
-        jacobian[29] = r * cos_th1 * (y1 - y3 + lit(0.5) * sin_th1_r)
-            - r * sin_th1 * (x1 - x3 + lit(0.5) * cos_th1_r);
+        jacobian[29] = (r * sin_th1)
+            .neg_mul_add(
+                lit(0.5).mul_add(cos_th1_r, x1 - x3),
+                r * cos_th1 * lit(0.5).mul_add(sin_th1_r, y1 - y3),
+            );
         jacobian[69] = -a_second_rod;
         jacobian[79] = -a_second_rod_2;
     }
@@ -708,23 +717,23 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         let lit = S::from_f64;
         let (sin_th1, cos_th1) = th1.sin_cos();
         let cos_th1_r = r * cos_th1;
-        phi[0] = x1 - lit(0.5) * cos_th1_r;
+        phi[0] = lit(0.5).neg_mul_add(cos_th1_r, x1);
         let sin_th1_r = r * sin_th1;
-        phi[1] = y1 - lit(0.5) * sin_th1_r;
+        phi[1] = lit(0.5).neg_mul_add(sin_th1_r, y1);
         let (sin_th2, cos_th2) = th2.sin_cos();
         let cos_th2_l = l * cos_th2;
-        phi[2] = x1 - x2 + lit(0.5) * cos_th1_r + lit(0.5) * cos_th2_l;
+        phi[2] = lit(0.5).mul_add(cos_th2_l, lit(0.5).mul_add(cos_th1_r, x1 - x2));
         let sin_th2_l = l * sin_th2;
-        phi[3] = y1 - y2 + lit(0.5) * sin_th1_r + lit(0.5) * sin_th2_l;
-        phi[4] = x2 - x3 + lit(0.5) * cos_th2_l;
-        phi[5] = y2 - y3 + lit(0.5) * sin_th2_l;
+        phi[3] = lit(0.5).mul_add(sin_th2_l, lit(0.5).mul_add(sin_th1_r, y1 - y2));
+        phi[4] = lit(0.5).mul_add(cos_th2_l, x2 - x3);
+        phi[5] = lit(0.5).mul_add(sin_th2_l, y2 - y3);
         phi[6] = th3;
         let phi_7_part = c * th3.sin();
         phi[7] = y3 + phi_7_part;
         phi[8] = y3 - phi_7_part;
-        let phi_9_part = x1 - x3 + lit(0.5) * cos_th1_r;
-        let phi_9_part_2 = y1 - y3 + lit(0.5) * sin_th1_r;
-        phi[9] = phi_9_part * phi_9_part - sq_l + phi_9_part_2 * phi_9_part_2;
+        let phi_9_part = lit(0.5).mul_add(cos_th1_r, x1 - x3);
+        let phi_9_part_2 = lit(0.5).mul_add(sin_th1_r, y1 - y3);
+        phi[9] = phi_9_part_2.mul_add(phi_9_part_2, phi_9_part * phi_9_part - sq_l);
     }
     fn residual_rate<S: ::ukcore::Scalar>(
         prepared: &[S],
@@ -747,27 +756,36 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         let lit = S::from_f64;
         let (sin_th1, cos_th1) = th1.sin_cos();
         let sin_th1_dot_th1_r = dot_th1 * r * sin_th1;
-        rate[0] = dot_x1 + lit(0.5) * sin_th1_dot_th1_r;
+        rate[0] = lit(0.5).mul_add(sin_th1_dot_th1_r, dot_x1);
         let cos_th1_dot_th1_r = dot_th1 * r * cos_th1;
-        rate[1] = dot_y1 - lit(0.5) * cos_th1_dot_th1_r;
+        rate[1] = lit(0.5).neg_mul_add(cos_th1_dot_th1_r, dot_y1);
         let (sin_th2, cos_th2) = th2.sin_cos();
         let sin_th2_dot_th2_l = dot_th2 * l * sin_th2;
-        rate[2] = dot_x1 - dot_x2 - lit(0.5) * sin_th1_dot_th1_r
-            - lit(0.5) * sin_th2_dot_th2_l;
+        rate[2] = lit(0.5)
+            .neg_mul_add(
+                sin_th2_dot_th2_l,
+                lit(0.5).neg_mul_add(sin_th1_dot_th1_r, dot_x1 - dot_x2),
+            );
         let cos_th2_dot_th2_l = dot_th2 * l * cos_th2;
-        rate[3] = dot_y1 - dot_y2 + lit(0.5) * cos_th1_dot_th1_r
-            + lit(0.5) * cos_th2_dot_th2_l;
-        rate[4] = dot_x2 - dot_x3 - lit(0.5) * sin_th2_dot_th2_l;
-        rate[5] = dot_y2 - dot_y3 + lit(0.5) * cos_th2_dot_th2_l;
+        rate[3] = lit(0.5)
+            .mul_add(
+                cos_th2_dot_th2_l,
+                lit(0.5).mul_add(cos_th1_dot_th1_r, dot_y1 - dot_y2),
+            );
+        rate[4] = lit(0.5).neg_mul_add(sin_th2_dot_th2_l, dot_x2 - dot_x3);
+        rate[5] = lit(0.5).mul_add(cos_th2_dot_th2_l, dot_y2 - dot_y3);
         rate[6] = dot_th3;
         let rate_7_part = dot_th3 * c * th3.cos();
         rate[7] = dot_y3 + rate_7_part;
         rate[8] = dot_y3 - rate_7_part;
         rate[9] = lit(-2.0)
-            * ((x1 - x3 + lit(0.5) * (r * cos_th1))
-                * (dot_x3 - dot_x1 + lit(0.5) * sin_th1_dot_th1_r)
-                - (y1 - y3 + lit(0.5) * (r * sin_th1))
-                    * (dot_y1 - dot_y3 + lit(0.5) * cos_th1_dot_th1_r));
+            * (lit(0.5) * r)
+                .mul_add(sin_th1, y1 - y3)
+                .neg_mul_add(
+                    lit(0.5).mul_add(cos_th1_dot_th1_r, dot_y1 - dot_y3),
+                    (lit(0.5) * r).mul_add(cos_th1, x1 - x3)
+                        * lit(0.5).mul_add(sin_th1_dot_th1_r, dot_x3 - dot_x1),
+                );
     }
     fn energy<S: ::ukcore::Scalar>(
         prepared: &[S],
@@ -784,10 +802,37 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         ] = *::ukcore::emitted::exact::<S, 9>(v, "v");
         let lit = S::from_f64;
         let kinetic = lit(0.5)
-            * (dot_x1 * dot_x1 * m1 + dot_y1 * dot_y1 * m1 + dot_th1 * dot_th1 * i1
-                + dot_x2 * dot_x2 * m2 + dot_y2 * dot_y2 * m2 + dot_th2 * dot_th2 * i2
-                + dot_x3 * dot_x3 * m3 + dot_y3 * dot_y3 * m3 + dot_th3 * dot_th3 * i3);
-        let potential = y1 * m1_g + y2 * m2_g + y3 * m3_g - th1 * torque;
+            * (dot_th3 * dot_th3)
+                .mul_add(
+                    i3,
+                    (dot_y3 * dot_y3)
+                        .mul_add(
+                            m3,
+                            (dot_x3 * dot_x3)
+                                .mul_add(
+                                    m3,
+                                    (dot_th2 * dot_th2)
+                                        .mul_add(
+                                            i2,
+                                            (dot_y2 * dot_y2)
+                                                .mul_add(
+                                                    m2,
+                                                    (dot_x2 * dot_x2)
+                                                        .mul_add(
+                                                            m2,
+                                                            (dot_th1 * dot_th1)
+                                                                .mul_add(
+                                                                    i1,
+                                                                    (dot_y1 * dot_y1).mul_add(m1, dot_x1 * dot_x1 * m1),
+                                                                ),
+                                                        ),
+                                                ),
+                                        ),
+                                ),
+                        ),
+                );
+        let potential = th1
+            .neg_mul_add(torque, y3.mul_add(m3_g, y2.mul_add(m2_g, y1 * m1_g)));
         ::ukcore::Energy {
             kinetic,
             potential,

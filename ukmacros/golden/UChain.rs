@@ -159,8 +159,6 @@ impl ::ukcore::Mechanism for UChain {
             ("sq_l", "sq(l)"),
             ("m", "m"),
             ("g", "g"),
-            ("per_m", "1/m"),
-            ("twice_per_m", "2/m"),
             ("safe_x_0", "(m ≤ 0 ? 0 : 1)"),
         ],
         coords: &[
@@ -434,7 +432,7 @@ impl ::ukcore::Mechanism for UChain {
             },
             solve_operations: ::ukcore::Operations {
                 additions: 227,
-                multiplications: 346,
+                multiplications: 344,
                 divisions: 17,
                 square_roots: 0,
                 transcendentals: 0,
@@ -605,18 +603,15 @@ impl ::ukcore::Mechanism for UChain {
         }
     }
     fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
-        let prepared = ::ukcore::emitted::exact_mut::<S, 7>(prepared, "prepared");
+        let prepared = ::ukcore::emitted::exact_mut::<S, 5>(prepared, "prepared");
         let [m, l, g] = *::ukcore::emitted::exact::<S, 3>(given, "given");
         let lit = S::from_f64;
         prepared[0] = m * g;
         prepared[1] = l * l;
         prepared[2] = m;
         prepared[3] = g;
-        let per_m = m.recip();
-        prepared[4] = per_m;
-        prepared[5] = lit(2.0) * per_m;
         let safe_x_0 = S::select_le(m, lit(0.0), lit(0.0), lit(1.0));
-        prepared[6] = safe_x_0;
+        prepared[4] = safe_x_0;
     }
     /// 81 additions, 117 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
@@ -631,10 +626,7 @@ impl ::ukcore::Mechanism for UChain {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 34>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 578>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 17>(out.rhs, "rhs");
-        let [m_g, _, m, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            7,
-        >(prepared, "prepared");
+        let [m_g, _, m, _, _] = *::ukcore::emitted::exact::<S, 5>(prepared, "prepared");
         let [x_0, x_1, x_2, x_3, x_4, x_5, x_6, x_7, x_8, x_9, x_10, x_11, x_12, x_13,
         x_14, x_15, x_16, y_0, y_1, y_2, y_3, y_4, y_5, y_6, y_7, y_8, y_9, y_10, y_11,
         y_12, y_13, y_14, y_15, y_16] = *::ukcore::emitted::exact::<S, 34>(q, "q");
@@ -847,91 +839,136 @@ impl ::ukcore::Mechanism for UChain {
         let dot_x_0_minus_dot_x_1 = dot_x_0 - dot_x_1;
         let dot_y_0_minus_dot_y_1 = dot_y_0 - dot_y_1;
         rhs[0] = lit(-2.0)
-            * (dot_x_0_minus_dot_x_1 * dot_x_0_minus_dot_x_1
-                + dot_y_0_minus_dot_y_1 * dot_y_0_minus_dot_y_1);
+            * dot_y_0_minus_dot_y_1
+                .mul_add(
+                    dot_y_0_minus_dot_y_1,
+                    dot_x_0_minus_dot_x_1 * dot_x_0_minus_dot_x_1,
+                );
         let dot_x_1_minus_dot_x_2 = dot_x_1 - dot_x_2;
         let dot_y_1_minus_dot_y_2 = dot_y_1 - dot_y_2;
         rhs[1] = lit(-2.0)
-            * (dot_x_1_minus_dot_x_2 * dot_x_1_minus_dot_x_2
-                + dot_y_1_minus_dot_y_2 * dot_y_1_minus_dot_y_2);
+            * dot_y_1_minus_dot_y_2
+                .mul_add(
+                    dot_y_1_minus_dot_y_2,
+                    dot_x_1_minus_dot_x_2 * dot_x_1_minus_dot_x_2,
+                );
         let dot_x_2_minus_dot_x_3 = dot_x_2 - dot_x_3;
         let dot_y_2_minus_dot_y_3 = dot_y_2 - dot_y_3;
         rhs[2] = lit(-2.0)
-            * (dot_x_2_minus_dot_x_3 * dot_x_2_minus_dot_x_3
-                + dot_y_2_minus_dot_y_3 * dot_y_2_minus_dot_y_3);
+            * dot_y_2_minus_dot_y_3
+                .mul_add(
+                    dot_y_2_minus_dot_y_3,
+                    dot_x_2_minus_dot_x_3 * dot_x_2_minus_dot_x_3,
+                );
         let dot_x_3_minus_dot_x_4 = dot_x_3 - dot_x_4;
         let dot_y_3_minus_dot_y_4 = dot_y_3 - dot_y_4;
         rhs[3] = lit(-2.0)
-            * (dot_x_3_minus_dot_x_4 * dot_x_3_minus_dot_x_4
-                + dot_y_3_minus_dot_y_4 * dot_y_3_minus_dot_y_4);
+            * dot_y_3_minus_dot_y_4
+                .mul_add(
+                    dot_y_3_minus_dot_y_4,
+                    dot_x_3_minus_dot_x_4 * dot_x_3_minus_dot_x_4,
+                );
         let dot_x_4_minus_dot_x_5 = dot_x_4 - dot_x_5;
         let dot_y_4_minus_dot_y_5 = dot_y_4 - dot_y_5;
         rhs[4] = lit(-2.0)
-            * (dot_x_4_minus_dot_x_5 * dot_x_4_minus_dot_x_5
-                + dot_y_4_minus_dot_y_5 * dot_y_4_minus_dot_y_5);
+            * dot_y_4_minus_dot_y_5
+                .mul_add(
+                    dot_y_4_minus_dot_y_5,
+                    dot_x_4_minus_dot_x_5 * dot_x_4_minus_dot_x_5,
+                );
         let dot_x_5_minus_dot_x_6 = dot_x_5 - dot_x_6;
         let dot_y_5_minus_dot_y_6 = dot_y_5 - dot_y_6;
         rhs[5] = lit(-2.0)
-            * (dot_x_5_minus_dot_x_6 * dot_x_5_minus_dot_x_6
-                + dot_y_5_minus_dot_y_6 * dot_y_5_minus_dot_y_6);
+            * dot_y_5_minus_dot_y_6
+                .mul_add(
+                    dot_y_5_minus_dot_y_6,
+                    dot_x_5_minus_dot_x_6 * dot_x_5_minus_dot_x_6,
+                );
         let dot_x_6_minus_dot_x_7 = dot_x_6 - dot_x_7;
         let dot_y_6_minus_dot_y_7 = dot_y_6 - dot_y_7;
         rhs[6] = lit(-2.0)
-            * (dot_x_6_minus_dot_x_7 * dot_x_6_minus_dot_x_7
-                + dot_y_6_minus_dot_y_7 * dot_y_6_minus_dot_y_7);
+            * dot_y_6_minus_dot_y_7
+                .mul_add(
+                    dot_y_6_minus_dot_y_7,
+                    dot_x_6_minus_dot_x_7 * dot_x_6_minus_dot_x_7,
+                );
         let dot_x_7_minus_dot_x_8 = dot_x_7 - dot_x_8;
         let dot_y_7_minus_dot_y_8 = dot_y_7 - dot_y_8;
         rhs[7] = lit(-2.0)
-            * (dot_x_7_minus_dot_x_8 * dot_x_7_minus_dot_x_8
-                + dot_y_7_minus_dot_y_8 * dot_y_7_minus_dot_y_8);
+            * dot_y_7_minus_dot_y_8
+                .mul_add(
+                    dot_y_7_minus_dot_y_8,
+                    dot_x_7_minus_dot_x_8 * dot_x_7_minus_dot_x_8,
+                );
         let dot_x_8_minus_dot_x_9 = dot_x_8 - dot_x_9;
         let dot_y_8_minus_dot_y_9 = dot_y_8 - dot_y_9;
         rhs[8] = lit(-2.0)
-            * (dot_x_8_minus_dot_x_9 * dot_x_8_minus_dot_x_9
-                + dot_y_8_minus_dot_y_9 * dot_y_8_minus_dot_y_9);
+            * dot_y_8_minus_dot_y_9
+                .mul_add(
+                    dot_y_8_minus_dot_y_9,
+                    dot_x_8_minus_dot_x_9 * dot_x_8_minus_dot_x_9,
+                );
         let dot_x_9_minus_dot_x_10 = dot_x_9 - dot_x_10;
         let dot_y_9_minus_dot_y_10 = dot_y_9 - dot_y_10;
         rhs[9] = lit(-2.0)
-            * (dot_x_9_minus_dot_x_10 * dot_x_9_minus_dot_x_10
-                + dot_y_9_minus_dot_y_10 * dot_y_9_minus_dot_y_10);
+            * dot_y_9_minus_dot_y_10
+                .mul_add(
+                    dot_y_9_minus_dot_y_10,
+                    dot_x_9_minus_dot_x_10 * dot_x_9_minus_dot_x_10,
+                );
         let dot_x_10_minus_dot_x_11 = dot_x_10 - dot_x_11;
         let dot_y_10_minus_dot_y_11 = dot_y_10 - dot_y_11;
         rhs[10] = lit(-2.0)
-            * (dot_x_10_minus_dot_x_11 * dot_x_10_minus_dot_x_11
-                + dot_y_10_minus_dot_y_11 * dot_y_10_minus_dot_y_11);
+            * dot_y_10_minus_dot_y_11
+                .mul_add(
+                    dot_y_10_minus_dot_y_11,
+                    dot_x_10_minus_dot_x_11 * dot_x_10_minus_dot_x_11,
+                );
         let dot_x_11_minus_dot_x_12 = dot_x_11 - dot_x_12;
         let dot_y_11_minus_dot_y_12 = dot_y_11 - dot_y_12;
         rhs[11] = lit(-2.0)
-            * (dot_x_11_minus_dot_x_12 * dot_x_11_minus_dot_x_12
-                + dot_y_11_minus_dot_y_12 * dot_y_11_minus_dot_y_12);
+            * dot_y_11_minus_dot_y_12
+                .mul_add(
+                    dot_y_11_minus_dot_y_12,
+                    dot_x_11_minus_dot_x_12 * dot_x_11_minus_dot_x_12,
+                );
         let dot_x_12_minus_dot_x_13 = dot_x_12 - dot_x_13;
         let dot_y_12_minus_dot_y_13 = dot_y_12 - dot_y_13;
         rhs[12] = lit(-2.0)
-            * (dot_x_12_minus_dot_x_13 * dot_x_12_minus_dot_x_13
-                + dot_y_12_minus_dot_y_13 * dot_y_12_minus_dot_y_13);
+            * dot_y_12_minus_dot_y_13
+                .mul_add(
+                    dot_y_12_minus_dot_y_13,
+                    dot_x_12_minus_dot_x_13 * dot_x_12_minus_dot_x_13,
+                );
         let dot_x_13_minus_dot_x_14 = dot_x_13 - dot_x_14;
         let dot_y_13_minus_dot_y_14 = dot_y_13 - dot_y_14;
         rhs[13] = lit(-2.0)
-            * (dot_x_13_minus_dot_x_14 * dot_x_13_minus_dot_x_14
-                + dot_y_13_minus_dot_y_14 * dot_y_13_minus_dot_y_14);
+            * dot_y_13_minus_dot_y_14
+                .mul_add(
+                    dot_y_13_minus_dot_y_14,
+                    dot_x_13_minus_dot_x_14 * dot_x_13_minus_dot_x_14,
+                );
         let dot_x_14_minus_dot_x_15 = dot_x_14 - dot_x_15;
         let dot_y_14_minus_dot_y_15 = dot_y_14 - dot_y_15;
         rhs[14] = lit(-2.0)
-            * (dot_x_14_minus_dot_x_15 * dot_x_14_minus_dot_x_15
-                + dot_y_14_minus_dot_y_15 * dot_y_14_minus_dot_y_15);
+            * dot_y_14_minus_dot_y_15
+                .mul_add(
+                    dot_y_14_minus_dot_y_15,
+                    dot_x_14_minus_dot_x_15 * dot_x_14_minus_dot_x_15,
+                );
         let dot_x_15_minus_dot_x_16 = dot_x_15 - dot_x_16;
         let dot_y_15_minus_dot_y_16 = dot_y_15 - dot_y_16;
         rhs[15] = lit(-2.0)
-            * (dot_x_15_minus_dot_x_16 * dot_x_15_minus_dot_x_16
-                + dot_y_15_minus_dot_y_16 * dot_y_15_minus_dot_y_16);
-        rhs[16] = lit(-2.0) * (dot_x_16 * dot_x_16 + dot_y_16 * dot_y_16);
+            * dot_y_15_minus_dot_y_16
+                .mul_add(
+                    dot_y_15_minus_dot_y_16,
+                    dot_x_15_minus_dot_x_16 * dot_x_15_minus_dot_x_16,
+                );
+        rhs[16] = lit(-2.0) * dot_y_16.mul_add(dot_y_16, dot_x_16 * dot_x_16);
     }
     fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 1156>(mass, "mass");
-        let [_, _, m, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            7,
-        >(prepared, "prepared");
+        let [_, _, m, _, _] = *::ukcore::emitted::exact::<S, 5>(prepared, "prepared");
         mass[0] = m;
         mass[35] = m;
         mass[70] = m;
@@ -1080,69 +1117,75 @@ impl ::ukcore::Mechanism for UChain {
     }
     fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
         let phi = ::ukcore::emitted::exact_mut::<S, 17>(phi, "phi");
-        let [_, sq_l, _, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            7,
-        >(prepared, "prepared");
+        let [_, sq_l, _, _, _] = *::ukcore::emitted::exact::<S, 5>(prepared, "prepared");
         let [x_0, x_1, x_2, x_3, x_4, x_5, x_6, x_7, x_8, x_9, x_10, x_11, x_12, x_13,
         x_14, x_15, x_16, y_0, y_1, y_2, y_3, y_4, y_5, y_6, y_7, y_8, y_9, y_10, y_11,
         y_12, y_13, y_14, y_15, y_16] = *::ukcore::emitted::exact::<S, 34>(q, "q");
         let x_1_minus_x_0 = x_1 - x_0;
         let y_0_minus_y_1 = y_0 - y_1;
-        phi[0] = x_1_minus_x_0 * x_1_minus_x_0 - sq_l + y_0_minus_y_1 * y_0_minus_y_1;
+        phi[0] = y_0_minus_y_1
+            .mul_add(y_0_minus_y_1, x_1_minus_x_0 * x_1_minus_x_0 - sq_l);
         let x_1_minus_x_2 = x_1 - x_2;
         let y_1_minus_y_2 = y_1 - y_2;
-        phi[1] = x_1_minus_x_2 * x_1_minus_x_2 - sq_l + y_1_minus_y_2 * y_1_minus_y_2;
+        phi[1] = y_1_minus_y_2
+            .mul_add(y_1_minus_y_2, x_1_minus_x_2 * x_1_minus_x_2 - sq_l);
         let x_2_minus_x_3 = x_2 - x_3;
         let y_2_minus_y_3 = y_2 - y_3;
-        phi[2] = x_2_minus_x_3 * x_2_minus_x_3 - sq_l + y_2_minus_y_3 * y_2_minus_y_3;
+        phi[2] = y_2_minus_y_3
+            .mul_add(y_2_minus_y_3, x_2_minus_x_3 * x_2_minus_x_3 - sq_l);
         let x_3_minus_x_4 = x_3 - x_4;
         let y_3_minus_y_4 = y_3 - y_4;
-        phi[3] = x_3_minus_x_4 * x_3_minus_x_4 - sq_l + y_3_minus_y_4 * y_3_minus_y_4;
+        phi[3] = y_3_minus_y_4
+            .mul_add(y_3_minus_y_4, x_3_minus_x_4 * x_3_minus_x_4 - sq_l);
         let x_4_minus_x_5 = x_4 - x_5;
         let y_4_minus_y_5 = y_4 - y_5;
-        phi[4] = x_4_minus_x_5 * x_4_minus_x_5 - sq_l + y_4_minus_y_5 * y_4_minus_y_5;
+        phi[4] = y_4_minus_y_5
+            .mul_add(y_4_minus_y_5, x_4_minus_x_5 * x_4_minus_x_5 - sq_l);
         let x_5_minus_x_6 = x_5 - x_6;
         let y_5_minus_y_6 = y_5 - y_6;
-        phi[5] = x_5_minus_x_6 * x_5_minus_x_6 - sq_l + y_5_minus_y_6 * y_5_minus_y_6;
+        phi[5] = y_5_minus_y_6
+            .mul_add(y_5_minus_y_6, x_5_minus_x_6 * x_5_minus_x_6 - sq_l);
         let x_6_minus_x_7 = x_6 - x_7;
         let y_6_minus_y_7 = y_6 - y_7;
-        phi[6] = x_6_minus_x_7 * x_6_minus_x_7 - sq_l + y_6_minus_y_7 * y_6_minus_y_7;
+        phi[6] = y_6_minus_y_7
+            .mul_add(y_6_minus_y_7, x_6_minus_x_7 * x_6_minus_x_7 - sq_l);
         let x_7_minus_x_8 = x_7 - x_8;
         let y_7_minus_y_8 = y_7 - y_8;
-        phi[7] = x_7_minus_x_8 * x_7_minus_x_8 - sq_l + y_7_minus_y_8 * y_7_minus_y_8;
+        phi[7] = y_7_minus_y_8
+            .mul_add(y_7_minus_y_8, x_7_minus_x_8 * x_7_minus_x_8 - sq_l);
         let x_8_minus_x_9 = x_8 - x_9;
         let y_8_minus_y_9 = y_8 - y_9;
-        phi[8] = x_8_minus_x_9 * x_8_minus_x_9 - sq_l + y_8_minus_y_9 * y_8_minus_y_9;
+        phi[8] = y_8_minus_y_9
+            .mul_add(y_8_minus_y_9, x_8_minus_x_9 * x_8_minus_x_9 - sq_l);
         let x_9_minus_x_10 = x_9 - x_10;
         let y_9_minus_y_10 = y_9 - y_10;
-        phi[9] = x_9_minus_x_10 * x_9_minus_x_10 - sq_l
-            + y_9_minus_y_10 * y_9_minus_y_10;
+        phi[9] = y_9_minus_y_10
+            .mul_add(y_9_minus_y_10, x_9_minus_x_10 * x_9_minus_x_10 - sq_l);
         let x_10_minus_x_11 = x_10 - x_11;
         let y_10_minus_y_11 = y_10 - y_11;
-        phi[10] = x_10_minus_x_11 * x_10_minus_x_11 - sq_l
-            + y_10_minus_y_11 * y_10_minus_y_11;
+        phi[10] = y_10_minus_y_11
+            .mul_add(y_10_minus_y_11, x_10_minus_x_11 * x_10_minus_x_11 - sq_l);
         let x_11_minus_x_12 = x_11 - x_12;
         let y_11_minus_y_12 = y_11 - y_12;
-        phi[11] = x_11_minus_x_12 * x_11_minus_x_12 - sq_l
-            + y_11_minus_y_12 * y_11_minus_y_12;
+        phi[11] = y_11_minus_y_12
+            .mul_add(y_11_minus_y_12, x_11_minus_x_12 * x_11_minus_x_12 - sq_l);
         let x_12_minus_x_13 = x_12 - x_13;
         let y_12_minus_y_13 = y_12 - y_13;
-        phi[12] = x_12_minus_x_13 * x_12_minus_x_13 - sq_l
-            + y_12_minus_y_13 * y_12_minus_y_13;
+        phi[12] = y_12_minus_y_13
+            .mul_add(y_12_minus_y_13, x_12_minus_x_13 * x_12_minus_x_13 - sq_l);
         let x_13_minus_x_14 = x_13 - x_14;
         let y_13_minus_y_14 = y_13 - y_14;
-        phi[13] = x_13_minus_x_14 * x_13_minus_x_14 - sq_l
-            + y_13_minus_y_14 * y_13_minus_y_14;
+        phi[13] = y_13_minus_y_14
+            .mul_add(y_13_minus_y_14, x_13_minus_x_14 * x_13_minus_x_14 - sq_l);
         let x_14_minus_x_15 = x_14 - x_15;
         let y_14_minus_y_15 = y_14 - y_15;
-        phi[14] = x_14_minus_x_15 * x_14_minus_x_15 - sq_l
-            + y_14_minus_y_15 * y_14_minus_y_15;
+        phi[14] = y_14_minus_y_15
+            .mul_add(y_14_minus_y_15, x_14_minus_x_15 * x_14_minus_x_15 - sq_l);
         let x_15_minus_x_16 = x_15 - x_16;
         let y_15_minus_y_16 = y_15 - y_16;
-        phi[15] = x_15_minus_x_16 * x_15_minus_x_16 - sq_l
-            + y_15_minus_y_16 * y_15_minus_y_16;
-        phi[16] = x_16 * x_16 - sq_l + y_16 * y_16;
+        phi[15] = y_15_minus_y_16
+            .mul_add(y_15_minus_y_16, x_15_minus_x_16 * x_15_minus_x_16 - sq_l);
+        phi[16] = y_16.mul_add(y_16, x_16 * x_16 - sq_l);
     }
     fn residual_rate<S: ::ukcore::Scalar>(
         prepared: &[S],
@@ -1162,45 +1205,54 @@ impl ::ukcore::Mechanism for UChain {
         dot_y_16] = *::ukcore::emitted::exact::<S, 34>(v, "v");
         let lit = S::from_f64;
         rate[0] = lit(-2.0)
-            * ((x_1 - x_0) * (dot_x_0 - dot_x_1) - (y_0 - y_1) * (dot_y_0 - dot_y_1));
+            * (y_0 - y_1)
+                .neg_mul_add((dot_y_0 - dot_y_1), (x_1 - x_0) * (dot_x_0 - dot_x_1));
         rate[1] = lit(2.0)
-            * ((x_1 - x_2) * (dot_x_1 - dot_x_2) + (y_1 - y_2) * (dot_y_1 - dot_y_2));
+            * (y_1 - y_2)
+                .mul_add((dot_y_1 - dot_y_2), (x_1 - x_2) * (dot_x_1 - dot_x_2));
         rate[2] = lit(2.0)
-            * ((x_2 - x_3) * (dot_x_2 - dot_x_3) + (y_2 - y_3) * (dot_y_2 - dot_y_3));
+            * (y_2 - y_3)
+                .mul_add((dot_y_2 - dot_y_3), (x_2 - x_3) * (dot_x_2 - dot_x_3));
         rate[3] = lit(2.0)
-            * ((x_3 - x_4) * (dot_x_3 - dot_x_4) + (y_3 - y_4) * (dot_y_3 - dot_y_4));
+            * (y_3 - y_4)
+                .mul_add((dot_y_3 - dot_y_4), (x_3 - x_4) * (dot_x_3 - dot_x_4));
         rate[4] = lit(2.0)
-            * ((x_4 - x_5) * (dot_x_4 - dot_x_5) + (y_4 - y_5) * (dot_y_4 - dot_y_5));
+            * (y_4 - y_5)
+                .mul_add((dot_y_4 - dot_y_5), (x_4 - x_5) * (dot_x_4 - dot_x_5));
         rate[5] = lit(2.0)
-            * ((x_5 - x_6) * (dot_x_5 - dot_x_6) + (y_5 - y_6) * (dot_y_5 - dot_y_6));
+            * (y_5 - y_6)
+                .mul_add((dot_y_5 - dot_y_6), (x_5 - x_6) * (dot_x_5 - dot_x_6));
         rate[6] = lit(2.0)
-            * ((x_6 - x_7) * (dot_x_6 - dot_x_7) + (y_6 - y_7) * (dot_y_6 - dot_y_7));
+            * (y_6 - y_7)
+                .mul_add((dot_y_6 - dot_y_7), (x_6 - x_7) * (dot_x_6 - dot_x_7));
         rate[7] = lit(2.0)
-            * ((x_7 - x_8) * (dot_x_7 - dot_x_8) + (y_7 - y_8) * (dot_y_7 - dot_y_8));
+            * (y_7 - y_8)
+                .mul_add((dot_y_7 - dot_y_8), (x_7 - x_8) * (dot_x_7 - dot_x_8));
         rate[8] = lit(2.0)
-            * ((x_8 - x_9) * (dot_x_8 - dot_x_9) + (y_8 - y_9) * (dot_y_8 - dot_y_9));
+            * (y_8 - y_9)
+                .mul_add((dot_y_8 - dot_y_9), (x_8 - x_9) * (dot_x_8 - dot_x_9));
         rate[9] = lit(2.0)
-            * ((x_9 - x_10) * (dot_x_9 - dot_x_10)
-                + (y_9 - y_10) * (dot_y_9 - dot_y_10));
+            * (y_9 - y_10)
+                .mul_add((dot_y_9 - dot_y_10), (x_9 - x_10) * (dot_x_9 - dot_x_10));
         rate[10] = lit(2.0)
-            * ((x_10 - x_11) * (dot_x_10 - dot_x_11)
-                + (y_10 - y_11) * (dot_y_10 - dot_y_11));
+            * (y_10 - y_11)
+                .mul_add((dot_y_10 - dot_y_11), (x_10 - x_11) * (dot_x_10 - dot_x_11));
         rate[11] = lit(2.0)
-            * ((x_11 - x_12) * (dot_x_11 - dot_x_12)
-                + (y_11 - y_12) * (dot_y_11 - dot_y_12));
+            * (y_11 - y_12)
+                .mul_add((dot_y_11 - dot_y_12), (x_11 - x_12) * (dot_x_11 - dot_x_12));
         rate[12] = lit(2.0)
-            * ((x_12 - x_13) * (dot_x_12 - dot_x_13)
-                + (y_12 - y_13) * (dot_y_12 - dot_y_13));
+            * (y_12 - y_13)
+                .mul_add((dot_y_12 - dot_y_13), (x_12 - x_13) * (dot_x_12 - dot_x_13));
         rate[13] = lit(2.0)
-            * ((x_13 - x_14) * (dot_x_13 - dot_x_14)
-                + (y_13 - y_14) * (dot_y_13 - dot_y_14));
+            * (y_13 - y_14)
+                .mul_add((dot_y_13 - dot_y_14), (x_13 - x_14) * (dot_x_13 - dot_x_14));
         rate[14] = lit(2.0)
-            * ((x_14 - x_15) * (dot_x_14 - dot_x_15)
-                + (y_14 - y_15) * (dot_y_14 - dot_y_15));
+            * (y_14 - y_15)
+                .mul_add((dot_y_14 - dot_y_15), (x_14 - x_15) * (dot_x_14 - dot_x_15));
         rate[15] = lit(2.0)
-            * ((x_15 - x_16) * (dot_x_15 - dot_x_16)
-                + (y_15 - y_16) * (dot_y_15 - dot_y_16));
-        rate[16] = lit(2.0) * (x_16 * dot_x_16 + y_16 * dot_y_16);
+            * (y_15 - y_16)
+                .mul_add((dot_y_15 - dot_y_16), (x_15 - x_16) * (dot_x_15 - dot_x_16));
+        rate[16] = lit(2.0) * y_16.mul_add(dot_y_16, x_16 * dot_x_16);
     }
     fn energy<S: ::ukcore::Scalar>(
         prepared: &[S],
@@ -1208,10 +1260,7 @@ impl ::ukcore::Mechanism for UChain {
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
-        let [m_g, _, m, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            7,
-        >(prepared, "prepared");
+        let [m_g, _, m, _, _] = *::ukcore::emitted::exact::<S, 5>(prepared, "prepared");
         let [_, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, y_0, y_1, y_2, y_3, y_4,
         y_5, y_6, y_7, y_8, y_9, y_10, y_11, y_12, y_13, y_14, y_15, y_16] = *::ukcore::emitted::exact::<
             S,
@@ -1224,24 +1273,192 @@ impl ::ukcore::Mechanism for UChain {
         dot_y_16] = *::ukcore::emitted::exact::<S, 34>(v, "v");
         let lit = S::from_f64;
         let kinetic = lit(0.5)
-            * (dot_x_0 * dot_x_0 * m + dot_x_1 * dot_x_1 * m + dot_x_2 * dot_x_2 * m
-                + dot_x_3 * dot_x_3 * m + dot_x_4 * dot_x_4 * m + dot_x_5 * dot_x_5 * m
-                + dot_x_6 * dot_x_6 * m + dot_x_7 * dot_x_7 * m + dot_x_8 * dot_x_8 * m
-                + dot_x_9 * dot_x_9 * m + dot_x_10 * dot_x_10 * m
-                + dot_x_11 * dot_x_11 * m + dot_x_12 * dot_x_12 * m
-                + dot_x_13 * dot_x_13 * m + dot_x_14 * dot_x_14 * m
-                + dot_x_15 * dot_x_15 * m + dot_x_16 * dot_x_16 * m
-                + dot_y_0 * dot_y_0 * m + dot_y_1 * dot_y_1 * m + dot_y_2 * dot_y_2 * m
-                + dot_y_3 * dot_y_3 * m + dot_y_4 * dot_y_4 * m + dot_y_5 * dot_y_5 * m
-                + dot_y_6 * dot_y_6 * m + dot_y_7 * dot_y_7 * m + dot_y_8 * dot_y_8 * m
-                + dot_y_9 * dot_y_9 * m + dot_y_10 * dot_y_10 * m
-                + dot_y_11 * dot_y_11 * m + dot_y_12 * dot_y_12 * m
-                + dot_y_13 * dot_y_13 * m + dot_y_14 * dot_y_14 * m
-                + dot_y_15 * dot_y_15 * m + dot_y_16 * dot_y_16 * m);
-        let potential = -(y_0 * m_g) - y_1 * m_g - y_2 * m_g - y_3 * m_g - y_4 * m_g
-            - y_5 * m_g - y_6 * m_g - y_7 * m_g - y_8 * m_g - y_9 * m_g - y_10 * m_g
-            - y_11 * m_g - y_12 * m_g - y_13 * m_g - y_14 * m_g - y_15 * m_g
-            - y_16 * m_g;
+            * (dot_y_16 * dot_y_16)
+                .mul_add(
+                    m,
+                    (dot_y_15 * dot_y_15)
+                        .mul_add(
+                            m,
+                            (dot_y_14 * dot_y_14)
+                                .mul_add(
+                                    m,
+                                    (dot_y_13 * dot_y_13)
+                                        .mul_add(
+                                            m,
+                                            (dot_y_12 * dot_y_12)
+                                                .mul_add(
+                                                    m,
+                                                    (dot_y_11 * dot_y_11)
+                                                        .mul_add(
+                                                            m,
+                                                            (dot_y_10 * dot_y_10)
+                                                                .mul_add(
+                                                                    m,
+                                                                    (dot_y_9 * dot_y_9)
+                                                                        .mul_add(
+                                                                            m,
+                                                                            (dot_y_8 * dot_y_8)
+                                                                                .mul_add(
+                                                                                    m,
+                                                                                    (dot_y_7 * dot_y_7)
+                                                                                        .mul_add(
+                                                                                            m,
+                                                                                            (dot_y_6 * dot_y_6)
+                                                                                                .mul_add(
+                                                                                                    m,
+                                                                                                    (dot_y_5 * dot_y_5)
+                                                                                                        .mul_add(
+                                                                                                            m,
+                                                                                                            (dot_y_4 * dot_y_4)
+                                                                                                                .mul_add(
+                                                                                                                    m,
+                                                                                                                    (dot_y_3 * dot_y_3)
+                                                                                                                        .mul_add(
+                                                                                                                            m,
+                                                                                                                            (dot_y_2 * dot_y_2)
+                                                                                                                                .mul_add(
+                                                                                                                                    m,
+                                                                                                                                    (dot_y_1 * dot_y_1)
+                                                                                                                                        .mul_add(
+                                                                                                                                            m,
+                                                                                                                                            (dot_y_0 * dot_y_0)
+                                                                                                                                                .mul_add(
+                                                                                                                                                    m,
+                                                                                                                                                    (dot_x_16 * dot_x_16)
+                                                                                                                                                        .mul_add(
+                                                                                                                                                            m,
+                                                                                                                                                            (dot_x_15 * dot_x_15)
+                                                                                                                                                                .mul_add(
+                                                                                                                                                                    m,
+                                                                                                                                                                    (dot_x_14 * dot_x_14)
+                                                                                                                                                                        .mul_add(
+                                                                                                                                                                            m,
+                                                                                                                                                                            (dot_x_13 * dot_x_13)
+                                                                                                                                                                                .mul_add(
+                                                                                                                                                                                    m,
+                                                                                                                                                                                    (dot_x_12 * dot_x_12)
+                                                                                                                                                                                        .mul_add(
+                                                                                                                                                                                            m,
+                                                                                                                                                                                            (dot_x_11 * dot_x_11)
+                                                                                                                                                                                                .mul_add(
+                                                                                                                                                                                                    m,
+                                                                                                                                                                                                    (dot_x_10 * dot_x_10)
+                                                                                                                                                                                                        .mul_add(
+                                                                                                                                                                                                            m,
+                                                                                                                                                                                                            (dot_x_9 * dot_x_9)
+                                                                                                                                                                                                                .mul_add(
+                                                                                                                                                                                                                    m,
+                                                                                                                                                                                                                    (dot_x_8 * dot_x_8)
+                                                                                                                                                                                                                        .mul_add(
+                                                                                                                                                                                                                            m,
+                                                                                                                                                                                                                            (dot_x_7 * dot_x_7)
+                                                                                                                                                                                                                                .mul_add(
+                                                                                                                                                                                                                                    m,
+                                                                                                                                                                                                                                    (dot_x_6 * dot_x_6)
+                                                                                                                                                                                                                                        .mul_add(
+                                                                                                                                                                                                                                            m,
+                                                                                                                                                                                                                                            (dot_x_5 * dot_x_5)
+                                                                                                                                                                                                                                                .mul_add(
+                                                                                                                                                                                                                                                    m,
+                                                                                                                                                                                                                                                    (dot_x_4 * dot_x_4)
+                                                                                                                                                                                                                                                        .mul_add(
+                                                                                                                                                                                                                                                            m,
+                                                                                                                                                                                                                                                            (dot_x_3 * dot_x_3)
+                                                                                                                                                                                                                                                                .mul_add(
+                                                                                                                                                                                                                                                                    m,
+                                                                                                                                                                                                                                                                    (dot_x_2 * dot_x_2)
+                                                                                                                                                                                                                                                                        .mul_add(
+                                                                                                                                                                                                                                                                            m,
+                                                                                                                                                                                                                                                                            (dot_x_1 * dot_x_1).mul_add(m, dot_x_0 * dot_x_0 * m),
+                                                                                                                                                                                                                                                                        ),
+                                                                                                                                                                                                                                                                ),
+                                                                                                                                                                                                                                                        ),
+                                                                                                                                                                                                                                                ),
+                                                                                                                                                                                                                                        ),
+                                                                                                                                                                                                                                ),
+                                                                                                                                                                                                                        ),
+                                                                                                                                                                                                                ),
+                                                                                                                                                                                                        ),
+                                                                                                                                                                                                ),
+                                                                                                                                                                                        ),
+                                                                                                                                                                                ),
+                                                                                                                                                                        ),
+                                                                                                                                                                ),
+                                                                                                                                                        ),
+                                                                                                                                                ),
+                                                                                                                                        ),
+                                                                                                                                ),
+                                                                                                                        ),
+                                                                                                                ),
+                                                                                                        ),
+                                                                                                ),
+                                                                                        ),
+                                                                                ),
+                                                                        ),
+                                                                ),
+                                                        ),
+                                                ),
+                                        ),
+                                ),
+                        ),
+                );
+        let potential = y_16
+            .neg_mul_add(
+                m_g,
+                y_15
+                    .neg_mul_add(
+                        m_g,
+                        y_14
+                            .neg_mul_add(
+                                m_g,
+                                y_13
+                                    .neg_mul_add(
+                                        m_g,
+                                        y_12
+                                            .neg_mul_add(
+                                                m_g,
+                                                y_11
+                                                    .neg_mul_add(
+                                                        m_g,
+                                                        y_10
+                                                            .neg_mul_add(
+                                                                m_g,
+                                                                y_9
+                                                                    .neg_mul_add(
+                                                                        m_g,
+                                                                        y_8
+                                                                            .neg_mul_add(
+                                                                                m_g,
+                                                                                y_7
+                                                                                    .neg_mul_add(
+                                                                                        m_g,
+                                                                                        y_6
+                                                                                            .neg_mul_add(
+                                                                                                m_g,
+                                                                                                y_5
+                                                                                                    .neg_mul_add(
+                                                                                                        m_g,
+                                                                                                        y_4
+                                                                                                            .neg_mul_add(
+                                                                                                                m_g,
+                                                                                                                y_3
+                                                                                                                    .neg_mul_add(
+                                                                                                                        m_g,
+                                                                                                                        y_2.neg_mul_add(m_g, y_1.neg_mul_add(m_g, -(y_0 * m_g))),
+                                                                                                                    ),
+                                                                                                            ),
+                                                                                                    ),
+                                                                                            ),
+                                                                                    ),
+                                                                            ),
+                                                                    ),
+                                                            ),
+                                                    ),
+                                            ),
+                                    ),
+                            ),
+                    ),
+            );
         ::ukcore::Energy {
             kinetic,
             potential,
@@ -1269,7 +1486,7 @@ impl ::ukcore::Mechanism for UChain {
             * (y_0 + y_1 + y_2 + y_3 + y_4 + y_5 + y_6 + y_7 + y_8 + y_9 + y_10 + y_11
                 + y_12 + y_13 + y_14 + y_15 + y_16);
     }
-    /// 227 additions, 346 multiplications, 17 divisions, 0 square roots, 0 transcendentals, 17 selections.
+    /// 227 additions, 344 multiplications, 17 divisions, 0 square roots, 0 transcendentals, 17 selections.
     fn acceleration<S: ::ukcore::Scalar>(
         prepared: &[S],
         t: S,
@@ -1278,9 +1495,9 @@ impl ::ukcore::Mechanism for UChain {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 34>(out, "out");
-        let [_, _, _, g, per_m, twice_per_m, safe_x_0] = *::ukcore::emitted::exact::<
+        let [_, _, _, g, safe_x_0] = *::ukcore::emitted::exact::<
             S,
-            7,
+            5,
         >(prepared, "prepared");
         let [x_0, x_1, x_2, x_3, x_4, x_5, x_6, x_7, x_8, x_9, x_10, x_11, x_12, x_13,
         x_14, x_15, x_16, y_0, y_1, y_2, y_3, y_4, y_5, y_6, y_7, y_8, y_9, y_10, y_11,
@@ -1293,247 +1510,271 @@ impl ::ukcore::Mechanism for UChain {
         let lit = S::from_f64;
         let x_1_minus_x_0 = x_1 - x_0;
         let y_0_minus_y_1 = y_0 - y_1;
-        let acceleration_0_part = x_1_minus_x_0 * x_1_minus_x_0
-            + y_0_minus_y_1 * y_0_minus_y_1;
-        let per_acceleration_0_part = acceleration_0_part.recip();
-        let safe_link_0 = S::select_le(
-            twice_per_m * acceleration_0_part,
-            lit(0.0),
-            lit(0.0),
-            safe_x_0,
-        );
-        let acceleration_0_part_2 = x_16 * x_16 + y_16 * y_16;
-        let per_acceleration_0_part_2 = acceleration_0_part_2.recip();
-        let pivot_support = per_m * acceleration_0_part_2;
+        let pivot_link_0 = y_0_minus_y_1
+            .mul_add(y_0_minus_y_1, x_1_minus_x_0 * x_1_minus_x_0);
+        let per_pivot_link_0 = pivot_link_0.recip();
+        let safe_link_0 = S::select_le(pivot_link_0, lit(0.0), lit(0.0), safe_x_0);
+        let pivot_support = y_16.mul_add(y_16, x_16 * x_16);
+        let per_pivot_support = pivot_support.recip();
         let safe_support = S::select_le(pivot_support, lit(0.0), lit(0.0), safe_link_0);
         let x_1_minus_x_2 = x_1 - x_2;
         let y_1_minus_y_2 = y_1 - y_2;
-        let acceleration_0_part_3 = x_1_minus_x_0 * x_1_minus_x_2
-            - y_0_minus_y_1 * y_1_minus_y_2;
-        let acceleration_0_part_4 = acceleration_0_part
-            * (x_1_minus_x_2 * x_1_minus_x_2 + y_1_minus_y_2 * y_1_minus_y_2);
-        let acceleration_0_part_5 = acceleration_0_part_3 * acceleration_0_part_3
-            - lit(4.0) * acceleration_0_part_4;
-        let per_acceleration_0_part_5 = acceleration_0_part_5.recip();
+        let link_1_with_link_0 = y_0_minus_y_1
+            .neg_mul_add(y_1_minus_y_2, x_1_minus_x_0 * x_1_minus_x_2);
+        let acceleration_0_part = pivot_link_0
+            * y_1_minus_y_2.mul_add(y_1_minus_y_2, x_1_minus_x_2 * x_1_minus_x_2);
+        let pivot_link_1 = lit(4.0)
+            .neg_mul_add(acceleration_0_part, link_1_with_link_0 * link_1_with_link_0);
+        let per_pivot_link_1 = pivot_link_1.recip();
         let safe_link_1 = S::select_le(
-            -acceleration_0_part_5,
-            lit(0.00390625) * acceleration_0_part_4,
+            -pivot_link_1,
+            lit(0.00390625) * acceleration_0_part,
             lit(0.0),
             safe_support,
         );
         let x_15_minus_x_16 = x_15 - x_16;
         let y_15_minus_y_16 = y_15 - y_16;
-        let acceleration_0_part_6 = x_16 * x_15_minus_x_16 + y_16 * y_15_minus_y_16;
-        let acceleration_0_part_7 = acceleration_0_part_2
-            * (x_15_minus_x_16 * x_15_minus_x_16 + y_15_minus_y_16 * y_15_minus_y_16);
-        let acceleration_0_part_8 = acceleration_0_part_6 * acceleration_0_part_6
-            - lit(2.0) * acceleration_0_part_7;
-        let per_acceleration_0_part_8 = acceleration_0_part_8.recip();
+        let link_15_with_support = y_16.mul_add(y_15_minus_y_16, x_16 * x_15_minus_x_16);
+        let acceleration_0_part_2 = pivot_support
+            * y_15_minus_y_16
+                .mul_add(y_15_minus_y_16, x_15_minus_x_16 * x_15_minus_x_16);
+        let pivot_link_15 = lit(2.0)
+            .neg_mul_add(
+                acceleration_0_part_2,
+                link_15_with_support * link_15_with_support,
+            );
+        let per_pivot_link_15 = pivot_link_15.recip();
         let safe_link_15 = S::select_le(
-            -acceleration_0_part_8,
-            lit(0.001953125) * acceleration_0_part_7,
+            -pivot_link_15,
+            lit(0.001953125) * acceleration_0_part_2,
             lit(0.0),
             safe_link_1,
         );
         let x_2_minus_x_3 = x_2 - x_3;
         let y_2_minus_y_3 = y_2 - y_3;
-        let acceleration_0_part_9 = x_1_minus_x_2 * x_2_minus_x_3
-            + y_1_minus_y_2 * y_2_minus_y_3;
-        let acceleration_0_part_10 = (x_2_minus_x_3 * x_2_minus_x_3
-            + y_2_minus_y_3 * y_2_minus_y_3) * acceleration_0_part_5;
-        let acceleration_0_part_11 = acceleration_0_part * acceleration_0_part_9
-            * acceleration_0_part_9 + acceleration_0_part_10;
-        let per_acceleration_0_part_11 = acceleration_0_part_11.recip();
+        let link_2_with_link_1 = y_1_minus_y_2
+            .mul_add(y_2_minus_y_3, x_1_minus_x_2 * x_2_minus_x_3);
+        let acceleration_0_part_3 = y_2_minus_y_3
+            .mul_add(y_2_minus_y_3, x_2_minus_x_3 * x_2_minus_x_3) * pivot_link_1;
+        let pivot_link_2 = pivot_link_0 * link_2_with_link_1 * link_2_with_link_1
+            + acceleration_0_part_3;
+        let per_pivot_link_2 = pivot_link_2.recip();
         let safe_link_2 = S::select_le(
-            lit(-2.0) * acceleration_0_part_11,
-            lit(-0.001953125) * acceleration_0_part_10,
+            lit(-2.0) * pivot_link_2,
+            lit(-0.001953125) * acceleration_0_part_3,
             lit(0.0),
             safe_link_15,
         );
         let x_14_minus_x_15 = x_14 - x_15;
         let y_14_minus_y_15 = y_14 - y_15;
-        let acceleration_0_part_12 = x_14_minus_x_15 * x_15_minus_x_16
-            + y_14_minus_y_15 * y_15_minus_y_16;
-        let acceleration_0_part_13 = (x_14_minus_x_15 * x_14_minus_x_15
-            + y_14_minus_y_15 * y_14_minus_y_15) * acceleration_0_part_8;
-        let acceleration_0_part_14 = acceleration_0_part_2 * acceleration_0_part_12
-            * acceleration_0_part_12 + lit(2.0) * acceleration_0_part_13;
-        let per_acceleration_0_part_14 = acceleration_0_part_14.recip();
+        let link_14_with_link_15 = y_14_minus_y_15
+            .mul_add(y_15_minus_y_16, x_14_minus_x_15 * x_15_minus_x_16);
+        let acceleration_0_part_4 = y_14_minus_y_15
+            .mul_add(y_14_minus_y_15, x_14_minus_x_15 * x_14_minus_x_15) * pivot_link_15;
+        let pivot_link_14 = lit(2.0)
+            .mul_add(
+                acceleration_0_part_4,
+                pivot_support * link_14_with_link_15 * link_14_with_link_15,
+            );
+        let per_pivot_link_14 = pivot_link_14.recip();
         let safe_link_14 = S::select_le(
-            -acceleration_0_part_14,
-            lit(-0.001953125) * acceleration_0_part_13,
+            -pivot_link_14,
+            lit(-0.001953125) * acceleration_0_part_4,
             lit(0.0),
             safe_link_2,
         );
         let x_3_minus_x_4 = x_3 - x_4;
         let y_3_minus_y_4 = y_3 - y_4;
-        let acceleration_0_part_15 = x_2_minus_x_3 * x_3_minus_x_4
-            + y_2_minus_y_3 * y_3_minus_y_4;
-        let acceleration_0_part_16 = (x_3_minus_x_4 * x_3_minus_x_4
-            + y_3_minus_y_4 * y_3_minus_y_4) * acceleration_0_part_11;
-        let acceleration_0_part_17 = acceleration_0_part_15 * acceleration_0_part_15
-            * acceleration_0_part_5 - lit(4.0) * acceleration_0_part_16;
-        let per_acceleration_0_part_17 = acceleration_0_part_17.recip();
+        let link_3_with_link_2 = y_2_minus_y_3
+            .mul_add(y_3_minus_y_4, x_2_minus_x_3 * x_3_minus_x_4);
+        let acceleration_0_part_5 = y_3_minus_y_4
+            .mul_add(y_3_minus_y_4, x_3_minus_x_4 * x_3_minus_x_4) * pivot_link_2;
+        let pivot_link_3 = lit(4.0)
+            .neg_mul_add(
+                acceleration_0_part_5,
+                link_3_with_link_2 * link_3_with_link_2 * pivot_link_1,
+            );
+        let per_pivot_link_3 = pivot_link_3.recip();
         let safe_link_3 = S::select_le(
-            acceleration_0_part_17,
-            lit(-0.00390625) * acceleration_0_part_16,
+            pivot_link_3,
+            lit(-0.00390625) * acceleration_0_part_5,
             lit(0.0),
             safe_link_14,
         );
         let x_13_minus_x_14 = x_13 - x_14;
         let y_13_minus_y_14 = y_13 - y_14;
-        let acceleration_0_part_18 = x_13_minus_x_14 * x_14_minus_x_15
-            + y_13_minus_y_14 * y_14_minus_y_15;
-        let acceleration_0_part_19 = (x_13_minus_x_14 * x_13_minus_x_14
-            + y_13_minus_y_14 * y_13_minus_y_14) * acceleration_0_part_14;
-        let acceleration_0_part_20 = acceleration_0_part_18 * acceleration_0_part_18
-            * acceleration_0_part_8 - lit(2.0) * acceleration_0_part_19;
-        let per_acceleration_0_part_20 = acceleration_0_part_20.recip();
+        let link_13_with_link_14 = y_13_minus_y_14
+            .mul_add(y_14_minus_y_15, x_13_minus_x_14 * x_14_minus_x_15);
+        let acceleration_0_part_6 = y_13_minus_y_14
+            .mul_add(y_13_minus_y_14, x_13_minus_x_14 * x_13_minus_x_14) * pivot_link_14;
+        let pivot_link_13 = lit(2.0)
+            .neg_mul_add(
+                acceleration_0_part_6,
+                link_13_with_link_14 * link_13_with_link_14 * pivot_link_15,
+            );
+        let per_pivot_link_13 = pivot_link_13.recip();
         let safe_link_13 = S::select_le(
-            acceleration_0_part_20,
-            lit(-0.001953125) * acceleration_0_part_19,
+            pivot_link_13,
+            lit(-0.001953125) * acceleration_0_part_6,
             lit(0.0),
             safe_link_3,
         );
         let x_4_minus_x_5 = x_4 - x_5;
         let y_4_minus_y_5 = y_4 - y_5;
-        let acceleration_0_part_21 = x_3_minus_x_4 * x_4_minus_x_5
-            + y_3_minus_y_4 * y_4_minus_y_5;
-        let acceleration_0_part_22 = (x_4_minus_x_5 * x_4_minus_x_5
-            + y_4_minus_y_5 * y_4_minus_y_5) * acceleration_0_part_17;
-        let acceleration_0_part_23 = acceleration_0_part_21 * acceleration_0_part_21
-            * acceleration_0_part_11 + acceleration_0_part_22;
-        let per_acceleration_0_part_23 = acceleration_0_part_23.recip();
+        let link_4_with_link_3 = y_3_minus_y_4
+            .mul_add(y_4_minus_y_5, x_3_minus_x_4 * x_4_minus_x_5);
+        let acceleration_0_part_7 = y_4_minus_y_5
+            .mul_add(y_4_minus_y_5, x_4_minus_x_5 * x_4_minus_x_5) * pivot_link_3;
+        let pivot_link_4 = link_4_with_link_3 * link_4_with_link_3 * pivot_link_2
+            + acceleration_0_part_7;
+        let per_pivot_link_4 = pivot_link_4.recip();
         let safe_link_4 = S::select_le(
-            lit(2.0) * acceleration_0_part_23,
-            lit(0.001953125) * acceleration_0_part_22,
+            lit(2.0) * pivot_link_4,
+            lit(0.001953125) * acceleration_0_part_7,
             lit(0.0),
             safe_link_13,
         );
         let x_12_minus_x_13 = x_12 - x_13;
         let y_12_minus_y_13 = y_12 - y_13;
-        let acceleration_0_part_24 = x_12_minus_x_13 * x_13_minus_x_14
-            + y_12_minus_y_13 * y_13_minus_y_14;
-        let acceleration_0_part_25 = (x_12_minus_x_13 * x_12_minus_x_13
-            + y_12_minus_y_13 * y_12_minus_y_13) * acceleration_0_part_20;
-        let acceleration_0_part_26 = acceleration_0_part_24 * acceleration_0_part_24
-            * acceleration_0_part_14 + lit(2.0) * acceleration_0_part_25;
-        let per_acceleration_0_part_26 = acceleration_0_part_26.recip();
+        let link_12_with_link_13 = y_12_minus_y_13
+            .mul_add(y_13_minus_y_14, x_12_minus_x_13 * x_13_minus_x_14);
+        let acceleration_0_part_8 = y_12_minus_y_13
+            .mul_add(y_12_minus_y_13, x_12_minus_x_13 * x_12_minus_x_13) * pivot_link_13;
+        let pivot_link_12 = lit(2.0)
+            .mul_add(
+                acceleration_0_part_8,
+                link_12_with_link_13 * link_12_with_link_13 * pivot_link_14,
+            );
+        let per_pivot_link_12 = pivot_link_12.recip();
         let safe_link_12 = S::select_le(
-            acceleration_0_part_26,
-            lit(0.001953125) * acceleration_0_part_25,
+            pivot_link_12,
+            lit(0.001953125) * acceleration_0_part_8,
             lit(0.0),
             safe_link_4,
         );
         let x_5_minus_x_6 = x_5 - x_6;
         let y_5_minus_y_6 = y_5 - y_6;
-        let acceleration_0_part_27 = x_4_minus_x_5 * x_5_minus_x_6
-            + y_4_minus_y_5 * y_5_minus_y_6;
-        let acceleration_0_part_28 = (x_5_minus_x_6 * x_5_minus_x_6
-            + y_5_minus_y_6 * y_5_minus_y_6) * acceleration_0_part_23;
-        let acceleration_0_part_29 = acceleration_0_part_27 * acceleration_0_part_27
-            * acceleration_0_part_17 - lit(4.0) * acceleration_0_part_28;
-        let per_acceleration_0_part_29 = acceleration_0_part_29.recip();
+        let link_5_with_link_4 = y_4_minus_y_5
+            .mul_add(y_5_minus_y_6, x_4_minus_x_5 * x_5_minus_x_6);
+        let acceleration_0_part_9 = y_5_minus_y_6
+            .mul_add(y_5_minus_y_6, x_5_minus_x_6 * x_5_minus_x_6) * pivot_link_4;
+        let pivot_link_5 = lit(4.0)
+            .neg_mul_add(
+                acceleration_0_part_9,
+                link_5_with_link_4 * link_5_with_link_4 * pivot_link_3,
+            );
+        let per_pivot_link_5 = pivot_link_5.recip();
         let safe_link_5 = S::select_le(
-            -acceleration_0_part_29,
-            lit(0.00390625) * acceleration_0_part_28,
+            -pivot_link_5,
+            lit(0.00390625) * acceleration_0_part_9,
             lit(0.0),
             safe_link_12,
         );
         let x_11_minus_x_12 = x_11 - x_12;
         let y_11_minus_y_12 = y_11 - y_12;
-        let acceleration_0_part_30 = x_11_minus_x_12 * x_12_minus_x_13
-            + y_11_minus_y_12 * y_12_minus_y_13;
-        let acceleration_0_part_31 = (x_11_minus_x_12 * x_11_minus_x_12
-            + y_11_minus_y_12 * y_11_minus_y_12) * acceleration_0_part_26;
-        let acceleration_0_part_32 = acceleration_0_part_30 * acceleration_0_part_30
-            * acceleration_0_part_20 - lit(2.0) * acceleration_0_part_31;
-        let per_acceleration_0_part_32 = acceleration_0_part_32.recip();
+        let link_11_with_link_12 = y_11_minus_y_12
+            .mul_add(y_12_minus_y_13, x_11_minus_x_12 * x_12_minus_x_13);
+        let acceleration_0_part_10 = y_11_minus_y_12
+            .mul_add(y_11_minus_y_12, x_11_minus_x_12 * x_11_minus_x_12) * pivot_link_12;
+        let pivot_link_11 = lit(2.0)
+            .neg_mul_add(
+                acceleration_0_part_10,
+                link_11_with_link_12 * link_11_with_link_12 * pivot_link_13,
+            );
+        let per_pivot_link_11 = pivot_link_11.recip();
         let safe_link_11 = S::select_le(
-            -acceleration_0_part_32,
-            lit(0.001953125) * acceleration_0_part_31,
+            -pivot_link_11,
+            lit(0.001953125) * acceleration_0_part_10,
             lit(0.0),
             safe_link_5,
         );
         let x_6_minus_x_7 = x_6 - x_7;
         let y_6_minus_y_7 = y_6 - y_7;
-        let acceleration_0_part_33 = x_5_minus_x_6 * x_6_minus_x_7
-            + y_5_minus_y_6 * y_6_minus_y_7;
-        let acceleration_0_part_34 = (x_6_minus_x_7 * x_6_minus_x_7
-            + y_6_minus_y_7 * y_6_minus_y_7) * acceleration_0_part_29;
-        let acceleration_0_part_35 = acceleration_0_part_33 * acceleration_0_part_33
-            * acceleration_0_part_23 + acceleration_0_part_34;
-        let per_acceleration_0_part_35 = acceleration_0_part_35.recip();
+        let link_6_with_link_5 = y_5_minus_y_6
+            .mul_add(y_6_minus_y_7, x_5_minus_x_6 * x_6_minus_x_7);
+        let acceleration_0_part_11 = y_6_minus_y_7
+            .mul_add(y_6_minus_y_7, x_6_minus_x_7 * x_6_minus_x_7) * pivot_link_5;
+        let pivot_link_6 = link_6_with_link_5 * link_6_with_link_5 * pivot_link_4
+            + acceleration_0_part_11;
+        let per_pivot_link_6 = pivot_link_6.recip();
         let safe_link_6 = S::select_le(
-            lit(-2.0) * acceleration_0_part_35,
-            lit(-0.001953125) * acceleration_0_part_34,
+            lit(-2.0) * pivot_link_6,
+            lit(-0.001953125) * acceleration_0_part_11,
             lit(0.0),
             safe_link_11,
         );
         let x_10_minus_x_11 = x_10 - x_11;
         let y_10_minus_y_11 = y_10 - y_11;
-        let acceleration_0_part_36 = x_10_minus_x_11 * x_11_minus_x_12
-            + y_10_minus_y_11 * y_11_minus_y_12;
-        let acceleration_0_part_37 = (x_10_minus_x_11 * x_10_minus_x_11
-            + y_10_minus_y_11 * y_10_minus_y_11) * acceleration_0_part_32;
-        let acceleration_0_part_38 = acceleration_0_part_36 * acceleration_0_part_36
-            * acceleration_0_part_26 + lit(2.0) * acceleration_0_part_37;
-        let per_acceleration_0_part_38 = acceleration_0_part_38.recip();
+        let link_10_with_link_11 = y_10_minus_y_11
+            .mul_add(y_11_minus_y_12, x_10_minus_x_11 * x_11_minus_x_12);
+        let acceleration_0_part_12 = y_10_minus_y_11
+            .mul_add(y_10_minus_y_11, x_10_minus_x_11 * x_10_minus_x_11) * pivot_link_11;
+        let pivot_link_10 = lit(2.0)
+            .mul_add(
+                acceleration_0_part_12,
+                link_10_with_link_11 * link_10_with_link_11 * pivot_link_12,
+            );
+        let per_pivot_link_10 = pivot_link_10.recip();
         let safe_link_10 = S::select_le(
-            -acceleration_0_part_38,
-            lit(-0.001953125) * acceleration_0_part_37,
+            -pivot_link_10,
+            lit(-0.001953125) * acceleration_0_part_12,
             lit(0.0),
             safe_link_6,
         );
         let x_7_minus_x_8 = x_7 - x_8;
         let y_7_minus_y_8 = y_7 - y_8;
-        let acceleration_0_part_39 = x_6_minus_x_7 * x_7_minus_x_8
-            + y_6_minus_y_7 * y_7_minus_y_8;
-        let acceleration_0_part_40 = (x_7_minus_x_8 * x_7_minus_x_8
-            + y_7_minus_y_8 * y_7_minus_y_8) * acceleration_0_part_35;
-        let acceleration_0_part_41 = acceleration_0_part_39 * acceleration_0_part_39
-            * acceleration_0_part_29 - lit(4.0) * acceleration_0_part_40;
-        let per_acceleration_0_part_41 = acceleration_0_part_41.recip();
+        let link_7_with_link_6 = y_6_minus_y_7
+            .mul_add(y_7_minus_y_8, x_6_minus_x_7 * x_7_minus_x_8);
+        let acceleration_0_part_13 = y_7_minus_y_8
+            .mul_add(y_7_minus_y_8, x_7_minus_x_8 * x_7_minus_x_8) * pivot_link_6;
+        let pivot_link_7 = lit(4.0)
+            .neg_mul_add(
+                acceleration_0_part_13,
+                link_7_with_link_6 * link_7_with_link_6 * pivot_link_5,
+            );
+        let per_pivot_link_7 = pivot_link_7.recip();
         let safe_link_7 = S::select_le(
-            acceleration_0_part_41,
-            lit(-0.00390625) * acceleration_0_part_40,
+            pivot_link_7,
+            lit(-0.00390625) * acceleration_0_part_13,
             lit(0.0),
             safe_link_10,
         );
         let x_9_minus_x_10 = x_9 - x_10;
         let y_9_minus_y_10 = y_9 - y_10;
-        let acceleration_0_part_42 = x_9_minus_x_10 * x_10_minus_x_11
-            + y_9_minus_y_10 * y_10_minus_y_11;
-        let acceleration_0_part_43 = (x_9_minus_x_10 * x_9_minus_x_10
-            + y_9_minus_y_10 * y_9_minus_y_10) * acceleration_0_part_38;
-        let acceleration_0_part_44 = acceleration_0_part_42 * acceleration_0_part_42
-            * acceleration_0_part_32 - lit(2.0) * acceleration_0_part_43;
-        let per_acceleration_0_part_44 = acceleration_0_part_44.recip();
+        let link_9_with_link_10 = y_9_minus_y_10
+            .mul_add(y_10_minus_y_11, x_9_minus_x_10 * x_10_minus_x_11);
+        let acceleration_0_part_14 = y_9_minus_y_10
+            .mul_add(y_9_minus_y_10, x_9_minus_x_10 * x_9_minus_x_10) * pivot_link_10;
+        let pivot_link_9 = lit(2.0)
+            .neg_mul_add(
+                acceleration_0_part_14,
+                link_9_with_link_10 * link_9_with_link_10 * pivot_link_11,
+            );
+        let per_pivot_link_9 = pivot_link_9.recip();
         let safe_link_9 = S::select_le(
-            acceleration_0_part_44,
-            lit(-0.001953125) * acceleration_0_part_43,
+            pivot_link_9,
+            lit(-0.001953125) * acceleration_0_part_14,
             lit(0.0),
             safe_link_7,
         );
         let x_8_minus_x_9 = x_8 - x_9;
         let y_8_minus_y_9 = y_8 - y_9;
-        let acceleration_0_part_45 = x_8_minus_x_9 * x_9_minus_x_10
-            + y_8_minus_y_9 * y_9_minus_y_10;
-        let acceleration_0_part_46 = x_8_minus_x_9 * x_8_minus_x_9
-            + y_8_minus_y_9 * y_8_minus_y_9;
-        let acceleration_0_part_47 = x_7_minus_x_8 * x_8_minus_x_9
-            + y_7_minus_y_8 * y_8_minus_y_9;
-        let acceleration_0_part_48 = acceleration_0_part_45 * acceleration_0_part_45
-            * acceleration_0_part_38
-            + lit(2.0)
-                * (acceleration_0_part_44
-                    * (acceleration_0_part_46
-                        + acceleration_0_part_47 * acceleration_0_part_47
-                            * acceleration_0_part_35 * per_acceleration_0_part_41));
-        let per_acceleration_0_part_48 = acceleration_0_part_48.recip();
+        let link_8_with_link_9 = y_8_minus_y_9
+            .mul_add(y_9_minus_y_10, x_8_minus_x_9 * x_9_minus_x_10);
+        let acceleration_0_part_15 = y_8_minus_y_9
+            .mul_add(y_8_minus_y_9, x_8_minus_x_9 * x_8_minus_x_9);
+        let link_8_with_link_7 = y_7_minus_y_8
+            .mul_add(y_8_minus_y_9, x_7_minus_x_8 * x_8_minus_x_9);
+        let pivot_link_8 = (lit(2.0) * pivot_link_9)
+            .mul_add(
+                (link_8_with_link_7 * link_8_with_link_7 * pivot_link_6)
+                    .mul_add(per_pivot_link_7, acceleration_0_part_15),
+                link_8_with_link_9 * link_8_with_link_9 * pivot_link_10,
+            );
+        let per_pivot_link_8 = pivot_link_8.recip();
         let safe_link_8 = S::select_le(
-            acceleration_0_part_48,
-            lit(0.001953125) * (acceleration_0_part_46 * acceleration_0_part_44),
+            pivot_link_8,
+            lit(0.001953125) * (acceleration_0_part_15 * pivot_link_9),
             lit(0.0),
             safe_link_9,
         );
@@ -1542,53 +1783,71 @@ impl ::ukcore::Mechanism for UChain {
         let dot_y_8_minus_dot_y_9 = dot_y_8 - dot_y_9;
         let dot_x_0_minus_dot_x_1 = dot_x_0 - dot_x_1;
         let dot_y_0_minus_dot_y_1 = dot_y_0 - dot_y_1;
-        let safe_part = dot_x_0_minus_dot_x_1 * dot_x_0_minus_dot_x_1
-            + dot_y_0_minus_dot_y_1 * dot_y_0_minus_dot_y_1;
+        let safe_part = dot_y_0_minus_dot_y_1
+            .mul_add(
+                dot_y_0_minus_dot_y_1,
+                dot_x_0_minus_dot_x_1 * dot_x_0_minus_dot_x_1,
+            );
         let dot_x_1_minus_dot_x_2 = dot_x_1 - dot_x_2;
         let dot_y_1_minus_dot_y_2 = dot_y_1 - dot_y_2;
-        let safe_part_2 = safe_part * acceleration_0_part_3
-            - lit(2.0)
-                * ((dot_x_1_minus_dot_x_2 * dot_x_1_minus_dot_x_2
-                    + dot_y_1_minus_dot_y_2 * dot_y_1_minus_dot_y_2)
-                    * acceleration_0_part);
+        let safe_part_2 = (lit(2.0)
+            * dot_y_1_minus_dot_y_2
+                .mul_add(
+                    dot_y_1_minus_dot_y_2,
+                    dot_x_1_minus_dot_x_2 * dot_x_1_minus_dot_x_2,
+                ))
+            .neg_mul_add(pivot_link_0, safe_part * link_1_with_link_0);
         let dot_x_2_minus_dot_x_3 = dot_x_2 - dot_x_3;
         let dot_y_2_minus_dot_y_3 = dot_y_2 - dot_y_3;
-        let safe_part_3 = acceleration_0_part_9 * safe_part_2
-            + (dot_x_2_minus_dot_x_3 * dot_x_2_minus_dot_x_3
-                + dot_y_2_minus_dot_y_3 * dot_y_2_minus_dot_y_3) * acceleration_0_part_5;
+        let safe_part_3 = dot_y_2_minus_dot_y_3
+            .mul_add(
+                dot_y_2_minus_dot_y_3,
+                dot_x_2_minus_dot_x_3 * dot_x_2_minus_dot_x_3,
+            )
+            .mul_add(pivot_link_1, link_2_with_link_1 * safe_part_2);
         let dot_x_3_minus_dot_x_4 = dot_x_3 - dot_x_4;
         let dot_y_3_minus_dot_y_4 = dot_y_3 - dot_y_4;
-        let safe_part_4 = acceleration_0_part_15 * safe_part_3
-            + lit(2.0)
-                * ((dot_x_3_minus_dot_x_4 * dot_x_3_minus_dot_x_4
-                    + dot_y_3_minus_dot_y_4 * dot_y_3_minus_dot_y_4)
-                    * acceleration_0_part_11);
+        let safe_part_4 = (lit(2.0)
+            * dot_y_3_minus_dot_y_4
+                .mul_add(
+                    dot_y_3_minus_dot_y_4,
+                    dot_x_3_minus_dot_x_4 * dot_x_3_minus_dot_x_4,
+                ))
+            .mul_add(pivot_link_2, link_3_with_link_2 * safe_part_3);
         let dot_x_4_minus_dot_x_5 = dot_x_4 - dot_x_5;
         let dot_y_4_minus_dot_y_5 = dot_y_4 - dot_y_5;
-        let safe_part_5 = acceleration_0_part_21 * safe_part_4
-            - (dot_x_4_minus_dot_x_5 * dot_x_4_minus_dot_x_5
-                + dot_y_4_minus_dot_y_5 * dot_y_4_minus_dot_y_5)
-                * acceleration_0_part_17;
+        let safe_part_5 = dot_y_4_minus_dot_y_5
+            .mul_add(
+                dot_y_4_minus_dot_y_5,
+                dot_x_4_minus_dot_x_5 * dot_x_4_minus_dot_x_5,
+            )
+            .neg_mul_add(pivot_link_3, link_4_with_link_3 * safe_part_4);
         let dot_x_5_minus_dot_x_6 = dot_x_5 - dot_x_6;
         let dot_y_5_minus_dot_y_6 = dot_y_5 - dot_y_6;
-        let safe_part_6 = acceleration_0_part_27 * safe_part_5
-            - lit(2.0)
-                * ((dot_x_5_minus_dot_x_6 * dot_x_5_minus_dot_x_6
-                    + dot_y_5_minus_dot_y_6 * dot_y_5_minus_dot_y_6)
-                    * acceleration_0_part_23);
+        let safe_part_6 = (lit(2.0)
+            * dot_y_5_minus_dot_y_6
+                .mul_add(
+                    dot_y_5_minus_dot_y_6,
+                    dot_x_5_minus_dot_x_6 * dot_x_5_minus_dot_x_6,
+                ))
+            .neg_mul_add(pivot_link_4, link_5_with_link_4 * safe_part_5);
         let dot_x_6_minus_dot_x_7 = dot_x_6 - dot_x_7;
         let dot_y_6_minus_dot_y_7 = dot_y_6 - dot_y_7;
-        let safe_part_7 = acceleration_0_part_33 * safe_part_6
-            + (dot_x_6_minus_dot_x_7 * dot_x_6_minus_dot_x_7
-                + dot_y_6_minus_dot_y_7 * dot_y_6_minus_dot_y_7)
-                * acceleration_0_part_29;
+        let safe_part_7 = dot_y_6_minus_dot_y_7
+            .mul_add(
+                dot_y_6_minus_dot_y_7,
+                dot_x_6_minus_dot_x_7 * dot_x_6_minus_dot_x_7,
+            )
+            .mul_add(pivot_link_5, link_6_with_link_5 * safe_part_6);
         let dot_x_7_minus_dot_x_8 = dot_x_7 - dot_x_8;
         let dot_y_7_minus_dot_y_8 = dot_y_7 - dot_y_8;
-        let safe_part_8 = acceleration_0_part_39 * safe_part_7
-            + lit(2.0)
-                * ((dot_x_7_minus_dot_x_8 * dot_x_7_minus_dot_x_8
-                    + dot_y_7_minus_dot_y_8 * dot_y_7_minus_dot_y_8)
-                    * acceleration_0_part_35);
+        let safe_part_8 = (lit(2.0)
+            * dot_y_7_minus_dot_y_8
+                .mul_add(
+                    dot_y_7_minus_dot_y_8,
+                    dot_x_7_minus_dot_x_8 * dot_x_7_minus_dot_x_8,
+                ))
+            .mul_add(pivot_link_6, link_7_with_link_6 * safe_part_7);
         let dot_x_9_minus_dot_x_10 = dot_x_9 - dot_x_10;
         let dot_y_9_minus_dot_y_10 = dot_y_9 - dot_y_10;
         let dot_x_10_minus_dot_x_11 = dot_x_10 - dot_x_11;
@@ -1603,177 +1862,221 @@ impl ::ukcore::Mechanism for UChain {
         let dot_y_14_minus_dot_y_15 = dot_y_14 - dot_y_15;
         let dot_x_15_minus_dot_x_16 = dot_x_15 - dot_x_16;
         let dot_y_15_minus_dot_y_16 = dot_y_15 - dot_y_16;
-        let safe_part_9 = y_16 * g + (dot_x_16 * dot_x_16 + dot_y_16 * dot_y_16);
-        let safe_part_10 = acceleration_0_part_2
-            * (dot_x_15_minus_dot_x_16 * dot_x_15_minus_dot_x_16
-                + dot_y_15_minus_dot_y_16 * dot_y_15_minus_dot_y_16)
-            + acceleration_0_part_6 * safe_part_9;
-        let safe_part_11 = (dot_x_14_minus_dot_x_15 * dot_x_14_minus_dot_x_15
-            + dot_y_14_minus_dot_y_15 * dot_y_14_minus_dot_y_15) * acceleration_0_part_8
-            - acceleration_0_part_12 * safe_part_10;
-        let safe_part_12 = (dot_x_13_minus_dot_x_14 * dot_x_13_minus_dot_x_14
-            + dot_y_13_minus_dot_y_14 * dot_y_13_minus_dot_y_14) * acceleration_0_part_14
-            + acceleration_0_part_18 * safe_part_11;
-        let safe_part_13 = (dot_x_12_minus_dot_x_13 * dot_x_12_minus_dot_x_13
-            + dot_y_12_minus_dot_y_13 * dot_y_12_minus_dot_y_13) * acceleration_0_part_20
-            - acceleration_0_part_24 * safe_part_12;
-        let safe_part_14 = (dot_x_11_minus_dot_x_12 * dot_x_11_minus_dot_x_12
-            + dot_y_11_minus_dot_y_12 * dot_y_11_minus_dot_y_12) * acceleration_0_part_26
-            + acceleration_0_part_30 * safe_part_13;
-        let safe_part_15 = (dot_x_10_minus_dot_x_11 * dot_x_10_minus_dot_x_11
-            + dot_y_10_minus_dot_y_11 * dot_y_10_minus_dot_y_11) * acceleration_0_part_32
-            - acceleration_0_part_36 * safe_part_14;
-        let safe_part_16 = (dot_x_9_minus_dot_x_10 * dot_x_9_minus_dot_x_10
-            + dot_y_9_minus_dot_y_10 * dot_y_9_minus_dot_y_10) * acceleration_0_part_38
-            + acceleration_0_part_42 * safe_part_15;
-        let safe_part_17 = acceleration_0_part_44
-            * ((dot_x_8_minus_dot_x_9 * dot_x_8_minus_dot_x_9
-                + dot_y_8_minus_dot_y_9 * dot_y_8_minus_dot_y_9)
-                - acceleration_0_part_47 * safe_part_8 * per_acceleration_0_part_41)
-            - acceleration_0_part_45 * safe_part_16;
-        let safe_part_18 = y_8_minus_y_9 * safe_part_17 * per_acceleration_0_part_48;
-        let link_8_by_link_7 = acceleration_0_part_47 * acceleration_0_part_35
-            * per_acceleration_0_part_41;
-        let safe_part_19 = safe_part_8 * per_acceleration_0_part_41
-            + lit(2.0) * (link_8_by_link_7 * safe_part_17 * per_acceleration_0_part_48);
-        let y_7_minus_y_8_safe_part_19 = y_7_minus_y_8 * safe_part_19;
-        out[25] = g - safe_part_18 - y_7_minus_y_8_safe_part_19;
-        let acceleration_26_part = x_8_minus_x_9 * safe_part_17
-            * per_acceleration_0_part_48;
-        let x_7_minus_x_8_safe_part_19 = x_7_minus_x_8 * safe_part_19;
-        out[8] = -acceleration_26_part - x_7_minus_x_8_safe_part_19;
-        let acceleration_9_part = safe_part_16
-            + acceleration_0_part_45 * acceleration_0_part_38 * safe_part_17
-                * per_acceleration_0_part_48;
-        let acceleration_9_part_2 = x_9_minus_x_10 * per_acceleration_0_part_44
+        let safe_part_9 = y_16 * g + dot_y_16.mul_add(dot_y_16, dot_x_16 * dot_x_16);
+        let safe_part_10 = link_15_with_support
+            .mul_add(
+                safe_part_9,
+                pivot_support
+                    * dot_y_15_minus_dot_y_16
+                        .mul_add(
+                            dot_y_15_minus_dot_y_16,
+                            dot_x_15_minus_dot_x_16 * dot_x_15_minus_dot_x_16,
+                        ),
+            );
+        let safe_part_11 = link_14_with_link_15
+            .neg_mul_add(
+                safe_part_10,
+                dot_y_14_minus_dot_y_15
+                    .mul_add(
+                        dot_y_14_minus_dot_y_15,
+                        dot_x_14_minus_dot_x_15 * dot_x_14_minus_dot_x_15,
+                    ) * pivot_link_15,
+            );
+        let safe_part_12 = link_13_with_link_14
+            .mul_add(
+                safe_part_11,
+                dot_y_13_minus_dot_y_14
+                    .mul_add(
+                        dot_y_13_minus_dot_y_14,
+                        dot_x_13_minus_dot_x_14 * dot_x_13_minus_dot_x_14,
+                    ) * pivot_link_14,
+            );
+        let safe_part_13 = link_12_with_link_13
+            .neg_mul_add(
+                safe_part_12,
+                dot_y_12_minus_dot_y_13
+                    .mul_add(
+                        dot_y_12_minus_dot_y_13,
+                        dot_x_12_minus_dot_x_13 * dot_x_12_minus_dot_x_13,
+                    ) * pivot_link_13,
+            );
+        let safe_part_14 = link_11_with_link_12
+            .mul_add(
+                safe_part_13,
+                dot_y_11_minus_dot_y_12
+                    .mul_add(
+                        dot_y_11_minus_dot_y_12,
+                        dot_x_11_minus_dot_x_12 * dot_x_11_minus_dot_x_12,
+                    ) * pivot_link_12,
+            );
+        let safe_part_15 = link_10_with_link_11
+            .neg_mul_add(
+                safe_part_14,
+                dot_y_10_minus_dot_y_11
+                    .mul_add(
+                        dot_y_10_minus_dot_y_11,
+                        dot_x_10_minus_dot_x_11 * dot_x_10_minus_dot_x_11,
+                    ) * pivot_link_11,
+            );
+        let safe_part_16 = link_9_with_link_10
+            .mul_add(
+                safe_part_15,
+                dot_y_9_minus_dot_y_10
+                    .mul_add(
+                        dot_y_9_minus_dot_y_10,
+                        dot_x_9_minus_dot_x_10 * dot_x_9_minus_dot_x_10,
+                    ) * pivot_link_10,
+            );
+        let safe_part_17 = link_8_with_link_9
+            .neg_mul_add(
+                safe_part_16,
+                pivot_link_9
+                    * (link_8_with_link_7 * safe_part_8)
+                        .neg_mul_add(
+                            per_pivot_link_7,
+                            dot_y_8_minus_dot_y_9
+                                .mul_add(
+                                    dot_y_8_minus_dot_y_9,
+                                    dot_x_8_minus_dot_x_9 * dot_x_8_minus_dot_x_9,
+                                ),
+                        ),
+            );
+        let safe_part_18 = y_8_minus_y_9 * safe_part_17 * per_pivot_link_8;
+        let link_8_by_link_7 = link_8_with_link_7 * pivot_link_6 * per_pivot_link_7;
+        let lambda_link_7 = (lit(2.0) * link_8_by_link_7 * safe_part_17)
+            .mul_add(per_pivot_link_8, safe_part_8 * per_pivot_link_7);
+        let y_7_minus_y_8_lambda_link_7 = y_7_minus_y_8 * lambda_link_7;
+        out[25] = g - safe_part_18 - y_7_minus_y_8_lambda_link_7;
+        let acceleration_26_part = x_8_minus_x_9 * safe_part_17 * per_pivot_link_8;
+        let x_7_minus_x_8_lambda_link_7 = x_7_minus_x_8 * lambda_link_7;
+        out[8] = -acceleration_26_part - x_7_minus_x_8_lambda_link_7;
+        let acceleration_9_part = (link_8_with_link_9 * pivot_link_10 * safe_part_17)
+            .mul_add(per_pivot_link_8, safe_part_16);
+        let acceleration_9_part_2 = x_9_minus_x_10 * per_pivot_link_9
             * acceleration_9_part;
         out[9] = acceleration_26_part + acceleration_9_part_2;
-        let acceleration_10_part = y_9_minus_y_10 * per_acceleration_0_part_44
+        let acceleration_10_part = y_9_minus_y_10 * per_pivot_link_9
             * acceleration_9_part;
         out[26] = g + safe_part_18 + acceleration_10_part;
-        let acceleration_27_part = safe_part_7
-            - acceleration_0_part_39 * acceleration_0_part_29 * safe_part_19;
-        let acceleration_27_part_2 = x_6_minus_x_7 * per_acceleration_0_part_35
+        let acceleration_27_part = (link_7_with_link_6 * pivot_link_5)
+            .neg_mul_add(lambda_link_7, safe_part_7);
+        let acceleration_27_part_2 = x_6_minus_x_7 * per_pivot_link_6
             * acceleration_27_part;
-        out[7] = x_7_minus_x_8_safe_part_19 + lit(0.5) * acceleration_27_part_2;
-        let acceleration_8_part = y_6_minus_y_7 * per_acceleration_0_part_35
+        out[7] = lit(0.5).mul_add(acceleration_27_part_2, x_7_minus_x_8_lambda_link_7);
+        let acceleration_8_part = y_6_minus_y_7 * per_pivot_link_6
             * acceleration_27_part;
-        out[24] = g + y_7_minus_y_8_safe_part_19 + lit(0.5) * acceleration_8_part;
-        let acceleration_25_part = safe_part_15
-            - acceleration_0_part_42 * acceleration_0_part_32
-                * per_acceleration_0_part_44 * acceleration_9_part;
-        let acceleration_25_part_2 = y_10_minus_y_11 * per_acceleration_0_part_38
+        out[24] = lit(0.5).mul_add(acceleration_8_part, g + y_7_minus_y_8_lambda_link_7);
+        let acceleration_25_part = (link_9_with_link_10 * pivot_link_11
+            * per_pivot_link_9)
+            .neg_mul_add(acceleration_9_part, safe_part_15);
+        let acceleration_25_part_2 = y_10_minus_y_11 * per_pivot_link_10
             * acceleration_25_part;
         out[27] = g - acceleration_10_part - acceleration_25_part_2;
-        let acceleration_28_part = x_10_minus_x_11 * per_acceleration_0_part_38
+        let acceleration_28_part = x_10_minus_x_11 * per_pivot_link_10
             * acceleration_25_part;
         out[10] = -acceleration_9_part_2 - acceleration_28_part;
-        let acceleration_11_part = safe_part_6
-            - acceleration_0_part_33 * acceleration_0_part_23
-                * per_acceleration_0_part_35 * acceleration_27_part;
-        let acceleration_11_part_2 = y_5_minus_y_6 * per_acceleration_0_part_29
+        let acceleration_11_part = (link_6_with_link_5 * pivot_link_4 * per_pivot_link_6)
+            .neg_mul_add(acceleration_27_part, safe_part_6);
+        let acceleration_11_part_2 = y_5_minus_y_6 * per_pivot_link_5
             * acceleration_11_part;
-        out[23] = g - lit(0.5) * acceleration_8_part + acceleration_11_part_2;
-        let acceleration_24_part = x_5_minus_x_6 * per_acceleration_0_part_29
+        out[23] = lit(0.5).neg_mul_add(acceleration_8_part, g) + acceleration_11_part_2;
+        let acceleration_24_part = x_5_minus_x_6 * per_pivot_link_5
             * acceleration_11_part;
-        out[6] = acceleration_24_part - lit(0.5) * acceleration_27_part_2;
-        let acceleration_7_part = safe_part_14
-            + acceleration_0_part_36 * acceleration_0_part_26
-                * per_acceleration_0_part_38 * acceleration_25_part;
-        let acceleration_7_part_2 = x_11_minus_x_12 * per_acceleration_0_part_32
+        out[6] = lit(0.5).neg_mul_add(acceleration_27_part_2, acceleration_24_part);
+        let acceleration_7_part = (link_10_with_link_11 * pivot_link_12
+            * per_pivot_link_10)
+            .mul_add(acceleration_25_part, safe_part_14);
+        let acceleration_7_part_2 = x_11_minus_x_12 * per_pivot_link_11
             * acceleration_7_part;
         out[11] = acceleration_28_part + acceleration_7_part_2;
-        let acceleration_12_part = y_11_minus_y_12 * per_acceleration_0_part_32
+        let acceleration_12_part = y_11_minus_y_12 * per_pivot_link_11
             * acceleration_7_part;
         out[28] = g + acceleration_25_part_2 + acceleration_12_part;
-        let acceleration_29_part = safe_part_5
-            - acceleration_0_part_27 * acceleration_0_part_17
-                * per_acceleration_0_part_29 * acceleration_11_part;
-        let acceleration_29_part_2 = y_4_minus_y_5 * per_acceleration_0_part_23
+        let acceleration_29_part = (link_5_with_link_4 * pivot_link_3 * per_pivot_link_5)
+            .neg_mul_add(acceleration_11_part, safe_part_5);
+        let acceleration_29_part_2 = y_4_minus_y_5 * per_pivot_link_4
             * acceleration_29_part;
-        out[22] = g - acceleration_11_part_2 - lit(0.5) * acceleration_29_part_2;
-        let acceleration_23_part = x_4_minus_x_5 * per_acceleration_0_part_23
+        out[22] = lit(0.5)
+            .neg_mul_add(acceleration_29_part_2, g - acceleration_11_part_2);
+        let acceleration_23_part = x_4_minus_x_5 * per_pivot_link_4
             * acceleration_29_part;
-        out[5] = -acceleration_24_part - lit(0.5) * acceleration_23_part;
-        let acceleration_6_part = safe_part_13
-            - acceleration_0_part_30 * acceleration_0_part_20
-                * per_acceleration_0_part_32 * acceleration_7_part;
-        let acceleration_6_part_2 = y_12_minus_y_13 * per_acceleration_0_part_26
+        out[5] = lit(0.5).neg_mul_add(acceleration_23_part, -acceleration_24_part);
+        let acceleration_6_part = (link_11_with_link_12 * pivot_link_13
+            * per_pivot_link_11)
+            .neg_mul_add(acceleration_7_part, safe_part_13);
+        let acceleration_6_part_2 = y_12_minus_y_13 * per_pivot_link_12
             * acceleration_6_part;
         out[29] = g - acceleration_12_part - acceleration_6_part_2;
-        let acceleration_30_part = x_12_minus_x_13 * per_acceleration_0_part_26
+        let acceleration_30_part = x_12_minus_x_13 * per_pivot_link_12
             * acceleration_6_part;
         out[12] = -acceleration_7_part_2 - acceleration_30_part;
-        let acceleration_13_part = safe_part_4
-            - acceleration_0_part_21 * acceleration_0_part_11
-                * per_acceleration_0_part_23 * acceleration_29_part;
-        let acceleration_13_part_2 = x_3_minus_x_4 * per_acceleration_0_part_17
+        let acceleration_13_part = (link_4_with_link_3 * pivot_link_2 * per_pivot_link_4)
+            .neg_mul_add(acceleration_29_part, safe_part_4);
+        let acceleration_13_part_2 = x_3_minus_x_4 * per_pivot_link_3
             * acceleration_13_part;
         out[4] = lit(0.5) * acceleration_23_part - acceleration_13_part_2;
-        let acceleration_5_part = y_3_minus_y_4 * per_acceleration_0_part_17
+        let acceleration_5_part = y_3_minus_y_4 * per_pivot_link_3
             * acceleration_13_part;
-        out[21] = g + lit(0.5) * acceleration_29_part_2 - acceleration_5_part;
-        let acceleration_22_part = safe_part_12
-            + acceleration_0_part_24 * acceleration_0_part_14
-                * per_acceleration_0_part_26 * acceleration_6_part;
-        let acceleration_22_part_2 = x_13_minus_x_14 * per_acceleration_0_part_20
+        out[21] = lit(0.5).mul_add(acceleration_29_part_2, g) - acceleration_5_part;
+        let acceleration_22_part = (link_12_with_link_13 * pivot_link_14
+            * per_pivot_link_12)
+            .mul_add(acceleration_6_part, safe_part_12);
+        let acceleration_22_part_2 = x_13_minus_x_14 * per_pivot_link_13
             * acceleration_22_part;
         out[13] = acceleration_30_part + acceleration_22_part_2;
-        let acceleration_14_part = y_13_minus_y_14 * per_acceleration_0_part_20
+        let acceleration_14_part = y_13_minus_y_14 * per_pivot_link_13
             * acceleration_22_part;
         out[30] = g + acceleration_6_part_2 + acceleration_14_part;
-        let acceleration_31_part = safe_part_3
-            - acceleration_0_part_15 * acceleration_0_part_5 * per_acceleration_0_part_17
-                * acceleration_13_part;
-        let acceleration_31_part_2 = x_2_minus_x_3 * per_acceleration_0_part_11
+        let acceleration_31_part = (link_3_with_link_2 * pivot_link_1 * per_pivot_link_3)
+            .neg_mul_add(acceleration_13_part, safe_part_3);
+        let acceleration_31_part_2 = x_2_minus_x_3 * per_pivot_link_2
             * acceleration_31_part;
-        out[3] = acceleration_13_part_2 + lit(0.5) * acceleration_31_part_2;
-        let acceleration_4_part = y_2_minus_y_3 * per_acceleration_0_part_11
+        out[3] = lit(0.5).mul_add(acceleration_31_part_2, acceleration_13_part_2);
+        let acceleration_4_part = y_2_minus_y_3 * per_pivot_link_2
             * acceleration_31_part;
-        out[20] = g + acceleration_5_part + lit(0.5) * acceleration_4_part;
-        let acceleration_21_part = safe_part_11
-            - acceleration_0_part_18 * acceleration_0_part_8 * per_acceleration_0_part_20
-                * acceleration_22_part;
-        let acceleration_21_part_2 = y_14_minus_y_15 * per_acceleration_0_part_14
+        out[20] = lit(0.5).mul_add(acceleration_4_part, g + acceleration_5_part);
+        let acceleration_21_part = (link_13_with_link_14 * pivot_link_15
+            * per_pivot_link_13)
+            .neg_mul_add(acceleration_22_part, safe_part_11);
+        let acceleration_21_part_2 = y_14_minus_y_15 * per_pivot_link_14
             * acceleration_21_part;
         out[31] = g - acceleration_14_part - acceleration_21_part_2;
-        let acceleration_32_part = x_14_minus_x_15 * per_acceleration_0_part_14
+        let acceleration_32_part = x_14_minus_x_15 * per_pivot_link_14
             * acceleration_21_part;
         out[14] = -acceleration_22_part_2 - acceleration_32_part;
-        let acceleration_15_part = safe_part_2
-            - acceleration_0_part * acceleration_0_part_9 * per_acceleration_0_part_11
-                * acceleration_31_part;
-        let acceleration_15_part_2 = y_1_minus_y_2 * per_acceleration_0_part_5
+        let acceleration_15_part = (pivot_link_0 * link_2_with_link_1 * per_pivot_link_2)
+            .neg_mul_add(acceleration_31_part, safe_part_2);
+        let acceleration_15_part_2 = y_1_minus_y_2 * per_pivot_link_1
             * acceleration_15_part;
-        out[19] = g - lit(0.5) * acceleration_4_part + acceleration_15_part_2;
-        let acceleration_20_part = x_1_minus_x_2 * per_acceleration_0_part_5
+        out[19] = lit(0.5).neg_mul_add(acceleration_4_part, g) + acceleration_15_part_2;
+        let acceleration_20_part = x_1_minus_x_2 * per_pivot_link_1
             * acceleration_15_part;
-        out[2] = acceleration_20_part - lit(0.5) * acceleration_31_part_2;
-        let acceleration_3_part = safe_part_10
-            + acceleration_0_part_2 * acceleration_0_part_12 * per_acceleration_0_part_14
-                * acceleration_21_part;
-        let acceleration_3_part_2 = x_15_minus_x_16 * per_acceleration_0_part_8
+        out[2] = lit(0.5).neg_mul_add(acceleration_31_part_2, acceleration_20_part);
+        let acceleration_3_part = (pivot_support * link_14_with_link_15
+            * per_pivot_link_14)
+            .mul_add(acceleration_21_part, safe_part_10);
+        let acceleration_3_part_2 = x_15_minus_x_16 * per_pivot_link_15
             * acceleration_3_part;
         out[15] = acceleration_32_part + acceleration_3_part_2;
-        let acceleration_16_part = y_15_minus_y_16 * per_acceleration_0_part_8
+        let acceleration_16_part = y_15_minus_y_16 * per_pivot_link_15
             * acceleration_3_part;
         out[32] = g + acceleration_21_part_2 + acceleration_16_part;
-        let acceleration_33_part = safe_part
-            - acceleration_0_part_3 * per_acceleration_0_part_5 * acceleration_15_part;
-        let acceleration_33_part_2 = x_1_minus_x_0 * per_acceleration_0_part
+        let acceleration_33_part = (link_1_with_link_0 * per_pivot_link_1)
+            .neg_mul_add(acceleration_15_part, safe_part);
+        let acceleration_33_part_2 = x_1_minus_x_0 * per_pivot_link_0
             * acceleration_33_part;
         out[0] = lit(0.5) * acceleration_33_part_2;
-        let acceleration_1_part = y_0_minus_y_1 * per_acceleration_0_part
+        let acceleration_1_part = y_0_minus_y_1 * per_pivot_link_0
             * acceleration_33_part;
-        out[17] = g - lit(0.5) * acceleration_1_part;
-        out[18] = g - acceleration_15_part_2 + lit(0.5) * acceleration_1_part;
-        out[1] = -acceleration_20_part - lit(0.5) * acceleration_33_part_2;
-        let acceleration_2_part = safe_part_9
-            - acceleration_0_part_6 * per_acceleration_0_part_8 * acceleration_3_part;
-        out[33] = g - acceleration_16_part
-            - y_16 * per_acceleration_0_part_2 * acceleration_2_part;
-        out[16] = -acceleration_3_part_2
-            - x_16 * per_acceleration_0_part_2 * acceleration_2_part;
+        out[17] = lit(0.5).neg_mul_add(acceleration_1_part, g);
+        out[18] = lit(0.5).mul_add(acceleration_1_part, g - acceleration_15_part_2);
+        out[1] = lit(0.5).neg_mul_add(acceleration_33_part_2, -acceleration_20_part);
+        let acceleration_2_part = (link_15_with_support * per_pivot_link_15)
+            .neg_mul_add(acceleration_3_part, safe_part_9);
+        out[33] = (y_16 * per_pivot_support)
+            .neg_mul_add(acceleration_2_part, g - acceleration_16_part);
+        out[16] = (x_16 * per_pivot_support)
+            .neg_mul_add(acceleration_2_part, -acceleration_3_part_2);
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
@@ -1785,9 +2088,9 @@ impl ::ukcore::Mechanism for UChain {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 34>(out, "out");
-        let [_, _, _, _, per_m, twice_per_m, safe_x_0] = *::ukcore::emitted::exact::<
+        let [_, _, _, _, safe_x_0] = *::ukcore::emitted::exact::<
             S,
-            7,
+            5,
         >(prepared, "prepared");
         let [x_0, x_1, x_2, x_3, x_4, x_5, x_6, x_7, x_8, x_9, x_10, x_11, x_12, x_13,
         x_14, x_15, x_16, y_0, y_1, y_2, y_3, y_4, y_5, y_6, y_7, y_8, y_9, y_10, y_11,
@@ -1801,426 +2104,428 @@ impl ::ukcore::Mechanism for UChain {
         let lit = S::from_f64;
         let x_1_minus_x_0 = x_1 - x_0;
         let y_0_minus_y_1 = y_0 - y_1;
-        let correction_0_part = x_1_minus_x_0 * x_1_minus_x_0
-            + y_0_minus_y_1 * y_0_minus_y_1;
-        let per_correction_0_part = correction_0_part.recip();
-        let safe_link_0 = S::select_le(
-            twice_per_m * correction_0_part,
-            lit(0.0),
-            lit(0.0),
-            safe_x_0,
-        );
-        let correction_0_part_2 = x_16 * x_16 + y_16 * y_16;
-        let per_correction_0_part_2 = correction_0_part_2.recip();
-        let pivot_support = per_m * correction_0_part_2;
+        let pivot_link_0 = y_0_minus_y_1
+            .mul_add(y_0_minus_y_1, x_1_minus_x_0 * x_1_minus_x_0);
+        let per_pivot_link_0 = pivot_link_0.recip();
+        let safe_link_0 = S::select_le(pivot_link_0, lit(0.0), lit(0.0), safe_x_0);
+        let pivot_support = y_16.mul_add(y_16, x_16 * x_16);
+        let per_pivot_support = pivot_support.recip();
         let safe_support = S::select_le(pivot_support, lit(0.0), lit(0.0), safe_link_0);
         let x_1_minus_x_2 = x_1 - x_2;
         let y_1_minus_y_2 = y_1 - y_2;
-        let correction_0_part_3 = x_1_minus_x_0 * x_1_minus_x_2
-            - y_0_minus_y_1 * y_1_minus_y_2;
-        let correction_0_part_4 = correction_0_part
-            * (x_1_minus_x_2 * x_1_minus_x_2 + y_1_minus_y_2 * y_1_minus_y_2);
-        let correction_0_part_5 = correction_0_part_3 * correction_0_part_3
-            - lit(4.0) * correction_0_part_4;
-        let per_correction_0_part_5 = correction_0_part_5.recip();
+        let link_1_with_link_0 = y_0_minus_y_1
+            .neg_mul_add(y_1_minus_y_2, x_1_minus_x_0 * x_1_minus_x_2);
+        let correction_0_part = pivot_link_0
+            * y_1_minus_y_2.mul_add(y_1_minus_y_2, x_1_minus_x_2 * x_1_minus_x_2);
+        let pivot_link_1 = lit(4.0)
+            .neg_mul_add(correction_0_part, link_1_with_link_0 * link_1_with_link_0);
+        let per_pivot_link_1 = pivot_link_1.recip();
         let safe_link_1 = S::select_le(
-            -correction_0_part_5,
-            lit(0.00390625) * correction_0_part_4,
+            -pivot_link_1,
+            lit(0.00390625) * correction_0_part,
             lit(0.0),
             safe_support,
         );
         let x_15_minus_x_16 = x_15 - x_16;
         let y_15_minus_y_16 = y_15 - y_16;
-        let correction_0_part_6 = x_16 * x_15_minus_x_16 + y_16 * y_15_minus_y_16;
-        let correction_0_part_7 = correction_0_part_2
-            * (x_15_minus_x_16 * x_15_minus_x_16 + y_15_minus_y_16 * y_15_minus_y_16);
-        let correction_0_part_8 = correction_0_part_6 * correction_0_part_6
-            - lit(2.0) * correction_0_part_7;
-        let per_correction_0_part_8 = correction_0_part_8.recip();
+        let link_15_with_support = y_16.mul_add(y_15_minus_y_16, x_16 * x_15_minus_x_16);
+        let correction_0_part_2 = pivot_support
+            * y_15_minus_y_16
+                .mul_add(y_15_minus_y_16, x_15_minus_x_16 * x_15_minus_x_16);
+        let pivot_link_15 = lit(2.0)
+            .neg_mul_add(
+                correction_0_part_2,
+                link_15_with_support * link_15_with_support,
+            );
+        let per_pivot_link_15 = pivot_link_15.recip();
         let safe_link_15 = S::select_le(
-            -correction_0_part_8,
-            lit(0.001953125) * correction_0_part_7,
+            -pivot_link_15,
+            lit(0.001953125) * correction_0_part_2,
             lit(0.0),
             safe_link_1,
         );
         let x_2_minus_x_3 = x_2 - x_3;
         let y_2_minus_y_3 = y_2 - y_3;
-        let correction_0_part_9 = x_1_minus_x_2 * x_2_minus_x_3
-            + y_1_minus_y_2 * y_2_minus_y_3;
-        let correction_0_part_10 = (x_2_minus_x_3 * x_2_minus_x_3
-            + y_2_minus_y_3 * y_2_minus_y_3) * correction_0_part_5;
-        let correction_0_part_11 = correction_0_part * correction_0_part_9
-            * correction_0_part_9 + correction_0_part_10;
-        let per_correction_0_part_11 = correction_0_part_11.recip();
+        let link_2_with_link_1 = y_1_minus_y_2
+            .mul_add(y_2_minus_y_3, x_1_minus_x_2 * x_2_minus_x_3);
+        let correction_0_part_3 = y_2_minus_y_3
+            .mul_add(y_2_minus_y_3, x_2_minus_x_3 * x_2_minus_x_3) * pivot_link_1;
+        let pivot_link_2 = pivot_link_0 * link_2_with_link_1 * link_2_with_link_1
+            + correction_0_part_3;
+        let per_pivot_link_2 = pivot_link_2.recip();
         let safe_link_2 = S::select_le(
-            lit(-2.0) * correction_0_part_11,
-            lit(-0.001953125) * correction_0_part_10,
+            lit(-2.0) * pivot_link_2,
+            lit(-0.001953125) * correction_0_part_3,
             lit(0.0),
             safe_link_15,
         );
         let x_14_minus_x_15 = x_14 - x_15;
         let y_14_minus_y_15 = y_14 - y_15;
-        let correction_0_part_12 = x_14_minus_x_15 * x_15_minus_x_16
-            + y_14_minus_y_15 * y_15_minus_y_16;
-        let correction_0_part_13 = (x_14_minus_x_15 * x_14_minus_x_15
-            + y_14_minus_y_15 * y_14_minus_y_15) * correction_0_part_8;
-        let correction_0_part_14 = correction_0_part_2 * correction_0_part_12
-            * correction_0_part_12 + lit(2.0) * correction_0_part_13;
-        let per_correction_0_part_14 = correction_0_part_14.recip();
+        let link_14_with_link_15 = y_14_minus_y_15
+            .mul_add(y_15_minus_y_16, x_14_minus_x_15 * x_15_minus_x_16);
+        let correction_0_part_4 = y_14_minus_y_15
+            .mul_add(y_14_minus_y_15, x_14_minus_x_15 * x_14_minus_x_15) * pivot_link_15;
+        let pivot_link_14 = lit(2.0)
+            .mul_add(
+                correction_0_part_4,
+                pivot_support * link_14_with_link_15 * link_14_with_link_15,
+            );
+        let per_pivot_link_14 = pivot_link_14.recip();
         let safe_link_14 = S::select_le(
-            -correction_0_part_14,
-            lit(-0.001953125) * correction_0_part_13,
+            -pivot_link_14,
+            lit(-0.001953125) * correction_0_part_4,
             lit(0.0),
             safe_link_2,
         );
         let x_3_minus_x_4 = x_3 - x_4;
         let y_3_minus_y_4 = y_3 - y_4;
-        let correction_0_part_15 = x_2_minus_x_3 * x_3_minus_x_4
-            + y_2_minus_y_3 * y_3_minus_y_4;
-        let correction_0_part_16 = (x_3_minus_x_4 * x_3_minus_x_4
-            + y_3_minus_y_4 * y_3_minus_y_4) * correction_0_part_11;
-        let correction_0_part_17 = correction_0_part_15 * correction_0_part_15
-            * correction_0_part_5 - lit(4.0) * correction_0_part_16;
-        let per_correction_0_part_17 = correction_0_part_17.recip();
+        let link_3_with_link_2 = y_2_minus_y_3
+            .mul_add(y_3_minus_y_4, x_2_minus_x_3 * x_3_minus_x_4);
+        let correction_0_part_5 = y_3_minus_y_4
+            .mul_add(y_3_minus_y_4, x_3_minus_x_4 * x_3_minus_x_4) * pivot_link_2;
+        let pivot_link_3 = lit(4.0)
+            .neg_mul_add(
+                correction_0_part_5,
+                link_3_with_link_2 * link_3_with_link_2 * pivot_link_1,
+            );
+        let per_pivot_link_3 = pivot_link_3.recip();
         let safe_link_3 = S::select_le(
-            correction_0_part_17,
-            lit(-0.00390625) * correction_0_part_16,
+            pivot_link_3,
+            lit(-0.00390625) * correction_0_part_5,
             lit(0.0),
             safe_link_14,
         );
         let x_13_minus_x_14 = x_13 - x_14;
         let y_13_minus_y_14 = y_13 - y_14;
-        let correction_0_part_18 = x_13_minus_x_14 * x_14_minus_x_15
-            + y_13_minus_y_14 * y_14_minus_y_15;
-        let correction_0_part_19 = (x_13_minus_x_14 * x_13_minus_x_14
-            + y_13_minus_y_14 * y_13_minus_y_14) * correction_0_part_14;
-        let correction_0_part_20 = correction_0_part_18 * correction_0_part_18
-            * correction_0_part_8 - lit(2.0) * correction_0_part_19;
-        let per_correction_0_part_20 = correction_0_part_20.recip();
+        let link_13_with_link_14 = y_13_minus_y_14
+            .mul_add(y_14_minus_y_15, x_13_minus_x_14 * x_14_minus_x_15);
+        let correction_0_part_6 = y_13_minus_y_14
+            .mul_add(y_13_minus_y_14, x_13_minus_x_14 * x_13_minus_x_14) * pivot_link_14;
+        let pivot_link_13 = lit(2.0)
+            .neg_mul_add(
+                correction_0_part_6,
+                link_13_with_link_14 * link_13_with_link_14 * pivot_link_15,
+            );
+        let per_pivot_link_13 = pivot_link_13.recip();
         let safe_link_13 = S::select_le(
-            correction_0_part_20,
-            lit(-0.001953125) * correction_0_part_19,
+            pivot_link_13,
+            lit(-0.001953125) * correction_0_part_6,
             lit(0.0),
             safe_link_3,
         );
         let x_4_minus_x_5 = x_4 - x_5;
         let y_4_minus_y_5 = y_4 - y_5;
-        let correction_0_part_21 = x_3_minus_x_4 * x_4_minus_x_5
-            + y_3_minus_y_4 * y_4_minus_y_5;
-        let correction_0_part_22 = (x_4_minus_x_5 * x_4_minus_x_5
-            + y_4_minus_y_5 * y_4_minus_y_5) * correction_0_part_17;
-        let correction_0_part_23 = correction_0_part_21 * correction_0_part_21
-            * correction_0_part_11 + correction_0_part_22;
-        let per_correction_0_part_23 = correction_0_part_23.recip();
+        let link_4_with_link_3 = y_3_minus_y_4
+            .mul_add(y_4_minus_y_5, x_3_minus_x_4 * x_4_minus_x_5);
+        let correction_0_part_7 = y_4_minus_y_5
+            .mul_add(y_4_minus_y_5, x_4_minus_x_5 * x_4_minus_x_5) * pivot_link_3;
+        let pivot_link_4 = link_4_with_link_3 * link_4_with_link_3 * pivot_link_2
+            + correction_0_part_7;
+        let per_pivot_link_4 = pivot_link_4.recip();
         let safe_link_4 = S::select_le(
-            lit(2.0) * correction_0_part_23,
-            lit(0.001953125) * correction_0_part_22,
+            lit(2.0) * pivot_link_4,
+            lit(0.001953125) * correction_0_part_7,
             lit(0.0),
             safe_link_13,
         );
         let x_12_minus_x_13 = x_12 - x_13;
         let y_12_minus_y_13 = y_12 - y_13;
-        let correction_0_part_24 = x_12_minus_x_13 * x_13_minus_x_14
-            + y_12_minus_y_13 * y_13_minus_y_14;
-        let correction_0_part_25 = (x_12_minus_x_13 * x_12_minus_x_13
-            + y_12_minus_y_13 * y_12_minus_y_13) * correction_0_part_20;
-        let correction_0_part_26 = correction_0_part_24 * correction_0_part_24
-            * correction_0_part_14 + lit(2.0) * correction_0_part_25;
-        let per_correction_0_part_26 = correction_0_part_26.recip();
+        let link_12_with_link_13 = y_12_minus_y_13
+            .mul_add(y_13_minus_y_14, x_12_minus_x_13 * x_13_minus_x_14);
+        let correction_0_part_8 = y_12_minus_y_13
+            .mul_add(y_12_minus_y_13, x_12_minus_x_13 * x_12_minus_x_13) * pivot_link_13;
+        let pivot_link_12 = lit(2.0)
+            .mul_add(
+                correction_0_part_8,
+                link_12_with_link_13 * link_12_with_link_13 * pivot_link_14,
+            );
+        let per_pivot_link_12 = pivot_link_12.recip();
         let safe_link_12 = S::select_le(
-            correction_0_part_26,
-            lit(0.001953125) * correction_0_part_25,
+            pivot_link_12,
+            lit(0.001953125) * correction_0_part_8,
             lit(0.0),
             safe_link_4,
         );
         let x_5_minus_x_6 = x_5 - x_6;
         let y_5_minus_y_6 = y_5 - y_6;
-        let correction_0_part_27 = x_4_minus_x_5 * x_5_minus_x_6
-            + y_4_minus_y_5 * y_5_minus_y_6;
-        let correction_0_part_28 = (x_5_minus_x_6 * x_5_minus_x_6
-            + y_5_minus_y_6 * y_5_minus_y_6) * correction_0_part_23;
-        let correction_0_part_29 = correction_0_part_27 * correction_0_part_27
-            * correction_0_part_17 - lit(4.0) * correction_0_part_28;
-        let per_correction_0_part_29 = correction_0_part_29.recip();
+        let link_5_with_link_4 = y_4_minus_y_5
+            .mul_add(y_5_minus_y_6, x_4_minus_x_5 * x_5_minus_x_6);
+        let correction_0_part_9 = y_5_minus_y_6
+            .mul_add(y_5_minus_y_6, x_5_minus_x_6 * x_5_minus_x_6) * pivot_link_4;
+        let pivot_link_5 = lit(4.0)
+            .neg_mul_add(
+                correction_0_part_9,
+                link_5_with_link_4 * link_5_with_link_4 * pivot_link_3,
+            );
+        let per_pivot_link_5 = pivot_link_5.recip();
         let safe_link_5 = S::select_le(
-            -correction_0_part_29,
-            lit(0.00390625) * correction_0_part_28,
+            -pivot_link_5,
+            lit(0.00390625) * correction_0_part_9,
             lit(0.0),
             safe_link_12,
         );
         let x_11_minus_x_12 = x_11 - x_12;
         let y_11_minus_y_12 = y_11 - y_12;
-        let correction_0_part_30 = x_11_minus_x_12 * x_12_minus_x_13
-            + y_11_minus_y_12 * y_12_minus_y_13;
-        let correction_0_part_31 = (x_11_minus_x_12 * x_11_minus_x_12
-            + y_11_minus_y_12 * y_11_minus_y_12) * correction_0_part_26;
-        let correction_0_part_32 = correction_0_part_30 * correction_0_part_30
-            * correction_0_part_20 - lit(2.0) * correction_0_part_31;
-        let per_correction_0_part_32 = correction_0_part_32.recip();
+        let link_11_with_link_12 = y_11_minus_y_12
+            .mul_add(y_12_minus_y_13, x_11_minus_x_12 * x_12_minus_x_13);
+        let correction_0_part_10 = y_11_minus_y_12
+            .mul_add(y_11_minus_y_12, x_11_minus_x_12 * x_11_minus_x_12) * pivot_link_12;
+        let pivot_link_11 = lit(2.0)
+            .neg_mul_add(
+                correction_0_part_10,
+                link_11_with_link_12 * link_11_with_link_12 * pivot_link_13,
+            );
+        let per_pivot_link_11 = pivot_link_11.recip();
         let safe_link_11 = S::select_le(
-            -correction_0_part_32,
-            lit(0.001953125) * correction_0_part_31,
+            -pivot_link_11,
+            lit(0.001953125) * correction_0_part_10,
             lit(0.0),
             safe_link_5,
         );
         let x_6_minus_x_7 = x_6 - x_7;
         let y_6_minus_y_7 = y_6 - y_7;
-        let correction_0_part_33 = x_5_minus_x_6 * x_6_minus_x_7
-            + y_5_minus_y_6 * y_6_minus_y_7;
-        let correction_0_part_34 = (x_6_minus_x_7 * x_6_minus_x_7
-            + y_6_minus_y_7 * y_6_minus_y_7) * correction_0_part_29;
-        let correction_0_part_35 = correction_0_part_33 * correction_0_part_33
-            * correction_0_part_23 + correction_0_part_34;
-        let per_correction_0_part_35 = correction_0_part_35.recip();
+        let link_6_with_link_5 = y_5_minus_y_6
+            .mul_add(y_6_minus_y_7, x_5_minus_x_6 * x_6_minus_x_7);
+        let correction_0_part_11 = y_6_minus_y_7
+            .mul_add(y_6_minus_y_7, x_6_minus_x_7 * x_6_minus_x_7) * pivot_link_5;
+        let pivot_link_6 = link_6_with_link_5 * link_6_with_link_5 * pivot_link_4
+            + correction_0_part_11;
+        let per_pivot_link_6 = pivot_link_6.recip();
         let safe_link_6 = S::select_le(
-            lit(-2.0) * correction_0_part_35,
-            lit(-0.001953125) * correction_0_part_34,
+            lit(-2.0) * pivot_link_6,
+            lit(-0.001953125) * correction_0_part_11,
             lit(0.0),
             safe_link_11,
         );
         let x_10_minus_x_11 = x_10 - x_11;
         let y_10_minus_y_11 = y_10 - y_11;
-        let correction_0_part_36 = x_10_minus_x_11 * x_11_minus_x_12
-            + y_10_minus_y_11 * y_11_minus_y_12;
-        let correction_0_part_37 = (x_10_minus_x_11 * x_10_minus_x_11
-            + y_10_minus_y_11 * y_10_minus_y_11) * correction_0_part_32;
-        let correction_0_part_38 = correction_0_part_36 * correction_0_part_36
-            * correction_0_part_26 + lit(2.0) * correction_0_part_37;
-        let per_correction_0_part_38 = correction_0_part_38.recip();
+        let link_10_with_link_11 = y_10_minus_y_11
+            .mul_add(y_11_minus_y_12, x_10_minus_x_11 * x_11_minus_x_12);
+        let correction_0_part_12 = y_10_minus_y_11
+            .mul_add(y_10_minus_y_11, x_10_minus_x_11 * x_10_minus_x_11) * pivot_link_11;
+        let pivot_link_10 = lit(2.0)
+            .mul_add(
+                correction_0_part_12,
+                link_10_with_link_11 * link_10_with_link_11 * pivot_link_12,
+            );
+        let per_pivot_link_10 = pivot_link_10.recip();
         let safe_link_10 = S::select_le(
-            -correction_0_part_38,
-            lit(-0.001953125) * correction_0_part_37,
+            -pivot_link_10,
+            lit(-0.001953125) * correction_0_part_12,
             lit(0.0),
             safe_link_6,
         );
         let x_7_minus_x_8 = x_7 - x_8;
         let y_7_minus_y_8 = y_7 - y_8;
-        let correction_0_part_39 = x_6_minus_x_7 * x_7_minus_x_8
-            + y_6_minus_y_7 * y_7_minus_y_8;
-        let correction_0_part_40 = (x_7_minus_x_8 * x_7_minus_x_8
-            + y_7_minus_y_8 * y_7_minus_y_8) * correction_0_part_35;
-        let correction_0_part_41 = correction_0_part_39 * correction_0_part_39
-            * correction_0_part_29 - lit(4.0) * correction_0_part_40;
-        let per_correction_0_part_41 = correction_0_part_41.recip();
+        let link_7_with_link_6 = y_6_minus_y_7
+            .mul_add(y_7_minus_y_8, x_6_minus_x_7 * x_7_minus_x_8);
+        let correction_0_part_13 = y_7_minus_y_8
+            .mul_add(y_7_minus_y_8, x_7_minus_x_8 * x_7_minus_x_8) * pivot_link_6;
+        let pivot_link_7 = lit(4.0)
+            .neg_mul_add(
+                correction_0_part_13,
+                link_7_with_link_6 * link_7_with_link_6 * pivot_link_5,
+            );
+        let per_pivot_link_7 = pivot_link_7.recip();
         let safe_link_7 = S::select_le(
-            correction_0_part_41,
-            lit(-0.00390625) * correction_0_part_40,
+            pivot_link_7,
+            lit(-0.00390625) * correction_0_part_13,
             lit(0.0),
             safe_link_10,
         );
         let x_9_minus_x_10 = x_9 - x_10;
         let y_9_minus_y_10 = y_9 - y_10;
-        let correction_0_part_42 = x_9_minus_x_10 * x_10_minus_x_11
-            + y_9_minus_y_10 * y_10_minus_y_11;
-        let correction_0_part_43 = (x_9_minus_x_10 * x_9_minus_x_10
-            + y_9_minus_y_10 * y_9_minus_y_10) * correction_0_part_38;
-        let correction_0_part_44 = correction_0_part_42 * correction_0_part_42
-            * correction_0_part_32 - lit(2.0) * correction_0_part_43;
-        let per_correction_0_part_44 = correction_0_part_44.recip();
+        let link_9_with_link_10 = y_9_minus_y_10
+            .mul_add(y_10_minus_y_11, x_9_minus_x_10 * x_10_minus_x_11);
+        let correction_0_part_14 = y_9_minus_y_10
+            .mul_add(y_9_minus_y_10, x_9_minus_x_10 * x_9_minus_x_10) * pivot_link_10;
+        let pivot_link_9 = lit(2.0)
+            .neg_mul_add(
+                correction_0_part_14,
+                link_9_with_link_10 * link_9_with_link_10 * pivot_link_11,
+            );
+        let per_pivot_link_9 = pivot_link_9.recip();
         let safe_link_9 = S::select_le(
-            correction_0_part_44,
-            lit(-0.001953125) * correction_0_part_43,
+            pivot_link_9,
+            lit(-0.001953125) * correction_0_part_14,
             lit(0.0),
             safe_link_7,
         );
         let x_8_minus_x_9 = x_8 - x_9;
         let y_8_minus_y_9 = y_8 - y_9;
-        let correction_0_part_45 = x_8_minus_x_9 * x_9_minus_x_10
-            + y_8_minus_y_9 * y_9_minus_y_10;
-        let correction_0_part_46 = x_8_minus_x_9 * x_8_minus_x_9
-            + y_8_minus_y_9 * y_8_minus_y_9;
-        let correction_0_part_47 = x_7_minus_x_8 * x_8_minus_x_9
-            + y_7_minus_y_8 * y_8_minus_y_9;
-        let correction_0_part_48 = correction_0_part_45 * correction_0_part_45
-            * correction_0_part_38
-            + lit(2.0)
-                * (correction_0_part_44
-                    * (correction_0_part_46
-                        + correction_0_part_47 * correction_0_part_47
-                            * correction_0_part_35 * per_correction_0_part_41));
-        let per_correction_0_part_48 = correction_0_part_48.recip();
+        let link_8_with_link_9 = y_8_minus_y_9
+            .mul_add(y_9_minus_y_10, x_8_minus_x_9 * x_9_minus_x_10);
+        let correction_0_part_15 = y_8_minus_y_9
+            .mul_add(y_8_minus_y_9, x_8_minus_x_9 * x_8_minus_x_9);
+        let link_8_with_link_7 = y_7_minus_y_8
+            .mul_add(y_8_minus_y_9, x_7_minus_x_8 * x_8_minus_x_9);
+        let pivot_link_8 = (lit(2.0) * pivot_link_9)
+            .mul_add(
+                (link_8_with_link_7 * link_8_with_link_7 * pivot_link_6)
+                    .mul_add(per_pivot_link_7, correction_0_part_15),
+                link_8_with_link_9 * link_8_with_link_9 * pivot_link_10,
+            );
+        let per_pivot_link_8 = pivot_link_8.recip();
         let safe_link_8 = S::select_le(
-            correction_0_part_48,
-            lit(0.001953125) * (correction_0_part_46 * correction_0_part_44),
+            pivot_link_8,
+            lit(0.001953125) * (correction_0_part_15 * pivot_link_9),
             lit(0.0),
             safe_link_9,
         );
         let safe = safe_link_8;
-        let safe_part = residual_15 * correction_0_part_2
-            + residual_16 * correction_0_part_6;
-        let safe_part_2 = correction_0_part_12 * safe_part
-            - residual_14 * correction_0_part_8;
-        let safe_part_3 = correction_0_part_18 * safe_part_2
-            - residual_13 * correction_0_part_14;
-        let safe_part_4 = correction_0_part_24 * safe_part_3
-            + residual_12 * correction_0_part_20;
-        let safe_part_5 = correction_0_part_30 * safe_part_4
-            + residual_11 * correction_0_part_26;
-        let safe_part_6 = correction_0_part_36 * safe_part_5
-            - residual_10 * correction_0_part_32;
-        let safe_part_7 = correction_0_part_42 * safe_part_6
-            - residual_9 * correction_0_part_38;
-        let safe_part_8 = lit(0.5) * (residual_0 * correction_0_part_3)
-            - residual_1 * correction_0_part;
-        let safe_part_9 = correction_0_part_9 * safe_part_8
-            + lit(0.5) * (residual_2 * correction_0_part_5);
-        let safe_part_10 = correction_0_part_15 * safe_part_9
-            + residual_3 * correction_0_part_11;
-        let safe_part_11 = correction_0_part_21 * safe_part_10
-            - lit(0.5) * (residual_4 * correction_0_part_17);
-        let safe_part_12 = correction_0_part_27 * safe_part_11
-            - residual_5 * correction_0_part_23;
-        let safe_part_13 = correction_0_part_33 * safe_part_12
-            + lit(0.5) * (residual_6 * correction_0_part_29);
-        let safe_part_14 = correction_0_part_39 * safe_part_13
-            + residual_7 * correction_0_part_35;
-        let safe_part_15 = lit(0.5) * (correction_0_part_45 * safe_part_7)
-            + correction_0_part_44
-                * (lit(0.5) * residual_8
-                    - correction_0_part_47 * safe_part_14 * per_correction_0_part_41);
-        let safe_part_16 = x_8_minus_x_9 * safe_part_15 * per_correction_0_part_48;
-        let link_8_by_link_7 = correction_0_part_47 * correction_0_part_35
-            * per_correction_0_part_41;
-        let safe_part_17 = safe_part_14 * per_correction_0_part_41
-            + lit(2.0) * (link_8_by_link_7 * safe_part_15 * per_correction_0_part_48);
-        let x_7_minus_x_8_safe_part_17 = x_7_minus_x_8 * safe_part_17;
-        out[8] = -safe_part_16 - x_7_minus_x_8_safe_part_17;
-        let correction_9_part = y_8_minus_y_9 * safe_part_15 * per_correction_0_part_48;
-        let y_7_minus_y_8_safe_part_17 = y_7_minus_y_8 * safe_part_17;
-        out[25] = -correction_9_part - y_7_minus_y_8_safe_part_17;
-        let correction_26_part = lit(0.5) * safe_part_7
-            - correction_0_part_45 * correction_0_part_38 * safe_part_15
-                * per_correction_0_part_48;
-        let correction_26_part_2 = x_9_minus_x_10 * per_correction_0_part_44
+        let safe_part = residual_16
+            .mul_add(link_15_with_support, residual_15 * pivot_support);
+        let safe_part_2 = residual_14
+            .neg_mul_add(pivot_link_15, link_14_with_link_15 * safe_part);
+        let safe_part_3 = residual_13
+            .neg_mul_add(pivot_link_14, link_13_with_link_14 * safe_part_2);
+        let safe_part_4 = residual_12
+            .mul_add(pivot_link_13, link_12_with_link_13 * safe_part_3);
+        let safe_part_5 = residual_11
+            .mul_add(pivot_link_12, link_11_with_link_12 * safe_part_4);
+        let safe_part_6 = residual_10
+            .neg_mul_add(pivot_link_11, link_10_with_link_11 * safe_part_5);
+        let safe_part_7 = residual_9
+            .neg_mul_add(pivot_link_10, link_9_with_link_10 * safe_part_6);
+        let safe_part_8 = residual_1
+            .neg_mul_add(pivot_link_0, lit(0.5) * residual_0 * link_1_with_link_0);
+        let safe_part_9 = (lit(0.5) * residual_2)
+            .mul_add(pivot_link_1, link_2_with_link_1 * safe_part_8);
+        let safe_part_10 = residual_3
+            .mul_add(pivot_link_2, link_3_with_link_2 * safe_part_9);
+        let safe_part_11 = (lit(0.5) * residual_4)
+            .neg_mul_add(pivot_link_3, link_4_with_link_3 * safe_part_10);
+        let safe_part_12 = residual_5
+            .neg_mul_add(pivot_link_4, link_5_with_link_4 * safe_part_11);
+        let safe_part_13 = (lit(0.5) * residual_6)
+            .mul_add(pivot_link_5, link_6_with_link_5 * safe_part_12);
+        let safe_part_14 = residual_7
+            .mul_add(pivot_link_6, link_7_with_link_6 * safe_part_13);
+        let safe_part_15 = pivot_link_9
+            .mul_add(
+                (link_8_with_link_7 * safe_part_14)
+                    .neg_mul_add(per_pivot_link_7, lit(0.5) * residual_8),
+                lit(0.5) * link_8_with_link_9 * safe_part_7,
+            );
+        let safe_part_16 = x_8_minus_x_9 * safe_part_15 * per_pivot_link_8;
+        let link_8_by_link_7 = link_8_with_link_7 * pivot_link_6 * per_pivot_link_7;
+        let lambda_link_7 = (lit(2.0) * link_8_by_link_7 * safe_part_15)
+            .mul_add(per_pivot_link_8, safe_part_14 * per_pivot_link_7);
+        let x_7_minus_x_8_lambda_link_7 = x_7_minus_x_8 * lambda_link_7;
+        out[8] = -safe_part_16 - x_7_minus_x_8_lambda_link_7;
+        let correction_9_part = y_8_minus_y_9 * safe_part_15 * per_pivot_link_8;
+        let y_7_minus_y_8_lambda_link_7 = y_7_minus_y_8 * lambda_link_7;
+        out[25] = -correction_9_part - y_7_minus_y_8_lambda_link_7;
+        let correction_26_part = (link_8_with_link_9 * pivot_link_10 * safe_part_15)
+            .neg_mul_add(per_pivot_link_8, lit(0.5) * safe_part_7);
+        let correction_26_part_2 = x_9_minus_x_10 * per_pivot_link_9
             * correction_26_part;
         out[9] = safe_part_16 - correction_26_part_2;
-        let correction_10_part = y_9_minus_y_10 * per_correction_0_part_44
-            * correction_26_part;
+        let correction_10_part = y_9_minus_y_10 * per_pivot_link_9 * correction_26_part;
         out[26] = correction_9_part - correction_10_part;
-        let correction_27_part = safe_part_13
-            - correction_0_part_39 * correction_0_part_29 * safe_part_17;
-        let correction_27_part_2 = x_6_minus_x_7 * per_correction_0_part_35
-            * correction_27_part;
-        out[7] = x_7_minus_x_8_safe_part_17 + lit(0.5) * correction_27_part_2;
-        let correction_8_part = y_6_minus_y_7 * per_correction_0_part_35
-            * correction_27_part;
-        out[24] = y_7_minus_y_8_safe_part_17 + lit(0.5) * correction_8_part;
-        let correction_25_part = lit(0.5) * safe_part_6
-            - correction_0_part_42 * correction_0_part_32 * per_correction_0_part_44
-                * correction_26_part;
-        let correction_25_part_2 = x_10_minus_x_11 * per_correction_0_part_38
+        let correction_27_part = (link_7_with_link_6 * pivot_link_5)
+            .neg_mul_add(lambda_link_7, safe_part_13);
+        let correction_27_part_2 = x_6_minus_x_7 * per_pivot_link_6 * correction_27_part;
+        out[7] = lit(0.5).mul_add(correction_27_part_2, x_7_minus_x_8_lambda_link_7);
+        let correction_8_part = y_6_minus_y_7 * per_pivot_link_6 * correction_27_part;
+        out[24] = lit(0.5).mul_add(correction_8_part, y_7_minus_y_8_lambda_link_7);
+        let correction_25_part = (link_9_with_link_10 * pivot_link_11 * per_pivot_link_9)
+            .neg_mul_add(correction_26_part, lit(0.5) * safe_part_6);
+        let correction_25_part_2 = x_10_minus_x_11 * per_pivot_link_10
             * correction_25_part;
         out[10] = correction_26_part_2 + correction_25_part_2;
-        let correction_11_part = y_10_minus_y_11 * per_correction_0_part_38
+        let correction_11_part = y_10_minus_y_11 * per_pivot_link_10
             * correction_25_part;
         out[27] = correction_10_part + correction_11_part;
-        let correction_28_part = safe_part_12
-            - correction_0_part_33 * correction_0_part_23 * per_correction_0_part_35
-                * correction_27_part;
-        let correction_28_part_2 = x_5_minus_x_6 * per_correction_0_part_29
-            * correction_28_part;
-        out[6] = correction_28_part_2 - lit(0.5) * correction_27_part_2;
-        let correction_7_part = y_5_minus_y_6 * per_correction_0_part_29
-            * correction_28_part;
-        out[23] = correction_7_part - lit(0.5) * correction_8_part;
-        let correction_24_part = lit(0.5) * safe_part_5
-            - correction_0_part_36 * correction_0_part_26 * per_correction_0_part_38
-                * correction_25_part;
-        let correction_24_part_2 = x_11_minus_x_12 * per_correction_0_part_32
+        let correction_28_part = (link_6_with_link_5 * pivot_link_4 * per_pivot_link_6)
+            .neg_mul_add(correction_27_part, safe_part_12);
+        let correction_28_part_2 = x_5_minus_x_6 * per_pivot_link_5 * correction_28_part;
+        out[6] = lit(0.5).neg_mul_add(correction_27_part_2, correction_28_part_2);
+        let correction_7_part = y_5_minus_y_6 * per_pivot_link_5 * correction_28_part;
+        out[23] = lit(0.5).neg_mul_add(correction_8_part, correction_7_part);
+        let correction_24_part = (link_10_with_link_11 * pivot_link_12
+            * per_pivot_link_10)
+            .neg_mul_add(correction_25_part, lit(0.5) * safe_part_5);
+        let correction_24_part_2 = x_11_minus_x_12 * per_pivot_link_11
             * correction_24_part;
         out[11] = correction_24_part_2 - correction_25_part_2;
-        let correction_12_part = y_11_minus_y_12 * per_correction_0_part_32
+        let correction_12_part = y_11_minus_y_12 * per_pivot_link_11
             * correction_24_part;
         out[28] = correction_12_part - correction_11_part;
-        let correction_29_part = safe_part_11
-            - correction_0_part_27 * correction_0_part_17 * per_correction_0_part_29
-                * correction_28_part;
-        let correction_29_part_2 = x_4_minus_x_5 * per_correction_0_part_23
-            * correction_29_part;
-        out[5] = -correction_28_part_2 - lit(0.5) * correction_29_part_2;
-        let correction_6_part = y_4_minus_y_5 * per_correction_0_part_23
-            * correction_29_part;
-        out[22] = -correction_7_part - lit(0.5) * correction_6_part;
-        let correction_23_part = lit(0.5) * safe_part_4
-            - correction_0_part_30 * correction_0_part_20 * per_correction_0_part_32
-                * correction_24_part;
-        let correction_23_part_2 = x_12_minus_x_13 * per_correction_0_part_26
+        let correction_29_part = (link_5_with_link_4 * pivot_link_3 * per_pivot_link_5)
+            .neg_mul_add(correction_28_part, safe_part_11);
+        let correction_29_part_2 = x_4_minus_x_5 * per_pivot_link_4 * correction_29_part;
+        out[5] = lit(0.5).neg_mul_add(correction_29_part_2, -correction_28_part_2);
+        let correction_6_part = y_4_minus_y_5 * per_pivot_link_4 * correction_29_part;
+        out[22] = lit(0.5).neg_mul_add(correction_6_part, -correction_7_part);
+        let correction_23_part = (link_11_with_link_12 * pivot_link_13
+            * per_pivot_link_11)
+            .neg_mul_add(correction_24_part, lit(0.5) * safe_part_4);
+        let correction_23_part_2 = x_12_minus_x_13 * per_pivot_link_12
             * correction_23_part;
         out[12] = -correction_24_part_2 - correction_23_part_2;
-        let correction_13_part = y_12_minus_y_13 * per_correction_0_part_26
+        let correction_13_part = y_12_minus_y_13 * per_pivot_link_12
             * correction_23_part;
         out[29] = -correction_12_part - correction_13_part;
-        let correction_30_part = safe_part_10
-            - correction_0_part_21 * correction_0_part_11 * per_correction_0_part_23
-                * correction_29_part;
-        let correction_30_part_2 = x_3_minus_x_4 * per_correction_0_part_17
-            * correction_30_part;
+        let correction_30_part = (link_4_with_link_3 * pivot_link_2 * per_pivot_link_4)
+            .neg_mul_add(correction_29_part, safe_part_10);
+        let correction_30_part_2 = x_3_minus_x_4 * per_pivot_link_3 * correction_30_part;
         out[4] = lit(0.5) * correction_29_part_2 - correction_30_part_2;
-        let correction_5_part = y_3_minus_y_4 * per_correction_0_part_17
-            * correction_30_part;
+        let correction_5_part = y_3_minus_y_4 * per_pivot_link_3 * correction_30_part;
         out[21] = lit(0.5) * correction_6_part - correction_5_part;
-        let correction_22_part = lit(0.5) * safe_part_3
-            - correction_0_part_24 * correction_0_part_14 * per_correction_0_part_26
-                * correction_23_part;
-        let correction_22_part_2 = x_13_minus_x_14 * per_correction_0_part_20
+        let correction_22_part = (link_12_with_link_13 * pivot_link_14
+            * per_pivot_link_12)
+            .neg_mul_add(correction_23_part, lit(0.5) * safe_part_3);
+        let correction_22_part_2 = x_13_minus_x_14 * per_pivot_link_13
             * correction_22_part;
         out[13] = correction_23_part_2 - correction_22_part_2;
-        let correction_14_part = y_13_minus_y_14 * per_correction_0_part_20
+        let correction_14_part = y_13_minus_y_14 * per_pivot_link_13
             * correction_22_part;
         out[30] = correction_13_part - correction_14_part;
-        let correction_31_part = safe_part_9
-            - correction_0_part_15 * correction_0_part_5 * per_correction_0_part_17
-                * correction_30_part;
-        let correction_31_part_2 = x_2_minus_x_3 * per_correction_0_part_11
-            * correction_31_part;
-        out[3] = correction_30_part_2 + lit(0.5) * correction_31_part_2;
-        let correction_4_part = y_2_minus_y_3 * per_correction_0_part_11
-            * correction_31_part;
-        out[20] = correction_5_part + lit(0.5) * correction_4_part;
-        let correction_21_part = lit(0.5) * safe_part_2
-            - correction_0_part_18 * correction_0_part_8 * per_correction_0_part_20
-                * correction_22_part;
-        let correction_21_part_2 = x_14_minus_x_15 * per_correction_0_part_14
+        let correction_31_part = (link_3_with_link_2 * pivot_link_1 * per_pivot_link_3)
+            .neg_mul_add(correction_30_part, safe_part_9);
+        let correction_31_part_2 = x_2_minus_x_3 * per_pivot_link_2 * correction_31_part;
+        out[3] = lit(0.5).mul_add(correction_31_part_2, correction_30_part_2);
+        let correction_4_part = y_2_minus_y_3 * per_pivot_link_2 * correction_31_part;
+        out[20] = lit(0.5).mul_add(correction_4_part, correction_5_part);
+        let correction_21_part = (link_13_with_link_14 * pivot_link_15
+            * per_pivot_link_13)
+            .neg_mul_add(correction_22_part, lit(0.5) * safe_part_2);
+        let correction_21_part_2 = x_14_minus_x_15 * per_pivot_link_14
             * correction_21_part;
         out[14] = correction_22_part_2 + correction_21_part_2;
-        let correction_15_part = y_14_minus_y_15 * per_correction_0_part_14
+        let correction_15_part = y_14_minus_y_15 * per_pivot_link_14
             * correction_21_part;
         out[31] = correction_14_part + correction_15_part;
-        let correction_32_part = safe_part_8
-            - correction_0_part * correction_0_part_9 * per_correction_0_part_11
-                * correction_31_part;
-        let correction_32_part_2 = x_1_minus_x_2 * per_correction_0_part_5
-            * correction_32_part;
-        out[2] = correction_32_part_2 - lit(0.5) * correction_31_part_2;
-        let correction_3_part = y_1_minus_y_2 * per_correction_0_part_5
-            * correction_32_part;
-        out[19] = correction_3_part - lit(0.5) * correction_4_part;
-        let correction_20_part = lit(0.5) * safe_part
-            - correction_0_part_2 * correction_0_part_12 * per_correction_0_part_14
-                * correction_21_part;
-        let correction_20_part_2 = x_15_minus_x_16 * per_correction_0_part_8
+        let correction_32_part = (pivot_link_0 * link_2_with_link_1 * per_pivot_link_2)
+            .neg_mul_add(correction_31_part, safe_part_8);
+        let correction_32_part_2 = x_1_minus_x_2 * per_pivot_link_1 * correction_32_part;
+        out[2] = lit(0.5).neg_mul_add(correction_31_part_2, correction_32_part_2);
+        let correction_3_part = y_1_minus_y_2 * per_pivot_link_1 * correction_32_part;
+        out[19] = lit(0.5).neg_mul_add(correction_4_part, correction_3_part);
+        let correction_20_part = (pivot_support * link_14_with_link_15
+            * per_pivot_link_14)
+            .neg_mul_add(correction_21_part, lit(0.5) * safe_part);
+        let correction_20_part_2 = x_15_minus_x_16 * per_pivot_link_15
             * correction_20_part;
         out[15] = correction_20_part_2 - correction_21_part_2;
-        let correction_16_part = y_15_minus_y_16 * per_correction_0_part_8
+        let correction_16_part = y_15_minus_y_16 * per_pivot_link_15
             * correction_20_part;
         out[32] = correction_16_part - correction_15_part;
-        let correction_33_part = lit(0.25) * residual_0
-            - lit(0.5)
-                * (correction_0_part_3 * per_correction_0_part_5 * correction_32_part);
-        let correction_33_part_2 = x_1_minus_x_0 * per_correction_0_part
-            * correction_33_part;
+        let correction_33_part = (lit(0.5) * link_1_with_link_0 * per_pivot_link_1)
+            .neg_mul_add(correction_32_part, lit(0.25) * residual_0);
+        let correction_33_part_2 = x_1_minus_x_0 * per_pivot_link_0 * correction_33_part;
         out[0] = correction_33_part_2;
-        let correction_1_part = y_0_minus_y_1 * per_correction_0_part
-            * correction_33_part;
+        let correction_1_part = y_0_minus_y_1 * per_pivot_link_0 * correction_33_part;
         out[17] = -correction_1_part;
         out[1] = -correction_32_part_2 - correction_33_part_2;
         out[18] = correction_1_part - correction_3_part;
-        let correction_19_part = lit(0.5) * residual_16
-            - correction_0_part_6 * per_correction_0_part_8 * correction_20_part;
-        out[16] = -correction_20_part_2
-            - x_16 * per_correction_0_part_2 * correction_19_part;
-        out[33] = -correction_16_part
-            - y_16 * per_correction_0_part_2 * correction_19_part;
+        let correction_19_part = (link_15_with_support * per_pivot_link_15)
+            .neg_mul_add(correction_20_part, lit(0.5) * residual_16);
+        out[16] = (x_16 * per_pivot_support)
+            .neg_mul_add(correction_19_part, -correction_20_part_2);
+        out[33] = (y_16 * per_pivot_support)
+            .neg_mul_add(correction_19_part, -correction_16_part);
         safe
     }
 }

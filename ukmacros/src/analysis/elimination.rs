@@ -165,7 +165,14 @@ impl Straight {
             system.hints.insert(link, format!("safe_{name}"));
         }
         for (id, name) in std::mem::take(&mut elimination.hints) {
-            let (_, inner) = g.unscaled(id);
+            let (_, mut inner) = g.unscaled(id);
+            // Of a product with parameters, the part that varies.
+            if let Node::Product(factors) = g.node(inner) {
+                let mut varying = factors.iter().filter(|(f, _)| !g.uses(*f).constant());
+                if let (Some((factor, 1)), None) = (varying.next(), varying.next()) {
+                    inner = *factor;
+                }
+            }
             if !g.operands(inner).is_empty() {
                 system.hints.entry(inner).or_insert(name);
             }
@@ -199,7 +206,8 @@ impl Elimination {
         ) in self.pivots.iter().enumerate()
         {
             let (value, least) = if value == reference {
-                (*value, zero)
+                // Nothing was taken off the diagonal: it has to be positive.
+                (sign_of(*value, &positive, g), zero)
             } else {
                 let (value, reference) = reduced(*value, *reference, &positive, g);
                 (value, g.scale(SAFE_SHARE, reference))
@@ -219,6 +227,21 @@ impl Elimination {
         }
         (safe, chain)
     }
+}
+
+/// `id` without its positive factors, if anything else is left.
+fn sign_of(id: Id, positive: &BTreeSet<Id>, g: &mut Graph) -> Id {
+    let (c, inner) = g.unscaled(id);
+    let Node::Product(factors) = g.node(inner).clone() else {
+        return g.scale(c.signum(), inner);
+    };
+    let known = |(base, e): &(Id, i32)| e % 2 == 0 || positive.contains(base);
+    let open: Vec<(Id, i32)> = factors.into_iter().filter(|f| !known(f)).collect();
+    if open.is_empty() {
+        return id;
+    }
+    let product = g.product(&open);
+    g.scale(c.signum(), product)
 }
 
 /// Both without the factors that they share and that are positive: even powers, and `positive` ones.
@@ -595,6 +618,8 @@ impl Matrix {
                     }
                     stages.push([pivot.numerator, pivot.right]);
                     hints.push((pivot.numerator, format!("pivot_{}", names[k])));
+                    let scaled = g.mul(reference, pivot.denominator);
+                    hints.push((scaled, format!("diagonal_{}", names[k])));
                     // x_k = right / value
                     let value = g.div(pivot.numerator, pivot.denominator);
                     let value = g.scale(sign, value);
@@ -605,6 +630,9 @@ impl Matrix {
                         .iter()
                         .map(|a| (*a, self.value(*a, k, g)))
                         .collect();
+                    for (a, entry) in row.iter().filter(|(a, _)| constraint && *a >= self.n) {
+                        hints.push((*entry, format!("{}_with_{}", names[*a], names[k])));
+                    }
                     if let [(a, off)] = row[..]
                         && constraint
                         && self.defers(k, a, &position)

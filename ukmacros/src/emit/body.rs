@@ -87,6 +87,9 @@ enum Binding {
     Call,
 }
 
+/// Factors of a product, each wrapped so that it can be multiplied.
+type Factors = Vec<(TokenStream, Binding)>;
+
 struct Writer<'a> {
     graph: &'a Graph,
     namer: Namer<'a>,
@@ -183,7 +186,7 @@ impl Writer<'_> {
             }
             Node::Sum(c, terms) => {
                 let terms: Vec<(f64, Id)> = terms.iter().map(|(k, t)| (k.get(), *t)).collect();
-                (self.sum(c.get(), &terms), Binding::Sum)
+                self.sum(c.get(), &terms)
             }
             Node::Scale(c, inner) => self.scale(c.get(), *inner),
             Node::Product(factors) => self.product(factors),
@@ -206,51 +209,105 @@ impl Writer<'_> {
         }
     }
 
-    /// What is known first is added first, behind a positive term, so that a difference needs no negation.
-    fn sum(&self, c: f64, terms: &[(f64, Id)]) -> TokenStream {
+    /// What is known first is added first, behind a positive term, so that a difference needs no negation. Products are added in one
+    /// step where the processor can.
+    fn sum(&self, c: f64, terms: &[(f64, Id)]) -> (TokenStream, Binding) {
         let mut terms = terms.to_vec();
         terms.sort_by_key(|(_, term)| self.graph.latency(*term));
         let first = terms.iter().position(|(k, _)| *k > 0.0);
         if let Some(first) = first {
             terms[..=first].rotate_right(1);
         }
-        let mut out = TokenStream::new();
+        let mut out = None;
         let leading = c != 0.0 && (c > 0.0 || first.is_none());
         if leading {
-            out = constant(c);
+            out = Some((constant(c), Binding::Call));
         }
         for (k, term) in &terms {
-            let factor = |least| self.wrapped(*term, least);
-            let magnitude = |k: f64| {
-                if k == 1.0 {
-                    return factor(Binding::Product);
-                }
-                let (value, factor) = (constant(k), factor(Binding::Sign));
-                quote! { #value * #factor }
+            let factors = self.term(k.abs(), *term);
+            let negative = *k < 0.0;
+            let Some((sum, _)) = out else {
+                let binding = match factors.len() {
+                    1 => factors[0].1,
+                    _ => Binding::Product,
+                };
+                let product = (join(&factors), binding);
+                out = Some(match negative {
+                    false => product,
+                    true => {
+                        let product = wrap(product, Binding::Call);
+                        (quote! { -#product }, Binding::Sign)
+                    }
+                });
+                continue;
             };
-            out = match (out.is_empty(), *k) {
-                (true, -1.0) => {
-                    let factor = factor(Binding::Call);
-                    quote! { -#factor }
+            out = Some(match factors.as_slice() {
+                // The last factor is known last.
+                [factors @ .., (last, _)] if !factors.is_empty() => {
+                    let receiver = match factors {
+                        [factor] => wrap(factor.clone(), Binding::Call),
+                        _ => {
+                            let product = join(factors);
+                            quote! { (#product) }
+                        }
+                    };
+                    let method = if negative { "neg_mul_add" } else { "mul_add" };
+                    let method = format_ident!("{method}");
+                    (quote! { #receiver.#method(#last, #sum) }, Binding::Call)
                 }
-                (true, k) => magnitude(k),
-                (false, k) if k < 0.0 => {
-                    let term = magnitude(-k);
-                    quote! { #out - #term }
+                factors => {
+                    let factor = join(factors);
+                    let sum = match negative {
+                        true => quote! { #sum - #factor },
+                        false => quote! { #sum + #factor },
+                    };
+                    (sum, Binding::Sum)
                 }
-                (false, k) => {
-                    let term = magnitude(k);
-                    quote! { #out + #term }
-                }
-            };
+            });
         }
-        if c != 0.0 && !leading {
-            let value = constant(c.abs());
-            out = if c > 0.0 {
-                quote! { #out + #value }
-            } else {
-                quote! { #out - #value }
-            };
+        let (sum, binding) = out.unwrap_or_else(|| (constant(c), Binding::Call));
+        if c == 0.0 || leading {
+            return (sum, binding);
+        }
+        let value = constant(c.abs());
+        let sum = match c > 0.0 {
+            true => quote! { #sum + #value },
+            false => quote! { #sum - #value },
+        };
+        (sum, Binding::Sum)
+    }
+
+    /// c · id as factors, in the order in which they are known; a single one may be added, several may be multiplied.
+    fn term(&self, c: f64, id: Id) -> Factors {
+        let mut out = Vec::new();
+        if c != 1.0 {
+            out.push((constant(c), Binding::Call));
+        }
+        let factors = match self.graph.node(id) {
+            Node::Product(factors) if self.namer.variable(id).is_none() => {
+                Some(self.sides(factors)).filter(|(_, below)| below.is_empty())
+            }
+            _ => None,
+        };
+        match factors {
+            Some((above, _)) => out.extend(above),
+            None => {
+                let least = if out.is_empty() {
+                    Binding::Product
+                } else {
+                    Binding::Sign
+                };
+                let (tokens, binding) = self.write(id);
+                let wrapped = wrap((tokens, binding), least);
+                out.push((
+                    wrapped,
+                    if binding < least {
+                        Binding::Call
+                    } else {
+                        binding
+                    },
+                ));
+            }
         }
         out
     }
@@ -262,7 +319,7 @@ impl Writer<'_> {
             && let Node::Sum(constant, terms) = self.graph.node(inner)
         {
             let flipped: Vec<(f64, Id)> = terms.iter().map(|(k, t)| (-k.get(), *t)).collect();
-            return (self.sum(-constant.get(), &flipped), Binding::Sum);
+            return self.sum(-constant.get(), &flipped);
         }
         if c == -1.0 {
             let factor = self.wrapped(inner, Binding::Call);
@@ -273,14 +330,7 @@ impl Writer<'_> {
     }
 
     fn product(&self, factors: &[(Id, i32)]) -> (TokenStream, Binding) {
-        // What is known first is multiplied first.
-        let mut factors = factors.to_vec();
-        factors.sort_by_key(|(base, e)| self.graph.latency(*base) + if *e < 0 { 14 } else { 0 });
-        let factors = factors.as_slice();
-        let by_variable =
-            |(base, e): &(Id, i32)| *e == -1 && self.namer.reciprocal(*base).is_some();
-        let above = self.powers(factors.iter().filter(|f| f.1 > 0 || by_variable(f)));
-        let below = self.powers(factors.iter().filter(|f| f.1 < 0 && !by_variable(f)));
+        let (above, below) = self.sides(factors);
         let (top, bottom) = (join(&above), join(&below));
         match (above.is_empty(), below.is_empty()) {
             (_, true) => (top, Binding::Product),
@@ -289,39 +339,53 @@ impl Writer<'_> {
                 (quote! { #base.recip() }, Binding::Call)
             }
             (true, false) => (quote! { (#bottom).recip() }, Binding::Call),
-            (false, false) if below.len() == 1 && factors.iter().all(|(_, e)| *e >= -1) => {
-                (quote! { #top / #bottom }, Binding::Product)
-            }
+            (false, false) if below.len() == 1 => (quote! { #top / #bottom }, Binding::Product),
             (false, false) => (quote! { #top / (#bottom) }, Binding::Product),
         }
     }
 
-    /// Factors with positive exponents, squares and cubes written out.
-    fn powers<'f>(&self, factors: impl Iterator<Item = &'f (Id, i32)>) -> Vec<TokenStream> {
-        factors
-            .map(|(base, exponent)| {
-                if *exponent == -1
-                    && let Some(name) = self.namer.reciprocal(*base)
-                {
-                    return quote! { #name };
-                }
-                let n = exponent.unsigned_abs();
-                if n > 3 {
-                    let receiver = self.receiver(*base);
-                    let n = Literal::i32_unsuffixed(exponent.saturating_abs());
-                    return quote! { #receiver.powi(#n) };
-                }
-                let factor = self.wrapped(*base, Binding::Sign);
-                let copies = std::iter::repeat_n(factor, n as usize).collect::<Vec<_>>();
-                join(&copies)
-            })
-            .collect()
+    /// Factors above and below the fraction bar; what is known first is multiplied first.
+    fn sides(&self, factors: &[(Id, i32)]) -> (Factors, Factors) {
+        let mut factors = factors.to_vec();
+        factors.sort_by_key(|(base, e)| self.graph.latency(*base) + if *e < 0 { 14 } else { 0 });
+        let mut sides = (Vec::new(), Vec::new());
+        for (base, exponent) in factors {
+            if exponent == -1
+                && let Some(name) = self.namer.reciprocal(base)
+            {
+                sides.0.push((quote! { #name }, Binding::Call));
+                continue;
+            }
+            let side = if exponent > 0 {
+                &mut sides.0
+            } else {
+                &mut sides.1
+            };
+            let n = exponent.unsigned_abs();
+            // Squares and cubes are written out.
+            if n > 3 {
+                let receiver = self.receiver(base);
+                let n = Literal::i32_unsuffixed(exponent.saturating_abs());
+                side.push((quote! { #receiver.powi(#n) }, Binding::Call));
+                continue;
+            }
+            let (tokens, binding) = self.write(base);
+            let factor = wrap((tokens, binding), Binding::Sign);
+            let binding = if binding < Binding::Sign {
+                Binding::Call
+            } else {
+                binding
+            };
+            side.extend(std::iter::repeat_n((factor, binding), n as usize));
+        }
+        sides
     }
 }
 
 /// a * b * c
-fn join(factors: &[TokenStream]) -> TokenStream {
-    let joined = factors.iter().cloned().reduce(|a, b| quote! { #a * #b });
+fn join(factors: &[(TokenStream, Binding)]) -> TokenStream {
+    let factors = factors.iter().map(|(tokens, _)| tokens.clone());
+    let joined = factors.reduce(|a, b| quote! { #a * #b });
     joined.unwrap_or_default()
 }
 
