@@ -1,8 +1,9 @@
 //! All models, by name.
 
 use crate::{
-    DoublePendulum, DoublePendulumAngles, FishRobot, KapitzaPendulum, KnifeEdge, MasslessSpring,
-    Model, Pendulum, RigidBody, RoughBlock, SliderCrank, SliderCrankRedundant, UChain,
+    DoublePendulum, DoublePendulumAngles, FishRobot, FourBars, KapitzaPendulum, KnifeEdge,
+    MasslessSpring, Model, Pendulum, RigidBody, RoughBlock, SliderCrank, SliderCrankRedundant,
+    UChain,
 };
 use ukcore::Error;
 
@@ -50,4 +51,5 @@ registry![
     RoughBlock,
     MasslessSpring,
     RigidBody,
+    FourBars,
 ];

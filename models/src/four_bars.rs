@@ -1,0 +1,102 @@
+//! Coupled four-bar linkages side by side, which pass through singular positions.
+
+use crate::model::{Chosen, positive};
+use crate::{Model, StartOption, StartOptions, StartSpec};
+use ukcore::{Error, State};
+
+ukcore::multibody! {
+    /// N four-bar linkages in a row that share their cranks: N + 1 uniform rods from the ground points (i l, 0) to the tops (x\[i\], y\[i\]), and
+    /// N uniform rods from each top to the next. The y axis points up. A uniform rod with the end velocities a and b has the kinetic
+    /// energy m/6 (a² + a·b + b²), so that M couples neighbours. Where all rods lie in one line the N couplers are redundant. (The
+    /// N-four-bar of González, Dopico, Pastorino & Cuadrado 2006, DOI 10.1007/s11044-006-9020-5.)
+    pub FourBars {
+        const N: usize = 4;
+        params {
+            /// Mass of each rod, kg
+            m = 1.0,
+            /// Length of each rod, m
+            l = 1.0,
+            /// Acceleration of gravity, m/s^2
+            g = 9.81,
+        }
+        coords {
+            /// Horizontal positions of the tops, m
+            x[N + 1],
+            /// Vertical positions of the tops, upwards, m
+            y[N + 1],
+        }
+        kinetic {
+            for i in 0..N + 1 { m / 6.0 * (sq(dot(x[i])) + sq(dot(y[i]))) }
+            for i in 0..N {
+                m / 6.0 * (sq(dot(x[i])) + dot(x[i]) * dot(x[i + 1]) + sq(dot(x[i + 1]))),
+                m / 6.0 * (sq(dot(y[i])) + dot(y[i]) * dot(y[i + 1]) + sq(dot(y[i + 1]))),
+            }
+        }
+        potential {
+            for i in 0..N + 1 { m * g * y[i] / 2.0 }
+            for i in 0..N { m * g * (y[i] + y[i + 1]) / 2.0 }
+        }
+        holonomic {
+            for i in 0..N + 1 { crank[i]: sq(x[i] - i * l) + sq(y[i]) = sq(l) }
+            for i in 0..N { coupler[i]: sq(x[i + 1] - x[i]) + sq(y[i + 1] - y[i]) = sq(l) }
+        }
+        output {
+            /// Angle of the first crank from the upright, towards +x, rad
+            lean = atan2(x[0], y[0]),
+        }
+    }
+}
+
+/// Number of tops.
+const TOPS: usize = FourBars::X.len();
+
+const SPEED: StartOption = StartOption {
+    name: "speed",
+    doc: "horizontal speed of all tops",
+    default: 1.0,
+    unit: "m/s",
+};
+
+impl Model for FourBars {
+    const ID: &'static str = "four_bars";
+
+    fn summary() -> &'static str {
+        "four four-bar linkages in a row, coupled by their cranks"
+    }
+
+    fn starts() -> &'static [StartSpec] {
+        &[StartSpec {
+            name: "upright",
+            doc: "all cranks upright, all tops moving at one speed",
+            options: &[SPEED],
+        }]
+    }
+
+    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
+        let [speed] = Chosen::of::<Self>(name, options)?.values();
+        positive("l", self.l)?;
+        let mut q = vec![self.l; 2 * TOPS];
+        let mut v = vec![0.0; 2 * TOPS];
+        for (i, &x) in FourBars::X.iter().enumerate() {
+            q[x] = i as f64 * self.l;
+            v[x] = speed;
+        }
+        Ok(State { t: 0.0, q, v })
+    }
+
+    fn duration() -> f64 {
+        0.6
+    }
+}
+
+impl FourBars {
+    /// k in θ̈ = k sin θ, 1/s², for cranks that all lean by θ from the upright.
+    ///
+    /// The N + 1 cranks turn, with m l²/3 about their ground points and the weight at l/2; the N couplers move along with the tops. So
+    /// ((N + 1)/3 + N) m l² θ̈ = ((N + 1)/2 + N) m g l sin θ.
+    #[must_use]
+    pub fn toppling(&self) -> f64 {
+        let (cranks, couplers) = (TOPS as f64, (TOPS - 1) as f64);
+        self.g / self.l * (cranks / 2.0 + couplers) / (cranks / 3.0 + couplers)
+    }
+}

@@ -1,0 +1,79 @@
+//! Mechanisms larger than those of the crate `models`, for how the time grows with their size.
+
+use ukcore::State;
+
+ukcore::multibody! {
+    /// The U-chain with 65 links.
+    pub(crate) LongChain {
+        const N: usize = 65;
+        params { m = 1.0, l = 1.0, g = 9.8 }
+        coords { x[N], y[N] }
+        mass { for i in 0..N { x[i]: m, y[i]: m } }
+        potential { for i in 0..N { -m * g * y[i] } }
+        holonomic {
+            for i in 0..N - 1 { link[i]: sq(x[i + 1] - x[i]) + sq(y[i + 1] - y[i]) = sq(l) }
+            support: sq(x[N - 1]) + sq(y[N - 1]) = sq(l)
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// Forty four-bar linkages in a row; see the model with four.
+    pub(crate) FourBars40 {
+        const N: usize = 40;
+        params { m = 1.0, l = 1.0, g = 9.81 }
+        coords { x[N + 1], y[N + 1] }
+        kinetic {
+            for i in 0..N + 1 { m / 6.0 * (sq(dot(x[i])) + sq(dot(y[i]))) }
+            for i in 0..N {
+                m / 6.0 * (sq(dot(x[i])) + dot(x[i]) * dot(x[i + 1]) + sq(dot(x[i + 1]))),
+                m / 6.0 * (sq(dot(y[i])) + dot(y[i]) * dot(y[i + 1]) + sq(dot(y[i + 1]))),
+            }
+        }
+        potential {
+            for i in 0..N + 1 { m * g * y[i] / 2.0 }
+            for i in 0..N { m * g * (y[i] + y[i + 1]) / 2.0 }
+        }
+        holonomic {
+            for i in 0..N + 1 { crank[i]: sq(x[i] - i * l) + sq(y[i]) = sq(l) }
+            for i in 0..N { coupler[i]: sq(x[i + 1] - x[i]) + sq(y[i + 1] - y[i]) = sq(l) }
+        }
+    }
+}
+
+impl LongChain {
+    /// At rest as a trapezoid with legs at 60°, 20 links down, 25 level, 20 up.
+    pub(crate) fn trapezoid(&self) -> State {
+        let links = Self::X.len();
+        let mut q = vec![0.0; 2 * links];
+        let (mut x, mut y) = (0.0, 0.0);
+        for (k, i) in (0..links).rev().enumerate() {
+            let (cos, sin) = match k {
+                0..20 => (0.5, 0.75_f64.sqrt()),
+                20..45 => (1.0, 0.0),
+                _ => (0.5, -0.75_f64.sqrt()),
+            };
+            x += self.l * cos;
+            y += self.l * sin;
+            (q[Self::X[i]], q[Self::Y[i]]) = (x, y);
+        }
+        State {
+            t: 0.0,
+            v: vec![0.0; q.len()],
+            q,
+        }
+    }
+}
+
+impl FourBars40 {
+    /// All cranks upright, all tops moving at 1 m/s.
+    pub(crate) fn upright(&self) -> State {
+        let tops = Self::X.len();
+        let mut q = vec![self.l; 2 * tops];
+        let mut v = vec![0.0; 2 * tops];
+        for (i, &x) in Self::X.iter().enumerate() {
+            (q[x], v[x]) = (i as f64 * self.l, 1.0);
+        }
+        State { t: 0.0, q, v }
+    }
+}

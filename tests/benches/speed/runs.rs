@@ -1,0 +1,268 @@
+//! Whole runs, and many chains at once.
+
+use std::hint::black_box;
+
+use ivp::ivp::FirstOrderSystem;
+use ivp::methods::{DOP853, IntegrationResult, Tolerance};
+use ivp::solout::{ControlFlag, SolOut};
+use models::{Model, UChain};
+use serde_json::Value;
+use ukcore::{Mechanism, Simulation, State};
+use wide::f64x8;
+
+use crate::accelerations::states;
+use crate::chain::{self, Chain};
+use crate::harness::{Contender, Group};
+
+/// Links.
+const N: usize = 17;
+const END: f64 = 1.5;
+
+fn parameters(mech: &UChain) -> Chain {
+    black_box(Chain {
+        m: mech.m,
+        l: mech.l,
+        g: mech.g,
+    })
+}
+
+/// ẏ of y = (q, q̇), by hand.
+struct RightHandSide(Chain);
+
+impl FirstOrderSystem for RightHandSide {
+    fn derivative(&self, _t: f64, y: &[f64], rate: &mut [f64]) {
+        let (q, v) = y.split_at(2 * N);
+        let (dq, dv) = rate.split_at_mut(2 * N);
+        dq.copy_from_slice(v);
+        chain::both_ends_minors::<N>(&self.0, q, v, dv);
+    }
+}
+
+/// Keeps the last state.
+struct Last(Vec<f64>);
+
+impl SolOut for Last {
+    fn solout(
+        &mut self,
+        _before: f64,
+        _t: &mut f64,
+        y: &mut [f64],
+        _interpolant: Option<&ivp::dense::StepInterpolant<'_>>,
+    ) -> ControlFlag {
+        self.0.copy_from_slice(y);
+        ControlFlag::Continue
+    }
+}
+
+/// The run by DOP853 alone, with neither projection nor trajectory: last state, and the integrator's report.
+fn bare(chain: Chain, start: &State, tolerance: f64) -> (Vec<f64>, IntegrationResult) {
+    let mut y = start.q.clone();
+    y.extend(&start.v);
+    let mut last = Last(y.clone());
+    let method = DOP853 {
+        stiff_test: usize::MAX,
+        dense_output: false,
+        ..DOP853::default()
+    };
+    let tolerance = Tolerance::Scalar(tolerance);
+    let report = method
+        .solve(
+            &RightHandSide(chain),
+            0.0,
+            &y,
+            END,
+            tolerance.clone(),
+            tolerance,
+            Some(&mut last),
+        )
+        .expect("the settings are valid");
+    assert!(report.is_ok(), "the run succeeds");
+    (last.0, report)
+}
+
+/// The run by ours: last state, and evaluations.
+fn ours(mech: &UChain, start: &State, tolerance: f64) -> (Vec<f64>, usize) {
+    let run = Simulation::new(mech.clone())
+        .start(start.clone())
+        .tolerance(tolerance)
+        .at(vec![END])
+        .until(END)
+        .expect("the run succeeds");
+    let end = run.samples().last().expect("there is one sample");
+    let mut y = end.q.to_vec();
+    y.extend(end.v);
+    (y, run.work().evaluations)
+}
+
+/// (q, q̇) at the end, in 113-bit arithmetic.
+fn reference() -> Vec<f64> {
+    let data: Value = serde_json::from_str(include_str!("../../data/uchain.json")).expect("JSON");
+    let state = &data["states"]["1.5"];
+    let decimals = |x: &Value| -> f64 { x.as_str().expect("decimals").parse().expect("a number") };
+    ["x", "y", "vx", "vy"]
+        .iter()
+        .flat_map(|part| state[part].as_array().expect("a list").iter().map(decimals))
+        .collect()
+}
+
+/// Largest errors of positions and velocities, and evaluations, in words.
+fn remark(y: &[f64], evaluations: usize) -> String {
+    let reference = reference();
+    assert_eq!(y.len(), reference.len());
+    let off: Vec<f64> = y.iter().zip(&reference).map(|(a, b)| a - b).collect();
+    let (q, v) = off.split_at(2 * N);
+    let (q, v) = (tests::largest(q), tests::largest(v));
+    // At the loosest tolerance the fall multiplies errors of 1e-6 by a hundred.
+    assert!(q < 1e-3, "the run misses the reference by {q:e}");
+    format!("{evaluations} evaluations, error {q:.0e} m, {v:.0e} m/s")
+}
+
+pub(crate) fn uchain17() -> Vec<Value> {
+    let mech = black_box(UChain::default());
+    let start = mech.default_start().expect("the default start exists");
+    let groups = [
+        ("run/uchain17/1e-6", 1e-6),
+        ("run/uchain17/1e-9", 1e-9),
+        ("run/uchain17/1e-12", 1e-12),
+    ];
+    let run = |(name, tolerance)| {
+        let (chain, mech, start) = (parameters(&mech), &mech, &start);
+        let (y, report) = bare(chain, start, tolerance);
+        let by_hand = Contender {
+            name: "by hand, DOP853 without projection".to_owned(),
+            by_hand: true,
+            evaluations: 1,
+            work: Box::new(move || drop(black_box(bare(chain, start, tolerance)))),
+            remark: remark(&y, report.evals.ode),
+        };
+        let (y, evaluations) = ours(mech, start, tolerance);
+        let ours = Contender {
+            name: "Simulation, with projection".to_owned(),
+            by_hand: false,
+            evaluations: 1,
+            work: Box::new(move || drop(black_box(ours(mech, start, tolerance)))),
+            remark: remark(&y, evaluations),
+        };
+        let group = Group {
+            name,
+            remarks: Vec::new(),
+            contenders: vec![by_hand, ours],
+        };
+        group.run()
+    };
+    groups.map(run).into()
+}
+
+/// Eight chains at once, each in its lane and at its state; times are per chain.
+pub(crate) fn lanes() -> Value {
+    const LANES: usize = 8;
+    let mech = black_box(UChain::default());
+    let start = mech.default_start().expect("the default start exists");
+    let states = states(mech.clone(), start, END);
+    let chain = parameters(&mech);
+    let packs: Vec<(Vec<f64x8>, Vec<f64x8>)> = states
+        .chunks_exact(LANES)
+        .map(|states| {
+            let pack = |part: fn(&State) -> &[f64]| {
+                let lane = |k: usize| f64x8::new(std::array::from_fn(|s| part(&states[s])[k]));
+                (0..2 * N).map(lane).collect::<Vec<f64x8>>()
+            };
+            (pack(|s| &s.q), pack(|s| &s.v))
+        })
+        .collect();
+    let mut out = vec![f64x8::splat(0.0); 2 * N];
+    for ((q, v), states) in packs.iter().zip(states.chunks_exact(LANES)) {
+        chain::lanes::<N>(&chain, q, v, &mut out);
+        for (lane, state) in states.iter().enumerate() {
+            let mut expected = vec![0.0; 2 * N];
+            mech.acceleration(state.t, &state.q, &state.v, &mut expected);
+            let found: Vec<f64> = out.iter().map(|x| x.to_array()[lane]).collect();
+            let scale = tests::largest(&expected).max(1.0);
+            tests::assert_all_close("lanes", &found, &expected, 1e-9 * scale);
+        }
+    }
+    let evaluations = packs.len() * LANES;
+    let mut single = vec![0.0; 2 * N];
+    let one_by_one = Contender {
+        name: "by hand, both ends, by minors, one by one".to_owned(),
+        by_hand: true,
+        evaluations,
+        work: Box::new(|| {
+            for s in &states {
+                chain::both_ends_minors::<N>(&chain, &s.q, &s.v, &mut single);
+                black_box(&mut single);
+            }
+        }),
+        remark: String::new(),
+    };
+    let in_lanes = Contender {
+        name: "by hand, both ends, by minors, in 8 lanes".to_owned(),
+        by_hand: true,
+        evaluations,
+        work: Box::new(|| {
+            for (q, v) in &packs {
+                chain::lanes::<N>(&chain, q, v, &mut out);
+                black_box(&mut out);
+            }
+        }),
+        remark: String::new(),
+    };
+    // Place for ours in lanes.
+    let contenders = vec![one_by_one, in_lanes];
+    let group = Group {
+        name: "lanes/uchain17",
+        remarks: vec!["time per chain".to_owned()],
+        contenders,
+    };
+    group.run()
+}
+
+/// A thousand chains that start a little apart, to the end at 1e-9; times are per chain.
+pub(crate) fn ensemble() -> Value {
+    /// Chains in the ensemble, and those measured in one batch.
+    const CHAINS: usize = 1000;
+    const MEASURED: usize = 4;
+    let mech = black_box(UChain::default());
+    let start = |k: usize| {
+        let x0 = 12.0 + 1e-3 * k as f64 / CHAINS as f64;
+        let options = models::StartOptions::new().with("x0", x0);
+        mech.start("trapezoid", &options)
+            .expect("the chain reaches")
+    };
+    let starts: Vec<State> = (0..CHAINS).map(start).collect();
+    let chain = parameters(&mech);
+    let mut turn = 0;
+    let by_hand = Contender {
+        name: "by hand, one by one, without projection".to_owned(),
+        by_hand: true,
+        evaluations: MEASURED,
+        work: Box::new(|| {
+            for _ in 0..MEASURED {
+                turn = (turn + 1) % CHAINS;
+                black_box(bare(chain, &starts[turn], 1e-9));
+            }
+        }),
+        remark: String::new(),
+    };
+    let mut own = 0;
+    let ours = Contender {
+        name: "Simulation, one by one".to_owned(),
+        by_hand: false,
+        evaluations: MEASURED,
+        work: Box::new(|| {
+            for _ in 0..MEASURED {
+                own = (own + 1) % CHAINS;
+                black_box(ours(&mech, &starts[own], 1e-9));
+            }
+        }),
+        remark: String::new(),
+    };
+    // Place for ours as an ensemble.
+    let contenders = vec![by_hand, ours];
+    let group = Group {
+        name: "ensemble/uchain17",
+        remarks: vec!["time per chain".to_owned()],
+        contenders,
+    };
+    group.run()
+}
