@@ -336,7 +336,8 @@ fn events_are_located_at_the_quarters_of_the_period() {
             Direction::Rising => vec![3.0, 7.0],
             Direction::Both => vec![1.0, 3.0, 5.0, 7.0, 9.0],
         };
-        let found: Vec<f64> = run.events("bottom").map(|hit| hit.t).collect();
+        let bottom = run.events("bottom").unwrap();
+        let found: Vec<f64> = bottom.map(|hit| hit.t).collect();
         assert_eq!(found.len(), expect.len());
         for (t, expect) in found.iter().zip(expect) {
             assert!(
@@ -357,7 +358,11 @@ fn events_are_located_at_the_quarters_of_the_period() {
             };
             assert!(passed * hit.q[0] >= 0.0);
         }
-        assert_eq!(run.events("other").count(), 0);
+        let unknown = run.events("buttom").map(Iterator::count).unwrap_err();
+        assert_eq!(
+            unknown.to_string(),
+            "no event is called `buttom`; did you mean `bottom`?"
+        );
     }
 }
 
@@ -438,8 +443,8 @@ fn counters_are_consistent() {
     let seen = Rc::new(RefCell::new(Vec::new()));
     let times = Rc::clone(&seen);
     let run = swing(3.0, 1e-9)
-        .progress(move |t| {
-            times.borrow_mut().push(t);
+        .progress(move |run| {
+            times.borrow_mut().extend(run.last().map(|last| last.t));
             ControlFlow::Continue(())
         })
         .until(10.0)
@@ -457,8 +462,8 @@ fn counters_are_consistent() {
 
 #[test]
 fn progress_can_end_a_run() {
-    let run = swing(1.0, 1e-9).progress(|t| {
-        if t > 1.0 {
+    let run = swing(1.0, 1e-9).progress(|run| {
+        if run.last().unwrap().t > 1.0 {
             ControlFlow::Break(())
         } else {
             ControlFlow::Continue(())
