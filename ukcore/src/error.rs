@@ -103,7 +103,7 @@ pub enum Error {
     },
 }
 
-/// So many names are listed in full where one is unknown; of more, the nearest alone is offered.
+/// So many names are listed in full. Of more names that exist the nearest one alone is offered, of more names concerned the first ones.
 const MOST_LISTED: usize = 8;
 
 impl Error {
@@ -158,8 +158,16 @@ impl fmt::Display for Named<'_> {
 }
 
 fn quoted(names: &[String]) -> String {
-    let names: Vec<String> = names.iter().map(|n| format!("`{n}`")).collect();
-    names.join(", ")
+    let listed = if names.len() > MOST_LISTED {
+        MOST_LISTED - 1
+    } else {
+        names.len()
+    };
+    let mut text: Vec<String> = names[..listed].iter().map(|n| format!("`{n}`")).collect();
+    if listed < names.len() {
+        text.push(format!("… ({} in all)", names.len()));
+    }
+    text.join(", ")
 }
 
 impl fmt::Display for Error {
@@ -240,6 +248,10 @@ impl fmt::Display for Error {
                 write!(f, "`{what}` has length {found}, but {expected} is needed")
             }
             Error::InvalidSetting { what, reason } => write!(f, "`{what}` {reason}"),
+            Error::StepTooSmall { step: 0.0 } => write!(
+                f,
+                "no step from here succeeds, however small; the motion may have a singularity here, or masses or forces are out of all proportion"
+            ),
             Error::StepTooSmall { step } => write!(
                 f,
                 "the step size fell to {step:.1e}, below rounding; the motion may have a singularity here, or the tolerance is too tight"
@@ -321,6 +333,15 @@ mod tests {
             format!("{none}; did you mean `flour`?")
         );
         assert_eq!(message("roof", &many), "no event is called `roof`");
+    }
+
+    #[test]
+    fn long_lists_are_cut() {
+        let message = Error::IndefiniteMass {
+            coordinates: (0..20).map(|i| format!("x[{i}]")).collect(),
+        }
+        .to_string();
+        assert!(message.contains("`x[6]`, … (20 in all);"), "{message}");
     }
 
     #[test]

@@ -22,7 +22,7 @@ pub(crate) struct Summary {
     method: String,
     stabilise: String,
     tolerance: f64,
-    /// `"completed"`, or `"failed"` with `error` saying why.
+    /// `"completed"`, `"interrupted"`, or `"failed"` with `error` saying why.
     ending: &'static str,
     error: Option<String>,
     /// The last state that was computed.
@@ -116,7 +116,7 @@ impl Summary {
             start: ready.start,
             parameters: named(spec.params.iter().map(|p| p.name), values),
             method: word(&args.method),
-            stabilise: word(&args.stabilise),
+            stabilise: args.stabilise.to_string(),
             tolerance: args.tol,
             ending: match trajectory.ending() {
                 Ending::Completed => "completed",
@@ -171,8 +171,15 @@ impl Summary {
         let (d, w) = (&self.drift, &self.work);
         writeln!(
             out,
-            "\nResiduals: position {:.1e}, velocity {:.1e} at most over {} samples",
-            d.position_residual, d.velocity_residual, self.samples
+            "\nResiduals: position {:.1e}, velocity {:.1e} at most over {} {}",
+            d.position_residual,
+            d.velocity_residual,
+            self.samples,
+            if self.samples == 1 {
+                "sample"
+            } else {
+                "samples"
+            }
         )?;
         match d.energy_drift {
             Some(drift) => writeln!(out, "Energy drift: {drift:.1e} of the energy exchanged")?,
