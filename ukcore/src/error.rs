@@ -27,7 +27,7 @@ pub enum Error {
         /// Names of the constraints, with their residual.
         constraints: Vec<(String, f64)>,
     },
-    /// [`assemble`](crate::assemble()) found no state near the guess.
+    /// `assemble` found no state near the guess.
     NotAssembled {
         /// `"position"` or `"velocity"`.
         level: &'static str,

@@ -56,7 +56,7 @@ impl Visitor for Entry<'_> {
         }
         let params = M::SPEC.params.iter().map(|p| {
             let unit = units::unit_in(p.doc).unwrap_or_default();
-            let setting = format!("{} = {} {unit}", p.name, short(p.default, 6));
+            let setting = format!("{} = {} {unit}", p.name, short(p.default, 8));
             setting.trim_end().to_owned()
         });
         for (i, line) in lines(params).iter().enumerate() {
