@@ -192,10 +192,10 @@ impl<M: Mechanism> Trajectory<M> {
     ///
     /// # Errors
     /// [`Error::UnknownName`] if the run watched no event of that name.
-    pub fn events(
-        &self,
+    pub fn events<'a>(
+        &'a self,
         name: &str,
-    ) -> Result<impl DoubleEndedIterator<Item = &EventHit> + Clone, Error> {
+    ) -> Result<impl DoubleEndedIterator<Item = &'a EventHit> + Clone + use<'a, M>, Error> {
         let Some(name) = self.watched.iter().find(|watched| *watched == name) else {
             let mut names = self.watched.iter().map(String::as_str);
             return Err(Error::unknown_name("event", name, &mut names));
