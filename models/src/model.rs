@@ -141,6 +141,6 @@ pub(crate) fn positive(what: &'static str, value: f64) -> Result<(), Error> {
     if value > 0.0 && value.is_finite() {
         return Ok(());
     }
-    let reason = format!("is {value}; it must be positive and finite");
+    let reason = format!("is {value:?}; it must be positive and finite");
     Err(Error::InvalidSetting { what, reason })
 }

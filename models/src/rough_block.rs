@@ -67,7 +67,7 @@ impl Model for RoughBlock {
         let repose = self.slope.tan();
         if !(self.mu >= 0.0 && self.mu < repose) {
             let reason = format!(
-                "is {}; it must not be negative, and below tan(slope) = {repose}: this friction cannot hold a block at rest",
+                "is {:?}; it must not be negative, and below tan(slope) = {repose:?}: this friction cannot hold a block at rest",
                 self.mu
             );
             return Err(Error::InvalidSetting { what: "mu", reason });

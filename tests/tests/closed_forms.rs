@@ -101,7 +101,8 @@ fn pendulum_period_by_event() {
             .event(bottom)
             .until(1.5 * period)
             .unwrap_or_else(|e| panic!("{}", e.error));
-        let times: Vec<f64> = run.events("bottom").map(|hit| hit.t).collect();
+        let bottom = run.events("bottom").expect("watched");
+        let times: Vec<f64> = bottom.map(|hit| hit.t).collect();
         assert_all_close("bottoms", &times, &[0.25 * period, 1.25 * period], 1e-9);
     }
 }

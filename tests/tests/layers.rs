@@ -44,20 +44,46 @@ fn code(file: &Path) -> String {
 fn used(text: &str) -> Vec<String> {
     let mut out = Vec::new();
     for part in text.split("crate::").skip(1) {
-        let names: Vec<&str> = match part.strip_prefix('{') {
-            Some(group) => group.split('}').next().unwrap_or("").split(',').collect(),
-            None => vec![part],
-        };
-        for name in names {
-            let name: String = name
-                .trim()
-                .chars()
-                .take_while(|c| c.is_alphanumeric() || *c == '_')
-                .collect();
-            out.push(name);
+        match part.strip_prefix('{') {
+            Some(group) => out.extend(members(group).into_iter().map(first_name)),
+            None => out.push(first_name(part)),
         }
     }
     out
+}
+
+/// The members of the group whose text `group` begins with, up to its closing brace; groups within it are parts of members.
+fn members(group: &str) -> Vec<&str> {
+    let (mut out, mut depth, mut start) = (Vec::new(), 0, 0);
+    for (at, c) in group.char_indices() {
+        match c {
+            '{' => depth += 1,
+            '}' if depth > 0 => depth -= 1,
+            ',' if depth > 0 => {}
+            ',' | '}' => {
+                out.push(&group[start..at]);
+                start = at + 1;
+                if c == '}' {
+                    break;
+                }
+            }
+            _ => {}
+        }
+    }
+    out
+}
+
+fn first_name(path: &str) -> String {
+    let word = |c: &char| c.is_alphanumeric() || *c == '_';
+    path.trim().chars().take_while(word).collect()
+}
+
+#[test]
+fn groups_within_groups_are_seen() {
+    let text = "use crate::{\n    a::{b, c::{d, e}}, f,\n    g::h,\n};\nuse crate::k::l;\nlet x = crate::m::n(o, p);";
+    let mut names = used(text);
+    names.retain(|name| !name.is_empty());
+    assert_eq!(names, ["a", "f", "g", "k", "m"]);
 }
 
 fn check_order(crate_name: &str, order: &[&str]) {

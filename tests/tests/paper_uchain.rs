@@ -89,7 +89,11 @@ fn table_1_and_peaks() {
     for (row, (h_max, t_max, deepest)) in TABLE_1.iter().zip(REFERENCE) {
         let case = format!("x0 = {}", row.x0);
         let run = fall(row.x0);
-        let hit = run.events("lowest").next().expect("the tip turns");
+        let hit = run
+            .events("lowest")
+            .expect("watched")
+            .next()
+            .expect("the tip turns");
         let depth = hit.q[UChain::Y[0]];
         // The paper prints output points of its solver: within 0.001.
         assert_close(&format!("{case}, printed h_max"), depth, row.h_max, 1e-3);

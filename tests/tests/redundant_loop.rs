@@ -34,7 +34,7 @@ fn samples_and_events_where_a_redundant_row_is_at_rest() {
             .event(Event::new("bottom", |_, q, _| q[0]))
             .until(10.0)
             .unwrap_or_else(|e| panic!("{e}"));
-        assert!(run.events("bottom").count() > 5);
+        assert!(run.events("bottom").expect("watched").count() > 5);
         assert!(run.residuals().iter().all(|r| r.largest() < 1e-13));
     }
 }

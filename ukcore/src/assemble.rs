@@ -116,8 +116,8 @@ pub fn residuals<M: Mechanism>(mech: &M, state: &State) -> Result<Residuals, Err
 /// their value and their velocity; a family's bare name (`"x"` for `x[0]`, `x[1]`, …) holds all its members.
 ///
 /// # Errors
-/// - [`Error::OffConstraint`]: no state near the guess satisfies all constraints with these coordinates held; names those in
-///   conflict with the residuals that remain where their squares (scaled) are least. The conflict may be with what is held.
+/// - [`Error::NotAssembled`]: no state near the guess satisfies all constraints with these coordinates held; names those in
+///   conflict with the residuals that remain where their squares (scaled) are least, and the held coordinates where these are the cause.
 /// - [`Error::UnknownName`] for a name in `hold`; [`Error::WrongLength`]; [`Error::NonFinite`].
 pub fn assemble<M: Mechanism>(mech: &M, guess: State, hold: &[&str]) -> Result<State, Error> {
     guess.check(mech)?;
@@ -131,10 +131,46 @@ pub fn assemble<M: Mechanism>(mech: &M, guess: State, hold: &[&str]) -> Result<S
         }
         members.into_iter().for_each(|j| free[j] = false);
     }
-    let mut problem = Problem::new(mech, &guess, &free);
+    search(mech, &guess, &free).map_err(|error| blame(mech, &guess, &free, error))
+}
+
+fn search<M: Mechanism>(mech: &M, guess: &State, free: &[bool]) -> Result<State, Error> {
+    let mut problem = Problem::new(mech, guess, free);
     let q = problem.find(Level::Position, &guess.q, &guess.v)?;
     let v = problem.find(Level::Velocity, &guess.v, &q)?;
     Ok(State { t: guess.t, q, v })
+}
+
+/// `error` with the held coordinates that cause it: those that help if let go alone; if none does, all, provided that letting all go helps.
+fn blame<M: Mechanism>(mech: &M, guess: &State, free: &[bool], error: Error) -> Error {
+    let Error::NotAssembled {
+        level, constraints, ..
+    } = error
+    else {
+        return error;
+    };
+    let held: Vec<usize> = (0..free.len()).filter(|&j| !free[j]).collect();
+    let helps = |let_go: &[usize]| {
+        let mut free = free.to_vec();
+        let_go.iter().for_each(|&j| free[j] = true);
+        search(mech, guess, &free).is_ok()
+    };
+    let mut cause = Vec::new();
+    if !held.is_empty() && helps(&held) {
+        cause = held.clone();
+        cause.retain(|&j| helps(&[j]));
+        if cause.is_empty() {
+            cause = held;
+        }
+    }
+    Error::NotAssembled {
+        level,
+        constraints,
+        held: cause
+            .into_iter()
+            .map(|j| M::SPEC.coords[j].to_owned())
+            .collect(),
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -380,12 +416,13 @@ impl<'a, M: Mechanism> Problem<'a, M> {
                 *r = 0.0;
             }
         }
-        Error::OffConstraint {
+        Error::NotAssembled {
             level: match level {
                 Level::Position => "position",
                 Level::Velocity => "velocity",
             },
             constraints: diagnose::offending(M::SPEC, &residual, &point.row_scale),
+            held: Vec::new(),
         }
     }
 }
@@ -496,9 +533,14 @@ mod tests {
     #[test]
     fn conflicts_are_named() {
         let names = |e: Error| match e {
-            Error::OffConstraint { level, constraints } => (
+            Error::NotAssembled {
+                level,
+                constraints,
+                held,
+            } => (
                 level,
                 constraints.into_iter().map(|c| c.0).collect::<Vec<_>>(),
+                held.join(" "),
             ),
             other => panic!("{other:?}"),
         };
@@ -508,7 +550,10 @@ mod tests {
             &[],
         )
         .unwrap_err();
-        assert_eq!(names(e), ("position", vec!["sine".into(), "cosine".into()]));
+        assert_eq!(
+            names(e),
+            ("position", vec!["sine".into(), "cosine".into()], "".into())
+        );
         // Both ends held out of reach.
         let e = assemble(
             &Twice::default(),
@@ -520,7 +565,8 @@ mod tests {
             names(e),
             (
                 "position",
-                vec!["rod[0]".into(), "rod[1]".into(), "copy".into()]
+                vec!["rod[0]".into(), "rod[1]".into(), "copy".into()],
+                "x2".into()
             )
         );
         let held = ["x", "y"];
@@ -530,7 +576,15 @@ mod tests {
             &held,
         )
         .unwrap_err();
-        assert_eq!(names(e), ("velocity", vec!["rod".into()]));
+        assert_eq!(names(e), ("velocity", vec!["rod".into()], "x".into()));
+        // Of two held coordinates either alone can give way: x to ±1, or y to ±√(1 − 4) not.
+        let guess = state(0.0, &[2.0, 0.5], &[0.0; 2]);
+        let e = assemble(&Pendulum::default(), guess, &held).unwrap_err();
+        let message = e.to_string();
+        assert!(
+            message.contains("`rod` (3.250e0)") && message.contains("`x` is held: let it go"),
+            "{message}"
+        );
         let e = assemble(&Pendulum::default(), State::zeros::<Pendulum>(), &["z"]).unwrap_err();
         assert!(matches!(
             e,

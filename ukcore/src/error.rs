@@ -27,6 +27,15 @@ pub enum Error {
         /// Names of the constraints, with their residual.
         constraints: Vec<(String, f64)>,
     },
+    /// `assemble` found no state near the guess.
+    NotAssembled {
+        /// `"position"` or `"velocity"`.
+        level: &'static str,
+        /// Names of the constraints that are not met, with the residual that remains.
+        constraints: Vec<(String, f64)>,
+        /// Names of the held coordinates without whose values there would be such a state; empty if holding is not the cause.
+        held: Vec<String>,
+    },
     /// A value is NaN or infinite.
     NonFinite {
         /// What: `"parameter m"`, `"coordinate x[3]"`, `"force on th1"`, `"constraint link[2]"`.
@@ -45,6 +54,8 @@ pub enum Error {
         name: String,
         /// The nearest name that exists.
         nearest: Option<String>,
+        /// All names that exist.
+        known: Vec<String>,
     },
     /// A vector of the wrong length.
     WrongLength {
@@ -72,6 +83,13 @@ pub enum Error {
         /// The number.
         steps: usize,
     },
+    /// Steps became tiny about a place where sign, abs, min or max switch, as where dry friction brings a body to rest.
+    Chattering {
+        /// Size of the last steps.
+        step: f64,
+        /// The terms that contain such a function: `"force on s"`.
+        terms: Vec<String>,
+    },
     /// Another error that arose during integration, with the time and state where it did.
     At {
         /// Time.
@@ -85,22 +103,28 @@ pub enum Error {
     },
 }
 
+/// So many names are listed in full. Of more names that exist the nearest one alone is offered, of more names concerned the first ones.
+const MOST_LISTED: usize = 8;
+
 impl Error {
-    /// An [`Error::UnknownName`] with the nearest of `names`.
+    /// An [`Error::UnknownName`] with `names`, and the nearest of them.
     pub fn unknown_name(
         kind: &'static str,
         name: &str,
         names: &mut dyn Iterator<Item = &str>,
     ) -> Self {
-        let nearest = names
+        let known: Vec<String> = names.map(str::to_owned).collect();
+        let nearest = known
+            .iter()
             .map(|n| (distance(name, n), n))
             .min_by_key(|(d, _)| *d)
             .filter(|(d, n)| *d <= n.len().max(name.len()) / 2)
-            .map(|(_, n)| n.to_owned());
+            .map(|(_, n)| n.clone());
         Error::UnknownName {
             kind,
             name: name.to_owned(),
             nearest,
+            known,
         }
     }
 }
@@ -134,8 +158,16 @@ impl fmt::Display for Named<'_> {
 }
 
 fn quoted(names: &[String]) -> String {
-    let names: Vec<String> = names.iter().map(|n| format!("`{n}`")).collect();
-    names.join(", ")
+    let listed = if names.len() > MOST_LISTED {
+        MOST_LISTED - 1
+    } else {
+        names.len()
+    };
+    let mut text: Vec<String> = names[..listed].iter().map(|n| format!("`{n}`")).collect();
+    if listed < names.len() {
+        text.push(format!("… ({} in all)", names.len()));
+    }
+    text.join(", ")
 }
 
 impl fmt::Display for Error {
@@ -157,9 +189,33 @@ impl fmt::Display for Error {
             ),
             Error::OffConstraint { level, constraints } => write!(
                 f,
-                "the state violates constraints at {level} level (residual): {}; start from a consistent state, for example one from `assemble`",
+                "the state violates constraints at {level} level (residual): {}; a start has to be consistent, as one from `assemble` is, and on the way the constraints must not come to contradict each other",
                 Named(constraints)
             ),
+            Error::NotAssembled {
+                level,
+                constraints,
+                held,
+            } => {
+                write!(
+                    f,
+                    "no state near the guess satisfies the constraints at {level} level (residual that remains): {}; ",
+                    Named(constraints)
+                )?;
+                match held.len() {
+                    0 => write!(f, "make them agree, or give a nearer guess"),
+                    1 => write!(
+                        f,
+                        "the cause is that {} is held: let it go, or give it another value",
+                        quoted(held)
+                    ),
+                    _ => write!(
+                        f,
+                        "the cause is that {} are held: let one of them go, or give it another value",
+                        quoted(held)
+                    ),
+                }
+            }
             Error::NonFinite { what } => write!(f, "not a finite number: {}", what.join(", ")),
             Error::IndefiniteMass { coordinates } => write!(
                 f,
@@ -170,11 +226,18 @@ impl fmt::Display for Error {
                 kind,
                 name,
                 nearest,
+                known,
             } => {
                 write!(f, "no {kind} is called `{name}`")?;
-                match nearest {
-                    Some(n) => write!(f, "; did you mean `{n}`?"),
-                    None => Ok(()),
+                if let Some(n) = nearest {
+                    write!(f, "; did you mean `{n}`?")?;
+                }
+                match (nearest, known.len()) {
+                    (Some(_), 0 | 1) => Ok(()),
+                    (None, 0) => write!(f, "; there is none"),
+                    (Some(_), 2..=MOST_LISTED) => write!(f, " There is {}", quoted(known)),
+                    (None, 1..=MOST_LISTED) => write!(f, "; there is {}", quoted(known)),
+                    _ => Ok(()),
                 }
             }
             Error::WrongLength {
@@ -185,6 +248,10 @@ impl fmt::Display for Error {
                 write!(f, "`{what}` has length {found}, but {expected} is needed")
             }
             Error::InvalidSetting { what, reason } => write!(f, "`{what}` {reason}"),
+            Error::StepTooSmall { step: 0.0 } => write!(
+                f,
+                "no step from here succeeds, however small; the motion may have a singularity here, or masses or forces are out of all proportion"
+            ),
             Error::StepTooSmall { step } => write!(
                 f,
                 "the step size fell to {step:.1e}, below rounding; the motion may have a singularity here, or the tolerance is too tight"
@@ -192,6 +259,11 @@ impl fmt::Display for Error {
             Error::TooManySteps { steps } => write!(
                 f,
                 "{steps} steps were not enough; raise `max_steps`, loosen the tolerance, or soften stiff forces"
+            ),
+            Error::Chattering { step, terms } => write!(
+                f,
+                "steps fell to {step:.1e} about a switch of sign, abs, min or max in the {}; dry friction that brings a body to rest is not found to stick: end the run at rest by a terminal event, or smooth the switch, as by tanh(v / 1e-3) for sign(v)",
+                terms.join(", ")
             ),
             Error::At { t, source, .. } if *t != 0.0 && t.abs() < 1e-4 => {
                 write!(f, "at t = {t:e}: {source}")
@@ -238,6 +310,38 @@ mod tests {
         assert_eq!(nearest("stiffness"), None);
         assert_eq!(nearest("x"), None);
         assert_eq!(nearest(""), None);
+    }
+
+    #[test]
+    fn few_names_are_listed_and_of_many_the_nearest_is_offered() {
+        let message = |name: &str, known: &[&str]| {
+            Error::unknown_name("event", name, &mut known.iter().copied()).to_string()
+        };
+        let none = "no event is called `floor`";
+        assert_eq!(message("floor", &[]), format!("{none}; there is none"));
+        assert_eq!(
+            message("floor", &["bottom", "turn"]),
+            format!("{none}; there is `bottom`, `turn`")
+        );
+        assert_eq!(
+            message("floor", &["flour", "turn"]),
+            format!("{none}; did you mean `flour`? There is `flour`, `turn`")
+        );
+        let many = ["flour"; MOST_LISTED + 1];
+        assert_eq!(
+            message("floor", &many),
+            format!("{none}; did you mean `flour`?")
+        );
+        assert_eq!(message("roof", &many), "no event is called `roof`");
+    }
+
+    #[test]
+    fn long_lists_are_cut() {
+        let message = Error::IndefiniteMass {
+            coordinates: (0..20).map(|i| format!("x[{i}]")).collect(),
+        }
+        .to_string();
+        assert!(message.contains("`x[6]`, … (20 in all);"), "{message}");
     }
 
     #[test]

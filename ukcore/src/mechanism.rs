@@ -453,6 +453,11 @@ mod tests {
             kind: "parameter",
             name: "L1".into(),
             nearest: Some("l".into()),
+            known: Pendulum::SPEC
+                .params
+                .iter()
+                .map(|p| p.name.into())
+                .collect(),
         };
         assert_eq!(mech.set("L1", 0.0), Err(error.clone()));
         assert_eq!(mech.get("L1"), Err(error));

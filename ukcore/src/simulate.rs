@@ -16,8 +16,10 @@ use crate::trajectory::{Ending, Trajectory};
 mod run;
 #[cfg(test)]
 mod tests;
+mod trouble;
 
 use run::{Agenda, Progress, Run, Sampling, at};
+use trouble::{Conflict, Pace};
 
 /// How far a start may be off the constraints: projection may move a coordinate by this part of the largest one (a
 /// velocity likewise), plus the tolerance of the run.
@@ -50,7 +52,7 @@ pub struct Simulation<M> {
     max_steps: usize,
     max_step: Option<f64>,
     first_step: Option<f64>,
-    progress: Option<Progress>,
+    progress: Option<Progress<M>>,
 }
 
 /// Most samples of [`Simulation::every`]: a slip in its unit must not fill the memory.
@@ -174,9 +176,10 @@ impl<M: Mechanism> Simulation<M> {
         self
     }
 
-    /// Calls `f` with the time after every accepted step; `Break` ends the run there, which is no failure.
+    /// Calls `f` after every accepted step with the motion so far (its end is [`Trajectory::last`]; its cost is counted when the
+    /// run has ended); `Break` ends the run there, which is no failure.
     #[must_use]
-    pub fn progress(mut self, f: impl FnMut(f64) -> ControlFlow<()> + 'static) -> Self {
+    pub fn progress(mut self, f: impl FnMut(&Trajectory<M>) -> ControlFlow<()> + 'static) -> Self {
         self.progress = Some(Box::new(f));
         self
     }
@@ -186,7 +189,7 @@ impl<M: Mechanism> Simulation<M> {
     /// # Errors
     /// [`Error::InvalidSetting`] for settings outside of their range; [`Error::WrongLength`], [`Error::NonFinite`] or
     /// [`Error::OffConstraint`] for a bad start; on the way [`Error::At`] with time, state and cause: what the solver or
-    /// the projection reports, [`Error::StepTooSmall`], [`Error::TooManySteps`]. The trajectory up to there is in the [`Failure`].
+    /// the projection reports, [`Error::StepTooSmall`], [`Error::TooManySteps`], [`Error::Chattering`]. The trajectory up to there is in the [`Failure`].
     pub fn until(self, t_end: f64) -> Result<Trajectory<M>, Failure<M>> {
         let baumgarte = match self.stabilisation {
             Stabilisation::Baumgarte(baumgarte) => Some(baumgarte),
@@ -198,6 +201,7 @@ impl<M: Mechanism> Simulation<M> {
             ..SolverOptions::default()
         };
         let mut trajectory = Trajectory::new(self.mechanism.clone(), options);
+        trajectory.watched = self.events.iter().map(|event| event.name.clone()).collect();
         trajectory.projected = self.stabilisation == Stabilisation::Projection;
         let fail = |error, trajectory| Failure {
             error,
@@ -239,6 +243,8 @@ impl<M: Mechanism> Simulation<M> {
             t: t0,
             y: y.clone(),
             between: vec![0.0; 2 * n],
+            conflict: Conflict::default(),
+            pace: Pace::new(M::SPEC, self.tolerance, self.max_steps),
             trajectory: &mut trajectory,
         };
         let error = run.start(t0, &y).and_then(|()| {
@@ -251,8 +257,17 @@ impl<M: Mechanism> Simulation<M> {
             run.trajectory.work.rejected = report.rejected;
             match report.outcome {
                 Outcome::Reached => run.trajectory.ending = Ending::Completed,
+                // Given up: the steps allowed would be used up without getting on.
+                Outcome::Stopped if run.trajectory.ending == Ending::Failed => {
+                    let steps = self.max_steps;
+                    let error = run.pace.explain(Error::TooManySteps { steps });
+                    return Err(at(run.t, &run.y, error));
+                }
                 Outcome::Stopped => {}
-                Outcome::Failed { t, y, error } => return Err(at(t, &y, error)),
+                Outcome::Failed { t, y, error } => {
+                    let (t, y, error) = run.conflict.explain(t, y, run.pace.explain(error));
+                    return Err(at(t, &y, error));
+                }
             }
             Ok(())
         });

@@ -7,7 +7,7 @@ use crate::assemble::State;
 use crate::error::Error;
 use crate::events::EventHit;
 use crate::integrate::Segment;
-use crate::mechanism::{Energy, Mechanism};
+use crate::mechanism::{Energy, Mechanism, Prepared};
 use crate::solver::{Solution, Solver, SolverOptions};
 use crate::stabilise::Projector;
 
@@ -93,6 +93,8 @@ pub struct Trajectory<M> {
     /// [q; q̇] of one sample after the other.
     pub(crate) states: Vec<f64>,
     pub(crate) events: Vec<EventHit>,
+    /// Names of the events that were watched.
+    pub(crate) watched: Vec<String>,
     pub(crate) segments: Option<Vec<Segment>>,
     /// Whether states between samples are to be projected.
     pub(crate) projected: bool,
@@ -111,6 +113,7 @@ impl<M: Mechanism> Trajectory<M> {
             times: Vec::new(),
             states: Vec::new(),
             events: Vec::new(),
+            watched: Vec::new(),
             segments: None,
             projected: false,
             start: 0.0,
@@ -185,9 +188,19 @@ impl<M: Mechanism> Trajectory<M> {
         &self.times
     }
 
-    /// The located events called `name`, in the order of integration; none if there is no such event.
-    pub fn events<'a>(&'a self, name: &'a str) -> impl DoubleEndedIterator<Item = &'a EventHit> {
-        self.events.iter().filter(move |hit| hit.name == name)
+    /// The located events called `name`, in the order of integration.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] if the run watched no event of that name.
+    pub fn events<'a>(
+        &'a self,
+        name: &str,
+    ) -> Result<impl DoubleEndedIterator<Item = &'a EventHit> + Clone + use<'a, M>, Error> {
+        let Some(name) = self.watched.iter().find(|watched| *watched == name) else {
+            let mut names = self.watched.iter().map(String::as_str);
+            return Err(Error::unknown_name("event", name, &mut names));
+        };
+        Ok(self.events.iter().filter(move |hit| hit.name == *name))
     }
 
     /// All located events, in the order of integration.
@@ -311,19 +324,9 @@ impl<M: Mechanism> Trajectory<M> {
     /// How far the samples are off the constraints.
     #[must_use]
     pub fn residuals(&self) -> Vec<Residual> {
-        let mut position = vec![0.0; M::SPEC.holonomic];
-        let mut velocity = vec![0.0; M::SPEC.m()];
         let mech = self.mechanism.prepared();
-        let largest = |values: &[f64]| values.iter().fold(0.0, |m, r| nan_max(m, r.abs()));
-        let mut residual = |s: Sample<'_>| {
-            mech.residual(s.t, s.q, &mut position);
-            mech.residual_rate(s.t, s.q, s.v, &mut velocity);
-            Residual {
-                position: largest(&position),
-                velocity: largest(&velocity),
-            }
-        };
-        self.samples().map(&mut residual).collect()
+        let mut gauge = Gauge::new::<M>();
+        self.samples().map(|s| gauge.residual(&mech, s)).collect()
     }
 
     /// Accelerations q̈ at the samples, by the formula of the run.
@@ -365,29 +368,81 @@ impl<M: Mechanism> Trajectory<M> {
     /// # Errors
     /// Those of `writer`.
     pub fn write_csv(&self, writer: &mut (impl Write + ?Sized)) -> io::Result<()> {
+        self.write_csv_head(writer)?;
+        self.write_csv_rows(0, writer)
+    }
+
+    /// The line of names of [`write_csv`](Trajectory::write_csv).
+    ///
+    /// # Errors
+    /// Those of `writer`.
+    pub fn write_csv_head(&self, writer: &mut (impl Write + ?Sized)) -> io::Result<()> {
         let spec = M::SPEC;
-        let mut writer = io::BufWriter::new(writer);
-        write!(writer, "t")?;
+        let mut line = "t".to_owned();
         for name in spec.coords {
-            write!(writer, ",{name}")?;
+            line += &format!(",{name}");
         }
         for name in spec.coords {
-            write!(writer, ",dot({name})")?;
+            line += &format!(",dot({name})");
         }
         for output in spec.outputs {
-            write!(writer, ",{}", output.name)?;
+            line += &format!(",{}", output.name);
         }
-        writeln!(writer, ",energy,residual")?;
-        let rows = self.samples().zip(self.outputs());
-        let facts = self.energy().into_iter().zip(self.residuals());
-        for ((sample, outputs), (energy, residual)) in rows.zip(facts) {
-            write!(writer, "{:?}", sample.t)?;
-            for value in sample.q.iter().chain(sample.v).chain(&outputs) {
+        writeln!(writer, "{line},energy,residual")
+    }
+
+    /// The rows of [`write_csv`](Trajectory::write_csv) from sample `first` on: from [`progress`](crate::Simulation::progress), the
+    /// samples can so be written while they are computed.
+    ///
+    /// # Errors
+    /// Those of `writer`.
+    pub fn write_csv_rows(
+        &self,
+        first: usize,
+        writer: &mut (impl Write + ?Sized),
+    ) -> io::Result<()> {
+        let mut writer = io::BufWriter::new(writer);
+        let mech = self.mechanism.prepared();
+        let mut gauge = Gauge::new::<M>();
+        let mut outputs = vec![0.0; M::SPEC.outputs.len()];
+        for sample in self.samples().skip(first) {
+            let Sample { t, q, v } = sample;
+            mech.outputs(t, q, v, &mut outputs);
+            write!(writer, "{t:?}")?;
+            for value in q.iter().chain(v).chain(&outputs) {
                 write!(writer, ",{value:?}")?;
             }
-            writeln!(writer, ",{:?},{:?}", energy.total(), residual.largest())?;
+            let energy = mech.energy(t, q, v).total();
+            let residual = gauge.residual(&mech, sample).largest();
+            writeln!(writer, ",{energy:?},{residual:?}")?;
         }
         writer.flush()
+    }
+}
+
+/// Measures [`Residual`]s.
+struct Gauge {
+    position: Vec<f64>,
+    velocity: Vec<f64>,
+}
+
+impl Gauge {
+    fn new<M: Mechanism>() -> Self {
+        Gauge {
+            position: vec![0.0; M::SPEC.holonomic],
+            velocity: vec![0.0; M::SPEC.m()],
+        }
+    }
+
+    fn residual<M: Mechanism>(&mut self, mech: &Prepared<M>, sample: Sample<'_>) -> Residual {
+        let Sample { t, q, v } = sample;
+        mech.residual(t, q, &mut self.position);
+        mech.residual_rate(t, q, v, &mut self.velocity);
+        let largest = |values: &[f64]| values.iter().fold(0.0, |m, r| nan_max(m, r.abs()));
+        Residual {
+            position: largest(&self.position),
+            velocity: largest(&self.velocity),
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use super::trouble::{Conflict, Pace};
 use crate::error::Error;
 use crate::events::{EventHit, States, Watch};
 use crate::integrate::{Next, Problem, Step};
@@ -24,7 +25,7 @@ pub(super) enum Sampling {
     At(Vec<f64>),
 }
 
-pub(super) type Progress = Box<dyn FnMut(f64) -> ControlFlow<()>>;
+pub(super) type Progress<M> = Box<dyn FnMut(&Trajectory<M>) -> ControlFlow<()>>;
 
 /// `error` with the place where it arose.
 pub(super) fn at(t: f64, y: &[f64], error: Error) -> Error {
@@ -87,12 +88,14 @@ pub(super) struct Run<'a, M> {
     pub(super) n: usize,
     pub(super) agenda: Agenda,
     pub(super) watch: Watch,
-    pub(super) progress: Option<Progress>,
+    pub(super) progress: Option<Progress<M>>,
     /// Time and state at the end of the last accepted step; the time is that of the event where a terminal one ended it.
     pub(super) t: f64,
     pub(super) y: Vec<f64>,
     /// A state within a step.
     pub(super) between: Vec<f64>,
+    pub(super) conflict: Conflict,
+    pub(super) pace: Pace,
     pub(super) trajectory: &'a mut Trajectory<M>,
 }
 
@@ -191,13 +194,15 @@ impl<M: Mechanism> Problem for Run<'_, M> {
         let (q, v) = y.split_at(self.n);
         let (q_rate, v_rate) = rate.split_at_mut(self.n);
         q_rate.copy_from_slice(v);
-        self.solver.acceleration(self.mechanism, t, q, v, v_rate)
+        let result = self.solver.acceleration(self.mechanism, t, q, v, v_rate);
+        result.inspect_err(|error| self.conflict.note(t, y, error))
     }
 
     fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), Error> {
         if self.project {
             let work = &mut self.trajectory.work;
-            project(self.mechanism, &mut self.projector, work, t, y)?;
+            let result = project(self.mechanism, &mut self.projector, work, t, y);
+            result.inspect_err(|error| self.conflict.note(t, y, error))?;
         }
         Ok(())
     }
@@ -220,18 +225,24 @@ impl<M: Mechanism> Problem for Run<'_, M> {
             return Err(error);
         }
         self.watch.accept();
+        self.conflict.pass(step.t_old, step.t);
+        self.pace.step(step.t - step.t_old, &self.y, step.y);
         self.y.copy_from_slice(step.y);
         if let Some(end) = &mut self.trajectory.end {
             end.t = self.t;
             end.q.copy_from_slice(&self.between[..self.n]);
             end.v.copy_from_slice(&self.between[self.n..]);
         }
-        let go_on = self.progress.as_mut().map(|progress| progress(self.t));
+        let trajectory = &*self.trajectory;
+        let go_on = self.progress.as_mut().map(|progress| progress(trajectory));
         if self.trajectory.ending == Ending::Event {
             return Ok(Next::Stop);
         }
         if go_on == Some(ControlFlow::Break(())) && self.t != self.agenda.t_end {
             self.trajectory.ending = Ending::Interrupted;
+            return Ok(Next::Stop);
+        }
+        if self.pace.hopeless(self.agenda.t_end - self.t) {
             return Ok(Next::Stop);
         }
         Ok(Next::Continue)

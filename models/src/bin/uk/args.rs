@@ -1,8 +1,10 @@
 //! The command line.
 
+use std::fmt;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use ukcore::simulate::SMALLEST_TOLERANCE;
 
 use crate::units::{self, Quantity};
 
@@ -17,7 +19,7 @@ pub(crate) struct Cli {
 }
 
 const EXIT_CODES: &str = "\
-Exit codes: 0 done; 1 the computation or the writing of a file failed; 2 the command line is wrong.
+Exit codes: 0 done; 1 the computation or the writing of a file failed; 2 the command line is wrong; 130 interrupted.
 Values may have units and be expressions: 15deg, 12mm, 9.81 m/s^2, 2.5*PI. A bare number is in the parameter's own unit.";
 
 #[derive(Debug, Subcommand)]
@@ -35,7 +37,7 @@ pub(crate) enum Command {
 #[derive(Debug, Args)]
 pub(crate) struct PaperArgs {
     /// Directory to write index.html, paper.json, figures and CSV files to
-    #[arg(long, value_name = "DIR", default_value = "out/paper")]
+    #[arg(long, value_name = "DIR", default_value = "out/paper", value_parser = file)]
     pub(crate) out: PathBuf,
 }
 
@@ -64,7 +66,7 @@ pub(crate) struct Scene {
 pub(crate) struct RunArgs {
     #[command(flatten)]
     pub(crate) scene: Scene,
-    /// Time to stop at; the model's own duration if absent
+    /// Time to stop at, before 0 to run backward; the model's own duration if absent
     #[arg(long, value_name = "TIME", value_parser = units::seconds, allow_hyphen_values = true)]
     pub(crate) until: Option<f64>,
     /// Relative and absolute tolerance of the integration
@@ -72,21 +74,29 @@ pub(crate) struct RunArgs {
         long,
         value_name = "TOL",
         default_value = "1e-10",
+        value_parser = tolerance,
         allow_hyphen_values = true
     )]
     pub(crate) tol: f64,
     /// Sample at this interval; each accepted step if absent
-    #[arg(long, value_name = "TIME", value_parser = units::seconds, allow_hyphen_values = true)]
+    #[arg(long, value_name = "TIME", value_parser = interval, allow_hyphen_values = true)]
     pub(crate) every: Option<f64>,
     /// Integration method
     #[arg(long, value_enum, default_value_t = MethodArg::Dop853)]
     pub(crate) method: MethodArg,
-    /// How the constraints are kept from drifting
-    #[arg(long, visible_alias = "stabilize", value_enum, default_value_t = StabiliseArg::Projection)]
+    /// How the constraints are kept from drifting: `projection` of positions and velocities after each step; `baumgarte` or
+    /// `baumgarte=ALPHA,BETA`, feedback terms 2 ALPHA φ̇ + BETA² φ with ALPHA and BETA in 1/s, 20 each if absent; `none`
+    #[arg(
+        long,
+        visible_alias = "stabilize",
+        value_name = "WAY",
+        default_value = "projection",
+        value_parser = StabiliseArg::parse
+    )]
     pub(crate) stabilise: StabiliseArg,
-    /// Write the samples as CSV; `-` is standard output, which then holds nothing else.
-    /// Of a run that fails, what was computed so far is written, and the exit code is 1
-    #[arg(long, value_name = "FILE")]
+    /// Write the samples as CSV; `-` is standard output, which then holds nothing else and gets each row as soon as it is computed.
+    /// Of a run that fails or is interrupted (Ctrl-C), what was computed so far is written
+    #[arg(long, value_name = "FILE", value_parser = file)]
     pub(crate) csv: Option<PathBuf>,
     /// Print the summary as JSON: final state, residuals, energy drift, work
     #[arg(long)]
@@ -109,14 +119,95 @@ pub(crate) enum MethodArg {
 }
 
 /// Ways to stabilise.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum StabiliseArg {
-    /// Project positions and velocities after each step
+    /// Projection of positions and velocities after each step.
     Projection,
-    /// Baumgarte's feedback terms
-    Baumgarte,
-    /// Leave the constraints to drift
+    /// Baumgarte's feedback terms.
+    Baumgarte {
+        /// Half the factor of φ̇, 1/s.
+        alpha: f64,
+        /// Root of the factor of φ, 1/s.
+        beta: f64,
+    },
+    /// The constraints are left to drift.
     None,
+}
+
+/// α and β of `--stabilise baumgarte`, 1/s. α = β damps the error critically; at 20/s it decays in a twentieth of a second, fast against the
+/// seconds that the models take, and slow against the steps of an explicit method.
+const BAUMGARTE_RATE: f64 = 20.0;
+
+impl StabiliseArg {
+    fn parse(text: &str) -> Result<Self, String> {
+        let (word, rates) = match text.split_once('=') {
+            Some((word, rates)) => (word, Some(rates)),
+            None => (text, None),
+        };
+        let plain = |way| match rates {
+            None => Ok(way),
+            Some(_) => Err(format!("`{word}` has no rates")),
+        };
+        match word {
+            "projection" => plain(StabiliseArg::Projection),
+            "none" => plain(StabiliseArg::None),
+            "baumgarte" => {
+                let Some(rates) = rates else {
+                    return Ok(StabiliseArg::Baumgarte {
+                        alpha: BAUMGARTE_RATE,
+                        beta: BAUMGARTE_RATE,
+                    });
+                };
+                let rate = |text: &str| {
+                    text.trim()
+                        .parse()
+                        .ok()
+                        .filter(|x| (0.0..f64::INFINITY).contains(x))
+                };
+                let two = rates
+                    .split_once(',')
+                    .and_then(|(a, b)| Some((rate(a)?, rate(b)?)));
+                let (alpha, beta) =
+                    two.ok_or("two rates in 1/s are needed, not negative: baumgarte=20,20")?;
+                Ok(StabiliseArg::Baumgarte { alpha, beta })
+            }
+            _ => {
+                Err("it is `projection`, `baumgarte`, `baumgarte=ALPHA,BETA` or `none`".to_owned())
+            }
+        }
+    }
+}
+
+/// As on the command line.
+impl fmt::Display for StabiliseArg {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            StabiliseArg::Projection => f.write_str("projection"),
+            StabiliseArg::Baumgarte { alpha, beta } => write!(f, "baumgarte={alpha},{beta}"),
+            StabiliseArg::None => f.write_str("none"),
+        }
+    }
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    let range = SMALLEST_TOLERANCE..1.0;
+    let number = text.trim().parse().ok().filter(|x| range.contains(x));
+    number.ok_or_else(|| format!("a number from {SMALLEST_TOLERANCE:.1e} to below 1 is needed"))
+}
+
+fn interval(text: &str) -> Result<f64, String> {
+    let seconds = units::seconds(text)?;
+    if seconds > 0.0 {
+        return Ok(seconds);
+    }
+    Err("the interval must be positive".to_owned())
+}
+
+fn file(text: &str) -> Result<PathBuf, String> {
+    if text.is_empty() {
+        return Err("a path is needed".to_owned());
+    }
+    Ok(PathBuf::from(text))
 }
 
 #[cfg(test)]
@@ -154,6 +245,31 @@ mod tests {
         assert_eq!(run.until, Some(120.0));
         assert_eq!(run.every, Some(0.01));
         assert_eq!(run.stabilise, StabiliseArg::None);
+    }
+
+    #[test]
+    fn ways_to_stabilise_are_read_as_they_are_written() {
+        for text in ["projection", "none", "baumgarte=5,2.5"] {
+            assert_eq!(
+                StabiliseArg::parse(text).map(|s| s.to_string()),
+                Ok(text.to_owned())
+            );
+        }
+        assert_eq!(
+            StabiliseArg::parse("baumgarte"),
+            StabiliseArg::parse("baumgarte=20,20")
+        );
+        for text in [
+            "glue",
+            "none=1",
+            "baumgarte=",
+            "baumgarte=1",
+            "baumgarte=1,-1",
+            "baumgarte=1,inf",
+            "baumgarte=1,2,3",
+        ] {
+            assert!(StabiliseArg::parse(text).is_err(), "{text}");
+        }
     }
 
     #[test]

@@ -10,6 +10,8 @@ use ukcore::Error;
 pub(crate) const FAILED: u8 = 1;
 /// Exit code of a command line that asks for something that is not there. The argument parser uses the same one.
 pub(crate) const USAGE: u8 = 2;
+/// Exit code of a run that was interrupted: as shells say of a program ended by the interrupt signal.
+pub(crate) const INTERRUPTED: u8 = 130;
 
 /// Why a command ends early.
 #[derive(Debug)]
@@ -18,6 +20,8 @@ pub(crate) enum Failure {
     Usage(String),
     /// The command is right and failed (exit code 1).
     Failed(String),
+    /// The user has interrupted the run (exit code 130).
+    Interrupted(String),
     /// Whoever read our output has stopped reading (`uk list | head`): nobody is left to tell, and nothing went wrong.
     ReaderGone,
 }
@@ -28,6 +32,7 @@ impl Failure {
         match self {
             Failure::Usage(_) => USAGE,
             Failure::Failed(_) => FAILED,
+            Failure::Interrupted(_) => INTERRUPTED,
             Failure::ReaderGone => 0,
         }
     }
@@ -47,10 +52,12 @@ impl Failure {
     }
 }
 
+/// The line for standard error.
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Failure::Usage(message) | Failure::Failed(message) => f.write_str(message),
+            Failure::Usage(message) | Failure::Failed(message) => write!(f, "error: {message}"),
+            Failure::Interrupted(message) => f.write_str(message),
             Failure::ReaderGone => f.write_str("the reader of standard output is gone"),
         }
     }
@@ -60,6 +67,11 @@ impl fmt::Display for Failure {
 impl From<Error> for Failure {
     fn from(error: Error) -> Self {
         match error {
+            Error::UnknownName {
+                kind: "model",
+                nearest: None,
+                ..
+            } => Failure::Usage(format!("{error}; `uk list` shows those there are")),
             Error::UnknownName { .. } | Error::InvalidSetting { .. } => {
                 Failure::Usage(error.to_string())
             }

@@ -7,8 +7,12 @@ use models::{Model, Visitor};
 use crate::failure::Failure;
 use crate::numbers::{short, width};
 use crate::output;
+use crate::units;
 
-/// Prints every model with its starts and their options.
+/// Width of a list of parameters; with what stands before them, lines are within 100 characters.
+const LINE: usize = 84;
+
+/// Prints every model with its starts, their options, and the parameters, all with their defaults.
 ///
 /// # Errors
 /// If standard output cannot be written.
@@ -50,6 +54,34 @@ impl Visitor for Entry<'_> {
                 writeln!(to, "        {:<24}{}", setting.trim_end(), option.doc)?;
             }
         }
+        let params = M::SPEC.params.iter().map(|p| {
+            let unit = units::unit_in(p.doc).unwrap_or_default();
+            let setting = format!("{} = {} {unit}", p.name, short(p.default, 8));
+            setting.trim_end().to_owned()
+        });
+        for (i, line) in lines(params).iter().enumerate() {
+            let head = if i == 0 { "parameters" } else { "" };
+            writeln!(to, "    {head:<10} {line}")?;
+        }
         writeln!(to)
     }
+}
+
+/// Entries with commas between them, in lines of at most [`LINE`] characters where the entries allow it.
+fn lines(entries: impl Iterator<Item = String>) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for entry in entries {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 2 + entry.chars().count() <= LINE => {
+                *line += ", ";
+                *line += &entry;
+            }
+            Some(line) => {
+                line.push(',');
+                lines.push(entry);
+            }
+            None => lines.push(entry),
+        }
+    }
+    lines
 }

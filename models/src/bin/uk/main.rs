@@ -7,6 +7,7 @@ mod drift;
 mod explain;
 mod failure;
 mod html;
+mod interrupt;
 mod list;
 mod numbers;
 mod output;
@@ -39,7 +40,7 @@ fn main() -> ExitCode {
     };
     if !matches!(failure, Failure::ReaderGone) {
         // Standard error may be closed too; the exit code still tells.
-        let _ = writeln!(io::stderr(), "error: {failure}");
+        let _ = writeln!(io::stderr(), "{failure}");
     }
     ExitCode::from(failure.code())
 }

@@ -24,6 +24,12 @@ pub(crate) fn short(value: f64, digits: usize) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
+/// A number of things: `1 step`, `2 steps`.
+pub(crate) fn count(number: usize, thing: &str) -> String {
+    let plural = if number == 1 { "" } else { "s" };
+    format!("{number} {thing}{plural}")
+}
+
 /// The widest of some names, in characters.
 pub(crate) fn width<'a>(names: impl IntoIterator<Item = &'a str>) -> usize {
     names
@@ -52,6 +58,14 @@ mod tests {
         assert_eq!(short(1.23e-9, 6), "0.00000000123");
         assert_eq!(short(100.0, 0), "100");
         assert_eq!(short(1e20, 6), "100000000000000000000");
+    }
+
+    #[test]
+    fn one_is_not_many() {
+        assert_eq!(
+            [0, 1, 2].map(|n| count(n, "step")),
+            ["0 steps", "1 step", "2 steps"]
+        );
     }
 
     #[test]

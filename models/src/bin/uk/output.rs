@@ -29,6 +29,24 @@ pub(crate) fn write_whole(
         })
 }
 
+/// Whether [`write_whole`] can be expected to succeed: before a long computation whose result would be lost.
+///
+/// # Errors
+/// [`Failure::Failed`] naming the file.
+pub(crate) fn check_writable(path: &Path) -> Result<(), Failure> {
+    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
+    let result = match fs::metadata(&target) {
+        Ok(there) if there.is_dir() => Err(io::Error::from(io::ErrorKind::IsADirectory)),
+        // A device or pipe: opening it may already have an effect.
+        Ok(there) if !there.is_file() => Ok(()),
+        _ => {
+            let temporary = beside(&target);
+            File::create(&temporary).and_then(|_| fs::remove_file(&temporary))
+        }
+    };
+    result.map_err(|e| Failure::file(path, &e))
+}
+
 fn write_through(
     path: &Path,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -108,7 +126,10 @@ mod tests {
 
     #[test]
     fn a_directory_that_is_missing_is_named() {
-        let failure = write_whole(Path::new("/nonexistent/x.csv"), |_| Ok(()));
-        assert!(matches!(failure, Err(Failure::Failed(m)) if m.contains("/nonexistent/x.csv")));
+        let path = Path::new("/nonexistent/x.csv");
+        for failure in [write_whole(path, |_| Ok(())), check_writable(path)] {
+            assert!(matches!(failure, Err(Failure::Failed(m)) if m.contains("/nonexistent/x.csv")));
+        }
+        assert!(check_writable(Path::new("/dev/null")).is_ok());
     }
 }

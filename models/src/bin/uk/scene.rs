@@ -87,7 +87,8 @@ fn unknown_setting<M: Model>(name: &str, start: &StartSpec) -> Failure {
     }
     let options = start.options.iter().map(|o| o.name);
     let params = M::SPEC.params.iter().map(|p| p.name);
-    let families = M::SPEC.params.iter().map(|p| family(p.name));
+    let members = M::SPEC.params.iter().filter(|p| p.name.ends_with("[0]"));
+    let families = members.map(|p| family(p.name));
     Error::unknown_name(
         "parameter or start option",
         name,

@@ -10,7 +10,7 @@ use ukcore::{Ending, Trajectory};
 
 use crate::args::RunArgs;
 use crate::drift::Drift;
-use crate::numbers::{fixed, width};
+use crate::numbers::{count, fixed, width};
 use crate::scene::Ready;
 
 /// What a run was, what came out and what it cost. SI units.
@@ -22,7 +22,7 @@ pub(crate) struct Summary {
     method: String,
     stabilise: String,
     tolerance: f64,
-    /// `"completed"`, or `"failed"` with `error` saying why.
+    /// `"completed"`, `"interrupted"`, or `"failed"` with `error` saying why.
     ending: &'static str,
     error: Option<String>,
     /// The last state that was computed.
@@ -116,7 +116,7 @@ impl Summary {
             start: ready.start,
             parameters: named(spec.params.iter().map(|p| p.name), values),
             method: word(&args.method),
-            stabilise: word(&args.stabilise),
+            stabilise: args.stabilise.to_string(),
             tolerance: args.tol,
             ending: match trajectory.ending() {
                 Ending::Completed => "completed",
@@ -171,8 +171,10 @@ impl Summary {
         let (d, w) = (&self.drift, &self.work);
         writeln!(
             out,
-            "\nResiduals: position {:.1e}, velocity {:.1e} at most over {} samples",
-            d.position_residual, d.velocity_residual, self.samples
+            "\nResiduals: position {:.1e}, velocity {:.1e} at most over {}",
+            d.position_residual,
+            d.velocity_residual,
+            count(self.samples, "sample")
         )?;
         match d.energy_drift {
             Some(drift) => writeln!(out, "Energy drift: {drift:.1e} of the energy exchanged")?,
@@ -180,13 +182,13 @@ impl Summary {
         }
         writeln!(
             out,
-            "Work: {} steps ({} rejected), {} evaluations, {} projections ({} iterations), {} fallbacks; {:.3} s",
-            w.steps,
+            "Work: {} ({} rejected), {}, {} ({}), {}; {:.3} s",
+            count(w.steps, "step"),
             w.rejected,
-            w.evaluations,
-            w.projections,
-            w.projection_iterations,
-            w.fallbacks,
+            count(w.evaluations, "evaluation"),
+            count(w.projections, "projection"),
+            count(w.projection_iterations, "iteration"),
+            count(w.fallbacks, "fallback"),
             self.seconds
         )
     }

@@ -69,6 +69,10 @@ impl Quantity {
     /// # Errors
     /// What is wrong with `text`, with the nearest unit if one is unknown.
     pub(crate) fn parse(text: &str) -> Result<Self, String> {
+        let word = text.trim().trim_start_matches(['-', '+']).to_lowercase();
+        if ["nan", "inf", "infinity"].contains(&word.as_str()) {
+            return Err(format!("`{text}` is not a finite number"));
+        }
         let mut parser = Parser {
             rest: text,
             depth: 0,
@@ -142,6 +146,9 @@ pub(crate) fn assignment(text: &str) -> Result<(String, Quantity), String> {
     let name = name.trim();
     if name.is_empty() {
         return Err(format!("`{text}` has no name before `=`"));
+    }
+    if value.trim().is_empty() {
+        return Err(format!("`{text}` has no value after `=`"));
     }
     Ok((name.to_owned(), Quantity::parse(value)?))
 }

@@ -82,6 +82,8 @@ fn mistakes_are_named() {
     fails("(1", "m", "a `)` is missing");
     fails("1)", "m", "`)` is not understood");
     fails("2^x", "m", "an exponent must be a small integer");
+    fails("nan", "m", "`nan` is not a finite number");
+    fails("-Inf", "m", "not a finite number");
     fails("1/0", "m", "not a finite number");
     fails(&"(".repeat(10_000), "m", "nested too deep");
     fails(".", "m", "not a number");

@@ -103,7 +103,7 @@ pub(super) fn compute(start: &str, x0: f64) -> Result<Chain, Failure> {
     let start = mechanism.start(start, &StartOptions::new().with("x0", x0))?;
     let turn = Event::new("turn", |_, _, v| v[TIP_Y]).direction(Direction::Falling);
     let (mut motion, run) = Motion::new(&name, mechanism.clone(), start, UNTIL, Some(turn))?;
-    let hit = motion.trajectory().events("turn").next().ok_or_else(|| {
+    let hit = motion.trajectory().events("turn")?.next().ok_or_else(|| {
         Failure::Failed(format!(
             "{name}: the tip does not turn before t = {UNTIL} s"
         ))

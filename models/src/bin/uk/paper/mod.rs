@@ -78,6 +78,8 @@ struct Results {
 /// replaced by files that are each whole, and index.html is written last.
 pub(crate) fn paper(args: &PaperArgs) -> Result<(), Failure> {
     let started = Instant::now();
+    output::create_directory(&args.out)?;
+    output::check_writable(&args.out.join("index.html"))?;
     let results = compute()?;
     let uchain = rows(&results.chains, |c| &c.row);
     let fish = rows(&results.fishes, |f| &f.row);

@@ -1,0 +1,157 @@
+//! Runs that cannot go on say why, in time, by the names of the declaration.
+
+use ukcore::{Error, Failure, Mechanism, Method, Simulation, State};
+
+ukcore::multibody! {
+    /// Two constraints on x + y that agree at t = 0 only.
+    pub Diverging {
+        coords { x, y, z }
+        mass { x: 1.0, y: 1.0, z: 1.0 }
+        force { z: -z }
+        holonomic {
+            line: x + y = t,
+            sine: x + y = sin(t),
+            other: x - y = 0.0,
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// Two constraints on x + y that agree until t = 0.5.
+    pub Parting {
+        params { linear = 0.0, square = 0.0, cube = 0.0 }
+        coords { x, y }
+        mass { x: 1.0, y: 2.0 }
+        let after = max(0.0, t - 0.5);
+        holonomic {
+            early: x + y = sin(t),
+            late: x + y = sin(t) + linear * after + square * sq(after) + cube * after.powi(3),
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// A block on a slope of inclination `slope`, with dry friction.
+    pub Block {
+        params { m = 2.0, mu = 0.5, g = 9.81, slope = 0.0 }
+        coords { s, h }
+        mass { s: m, h: m }
+        force { s: m * g * sin(slope) - mu * m * g * cos(slope) * sign(dot(s)), h: -m * g }
+        holonomic { ground: h = 0.0 }
+    }
+}
+
+/// Time and cause.
+#[track_caller]
+fn place<M: Mechanism>(failure: &Failure<M>) -> (f64, &Error) {
+    match &failure.error {
+        Error::At { t, source, .. } => (*t, source),
+        other => panic!("{other}"),
+    }
+}
+
+/// The two constraints of a contradiction, with residuals that are opposite, as far as they are in the same units.
+#[track_caller]
+fn contradiction(error: &Error) -> ([&str; 2], f64) {
+    let (Error::Inconsistent { constraints } | Error::OffConstraint { constraints, .. }) = error
+    else {
+        panic!("{error}");
+    };
+    let [(a, ra), (b, rb)] = &constraints[..] else {
+        panic!("{error}");
+    };
+    assert!((ra + rb).abs() <= 1e-6 * ra.abs(), "{error}");
+    ([a, b], ra.abs())
+}
+
+#[test]
+fn constraints_that_come_apart_in_time_are_both_named_there() {
+    for method in [Method::Dop853, Method::Dopri5] {
+        let start = State {
+            t: 0.0,
+            q: vec![0.0; 3],
+            v: vec![0.5, 0.5, 0.0],
+        };
+        let run = Simulation::new(Diverging::default())
+            .method(method)
+            .start(start);
+        let failure = run.until(1.0).unwrap_err();
+        let (t, error) = place(&failure);
+        let (names, residual) = contradiction(error);
+        assert_eq!(names, ["line", "sine"]);
+        // Of the accelerations 0 and −sin t, least squares leave half to each.
+        assert!(t > 0.0 && t < 0.1, "{t}");
+        assert!((residual - 0.5 * t.sin()).abs() < 1e-9 * t, "{residual}");
+    }
+}
+
+#[test]
+fn a_contradiction_that_begins_within_a_run_is_found_where_it_begins() {
+    for (linear, square, cube) in [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)] {
+        let start = State {
+            t: 0.0,
+            q: vec![0.0; 2],
+            v: vec![2.0 / 3.0, 1.0 / 3.0],
+        };
+        let parting = Parting {
+            linear,
+            square,
+            cube,
+        };
+        let failure = Simulation::new(parting)
+            .start(start)
+            .until(2.0)
+            .unwrap_err();
+        let (t, error) = place(&failure);
+        let (names, residual) = contradiction(error);
+        assert_eq!(names, ["early", "late"]);
+        assert!(t > 0.5 && t < 0.6, "{t}: {error}");
+        assert!(residual > 1e-6, "{error}");
+        assert!(
+            failure
+                .trajectory
+                .last()
+                .is_some_and(|last| (last.t - 0.5).abs() < 0.01)
+        );
+    }
+}
+
+#[test]
+fn friction_that_brings_to_rest_is_named_with_the_remedy() {
+    // Comes to rest; stands from the start; stands on a slope.
+    for (slope, v, rest) in [
+        (0.0, 1.0, 1.0 / 4.905),
+        (0.1, 0.0, 0.0),
+        (-0.1, 2.0, f64::NAN),
+    ] {
+        for tolerance in [1e-5, 1e-9] {
+            let block = Block {
+                slope,
+                ..Block::default()
+            };
+            let start = State {
+                t: 0.0,
+                q: vec![0.0; 2],
+                v: vec![v, 0.0],
+            };
+            let failure = Simulation::new(block)
+                .tolerance(tolerance)
+                .start(start)
+                .until(1e3)
+                .unwrap_err();
+            let (t, error) = place(&failure);
+            let Error::Chattering { terms, .. } = error else {
+                panic!("{error}");
+            };
+            assert_eq!(terms, &["force on `s`"]);
+            if rest.is_finite() {
+                assert!(t >= rest && t < 10.0, "{t}");
+            }
+            let message = failure.to_string();
+            assert!(
+                message.contains("terminal event") && message.contains("tanh"),
+                "{message}"
+            );
+        }
+    }
+}

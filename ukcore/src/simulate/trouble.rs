@@ -1,0 +1,263 @@
+//! Why a run cannot go on, in words that help: what is known over several steps, and not in the one that failed last.
+
+use crate::error::Error;
+use crate::integrate::error_norm;
+use crate::mechanism::Spec;
+
+/// A contradiction seen nearer to where it begins replaces the one seen first while its residual is at least this part of it:
+/// nearer still it fades into rounding, and so do the names.
+const FADED: f64 = 1e-3;
+
+/// The contradiction between constraints that is ahead of a run.
+///
+/// A run retries ever smaller steps, so the failure seen last is at the very place where the constraints come apart: there the residual is rounding
+/// and one of the constraints may be missing. What a longer step met says more. It stays of interest while the run has not passed it.
+#[derive(Debug, Default)]
+pub(super) struct Conflict {
+    ahead: Option<Ahead>,
+}
+
+#[derive(Debug)]
+struct Ahead {
+    t: f64,
+    y: Vec<f64>,
+    error: Error,
+    /// Largest residual of the first failure.
+    first: f64,
+}
+
+/// Level and constraints of an error that is a contradiction.
+fn contradiction(error: &Error) -> Option<(&'static str, &[(String, f64)])> {
+    match error {
+        Error::Inconsistent { constraints } => Some(("acceleration", constraints)),
+        Error::OffConstraint { level, constraints } => Some((level, constraints)),
+        _ => None,
+    }
+}
+
+fn names(constraints: &[(String, f64)]) -> impl Iterator<Item = &str> {
+    constraints.iter().map(|(name, _)| name.as_str())
+}
+
+impl Conflict {
+    /// A failure at (t, y).
+    pub(super) fn note(&mut self, t: f64, y: &[f64], error: &Error) {
+        let Some((level, constraints)) = contradiction(error) else {
+            return;
+        };
+        let largest = constraints
+            .iter()
+            .fold(0.0, |s: f64, (_, r)| s.max(r.abs()));
+        let mut first = largest;
+        if let Some(ahead) = &self.ahead
+            && let Some((known_level, known)) = contradiction(&ahead.error)
+            && known_level == level
+            && names(constraints).all(|name| names(known).any(|k| k == name))
+        {
+            if constraints.len() < known.len() || largest < FADED * ahead.first {
+                return;
+            }
+            first = ahead.first;
+        }
+        self.ahead = Some(Ahead {
+            t,
+            y: y.to_vec(),
+            error: error.clone(),
+            first,
+        });
+    }
+
+    /// The run has got from `t_old` to `t`: what was seen there is no obstacle.
+    pub(super) fn pass(&mut self, t_old: f64, t: f64) {
+        let passed = |ahead: &mut Ahead| (ahead.t - t_old).abs() <= (t - t_old).abs();
+        self.ahead.take_if(passed);
+    }
+
+    /// What to report of a run that ended with `error` at (t, y).
+    pub(super) fn explain(&mut self, t: f64, y: Vec<f64>, error: Error) -> (f64, Vec<f64>, Error) {
+        match self.ahead.take() {
+            Some(ahead) if contradiction(&error).is_some() => (ahead.t, ahead.y, ahead.error),
+            _ => (t, y, error),
+        }
+    }
+}
+
+/// So many steps decide whether a run is chattering: well below a second of computing.
+const WINDOW: usize = 100_000;
+
+/// Steps fewer than this say nothing of the pace.
+const FEW: usize = 100;
+
+/// Mean change of the state over a step, in units of the tolerance, below which a motion chatters. A step across a switch is accepted
+/// once the jump times the step is of the order of the tolerance; a step limited by its error in a smooth motion changes the state by many thousands of tolerances.
+const CHATTER: f64 = 100.0;
+
+/// Watches the steps where the equations contain sign, abs, min or max.
+///
+/// Where the motion is driven back onto a switch from both sides, as at rest under dry friction, no step that crosses the switch is
+/// good until it is tiny, and the next one crosses it again; the run would use up its steps there without getting on.
+#[derive(Debug)]
+pub(super) struct Pace {
+    /// The terms with a switch; nothing is watched if there are none.
+    terms: Vec<String>,
+    tolerance: f64,
+    /// Steps still allowed, as far as accepted ones count.
+    left: usize,
+    /// Steps of the window in hand, the time they took, and the changes of the state in units of the tolerance.
+    steps: usize,
+    time: f64,
+    change: f64,
+}
+
+impl Pace {
+    pub(super) fn new(spec: &Spec, tolerance: f64, max_steps: usize) -> Self {
+        Pace {
+            terms: switches(spec),
+            tolerance,
+            left: max_steps,
+            steps: 0,
+            time: 0.0,
+            change: 0.0,
+        }
+    }
+
+    /// An accepted step from `y_old` to `y` that took `time`.
+    pub(super) fn step(&mut self, time: f64, y_old: &[f64], y: &[f64]) {
+        if self.terms.is_empty() {
+            return;
+        }
+        if self.steps == WINDOW {
+            (self.steps, self.time, self.change) = (0, 0.0, 0.0);
+        }
+        self.steps += 1;
+        self.left = self.left.saturating_sub(1);
+        self.time += time.abs();
+        let change = y_old
+            .iter()
+            .zip(y)
+            .map(|(old, new)| (new - old, *old, *new));
+        self.change += error_norm(change, self.tolerance);
+    }
+
+    /// Whether the steps of a window chatter, and too slowly to get over `remaining` time with the steps left.
+    pub(super) fn hopeless(&self, remaining: f64) -> bool {
+        let reach = self.time * (self.left as f64 / WINDOW as f64);
+        self.steps == WINDOW && self.chatters() && reach < remaining.abs()
+    }
+
+    fn chatters(&self) -> bool {
+        self.steps >= FEW && self.change < CHATTER * self.steps as f64
+    }
+
+    /// What to report of a run whose steps were used up, or that was given up.
+    pub(super) fn explain(&self, error: Error) -> Error {
+        match error {
+            Error::TooManySteps { .. } if self.chatters() => Error::Chattering {
+                step: self.time / self.steps as f64,
+                terms: self.terms.clone(),
+            },
+            other => other,
+        }
+    }
+}
+
+/// The terms of `spec` that contain sign, abs, min or max.
+fn switches(spec: &Spec) -> Vec<String> {
+    if spec.structure.operations.selections == 0 {
+        return Vec::new();
+    }
+    let e = &spec.equations;
+    let mut terms = Vec::new();
+    let mut take = |name: String, text: &str| {
+        if has_switch(text) && !terms.contains(&name) {
+            terms.push(name);
+        }
+    };
+    for (i, text) in e.force {
+        take(format!("force on `{}`", spec.coords[*i]), text);
+    }
+    for (i, text) in e.nonideal {
+        take(format!("non-ideal force on `{}`", spec.coords[*i]), text);
+    }
+    for (i, _, text) in e.mass {
+        take(format!("mass on `{}`", spec.coords[*i]), text);
+    }
+    for (c, text) in e.rhs {
+        take(format!("constraint `{}`", spec.constraints[*c].name), text);
+    }
+    for (c, _, text) in e.jacobian {
+        take(format!("constraint `{}`", spec.constraints[*c].name), text);
+    }
+    terms
+}
+
+/// Whether a readable expression calls sign, abs, min or max.
+fn has_switch(text: &str) -> bool {
+    ["sign(", "abs(", "min(", "max("].iter().any(|call| {
+        text.match_indices(call).any(|(at, _)| {
+            let before = text[..at].chars().next_back();
+            before.is_none_or(|c| !(c.is_alphanumeric() || c == '_'))
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn switches_are_calls_not_parts_of_names() {
+        for (text, expect) in [
+            ("-m*mu*g*sign(dot(s))", true),
+            ("max(0, x)", true),
+            ("2*abs(x)", true),
+            ("design(x) + cabs(x) + sq(sign_x)", false),
+            ("sin(minimum)", false),
+        ] {
+            assert_eq!(has_switch(text), expect, "{text}");
+        }
+    }
+
+    fn split(residual: f64) -> Error {
+        Error::Inconsistent {
+            constraints: vec![("line".into(), -residual), ("sine".into(), residual)],
+        }
+    }
+
+    fn one(residual: f64) -> Error {
+        Error::Inconsistent {
+            constraints: vec![("sine".into(), residual)],
+        }
+    }
+
+    #[test]
+    fn the_conflict_nearest_to_its_beginning_that_is_not_faded_is_told() {
+        let mut conflict = Conflict::default();
+        for (t, error) in [
+            (1.5, split(0.5)),
+            (1.1, split(0.1)),
+            (1.001, split(1e-3)),
+            (1.0001, split(1e-4)),
+            (1.0 + 1e-12, one(1e-12)),
+        ] {
+            conflict.note(t, &[t], &error);
+        }
+        conflict.pass(0.0, 1.0);
+        let told = conflict.explain(1.0, vec![1.0], one(1e-300));
+        assert_eq!(told, (1.001, vec![1.001], split(1e-3)));
+    }
+
+    #[test]
+    fn what_was_passed_or_is_of_another_kind_is_not_told() {
+        let mut conflict = Conflict::default();
+        conflict.note(-1.5, &[0.0], &split(0.5));
+        conflict.pass(-1.0, -2.0);
+        let last = (-2.0, vec![1.0], one(1e-3));
+        let (t, y, error) = last.clone();
+        assert_eq!(conflict.explain(t, y, error), last);
+        conflict.note(-2.5, &[0.0], &split(0.5));
+        let other = (-2.0, vec![1.0], Error::StepTooSmall { step: 1e-20 });
+        let (t, y, error) = other.clone();
+        assert_eq!(conflict.explain(t, y, error), other);
+    }
+}
