@@ -126,8 +126,8 @@ impl ::ukcore::Mechanism for DoublePendulum {
             },
         ],
         prepared: &[
-            ("m1_g", "m1*g"),
-            ("m2_g", "m2*g"),
+            ("right_y1", "m1*g"),
+            ("right_y2", "m2*g"),
             ("sq_l1", "sq(l1)"),
             ("sq_l2", "sq(l2)"),
             ("m1", "m1"),
@@ -135,8 +135,6 @@ impl ::ukcore::Mechanism for DoublePendulum {
             ("per_m2", "1/m2"),
             ("per_m1", "1/m1"),
             ("g", "g"),
-            ("half_per_m1", "0.5/m1"),
-            ("half_per_m2", "0.5/m2"),
             ("safe_x1", "(m1 ≤ 0 ? 0 : (m2 ≤ 0 ? 0 : 1))"),
         ],
         coords: &["x1", "y1", "x2", "y2"],
@@ -241,25 +239,23 @@ impl ::ukcore::Mechanism for DoublePendulum {
         }
     }
     fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
-        let prepared = ::ukcore::emitted::exact_mut::<S, 12>(prepared, "prepared");
+        let prepared = ::ukcore::emitted::exact_mut::<S, 10>(prepared, "prepared");
         let [m1, m2, l1, l2, g] = *::ukcore::emitted::exact::<S, 5>(given, "given");
         let lit = S::from_f64;
-        prepared[0] = m1 * g;
-        prepared[1] = m2 * g;
+        let right_y1 = m1 * g;
+        prepared[0] = right_y1;
+        let right_y2 = m2 * g;
+        prepared[1] = right_y2;
         prepared[2] = l1 * l1;
         prepared[3] = l2 * l2;
         prepared[4] = m1;
         prepared[5] = m2;
-        let per_m2 = m2.recip();
-        prepared[6] = per_m2;
-        let per_m1 = m1.recip();
-        prepared[7] = per_m1;
+        prepared[6] = m2.recip();
+        prepared[7] = m1.recip();
         prepared[8] = g;
-        prepared[9] = lit(0.5) * per_m1;
-        prepared[10] = lit(0.5) * per_m2;
         let safe_x2 = S::select_le(m2, lit(0.0), lit(0.0), lit(1.0));
         let safe_x1 = S::select_le(m1, lit(0.0), lit(0.0), safe_x2);
-        prepared[11] = safe_x1;
+        prepared[9] = safe_x1;
     }
     /// 8 additions, 12 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
@@ -274,9 +270,9 @@ impl ::ukcore::Mechanism for DoublePendulum {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 4>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 8>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 2>(out.rhs, "rhs");
-        let [m1_g, m2_g, _, _, m1, m2, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [right_y1, right_y2, _, _, m1, m2, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            12,
+            10,
         >(prepared, "prepared");
         let [x1, y1, x2, y2] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let [dot_x1, dot_y1, dot_x2, dot_y2] = *::ukcore::emitted::exact::<S, 4>(v, "v");
@@ -286,9 +282,9 @@ impl ::ukcore::Mechanism for DoublePendulum {
         mass[10] = m2;
         mass[15] = m2;
         force[0] = lit(0.0);
-        force[1] = -m1_g;
+        force[1] = -right_y1;
         force[2] = lit(0.0);
-        force[3] = -m2_g;
+        force[3] = -right_y2;
         nonideal[0] = lit(0.0);
         nonideal[1] = lit(0.0);
         nonideal[2] = lit(0.0);
@@ -310,9 +306,9 @@ impl ::ukcore::Mechanism for DoublePendulum {
     }
     fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 16>(mass, "mass");
-        let [_, _, _, _, m1, m2, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [_, _, _, _, m1, m2, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            12,
+            10,
         >(prepared, "prepared");
         mass[0] = m1;
         mass[5] = m1;
@@ -340,9 +336,9 @@ impl ::ukcore::Mechanism for DoublePendulum {
     }
     fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
         let phi = ::ukcore::emitted::exact_mut::<S, 2>(phi, "phi");
-        let [_, _, sq_l1, sq_l2, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [_, _, sq_l1, sq_l2, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            12,
+            10,
         >(prepared, "prepared");
         let [x1, y1, x2, y2] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         phi[0] = y1.mul_add(y1, x1 * x1 - sq_l1);
@@ -371,9 +367,9 @@ impl ::ukcore::Mechanism for DoublePendulum {
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
-        let [m1_g, m2_g, _, _, m1, m2, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [right_y1, right_y2, _, _, m1, m2, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            12,
+            10,
         >(prepared, "prepared");
         let [_, y1, _, y2] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let [dot_x1, dot_y1, dot_x2, dot_y2] = *::ukcore::emitted::exact::<S, 4>(v, "v");
@@ -385,7 +381,7 @@ impl ::ukcore::Mechanism for DoublePendulum {
                     (dot_x2 * dot_x2)
                         .mul_add(m2, (dot_y1 * dot_y1).mul_add(m1, dot_x1 * dot_x1 * m1)),
                 );
-        let potential = y2.mul_add(m2_g, y1 * m1_g);
+        let potential = y2.mul_add(right_y2, y1 * right_y1);
         ::ukcore::Energy {
             kinetic,
             potential,
@@ -412,9 +408,9 @@ impl ::ukcore::Mechanism for DoublePendulum {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 4>(out, "out");
-        let [_, _, _, _, m1, _, per_m2, per_m1, g, _, _, safe_x1] = *::ukcore::emitted::exact::<
+        let [_, _, _, _, m1, _, per_m2, per_m1, g, safe_x1] = *::ukcore::emitted::exact::<
             S,
-            12,
+            10,
         >(prepared, "prepared");
         let [x1, y1, x2, y2] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let [dot_x1, dot_y1, dot_x2, dot_y2] = *::ukcore::emitted::exact::<S, 4>(v, "v");
@@ -422,6 +418,7 @@ impl ::ukcore::Mechanism for DoublePendulum {
         let pivot_inner = y1.mul_add(y1, x1 * x1);
         let per_pivot_inner = pivot_inner.recip();
         let safe_inner = S::select_le(pivot_inner, lit(0.0), lit(0.0), safe_x1);
+        let right_inner = y1.neg_mul_add(g, dot_y1.mul_add(dot_y1, dot_x1 * dot_x1));
         let x1_minus_x2 = x1 - x2;
         let y1_minus_y2 = y1 - y2;
         let outer_with_inner = y1.mul_add(y1_minus_y2, x1 * x1_minus_x2);
@@ -445,13 +442,11 @@ impl ::ukcore::Mechanism for DoublePendulum {
             lit(0.0),
             safe_inner,
         );
-        let safe = safe_outer;
         let dot_x1_minus_dot_x2 = dot_x1 - dot_x2;
         let dot_y1_minus_dot_y2 = dot_y1 - dot_y2;
-        let safe_part = y1.neg_mul_add(g, dot_y1.mul_add(dot_y1, dot_x1 * dot_x1));
-        let safe_part_2 = outer_with_inner
+        let right_outer = outer_with_inner
             .neg_mul_add(
-                safe_part,
+                right_inner,
                 pivot_inner
                     * dot_y1_minus_dot_y2
                         .mul_add(
@@ -459,18 +454,19 @@ impl ::ukcore::Mechanism for DoublePendulum {
                             dot_x1_minus_dot_x2 * dot_x1_minus_dot_x2,
                         ),
             );
-        out[2] = -(per_m2 * x1_minus_x2 * safe_part_2 * per_pivot_outer);
-        out[3] = (per_m2 * y1_minus_y2 * safe_part_2).neg_mul_add(per_pivot_outer, -g);
-        let safe_part_3 = (outer_with_inner * safe_part_2)
-            .mul_add(per_pivot_outer, m1 * safe_part);
-        out[1] = (y1 * per_m1 * per_pivot_inner)
+        let safe = safe_outer;
+        out[2] = -(per_m2 * x1_minus_x2 * right_outer * per_pivot_outer);
+        out[3] = (per_m2 * y1_minus_y2 * right_outer).neg_mul_add(per_pivot_outer, -g);
+        let lambda_inner = (outer_with_inner * right_outer * per_pivot_inner)
+            .mul_add(per_pivot_outer, m1 * right_inner * per_pivot_inner);
+        out[1] = (y1 * per_m1)
             .neg_mul_add(
-                safe_part_3,
-                per_m1 * y1_minus_y2 * safe_part_2 * per_pivot_outer - g,
+                lambda_inner,
+                per_m1 * y1_minus_y2 * right_outer * per_pivot_outer - g,
             );
         out[0] = -(per_m1
-            * (x1_minus_x2 * safe_part_2)
-                .neg_mul_add(per_pivot_outer, x1 * per_pivot_inner * safe_part_3));
+            * (x1_minus_x2 * right_outer)
+                .neg_mul_add(per_pivot_outer, x1 * lambda_inner));
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
@@ -482,9 +478,9 @@ impl ::ukcore::Mechanism for DoublePendulum {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 4>(out, "out");
-        let [_, _, _, _, m1, _, per_m2, per_m1, _, half_per_m1, half_per_m2, safe_x1] = *::ukcore::emitted::exact::<
+        let [_, _, _, _, m1, _, per_m2, per_m1, _, safe_x1] = *::ukcore::emitted::exact::<
             S,
-            12,
+            10,
         >(prepared, "prepared");
         let [x1, y1, x2, y2] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let [residual_0, residual_1] = *::ukcore::emitted::exact::<
@@ -518,19 +514,19 @@ impl ::ukcore::Mechanism for DoublePendulum {
             lit(0.0),
             safe_inner,
         );
+        let right_inner = lit(0.5) * residual_0;
+        let correction_0_part_2 = lit(0.5) * residual_1;
+        let right_outer = correction_0_part_2
+            .neg_mul_add(pivot_inner, right_inner * outer_with_inner);
         let safe = safe_outer;
-        let safe_part = residual_1
-            .neg_mul_add(pivot_inner, residual_0 * outer_with_inner);
-        out[2] = half_per_m2 * x1_minus_x2 * safe_part * per_pivot_outer;
-        out[3] = half_per_m2 * y1_minus_y2 * safe_part * per_pivot_outer;
-        let safe_part_2 = (outer_with_inner * safe_part)
-            .neg_mul_add(per_pivot_outer, residual_0 * m1);
-        out[0] = -(half_per_m1
-            * (x1 * per_pivot_inner)
-                .mul_add(safe_part_2, x1_minus_x2 * safe_part * per_pivot_outer));
-        out[1] = -(half_per_m1
-            * (y1 * per_pivot_inner)
-                .mul_add(safe_part_2, y1_minus_y2 * safe_part * per_pivot_outer));
+        out[2] = per_m2 * x1_minus_x2 * right_outer * per_pivot_outer;
+        out[3] = per_m2 * y1_minus_y2 * right_outer * per_pivot_outer;
+        let lambda_inner = (outer_with_inner * right_outer * per_pivot_inner)
+            .neg_mul_add(per_pivot_outer, m1 * right_inner * per_pivot_inner);
+        out[0] = -(per_m1
+            * x1.mul_add(lambda_inner, x1_minus_x2 * right_outer * per_pivot_outer));
+        out[1] = -(per_m1
+            * y1.mul_add(lambda_inner, y1_minus_y2 * right_outer * per_pivot_outer));
         safe
     }
 }

@@ -379,14 +379,10 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_th1, dot_th2] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
+        let dot_th1_minus_dot_th2 = dot_th1 - dot_th2;
         let th1_minus_th2 = th1 - th2;
         let (sin_th1_minus_th2, cos_th1_minus_th2) = th1_minus_th2.sin_cos();
-        let pivot_th2 = (m2_per_m1_and_m2 * cos_th1_minus_th2)
-            .neg_mul_add(cos_th1_minus_th2, lit(1.0));
-        let per_pivot_th2 = pivot_th2.recip();
-        let safe_th2 = S::select_le(m2 * pivot_th2, times_m2, lit(0.0), safe_th1);
-        let dot_th1_minus_dot_th2 = dot_th1 - dot_th2;
-        let acceleration_0_part = (dot_th1 * dot_th2 * m2_l2)
+        let right_th1 = (dot_th1 * dot_th2 * m2_l2)
             .neg_mul_add(
                 sin_th1_minus_th2,
                 m1_and_m2_g
@@ -395,10 +391,14 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
                         dot_th2 * m2_l2 * dot_th1_minus_dot_th2 * sin_th1_minus_th2,
                     ),
             );
+        let pivot_th2 = (m2_per_m1_and_m2 * cos_th1_minus_th2)
+            .neg_mul_add(cos_th1_minus_th2, lit(1.0));
+        let per_pivot_th2 = pivot_th2.recip();
+        let safe_th2 = S::select_le(m2 * pivot_th2, times_m2, lit(0.0), safe_th1);
         let th2_by_th1 = m2_per_m1_and_m2_per_l1_l2 * cos_th1_minus_th2;
-        let acceleration_0_part_2 = (l1 * th2_by_th1)
+        let right_th2 = (l1 * th2_by_th1)
             .neg_mul_add(
-                acceleration_0_part,
+                right_th1,
                 (dot_th1 * m2_l1_l2 * dot_th1_minus_dot_th2)
                     .mul_add(
                         sin_th1_minus_th2,
@@ -410,9 +410,9 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
                     ),
             );
         let safe = safe_th2;
-        out[1] = prepared_part * acceleration_0_part_2 * per_pivot_th2;
-        out[0] = (prepared_part * th2_by_th1 * acceleration_0_part_2)
-            .neg_mul_add(per_pivot_th2, per_m1_and_m2_per_l1 * acceleration_0_part);
+        out[1] = prepared_part * right_th2 * per_pivot_th2;
+        out[0] = (prepared_part * th2_by_th1 * right_th2)
+            .neg_mul_add(per_pivot_th2, per_m1_and_m2_per_l1 * right_th1);
         safe
     }
     fn correction<S: ::ukcore::Scalar>(

@@ -284,9 +284,13 @@ impl ::ukcore::Mechanism for FishRobot {
         ],
         prepared: &[
             ("rho_span_half_chord", "rho*span*half_chord"),
+            ("times_rho_span_half_chord", "6.283185307179586*rho*span*half_chord"),
             ("rho_s_cd", "rho*s*cd"),
+            ("half_rho_s_cd", "0.5*rho*s*cd"),
             ("rho_cd_s1", "rho*cd*s1"),
+            ("half_rho_cd_s1", "0.5*rho*cd*s1"),
             ("rho_cd_s2", "rho*cd*s2"),
+            ("half_rho_cd_s2", "0.5*rho*cd*s2"),
             ("rho_cd_s3", "rho*cd*s3"),
             ("half_rho_cd_s3", "0.5*rho*cd*s3"),
             ("a", "a"),
@@ -317,20 +321,14 @@ impl ::ukcore::Mechanism for FishRobot {
             ("rho_per_m3", "rho/m3"),
             ("per_i1_sq_a", "sq(a)/i1"),
             ("rho_per_m2_cd_s2", "rho*cd*s2/m2"),
-            (
-                "times_rho_span_half_chord_per_m3",
-                "6.283185307179586*rho*span*half_chord/m3",
-            ),
             ("joint1_0_with_joint2_0", "1/m2"),
             ("per_per_m3_and_per_m2", "1/(1/m3 + 1/m2)"),
             ("joint1_1_by_joint2_1", "1/(m2*(1/m3 + 1/m2))"),
             ("per_m1_and_per_m2", "1/m1 + 1/m2"),
-            ("half_rho_per_m1_s_cd", "0.5*rho*s*cd/m1"),
             ("pivot_joint2_0", "1/m3 + 1/m2"),
             ("prepared_part", "1/sq(m2)"),
             ("prepared_part_2", "a^4*(1/m3 + 1/m2)/sq(i1)"),
             ("prepared_part_3", "1/(sq(m2)*(1/m3 + 1/m2))"),
-            ("half_rho_per_m1_cd_s1", "0.5*rho*cd*s1/m1"),
             ("per_i1_sq_a_per_m3_and_per_m2", "sq(a)*(1/m3 + 1/m2)/i1"),
             ("per_i1_a", "a/i1"),
             ("per_m3", "1/m3"),
@@ -440,8 +438,8 @@ impl ::ukcore::Mechanism for FishRobot {
                 "4 of 9 entries of Q: identically zero",
             ],
             operations: ::ukcore::Operations {
-                additions: 12,
-                multiplications: 56,
+                additions: 15,
+                multiplications: 52,
                 divisions: 0,
                 square_roots: 0,
                 transcendentals: 5,
@@ -449,7 +447,7 @@ impl ::ukcore::Mechanism for FishRobot {
             },
             solve_operations: ::ukcore::Operations {
                 additions: 47,
-                multiplications: 113,
+                multiplications: 105,
                 divisions: 2,
                 square_roots: 0,
                 transcendentals: 5,
@@ -560,81 +558,83 @@ impl ::ukcore::Mechanism for FishRobot {
         }
     }
     fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
-        let prepared = ::ukcore::emitted::exact_mut::<S, 51>(prepared, "prepared");
+        let prepared = ::ukcore::emitted::exact_mut::<S, 52>(prepared, "prepared");
         let [m1, i1, a, s, s1, m2, l2, s2, m3, b, s3, rho, cd, span, half_chord, a2, a3,
         w, phi_2] = *::ukcore::emitted::exact::<S, 19>(given, "given");
         let lit = S::from_f64;
-        prepared[0] = rho * span * half_chord;
-        prepared[1] = rho * s * cd;
-        prepared[2] = rho * cd * s1;
-        prepared[3] = rho * cd * s2;
+        let rho_span_half_chord = rho * span * half_chord;
+        prepared[0] = rho_span_half_chord;
+        prepared[1] = lit(::core::f64::consts::TAU) * rho_span_half_chord;
+        let rho_s_cd = rho * s * cd;
+        prepared[2] = rho_s_cd;
+        prepared[3] = lit(0.5) * rho_s_cd;
+        let rho_cd_s1 = rho * cd * s1;
+        prepared[4] = rho_cd_s1;
+        prepared[5] = lit(0.5) * rho_cd_s1;
+        let rho_cd_s2 = rho * cd * s2;
+        prepared[6] = rho_cd_s2;
+        prepared[7] = lit(0.5) * rho_cd_s2;
         let rho_cd_s3 = rho * cd * s3;
-        prepared[4] = rho_cd_s3;
-        prepared[5] = lit(0.5) * rho_cd_s3;
-        prepared[6] = a;
-        prepared[7] = l2;
-        prepared[8] = b;
-        prepared[9] = w;
-        prepared[10] = a2;
-        prepared[11] = phi_2;
-        prepared[12] = a3;
+        prepared[8] = rho_cd_s3;
+        prepared[9] = lit(0.5) * rho_cd_s3;
+        prepared[10] = a;
+        prepared[11] = l2;
+        prepared[12] = b;
+        prepared[13] = w;
+        prepared[14] = a2;
+        prepared[15] = phi_2;
+        prepared[16] = a3;
         let per_m1 = m1.recip();
-        prepared[13] = m1;
+        prepared[17] = m1;
         let per_i1 = i1.recip();
-        prepared[14] = i1;
+        prepared[18] = i1;
         let per_m2 = m2.recip();
-        prepared[15] = m2;
+        prepared[19] = m2;
         let per_m3 = m3.recip();
-        prepared[16] = m3;
-        prepared[17] = a2 * w;
-        prepared[18] = a2 * w * w;
-        prepared[19] = w * a3;
-        prepared[20] = w * w * a3;
-        prepared[21] = l2 * a2 * w * w;
-        prepared[22] = b * w * w * a3;
-        let rho_per_m1_s_cd = rho * s * cd * per_m1;
-        prepared[23] = rho_per_m1_s_cd;
-        let rho_per_m1_cd_s1 = rho * cd * s1 * per_m1;
-        prepared[24] = rho_per_m1_cd_s1;
-        let rho_span_half_chord_per_m3 = rho * span * half_chord * per_m3;
-        prepared[25] = rho_span_half_chord_per_m3;
+        prepared[20] = m3;
+        prepared[21] = a2 * w;
+        prepared[22] = a2 * w * w;
+        prepared[23] = w * a3;
+        prepared[24] = w * w * a3;
+        prepared[25] = l2 * a2 * w * w;
+        prepared[26] = b * w * w * a3;
+        prepared[27] = rho * s * cd * per_m1;
+        prepared[28] = rho * cd * s1 * per_m1;
+        prepared[29] = rho * span * half_chord * per_m3;
         let span_half_chord = span * half_chord;
-        prepared[26] = span_half_chord;
+        prepared[30] = span_half_chord;
         let cd_s3 = cd * s3;
-        prepared[27] = cd_s3;
-        prepared[28] = lit(::core::f64::consts::TAU) * span_half_chord;
-        prepared[29] = lit(0.5) * cd_s3;
-        prepared[30] = rho;
-        prepared[31] = rho * per_m3;
-        prepared[32] = a * a * per_i1;
-        prepared[33] = rho * cd * s2 * per_m2;
-        prepared[34] = lit(::core::f64::consts::TAU) * rho_span_half_chord_per_m3;
-        prepared[35] = per_m2;
+        prepared[31] = cd_s3;
+        prepared[32] = lit(::core::f64::consts::TAU) * span_half_chord;
+        prepared[33] = lit(0.5) * cd_s3;
+        prepared[34] = rho;
+        prepared[35] = rho * per_m3;
+        prepared[36] = a * a * per_i1;
+        prepared[37] = rho * cd * s2 * per_m2;
+        prepared[38] = per_m2;
         let pivot_joint2_0 = per_m3 + per_m2;
         let per_pivot_joint2_0 = pivot_joint2_0.recip();
-        prepared[36] = per_pivot_joint2_0;
+        prepared[39] = per_pivot_joint2_0;
         let joint1_1_by_joint2_1 = per_m2 * per_pivot_joint2_0;
-        prepared[37] = joint1_1_by_joint2_1;
-        prepared[38] = per_m1 + per_m2;
-        prepared[39] = lit(0.5) * rho_per_m1_s_cd;
-        prepared[40] = pivot_joint2_0;
-        prepared[41] = (m2 * m2).recip();
-        prepared[42] = a.powi(4) * pivot_joint2_0 / (i1 * i1);
-        prepared[43] = per_pivot_joint2_0 / (m2 * m2);
-        prepared[44] = lit(0.5) * rho_per_m1_cd_s1;
-        prepared[45] = a * a * per_i1 * pivot_joint2_0;
-        prepared[46] = a * per_i1;
-        prepared[47] = per_m3;
-        prepared[48] = per_m1;
-        prepared[49] = per_m3 * per_pivot_joint2_0;
+        prepared[40] = joint1_1_by_joint2_1;
+        prepared[41] = per_m1 + per_m2;
+        prepared[42] = pivot_joint2_0;
+        prepared[43] = (m2 * m2).recip();
+        prepared[44] = a.powi(4) * pivot_joint2_0 / (i1 * i1);
+        prepared[45] = per_pivot_joint2_0 / (m2 * m2);
+        prepared[46] = a * a * per_i1 * pivot_joint2_0;
+        prepared[47] = a * per_i1;
+        prepared[48] = per_m3;
+        prepared[49] = per_m1;
+        prepared[50] = per_m3 * per_pivot_joint2_0;
         let safe_x1 = S::select_le(m1, lit(0.0), lit(0.0), lit(1.0));
         let safe_x3 = S::select_le(m3, lit(0.0), lit(0.0), safe_x1);
         let safe_th1 = S::select_le(i1, lit(0.0), lit(0.0), safe_x3);
         let safe_x2 = S::select_le(m2, lit(0.0), lit(0.0), safe_th1);
         let safe_joint2_0 = S::select_le(pivot_joint2_0, lit(0.0), lit(0.0), safe_x2);
-        prepared[50] = safe_joint2_0;
+        prepared[51] = safe_joint2_0;
     }
-    /// 12 additions, 56 multiplications, 0 divisions, 0 square roots, 5 transcendentals, 4 selections.
+    /// 15 additions, 52 multiplications, 0 divisions, 0 square roots, 5 transcendentals, 4 selections.
     fn dynamics<S: ::ukcore::Scalar>(
         prepared: &[S],
         t: S,
@@ -647,11 +647,12 @@ impl ::ukcore::Mechanism for FishRobot {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 9>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 54>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 6>(out.rhs, "rhs");
-        let [rho_span_half_chord, rho_s_cd, rho_cd_s1, rho_cd_s2, _, half_rho_cd_s3, a,
-        l2, b, w, _, phi_2, _, m1, i1, m2, m3, _, a2_sq_w, _, sq_w_a3, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [rho_span_half_chord, times_rho_span_half_chord, _, half_rho_s_cd, _,
+        half_rho_cd_s1, _, half_rho_cd_s2, _, half_rho_cd_s3, a, l2, b, w, _, phi_2, _,
+        m1, i1, m2, m3, _, a2_sq_w, _, sq_w_a3, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+        _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            51,
+            52,
         >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
             S,
@@ -669,16 +670,15 @@ impl ::ukcore::Mechanism for FishRobot {
         mass[40] = m2;
         mass[60] = m3;
         mass[70] = m3;
-        force[0] = lit(-0.5) * (dot_x1 * rho_s_cd * dot_x1.abs());
-        force[1] = lit(-0.5) * (dot_y1 * rho_cd_s1 * dot_y1.abs());
+        force[0] = -(dot_x1 * half_rho_s_cd * dot_x1.abs());
+        force[1] = -(dot_y1 * half_rho_cd_s1 * dot_y1.abs());
         force[2] = lit(0.0);
         force[3] = lit(0.0);
-        force[4] = lit(-0.5) * (dot_y2 * rho_cd_s2 * dot_y2.abs());
+        force[4] = -(dot_y2 * half_rho_cd_s2 * dot_y2.abs());
         force[5] = lit(0.0);
         let (sin_th3, cos_th3) = th3.sin_cos();
-        force[6] = lit(::core::f64::consts::TAU)
-            * (rho_span_half_chord
-                * (dot_y3 * dot_y3).neg_mul_add(cos_th3, dot_x3 * dot_y3 * sin_th3));
+        force[6] = times_rho_span_half_chord
+            * (dot_y3 * dot_y3).neg_mul_add(cos_th3, dot_x3 * dot_y3 * sin_th3);
         force[7] = (dot_y3 * half_rho_cd_s3)
             .neg_mul_add(
                 dot_y3.abs(),
@@ -733,9 +733,9 @@ impl ::ukcore::Mechanism for FishRobot {
     }
     fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 81>(mass, "mass");
-        let [_, _, _, _, _, _, _, _, _, _, _, _, _, m1, i1, m2, m3, _, _, _, _, _, _, _,
+        let [_, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, m1, i1, m2, m3, _, _, _,
         _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        ] = *::ukcore::emitted::exact::<S, 51>(prepared, "prepared");
+        _] = *::ukcore::emitted::exact::<S, 52>(prepared, "prepared");
         mass[0] = m1;
         mass[10] = m1;
         mass[20] = i1;
@@ -752,11 +752,9 @@ impl ::ukcore::Mechanism for FishRobot {
         jacobian: &mut [S],
     ) {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 54>(jacobian, "jacobian");
-        let [_, _, _, _, _, _, a, l2, b, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            51,
-        >(prepared, "prepared");
+        let [_, _, _, _, _, _, _, _, _, _, a, l2, b, _, _, _, _, _, _, _, _, _, _, _, _,
+        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+        ] = *::ukcore::emitted::exact::<S, 52>(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -788,9 +786,9 @@ impl ::ukcore::Mechanism for FishRobot {
     }
     fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
         let phi = ::ukcore::emitted::exact_mut::<S, 6>(phi, "phi");
-        let [_, _, _, _, _, _, a, l2, b, w, a2, phi_2, a3, _, _, _, _, _, _, _, _, _, _,
+        let [_, _, _, _, _, _, _, _, _, _, a, l2, b, w, a2, phi_2, a3, _, _, _, _, _, _,
         _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _] = *::ukcore::emitted::exact::<S, 51>(prepared, "prepared");
+        _, _] = *::ukcore::emitted::exact::<S, 52>(prepared, "prepared");
         let [x1, y1, th1, x2, y2, th2, x3, y3, th3] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -817,9 +815,9 @@ impl ::ukcore::Mechanism for FishRobot {
         rate: &mut [S],
     ) {
         let rate = ::ukcore::emitted::exact_mut::<S, 6>(rate, "rate");
-        let [_, _, _, _, _, _, a, l2, b, w, _, phi_2, _, _, _, _, _, a2_w, _, w_a3, _, _,
-        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _] = *::ukcore::emitted::exact::<S, 51>(prepared, "prepared");
+        let [_, _, _, _, _, _, _, _, _, _, a, l2, b, w, _, phi_2, _, _, _, _, _, a2_w, _,
+        w_a3, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+        _, _, _] = *::ukcore::emitted::exact::<S, 52>(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -859,9 +857,9 @@ impl ::ukcore::Mechanism for FishRobot {
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
-        let [_, _, _, _, _, _, _, _, _, _, _, _, _, m1, i1, m2, m3, _, _, _, _, _, _, _,
+        let [_, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, m1, i1, m2, m3, _, _, _,
         _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        ] = *::ukcore::emitted::exact::<S, 51>(prepared, "prepared");
+        _] = *::ukcore::emitted::exact::<S, 52>(prepared, "prepared");
         let [dot_x1, dot_y1, dot_th1, dot_x2, dot_y2, _, dot_x3, dot_y3, _] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -903,9 +901,12 @@ impl ::ukcore::Mechanism for FishRobot {
         outputs: &mut [S],
     ) {
         let outputs = ::ukcore::emitted::exact_mut::<S, 6>(outputs, "outputs");
-        let [rho_span_half_chord, _, _, _, _, _, _, _, b, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _] = *::ukcore::emitted::exact::<S, 51>(prepared, "prepared");
+        let [rho_span_half_chord, times_rho_span_half_chord, _, _, _, _, _, _, _, _, _,
+        _, b, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+        _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            52,
+        >(prepared, "prepared");
         let [_, _, th1, _, _, _, x3, y3, th3] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -918,16 +919,15 @@ impl ::ukcore::Mechanism for FishRobot {
         outputs[0] = -dot_x1;
         outputs[1] = th1;
         let (sin_th3, cos_th3) = th3.sin_cos();
-        outputs[2] = lit(::core::f64::consts::TAU)
-            * (rho_span_half_chord
-                * (dot_y3 * dot_y3).neg_mul_add(cos_th3, dot_x3 * dot_y3 * sin_th3));
+        outputs[2] = times_rho_span_half_chord
+            * (dot_y3 * dot_y3).neg_mul_add(cos_th3, dot_x3 * dot_y3 * sin_th3);
         outputs[3] = lit(::core::f64::consts::TAU)
             * (rho_span_half_chord
                 * (dot_x3 * dot_x3).neg_mul_add(sin_th3, dot_x3 * dot_y3 * cos_th3));
         outputs[4] = b.mul_add(cos_th3, x3);
         outputs[5] = b.mul_add(sin_th3, y3);
     }
-    /// 47 additions, 113 multiplications, 2 divisions, 0 square roots, 5 transcendentals, 6 selections.
+    /// 47 additions, 105 multiplications, 2 divisions, 0 square roots, 5 transcendentals, 6 selections.
     fn acceleration<S: ::ukcore::Scalar>(
         prepared: &[S],
         t: S,
@@ -936,16 +936,16 @@ impl ::ukcore::Mechanism for FishRobot {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 9>(out, "out");
-        let [rho_span_half_chord, rho_s_cd, rho_cd_s1, rho_cd_s2, _, _, a, l2, b, w, _,
-        phi_2, _, _, _, _, _, _, a2_sq_w, _, sq_w_a3, l2_a2_sq_w, b_sq_w_a3, _, _, _, _,
-        _, times_span_half_chord, half_cd_s3, rho, rho_per_m3, per_i1_sq_a,
-        rho_per_m2_cd_s2, times_rho_span_half_chord_per_m3, joint1_0_with_joint2_0,
-        per_per_m3_and_per_m2, joint1_1_by_joint2_1, per_m1_and_per_m2,
-        half_rho_per_m1_s_cd, pivot_joint2_0, prepared_part, prepared_part_2,
-        prepared_part_3, half_rho_per_m1_cd_s1, per_i1_sq_a_per_m3_and_per_m2, per_i1_a,
+        let [rho_span_half_chord, _, rho_s_cd, _, rho_cd_s1, _, rho_cd_s2, _, _, _, a,
+        l2, b, w, _, phi_2, _, _, _, _, _, _, a2_sq_w, _, sq_w_a3, l2_a2_sq_w, b_sq_w_a3,
+        rho_per_m1_s_cd, rho_per_m1_cd_s1, rho_span_half_chord_per_m3, _, _,
+        times_span_half_chord, half_cd_s3, rho, rho_per_m3, per_i1_sq_a,
+        rho_per_m2_cd_s2, joint1_0_with_joint2_0, per_per_m3_and_per_m2,
+        joint1_1_by_joint2_1, per_m1_and_per_m2, pivot_joint2_0, prepared_part,
+        prepared_part_2, prepared_part_3, per_i1_sq_a_per_m3_and_per_m2, per_i1_a,
         per_m3, per_m1, _, safe_joint2_0] = *::ukcore::emitted::exact::<
             S,
-            51,
+            52,
         >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
             S,
@@ -956,54 +956,50 @@ impl ::ukcore::Mechanism for FishRobot {
             9,
         >(v, "v");
         let lit = S::from_f64;
-        let abs_dot_x1 = dot_x1.abs();
-        let abs_dot_y1 = dot_y1.abs();
+        let right_x1 = lit(0.5) * (dot_x1 * dot_x1.abs());
+        let right_y1 = lit(0.5) * (dot_y1 * dot_y1.abs());
         let (sin_th3, cos_th3) = th3.sin_cos();
-        let acceleration_0_part = (dot_y3 * dot_y3)
-            .neg_mul_add(cos_th3, dot_x3 * dot_y3 * sin_th3);
-        let acceleration_0_part_2 = (dot_y3 * half_cd_s3)
+        let right_x3 = lit(::core::f64::consts::TAU)
+            * (dot_y3 * dot_y3).neg_mul_add(cos_th3, dot_x3 * dot_y3 * sin_th3);
+        let right_y3 = (dot_y3 * half_cd_s3)
             .neg_mul_add(
                 dot_y3.abs(),
                 times_span_half_chord
                     * (dot_x3 * dot_x3).neg_mul_add(sin_th3, dot_x3 * dot_y3 * cos_th3),
             );
-        let abs_dot_y2 = dot_y2.abs();
+        let right_y2 = lit(0.5) * (dot_y2 * dot_y2.abs());
         let (sin_th2, cos_th2) = th2.sin_cos();
         let cos_th2_sq_dot_th2_l2 = dot_th2 * dot_th2 * l2 * cos_th2;
+        let acceleration_0_part = lit(0.5) * sin_th2;
         let t_w = t * w;
         let sin_t_w = t_w.sin();
-        let sin_th2_sin_t_w_l2_a2_sq_w = l2_a2_sq_w * sin_th2 * sin_t_w;
+        let acceleration_0_part_2 = l2_a2_sq_w * acceleration_0_part * sin_t_w;
         let acceleration_0_part_3 = (t_w - phi_2).sin();
-        let acceleration_0_part_4 = times_rho_span_half_chord_per_m3
+        let right_joint2_0 = rho_span_half_chord_per_m3
             .mul_add(
-                acceleration_0_part,
+                right_x3,
                 (b_sq_w_a3 * sin_th3)
                     .neg_mul_add(
                         acceleration_0_part_3,
-                        lit(0.5)
-                            .neg_mul_add(
-                                sin_th2_sin_t_w_l2_a2_sq_w,
-                                (dot_th3 * dot_th3 * b)
-                                    .mul_add(cos_th3, lit(0.5) * cos_th2_sq_dot_th2_l2),
-                            ),
+                        (dot_th3 * dot_th3 * b)
+                            .mul_add(cos_th3, lit(0.5) * cos_th2_sq_dot_th2_l2)
+                            - acceleration_0_part_2,
                     ),
             );
         let sin_th2_sq_dot_th2_l2 = dot_th2 * dot_th2 * l2 * sin_th2;
-        let cos_th2_sin_t_w_l2_a2_sq_w = l2_a2_sq_w * cos_th2 * sin_t_w;
-        let acceleration_0_part_5 = dot_y2 * rho_per_m2_cd_s2 * abs_dot_y2;
-        let acceleration_0_part_6 = rho_per_m3
+        let acceleration_0_part_4 = lit(0.5) * cos_th2;
+        let acceleration_0_part_5 = l2_a2_sq_w * acceleration_0_part_4 * sin_t_w;
+        let right_y2_rho_per_m2_cd_s2 = rho_per_m2_cd_s2 * right_y2;
+        let right_joint2_1 = rho_per_m3
             .mul_add(
-                acceleration_0_part_2,
+                right_y3,
                 (b_sq_w_a3 * cos_th3)
                     .mul_add(
                         acceleration_0_part_3,
-                        lit(0.5)
-                            .mul_add(
-                                cos_th2_sin_t_w_l2_a2_sq_w,
-                                lit(0.5) * acceleration_0_part_5
-                                    + (dot_th3 * dot_th3 * b)
-                                        .mul_add(sin_th3, lit(0.5) * sin_th2_sq_dot_th2_l2),
-                            ),
+                        right_y2_rho_per_m2_cd_s2
+                            + (dot_th3 * dot_th3 * b)
+                                .mul_add(sin_th3, lit(0.5) * sin_th2_sq_dot_th2_l2)
+                            + acceleration_0_part_5,
                     ),
             );
         let (sin_th1, cos_th1) = th1.sin_cos();
@@ -1018,91 +1014,70 @@ impl ::ukcore::Mechanism for FishRobot {
             lit(0.0),
             safe_joint2_0,
         );
-        let acceleration_0_part_7 = joint1_0_with_joint2_0
+        let right_joint1_0 = joint1_0_with_joint2_0
             .mul_add(
-                acceleration_0_part_4,
+                right_joint2_0,
                 pivot_joint2_0
-                    * lit(0.5)
-                        .neg_mul_add(
-                            sin_th2_sin_t_w_l2_a2_sq_w,
-                            dot_x1 * half_rho_per_m1_s_cd * abs_dot_x1
-                                + lit(0.5)
-                                    .mul_add(
-                                        cos_th2_sq_dot_th2_l2,
-                                        dot_th1 * dot_th1 * a * cos_th1,
-                                    ),
-                        ),
+                    * (rho_per_m1_s_cd * right_x1
+                        + lit(0.5)
+                            .mul_add(
+                                cos_th2_sq_dot_th2_l2,
+                                dot_th1 * dot_th1 * a * cos_th1,
+                            ) - acceleration_0_part_2),
             );
-        let acceleration_0_part_8 = (per_i1_sq_a * cos_th1)
+        let acceleration_0_part_6 = (per_i1_sq_a * cos_th1)
             .mul_add(cos_th1, per_m1_and_per_m2);
-        let pivot_joint1_1 = (acceleration_0_part_8 - prepared_part_3)
+        let pivot_joint1_1 = (acceleration_0_part_6 - prepared_part_3)
             .neg_mul_add(
                 pivot_joint1_0,
                 prepared_part_2 * cos_th1 * cos_th1 * sin_th1 * sin_th1,
             );
         let per_pivot_joint1_1 = pivot_joint1_1.recip();
-        let diagonal_joint1_1 = acceleration_0_part_8 * pivot_joint1_0;
+        let diagonal_joint1_1 = acceleration_0_part_6 * pivot_joint1_0;
         let safe_joint1_1 = S::select_le(
             -pivot_joint1_1,
             lit(0.0009765625) * diagonal_joint1_1,
             lit(0.0),
             safe_joint1_0,
         );
-        let acceleration_0_part_9 = pivot_joint1_0
+        let right_joint1_1 = pivot_joint1_0
             .mul_add(
                 joint1_1_by_joint2_1
                     .mul_add(
-                        acceleration_0_part_6,
-                        lit(0.5)
-                            .mul_add(
-                                cos_th2_sin_t_w_l2_a2_sq_w,
-                                lit(0.5)
-                                    .neg_mul_add(
-                                        acceleration_0_part_5,
-                                        dot_y1 * half_rho_per_m1_cd_s1 * abs_dot_y1,
-                                    )
-                                    + lit(0.5)
-                                        .mul_add(
-                                            sin_th2_sq_dot_th2_l2,
-                                            dot_th1 * dot_th1 * a * sin_th1,
-                                        ),
-                            ),
+                        right_joint2_1,
+                        (rho_per_m1_cd_s1 * right_y1 - right_y2_rho_per_m2_cd_s2
+                            + lit(0.5)
+                                .mul_add(
+                                    sin_th2_sq_dot_th2_l2,
+                                    dot_th1 * dot_th1 * a * sin_th1,
+                                ) + acceleration_0_part_5),
                     ),
-                per_i1_sq_a * cos_th1 * sin_th1 * acceleration_0_part_7,
+                per_i1_sq_a * cos_th1 * sin_th1 * right_joint1_0,
             );
         out[5] = -(a2_sq_w * sin_t_w);
         out[8] = -(sq_w_a3 * acceleration_0_part_3);
         let safe = safe_joint1_1;
-        let lambda_joint1_1 = per_pivot_joint1_1 * acceleration_0_part_9;
-        out[1] = -(per_m1
-            * (lit(0.5) * dot_y1 * rho_cd_s1 * abs_dot_y1 + lambda_joint1_1));
+        let lambda_joint1_1 = per_pivot_joint1_1 * right_joint1_1;
+        out[1] = -(per_m1 * (rho_cd_s1 * right_y1 + lambda_joint1_1));
         let lambda_joint2_1 = (joint1_1_by_joint2_1 * per_pivot_joint1_1)
-            .neg_mul_add(
-                acceleration_0_part_9,
-                per_per_m3_and_per_m2 * acceleration_0_part_6,
-            );
-        out[7] = per_m3 * (rho * acceleration_0_part_2 - lambda_joint2_1);
+            .neg_mul_add(right_joint1_1, per_per_m3_and_per_m2 * right_joint2_1);
+        out[7] = per_m3 * (rho * right_y3 - lambda_joint2_1);
+        let lambda_joint1_0 = (per_i1_sq_a_per_m3_and_per_m2 * cos_th1 * sin_th1
+            * per_pivot_joint1_0 * per_pivot_joint1_1)
+            .neg_mul_add(right_joint1_1, right_joint1_0 * per_pivot_joint1_0);
+        out[0] = -(per_m1 * (rho_s_cd * right_x1 - lambda_joint1_0));
         out[4] = -(joint1_0_with_joint2_0
-            * (lit(0.5) * dot_y2 * rho_cd_s2 * abs_dot_y2 - lambda_joint1_1
-                - lambda_joint2_1));
-        let acceleration_5_part = (per_i1_sq_a_per_m3_and_per_m2 * cos_th1 * sin_th1
-            * per_pivot_joint1_1)
-            .neg_mul_add(acceleration_0_part_9, acceleration_0_part_7);
-        let lambda_joint1_0 = per_pivot_joint1_0 * acceleration_5_part;
-        out[0] = -(per_m1
-            * (lit(0.5) * dot_x1 * rho_s_cd * abs_dot_x1 - lambda_joint1_0));
+            * (rho_cd_s2 * right_y2 - lambda_joint1_1 - lambda_joint2_1));
         out[2] = -(per_i1_a
-            * (sin_th1 * per_pivot_joint1_0)
+            * sin_th1
                 .mul_add(
-                    acceleration_5_part,
-                    cos_th1 * per_pivot_joint1_1 * acceleration_0_part_9,
+                    lambda_joint1_0,
+                    cos_th1 * per_pivot_joint1_1 * right_joint1_1,
                 ));
-        let lambda_joint2_0 = (joint1_0_with_joint2_0 * per_pivot_joint1_0)
-            .mul_add(acceleration_5_part, acceleration_0_part_4);
+        let lambda_joint2_0 = joint1_0_with_joint2_0
+            .mul_add(lambda_joint1_0, right_joint2_0);
         let acceleration_3_part = per_per_m3_and_per_m2 * lambda_joint2_0;
-        out[6] = per_m3
-            * (lit(::core::f64::consts::TAU) * rho_span_half_chord * acceleration_0_part
-                - acceleration_3_part);
+        out[6] = per_m3 * (rho_span_half_chord * right_x3 - acceleration_3_part);
         out[3] = -(joint1_0_with_joint2_0 * (lambda_joint1_0 - acceleration_3_part));
         safe
     }
@@ -1115,14 +1090,13 @@ impl ::ukcore::Mechanism for FishRobot {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 9>(out, "out");
-        let [_, _, _, _, _, _, _, l2, b, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, per_i1_sq_a, _, _, joint1_0_with_joint2_0,
-        per_per_m3_and_per_m2, joint1_1_by_joint2_1, per_m1_and_per_m2, _,
-        pivot_joint2_0, prepared_part, prepared_part_2, prepared_part_3, _,
-        per_i1_sq_a_per_m3_and_per_m2, per_i1_a, per_m3, per_m1,
-        per_m3_per_per_m3_and_per_m2, safe_joint2_0] = *::ukcore::emitted::exact::<
+        let [_, _, _, _, _, _, _, _, _, _, _, l2, b, _, _, _, _, _, _, _, _, _, _, _, _,
+        _, _, _, _, _, _, _, _, _, _, _, per_i1_sq_a, _, joint1_0_with_joint2_0,
+        per_per_m3_and_per_m2, joint1_1_by_joint2_1, per_m1_and_per_m2, pivot_joint2_0,
+        prepared_part, prepared_part_2, prepared_part_3, per_i1_sq_a_per_m3_and_per_m2,
+        per_i1_a, per_m3, per_m1, per_m3_per_per_m3_and_per_m2, safe_joint2_0] = *::ukcore::emitted::exact::<
             S,
-            51,
+            52,
         >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
             S,
@@ -1160,51 +1134,46 @@ impl ::ukcore::Mechanism for FishRobot {
             lit(0.0),
             safe_joint1_0,
         );
+        let (sin_th2, cos_th2) = th2.sin_cos();
+        let correction_0_part_2 = lit(0.5) * sin_th2;
+        let correction_0_part_3 = residual_4 * l2 * correction_0_part_2;
+        let (sin_th3, cos_th3) = th3.sin_cos();
+        let right_joint2_0 = (residual_5 * b).mul_add(sin_th3, residual_2)
+            + correction_0_part_3;
+        let correction_0_part_4 = lit(0.5) * cos_th2;
+        let correction_0_part_5 = residual_4 * l2 * correction_0_part_4;
+        let right_joint2_1 = (residual_5 * b).neg_mul_add(cos_th3, residual_3)
+            - correction_0_part_5;
+        let right_joint1_0 = pivot_joint2_0
+            .mul_add(
+                (residual_0 + correction_0_part_3),
+                joint1_0_with_joint2_0 * right_joint2_0,
+            );
+        let right_joint1_1 = pivot_joint1_0
+            .mul_add(
+                joint1_1_by_joint2_1
+                    .mul_add(right_joint2_1, (residual_1 - correction_0_part_5)),
+                per_i1_sq_a * cos_th1 * sin_th1 * right_joint1_0,
+            );
         out[5] = -residual_4;
         out[8] = -residual_5;
         let safe = safe_joint1_1;
-        let (sin_th2, cos_th2) = th2.sin_cos();
-        let sin_th2_residual_4_l2 = residual_4 * l2 * sin_th2;
-        let (sin_th3, cos_th3) = th3.sin_cos();
-        let safe_part = (residual_5 * b)
-            .mul_add(sin_th3, lit(0.5).mul_add(sin_th2_residual_4_l2, residual_2));
-        let safe_part_2 = pivot_joint2_0
-            .mul_add(
-                lit(0.5).mul_add(sin_th2_residual_4_l2, residual_0),
-                joint1_0_with_joint2_0 * safe_part,
-            );
-        let cos_th2_residual_4_l2 = residual_4 * l2 * cos_th2;
-        let safe_part_3 = (residual_5 * b)
-            .neg_mul_add(
-                cos_th3,
-                lit(0.5).neg_mul_add(cos_th2_residual_4_l2, residual_3),
-            );
-        let safe_part_4 = pivot_joint1_0
-            .mul_add(
-                joint1_1_by_joint2_1
-                    .mul_add(
-                        safe_part_3,
-                        lit(0.5).neg_mul_add(cos_th2_residual_4_l2, residual_1),
-                    ),
-                per_i1_sq_a * cos_th1 * sin_th1 * safe_part_2,
-            );
-        out[1] = per_m1 * safe_part_4 * per_pivot_joint1_1;
-        let lambda_joint2_1 = (joint1_1_by_joint2_1 * safe_part_4)
-            .neg_mul_add(per_pivot_joint1_1, per_per_m3_and_per_m2 * safe_part_3);
+        out[1] = per_m1 * right_joint1_1 * per_pivot_joint1_1;
+        let lambda_joint2_1 = (joint1_1_by_joint2_1 * right_joint1_1)
+            .neg_mul_add(per_pivot_joint1_1, per_per_m3_and_per_m2 * right_joint2_1);
         out[7] = per_m3 * lambda_joint2_1;
-        let lambda_joint1_1 = safe_part_4 * per_pivot_joint1_1;
-        out[4] = -(joint1_0_with_joint2_0 * (lambda_joint1_1 + lambda_joint2_1));
-        let correction_5_part = (per_i1_sq_a_per_m3_and_per_m2 * cos_th1 * sin_th1
-            * safe_part_4)
-            .neg_mul_add(per_pivot_joint1_1, safe_part_2);
-        out[0] = -(per_m1 * per_pivot_joint1_0 * correction_5_part);
+        let lambda_joint1_0 = (per_i1_sq_a_per_m3_and_per_m2 * cos_th1 * sin_th1
+            * right_joint1_1 * per_pivot_joint1_0)
+            .neg_mul_add(per_pivot_joint1_1, right_joint1_0 * per_pivot_joint1_0);
+        out[0] = -(per_m1 * lambda_joint1_0);
         out[2] = per_i1_a
-            * (sin_th1 * per_pivot_joint1_0)
-                .mul_add(correction_5_part, cos_th1 * safe_part_4 * per_pivot_joint1_1);
-        let lambda_joint2_0 = (joint1_0_with_joint2_0 * per_pivot_joint1_0)
-            .mul_add(correction_5_part, safe_part);
+            * sin_th1
+                .mul_add(lambda_joint1_0, cos_th1 * right_joint1_1 * per_pivot_joint1_1);
+        let lambda_joint1_1 = right_joint1_1 * per_pivot_joint1_1;
+        out[4] = -(joint1_0_with_joint2_0 * (lambda_joint1_1 + lambda_joint2_1));
+        let lambda_joint2_0 = joint1_0_with_joint2_0
+            .mul_add(lambda_joint1_0, right_joint2_0);
         out[6] = per_m3_per_per_m3_and_per_m2 * lambda_joint2_0;
-        let lambda_joint1_0 = per_pivot_joint1_0 * correction_5_part;
         out[3] = joint1_0_with_joint2_0
             * per_per_m3_and_per_m2.neg_mul_add(lambda_joint2_0, lambda_joint1_0);
         safe

@@ -120,7 +120,7 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         prepared: &[
             ("w", "w"),
             ("a", "a"),
-            ("m_g", "m*g"),
+            ("right_y", "m*g"),
             ("sq_l", "sq(l)"),
             ("m", "m"),
             ("a_w", "a*w"),
@@ -223,7 +223,8 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         let lit = S::from_f64;
         prepared[0] = w;
         prepared[1] = a;
-        prepared[2] = m * g;
+        let right_y = m * g;
+        prepared[2] = right_y;
         prepared[3] = l * l;
         prepared[4] = m;
         prepared[5] = a * w;
@@ -245,7 +246,7 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
-        let [w, a, m_g, _, m, a_w, a_sq_w, _, _] = *::ukcore::emitted::exact::<
+        let [w, a, right_y, _, m, a_w, a_sq_w, _, _] = *::ukcore::emitted::exact::<
             S,
             9,
         >(prepared, "prepared");
@@ -255,7 +256,7 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         mass[0] = m;
         mass[3] = m;
         force[0] = lit(0.0);
-        force[1] = -m_g;
+        force[1] = -right_y;
         nonideal[0] = lit(0.0);
         nonideal[1] = lit(0.0);
         jacobian[0] = lit(2.0) * x;
@@ -333,7 +334,7 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
-        let [_, _, m_g, _, m, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [_, _, right_y, _, m, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
             9,
         >(prepared, "prepared");
@@ -341,7 +342,7 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
         let kinetic = lit(0.5) * (dot_y * dot_y).mul_add(m, dot_x * dot_x * m);
-        let potential = y * m_g;
+        let potential = y * right_y;
         ::ukcore::Energy {
             kinetic,
             potential,
@@ -387,16 +388,19 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         let pivot_rod = y_minus_pivot.mul_add(y_minus_pivot, x * x);
         let per_pivot_rod = pivot_rod.recip();
         let safe_rod = S::select_le(pivot_rod, lit(0.0), lit(0.0), safe_x);
-        let safe = safe_rod;
-        let safe_part = a_w.mul_add(sin_t_w, dot_y);
-        let safe_part_2 = g
+        let acceleration_0_part = a_w.mul_add(sin_t_w, dot_y);
+        let right_rod = g
             .neg_mul_add(
                 y_minus_pivot,
                 (a_sq_w * cos_t_w)
-                    .mul_add(y_minus_pivot, safe_part.mul_add(safe_part, dot_x * dot_x)),
+                    .mul_add(
+                        y_minus_pivot,
+                        acceleration_0_part.mul_add(acceleration_0_part, dot_x * dot_x),
+                    ),
             );
-        out[0] = -(x * safe_part_2 * per_pivot_rod);
-        out[1] = (y_minus_pivot * safe_part_2).neg_mul_add(per_pivot_rod, -g);
+        let safe = safe_rod;
+        out[0] = -(x * right_rod * per_pivot_rod);
+        out[1] = (y_minus_pivot * right_rod).neg_mul_add(per_pivot_rod, -g);
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
@@ -420,9 +424,10 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         let pivot_rod = y_minus_pivot.mul_add(y_minus_pivot, x * x);
         let per_pivot_rod = pivot_rod.recip();
         let safe_rod = S::select_le(pivot_rod, lit(0.0), lit(0.0), safe_x);
+        let right_rod = lit(0.5) * residual_0;
         let safe = safe_rod;
-        out[0] = lit(-0.5) * (x * residual_0 * per_pivot_rod);
-        out[1] = lit(-0.5) * (residual_0 * y_minus_pivot * per_pivot_rod);
+        out[0] = -(x * right_rod * per_pivot_rod);
+        out[1] = -(right_rod * y_minus_pivot * per_pivot_rod);
         safe
     }
 }

@@ -107,7 +107,7 @@ impl ::ukcore::Mechanism for KnifeEdge {
             },
         ],
         prepared: &[
-            ("m_g_sin_slope", "m*g*sin(slope)"),
+            ("right_x", "m*g*sin(slope)"),
             ("m", "m"),
             ("i", "i"),
             ("g_sin_slope", "g*sin(slope)"),
@@ -202,7 +202,8 @@ impl ::ukcore::Mechanism for KnifeEdge {
         let [m, i, g, slope] = *::ukcore::emitted::exact::<S, 4>(given, "given");
         let lit = S::from_f64;
         let sin_slope = slope.sin();
-        prepared[0] = m * g * sin_slope;
+        let right_x = m * g * sin_slope;
+        prepared[0] = right_x;
         prepared[1] = m;
         prepared[2] = i;
         prepared[3] = g * sin_slope;
@@ -223,7 +224,7 @@ impl ::ukcore::Mechanism for KnifeEdge {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 3>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 3>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
-        let [m_g_sin_slope, m, i, _, _] = *::ukcore::emitted::exact::<
+        let [right_x, m, i, _, _] = *::ukcore::emitted::exact::<
             S,
             5,
         >(prepared, "prepared");
@@ -233,7 +234,7 @@ impl ::ukcore::Mechanism for KnifeEdge {
         mass[0] = m;
         mass[4] = m;
         mass[8] = i;
-        force[0] = m_g_sin_slope;
+        force[0] = right_x;
         force[1] = lit(0.0);
         force[2] = lit(0.0);
         nonideal[0] = lit(0.0);
@@ -286,7 +287,7 @@ impl ::ukcore::Mechanism for KnifeEdge {
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
-        let [m_g_sin_slope, m, i, _, _] = *::ukcore::emitted::exact::<
+        let [right_x, m, i, _, _] = *::ukcore::emitted::exact::<
             S,
             5,
         >(prepared, "prepared");
@@ -296,7 +297,7 @@ impl ::ukcore::Mechanism for KnifeEdge {
         let kinetic = lit(0.5)
             * (dot_th * dot_th)
                 .mul_add(i, (dot_y * dot_y).mul_add(m, dot_x * dot_x * m));
-        let potential = -(x * m_g_sin_slope);
+        let potential = -(x * right_x);
         ::ukcore::Energy {
             kinetic,
             potential,
@@ -336,12 +337,12 @@ impl ::ukcore::Mechanism for KnifeEdge {
         let pivot_edge = cos_th.mul_add(cos_th, sin_th * sin_th);
         let per_pivot_edge = pivot_edge.recip();
         let safe_edge = S::select_le(pivot_edge, lit(0.0), lit(0.0), safe_x);
+        let right_edge = g_sin_slope * sin_th
+            + (dot_y * dot_th).mul_add(sin_th, dot_x * dot_th * cos_th);
         out[2] = lit(0.0);
         let safe = safe_edge;
-        let safe_part = g_sin_slope * sin_th
-            + (dot_y * dot_th).mul_add(sin_th, dot_x * dot_th * cos_th);
-        out[1] = cos_th * safe_part * per_pivot_edge;
-        out[0] = (sin_th * safe_part).neg_mul_add(per_pivot_edge, g_sin_slope);
+        out[1] = cos_th * right_edge * per_pivot_edge;
+        out[0] = (sin_th * right_edge).neg_mul_add(per_pivot_edge, g_sin_slope);
         safe
     }
     fn correction<S: ::ukcore::Scalar>(

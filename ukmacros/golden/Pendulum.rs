@@ -95,7 +95,7 @@ impl ::ukcore::Mechanism for Pendulum {
             },
         ],
         prepared: &[
-            ("m_g", "m*g"),
+            ("right_y", "m*g"),
             ("sq_l", "sq(l)"),
             ("g", "g"),
             ("m_per_l", "m/l"),
@@ -187,7 +187,8 @@ impl ::ukcore::Mechanism for Pendulum {
         let prepared = ::ukcore::emitted::exact_mut::<S, 6>(prepared, "prepared");
         let [m, l, g] = *::ukcore::emitted::exact::<S, 3>(given, "given");
         let lit = S::from_f64;
-        prepared[0] = m * g;
+        let right_y = m * g;
+        prepared[0] = right_y;
         prepared[1] = l * l;
         prepared[2] = g;
         prepared[3] = m / l;
@@ -208,7 +209,7 @@ impl ::ukcore::Mechanism for Pendulum {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
-        let [m_g, _, _, _, m, _] = *::ukcore::emitted::exact::<
+        let [right_y, _, _, _, m, _] = *::ukcore::emitted::exact::<
             S,
             6,
         >(prepared, "prepared");
@@ -218,7 +219,7 @@ impl ::ukcore::Mechanism for Pendulum {
         mass[0] = m;
         mass[3] = m;
         force[0] = lit(0.0);
-        force[1] = -m_g;
+        force[1] = -right_y;
         nonideal[0] = lit(0.0);
         nonideal[1] = lit(0.0);
         jacobian[0] = lit(2.0) * x;
@@ -272,7 +273,7 @@ impl ::ukcore::Mechanism for Pendulum {
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
-        let [m_g, _, _, _, m, _] = *::ukcore::emitted::exact::<
+        let [right_y, _, _, _, m, _] = *::ukcore::emitted::exact::<
             S,
             6,
         >(prepared, "prepared");
@@ -280,7 +281,7 @@ impl ::ukcore::Mechanism for Pendulum {
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
         let kinetic = lit(0.5) * (dot_y * dot_y).mul_add(m, dot_x * dot_x * m);
-        let potential = y * m_g;
+        let potential = y * right_y;
         ::ukcore::Energy {
             kinetic,
             potential,
@@ -322,10 +323,10 @@ impl ::ukcore::Mechanism for Pendulum {
         let pivot_rod = y.mul_add(y, x * x);
         let per_pivot_rod = pivot_rod.recip();
         let safe_rod = S::select_le(pivot_rod, lit(0.0), lit(0.0), safe_x);
-        let acceleration_0_part = y.neg_mul_add(g, dot_y.mul_add(dot_y, dot_x * dot_x));
+        let right_rod = y.neg_mul_add(g, dot_y.mul_add(dot_y, dot_x * dot_x));
         let safe = safe_rod;
-        out[0] = -(x * acceleration_0_part * per_pivot_rod);
-        out[1] = (y * acceleration_0_part).neg_mul_add(per_pivot_rod, -g);
+        out[0] = -(x * right_rod * per_pivot_rod);
+        out[1] = (y * right_rod).neg_mul_add(per_pivot_rod, -g);
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
@@ -347,9 +348,10 @@ impl ::ukcore::Mechanism for Pendulum {
         let pivot_rod = y.mul_add(y, x * x);
         let per_pivot_rod = pivot_rod.recip();
         let safe_rod = S::select_le(pivot_rod, lit(0.0), lit(0.0), safe_x);
+        let right_rod = lit(0.5) * residual_0;
         let safe = safe_rod;
-        out[0] = lit(-0.5) * (x * residual_0 * per_pivot_rod);
-        out[1] = lit(-0.5) * (y * residual_0 * per_pivot_rod);
+        out[0] = -(x * right_rod * per_pivot_rod);
+        out[1] = -(y * right_rod * per_pivot_rod);
         safe
     }
 }

@@ -11,25 +11,21 @@
 /// s1 = e1*dot(e0) + e2*dot(e3) - e0*dot(e1) - e3*dot(e2)
 /// s2 = dot(e0)*e2 + dot(e1)*e3 - e0*dot(e2) - e1*dot(e3)
 /// s3 = dot(e0)*e3 + e1*dot(e2) - dot(e1)*e2 - e0*dot(e3)
-/// pivot_e0 = sq(e1)*i1 + sq(e2)*i2 + sq(e3)*i3
-/// diagonal_e1 = sq(e0)*i1 + sq(e3)*i2 + sq(e2)*i3
-/// diagonal_e2 = sq(e3)*i1 + sq(e0)*i2 + sq(e1)*i3
-/// diagonal_e3 = sq(e2)*i1 + sq(e1)*i2 + sq(e0)*i3
 /// ```
 ///
 /// Mass matrix M (lower triangle), eq. 1:
 ///
 /// ```text
-/// M[e0, e0] = 4*pivot_e0
+/// M[e0, e0] = 4*(sq(e1)*i1 + sq(e2)*i2 + sq(e3)*i3)
 /// M[e1, e0] = 4*(e3*e2*i2 - e1*e0*i1 - e3*e2*i3)
-/// M[e1, e1] = 4*diagonal_e1
+/// M[e1, e1] = 4*(sq(e0)*i1 + sq(e3)*i2 + sq(e2)*i3)
 /// M[e2, e0] = 4*(e1*e3*i3 - e1*e3*i1 - e0*e2*i2)
 /// M[e2, e1] = 4*(e0*e3*i1 - e0*e3*i2 - e1*e2*i3)
-/// M[e2, e2] = 4*diagonal_e2
+/// M[e2, e2] = 4*(sq(e3)*i1 + sq(e0)*i2 + sq(e1)*i3)
 /// M[e3, e0] = 4*(e1*e2*i1 - e1*e2*i2 - e0*e3*i3)
 /// M[e3, e1] = 4*(e0*e2*i3 - e0*e2*i1 - e1*e3*i2)
 /// M[e3, e2] = 4*(e1*e0*i2 - e3*e2*i1 - e1*e0*i3)
-/// M[e3, e3] = 4*diagonal_e3
+/// M[e3, e3] = 4*(sq(e2)*i1 + sq(e1)*i2 + sq(e0)*i3)
 /// ```
 ///
 /// Generalised force Q, eq. 1:
@@ -221,8 +217,8 @@ impl ::ukcore::Mechanism for RigidBody {
                 selections: 0,
             },
             solve_operations: ::ukcore::Operations {
-                additions: 81,
-                multiplications: 185,
+                additions: 85,
+                multiplications: 186,
                 divisions: 5,
                 square_roots: 0,
                 transcendentals: 0,
@@ -234,22 +230,18 @@ impl ::ukcore::Mechanism for RigidBody {
                 ("s1", "e1*dot(e0) + e2*dot(e3) - e0*dot(e1) - e3*dot(e2)"),
                 ("s2", "dot(e0)*e2 + dot(e1)*e3 - e0*dot(e2) - e1*dot(e3)"),
                 ("s3", "dot(e0)*e3 + e1*dot(e2) - dot(e1)*e2 - e0*dot(e3)"),
-                ("pivot_e0", "sq(e1)*i1 + sq(e2)*i2 + sq(e3)*i3"),
-                ("diagonal_e1", "sq(e0)*i1 + sq(e3)*i2 + sq(e2)*i3"),
-                ("diagonal_e2", "sq(e3)*i1 + sq(e0)*i2 + sq(e1)*i3"),
-                ("diagonal_e3", "sq(e2)*i1 + sq(e1)*i2 + sq(e0)*i3"),
             ],
             mass: &[
-                (0, 0, "4*pivot_e0"),
+                (0, 0, "4*(sq(e1)*i1 + sq(e2)*i2 + sq(e3)*i3)"),
                 (1, 0, "4*(e3*e2*i2 - e1*e0*i1 - e3*e2*i3)"),
-                (1, 1, "4*diagonal_e1"),
+                (1, 1, "4*(sq(e0)*i1 + sq(e3)*i2 + sq(e2)*i3)"),
                 (2, 0, "4*(e1*e3*i3 - e1*e3*i1 - e0*e2*i2)"),
                 (2, 1, "4*(e0*e3*i1 - e0*e3*i2 - e1*e2*i3)"),
-                (2, 2, "4*diagonal_e2"),
+                (2, 2, "4*(sq(e3)*i1 + sq(e0)*i2 + sq(e1)*i3)"),
                 (3, 0, "4*(e1*e2*i1 - e1*e2*i2 - e0*e3*i3)"),
                 (3, 1, "4*(e0*e2*i3 - e0*e2*i1 - e1*e3*i2)"),
                 (3, 2, "4*(e1*e0*i2 - e3*e2*i1 - e1*e0*i3)"),
-                (3, 3, "4*diagonal_e3"),
+                (3, 3, "4*(sq(e2)*i1 + sq(e1)*i2 + sq(e0)*i3)"),
             ],
             force: &[
                 (0, "-8*(dot(e1)*s1*i1 + dot(e2)*s2*i2 + dot(e3)*s3*i3)"),
@@ -312,8 +304,7 @@ impl ::ukcore::Mechanism for RigidBody {
         let [e0, e1, e2, e3] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let [dot_e0, dot_e1, dot_e2, dot_e3] = *::ukcore::emitted::exact::<S, 4>(v, "v");
         let lit = S::from_f64;
-        let pivot_e0 = (e3 * e3).mul_add(i3, (e2 * e2).mul_add(i2, e1 * e1 * i1));
-        mass[0] = lit(4.0) * pivot_e0;
+        mass[0] = lit(4.0) * (e3 * e3).mul_add(i3, (e2 * e2).mul_add(i2, e1 * e1 * i1));
         let mass_e1_e0 = lit(-4.0)
             * (e3 * e2).mul_add(i3, (e3 * e2).neg_mul_add(i2, e1 * e0 * i1));
         mass[1] = mass_e1_e0;
@@ -324,8 +315,7 @@ impl ::ukcore::Mechanism for RigidBody {
             * (e0 * e3).neg_mul_add(i3, (e1 * e2).neg_mul_add(i2, e1 * e2 * i1));
         mass[3] = mass_e3_e0;
         mass[4] = mass_e1_e0;
-        let diagonal_e1 = (e2 * e2).mul_add(i3, (e3 * e3).mul_add(i2, e0 * e0 * i1));
-        mass[5] = lit(4.0) * diagonal_e1;
+        mass[5] = lit(4.0) * (e2 * e2).mul_add(i3, (e3 * e3).mul_add(i2, e0 * e0 * i1));
         let mass_e2_e1 = lit(4.0)
             * (e1 * e2).neg_mul_add(i3, (e0 * e3).neg_mul_add(i2, e0 * e3 * i1));
         mass[6] = mass_e2_e1;
@@ -334,16 +324,14 @@ impl ::ukcore::Mechanism for RigidBody {
         mass[7] = mass_e3_e1;
         mass[8] = mass_e2_e0;
         mass[9] = mass_e2_e1;
-        let diagonal_e2 = (e1 * e1).mul_add(i3, (e0 * e0).mul_add(i2, e3 * e3 * i1));
-        mass[10] = lit(4.0) * diagonal_e2;
+        mass[10] = lit(4.0) * (e1 * e1).mul_add(i3, (e0 * e0).mul_add(i2, e3 * e3 * i1));
         let mass_e3_e2 = lit(-4.0)
             * (e1 * e0).mul_add(i3, (e1 * e0).neg_mul_add(i2, e3 * e2 * i1));
         mass[11] = mass_e3_e2;
         mass[12] = mass_e3_e0;
         mass[13] = mass_e3_e1;
         mass[14] = mass_e3_e2;
-        let diagonal_e3 = (e0 * e0).mul_add(i3, (e1 * e1).mul_add(i2, e2 * e2 * i1));
-        mass[15] = lit(4.0) * diagonal_e3;
+        mass[15] = lit(4.0) * (e0 * e0).mul_add(i3, (e1 * e1).mul_add(i2, e2 * e2 * i1));
         let force_0_part = e2
             .mul_add(
                 dot_e3,
@@ -406,8 +394,7 @@ impl ::ukcore::Mechanism for RigidBody {
         >(prepared, "prepared");
         let [e0, e1, e2, e3] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let lit = S::from_f64;
-        let pivot_e0 = (e3 * e3).mul_add(i3, (e2 * e2).mul_add(i2, e1 * e1 * i1));
-        mass[0] = lit(4.0) * pivot_e0;
+        mass[0] = lit(4.0) * (e3 * e3).mul_add(i3, (e2 * e2).mul_add(i2, e1 * e1 * i1));
         let mass_e1_e0 = lit(-4.0)
             * (e3 * e2).mul_add(i3, (e3 * e2).neg_mul_add(i2, e1 * e0 * i1));
         mass[1] = mass_e1_e0;
@@ -418,8 +405,7 @@ impl ::ukcore::Mechanism for RigidBody {
             * (e0 * e3).neg_mul_add(i3, (e1 * e2).neg_mul_add(i2, e1 * e2 * i1));
         mass[3] = mass_e3_e0;
         mass[4] = mass_e1_e0;
-        let diagonal_e1 = (e2 * e2).mul_add(i3, (e3 * e3).mul_add(i2, e0 * e0 * i1));
-        mass[5] = lit(4.0) * diagonal_e1;
+        mass[5] = lit(4.0) * (e2 * e2).mul_add(i3, (e3 * e3).mul_add(i2, e0 * e0 * i1));
         let mass_e2_e1 = lit(4.0)
             * (e1 * e2).neg_mul_add(i3, (e0 * e3).neg_mul_add(i2, e0 * e3 * i1));
         mass[6] = mass_e2_e1;
@@ -428,16 +414,14 @@ impl ::ukcore::Mechanism for RigidBody {
         mass[7] = mass_e3_e1;
         mass[8] = mass_e2_e0;
         mass[9] = mass_e2_e1;
-        let diagonal_e2 = (e1 * e1).mul_add(i3, (e0 * e0).mul_add(i2, e3 * e3 * i1));
-        mass[10] = lit(4.0) * diagonal_e2;
+        mass[10] = lit(4.0) * (e1 * e1).mul_add(i3, (e0 * e0).mul_add(i2, e3 * e3 * i1));
         let mass_e3_e2 = lit(-4.0)
             * (e1 * e0).mul_add(i3, (e1 * e0).neg_mul_add(i2, e3 * e2 * i1));
         mass[11] = mass_e3_e2;
         mass[12] = mass_e3_e0;
         mass[13] = mass_e3_e1;
         mass[14] = mass_e3_e2;
-        let diagonal_e3 = (e0 * e0).mul_add(i3, (e1 * e1).mul_add(i2, e2 * e2 * i1));
-        mass[15] = lit(4.0) * diagonal_e3;
+        mass[15] = lit(4.0) * (e0 * e0).mul_add(i3, (e1 * e1).mul_add(i2, e2 * e2 * i1));
     }
     fn jacobian<S: ::ukcore::Scalar>(
         prepared: &[S],
@@ -585,7 +569,7 @@ impl ::ukcore::Mechanism for RigidBody {
                     ),
             );
     }
-    /// 81 additions, 185 multiplications, 5 divisions, 0 square roots, 0 transcendentals, 5 selections.
+    /// 85 additions, 186 multiplications, 5 divisions, 0 square roots, 0 transcendentals, 5 selections.
     fn acceleration<S: ::ukcore::Scalar>(
         prepared: &[S],
         t: S,
@@ -601,7 +585,8 @@ impl ::ukcore::Mechanism for RigidBody {
         let [e0, e1, e2, e3] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let [dot_e0, dot_e1, dot_e2, dot_e3] = *::ukcore::emitted::exact::<S, 4>(v, "v");
         let lit = S::from_f64;
-        let pivot_e0 = (e3 * e3).mul_add(i3, (e2 * e2).mul_add(i2, e1 * e1 * i1));
+        let pivot_e0 = lit(4.0)
+            * (e3 * e3).mul_add(i3, (e2 * e2).mul_add(i2, e1 * e1 * i1));
         let per_pivot_e0 = pivot_e0.recip();
         let safe_e0 = S::select_le(pivot_e0, lit(0.0), lit(0.0), lit(1.0));
         let acceleration_0_part = e2
@@ -619,174 +604,179 @@ impl ::ukcore::Mechanism for RigidBody {
                 dot_e3,
                 e1.mul_add(dot_e2, dot_e1.neg_mul_add(e2, dot_e0 * e3)),
             );
-        let acceleration_0_part_4 = (dot_e3 * i3)
-            .mul_add(
-                acceleration_0_part_3,
-                (dot_e2 * i2)
-                    .mul_add(acceleration_0_part_2, dot_e1 * i1 * acceleration_0_part),
-            );
-        let diagonal_e1 = (e2 * e2).mul_add(i3, (e3 * e3).mul_add(i2, e0 * e0 * i1));
-        let acceleration_0_part_5 = (e3 * e2)
-            .mul_add(i3, (e3 * e2).neg_mul_add(i2, e1 * e0 * i1));
-        let pivot_e1 = (acceleration_0_part_5 * acceleration_0_part_5)
-            .neg_mul_add(per_pivot_e0, diagonal_e1);
+        let right_e0 = lit(8.0)
+            * (dot_e3 * i3)
+                .mul_add(
+                    acceleration_0_part_3,
+                    (dot_e2 * i2)
+                        .mul_add(
+                            acceleration_0_part_2,
+                            dot_e1 * i1 * acceleration_0_part,
+                        ),
+                );
+        let acceleration_0_part_4 = lit(4.0)
+            * (e3 * e2).mul_add(i3, (e3 * e2).neg_mul_add(i2, e1 * e0 * i1));
+        let diagonal_e1 = lit(4.0)
+            * (e2 * e2).mul_add(i3, (e3 * e3).mul_add(i2, e0 * e0 * i1));
+        let pivot_e1 = acceleration_0_part_4 * acceleration_0_part_4 * per_pivot_e0
+            - diagonal_e1;
         let per_pivot_e1 = pivot_e1.recip();
         let safe_e1 = S::select_le(
-            lit(4.0) * pivot_e1,
-            lit(0.00390625) * diagonal_e1,
+            -pivot_e1,
+            lit(0.0009765625) * diagonal_e1,
             lit(0.0),
             safe_e0,
         );
-        let diagonal_e2 = (e1 * e1).mul_add(i3, (e0 * e0).mul_add(i2, e3 * e3 * i1));
-        let acceleration_0_part_6 = (e1 * e3)
-            .neg_mul_add(i3, (e0 * e2).mul_add(i2, e1 * e3 * i1));
-        let e2_by_e0 = acceleration_0_part_6 * per_pivot_e0;
-        let acceleration_0_part_7 = acceleration_0_part_5
+        let e1_by_e0 = acceleration_0_part_4 * per_pivot_e0;
+        let right_e1 = right_e0
             .neg_mul_add(
-                e2_by_e0,
-                (e1 * e2).neg_mul_add(i3, (e0 * e3).neg_mul_add(i2, e0 * e3 * i1)),
+                e1_by_e0,
+                lit(8.0)
+                    * (dot_e2 * i3)
+                        .mul_add(
+                            acceleration_0_part_3,
+                            (dot_e3 * i2)
+                                .neg_mul_add(
+                                    acceleration_0_part_2,
+                                    dot_e0 * i1 * acceleration_0_part,
+                                ),
+                        ),
             );
+        let acceleration_0_part_5 = lit(4.0)
+            * (e1 * e3).neg_mul_add(i3, (e0 * e2).mul_add(i2, e1 * e3 * i1));
+        let e2_by_e0 = acceleration_0_part_5 * per_pivot_e0;
+        let acceleration_0_part_6 = lit(4.0)
+            * (e1 * e2).neg_mul_add(i3, (e0 * e3).neg_mul_add(i2, e0 * e3 * i1));
+        let acceleration_0_part_7 = acceleration_0_part_4 * e2_by_e0
+            - acceleration_0_part_6;
+        let diagonal_e2 = lit(4.0)
+            * (e1 * e1).mul_add(i3, (e0 * e0).mul_add(i2, e3 * e3 * i1));
         let pivot_e2 = (acceleration_0_part_7 * acceleration_0_part_7)
             .neg_mul_add(
                 per_pivot_e1,
-                (acceleration_0_part_6 * acceleration_0_part_6)
-                    .neg_mul_add(per_pivot_e0, diagonal_e2),
+                acceleration_0_part_5 * acceleration_0_part_5 * per_pivot_e0
+                    - diagonal_e2,
             );
         let per_pivot_e2 = pivot_e2.recip();
         let safe_e2 = S::select_le(
-            lit(4.0) * pivot_e2,
-            lit(0.00390625) * diagonal_e2,
+            -pivot_e2,
+            lit(0.0009765625) * diagonal_e2,
             lit(0.0),
             safe_e1,
         );
-        let diagonal_e3 = (e0 * e0).mul_add(i3, (e1 * e1).mul_add(i2, e2 * e2 * i1));
-        let acceleration_0_part_8 = (e0 * e3)
-            .neg_mul_add(i3, (e1 * e2).neg_mul_add(i2, e1 * e2 * i1));
-        let e3_by_e0 = acceleration_0_part_8 * per_pivot_e0;
-        let acceleration_0_part_9 = acceleration_0_part_5
+        let e2_by_e1 = acceleration_0_part_7 * per_pivot_e1;
+        let right_e2 = right_e1
             .neg_mul_add(
-                e3_by_e0,
-                (e0 * e2).neg_mul_add(i3, (e1 * e3).mul_add(i2, e0 * e2 * i1)),
-            );
-        let e3_by_e1 = acceleration_0_part_9 * per_pivot_e1;
-        let acceleration_0_part_10 = acceleration_0_part_7
-            .neg_mul_add(
-                e3_by_e1,
-                acceleration_0_part_6
+                e2_by_e1,
+                right_e0
                     .neg_mul_add(
-                        e3_by_e0,
-                        (e1 * e0).mul_add(i3, (e1 * e0).neg_mul_add(i2, e3 * e2 * i1)),
+                        e2_by_e0,
+                        lit(8.0)
+                            * (dot_e1 * i3)
+                                .neg_mul_add(
+                                    acceleration_0_part_3,
+                                    (dot_e0 * i2)
+                                        .mul_add(
+                                            acceleration_0_part_2,
+                                            dot_e3 * i1 * acceleration_0_part,
+                                        ),
+                                ),
                     ),
             );
-        let pivot_e3 = (acceleration_0_part_10 * acceleration_0_part_10)
+        let acceleration_0_part_8 = lit(4.0)
+            * (e0 * e3).neg_mul_add(i3, (e1 * e2).neg_mul_add(i2, e1 * e2 * i1));
+        let e3_by_e0 = acceleration_0_part_8 * per_pivot_e0;
+        let acceleration_0_part_9 = lit(4.0)
+            * (e0 * e2).neg_mul_add(i3, (e1 * e3).mul_add(i2, e0 * e2 * i1));
+        let acceleration_0_part_10 = acceleration_0_part_4 * e3_by_e0
+            - acceleration_0_part_9;
+        let e3_by_e1 = acceleration_0_part_10 * per_pivot_e1;
+        let acceleration_0_part_11 = lit(4.0)
+            * (e1 * e0).mul_add(i3, (e1 * e0).neg_mul_add(i2, e3 * e2 * i1));
+        let acceleration_0_part_12 = acceleration_0_part_7
+            .neg_mul_add(
+                e3_by_e1,
+                acceleration_0_part_5 * e3_by_e0 - acceleration_0_part_11,
+            );
+        let diagonal_e3 = lit(4.0)
+            * (e0 * e0).mul_add(i3, (e1 * e1).mul_add(i2, e2 * e2 * i1));
+        let pivot_e3 = (acceleration_0_part_12 * acceleration_0_part_12)
             .neg_mul_add(
                 per_pivot_e2,
-                (acceleration_0_part_9 * acceleration_0_part_9)
+                (acceleration_0_part_10 * acceleration_0_part_10)
                     .neg_mul_add(
                         per_pivot_e1,
-                        (acceleration_0_part_8 * acceleration_0_part_8)
-                            .neg_mul_add(per_pivot_e0, diagonal_e3),
+                        acceleration_0_part_8 * acceleration_0_part_8 * per_pivot_e0
+                            - diagonal_e3,
                     ),
             );
         let per_pivot_e3 = pivot_e3.recip();
         let safe_e3 = S::select_le(
-            lit(4.0) * pivot_e3,
-            lit(0.00390625) * diagonal_e3,
+            -pivot_e3,
+            lit(0.0009765625) * diagonal_e3,
             lit(0.0),
             safe_e2,
         );
+        let e3_by_e2 = acceleration_0_part_12 * per_pivot_e2;
+        let right_e3 = right_e2
+            .neg_mul_add(
+                e3_by_e2,
+                right_e1
+                    .neg_mul_add(
+                        e3_by_e1,
+                        right_e0
+                            .neg_mul_add(
+                                e3_by_e0,
+                                lit(8.0)
+                                    * (dot_e0 * i3)
+                                        .neg_mul_add(
+                                            acceleration_0_part_3,
+                                            (dot_e1 * i2)
+                                                .neg_mul_add(
+                                                    acceleration_0_part_2,
+                                                    dot_e2 * i1 * acceleration_0_part,
+                                                ),
+                                        ),
+                            ),
+                    ),
+            );
         let unit_by_e0 = e0 * per_pivot_e0;
-        let acceleration_0_part_11 = acceleration_0_part_5.mul_add(unit_by_e0, e1);
-        let unit_by_e1 = acceleration_0_part_11 * per_pivot_e1;
-        let acceleration_0_part_12 = acceleration_0_part_7
-            .neg_mul_add(unit_by_e1, acceleration_0_part_6.mul_add(unit_by_e0, e2));
-        let unit_by_e2 = acceleration_0_part_12 * per_pivot_e2;
-        let acceleration_0_part_13 = acceleration_0_part_10
+        let acceleration_0_part_13 = acceleration_0_part_4.mul_add(unit_by_e0, e1);
+        let unit_by_e1 = acceleration_0_part_13 * per_pivot_e1;
+        let acceleration_0_part_14 = acceleration_0_part_7
+            .neg_mul_add(unit_by_e1, acceleration_0_part_5.mul_add(unit_by_e0, e2));
+        let unit_by_e2 = acceleration_0_part_14 * per_pivot_e2;
+        let acceleration_0_part_15 = acceleration_0_part_12
             .mul_add(
                 unit_by_e2,
-                acceleration_0_part_9
+                acceleration_0_part_10
                     .mul_add(
                         unit_by_e1,
                         acceleration_0_part_8.neg_mul_add(unit_by_e0, e3),
                     ),
             );
-        let pivot_unit = (acceleration_0_part_13 * acceleration_0_part_13)
-            .mul_add(
+        let pivot_unit = (acceleration_0_part_15 * acceleration_0_part_15)
+            .neg_mul_add(
                 per_pivot_e3,
-                (acceleration_0_part_12 * acceleration_0_part_12)
-                    .mul_add(
+                (acceleration_0_part_14 * acceleration_0_part_14)
+                    .neg_mul_add(
                         per_pivot_e2,
-                        (acceleration_0_part_11 * acceleration_0_part_11)
-                            .mul_add(per_pivot_e1, e0 * e0 * per_pivot_e0),
+                        (acceleration_0_part_13 * acceleration_0_part_13)
+                            .neg_mul_add(per_pivot_e1, e0 * e0 * per_pivot_e0),
                     ),
             );
         let per_pivot_unit = pivot_unit.recip();
         let safe_unit = S::select_le(pivot_unit, lit(0.0), lit(0.0), safe_e3);
-        let safe = safe_unit;
-        let e1_by_e0 = acceleration_0_part_5 * per_pivot_e0;
-        let safe_part = acceleration_0_part_4
-            .neg_mul_add(
-                e1_by_e0,
-                (dot_e2 * i3)
-                    .mul_add(
-                        acceleration_0_part_3,
-                        (dot_e3 * i2)
-                            .neg_mul_add(
-                                acceleration_0_part_2,
-                                dot_e0 * i1 * acceleration_0_part,
-                            ),
-                    ),
-            );
-        let e2_by_e1 = acceleration_0_part_7 * per_pivot_e1;
-        let safe_part_2 = safe_part
-            .neg_mul_add(
-                e2_by_e1,
-                acceleration_0_part_4
-                    .neg_mul_add(
-                        e2_by_e0,
-                        (dot_e1 * i3)
-                            .neg_mul_add(
-                                acceleration_0_part_3,
-                                (dot_e0 * i2)
-                                    .mul_add(
-                                        acceleration_0_part_2,
-                                        dot_e3 * i1 * acceleration_0_part,
-                                    ),
-                            ),
-                    ),
-            );
-        let e3_by_e2 = acceleration_0_part_10 * per_pivot_e2;
-        let safe_part_3 = safe_part_2
-            .neg_mul_add(
-                e3_by_e2,
-                safe_part
-                    .neg_mul_add(
-                        e3_by_e1,
-                        acceleration_0_part_4
-                            .neg_mul_add(
-                                e3_by_e0,
-                                (dot_e0 * i3)
-                                    .neg_mul_add(
-                                        acceleration_0_part_3,
-                                        (dot_e1 * i2)
-                                            .neg_mul_add(
-                                                acceleration_0_part_2,
-                                                dot_e2 * i1 * acceleration_0_part,
-                                            ),
-                                    ),
-                            ),
-                    ),
-            );
-        let safe_part_4 = (lit(2.0) * safe_part_3 * acceleration_0_part_13)
-            .neg_mul_add(
+        let right_unit = (right_e3 * acceleration_0_part_15)
+            .mul_add(
                 per_pivot_e3,
-                (lit(2.0) * safe_part_2)
-                    .mul_add(
+                right_e2
+                    .neg_mul_add(
                         unit_by_e2,
-                        (lit(2.0) * safe_part)
-                            .mul_add(
+                        right_e1
+                            .neg_mul_add(
                                 unit_by_e1,
-                                (lit(2.0) * acceleration_0_part_4)
+                                right_e0
                                     .neg_mul_add(
                                         unit_by_e0,
                                         dot_e3
@@ -799,44 +789,39 @@ impl ::ukcore::Mechanism for RigidBody {
                             ),
                     ),
             );
-        let safe_part_5 = (acceleration_0_part_13 * safe_part_4)
-            .mul_add(per_pivot_unit, lit(2.0) * safe_part_3);
-        let safe_part_6 = (e3_by_e2 * per_pivot_e3)
+        let safe = safe_unit;
+        let safe_part = (acceleration_0_part_15 * per_pivot_e3 * right_unit)
+            .mul_add(per_pivot_unit, right_e3 * per_pivot_e3);
+        out[3] = safe_part;
+        let safe_part_2 = e3_by_e2
             .neg_mul_add(
-                safe_part_5,
-                (unit_by_e2 * safe_part_4)
-                    .neg_mul_add(per_pivot_unit, lit(2.0) * safe_part_2 * per_pivot_e2),
+                safe_part,
+                (unit_by_e2 * right_unit)
+                    .neg_mul_add(per_pivot_unit, right_e2 * per_pivot_e2),
             );
-        out[2] = safe_part_6;
-        out[3] = -(per_pivot_e3 * safe_part_5);
-        let safe_part_7 = e2_by_e1
+        out[2] = -safe_part_2;
+        let acceleration_3_part = e2_by_e1
             .neg_mul_add(
-                safe_part_6,
-                (e3_by_e1 * per_pivot_e3)
+                safe_part_2,
+                e3_by_e1
                     .neg_mul_add(
-                        safe_part_5,
-                        (unit_by_e1 * safe_part_4)
-                            .neg_mul_add(
-                                per_pivot_unit,
-                                lit(2.0) * safe_part * per_pivot_e1,
-                            ),
+                        safe_part,
+                        (unit_by_e1 * right_unit)
+                            .neg_mul_add(per_pivot_unit, right_e1 * per_pivot_e1),
                     ),
             );
-        out[1] = safe_part_7;
+        out[1] = -acceleration_3_part;
         out[0] = e1_by_e0
-            .mul_add(
-                safe_part_7,
+            .neg_mul_add(
+                acceleration_3_part,
                 e2_by_e0
-                    .mul_add(
-                        safe_part_6,
-                        (unit_by_e0 * safe_part_4)
+                    .neg_mul_add(
+                        safe_part_2,
+                        e3_by_e0
                             .neg_mul_add(
-                                per_pivot_unit,
-                                (lit(2.0) * acceleration_0_part_4)
-                                    .neg_mul_add(
-                                        per_pivot_e0,
-                                        e3_by_e0 * per_pivot_e3 * safe_part_5,
-                                    ),
+                                safe_part,
+                                (unit_by_e0 * right_unit)
+                                    .neg_mul_add(per_pivot_unit, -(right_e0 * per_pivot_e0)),
                             ),
                     ),
             );
@@ -858,130 +843,127 @@ impl ::ukcore::Mechanism for RigidBody {
         let [e0, e1, e2, e3] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let [residual_0] = *::ukcore::emitted::exact::<S, 1>(residual, "residual");
         let lit = S::from_f64;
-        let pivot_e0 = (e3 * e3).mul_add(i3, (e2 * e2).mul_add(i2, e1 * e1 * i1));
+        let pivot_e0 = lit(4.0)
+            * (e3 * e3).mul_add(i3, (e2 * e2).mul_add(i2, e1 * e1 * i1));
         let per_pivot_e0 = pivot_e0.recip();
         let safe_e0 = S::select_le(pivot_e0, lit(0.0), lit(0.0), lit(1.0));
-        let diagonal_e1 = (e2 * e2).mul_add(i3, (e3 * e3).mul_add(i2, e0 * e0 * i1));
-        let correction_0_part = (e3 * e2)
-            .mul_add(i3, (e3 * e2).neg_mul_add(i2, e1 * e0 * i1));
-        let pivot_e1 = (correction_0_part * correction_0_part)
-            .neg_mul_add(per_pivot_e0, diagonal_e1);
+        let correction_0_part = lit(4.0)
+            * (e3 * e2).mul_add(i3, (e3 * e2).neg_mul_add(i2, e1 * e0 * i1));
+        let diagonal_e1 = lit(4.0)
+            * (e2 * e2).mul_add(i3, (e3 * e3).mul_add(i2, e0 * e0 * i1));
+        let pivot_e1 = correction_0_part * correction_0_part * per_pivot_e0
+            - diagonal_e1;
         let per_pivot_e1 = pivot_e1.recip();
         let safe_e1 = S::select_le(
-            lit(4.0) * pivot_e1,
-            lit(0.00390625) * diagonal_e1,
+            -pivot_e1,
+            lit(0.0009765625) * diagonal_e1,
             lit(0.0),
             safe_e0,
         );
-        let diagonal_e2 = (e1 * e1).mul_add(i3, (e0 * e0).mul_add(i2, e3 * e3 * i1));
-        let correction_0_part_2 = (e1 * e3)
-            .neg_mul_add(i3, (e0 * e2).mul_add(i2, e1 * e3 * i1));
+        let correction_0_part_2 = lit(4.0)
+            * (e1 * e3).neg_mul_add(i3, (e0 * e2).mul_add(i2, e1 * e3 * i1));
         let e2_by_e0 = correction_0_part_2 * per_pivot_e0;
-        let correction_0_part_3 = correction_0_part
-            .neg_mul_add(
-                e2_by_e0,
-                (e1 * e2).neg_mul_add(i3, (e0 * e3).neg_mul_add(i2, e0 * e3 * i1)),
-            );
-        let pivot_e2 = (correction_0_part_3 * correction_0_part_3)
+        let correction_0_part_3 = lit(4.0)
+            * (e1 * e2).neg_mul_add(i3, (e0 * e3).neg_mul_add(i2, e0 * e3 * i1));
+        let correction_0_part_4 = correction_0_part * e2_by_e0 - correction_0_part_3;
+        let diagonal_e2 = lit(4.0)
+            * (e1 * e1).mul_add(i3, (e0 * e0).mul_add(i2, e3 * e3 * i1));
+        let pivot_e2 = (correction_0_part_4 * correction_0_part_4)
             .neg_mul_add(
                 per_pivot_e1,
-                (correction_0_part_2 * correction_0_part_2)
-                    .neg_mul_add(per_pivot_e0, diagonal_e2),
+                correction_0_part_2 * correction_0_part_2 * per_pivot_e0 - diagonal_e2,
             );
         let per_pivot_e2 = pivot_e2.recip();
         let safe_e2 = S::select_le(
-            lit(4.0) * pivot_e2,
-            lit(0.00390625) * diagonal_e2,
+            -pivot_e2,
+            lit(0.0009765625) * diagonal_e2,
             lit(0.0),
             safe_e1,
         );
-        let diagonal_e3 = (e0 * e0).mul_add(i3, (e1 * e1).mul_add(i2, e2 * e2 * i1));
-        let correction_0_part_4 = (e0 * e3)
-            .neg_mul_add(i3, (e1 * e2).neg_mul_add(i2, e1 * e2 * i1));
-        let e3_by_e0 = correction_0_part_4 * per_pivot_e0;
-        let correction_0_part_5 = correction_0_part
-            .neg_mul_add(
-                e3_by_e0,
-                (e0 * e2).neg_mul_add(i3, (e1 * e3).mul_add(i2, e0 * e2 * i1)),
-            );
-        let e3_by_e1 = correction_0_part_5 * per_pivot_e1;
-        let correction_0_part_6 = correction_0_part_3
-            .neg_mul_add(
-                e3_by_e1,
-                correction_0_part_2
-                    .neg_mul_add(
-                        e3_by_e0,
-                        (e1 * e0).mul_add(i3, (e1 * e0).neg_mul_add(i2, e3 * e2 * i1)),
-                    ),
-            );
-        let pivot_e3 = (correction_0_part_6 * correction_0_part_6)
+        let correction_0_part_5 = lit(4.0)
+            * (e0 * e3).neg_mul_add(i3, (e1 * e2).neg_mul_add(i2, e1 * e2 * i1));
+        let e3_by_e0 = correction_0_part_5 * per_pivot_e0;
+        let correction_0_part_6 = lit(4.0)
+            * (e0 * e2).neg_mul_add(i3, (e1 * e3).mul_add(i2, e0 * e2 * i1));
+        let correction_0_part_7 = correction_0_part * e3_by_e0 - correction_0_part_6;
+        let e3_by_e1 = correction_0_part_7 * per_pivot_e1;
+        let correction_0_part_8 = lit(4.0)
+            * (e1 * e0).mul_add(i3, (e1 * e0).neg_mul_add(i2, e3 * e2 * i1));
+        let correction_0_part_9 = correction_0_part_4
+            .neg_mul_add(e3_by_e1, correction_0_part_2 * e3_by_e0 - correction_0_part_8);
+        let diagonal_e3 = lit(4.0)
+            * (e0 * e0).mul_add(i3, (e1 * e1).mul_add(i2, e2 * e2 * i1));
+        let pivot_e3 = (correction_0_part_9 * correction_0_part_9)
             .neg_mul_add(
                 per_pivot_e2,
-                (correction_0_part_5 * correction_0_part_5)
+                (correction_0_part_7 * correction_0_part_7)
                     .neg_mul_add(
                         per_pivot_e1,
-                        (correction_0_part_4 * correction_0_part_4)
-                            .neg_mul_add(per_pivot_e0, diagonal_e3),
+                        correction_0_part_5 * correction_0_part_5 * per_pivot_e0
+                            - diagonal_e3,
                     ),
             );
         let per_pivot_e3 = pivot_e3.recip();
         let safe_e3 = S::select_le(
-            lit(4.0) * pivot_e3,
-            lit(0.00390625) * diagonal_e3,
+            -pivot_e3,
+            lit(0.0009765625) * diagonal_e3,
             lit(0.0),
             safe_e2,
         );
         let unit_by_e0 = e0 * per_pivot_e0;
-        let correction_0_part_7 = correction_0_part.mul_add(unit_by_e0, e1);
-        let unit_by_e1 = correction_0_part_7 * per_pivot_e1;
-        let correction_0_part_8 = correction_0_part_3
+        let correction_0_part_10 = correction_0_part.mul_add(unit_by_e0, e1);
+        let unit_by_e1 = correction_0_part_10 * per_pivot_e1;
+        let correction_0_part_11 = correction_0_part_4
             .neg_mul_add(unit_by_e1, correction_0_part_2.mul_add(unit_by_e0, e2));
-        let unit_by_e2 = correction_0_part_8 * per_pivot_e2;
-        let correction_0_part_9 = correction_0_part_6
+        let unit_by_e2 = correction_0_part_11 * per_pivot_e2;
+        let correction_0_part_12 = correction_0_part_9
             .mul_add(
                 unit_by_e2,
-                correction_0_part_5
-                    .mul_add(unit_by_e1, correction_0_part_4.neg_mul_add(unit_by_e0, e3)),
+                correction_0_part_7
+                    .mul_add(unit_by_e1, correction_0_part_5.neg_mul_add(unit_by_e0, e3)),
             );
-        let pivot_unit = (correction_0_part_9 * correction_0_part_9)
-            .mul_add(
+        let pivot_unit = (correction_0_part_12 * correction_0_part_12)
+            .neg_mul_add(
                 per_pivot_e3,
-                (correction_0_part_8 * correction_0_part_8)
-                    .mul_add(
+                (correction_0_part_11 * correction_0_part_11)
+                    .neg_mul_add(
                         per_pivot_e2,
-                        (correction_0_part_7 * correction_0_part_7)
-                            .mul_add(per_pivot_e1, e0 * e0 * per_pivot_e0),
+                        (correction_0_part_10 * correction_0_part_10)
+                            .neg_mul_add(per_pivot_e1, e0 * e0 * per_pivot_e0),
                     ),
             );
         let per_pivot_unit = pivot_unit.recip();
         let safe_unit = S::select_le(pivot_unit, lit(0.0), lit(0.0), safe_e3);
+        let right_unit = lit(0.5) * residual_0;
         let safe = safe_unit;
-        let e3_by_e2 = correction_0_part_6 * per_pivot_e2;
-        let safe_part = (e3_by_e2 * correction_0_part_9)
-            .mul_add(per_pivot_e3, unit_by_e2);
-        out[2] = lit(-0.5) * (residual_0 * safe_part * per_pivot_unit);
-        out[3] = lit(-0.5)
-            * (residual_0 * correction_0_part_9 * per_pivot_e3 * per_pivot_unit);
-        let e2_by_e1 = correction_0_part_3 * per_pivot_e1;
-        let safe_part_2 = e2_by_e1
-            .neg_mul_add(
-                safe_part,
-                (e3_by_e1 * correction_0_part_9).mul_add(per_pivot_e3, unit_by_e1),
+        out[3] = right_unit * correction_0_part_12 * per_pivot_e3 * per_pivot_unit;
+        let e3_by_e2 = correction_0_part_9 * per_pivot_e2;
+        let safe_part = (right_unit * unit_by_e2)
+            .mul_add(
+                per_pivot_unit,
+                right_unit * e3_by_e2 * correction_0_part_12 * per_pivot_e3
+                    * per_pivot_unit,
             );
-        out[1] = lit(-0.5) * (residual_0 * safe_part_2 * per_pivot_unit);
+        out[2] = safe_part;
+        let e2_by_e1 = correction_0_part_4 * per_pivot_e1;
+        let correction_3_part = (right_unit * unit_by_e1)
+            .neg_mul_add(
+                per_pivot_unit,
+                (right_unit * e3_by_e1 * correction_0_part_12 * per_pivot_e3)
+                    .neg_mul_add(per_pivot_unit, e2_by_e1 * safe_part),
+            );
+        out[1] = -correction_3_part;
         let e1_by_e0 = correction_0_part * per_pivot_e0;
-        out[0] = lit(-0.5)
-            * (residual_0 * per_pivot_unit
-                * e1_by_e0
-                    .mul_add(
-                        safe_part_2,
-                        e2_by_e0
-                            .mul_add(
-                                safe_part,
-                                (e3_by_e0 * correction_0_part_9)
-                                    .neg_mul_add(per_pivot_e3, unit_by_e0),
-                            ),
-                    ));
+        out[0] = e1_by_e0
+            .neg_mul_add(
+                correction_3_part,
+                (right_unit * unit_by_e0)
+                    .neg_mul_add(
+                        per_pivot_unit,
+                        (right_unit * e3_by_e0 * correction_0_part_12 * per_pivot_e3)
+                            .neg_mul_add(per_pivot_unit, e2_by_e0 * safe_part),
+                    ),
+            );
         safe
     }
 }

@@ -273,9 +273,9 @@ impl ::ukcore::Mechanism for RoughBlock {
         force[0] = lit(0.0);
         force[1] = -m_g;
         let speed_down = dot_y.neg_mul_add(sin_slope, dot_x * cos_slope);
-        let sign_speed_down = speed_down.sign();
-        nonideal[0] = -(sq_cos_slope_mu_m_g * sign_speed_down);
-        nonideal[1] = cos_slope_sin_slope_mu_m_g * sign_speed_down;
+        let right_x = speed_down.sign();
+        nonideal[0] = -(sq_cos_slope_mu_m_g * right_x);
+        nonideal[1] = cos_slope_sin_slope_mu_m_g * right_x;
         jacobian[0] = sin_slope;
         jacobian[1] = cos_slope;
         rhs[0] = lit(0.0);
@@ -363,7 +363,8 @@ impl ::ukcore::Mechanism for RoughBlock {
         outputs[0] = y.neg_mul_add(sin_slope, x * cos_slope);
         let speed_down = dot_y.neg_mul_add(sin_slope, dot_x * cos_slope);
         outputs[1] = speed_down;
-        let neg_friction = cos_slope_mu_m_g * speed_down.sign();
+        let right_x = speed_down.sign();
+        let neg_friction = cos_slope_mu_m_g * right_x;
         outputs[2] = -neg_friction;
     }
     /// 7 additions, 8 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 1 selections.
@@ -383,14 +384,14 @@ impl ::ukcore::Mechanism for RoughBlock {
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
         let speed_down = dot_y.neg_mul_add(sin_slope, dot_x * cos_slope);
-        let sign_speed_down = speed_down.sign();
+        let right_x = speed_down.sign();
+        let right_x_cos_slope_sin_slope_mu = cos_slope_sin_slope_mu * right_x;
+        let right_y = lit(1.0) - right_x_cos_slope_sin_slope_mu;
+        let right_plane = right_x_cos_slope_sin_slope_mu + right_y;
         let safe = safe_plane;
-        let safe_part = cos_slope_sin_slope_mu * sign_speed_down;
-        let safe_part_2 = lit(1.0) - safe_part;
-        let lambda_plane = safe_part + safe_part_2;
         out[0] = -(cos_slope_g
-            * prepared_part_2.neg_mul_add(lambda_plane, cos_slope_mu * sign_speed_down));
-        out[1] = -(g * prepared_part.neg_mul_add(lambda_plane, safe_part_2));
+            * prepared_part_2.neg_mul_add(right_plane, cos_slope_mu * right_x));
+        out[1] = -(g * prepared_part.neg_mul_add(right_plane, right_y));
         safe
     }
     fn correction<S: ::ukcore::Scalar>(

@@ -206,8 +206,8 @@ impl ::ukcore::Mechanism for SliderCrank {
             },
         ],
         prepared: &[
-            ("m1_g", "m1*g"),
-            ("m2_g", "m2*g"),
+            ("right_y1", "m1*g"),
+            ("right_y2", "m2*g"),
             ("m3_g", "m3*g"),
             ("torque", "torque"),
             ("r", "r"),
@@ -225,21 +225,14 @@ impl ::ukcore::Mechanism for SliderCrank {
             ("per_i1_torque", "torque/i1"),
             ("prepared_part", "r^4/sq(i1)"),
             ("g", "g"),
-            ("times_per_i1_sq_r", "0.0625*sq(r)/i1"),
             ("per_m3_and_per_m2", "1/m3 + 1/m2"),
             ("per_m2", "1/m2"),
             ("prepared_part_2", "l^4/sq(i2)"),
-            ("times_per_i2_sq_l", "0.0625*sq(l)/i2"),
             ("per_m1_and_per_m2", "1/m1 + 1/m2"),
-            ("prepared_part_3", "0.0625*r^4/sq(i1)"),
-            ("half_r", "0.5*r"),
-            ("half_l", "0.5*l"),
             ("per_i2_l", "l/i2"),
-            ("half_per_i2_l", "0.5*l/i2"),
             ("per_i1", "1/i1"),
             ("per_m3", "1/m3"),
             ("per_i1_r", "r/i1"),
-            ("half_per_i1_r", "0.5*r/i1"),
             (
                 "safe_th2",
                 "(i2 ≤ 0 ? 0 : (i1 ≤ 0 ? 0 : (m2 ≤ 0 ? 0 : (m1 ≤ 0 ? 0 : (m3 ≤ 0 ? 0 : 1)))))",
@@ -365,8 +358,8 @@ impl ::ukcore::Mechanism for SliderCrank {
                 selections: 0,
             },
             solve_operations: ::ukcore::Operations {
-                additions: 83,
-                multiplications: 202,
+                additions: 85,
+                multiplications: 166,
                 divisions: 6,
                 square_roots: 0,
                 transcendentals: 2,
@@ -451,14 +444,16 @@ impl ::ukcore::Mechanism for SliderCrank {
         }
     }
     fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
-        let prepared = ::ukcore::emitted::exact_mut::<S, 35>(prepared, "prepared");
+        let prepared = ::ukcore::emitted::exact_mut::<S, 28>(prepared, "prepared");
         let [r, l, m1, m2, m3, i1, i2, i3, g, torque] = *::ukcore::emitted::exact::<
             S,
             10,
         >(given, "given");
         let lit = S::from_f64;
-        prepared[0] = m1 * g;
-        prepared[1] = m2 * g;
+        let right_y1 = m1 * g;
+        prepared[0] = right_y1;
+        let right_y2 = m2 * g;
+        prepared[1] = right_y2;
         prepared[2] = m3 * g;
         prepared[3] = torque;
         prepared[4] = r;
@@ -471,42 +466,30 @@ impl ::ukcore::Mechanism for SliderCrank {
         prepared[9] = i2;
         prepared[10] = m3;
         prepared[11] = i3;
-        let per_i1_sq_r = r * r * per_i1;
-        prepared[12] = per_i1_sq_r;
+        prepared[12] = r * r * per_i1;
         prepared[13] = torque * r * per_i1;
-        let per_i2_sq_l = l * l * per_i2;
-        prepared[14] = per_i2_sq_l;
+        prepared[14] = l * l * per_i2;
         let per_m1 = m1.recip();
         prepared[15] = per_m1;
         prepared[16] = torque * per_i1;
-        let prepared_17 = r.powi(4) / (i1 * i1);
-        prepared[17] = prepared_17;
+        prepared[17] = r.powi(4) / (i1 * i1);
         prepared[18] = g;
-        prepared[19] = lit(0.0625) * per_i1_sq_r;
         let per_m3 = m3.recip();
         let per_m2 = m2.recip();
-        prepared[20] = per_m3 + per_m2;
-        prepared[21] = per_m2;
-        prepared[22] = l.powi(4) / (i2 * i2);
-        prepared[23] = lit(0.0625) * per_i2_sq_l;
-        prepared[24] = per_m1 + per_m2;
-        prepared[25] = lit(0.0625) * prepared_17;
-        prepared[26] = lit(0.5) * r;
-        prepared[27] = lit(0.5) * l;
-        let per_i2_l = l * per_i2;
-        prepared[28] = per_i2_l;
-        prepared[29] = lit(0.5) * per_i2_l;
-        prepared[30] = per_i1;
-        prepared[31] = per_m3;
-        let per_i1_r = r * per_i1;
-        prepared[32] = per_i1_r;
-        prepared[33] = lit(0.5) * per_i1_r;
+        prepared[19] = per_m3 + per_m2;
+        prepared[20] = per_m2;
+        prepared[21] = l.powi(4) / (i2 * i2);
+        prepared[22] = per_m1 + per_m2;
+        prepared[23] = l * per_i2;
+        prepared[24] = per_i1;
+        prepared[25] = per_m3;
+        prepared[26] = r * per_i1;
         let safe_x3 = S::select_le(m3, lit(0.0), lit(0.0), lit(1.0));
         let safe_x1 = S::select_le(m1, lit(0.0), lit(0.0), safe_x3);
         let safe_x2 = S::select_le(m2, lit(0.0), lit(0.0), safe_x1);
         let safe_th1 = S::select_le(i1, lit(0.0), lit(0.0), safe_x2);
         let safe_th2 = S::select_le(i2, lit(0.0), lit(0.0), safe_th1);
-        prepared[34] = safe_th2;
+        prepared[27] = safe_th2;
     }
     /// 5 additions, 28 multiplications, 0 divisions, 0 square roots, 2 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
@@ -521,10 +504,10 @@ impl ::ukcore::Mechanism for SliderCrank {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 9>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 72>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 8>(out.rhs, "rhs");
-        let [m1_g, m2_g, m3_g, torque, r, l, m1, i1, m2, i2, m3, i3, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [right_y1, right_y2, m3_g, torque, r, l, m1, i1, m2, i2, m3, i3, _, _, _, _,
+        _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            35,
+            28,
         >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [_, _, dot_th1, _, _, dot_th2, _, _, _] = *::ukcore::emitted::exact::<
@@ -542,10 +525,10 @@ impl ::ukcore::Mechanism for SliderCrank {
         mass[70] = m3;
         mass[80] = i3;
         force[0] = lit(0.0);
-        force[1] = -m1_g;
+        force[1] = -right_y1;
         force[2] = torque;
         force[3] = lit(0.0);
-        force[4] = -m2_g;
+        force[4] = -right_y2;
         force[5] = lit(0.0);
         force[6] = lit(0.0);
         force[7] = -m3_g;
@@ -601,10 +584,7 @@ impl ::ukcore::Mechanism for SliderCrank {
     fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 81>(mass, "mass");
         let [_, _, _, _, _, _, m1, i1, m2, i2, m3, i3, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            35,
-        >(prepared, "prepared");
+        _, _, _, _, _] = *::ukcore::emitted::exact::<S, 28>(prepared, "prepared");
         mass[0] = m1;
         mass[10] = m1;
         mass[20] = i1;
@@ -624,10 +604,7 @@ impl ::ukcore::Mechanism for SliderCrank {
     ) {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 72>(jacobian, "jacobian");
         let [_, _, _, _, r, l, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            35,
-        >(prepared, "prepared");
+        _, _, _] = *::ukcore::emitted::exact::<S, 28>(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let lit = S::from_f64;
         jacobian[0] = lit(1.0);
@@ -660,10 +637,7 @@ impl ::ukcore::Mechanism for SliderCrank {
     fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
         let phi = ::ukcore::emitted::exact_mut::<S, 8>(phi, "phi");
         let [_, _, _, _, r, l, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            35,
-        >(prepared, "prepared");
+        _, _, _] = *::ukcore::emitted::exact::<S, 28>(prepared, "prepared");
         let [x1, y1, th1, x2, y2, th2, x3, y3, th3] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -693,10 +667,7 @@ impl ::ukcore::Mechanism for SliderCrank {
     ) {
         let rate = ::ukcore::emitted::exact_mut::<S, 8>(rate, "rate");
         let [_, _, _, _, r, l, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            35,
-        >(prepared, "prepared");
+        _, _, _] = *::ukcore::emitted::exact::<S, 28>(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [dot_x1, dot_y1, dot_th1, dot_x2, dot_y2, dot_th2, dot_x3, dot_y3, dot_th3,
         ] = *::ukcore::emitted::exact::<S, 9>(v, "v");
@@ -730,10 +701,10 @@ impl ::ukcore::Mechanism for SliderCrank {
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
-        let [m1_g, m2_g, m3_g, torque, _, _, m1, i1, m2, i2, m3, i3, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [right_y1, right_y2, m3_g, torque, _, _, m1, i1, m2, i2, m3, i3, _, _, _, _,
+        _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            35,
+            28,
         >(prepared, "prepared");
         let [_, y1, th1, _, y2, _, _, y3, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [dot_x1, dot_y1, dot_th1, dot_x2, dot_y2, dot_th2, dot_x3, dot_y3, dot_th3,
@@ -770,7 +741,7 @@ impl ::ukcore::Mechanism for SliderCrank {
                         ),
                 );
         let potential = th1
-            .neg_mul_add(torque, y3.mul_add(m3_g, y2.mul_add(m2_g, y1 * m1_g)));
+            .neg_mul_add(torque, y3.mul_add(m3_g, y2.mul_add(right_y2, y1 * right_y1)));
         ::ukcore::Energy {
             kinetic,
             potential,
@@ -790,7 +761,7 @@ impl ::ukcore::Mechanism for SliderCrank {
         outputs[1] = x3;
         outputs[2] = dot_x3;
     }
-    /// 83 additions, 202 multiplications, 6 divisions, 0 square roots, 2 transcendentals, 6 selections.
+    /// 85 additions, 166 multiplications, 6 divisions, 0 square roots, 2 transcendentals, 6 selections.
     fn acceleration<S: ::ukcore::Scalar>(
         prepared: &[S],
         t: S,
@@ -800,10 +771,11 @@ impl ::ukcore::Mechanism for SliderCrank {
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 9>(out, "out");
         let [_, _, _, torque, r, l, _, _, _, _, _, _, per_i1_sq_r, per_i1_torque_r,
-        per_i2_sq_l, per_m1, per_i1_torque, prepared_part, g, times_per_i1_sq_r,
-        per_m3_and_per_m2, per_m2, prepared_part_2, times_per_i2_sq_l, per_m1_and_per_m2,
-        prepared_part_3, half_r, half_l, _, half_per_i2_l, per_i1, per_m3, _, _, safe_th2,
-        ] = *::ukcore::emitted::exact::<S, 35>(prepared, "prepared");
+        per_i2_sq_l, per_m1, per_i1_torque, prepared_part, g, per_m3_and_per_m2, per_m2,
+        prepared_part_2, per_m1_and_per_m2, per_i2_l, per_i1, per_m3, _, safe_th2] = *::ukcore::emitted::exact::<
+            S,
+            28,
+        >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [_, _, dot_th1, _, _, dot_th2, _, _, _] = *::ukcore::emitted::exact::<
             S,
@@ -811,15 +783,22 @@ impl ::ukcore::Mechanism for SliderCrank {
         >(v, "v");
         let lit = S::from_f64;
         let (sin_th1, cos_th1) = th1.sin_cos();
-        let sq_sin_th1_per_i1_sq_r = per_i1_sq_r * sin_th1 * sin_th1;
-        let pivot_bearing_0 = lit(0.25).mul_add(sq_sin_th1_per_i1_sq_r, per_m1);
+        let acceleration_0_part = lit(0.5) * sin_th1;
+        let acceleration_0_part_2 = per_i1_sq_r * acceleration_0_part
+            * acceleration_0_part;
+        let pivot_bearing_0 = per_m1 + acceleration_0_part_2;
         let per_pivot_bearing_0 = pivot_bearing_0.recip();
         let safe_bearing_0 = S::select_le(pivot_bearing_0, lit(0.0), lit(0.0), safe_th2);
-        let acceleration_0_part = prepared_part * cos_th1 * cos_th1 * sin_th1 * sin_th1
+        let right_bearing_0 = per_i1_torque
+            .mul_add(acceleration_0_part, lit(0.5) * dot_th1 * dot_th1 * cos_th1);
+        let acceleration_0_part_3 = lit(0.5) * cos_th1;
+        let acceleration_0_part_4 = prepared_part * acceleration_0_part
+            * acceleration_0_part * acceleration_0_part_3 * acceleration_0_part_3
             * per_pivot_bearing_0;
-        let sq_cos_th1_per_i1_sq_r = per_i1_sq_r * cos_th1 * cos_th1;
-        let diagonal_bearing_1 = lit(0.25).mul_add(sq_cos_th1_per_i1_sq_r, per_m1);
-        let pivot_bearing_1 = lit(0.0625) * acceleration_0_part - diagonal_bearing_1;
+        let acceleration_0_part_5 = per_i1_sq_r * acceleration_0_part_3
+            * acceleration_0_part_3;
+        let diagonal_bearing_1 = per_m1 + acceleration_0_part_5;
+        let pivot_bearing_1 = acceleration_0_part_4 - diagonal_bearing_1;
         let per_pivot_bearing_1 = pivot_bearing_1.recip();
         let safe_bearing_1 = S::select_le(
             -pivot_bearing_1,
@@ -827,10 +806,18 @@ impl ::ukcore::Mechanism for SliderCrank {
             lit(0.0),
             safe_bearing_0,
         );
+        let bearing_1_by_bearing_0 = per_i1_sq_r * acceleration_0_part
+            * acceleration_0_part_3 * per_pivot_bearing_0;
+        let acceleration_0_part_6 = r * right_bearing_0 * bearing_1_by_bearing_0;
+        let sin_th1_sq_dot_th1_r = dot_th1 * dot_th1 * r * sin_th1;
+        let acceleration_0_part_7 = per_i1_torque_r * acceleration_0_part_3;
+        let right_bearing_1 = (lit(0.5) * sin_th1_sq_dot_th1_r - g
+            - acceleration_0_part_7) + acceleration_0_part_6;
         let (sin_th2, cos_th2) = th2.sin_cos();
-        let sq_sin_th2_per_i2_sq_l = per_i2_sq_l * sin_th2 * sin_th2;
-        let pivot_wrist_pin_0 = lit(0.25)
-            .mul_add(sq_sin_th2_per_i2_sq_l, per_m3_and_per_m2);
+        let acceleration_0_part_8 = lit(0.5) * sin_th2;
+        let acceleration_0_part_9 = per_i2_sq_l * acceleration_0_part_8
+            * acceleration_0_part_8;
+        let pivot_wrist_pin_0 = per_m3_and_per_m2 + acceleration_0_part_9;
         let per_pivot_wrist_pin_0 = pivot_wrist_pin_0.recip();
         let safe_wrist_pin_0 = S::select_le(
             pivot_wrist_pin_0,
@@ -838,12 +825,15 @@ impl ::ukcore::Mechanism for SliderCrank {
             lit(0.0),
             safe_bearing_1,
         );
-        let acceleration_0_part_2 = prepared_part_2 * cos_th2 * cos_th2 * sin_th2
-            * sin_th2 * per_pivot_wrist_pin_0;
-        let sq_cos_th2_per_i2_sq_l = per_i2_sq_l * cos_th2 * cos_th2;
-        let diagonal_wrist_pin_1 = lit(0.25).mul_add(sq_cos_th2_per_i2_sq_l, per_m2);
-        let pivot_wrist_pin_1 = lit(0.0625) * acceleration_0_part_2
-            - diagonal_wrist_pin_1;
+        let right_wrist_pin_0 = lit(0.5) * (dot_th2 * dot_th2 * cos_th2);
+        let acceleration_0_part_10 = lit(0.5) * cos_th2;
+        let acceleration_0_part_11 = prepared_part_2 * acceleration_0_part_8
+            * acceleration_0_part_8 * acceleration_0_part_10 * acceleration_0_part_10
+            * per_pivot_wrist_pin_0;
+        let acceleration_0_part_12 = per_i2_sq_l * acceleration_0_part_10
+            * acceleration_0_part_10;
+        let diagonal_wrist_pin_1 = per_m2 + acceleration_0_part_12;
+        let pivot_wrist_pin_1 = acceleration_0_part_11 - diagonal_wrist_pin_1;
         let per_pivot_wrist_pin_1 = pivot_wrist_pin_1.recip();
         let safe_wrist_pin_1 = S::select_le(
             -pivot_wrist_pin_1,
@@ -851,33 +841,32 @@ impl ::ukcore::Mechanism for SliderCrank {
             lit(0.0),
             safe_wrist_pin_0,
         );
-        let crank_pin_1_by_wrist_pin_0 = per_i2_sq_l * cos_th2 * sin_th2
-            * per_pivot_wrist_pin_0;
-        let acceleration_0_part_3 = dot_th2 * dot_th2 * l * cos_th2
-            * crank_pin_1_by_wrist_pin_0;
+        let crank_pin_1_by_wrist_pin_0 = per_i2_sq_l * acceleration_0_part_8
+            * acceleration_0_part_10 * per_pivot_wrist_pin_0;
+        let acceleration_0_part_13 = l * right_wrist_pin_0 * crank_pin_1_by_wrist_pin_0;
         let sin_th2_sq_dot_th2_l = dot_th2 * dot_th2 * l * sin_th2;
-        let acceleration_0_part_4 = lit(0.125)
-            .mul_add(acceleration_0_part_3, lit(0.5).mul_add(sin_th2_sq_dot_th2_l, g));
-        let crank_pin_0_with_bearing_0 = lit(0.25) * sq_sin_th1_per_i1_sq_r - per_m1;
-        let crank_pin_0_with_wrist_pin_0 = lit(0.25) * sq_sin_th2_per_i2_sq_l - per_m2;
-        let crank_pin_1_with_wrist_pin_0 = per_i2_sq_l * cos_th2 * sin_th2;
-        let acceleration_0_part_5 = crank_pin_0_with_wrist_pin_0
+        let right_wrist_pin_1 = lit(0.5).mul_add(sin_th2_sq_dot_th2_l, g)
+            + acceleration_0_part_13;
+        let crank_pin_0_with_bearing_0 = acceleration_0_part_2 - per_m1;
+        let crank_pin_0_by_bearing_0 = -(crank_pin_0_with_bearing_0
+            * per_pivot_bearing_0);
+        let acceleration_0_part_14 = lit(1.0) + crank_pin_0_by_bearing_0;
+        let crank_pin_0_with_wrist_pin_0 = acceleration_0_part_9 - per_m2;
+        let crank_pin_1_with_wrist_pin_0 = per_i2_sq_l * acceleration_0_part_8
+            * acceleration_0_part_10;
+        let acceleration_0_part_15 = crank_pin_0_with_wrist_pin_0
             * crank_pin_1_by_wrist_pin_0;
         let crank_pin_0_with_wrist_pin_1 = crank_pin_1_with_wrist_pin_0
-            - acceleration_0_part_5;
-        let diagonal_crank_pin_0 = lit(0.25)
-            .mul_add(
-                sq_sin_th2_per_i2_sq_l,
-                lit(0.25).mul_add(sq_sin_th1_per_i1_sq_r, per_m1_and_per_m2),
-            );
-        let crank_pin_0_by_bearing_0 = crank_pin_0_with_bearing_0 * per_pivot_bearing_0;
-        let acceleration_0_part_6 = lit(1.0) - crank_pin_0_by_bearing_0;
-        let pivot_crank_pin_0 = (lit(0.0625) * crank_pin_0_with_wrist_pin_1
+            - acceleration_0_part_15;
+        let diagonal_crank_pin_0 = per_m1_and_per_m2 + acceleration_0_part_2
+            + acceleration_0_part_9;
+        let pivot_crank_pin_0 = (crank_pin_0_with_wrist_pin_1
             * crank_pin_0_with_wrist_pin_1)
             .neg_mul_add(
                 per_pivot_wrist_pin_1,
-                (prepared_part_3 * cos_th1 * cos_th1 * sin_th1 * sin_th1
-                    * acceleration_0_part_6 * acceleration_0_part_6)
+                (prepared_part * acceleration_0_part * acceleration_0_part
+                    * acceleration_0_part_3 * acceleration_0_part_3
+                    * acceleration_0_part_14 * acceleration_0_part_14)
                     .neg_mul_add(
                         per_pivot_bearing_1,
                         (crank_pin_0_with_wrist_pin_0 * crank_pin_0_with_wrist_pin_0)
@@ -895,77 +884,60 @@ impl ::ukcore::Mechanism for SliderCrank {
             lit(0.0),
             safe_wrist_pin_1,
         );
-        let acceleration_0_part_7 = per_i1_torque
-            .mul_add(sin_th1, dot_th1 * dot_th1 * cos_th1);
-        let bearing_1_by_bearing_0 = per_i1_sq_r * cos_th1 * sin_th1
-            * per_pivot_bearing_0;
-        let acceleration_0_part_8 = r * acceleration_0_part_7 * bearing_1_by_bearing_0;
-        let sin_th1_sq_dot_th1_r = dot_th1 * dot_th1 * r * sin_th1;
-        let cos_th1_per_i1_torque_r = per_i1_torque_r * cos_th1;
-        let acceleration_0_part_9 = lit(0.125)
-            .mul_add(
-                acceleration_0_part_8,
-                lit(0.5)
-                    .neg_mul_add(
-                        cos_th1_per_i1_torque_r,
-                        lit(0.5) * sin_th1_sq_dot_th1_r - g,
-                    ),
-            );
-        let crank_pin_0_by_bearing_1 = per_i1_sq_r * cos_th1 * sin_th1
-            * acceleration_0_part_6 * per_pivot_bearing_1;
+        let crank_pin_0_by_bearing_1 = per_i1_sq_r * acceleration_0_part
+            * acceleration_0_part_3 * acceleration_0_part_14 * per_pivot_bearing_1;
+        let crank_pin_0_by_wrist_pin_0 = -(crank_pin_0_with_wrist_pin_0
+            * per_pivot_wrist_pin_0);
         let crank_pin_0_by_wrist_pin_1 = crank_pin_0_with_wrist_pin_1
             * per_pivot_wrist_pin_1;
-        let crank_pin_0_by_wrist_pin_0 = crank_pin_0_with_wrist_pin_0
-            * per_pivot_wrist_pin_0;
-        let acceleration_0_part_10 = (lit(0.25) * acceleration_0_part_4)
-            .mul_add(
+        let right_crank_pin_0 = right_wrist_pin_1
+            .neg_mul_add(
                 crank_pin_0_by_wrist_pin_1,
-                (lit(0.25) * acceleration_0_part_9)
-                    .mul_add(
+                right_bearing_1
+                    .neg_mul_add(
                         crank_pin_0_by_bearing_1,
-                        (dot_th2 * dot_th2 * half_l * cos_th2)
+                        (l * right_wrist_pin_0)
                             .mul_add(
                                 crank_pin_0_by_wrist_pin_0,
-                                lit(0.5)
-                                    .neg_mul_add(
-                                        (per_i1_torque_r * sin_th1
-                                            + (dot_th2 * dot_th2 * l)
-                                                .mul_add(cos_th2, dot_th1 * dot_th1 * r * cos_th1)),
-                                        half_r * acceleration_0_part_7 * crank_pin_0_by_bearing_0,
+                                (r * right_bearing_0)
+                                    .mul_add(
+                                        crank_pin_0_by_bearing_0,
+                                        per_i1_torque_r
+                                            .mul_add(
+                                                acceleration_0_part,
+                                                lit(0.5)
+                                                    * (dot_th2 * dot_th2 * l)
+                                                        .mul_add(cos_th2, dot_th1 * dot_th1 * r * cos_th1),
+                                            ),
                                     ),
                             ),
                     ),
             );
-        let crank_pin_1_with_bearing_1 = (times_per_i1_sq_r * cos_th1 * sin_th1)
-            .neg_mul_add(
-                bearing_1_by_bearing_0,
-                (lit(0.25) * sq_cos_th1_per_i1_sq_r - per_m1),
-            );
+        let crank_pin_1_with_bearing_1 = per_i1_sq_r * acceleration_0_part
+            * acceleration_0_part_3 * bearing_1_by_bearing_0
+            - (acceleration_0_part_5 - per_m1);
         let crank_pin_1_by_bearing_1 = crank_pin_1_with_bearing_1 * per_pivot_bearing_1;
-        let crank_pin_1_with_wrist_pin_1 = (times_per_i2_sq_l * cos_th2 * sin_th2)
-            .neg_mul_add(
-                crank_pin_1_by_wrist_pin_0,
-                (lit(0.25) * sq_cos_th2_per_i2_sq_l - per_m2),
-            );
+        let crank_pin_1_with_wrist_pin_1 = per_i2_sq_l * acceleration_0_part_8
+            * acceleration_0_part_10 * crank_pin_1_by_wrist_pin_0
+            - (acceleration_0_part_12 - per_m2);
         let crank_pin_1_by_wrist_pin_1 = crank_pin_1_with_wrist_pin_1
             * per_pivot_wrist_pin_1;
-        let bearing_1_with_bearing_0 = per_i1_sq_r * cos_th1 * sin_th1;
+        let bearing_1_with_bearing_0 = per_i1_sq_r * acceleration_0_part
+            * acceleration_0_part_3;
         let crank_pin_1_with_crank_pin_0 = crank_pin_0_with_wrist_pin_1
-            .neg_mul_add(
+            .mul_add(
                 crank_pin_1_by_wrist_pin_1,
-                (per_i1_sq_r * cos_th1 * sin_th1 * acceleration_0_part_6)
-                    .neg_mul_add(
+                (per_i1_sq_r * acceleration_0_part * acceleration_0_part_3
+                    * acceleration_0_part_14)
+                    .mul_add(
                         crank_pin_1_by_bearing_1,
                         crank_pin_0_with_bearing_0 * bearing_1_by_bearing_0
                             - (bearing_1_with_bearing_0 + crank_pin_1_with_wrist_pin_0)
-                            + acceleration_0_part_5,
+                            + acceleration_0_part_15,
                     ),
             );
-        let acceleration_0_part_11 = lit(0.25)
-            .mul_add(
-                sq_cos_th2_per_i2_sq_l,
-                lit(0.25).mul_add(sq_cos_th1_per_i1_sq_r, per_m1_and_per_m2),
-            );
+        let acceleration_0_part_16 = per_m1_and_per_m2 + acceleration_0_part_5
+            + acceleration_0_part_12;
         let pivot_crank_pin_1 = pivot_crank_pin_0
             .neg_mul_add(
                 (crank_pin_1_with_wrist_pin_1 * crank_pin_1_with_wrist_pin_1)
@@ -974,140 +946,131 @@ impl ::ukcore::Mechanism for SliderCrank {
                         (crank_pin_1_with_bearing_1 * crank_pin_1_with_bearing_1)
                             .neg_mul_add(
                                 per_pivot_bearing_1,
-                                lit(0.0625)
-                                    .mul_add(
-                                        acceleration_0_part_2,
-                                        lit(0.0625) * acceleration_0_part - acceleration_0_part_11,
-                                    ),
+                                acceleration_0_part_4 - acceleration_0_part_16
+                                    + acceleration_0_part_11,
                             ),
                     ),
-                lit(0.0625) * crank_pin_1_with_crank_pin_0 * crank_pin_1_with_crank_pin_0,
+                crank_pin_1_with_crank_pin_0 * crank_pin_1_with_crank_pin_0,
             );
         let per_pivot_crank_pin_1 = pivot_crank_pin_1.recip();
-        let diagonal_crank_pin_1 = acceleration_0_part_11 * pivot_crank_pin_0;
+        let diagonal_crank_pin_1 = acceleration_0_part_16 * pivot_crank_pin_0;
         let safe_crank_pin_1 = S::select_le(
             -pivot_crank_pin_1,
             lit(-0.0009765625) * diagonal_crank_pin_1,
             lit(0.0),
             safe_crank_pin_0,
         );
-        let acceleration_0_part_12 = pivot_crank_pin_0
-            .neg_mul_add(
-                acceleration_0_part_4
-                    .mul_add(
+        let right_crank_pin_1 = pivot_crank_pin_0
+            .mul_add(
+                right_wrist_pin_1
+                    .neg_mul_add(
                         crank_pin_1_by_wrist_pin_1,
-                        acceleration_0_part_9
-                            .mul_add(
+                        right_bearing_1
+                            .neg_mul_add(
                                 crank_pin_1_by_bearing_1,
-                                lit(0.125)
-                                    .mul_add(
-                                        acceleration_0_part_3,
-                                        lit(0.125)
-                                            .mul_add(
-                                                acceleration_0_part_8,
-                                                lit(0.5)
-                                                    * ((sin_th1_sq_dot_th1_r + sin_th2_sq_dot_th2_l)
-                                                        - cos_th1_per_i1_torque_r),
-                                            ),
-                                    ),
+                                (lit(0.5) * (sin_th1_sq_dot_th1_r + sin_th2_sq_dot_th2_l)
+                                    - acceleration_0_part_7) + acceleration_0_part_6
+                                    + acceleration_0_part_13,
                             ),
                     ),
-                lit(0.25) * acceleration_0_part_10 * crank_pin_1_with_crank_pin_0,
+                right_crank_pin_0 * crank_pin_1_with_crank_pin_0,
             );
         out[7] = lit(0.0);
         out[8] = lit(0.0);
         let safe = safe_crank_pin_1;
-        let safe_part = (lit(0.25) * crank_pin_1_with_crank_pin_0
-            * acceleration_0_part_12)
-            .neg_mul_add(per_pivot_crank_pin_1, acceleration_0_part_10);
-        let lambda_bearing_1 = (lit(0.25) * crank_pin_0_by_bearing_1
+        let lambda_crank_pin_0 = (crank_pin_1_with_crank_pin_0 * right_crank_pin_1
             * per_pivot_crank_pin_0)
-            .mul_add(
-                safe_part,
-                (crank_pin_1_by_bearing_1 * acceleration_0_part_12)
+            .neg_mul_add(
+                per_pivot_crank_pin_1,
+                right_crank_pin_0 * per_pivot_crank_pin_0,
+            );
+        let lambda_bearing_1 = crank_pin_0_by_bearing_1
+            .neg_mul_add(
+                lambda_crank_pin_0,
+                (crank_pin_1_by_bearing_1 * right_crank_pin_1)
                     .mul_add(
                         per_pivot_crank_pin_1,
-                        acceleration_0_part_9 * per_pivot_bearing_1,
+                        right_bearing_1 * per_pivot_bearing_1,
                     ),
             );
-        out[1] = (per_m1 * acceleration_0_part_12)
-            .neg_mul_add(per_pivot_crank_pin_1, per_m1 * lambda_bearing_1 - g);
-        let lambda_wrist_pin_1 = (lit(0.25) * crank_pin_0_by_wrist_pin_1
-            * per_pivot_crank_pin_0)
+        out[1] = per_m1
             .mul_add(
-                safe_part,
-                (crank_pin_1_by_wrist_pin_1 * acceleration_0_part_12)
+                lambda_bearing_1,
+                per_m1 * right_crank_pin_1 * per_pivot_crank_pin_1 - g,
+            );
+        let lambda_wrist_pin_1 = crank_pin_0_by_wrist_pin_1
+            .neg_mul_add(
+                lambda_crank_pin_0,
+                (crank_pin_1_by_wrist_pin_1 * right_crank_pin_1)
                     .mul_add(
                         per_pivot_crank_pin_1,
-                        acceleration_0_part_4 * per_pivot_wrist_pin_1,
+                        right_wrist_pin_1 * per_pivot_wrist_pin_1,
                     ),
             );
         out[4] = per_m2
             .neg_mul_add(
                 lambda_wrist_pin_1,
-                per_m2 * acceleration_0_part_12 * per_pivot_crank_pin_1 - g,
+                (per_m2 * right_crank_pin_1).neg_mul_add(per_pivot_crank_pin_1, -g),
             );
-        let lambda_wrist_pin_0 = (lit(0.25) * crank_pin_1_by_wrist_pin_0)
-            .mul_add(
+        let lambda_wrist_pin_0 = crank_pin_1_by_wrist_pin_0
+            .neg_mul_add(
                 lambda_wrist_pin_1,
-                (crank_pin_0_by_wrist_pin_0 * per_pivot_crank_pin_0)
-                    .mul_add(
-                        safe_part,
-                        (dot_th2 * dot_th2 * half_l * cos_th2)
-                            .neg_mul_add(
-                                per_pivot_wrist_pin_0,
-                                lit(0.25) * crank_pin_1_by_wrist_pin_0
-                                    * acceleration_0_part_12 * per_pivot_crank_pin_1,
+                crank_pin_0_by_wrist_pin_0
+                    .neg_mul_add(
+                        lambda_crank_pin_0,
+                        (crank_pin_1_by_wrist_pin_0 * right_crank_pin_1)
+                            .mul_add(
+                                per_pivot_crank_pin_1,
+                                l * right_wrist_pin_0 * per_pivot_wrist_pin_0,
                             ),
                     ),
             );
-        out[6] = per_m3 * lambda_wrist_pin_0;
-        let lambda_crank_pin_0 = per_pivot_crank_pin_0 * safe_part;
-        let lambda_bearing_0 = (lit(0.25) * bearing_1_by_bearing_0)
-            .mul_add(
+        out[3] = per_m2 * (lambda_crank_pin_0 + lambda_wrist_pin_0);
+        out[6] = -(per_m3 * lambda_wrist_pin_0);
+        let lambda_bearing_0 = bearing_1_by_bearing_0
+            .neg_mul_add(
                 lambda_bearing_1,
-                (crank_pin_0_by_bearing_0 * per_pivot_crank_pin_0)
-                    .mul_add(
-                        safe_part,
-                        (half_r * acceleration_0_part_7)
-                            .neg_mul_add(
-                                per_pivot_bearing_0,
-                                lit(0.25) * bearing_1_by_bearing_0 * acceleration_0_part_12
-                                    * per_pivot_crank_pin_1,
+                crank_pin_0_by_bearing_0
+                    .neg_mul_add(
+                        lambda_crank_pin_0,
+                        (bearing_1_by_bearing_0 * right_crank_pin_1)
+                            .mul_add(
+                                per_pivot_crank_pin_1,
+                                r * right_bearing_0 * per_pivot_bearing_0,
                             ),
                     ),
             );
-        out[0] = per_m1 * (lambda_crank_pin_0 + lambda_bearing_0);
+        out[0] = -(per_m1 * (lambda_crank_pin_0 + lambda_bearing_0));
         out[2] = per_i1
-            * (half_r * sin_th1)
-                .mul_add(
+            * (r * acceleration_0_part)
+                .neg_mul_add(
                     lambda_bearing_0,
-                    (half_r * cos_th1)
+                    (r * acceleration_0_part_3)
                         .neg_mul_add(
                             lambda_bearing_1,
-                            (half_r * sin_th1 * per_pivot_crank_pin_0)
-                                .neg_mul_add(
-                                    safe_part,
-                                    (half_r * cos_th1 * acceleration_0_part_12)
-                                        .neg_mul_add(per_pivot_crank_pin_1, torque),
+                            (r * acceleration_0_part)
+                                .mul_add(
+                                    lambda_crank_pin_0,
+                                    (r * acceleration_0_part_3 * right_crank_pin_1)
+                                        .mul_add(per_pivot_crank_pin_1, torque),
                                 ),
                         ),
                 );
-        out[3] = -(per_m2 * (lambda_crank_pin_0 + lambda_wrist_pin_0));
-        out[5] = -(half_per_i2_l
-            * sin_th2
+        out[5] = per_i2_l
+            * acceleration_0_part_8
                 .neg_mul_add(
                     lambda_wrist_pin_0,
-                    cos_th2
-                        .mul_add(
+                    acceleration_0_part_10
+                        .neg_mul_add(
                             lambda_wrist_pin_1,
-                            (sin_th2 * per_pivot_crank_pin_0)
+                            acceleration_0_part_8
                                 .mul_add(
-                                    safe_part,
-                                    cos_th2 * acceleration_0_part_12 * per_pivot_crank_pin_1,
+                                    lambda_crank_pin_0,
+                                    acceleration_0_part_10 * right_crank_pin_1
+                                        * per_pivot_crank_pin_1,
                                 ),
                         ),
-                ));
+                );
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
@@ -1120,11 +1083,10 @@ impl ::ukcore::Mechanism for SliderCrank {
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 9>(out, "out");
         let [_, _, _, _, _, _, _, _, _, _, _, _, per_i1_sq_r, _, per_i2_sq_l, per_m1, _,
-        prepared_part, _, times_per_i1_sq_r, per_m3_and_per_m2, per_m2, prepared_part_2,
-        times_per_i2_sq_l, per_m1_and_per_m2, prepared_part_3, _, _, _, half_per_i2_l, _,
-        per_m3, _, half_per_i1_r, safe_th2] = *::ukcore::emitted::exact::<
+        prepared_part, _, per_m3_and_per_m2, per_m2, prepared_part_2, per_m1_and_per_m2,
+        per_i2_l, _, per_m3, per_i1_r, safe_th2] = *::ukcore::emitted::exact::<
             S,
-            35,
+            28,
         >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [residual_0, residual_1, residual_2, residual_3, residual_4, residual_5,
@@ -1134,15 +1096,19 @@ impl ::ukcore::Mechanism for SliderCrank {
         >(residual, "residual");
         let lit = S::from_f64;
         let (sin_th1, cos_th1) = th1.sin_cos();
-        let sq_sin_th1_per_i1_sq_r = per_i1_sq_r * sin_th1 * sin_th1;
-        let pivot_bearing_0 = lit(0.25).mul_add(sq_sin_th1_per_i1_sq_r, per_m1);
+        let correction_0_part = lit(0.5) * sin_th1;
+        let sq_correction_0_part_per_i1_sq_r = per_i1_sq_r * correction_0_part
+            * correction_0_part;
+        let pivot_bearing_0 = per_m1 + sq_correction_0_part_per_i1_sq_r;
         let per_pivot_bearing_0 = pivot_bearing_0.recip();
         let safe_bearing_0 = S::select_le(pivot_bearing_0, lit(0.0), lit(0.0), safe_th2);
-        let correction_0_part = prepared_part * cos_th1 * cos_th1 * sin_th1 * sin_th1
-            * per_pivot_bearing_0;
-        let sq_cos_th1_per_i1_sq_r = per_i1_sq_r * cos_th1 * cos_th1;
-        let diagonal_bearing_1 = lit(0.25).mul_add(sq_cos_th1_per_i1_sq_r, per_m1);
-        let pivot_bearing_1 = lit(0.0625) * correction_0_part - diagonal_bearing_1;
+        let correction_0_part_2 = lit(0.5) * cos_th1;
+        let correction_0_part_3 = prepared_part * correction_0_part * correction_0_part
+            * correction_0_part_2 * correction_0_part_2 * per_pivot_bearing_0;
+        let correction_0_part_4 = per_i1_sq_r * correction_0_part_2
+            * correction_0_part_2;
+        let diagonal_bearing_1 = per_m1 + correction_0_part_4;
+        let pivot_bearing_1 = correction_0_part_3 - diagonal_bearing_1;
         let per_pivot_bearing_1 = pivot_bearing_1.recip();
         let safe_bearing_1 = S::select_le(
             -pivot_bearing_1,
@@ -1151,9 +1117,10 @@ impl ::ukcore::Mechanism for SliderCrank {
             safe_bearing_0,
         );
         let (sin_th2, cos_th2) = th2.sin_cos();
-        let sq_sin_th2_per_i2_sq_l = per_i2_sq_l * sin_th2 * sin_th2;
-        let pivot_wrist_pin_0 = lit(0.25)
-            .mul_add(sq_sin_th2_per_i2_sq_l, per_m3_and_per_m2);
+        let correction_0_part_5 = lit(0.5) * sin_th2;
+        let correction_0_part_6 = per_i2_sq_l * correction_0_part_5
+            * correction_0_part_5;
+        let pivot_wrist_pin_0 = per_m3_and_per_m2 + correction_0_part_6;
         let per_pivot_wrist_pin_0 = pivot_wrist_pin_0.recip();
         let safe_wrist_pin_0 = S::select_le(
             pivot_wrist_pin_0,
@@ -1161,11 +1128,14 @@ impl ::ukcore::Mechanism for SliderCrank {
             lit(0.0),
             safe_bearing_1,
         );
-        let correction_0_part_2 = prepared_part_2 * cos_th2 * cos_th2 * sin_th2 * sin_th2
+        let correction_0_part_7 = lit(0.5) * cos_th2;
+        let correction_0_part_8 = prepared_part_2 * correction_0_part_5
+            * correction_0_part_5 * correction_0_part_7 * correction_0_part_7
             * per_pivot_wrist_pin_0;
-        let sq_cos_th2_per_i2_sq_l = per_i2_sq_l * cos_th2 * cos_th2;
-        let diagonal_wrist_pin_1 = lit(0.25).mul_add(sq_cos_th2_per_i2_sq_l, per_m2);
-        let pivot_wrist_pin_1 = lit(0.0625) * correction_0_part_2 - diagonal_wrist_pin_1;
+        let correction_0_part_9 = per_i2_sq_l * correction_0_part_7
+            * correction_0_part_7;
+        let diagonal_wrist_pin_1 = per_m2 + correction_0_part_9;
+        let pivot_wrist_pin_1 = correction_0_part_8 - diagonal_wrist_pin_1;
         let per_pivot_wrist_pin_1 = pivot_wrist_pin_1.recip();
         let safe_wrist_pin_1 = S::select_le(
             -pivot_wrist_pin_1,
@@ -1173,28 +1143,28 @@ impl ::ukcore::Mechanism for SliderCrank {
             lit(0.0),
             safe_wrist_pin_0,
         );
-        let crank_pin_0_with_bearing_0 = lit(0.25) * sq_sin_th1_per_i1_sq_r - per_m1;
-        let crank_pin_0_with_wrist_pin_0 = lit(0.25) * sq_sin_th2_per_i2_sq_l - per_m2;
-        let crank_pin_1_with_wrist_pin_0 = per_i2_sq_l * cos_th2 * sin_th2;
-        let crank_pin_1_by_wrist_pin_0 = per_i2_sq_l * cos_th2 * sin_th2
-            * per_pivot_wrist_pin_0;
-        let correction_0_part_3 = crank_pin_0_with_wrist_pin_0
+        let crank_pin_0_with_bearing_0 = sq_correction_0_part_per_i1_sq_r - per_m1;
+        let crank_pin_0_by_bearing_0 = -(crank_pin_0_with_bearing_0
+            * per_pivot_bearing_0);
+        let correction_0_part_10 = lit(1.0) + crank_pin_0_by_bearing_0;
+        let crank_pin_0_with_wrist_pin_0 = correction_0_part_6 - per_m2;
+        let crank_pin_1_with_wrist_pin_0 = per_i2_sq_l * correction_0_part_5
+            * correction_0_part_7;
+        let crank_pin_1_by_wrist_pin_0 = per_i2_sq_l * correction_0_part_5
+            * correction_0_part_7 * per_pivot_wrist_pin_0;
+        let correction_0_part_11 = crank_pin_0_with_wrist_pin_0
             * crank_pin_1_by_wrist_pin_0;
         let crank_pin_0_with_wrist_pin_1 = crank_pin_1_with_wrist_pin_0
-            - correction_0_part_3;
-        let diagonal_crank_pin_0 = lit(0.25)
-            .mul_add(
-                sq_sin_th2_per_i2_sq_l,
-                lit(0.25).mul_add(sq_sin_th1_per_i1_sq_r, per_m1_and_per_m2),
-            );
-        let crank_pin_0_by_bearing_0 = crank_pin_0_with_bearing_0 * per_pivot_bearing_0;
-        let correction_0_part_4 = lit(1.0) - crank_pin_0_by_bearing_0;
-        let pivot_crank_pin_0 = (lit(0.0625) * crank_pin_0_with_wrist_pin_1
+            - correction_0_part_11;
+        let diagonal_crank_pin_0 = per_m1_and_per_m2 + sq_correction_0_part_per_i1_sq_r
+            + correction_0_part_6;
+        let pivot_crank_pin_0 = (crank_pin_0_with_wrist_pin_1
             * crank_pin_0_with_wrist_pin_1)
             .neg_mul_add(
                 per_pivot_wrist_pin_1,
-                (prepared_part_3 * cos_th1 * cos_th1 * sin_th1 * sin_th1
-                    * correction_0_part_4 * correction_0_part_4)
+                (prepared_part * correction_0_part * correction_0_part
+                    * correction_0_part_2 * correction_0_part_2 * correction_0_part_10
+                    * correction_0_part_10)
                     .neg_mul_add(
                         per_pivot_bearing_1,
                         (crank_pin_0_with_wrist_pin_0 * crank_pin_0_with_wrist_pin_0)
@@ -1212,38 +1182,33 @@ impl ::ukcore::Mechanism for SliderCrank {
             lit(0.0),
             safe_wrist_pin_1,
         );
-        let bearing_1_by_bearing_0 = per_i1_sq_r * cos_th1 * sin_th1
-            * per_pivot_bearing_0;
-        let crank_pin_1_with_bearing_1 = (times_per_i1_sq_r * cos_th1 * sin_th1)
-            .neg_mul_add(
-                bearing_1_by_bearing_0,
-                (lit(0.25) * sq_cos_th1_per_i1_sq_r - per_m1),
-            );
+        let bearing_1_by_bearing_0 = per_i1_sq_r * correction_0_part
+            * correction_0_part_2 * per_pivot_bearing_0;
+        let crank_pin_1_with_bearing_1 = per_i1_sq_r * correction_0_part
+            * correction_0_part_2 * bearing_1_by_bearing_0
+            - (correction_0_part_4 - per_m1);
         let crank_pin_1_by_bearing_1 = crank_pin_1_with_bearing_1 * per_pivot_bearing_1;
-        let crank_pin_1_with_wrist_pin_1 = (times_per_i2_sq_l * cos_th2 * sin_th2)
-            .neg_mul_add(
-                crank_pin_1_by_wrist_pin_0,
-                (lit(0.25) * sq_cos_th2_per_i2_sq_l - per_m2),
-            );
+        let crank_pin_1_with_wrist_pin_1 = per_i2_sq_l * correction_0_part_5
+            * correction_0_part_7 * crank_pin_1_by_wrist_pin_0
+            - (correction_0_part_9 - per_m2);
         let crank_pin_1_by_wrist_pin_1 = crank_pin_1_with_wrist_pin_1
             * per_pivot_wrist_pin_1;
-        let bearing_1_with_bearing_0 = per_i1_sq_r * cos_th1 * sin_th1;
+        let bearing_1_with_bearing_0 = per_i1_sq_r * correction_0_part
+            * correction_0_part_2;
         let crank_pin_1_with_crank_pin_0 = crank_pin_0_with_wrist_pin_1
-            .neg_mul_add(
+            .mul_add(
                 crank_pin_1_by_wrist_pin_1,
-                (per_i1_sq_r * cos_th1 * sin_th1 * correction_0_part_4)
-                    .neg_mul_add(
+                (per_i1_sq_r * correction_0_part * correction_0_part_2
+                    * correction_0_part_10)
+                    .mul_add(
                         crank_pin_1_by_bearing_1,
                         crank_pin_0_with_bearing_0 * bearing_1_by_bearing_0
                             - (bearing_1_with_bearing_0 + crank_pin_1_with_wrist_pin_0)
-                            + correction_0_part_3,
+                            + correction_0_part_11,
                     ),
             );
-        let correction_0_part_5 = lit(0.25)
-            .mul_add(
-                sq_cos_th2_per_i2_sq_l,
-                lit(0.25).mul_add(sq_cos_th1_per_i1_sq_r, per_m1_and_per_m2),
-            );
+        let correction_0_part_12 = per_m1_and_per_m2 + correction_0_part_4
+            + correction_0_part_9;
         let pivot_crank_pin_1 = pivot_crank_pin_0
             .neg_mul_add(
                 (crank_pin_1_with_wrist_pin_1 * crank_pin_1_with_wrist_pin_1)
@@ -1252,95 +1217,93 @@ impl ::ukcore::Mechanism for SliderCrank {
                         (crank_pin_1_with_bearing_1 * crank_pin_1_with_bearing_1)
                             .neg_mul_add(
                                 per_pivot_bearing_1,
-                                lit(0.0625)
-                                    .mul_add(
-                                        correction_0_part_2,
-                                        lit(0.0625) * correction_0_part - correction_0_part_5,
-                                    ),
+                                correction_0_part_3 - correction_0_part_12
+                                    + correction_0_part_8,
                             ),
                     ),
-                lit(0.0625) * crank_pin_1_with_crank_pin_0 * crank_pin_1_with_crank_pin_0,
+                crank_pin_1_with_crank_pin_0 * crank_pin_1_with_crank_pin_0,
             );
         let per_pivot_crank_pin_1 = pivot_crank_pin_1.recip();
-        let diagonal_crank_pin_1 = correction_0_part_5 * pivot_crank_pin_0;
+        let diagonal_crank_pin_1 = correction_0_part_12 * pivot_crank_pin_0;
         let safe_crank_pin_1 = S::select_le(
             -pivot_crank_pin_1,
             lit(-0.0009765625) * diagonal_crank_pin_1,
             lit(0.0),
             safe_crank_pin_0,
         );
-        out[7] = -residual_6;
-        out[8] = -residual_7;
-        let safe = safe_crank_pin_1;
-        let crank_pin_0_by_bearing_1 = per_i1_sq_r * cos_th1 * sin_th1
-            * correction_0_part_4 * per_pivot_bearing_1;
-        let safe_part = residual_0 * bearing_1_by_bearing_0;
-        let safe_part_2 = lit(0.25).mul_add(safe_part, residual_1);
-        let crank_pin_0_by_wrist_pin_0 = crank_pin_0_with_wrist_pin_0
-            * per_pivot_wrist_pin_0;
+        let correction_0_part_13 = residual_0 * bearing_1_by_bearing_0;
+        let right_bearing_1 = residual_1 + correction_0_part_13;
+        let correction_0_part_14 = residual_4 * crank_pin_1_by_wrist_pin_0;
+        let right_wrist_pin_1 = (residual_5 + residual_6) + correction_0_part_14;
+        let crank_pin_0_by_bearing_1 = per_i1_sq_r * correction_0_part
+            * correction_0_part_2 * correction_0_part_10 * per_pivot_bearing_1;
+        let crank_pin_0_by_wrist_pin_0 = -(crank_pin_0_with_wrist_pin_0
+            * per_pivot_wrist_pin_0);
         let crank_pin_0_by_wrist_pin_1 = crank_pin_0_with_wrist_pin_1
             * per_pivot_wrist_pin_1;
-        let safe_part_3 = residual_4 * crank_pin_1_by_wrist_pin_0;
-        let safe_part_4 = lit(0.25).mul_add(safe_part_3, (residual_5 + residual_6));
-        let safe_part_5 = (lit(0.25) * safe_part_4)
+        let right_crank_pin_0 = right_wrist_pin_1
             .neg_mul_add(
                 crank_pin_0_by_wrist_pin_1,
-                (lit(0.25) * safe_part_2)
+                right_bearing_1
                     .mul_add(
                         crank_pin_0_by_bearing_1,
                         residual_4
-                            .neg_mul_add(
+                            .mul_add(
                                 crank_pin_0_by_wrist_pin_0,
-                                residual_0.mul_add(crank_pin_0_by_bearing_0, residual_2),
+                                residual_0.neg_mul_add(crank_pin_0_by_bearing_0, residual_2),
                             ),
                     ),
             );
-        let safe_part_6 = pivot_crank_pin_0
+        let right_crank_pin_1 = pivot_crank_pin_0
             .mul_add(
-                safe_part_4
-                    .mul_add(
+                right_wrist_pin_1
+                    .neg_mul_add(
                         crank_pin_1_by_wrist_pin_1,
-                        safe_part_2
-                            .neg_mul_add(
+                        right_bearing_1
+                            .mul_add(
                                 crank_pin_1_by_bearing_1,
-                                lit(0.25)
-                                    .mul_add(
-                                        safe_part_3,
-                                        lit(0.25).neg_mul_add(safe_part, residual_3),
-                                    ),
+                                residual_3 - correction_0_part_13 + correction_0_part_14,
                             ),
                     ),
-                lit(0.25) * crank_pin_1_with_crank_pin_0 * safe_part_5,
+                crank_pin_1_with_crank_pin_0 * right_crank_pin_0,
             );
-        let lambda_crank_pin_1 = safe_part_6 * per_pivot_crank_pin_1;
-        let safe_part_7 = (lit(0.25) * crank_pin_1_with_crank_pin_0 * safe_part_6)
-            .neg_mul_add(per_pivot_crank_pin_1, safe_part_5);
-        let lambda_wrist_pin_1 = (lit(0.25) * crank_pin_0_by_wrist_pin_1
+        out[7] = -residual_6;
+        out[8] = -residual_7;
+        let safe = safe_crank_pin_1;
+        let lambda_crank_pin_1 = right_crank_pin_1 * per_pivot_crank_pin_1;
+        let lambda_crank_pin_0 = (crank_pin_1_with_crank_pin_0 * right_crank_pin_1
             * per_pivot_crank_pin_0)
             .neg_mul_add(
-                safe_part_7,
-                (crank_pin_1_by_wrist_pin_1 * safe_part_6)
-                    .neg_mul_add(
+                per_pivot_crank_pin_1,
+                right_crank_pin_0 * per_pivot_crank_pin_0,
+            );
+        let lambda_wrist_pin_1 = crank_pin_0_by_wrist_pin_1
+            .neg_mul_add(
+                lambda_crank_pin_0,
+                (crank_pin_1_by_wrist_pin_1 * right_crank_pin_1)
+                    .mul_add(
                         per_pivot_crank_pin_1,
-                        safe_part_4 * per_pivot_wrist_pin_1,
+                        right_wrist_pin_1 * per_pivot_wrist_pin_1,
                     ),
             );
         out[4] = per_m2 * (lambda_crank_pin_1 + lambda_wrist_pin_1);
-        let lambda_bearing_1 = (lit(0.25) * crank_pin_0_by_bearing_1
-            * per_pivot_crank_pin_0)
+        let lambda_bearing_1 = crank_pin_0_by_bearing_1
             .mul_add(
-                safe_part_7,
-                (crank_pin_1_by_bearing_1 * safe_part_6)
-                    .mul_add(per_pivot_crank_pin_1, safe_part_2 * per_pivot_bearing_1),
+                lambda_crank_pin_0,
+                (crank_pin_1_by_bearing_1 * right_crank_pin_1)
+                    .neg_mul_add(
+                        per_pivot_crank_pin_1,
+                        right_bearing_1 * per_pivot_bearing_1,
+                    ),
             );
         out[1] = -(per_m1 * (lambda_crank_pin_1 - lambda_bearing_1));
-        let lambda_wrist_pin_0 = (lit(0.25) * crank_pin_1_by_wrist_pin_0)
+        let lambda_wrist_pin_0 = crank_pin_1_by_wrist_pin_0
             .neg_mul_add(
                 lambda_wrist_pin_1,
-                (crank_pin_0_by_wrist_pin_0 * per_pivot_crank_pin_0)
-                    .mul_add(
-                        safe_part_7,
-                        (lit(0.25) * crank_pin_1_by_wrist_pin_0 * safe_part_6)
+                crank_pin_0_by_wrist_pin_0
+                    .neg_mul_add(
+                        lambda_crank_pin_0,
+                        (crank_pin_1_by_wrist_pin_0 * right_crank_pin_1)
                             .mul_add(
                                 per_pivot_crank_pin_1,
                                 residual_4 * per_pivot_wrist_pin_0,
@@ -1348,14 +1311,13 @@ impl ::ukcore::Mechanism for SliderCrank {
                     ),
             );
         out[6] = per_m3 * lambda_wrist_pin_0;
-        let lambda_crank_pin_0 = per_pivot_crank_pin_0 * safe_part_7;
-        let lambda_bearing_0 = (lit(0.25) * bearing_1_by_bearing_0)
+        let lambda_bearing_0 = bearing_1_by_bearing_0
             .neg_mul_add(
                 lambda_bearing_1,
-                (crank_pin_0_by_bearing_0 * per_pivot_crank_pin_0)
-                    .neg_mul_add(
-                        safe_part_7,
-                        (lit(0.25) * bearing_1_by_bearing_0 * safe_part_6)
+                crank_pin_0_by_bearing_0
+                    .mul_add(
+                        lambda_crank_pin_0,
+                        (bearing_1_by_bearing_0 * right_crank_pin_1)
                             .neg_mul_add(
                                 per_pivot_crank_pin_1,
                                 residual_0 * per_pivot_bearing_0,
@@ -1364,31 +1326,33 @@ impl ::ukcore::Mechanism for SliderCrank {
             );
         out[0] = per_m1 * (lambda_crank_pin_0 - lambda_bearing_0);
         out[3] = -(per_m2 * (lambda_crank_pin_0 + lambda_wrist_pin_0));
-        out[2] = -(half_per_i1_r
-            * sin_th1
+        out[2] = -(per_i1_r
+            * correction_0_part
                 .mul_add(
                     lambda_bearing_0,
-                    cos_th1
+                    correction_0_part_2
                         .mul_add(
                             lambda_bearing_1,
-                            (sin_th1 * per_pivot_crank_pin_0)
+                            correction_0_part
                                 .mul_add(
-                                    safe_part_7,
-                                    cos_th1 * safe_part_6 * per_pivot_crank_pin_1,
+                                    lambda_crank_pin_0,
+                                    correction_0_part_2 * right_crank_pin_1
+                                        * per_pivot_crank_pin_1,
                                 ),
                         ),
                 ));
-        out[5] = -(half_per_i2_l
-            * sin_th2
+        out[5] = -(per_i2_l
+            * correction_0_part_5
                 .neg_mul_add(
                     lambda_wrist_pin_0,
-                    cos_th2
+                    correction_0_part_7
                         .neg_mul_add(
                             lambda_wrist_pin_1,
-                            (sin_th2 * per_pivot_crank_pin_0)
+                            correction_0_part_5
                                 .mul_add(
-                                    safe_part_7,
-                                    cos_th2 * safe_part_6 * per_pivot_crank_pin_1,
+                                    lambda_crank_pin_0,
+                                    correction_0_part_7 * right_crank_pin_1
+                                        * per_pivot_crank_pin_1,
                                 ),
                         ),
                 ));

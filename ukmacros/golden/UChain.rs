@@ -5,6 +5,12 @@
 ///
 /// Derived from the declaration at compile time, in the notation of Zhao, Zhen & Chen 2013: M q̈ = Q is the unconstrained motion, A q̈ = b what the constraints demand.
 ///
+/// Abbreviations:
+///
+/// ```text
+/// right_link[0] = sq(dot(x[0]) - dot(x[1])) + sq(dot(y[0]) - dot(y[1]))
+/// ```
+///
 /// Mass matrix M (lower triangle), eq. 1:
 ///
 /// ```text
@@ -76,7 +82,7 @@
 /// Right-hand side b, eq. 5:
 ///
 /// ```text
-/// b[link[0]] = -2*(sq(dot(x[0]) - dot(x[1])) + sq(dot(y[0]) - dot(y[1])))
+/// b[link[0]] = -2*right_link[0]
 /// b[link[1]] = -2*(sq(dot(x[1]) - dot(x[2])) + sq(dot(y[1]) - dot(y[2])))
 /// b[link[2]] = -2*(sq(dot(x[2]) - dot(x[3])) + sq(dot(y[2]) - dot(y[3])))
 /// b[link[3]] = -2*(sq(dot(x[3]) - dot(x[4])) + sq(dot(y[3]) - dot(y[4])))
@@ -155,7 +161,7 @@ impl ::ukcore::Mechanism for UChain {
             },
         ],
         prepared: &[
-            ("m_g", "m*g"),
+            ("right_y_0", "m*g"),
             ("sq_l", "sq(l)"),
             ("m", "m"),
             ("g", "g"),
@@ -431,8 +437,8 @@ impl ::ukcore::Mechanism for UChain {
                 selections: 0,
             },
             solve_operations: ::ukcore::Operations {
-                additions: 227,
-                multiplications: 344,
+                additions: 229,
+                multiplications: 311,
                 divisions: 17,
                 square_roots: 0,
                 transcendentals: 0,
@@ -440,7 +446,12 @@ impl ::ukcore::Mechanism for UChain {
             },
         },
         equations: ::ukcore::Equations {
-            definitions: &[],
+            definitions: &[
+                (
+                    "right_link[0]",
+                    "sq(dot(x[0]) - dot(x[1])) + sq(dot(y[0]) - dot(y[1]))",
+                ),
+            ],
             mass: &[
                 (0, 0, "m"),
                 (1, 1, "m"),
@@ -566,7 +577,7 @@ impl ::ukcore::Mechanism for UChain {
                 (16, 33, "2*y[16]"),
             ],
             rhs: &[
-                (0, "-2*(sq(dot(x[0]) - dot(x[1])) + sq(dot(y[0]) - dot(y[1])))"),
+                (0, "-2*right_link[0]"),
                 (1, "-2*(sq(dot(x[1]) - dot(x[2])) + sq(dot(y[1]) - dot(y[2])))"),
                 (2, "-2*(sq(dot(x[2]) - dot(x[3])) + sq(dot(y[2]) - dot(y[3])))"),
                 (3, "-2*(sq(dot(x[3]) - dot(x[4])) + sq(dot(y[3]) - dot(y[4])))"),
@@ -606,7 +617,8 @@ impl ::ukcore::Mechanism for UChain {
         let prepared = ::ukcore::emitted::exact_mut::<S, 5>(prepared, "prepared");
         let [m, l, g] = *::ukcore::emitted::exact::<S, 3>(given, "given");
         let lit = S::from_f64;
-        prepared[0] = m * g;
+        let right_y_0 = m * g;
+        prepared[0] = right_y_0;
         prepared[1] = l * l;
         prepared[2] = m;
         prepared[3] = g;
@@ -626,7 +638,10 @@ impl ::ukcore::Mechanism for UChain {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 34>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 578>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 17>(out.rhs, "rhs");
-        let [m_g, _, m, _, _] = *::ukcore::emitted::exact::<S, 5>(prepared, "prepared");
+        let [right_y_0, _, m, _, _] = *::ukcore::emitted::exact::<
+            S,
+            5,
+        >(prepared, "prepared");
         let [x_0, x_1, x_2, x_3, x_4, x_5, x_6, x_7, x_8, x_9, x_10, x_11, x_12, x_13,
         x_14, x_15, x_16, y_0, y_1, y_2, y_3, y_4, y_5, y_6, y_7, y_8, y_9, y_10, y_11,
         y_12, y_13, y_14, y_15, y_16] = *::ukcore::emitted::exact::<S, 34>(q, "q");
@@ -687,23 +702,23 @@ impl ::ukcore::Mechanism for UChain {
         force[14] = lit(0.0);
         force[15] = lit(0.0);
         force[16] = lit(0.0);
-        force[17] = m_g;
-        force[18] = m_g;
-        force[19] = m_g;
-        force[20] = m_g;
-        force[21] = m_g;
-        force[22] = m_g;
-        force[23] = m_g;
-        force[24] = m_g;
-        force[25] = m_g;
-        force[26] = m_g;
-        force[27] = m_g;
-        force[28] = m_g;
-        force[29] = m_g;
-        force[30] = m_g;
-        force[31] = m_g;
-        force[32] = m_g;
-        force[33] = m_g;
+        force[17] = right_y_0;
+        force[18] = right_y_0;
+        force[19] = right_y_0;
+        force[20] = right_y_0;
+        force[21] = right_y_0;
+        force[22] = right_y_0;
+        force[23] = right_y_0;
+        force[24] = right_y_0;
+        force[25] = right_y_0;
+        force[26] = right_y_0;
+        force[27] = right_y_0;
+        force[28] = right_y_0;
+        force[29] = right_y_0;
+        force[30] = right_y_0;
+        force[31] = right_y_0;
+        force[32] = right_y_0;
+        force[33] = right_y_0;
         nonideal[0] = lit(0.0);
         nonideal[1] = lit(0.0);
         nonideal[2] = lit(0.0);
@@ -838,12 +853,12 @@ impl ::ukcore::Mechanism for UChain {
         jacobian[577] = lit(2.0) * y_16;
         let dot_x_0_minus_dot_x_1 = dot_x_0 - dot_x_1;
         let dot_y_0_minus_dot_y_1 = dot_y_0 - dot_y_1;
-        rhs[0] = lit(-2.0)
-            * dot_y_0_minus_dot_y_1
-                .mul_add(
-                    dot_y_0_minus_dot_y_1,
-                    dot_x_0_minus_dot_x_1 * dot_x_0_minus_dot_x_1,
-                );
+        let right_link_0 = dot_y_0_minus_dot_y_1
+            .mul_add(
+                dot_y_0_minus_dot_y_1,
+                dot_x_0_minus_dot_x_1 * dot_x_0_minus_dot_x_1,
+            );
+        rhs[0] = lit(-2.0) * right_link_0;
         let dot_x_1_minus_dot_x_2 = dot_x_1 - dot_x_2;
         let dot_y_1_minus_dot_y_2 = dot_y_1 - dot_y_2;
         rhs[1] = lit(-2.0)
@@ -1260,7 +1275,10 @@ impl ::ukcore::Mechanism for UChain {
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
-        let [m_g, _, m, _, _] = *::ukcore::emitted::exact::<S, 5>(prepared, "prepared");
+        let [right_y_0, _, m, _, _] = *::ukcore::emitted::exact::<
+            S,
+            5,
+        >(prepared, "prepared");
         let [_, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, y_0, y_1, y_2, y_3, y_4,
         y_5, y_6, y_7, y_8, y_9, y_10, y_11, y_12, y_13, y_14, y_15, y_16] = *::ukcore::emitted::exact::<
             S,
@@ -1404,47 +1422,51 @@ impl ::ukcore::Mechanism for UChain {
                 );
         let potential = y_16
             .neg_mul_add(
-                m_g,
+                right_y_0,
                 y_15
                     .neg_mul_add(
-                        m_g,
+                        right_y_0,
                         y_14
                             .neg_mul_add(
-                                m_g,
+                                right_y_0,
                                 y_13
                                     .neg_mul_add(
-                                        m_g,
+                                        right_y_0,
                                         y_12
                                             .neg_mul_add(
-                                                m_g,
+                                                right_y_0,
                                                 y_11
                                                     .neg_mul_add(
-                                                        m_g,
+                                                        right_y_0,
                                                         y_10
                                                             .neg_mul_add(
-                                                                m_g,
+                                                                right_y_0,
                                                                 y_9
                                                                     .neg_mul_add(
-                                                                        m_g,
+                                                                        right_y_0,
                                                                         y_8
                                                                             .neg_mul_add(
-                                                                                m_g,
+                                                                                right_y_0,
                                                                                 y_7
                                                                                     .neg_mul_add(
-                                                                                        m_g,
+                                                                                        right_y_0,
                                                                                         y_6
                                                                                             .neg_mul_add(
-                                                                                                m_g,
+                                                                                                right_y_0,
                                                                                                 y_5
                                                                                                     .neg_mul_add(
-                                                                                                        m_g,
+                                                                                                        right_y_0,
                                                                                                         y_4
                                                                                                             .neg_mul_add(
-                                                                                                                m_g,
+                                                                                                                right_y_0,
                                                                                                                 y_3
                                                                                                                     .neg_mul_add(
-                                                                                                                        m_g,
-                                                                                                                        y_2.neg_mul_add(m_g, y_1.neg_mul_add(m_g, -(y_0 * m_g))),
+                                                                                                                        right_y_0,
+                                                                                                                        y_2
+                                                                                                                            .neg_mul_add(
+                                                                                                                                right_y_0,
+                                                                                                                                y_1.neg_mul_add(right_y_0, -(y_0 * right_y_0)),
+                                                                                                                            ),
                                                                                                                     ),
                                                                                                             ),
                                                                                                     ),
@@ -1486,7 +1508,7 @@ impl ::ukcore::Mechanism for UChain {
             * (y_0 + y_1 + y_2 + y_3 + y_4 + y_5 + y_6 + y_7 + y_8 + y_9 + y_10 + y_11
                 + y_12 + y_13 + y_14 + y_15 + y_16);
     }
-    /// 227 additions, 344 multiplications, 17 divisions, 0 square roots, 0 transcendentals, 17 selections.
+    /// 229 additions, 311 multiplications, 17 divisions, 0 square roots, 0 transcendentals, 17 selections.
     fn acceleration<S: ::ukcore::Scalar>(
         prepared: &[S],
         t: S,
@@ -1510,362 +1532,66 @@ impl ::ukcore::Mechanism for UChain {
         let lit = S::from_f64;
         let x_1_minus_x_0 = x_1 - x_0;
         let y_0_minus_y_1 = y_0 - y_1;
-        let pivot_link_0 = y_0_minus_y_1
-            .mul_add(y_0_minus_y_1, x_1_minus_x_0 * x_1_minus_x_0);
+        let pivot_link_0 = lit(2.0)
+            * y_0_minus_y_1.mul_add(y_0_minus_y_1, x_1_minus_x_0 * x_1_minus_x_0);
         let per_pivot_link_0 = pivot_link_0.recip();
         let safe_link_0 = S::select_le(pivot_link_0, lit(0.0), lit(0.0), safe_x_0);
-        let pivot_support = y_16.mul_add(y_16, x_16 * x_16);
-        let per_pivot_support = pivot_support.recip();
-        let safe_support = S::select_le(pivot_support, lit(0.0), lit(0.0), safe_link_0);
-        let x_1_minus_x_2 = x_1 - x_2;
-        let y_1_minus_y_2 = y_1 - y_2;
-        let link_1_with_link_0 = y_0_minus_y_1
-            .neg_mul_add(y_1_minus_y_2, x_1_minus_x_0 * x_1_minus_x_2);
-        let acceleration_0_part = pivot_link_0
-            * y_1_minus_y_2.mul_add(y_1_minus_y_2, x_1_minus_x_2 * x_1_minus_x_2);
-        let pivot_link_1 = lit(4.0)
-            .neg_mul_add(acceleration_0_part, link_1_with_link_0 * link_1_with_link_0);
-        let per_pivot_link_1 = pivot_link_1.recip();
-        let safe_link_1 = S::select_le(
-            -pivot_link_1,
-            lit(0.00390625) * acceleration_0_part,
-            lit(0.0),
-            safe_support,
-        );
-        let x_15_minus_x_16 = x_15 - x_16;
-        let y_15_minus_y_16 = y_15 - y_16;
-        let link_15_with_support = y_16.mul_add(y_15_minus_y_16, x_16 * x_15_minus_x_16);
-        let acceleration_0_part_2 = pivot_support
-            * y_15_minus_y_16
-                .mul_add(y_15_minus_y_16, x_15_minus_x_16 * x_15_minus_x_16);
-        let pivot_link_15 = lit(2.0)
-            .neg_mul_add(
-                acceleration_0_part_2,
-                link_15_with_support * link_15_with_support,
-            );
-        let per_pivot_link_15 = pivot_link_15.recip();
-        let safe_link_15 = S::select_le(
-            -pivot_link_15,
-            lit(0.001953125) * acceleration_0_part_2,
-            lit(0.0),
-            safe_link_1,
-        );
-        let x_2_minus_x_3 = x_2 - x_3;
-        let y_2_minus_y_3 = y_2 - y_3;
-        let link_2_with_link_1 = y_1_minus_y_2
-            .mul_add(y_2_minus_y_3, x_1_minus_x_2 * x_2_minus_x_3);
-        let acceleration_0_part_3 = y_2_minus_y_3
-            .mul_add(y_2_minus_y_3, x_2_minus_x_3 * x_2_minus_x_3) * pivot_link_1;
-        let pivot_link_2 = pivot_link_0 * link_2_with_link_1 * link_2_with_link_1
-            + acceleration_0_part_3;
-        let per_pivot_link_2 = pivot_link_2.recip();
-        let safe_link_2 = S::select_le(
-            lit(-2.0) * pivot_link_2,
-            lit(-0.001953125) * acceleration_0_part_3,
-            lit(0.0),
-            safe_link_15,
-        );
-        let x_14_minus_x_15 = x_14 - x_15;
-        let y_14_minus_y_15 = y_14 - y_15;
-        let link_14_with_link_15 = y_14_minus_y_15
-            .mul_add(y_15_minus_y_16, x_14_minus_x_15 * x_15_minus_x_16);
-        let acceleration_0_part_4 = y_14_minus_y_15
-            .mul_add(y_14_minus_y_15, x_14_minus_x_15 * x_14_minus_x_15) * pivot_link_15;
-        let pivot_link_14 = lit(2.0)
-            .mul_add(
-                acceleration_0_part_4,
-                pivot_support * link_14_with_link_15 * link_14_with_link_15,
-            );
-        let per_pivot_link_14 = pivot_link_14.recip();
-        let safe_link_14 = S::select_le(
-            -pivot_link_14,
-            lit(-0.001953125) * acceleration_0_part_4,
-            lit(0.0),
-            safe_link_2,
-        );
-        let x_3_minus_x_4 = x_3 - x_4;
-        let y_3_minus_y_4 = y_3 - y_4;
-        let link_3_with_link_2 = y_2_minus_y_3
-            .mul_add(y_3_minus_y_4, x_2_minus_x_3 * x_3_minus_x_4);
-        let acceleration_0_part_5 = y_3_minus_y_4
-            .mul_add(y_3_minus_y_4, x_3_minus_x_4 * x_3_minus_x_4) * pivot_link_2;
-        let pivot_link_3 = lit(4.0)
-            .neg_mul_add(
-                acceleration_0_part_5,
-                link_3_with_link_2 * link_3_with_link_2 * pivot_link_1,
-            );
-        let per_pivot_link_3 = pivot_link_3.recip();
-        let safe_link_3 = S::select_le(
-            pivot_link_3,
-            lit(-0.00390625) * acceleration_0_part_5,
-            lit(0.0),
-            safe_link_14,
-        );
-        let x_13_minus_x_14 = x_13 - x_14;
-        let y_13_minus_y_14 = y_13 - y_14;
-        let link_13_with_link_14 = y_13_minus_y_14
-            .mul_add(y_14_minus_y_15, x_13_minus_x_14 * x_14_minus_x_15);
-        let acceleration_0_part_6 = y_13_minus_y_14
-            .mul_add(y_13_minus_y_14, x_13_minus_x_14 * x_13_minus_x_14) * pivot_link_14;
-        let pivot_link_13 = lit(2.0)
-            .neg_mul_add(
-                acceleration_0_part_6,
-                link_13_with_link_14 * link_13_with_link_14 * pivot_link_15,
-            );
-        let per_pivot_link_13 = pivot_link_13.recip();
-        let safe_link_13 = S::select_le(
-            pivot_link_13,
-            lit(-0.001953125) * acceleration_0_part_6,
-            lit(0.0),
-            safe_link_3,
-        );
-        let x_4_minus_x_5 = x_4 - x_5;
-        let y_4_minus_y_5 = y_4 - y_5;
-        let link_4_with_link_3 = y_3_minus_y_4
-            .mul_add(y_4_minus_y_5, x_3_minus_x_4 * x_4_minus_x_5);
-        let acceleration_0_part_7 = y_4_minus_y_5
-            .mul_add(y_4_minus_y_5, x_4_minus_x_5 * x_4_minus_x_5) * pivot_link_3;
-        let pivot_link_4 = link_4_with_link_3 * link_4_with_link_3 * pivot_link_2
-            + acceleration_0_part_7;
-        let per_pivot_link_4 = pivot_link_4.recip();
-        let safe_link_4 = S::select_le(
-            lit(2.0) * pivot_link_4,
-            lit(0.001953125) * acceleration_0_part_7,
-            lit(0.0),
-            safe_link_13,
-        );
-        let x_12_minus_x_13 = x_12 - x_13;
-        let y_12_minus_y_13 = y_12 - y_13;
-        let link_12_with_link_13 = y_12_minus_y_13
-            .mul_add(y_13_minus_y_14, x_12_minus_x_13 * x_13_minus_x_14);
-        let acceleration_0_part_8 = y_12_minus_y_13
-            .mul_add(y_12_minus_y_13, x_12_minus_x_13 * x_12_minus_x_13) * pivot_link_13;
-        let pivot_link_12 = lit(2.0)
-            .mul_add(
-                acceleration_0_part_8,
-                link_12_with_link_13 * link_12_with_link_13 * pivot_link_14,
-            );
-        let per_pivot_link_12 = pivot_link_12.recip();
-        let safe_link_12 = S::select_le(
-            pivot_link_12,
-            lit(0.001953125) * acceleration_0_part_8,
-            lit(0.0),
-            safe_link_4,
-        );
-        let x_5_minus_x_6 = x_5 - x_6;
-        let y_5_minus_y_6 = y_5 - y_6;
-        let link_5_with_link_4 = y_4_minus_y_5
-            .mul_add(y_5_minus_y_6, x_4_minus_x_5 * x_5_minus_x_6);
-        let acceleration_0_part_9 = y_5_minus_y_6
-            .mul_add(y_5_minus_y_6, x_5_minus_x_6 * x_5_minus_x_6) * pivot_link_4;
-        let pivot_link_5 = lit(4.0)
-            .neg_mul_add(
-                acceleration_0_part_9,
-                link_5_with_link_4 * link_5_with_link_4 * pivot_link_3,
-            );
-        let per_pivot_link_5 = pivot_link_5.recip();
-        let safe_link_5 = S::select_le(
-            -pivot_link_5,
-            lit(0.00390625) * acceleration_0_part_9,
-            lit(0.0),
-            safe_link_12,
-        );
-        let x_11_minus_x_12 = x_11 - x_12;
-        let y_11_minus_y_12 = y_11 - y_12;
-        let link_11_with_link_12 = y_11_minus_y_12
-            .mul_add(y_12_minus_y_13, x_11_minus_x_12 * x_12_minus_x_13);
-        let acceleration_0_part_10 = y_11_minus_y_12
-            .mul_add(y_11_minus_y_12, x_11_minus_x_12 * x_11_minus_x_12) * pivot_link_12;
-        let pivot_link_11 = lit(2.0)
-            .neg_mul_add(
-                acceleration_0_part_10,
-                link_11_with_link_12 * link_11_with_link_12 * pivot_link_13,
-            );
-        let per_pivot_link_11 = pivot_link_11.recip();
-        let safe_link_11 = S::select_le(
-            -pivot_link_11,
-            lit(0.001953125) * acceleration_0_part_10,
-            lit(0.0),
-            safe_link_5,
-        );
-        let x_6_minus_x_7 = x_6 - x_7;
-        let y_6_minus_y_7 = y_6 - y_7;
-        let link_6_with_link_5 = y_5_minus_y_6
-            .mul_add(y_6_minus_y_7, x_5_minus_x_6 * x_6_minus_x_7);
-        let acceleration_0_part_11 = y_6_minus_y_7
-            .mul_add(y_6_minus_y_7, x_6_minus_x_7 * x_6_minus_x_7) * pivot_link_5;
-        let pivot_link_6 = link_6_with_link_5 * link_6_with_link_5 * pivot_link_4
-            + acceleration_0_part_11;
-        let per_pivot_link_6 = pivot_link_6.recip();
-        let safe_link_6 = S::select_le(
-            lit(-2.0) * pivot_link_6,
-            lit(-0.001953125) * acceleration_0_part_11,
-            lit(0.0),
-            safe_link_11,
-        );
-        let x_10_minus_x_11 = x_10 - x_11;
-        let y_10_minus_y_11 = y_10 - y_11;
-        let link_10_with_link_11 = y_10_minus_y_11
-            .mul_add(y_11_minus_y_12, x_10_minus_x_11 * x_11_minus_x_12);
-        let acceleration_0_part_12 = y_10_minus_y_11
-            .mul_add(y_10_minus_y_11, x_10_minus_x_11 * x_10_minus_x_11) * pivot_link_11;
-        let pivot_link_10 = lit(2.0)
-            .mul_add(
-                acceleration_0_part_12,
-                link_10_with_link_11 * link_10_with_link_11 * pivot_link_12,
-            );
-        let per_pivot_link_10 = pivot_link_10.recip();
-        let safe_link_10 = S::select_le(
-            -pivot_link_10,
-            lit(-0.001953125) * acceleration_0_part_12,
-            lit(0.0),
-            safe_link_6,
-        );
-        let x_7_minus_x_8 = x_7 - x_8;
-        let y_7_minus_y_8 = y_7 - y_8;
-        let link_7_with_link_6 = y_6_minus_y_7
-            .mul_add(y_7_minus_y_8, x_6_minus_x_7 * x_7_minus_x_8);
-        let acceleration_0_part_13 = y_7_minus_y_8
-            .mul_add(y_7_minus_y_8, x_7_minus_x_8 * x_7_minus_x_8) * pivot_link_6;
-        let pivot_link_7 = lit(4.0)
-            .neg_mul_add(
-                acceleration_0_part_13,
-                link_7_with_link_6 * link_7_with_link_6 * pivot_link_5,
-            );
-        let per_pivot_link_7 = pivot_link_7.recip();
-        let safe_link_7 = S::select_le(
-            pivot_link_7,
-            lit(-0.00390625) * acceleration_0_part_13,
-            lit(0.0),
-            safe_link_10,
-        );
-        let x_9_minus_x_10 = x_9 - x_10;
-        let y_9_minus_y_10 = y_9 - y_10;
-        let link_9_with_link_10 = y_9_minus_y_10
-            .mul_add(y_10_minus_y_11, x_9_minus_x_10 * x_10_minus_x_11);
-        let acceleration_0_part_14 = y_9_minus_y_10
-            .mul_add(y_9_minus_y_10, x_9_minus_x_10 * x_9_minus_x_10) * pivot_link_10;
-        let pivot_link_9 = lit(2.0)
-            .neg_mul_add(
-                acceleration_0_part_14,
-                link_9_with_link_10 * link_9_with_link_10 * pivot_link_11,
-            );
-        let per_pivot_link_9 = pivot_link_9.recip();
-        let safe_link_9 = S::select_le(
-            pivot_link_9,
-            lit(-0.001953125) * acceleration_0_part_14,
-            lit(0.0),
-            safe_link_7,
-        );
-        let x_8_minus_x_9 = x_8 - x_9;
-        let y_8_minus_y_9 = y_8 - y_9;
-        let link_8_with_link_9 = y_8_minus_y_9
-            .mul_add(y_9_minus_y_10, x_8_minus_x_9 * x_9_minus_x_10);
-        let acceleration_0_part_15 = y_8_minus_y_9
-            .mul_add(y_8_minus_y_9, x_8_minus_x_9 * x_8_minus_x_9);
-        let link_8_with_link_7 = y_7_minus_y_8
-            .mul_add(y_8_minus_y_9, x_7_minus_x_8 * x_8_minus_x_9);
-        let pivot_link_8 = (lit(2.0) * pivot_link_9)
-            .mul_add(
-                (link_8_with_link_7 * link_8_with_link_7 * pivot_link_6)
-                    .mul_add(per_pivot_link_7, acceleration_0_part_15),
-                link_8_with_link_9 * link_8_with_link_9 * pivot_link_10,
-            );
-        let per_pivot_link_8 = pivot_link_8.recip();
-        let safe_link_8 = S::select_le(
-            pivot_link_8,
-            lit(0.001953125) * (acceleration_0_part_15 * pivot_link_9),
-            lit(0.0),
-            safe_link_9,
-        );
-        let safe = safe_link_8;
-        let dot_x_8_minus_dot_x_9 = dot_x_8 - dot_x_9;
-        let dot_y_8_minus_dot_y_9 = dot_y_8 - dot_y_9;
         let dot_x_0_minus_dot_x_1 = dot_x_0 - dot_x_1;
         let dot_y_0_minus_dot_y_1 = dot_y_0 - dot_y_1;
-        let safe_part = dot_y_0_minus_dot_y_1
+        let right_link_0 = dot_y_0_minus_dot_y_1
             .mul_add(
                 dot_y_0_minus_dot_y_1,
                 dot_x_0_minus_dot_x_1 * dot_x_0_minus_dot_x_1,
             );
+        let pivot_support = y_16.mul_add(y_16, x_16 * x_16);
+        let per_pivot_support = pivot_support.recip();
+        let safe_support = S::select_le(pivot_support, lit(0.0), lit(0.0), safe_link_0);
+        let right_support = y_16 * g + dot_y_16.mul_add(dot_y_16, dot_x_16 * dot_x_16);
+        let x_1_minus_x_2 = x_1 - x_2;
+        let y_1_minus_y_2 = y_1 - y_2;
+        let link_1_with_link_0 = y_0_minus_y_1
+            .neg_mul_add(y_1_minus_y_2, x_1_minus_x_0 * x_1_minus_x_2);
+        let acceleration_0_part = lit(2.0)
+            * y_1_minus_y_2.mul_add(y_1_minus_y_2, x_1_minus_x_2 * x_1_minus_x_2);
+        let pivot_link_0_acceleration_0_part = pivot_link_0 * acceleration_0_part;
+        let pivot_link_1 = link_1_with_link_0 * link_1_with_link_0
+            - pivot_link_0_acceleration_0_part;
+        let per_pivot_link_1 = pivot_link_1.recip();
+        let safe_link_1 = S::select_le(
+            -pivot_link_1,
+            lit(0.0009765625) * pivot_link_0_acceleration_0_part,
+            lit(0.0),
+            safe_support,
+        );
         let dot_x_1_minus_dot_x_2 = dot_x_1 - dot_x_2;
         let dot_y_1_minus_dot_y_2 = dot_y_1 - dot_y_2;
-        let safe_part_2 = (lit(2.0)
-            * dot_y_1_minus_dot_y_2
-                .mul_add(
-                    dot_y_1_minus_dot_y_2,
-                    dot_x_1_minus_dot_x_2 * dot_x_1_minus_dot_x_2,
-                ))
-            .neg_mul_add(pivot_link_0, safe_part * link_1_with_link_0);
-        let dot_x_2_minus_dot_x_3 = dot_x_2 - dot_x_3;
-        let dot_y_2_minus_dot_y_3 = dot_y_2 - dot_y_3;
-        let safe_part_3 = dot_y_2_minus_dot_y_3
+        let right_link_1 = dot_y_1_minus_dot_y_2
             .mul_add(
-                dot_y_2_minus_dot_y_3,
-                dot_x_2_minus_dot_x_3 * dot_x_2_minus_dot_x_3,
+                dot_y_1_minus_dot_y_2,
+                dot_x_1_minus_dot_x_2 * dot_x_1_minus_dot_x_2,
             )
-            .mul_add(pivot_link_1, link_2_with_link_1 * safe_part_2);
-        let dot_x_3_minus_dot_x_4 = dot_x_3 - dot_x_4;
-        let dot_y_3_minus_dot_y_4 = dot_y_3 - dot_y_4;
-        let safe_part_4 = (lit(2.0)
-            * dot_y_3_minus_dot_y_4
-                .mul_add(
-                    dot_y_3_minus_dot_y_4,
-                    dot_x_3_minus_dot_x_4 * dot_x_3_minus_dot_x_4,
-                ))
-            .mul_add(pivot_link_2, link_3_with_link_2 * safe_part_3);
-        let dot_x_4_minus_dot_x_5 = dot_x_4 - dot_x_5;
-        let dot_y_4_minus_dot_y_5 = dot_y_4 - dot_y_5;
-        let safe_part_5 = dot_y_4_minus_dot_y_5
-            .mul_add(
-                dot_y_4_minus_dot_y_5,
-                dot_x_4_minus_dot_x_5 * dot_x_4_minus_dot_x_5,
-            )
-            .neg_mul_add(pivot_link_3, link_4_with_link_3 * safe_part_4);
-        let dot_x_5_minus_dot_x_6 = dot_x_5 - dot_x_6;
-        let dot_y_5_minus_dot_y_6 = dot_y_5 - dot_y_6;
-        let safe_part_6 = (lit(2.0)
-            * dot_y_5_minus_dot_y_6
-                .mul_add(
-                    dot_y_5_minus_dot_y_6,
-                    dot_x_5_minus_dot_x_6 * dot_x_5_minus_dot_x_6,
-                ))
-            .neg_mul_add(pivot_link_4, link_5_with_link_4 * safe_part_5);
-        let dot_x_6_minus_dot_x_7 = dot_x_6 - dot_x_7;
-        let dot_y_6_minus_dot_y_7 = dot_y_6 - dot_y_7;
-        let safe_part_7 = dot_y_6_minus_dot_y_7
-            .mul_add(
-                dot_y_6_minus_dot_y_7,
-                dot_x_6_minus_dot_x_7 * dot_x_6_minus_dot_x_7,
-            )
-            .mul_add(pivot_link_5, link_6_with_link_5 * safe_part_6);
-        let dot_x_7_minus_dot_x_8 = dot_x_7 - dot_x_8;
-        let dot_y_7_minus_dot_y_8 = dot_y_7 - dot_y_8;
-        let safe_part_8 = (lit(2.0)
-            * dot_y_7_minus_dot_y_8
-                .mul_add(
-                    dot_y_7_minus_dot_y_8,
-                    dot_x_7_minus_dot_x_8 * dot_x_7_minus_dot_x_8,
-                ))
-            .mul_add(pivot_link_6, link_7_with_link_6 * safe_part_7);
-        let dot_x_9_minus_dot_x_10 = dot_x_9 - dot_x_10;
-        let dot_y_9_minus_dot_y_10 = dot_y_9 - dot_y_10;
-        let dot_x_10_minus_dot_x_11 = dot_x_10 - dot_x_11;
-        let dot_y_10_minus_dot_y_11 = dot_y_10 - dot_y_11;
-        let dot_x_11_minus_dot_x_12 = dot_x_11 - dot_x_12;
-        let dot_y_11_minus_dot_y_12 = dot_y_11 - dot_y_12;
-        let dot_x_12_minus_dot_x_13 = dot_x_12 - dot_x_13;
-        let dot_y_12_minus_dot_y_13 = dot_y_12 - dot_y_13;
-        let dot_x_13_minus_dot_x_14 = dot_x_13 - dot_x_14;
-        let dot_y_13_minus_dot_y_14 = dot_y_13 - dot_y_14;
-        let dot_x_14_minus_dot_x_15 = dot_x_14 - dot_x_15;
-        let dot_y_14_minus_dot_y_15 = dot_y_14 - dot_y_15;
+            .neg_mul_add(pivot_link_0, right_link_0 * link_1_with_link_0);
+        let x_15_minus_x_16 = x_15 - x_16;
+        let y_15_minus_y_16 = y_15 - y_16;
+        let link_15_with_support = y_16.mul_add(y_15_minus_y_16, x_16 * x_15_minus_x_16);
+        let acceleration_0_part_2 = lit(2.0)
+            * y_15_minus_y_16
+                .mul_add(y_15_minus_y_16, x_15_minus_x_16 * x_15_minus_x_16);
+        let acceleration_0_part_3 = pivot_support * acceleration_0_part_2;
+        let pivot_link_15 = link_15_with_support * link_15_with_support
+            - acceleration_0_part_3;
+        let per_pivot_link_15 = pivot_link_15.recip();
+        let safe_link_15 = S::select_le(
+            -pivot_link_15,
+            lit(0.0009765625) * acceleration_0_part_3,
+            lit(0.0),
+            safe_link_1,
+        );
         let dot_x_15_minus_dot_x_16 = dot_x_15 - dot_x_16;
         let dot_y_15_minus_dot_y_16 = dot_y_15 - dot_y_16;
-        let safe_part_9 = y_16 * g + dot_y_16.mul_add(dot_y_16, dot_x_16 * dot_x_16);
-        let safe_part_10 = link_15_with_support
+        let right_link_15 = link_15_with_support
             .mul_add(
-                safe_part_9,
+                right_support,
                 pivot_support
                     * dot_y_15_minus_dot_y_16
                         .mul_add(
@@ -1873,65 +1599,345 @@ impl ::ukcore::Mechanism for UChain {
                             dot_x_15_minus_dot_x_16 * dot_x_15_minus_dot_x_16,
                         ),
             );
-        let safe_part_11 = link_14_with_link_15
+        let x_2_minus_x_3 = x_2 - x_3;
+        let y_2_minus_y_3 = y_2 - y_3;
+        let link_2_with_link_1 = y_1_minus_y_2
+            .mul_add(y_2_minus_y_3, x_1_minus_x_2 * x_2_minus_x_3);
+        let acceleration_0_part_4 = lit(2.0)
+            * y_2_minus_y_3.mul_add(y_2_minus_y_3, x_2_minus_x_3 * x_2_minus_x_3);
+        let acceleration_0_part_5 = acceleration_0_part_4 * pivot_link_1;
+        let pivot_link_2 = link_2_with_link_1 * link_2_with_link_1 * pivot_link_0
+            + acceleration_0_part_5;
+        let per_pivot_link_2 = pivot_link_2.recip();
+        let safe_link_2 = S::select_le(
+            -pivot_link_2,
+            lit(-0.0009765625) * acceleration_0_part_5,
+            lit(0.0),
+            safe_link_15,
+        );
+        let dot_x_2_minus_dot_x_3 = dot_x_2 - dot_x_3;
+        let dot_y_2_minus_dot_y_3 = dot_y_2 - dot_y_3;
+        let right_link_2 = dot_y_2_minus_dot_y_3
+            .mul_add(
+                dot_y_2_minus_dot_y_3,
+                dot_x_2_minus_dot_x_3 * dot_x_2_minus_dot_x_3,
+            )
+            .mul_add(pivot_link_1, link_2_with_link_1 * right_link_1);
+        let x_14_minus_x_15 = x_14 - x_15;
+        let y_14_minus_y_15 = y_14 - y_15;
+        let link_14_with_link_15 = y_14_minus_y_15
+            .mul_add(y_15_minus_y_16, x_14_minus_x_15 * x_15_minus_x_16);
+        let acceleration_0_part_6 = lit(2.0)
+            * y_14_minus_y_15
+                .mul_add(y_14_minus_y_15, x_14_minus_x_15 * x_14_minus_x_15);
+        let acceleration_0_part_7 = acceleration_0_part_6 * pivot_link_15;
+        let pivot_link_14 = pivot_support * link_14_with_link_15 * link_14_with_link_15
+            + acceleration_0_part_7;
+        let per_pivot_link_14 = pivot_link_14.recip();
+        let safe_link_14 = S::select_le(
+            -pivot_link_14,
+            lit(-0.0009765625) * acceleration_0_part_7,
+            lit(0.0),
+            safe_link_2,
+        );
+        let dot_x_14_minus_dot_x_15 = dot_x_14 - dot_x_15;
+        let dot_y_14_minus_dot_y_15 = dot_y_14 - dot_y_15;
+        let right_link_14 = link_14_with_link_15
             .neg_mul_add(
-                safe_part_10,
+                right_link_15,
                 dot_y_14_minus_dot_y_15
                     .mul_add(
                         dot_y_14_minus_dot_y_15,
                         dot_x_14_minus_dot_x_15 * dot_x_14_minus_dot_x_15,
                     ) * pivot_link_15,
             );
-        let safe_part_12 = link_13_with_link_14
+        let x_3_minus_x_4 = x_3 - x_4;
+        let y_3_minus_y_4 = y_3 - y_4;
+        let link_3_with_link_2 = y_2_minus_y_3
+            .mul_add(y_3_minus_y_4, x_2_minus_x_3 * x_3_minus_x_4);
+        let acceleration_0_part_8 = lit(2.0)
+            * y_3_minus_y_4.mul_add(y_3_minus_y_4, x_3_minus_x_4 * x_3_minus_x_4);
+        let acceleration_0_part_9 = acceleration_0_part_8 * pivot_link_2;
+        let pivot_link_3 = link_3_with_link_2 * link_3_with_link_2 * pivot_link_1
+            - acceleration_0_part_9;
+        let per_pivot_link_3 = pivot_link_3.recip();
+        let safe_link_3 = S::select_le(
+            pivot_link_3,
+            lit(-0.0009765625) * acceleration_0_part_9,
+            lit(0.0),
+            safe_link_14,
+        );
+        let dot_x_3_minus_dot_x_4 = dot_x_3 - dot_x_4;
+        let dot_y_3_minus_dot_y_4 = dot_y_3 - dot_y_4;
+        let right_link_3 = dot_y_3_minus_dot_y_4
             .mul_add(
-                safe_part_11,
+                dot_y_3_minus_dot_y_4,
+                dot_x_3_minus_dot_x_4 * dot_x_3_minus_dot_x_4,
+            )
+            .mul_add(pivot_link_2, link_3_with_link_2 * right_link_2);
+        let x_13_minus_x_14 = x_13 - x_14;
+        let y_13_minus_y_14 = y_13 - y_14;
+        let link_13_with_link_14 = y_13_minus_y_14
+            .mul_add(y_14_minus_y_15, x_13_minus_x_14 * x_14_minus_x_15);
+        let acceleration_0_part_10 = lit(2.0)
+            * y_13_minus_y_14
+                .mul_add(y_13_minus_y_14, x_13_minus_x_14 * x_13_minus_x_14);
+        let acceleration_0_part_11 = acceleration_0_part_10 * pivot_link_14;
+        let pivot_link_13 = link_13_with_link_14 * link_13_with_link_14 * pivot_link_15
+            - acceleration_0_part_11;
+        let per_pivot_link_13 = pivot_link_13.recip();
+        let safe_link_13 = S::select_le(
+            pivot_link_13,
+            lit(-0.0009765625) * acceleration_0_part_11,
+            lit(0.0),
+            safe_link_3,
+        );
+        let dot_x_13_minus_dot_x_14 = dot_x_13 - dot_x_14;
+        let dot_y_13_minus_dot_y_14 = dot_y_13 - dot_y_14;
+        let right_link_13 = link_13_with_link_14
+            .mul_add(
+                right_link_14,
                 dot_y_13_minus_dot_y_14
                     .mul_add(
                         dot_y_13_minus_dot_y_14,
                         dot_x_13_minus_dot_x_14 * dot_x_13_minus_dot_x_14,
                     ) * pivot_link_14,
             );
-        let safe_part_13 = link_12_with_link_13
+        let x_4_minus_x_5 = x_4 - x_5;
+        let y_4_minus_y_5 = y_4 - y_5;
+        let link_4_with_link_3 = y_3_minus_y_4
+            .mul_add(y_4_minus_y_5, x_3_minus_x_4 * x_4_minus_x_5);
+        let acceleration_0_part_12 = lit(2.0)
+            * y_4_minus_y_5.mul_add(y_4_minus_y_5, x_4_minus_x_5 * x_4_minus_x_5);
+        let acceleration_0_part_13 = acceleration_0_part_12 * pivot_link_3;
+        let pivot_link_4 = link_4_with_link_3 * link_4_with_link_3 * pivot_link_2
+            + acceleration_0_part_13;
+        let per_pivot_link_4 = pivot_link_4.recip();
+        let safe_link_4 = S::select_le(
+            pivot_link_4,
+            lit(0.0009765625) * acceleration_0_part_13,
+            lit(0.0),
+            safe_link_13,
+        );
+        let dot_x_4_minus_dot_x_5 = dot_x_4 - dot_x_5;
+        let dot_y_4_minus_dot_y_5 = dot_y_4 - dot_y_5;
+        let right_link_4 = dot_y_4_minus_dot_y_5
+            .mul_add(
+                dot_y_4_minus_dot_y_5,
+                dot_x_4_minus_dot_x_5 * dot_x_4_minus_dot_x_5,
+            )
+            .neg_mul_add(pivot_link_3, link_4_with_link_3 * right_link_3);
+        let x_12_minus_x_13 = x_12 - x_13;
+        let y_12_minus_y_13 = y_12 - y_13;
+        let link_12_with_link_13 = y_12_minus_y_13
+            .mul_add(y_13_minus_y_14, x_12_minus_x_13 * x_13_minus_x_14);
+        let acceleration_0_part_14 = lit(2.0)
+            * y_12_minus_y_13
+                .mul_add(y_12_minus_y_13, x_12_minus_x_13 * x_12_minus_x_13);
+        let acceleration_0_part_15 = acceleration_0_part_14 * pivot_link_13;
+        let pivot_link_12 = link_12_with_link_13 * link_12_with_link_13 * pivot_link_14
+            + acceleration_0_part_15;
+        let per_pivot_link_12 = pivot_link_12.recip();
+        let safe_link_12 = S::select_le(
+            pivot_link_12,
+            lit(0.0009765625) * acceleration_0_part_15,
+            lit(0.0),
+            safe_link_4,
+        );
+        let dot_x_12_minus_dot_x_13 = dot_x_12 - dot_x_13;
+        let dot_y_12_minus_dot_y_13 = dot_y_12 - dot_y_13;
+        let right_link_12 = link_12_with_link_13
             .neg_mul_add(
-                safe_part_12,
+                right_link_13,
                 dot_y_12_minus_dot_y_13
                     .mul_add(
                         dot_y_12_minus_dot_y_13,
                         dot_x_12_minus_dot_x_13 * dot_x_12_minus_dot_x_13,
                     ) * pivot_link_13,
             );
-        let safe_part_14 = link_11_with_link_12
+        let x_5_minus_x_6 = x_5 - x_6;
+        let y_5_minus_y_6 = y_5 - y_6;
+        let link_5_with_link_4 = y_4_minus_y_5
+            .mul_add(y_5_minus_y_6, x_4_minus_x_5 * x_5_minus_x_6);
+        let acceleration_0_part_16 = lit(2.0)
+            * y_5_minus_y_6.mul_add(y_5_minus_y_6, x_5_minus_x_6 * x_5_minus_x_6);
+        let acceleration_0_part_17 = acceleration_0_part_16 * pivot_link_4;
+        let pivot_link_5 = link_5_with_link_4 * link_5_with_link_4 * pivot_link_3
+            - acceleration_0_part_17;
+        let per_pivot_link_5 = pivot_link_5.recip();
+        let safe_link_5 = S::select_le(
+            -pivot_link_5,
+            lit(0.0009765625) * acceleration_0_part_17,
+            lit(0.0),
+            safe_link_12,
+        );
+        let dot_x_5_minus_dot_x_6 = dot_x_5 - dot_x_6;
+        let dot_y_5_minus_dot_y_6 = dot_y_5 - dot_y_6;
+        let right_link_5 = dot_y_5_minus_dot_y_6
             .mul_add(
-                safe_part_13,
+                dot_y_5_minus_dot_y_6,
+                dot_x_5_minus_dot_x_6 * dot_x_5_minus_dot_x_6,
+            )
+            .neg_mul_add(pivot_link_4, link_5_with_link_4 * right_link_4);
+        let x_11_minus_x_12 = x_11 - x_12;
+        let y_11_minus_y_12 = y_11 - y_12;
+        let link_11_with_link_12 = y_11_minus_y_12
+            .mul_add(y_12_minus_y_13, x_11_minus_x_12 * x_12_minus_x_13);
+        let acceleration_0_part_18 = lit(2.0)
+            * y_11_minus_y_12
+                .mul_add(y_11_minus_y_12, x_11_minus_x_12 * x_11_minus_x_12);
+        let acceleration_0_part_19 = acceleration_0_part_18 * pivot_link_12;
+        let pivot_link_11 = link_11_with_link_12 * link_11_with_link_12 * pivot_link_13
+            - acceleration_0_part_19;
+        let per_pivot_link_11 = pivot_link_11.recip();
+        let safe_link_11 = S::select_le(
+            -pivot_link_11,
+            lit(0.0009765625) * acceleration_0_part_19,
+            lit(0.0),
+            safe_link_5,
+        );
+        let dot_x_11_minus_dot_x_12 = dot_x_11 - dot_x_12;
+        let dot_y_11_minus_dot_y_12 = dot_y_11 - dot_y_12;
+        let right_link_11 = link_11_with_link_12
+            .mul_add(
+                right_link_12,
                 dot_y_11_minus_dot_y_12
                     .mul_add(
                         dot_y_11_minus_dot_y_12,
                         dot_x_11_minus_dot_x_12 * dot_x_11_minus_dot_x_12,
                     ) * pivot_link_12,
             );
-        let safe_part_15 = link_10_with_link_11
+        let x_6_minus_x_7 = x_6 - x_7;
+        let y_6_minus_y_7 = y_6 - y_7;
+        let link_6_with_link_5 = y_5_minus_y_6
+            .mul_add(y_6_minus_y_7, x_5_minus_x_6 * x_6_minus_x_7);
+        let acceleration_0_part_20 = lit(2.0)
+            * y_6_minus_y_7.mul_add(y_6_minus_y_7, x_6_minus_x_7 * x_6_minus_x_7);
+        let acceleration_0_part_21 = acceleration_0_part_20 * pivot_link_5;
+        let pivot_link_6 = link_6_with_link_5 * link_6_with_link_5 * pivot_link_4
+            + acceleration_0_part_21;
+        let per_pivot_link_6 = pivot_link_6.recip();
+        let safe_link_6 = S::select_le(
+            -pivot_link_6,
+            lit(-0.0009765625) * acceleration_0_part_21,
+            lit(0.0),
+            safe_link_11,
+        );
+        let dot_x_6_minus_dot_x_7 = dot_x_6 - dot_x_7;
+        let dot_y_6_minus_dot_y_7 = dot_y_6 - dot_y_7;
+        let right_link_6 = dot_y_6_minus_dot_y_7
+            .mul_add(
+                dot_y_6_minus_dot_y_7,
+                dot_x_6_minus_dot_x_7 * dot_x_6_minus_dot_x_7,
+            )
+            .mul_add(pivot_link_5, link_6_with_link_5 * right_link_5);
+        let x_10_minus_x_11 = x_10 - x_11;
+        let y_10_minus_y_11 = y_10 - y_11;
+        let link_10_with_link_11 = y_10_minus_y_11
+            .mul_add(y_11_minus_y_12, x_10_minus_x_11 * x_11_minus_x_12);
+        let acceleration_0_part_22 = lit(2.0)
+            * y_10_minus_y_11
+                .mul_add(y_10_minus_y_11, x_10_minus_x_11 * x_10_minus_x_11);
+        let acceleration_0_part_23 = acceleration_0_part_22 * pivot_link_11;
+        let pivot_link_10 = link_10_with_link_11 * link_10_with_link_11 * pivot_link_12
+            + acceleration_0_part_23;
+        let per_pivot_link_10 = pivot_link_10.recip();
+        let safe_link_10 = S::select_le(
+            -pivot_link_10,
+            lit(-0.0009765625) * acceleration_0_part_23,
+            lit(0.0),
+            safe_link_6,
+        );
+        let dot_x_10_minus_dot_x_11 = dot_x_10 - dot_x_11;
+        let dot_y_10_minus_dot_y_11 = dot_y_10 - dot_y_11;
+        let right_link_10 = link_10_with_link_11
             .neg_mul_add(
-                safe_part_14,
+                right_link_11,
                 dot_y_10_minus_dot_y_11
                     .mul_add(
                         dot_y_10_minus_dot_y_11,
                         dot_x_10_minus_dot_x_11 * dot_x_10_minus_dot_x_11,
                     ) * pivot_link_11,
             );
-        let safe_part_16 = link_9_with_link_10
+        let x_7_minus_x_8 = x_7 - x_8;
+        let y_7_minus_y_8 = y_7 - y_8;
+        let link_7_with_link_6 = y_6_minus_y_7
+            .mul_add(y_7_minus_y_8, x_6_minus_x_7 * x_7_minus_x_8);
+        let acceleration_0_part_24 = lit(2.0)
+            * y_7_minus_y_8.mul_add(y_7_minus_y_8, x_7_minus_x_8 * x_7_minus_x_8);
+        let acceleration_0_part_25 = acceleration_0_part_24 * pivot_link_6;
+        let pivot_link_7 = link_7_with_link_6 * link_7_with_link_6 * pivot_link_5
+            - acceleration_0_part_25;
+        let per_pivot_link_7 = pivot_link_7.recip();
+        let safe_link_7 = S::select_le(
+            pivot_link_7,
+            lit(-0.0009765625) * acceleration_0_part_25,
+            lit(0.0),
+            safe_link_10,
+        );
+        let dot_x_7_minus_dot_x_8 = dot_x_7 - dot_x_8;
+        let dot_y_7_minus_dot_y_8 = dot_y_7 - dot_y_8;
+        let right_link_7 = dot_y_7_minus_dot_y_8
             .mul_add(
-                safe_part_15,
+                dot_y_7_minus_dot_y_8,
+                dot_x_7_minus_dot_x_8 * dot_x_7_minus_dot_x_8,
+            )
+            .mul_add(pivot_link_6, link_7_with_link_6 * right_link_6);
+        let x_9_minus_x_10 = x_9 - x_10;
+        let y_9_minus_y_10 = y_9 - y_10;
+        let link_9_with_link_10 = y_9_minus_y_10
+            .mul_add(y_10_minus_y_11, x_9_minus_x_10 * x_10_minus_x_11);
+        let acceleration_0_part_26 = lit(2.0)
+            * y_9_minus_y_10.mul_add(y_9_minus_y_10, x_9_minus_x_10 * x_9_minus_x_10);
+        let acceleration_0_part_27 = acceleration_0_part_26 * pivot_link_10;
+        let pivot_link_9 = link_9_with_link_10 * link_9_with_link_10 * pivot_link_11
+            - acceleration_0_part_27;
+        let per_pivot_link_9 = pivot_link_9.recip();
+        let safe_link_9 = S::select_le(
+            pivot_link_9,
+            lit(-0.0009765625) * acceleration_0_part_27,
+            lit(0.0),
+            safe_link_7,
+        );
+        let dot_x_9_minus_dot_x_10 = dot_x_9 - dot_x_10;
+        let dot_y_9_minus_dot_y_10 = dot_y_9 - dot_y_10;
+        let right_link_9 = link_9_with_link_10
+            .mul_add(
+                right_link_10,
                 dot_y_9_minus_dot_y_10
                     .mul_add(
                         dot_y_9_minus_dot_y_10,
                         dot_x_9_minus_dot_x_10 * dot_x_9_minus_dot_x_10,
                     ) * pivot_link_10,
             );
-        let safe_part_17 = link_8_with_link_9
+        let x_8_minus_x_9 = x_8 - x_9;
+        let y_8_minus_y_9 = y_8 - y_9;
+        let link_8_with_link_9 = y_8_minus_y_9
+            .mul_add(y_9_minus_y_10, x_8_minus_x_9 * x_9_minus_x_10);
+        let acceleration_0_part_28 = lit(2.0)
+            * y_8_minus_y_9.mul_add(y_8_minus_y_9, x_8_minus_x_9 * x_8_minus_x_9);
+        let link_8_with_link_7 = y_7_minus_y_8
+            .mul_add(y_8_minus_y_9, x_7_minus_x_8 * x_8_minus_x_9);
+        let pivot_link_8 = pivot_link_9
+            .mul_add(
+                (link_8_with_link_7 * link_8_with_link_7 * pivot_link_6)
+                    .mul_add(per_pivot_link_7, acceleration_0_part_28),
+                link_8_with_link_9 * link_8_with_link_9 * pivot_link_10,
+            );
+        let per_pivot_link_8 = pivot_link_8.recip();
+        let safe_link_8 = S::select_le(
+            pivot_link_8,
+            lit(0.0009765625) * (acceleration_0_part_28 * pivot_link_9),
+            lit(0.0),
+            safe_link_9,
+        );
+        let dot_x_8_minus_dot_x_9 = dot_x_8 - dot_x_9;
+        let dot_y_8_minus_dot_y_9 = dot_y_8 - dot_y_9;
+        let right_link_8 = link_8_with_link_9
             .neg_mul_add(
-                safe_part_16,
+                right_link_9,
                 pivot_link_9
-                    * (link_8_with_link_7 * safe_part_8)
+                    * (link_8_with_link_7 * right_link_7)
                         .neg_mul_add(
                             per_pivot_link_7,
                             dot_y_8_minus_dot_y_9
@@ -1941,142 +1947,107 @@ impl ::ukcore::Mechanism for UChain {
                                 ),
                         ),
             );
-        let safe_part_18 = y_8_minus_y_9 * safe_part_17 * per_pivot_link_8;
+        let safe = safe_link_8;
+        let lambda_link_9 = (link_8_with_link_9 * pivot_link_10 * per_pivot_link_9
+            * right_link_8)
+            .mul_add(per_pivot_link_8, right_link_9 * per_pivot_link_9);
+        let x_9_minus_x_10_lambda_link_9 = x_9_minus_x_10 * lambda_link_9;
+        let safe_part = x_8_minus_x_9 * right_link_8 * per_pivot_link_8;
+        out[9] = safe_part + x_9_minus_x_10_lambda_link_9;
+        let acceleration_10_part = y_8_minus_y_9 * right_link_8 * per_pivot_link_8;
         let link_8_by_link_7 = link_8_with_link_7 * pivot_link_6 * per_pivot_link_7;
-        let lambda_link_7 = (lit(2.0) * link_8_by_link_7 * safe_part_17)
-            .mul_add(per_pivot_link_8, safe_part_8 * per_pivot_link_7);
+        let lambda_link_7 = (link_8_by_link_7 * right_link_8)
+            .mul_add(per_pivot_link_8, right_link_7 * per_pivot_link_7);
         let y_7_minus_y_8_lambda_link_7 = y_7_minus_y_8 * lambda_link_7;
-        out[25] = g - safe_part_18 - y_7_minus_y_8_lambda_link_7;
-        let acceleration_26_part = x_8_minus_x_9 * safe_part_17 * per_pivot_link_8;
+        out[25] = g - acceleration_10_part - y_7_minus_y_8_lambda_link_7;
+        let y_9_minus_y_10_lambda_link_9 = y_9_minus_y_10 * lambda_link_9;
+        out[26] = g + acceleration_10_part + y_9_minus_y_10_lambda_link_9;
         let x_7_minus_x_8_lambda_link_7 = x_7_minus_x_8 * lambda_link_7;
-        out[8] = -acceleration_26_part - x_7_minus_x_8_lambda_link_7;
-        let acceleration_9_part = (link_8_with_link_9 * pivot_link_10 * safe_part_17)
-            .mul_add(per_pivot_link_8, safe_part_16);
-        let acceleration_9_part_2 = x_9_minus_x_10 * per_pivot_link_9
-            * acceleration_9_part;
-        out[9] = acceleration_26_part + acceleration_9_part_2;
-        let acceleration_10_part = y_9_minus_y_10 * per_pivot_link_9
-            * acceleration_9_part;
-        out[26] = g + safe_part_18 + acceleration_10_part;
-        let acceleration_27_part = (link_7_with_link_6 * pivot_link_5)
-            .neg_mul_add(lambda_link_7, safe_part_7);
-        let acceleration_27_part_2 = x_6_minus_x_7 * per_pivot_link_6
-            * acceleration_27_part;
-        out[7] = lit(0.5).mul_add(acceleration_27_part_2, x_7_minus_x_8_lambda_link_7);
-        let acceleration_8_part = y_6_minus_y_7 * per_pivot_link_6
-            * acceleration_27_part;
-        out[24] = lit(0.5).mul_add(acceleration_8_part, g + y_7_minus_y_8_lambda_link_7);
-        let acceleration_25_part = (link_9_with_link_10 * pivot_link_11
-            * per_pivot_link_9)
-            .neg_mul_add(acceleration_9_part, safe_part_15);
-        let acceleration_25_part_2 = y_10_minus_y_11 * per_pivot_link_10
-            * acceleration_25_part;
-        out[27] = g - acceleration_10_part - acceleration_25_part_2;
-        let acceleration_28_part = x_10_minus_x_11 * per_pivot_link_10
-            * acceleration_25_part;
-        out[10] = -acceleration_9_part_2 - acceleration_28_part;
-        let acceleration_11_part = (link_6_with_link_5 * pivot_link_4 * per_pivot_link_6)
-            .neg_mul_add(acceleration_27_part, safe_part_6);
-        let acceleration_11_part_2 = y_5_minus_y_6 * per_pivot_link_5
-            * acceleration_11_part;
-        out[23] = lit(0.5).neg_mul_add(acceleration_8_part, g) + acceleration_11_part_2;
-        let acceleration_24_part = x_5_minus_x_6 * per_pivot_link_5
-            * acceleration_11_part;
-        out[6] = lit(0.5).neg_mul_add(acceleration_27_part_2, acceleration_24_part);
-        let acceleration_7_part = (link_10_with_link_11 * pivot_link_12
-            * per_pivot_link_10)
-            .mul_add(acceleration_25_part, safe_part_14);
-        let acceleration_7_part_2 = x_11_minus_x_12 * per_pivot_link_11
-            * acceleration_7_part;
-        out[11] = acceleration_28_part + acceleration_7_part_2;
-        let acceleration_12_part = y_11_minus_y_12 * per_pivot_link_11
-            * acceleration_7_part;
-        out[28] = g + acceleration_25_part_2 + acceleration_12_part;
-        let acceleration_29_part = (link_5_with_link_4 * pivot_link_3 * per_pivot_link_5)
-            .neg_mul_add(acceleration_11_part, safe_part_5);
-        let acceleration_29_part_2 = y_4_minus_y_5 * per_pivot_link_4
-            * acceleration_29_part;
-        out[22] = lit(0.5)
-            .neg_mul_add(acceleration_29_part_2, g - acceleration_11_part_2);
-        let acceleration_23_part = x_4_minus_x_5 * per_pivot_link_4
-            * acceleration_29_part;
-        out[5] = lit(0.5).neg_mul_add(acceleration_23_part, -acceleration_24_part);
-        let acceleration_6_part = (link_11_with_link_12 * pivot_link_13
-            * per_pivot_link_11)
-            .neg_mul_add(acceleration_7_part, safe_part_13);
-        let acceleration_6_part_2 = y_12_minus_y_13 * per_pivot_link_12
-            * acceleration_6_part;
-        out[29] = g - acceleration_12_part - acceleration_6_part_2;
-        let acceleration_30_part = x_12_minus_x_13 * per_pivot_link_12
-            * acceleration_6_part;
-        out[12] = -acceleration_7_part_2 - acceleration_30_part;
-        let acceleration_13_part = (link_4_with_link_3 * pivot_link_2 * per_pivot_link_4)
-            .neg_mul_add(acceleration_29_part, safe_part_4);
-        let acceleration_13_part_2 = x_3_minus_x_4 * per_pivot_link_3
-            * acceleration_13_part;
-        out[4] = lit(0.5) * acceleration_23_part - acceleration_13_part_2;
-        let acceleration_5_part = y_3_minus_y_4 * per_pivot_link_3
-            * acceleration_13_part;
-        out[21] = lit(0.5).mul_add(acceleration_29_part_2, g) - acceleration_5_part;
-        let acceleration_22_part = (link_12_with_link_13 * pivot_link_14
-            * per_pivot_link_12)
-            .mul_add(acceleration_6_part, safe_part_12);
-        let acceleration_22_part_2 = x_13_minus_x_14 * per_pivot_link_13
-            * acceleration_22_part;
-        out[13] = acceleration_30_part + acceleration_22_part_2;
-        let acceleration_14_part = y_13_minus_y_14 * per_pivot_link_13
-            * acceleration_22_part;
-        out[30] = g + acceleration_6_part_2 + acceleration_14_part;
-        let acceleration_31_part = (link_3_with_link_2 * pivot_link_1 * per_pivot_link_3)
-            .neg_mul_add(acceleration_13_part, safe_part_3);
-        let acceleration_31_part_2 = x_2_minus_x_3 * per_pivot_link_2
-            * acceleration_31_part;
-        out[3] = lit(0.5).mul_add(acceleration_31_part_2, acceleration_13_part_2);
-        let acceleration_4_part = y_2_minus_y_3 * per_pivot_link_2
-            * acceleration_31_part;
-        out[20] = lit(0.5).mul_add(acceleration_4_part, g + acceleration_5_part);
-        let acceleration_21_part = (link_13_with_link_14 * pivot_link_15
-            * per_pivot_link_13)
-            .neg_mul_add(acceleration_22_part, safe_part_11);
-        let acceleration_21_part_2 = y_14_minus_y_15 * per_pivot_link_14
-            * acceleration_21_part;
-        out[31] = g - acceleration_14_part - acceleration_21_part_2;
-        let acceleration_32_part = x_14_minus_x_15 * per_pivot_link_14
-            * acceleration_21_part;
-        out[14] = -acceleration_22_part_2 - acceleration_32_part;
-        let acceleration_15_part = (pivot_link_0 * link_2_with_link_1 * per_pivot_link_2)
-            .neg_mul_add(acceleration_31_part, safe_part_2);
-        let acceleration_15_part_2 = y_1_minus_y_2 * per_pivot_link_1
-            * acceleration_15_part;
-        out[19] = lit(0.5).neg_mul_add(acceleration_4_part, g) + acceleration_15_part_2;
-        let acceleration_20_part = x_1_minus_x_2 * per_pivot_link_1
-            * acceleration_15_part;
-        out[2] = lit(0.5).neg_mul_add(acceleration_31_part_2, acceleration_20_part);
-        let acceleration_3_part = (pivot_support * link_14_with_link_15
-            * per_pivot_link_14)
-            .mul_add(acceleration_21_part, safe_part_10);
-        let acceleration_3_part_2 = x_15_minus_x_16 * per_pivot_link_15
-            * acceleration_3_part;
-        out[15] = acceleration_32_part + acceleration_3_part_2;
-        let acceleration_16_part = y_15_minus_y_16 * per_pivot_link_15
-            * acceleration_3_part;
-        out[32] = g + acceleration_21_part_2 + acceleration_16_part;
-        let acceleration_33_part = (link_1_with_link_0 * per_pivot_link_1)
-            .neg_mul_add(acceleration_15_part, safe_part);
-        let acceleration_33_part_2 = x_1_minus_x_0 * per_pivot_link_0
-            * acceleration_33_part;
-        out[0] = lit(0.5) * acceleration_33_part_2;
-        let acceleration_1_part = y_0_minus_y_1 * per_pivot_link_0
-            * acceleration_33_part;
-        out[17] = lit(0.5).neg_mul_add(acceleration_1_part, g);
-        out[18] = lit(0.5).mul_add(acceleration_1_part, g - acceleration_15_part_2);
-        out[1] = lit(0.5).neg_mul_add(acceleration_33_part_2, -acceleration_20_part);
-        let acceleration_2_part = (link_15_with_support * per_pivot_link_15)
-            .neg_mul_add(acceleration_3_part, safe_part_9);
-        out[33] = (y_16 * per_pivot_support)
-            .neg_mul_add(acceleration_2_part, g - acceleration_16_part);
-        out[16] = (x_16 * per_pivot_support)
-            .neg_mul_add(acceleration_2_part, -acceleration_3_part_2);
+        out[8] = -safe_part - x_7_minus_x_8_lambda_link_7;
+        let lambda_link_6 = (link_7_with_link_6 * pivot_link_5 * per_pivot_link_6)
+            .neg_mul_add(lambda_link_7, right_link_6 * per_pivot_link_6);
+        let x_6_minus_x_7_lambda_link_6 = x_6_minus_x_7 * lambda_link_6;
+        out[7] = x_7_minus_x_8_lambda_link_7 + x_6_minus_x_7_lambda_link_6;
+        let y_6_minus_y_7_lambda_link_6 = y_6_minus_y_7 * lambda_link_6;
+        out[24] = g + y_7_minus_y_8_lambda_link_7 + y_6_minus_y_7_lambda_link_6;
+        let lambda_link_10 = (link_9_with_link_10 * pivot_link_11 * per_pivot_link_10)
+            .neg_mul_add(lambda_link_9, right_link_10 * per_pivot_link_10);
+        let y_10_minus_y_11_lambda_link_10 = y_10_minus_y_11 * lambda_link_10;
+        out[27] = g - y_9_minus_y_10_lambda_link_9 - y_10_minus_y_11_lambda_link_10;
+        let x_10_minus_x_11_lambda_link_10 = x_10_minus_x_11 * lambda_link_10;
+        out[10] = -x_9_minus_x_10_lambda_link_9 - x_10_minus_x_11_lambda_link_10;
+        let lambda_link_11 = (link_10_with_link_11 * pivot_link_12 * per_pivot_link_11)
+            .mul_add(lambda_link_10, right_link_11 * per_pivot_link_11);
+        let x_11_minus_x_12_lambda_link_11 = x_11_minus_x_12 * lambda_link_11;
+        out[11] = x_10_minus_x_11_lambda_link_10 + x_11_minus_x_12_lambda_link_11;
+        let lambda_link_5 = (link_6_with_link_5 * pivot_link_4 * per_pivot_link_5)
+            .neg_mul_add(lambda_link_6, right_link_5 * per_pivot_link_5);
+        let y_5_minus_y_6_lambda_link_5 = y_5_minus_y_6 * lambda_link_5;
+        out[23] = g - y_6_minus_y_7_lambda_link_6 + y_5_minus_y_6_lambda_link_5;
+        let y_11_minus_y_12_lambda_link_11 = y_11_minus_y_12 * lambda_link_11;
+        out[28] = g + y_10_minus_y_11_lambda_link_10 + y_11_minus_y_12_lambda_link_11;
+        let x_5_minus_x_6_lambda_link_5 = x_5_minus_x_6 * lambda_link_5;
+        out[6] = x_5_minus_x_6_lambda_link_5 - x_6_minus_x_7_lambda_link_6;
+        let lambda_link_4 = (link_5_with_link_4 * pivot_link_3 * per_pivot_link_4)
+            .neg_mul_add(lambda_link_5, right_link_4 * per_pivot_link_4);
+        let y_4_minus_y_5_lambda_link_4 = y_4_minus_y_5 * lambda_link_4;
+        out[22] = g - y_5_minus_y_6_lambda_link_5 - y_4_minus_y_5_lambda_link_4;
+        let lambda_link_12 = (link_11_with_link_12 * pivot_link_13 * per_pivot_link_12)
+            .neg_mul_add(lambda_link_11, right_link_12 * per_pivot_link_12);
+        let y_12_minus_y_13_lambda_link_12 = y_12_minus_y_13 * lambda_link_12;
+        out[29] = g - y_11_minus_y_12_lambda_link_11 - y_12_minus_y_13_lambda_link_12;
+        let x_4_minus_x_5_lambda_link_4 = x_4_minus_x_5 * lambda_link_4;
+        out[5] = -x_5_minus_x_6_lambda_link_5 - x_4_minus_x_5_lambda_link_4;
+        let x_12_minus_x_13_lambda_link_12 = x_12_minus_x_13 * lambda_link_12;
+        out[12] = -x_11_minus_x_12_lambda_link_11 - x_12_minus_x_13_lambda_link_12;
+        let lambda_link_3 = (link_4_with_link_3 * pivot_link_2 * per_pivot_link_3)
+            .neg_mul_add(lambda_link_4, right_link_3 * per_pivot_link_3);
+        let x_3_minus_x_4_lambda_link_3 = x_3_minus_x_4 * lambda_link_3;
+        out[4] = x_4_minus_x_5_lambda_link_4 - x_3_minus_x_4_lambda_link_3;
+        let lambda_link_13 = (link_12_with_link_13 * pivot_link_14 * per_pivot_link_13)
+            .mul_add(lambda_link_12, right_link_13 * per_pivot_link_13);
+        let x_13_minus_x_14_lambda_link_13 = x_13_minus_x_14 * lambda_link_13;
+        out[13] = x_12_minus_x_13_lambda_link_12 + x_13_minus_x_14_lambda_link_13;
+        let y_3_minus_y_4_lambda_link_3 = y_3_minus_y_4 * lambda_link_3;
+        out[21] = g + y_4_minus_y_5_lambda_link_4 - y_3_minus_y_4_lambda_link_3;
+        let y_13_minus_y_14_lambda_link_13 = y_13_minus_y_14 * lambda_link_13;
+        out[30] = g + y_12_minus_y_13_lambda_link_12 + y_13_minus_y_14_lambda_link_13;
+        let lambda_link_2 = (link_3_with_link_2 * pivot_link_1 * per_pivot_link_2)
+            .neg_mul_add(lambda_link_3, right_link_2 * per_pivot_link_2);
+        let x_2_minus_x_3_lambda_link_2 = x_2_minus_x_3 * lambda_link_2;
+        out[3] = x_3_minus_x_4_lambda_link_3 + x_2_minus_x_3_lambda_link_2;
+        let y_2_minus_y_3_lambda_link_2 = y_2_minus_y_3 * lambda_link_2;
+        out[20] = g + y_3_minus_y_4_lambda_link_3 + y_2_minus_y_3_lambda_link_2;
+        let lambda_link_14 = (link_13_with_link_14 * pivot_link_15 * per_pivot_link_14)
+            .neg_mul_add(lambda_link_13, right_link_14 * per_pivot_link_14);
+        let y_14_minus_y_15_lambda_link_14 = y_14_minus_y_15 * lambda_link_14;
+        out[31] = g - y_13_minus_y_14_lambda_link_13 - y_14_minus_y_15_lambda_link_14;
+        let x_14_minus_x_15_lambda_link_14 = x_14_minus_x_15 * lambda_link_14;
+        out[14] = -x_13_minus_x_14_lambda_link_13 - x_14_minus_x_15_lambda_link_14;
+        let lambda_link_15 = (pivot_support * link_14_with_link_15 * per_pivot_link_15)
+            .mul_add(lambda_link_14, right_link_15 * per_pivot_link_15);
+        let x_15_minus_x_16_lambda_link_15 = x_15_minus_x_16 * lambda_link_15;
+        out[15] = x_14_minus_x_15_lambda_link_14 + x_15_minus_x_16_lambda_link_15;
+        let lambda_link_1 = (link_2_with_link_1 * pivot_link_0 * per_pivot_link_1)
+            .neg_mul_add(lambda_link_2, right_link_1 * per_pivot_link_1);
+        let y_1_minus_y_2_lambda_link_1 = y_1_minus_y_2 * lambda_link_1;
+        out[19] = g - y_2_minus_y_3_lambda_link_2 + y_1_minus_y_2_lambda_link_1;
+        let y_15_minus_y_16_lambda_link_15 = y_15_minus_y_16 * lambda_link_15;
+        out[32] = g + y_14_minus_y_15_lambda_link_14 + y_15_minus_y_16_lambda_link_15;
+        let x_1_minus_x_2_lambda_link_1 = x_1_minus_x_2 * lambda_link_1;
+        out[2] = x_1_minus_x_2_lambda_link_1 - x_2_minus_x_3_lambda_link_2;
+        let lambda_link_0 = (link_1_with_link_0 * per_pivot_link_0)
+            .neg_mul_add(lambda_link_1, right_link_0 * per_pivot_link_0);
+        let x_1_minus_x_0_lambda_link_0 = x_1_minus_x_0 * lambda_link_0;
+        out[0] = x_1_minus_x_0_lambda_link_0;
+        let y_0_minus_y_1_lambda_link_0 = y_0_minus_y_1 * lambda_link_0;
+        out[17] = g - y_0_minus_y_1_lambda_link_0;
+        out[18] = g - y_1_minus_y_2_lambda_link_1 + y_0_minus_y_1_lambda_link_0;
+        let lambda_support = (link_15_with_support * per_pivot_support)
+            .neg_mul_add(lambda_link_15, right_support * per_pivot_support);
+        out[33] = y_16.neg_mul_add(lambda_support, g - y_15_minus_y_16_lambda_link_15);
+        out[1] = -x_1_minus_x_2_lambda_link_1 - x_1_minus_x_0_lambda_link_0;
+        out[16] = x_16.neg_mul_add(lambda_support, -x_15_minus_x_16_lambda_link_15);
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
@@ -2104,8 +2075,8 @@ impl ::ukcore::Mechanism for UChain {
         let lit = S::from_f64;
         let x_1_minus_x_0 = x_1 - x_0;
         let y_0_minus_y_1 = y_0 - y_1;
-        let pivot_link_0 = y_0_minus_y_1
-            .mul_add(y_0_minus_y_1, x_1_minus_x_0 * x_1_minus_x_0);
+        let pivot_link_0 = lit(2.0)
+            * y_0_minus_y_1.mul_add(y_0_minus_y_1, x_1_minus_x_0 * x_1_minus_x_0);
         let per_pivot_link_0 = pivot_link_0.recip();
         let safe_link_0 = S::select_le(pivot_link_0, lit(0.0), lit(0.0), safe_x_0);
         let pivot_support = y_16.mul_add(y_16, x_16 * x_16);
@@ -2115,32 +2086,31 @@ impl ::ukcore::Mechanism for UChain {
         let y_1_minus_y_2 = y_1 - y_2;
         let link_1_with_link_0 = y_0_minus_y_1
             .neg_mul_add(y_1_minus_y_2, x_1_minus_x_0 * x_1_minus_x_2);
-        let correction_0_part = pivot_link_0
+        let correction_0_part = lit(2.0)
             * y_1_minus_y_2.mul_add(y_1_minus_y_2, x_1_minus_x_2 * x_1_minus_x_2);
-        let pivot_link_1 = lit(4.0)
-            .neg_mul_add(correction_0_part, link_1_with_link_0 * link_1_with_link_0);
+        let pivot_link_0_correction_0_part = pivot_link_0 * correction_0_part;
+        let pivot_link_1 = link_1_with_link_0 * link_1_with_link_0
+            - pivot_link_0_correction_0_part;
         let per_pivot_link_1 = pivot_link_1.recip();
         let safe_link_1 = S::select_le(
             -pivot_link_1,
-            lit(0.00390625) * correction_0_part,
+            lit(0.0009765625) * pivot_link_0_correction_0_part,
             lit(0.0),
             safe_support,
         );
         let x_15_minus_x_16 = x_15 - x_16;
         let y_15_minus_y_16 = y_15 - y_16;
         let link_15_with_support = y_16.mul_add(y_15_minus_y_16, x_16 * x_15_minus_x_16);
-        let correction_0_part_2 = pivot_support
+        let correction_0_part_2 = lit(2.0)
             * y_15_minus_y_16
                 .mul_add(y_15_minus_y_16, x_15_minus_x_16 * x_15_minus_x_16);
-        let pivot_link_15 = lit(2.0)
-            .neg_mul_add(
-                correction_0_part_2,
-                link_15_with_support * link_15_with_support,
-            );
+        let correction_0_part_3 = pivot_support * correction_0_part_2;
+        let pivot_link_15 = link_15_with_support * link_15_with_support
+            - correction_0_part_3;
         let per_pivot_link_15 = pivot_link_15.recip();
         let safe_link_15 = S::select_le(
             -pivot_link_15,
-            lit(0.001953125) * correction_0_part_2,
+            lit(0.0009765625) * correction_0_part_3,
             lit(0.0),
             safe_link_1,
         );
@@ -2148,14 +2118,15 @@ impl ::ukcore::Mechanism for UChain {
         let y_2_minus_y_3 = y_2 - y_3;
         let link_2_with_link_1 = y_1_minus_y_2
             .mul_add(y_2_minus_y_3, x_1_minus_x_2 * x_2_minus_x_3);
-        let correction_0_part_3 = y_2_minus_y_3
-            .mul_add(y_2_minus_y_3, x_2_minus_x_3 * x_2_minus_x_3) * pivot_link_1;
-        let pivot_link_2 = pivot_link_0 * link_2_with_link_1 * link_2_with_link_1
-            + correction_0_part_3;
+        let correction_0_part_4 = lit(2.0)
+            * y_2_minus_y_3.mul_add(y_2_minus_y_3, x_2_minus_x_3 * x_2_minus_x_3);
+        let pivot_link_1_correction_0_part_4 = correction_0_part_4 * pivot_link_1;
+        let pivot_link_2 = link_2_with_link_1 * link_2_with_link_1 * pivot_link_0
+            + pivot_link_1_correction_0_part_4;
         let per_pivot_link_2 = pivot_link_2.recip();
         let safe_link_2 = S::select_le(
-            lit(-2.0) * pivot_link_2,
-            lit(-0.001953125) * correction_0_part_3,
+            -pivot_link_2,
+            lit(-0.0009765625) * pivot_link_1_correction_0_part_4,
             lit(0.0),
             safe_link_15,
         );
@@ -2163,17 +2134,16 @@ impl ::ukcore::Mechanism for UChain {
         let y_14_minus_y_15 = y_14 - y_15;
         let link_14_with_link_15 = y_14_minus_y_15
             .mul_add(y_15_minus_y_16, x_14_minus_x_15 * x_15_minus_x_16);
-        let correction_0_part_4 = y_14_minus_y_15
-            .mul_add(y_14_minus_y_15, x_14_minus_x_15 * x_14_minus_x_15) * pivot_link_15;
-        let pivot_link_14 = lit(2.0)
-            .mul_add(
-                correction_0_part_4,
-                pivot_support * link_14_with_link_15 * link_14_with_link_15,
-            );
+        let correction_0_part_5 = lit(2.0)
+            * y_14_minus_y_15
+                .mul_add(y_14_minus_y_15, x_14_minus_x_15 * x_14_minus_x_15);
+        let correction_0_part_6 = correction_0_part_5 * pivot_link_15;
+        let pivot_link_14 = pivot_support * link_14_with_link_15 * link_14_with_link_15
+            + correction_0_part_6;
         let per_pivot_link_14 = pivot_link_14.recip();
         let safe_link_14 = S::select_le(
             -pivot_link_14,
-            lit(-0.001953125) * correction_0_part_4,
+            lit(-0.0009765625) * correction_0_part_6,
             lit(0.0),
             safe_link_2,
         );
@@ -2181,17 +2151,15 @@ impl ::ukcore::Mechanism for UChain {
         let y_3_minus_y_4 = y_3 - y_4;
         let link_3_with_link_2 = y_2_minus_y_3
             .mul_add(y_3_minus_y_4, x_2_minus_x_3 * x_3_minus_x_4);
-        let correction_0_part_5 = y_3_minus_y_4
-            .mul_add(y_3_minus_y_4, x_3_minus_x_4 * x_3_minus_x_4) * pivot_link_2;
-        let pivot_link_3 = lit(4.0)
-            .neg_mul_add(
-                correction_0_part_5,
-                link_3_with_link_2 * link_3_with_link_2 * pivot_link_1,
-            );
+        let correction_0_part_7 = lit(2.0)
+            * y_3_minus_y_4.mul_add(y_3_minus_y_4, x_3_minus_x_4 * x_3_minus_x_4);
+        let pivot_link_2_correction_0_part_7 = correction_0_part_7 * pivot_link_2;
+        let pivot_link_3 = link_3_with_link_2 * link_3_with_link_2 * pivot_link_1
+            - pivot_link_2_correction_0_part_7;
         let per_pivot_link_3 = pivot_link_3.recip();
         let safe_link_3 = S::select_le(
             pivot_link_3,
-            lit(-0.00390625) * correction_0_part_5,
+            lit(-0.0009765625) * pivot_link_2_correction_0_part_7,
             lit(0.0),
             safe_link_14,
         );
@@ -2199,17 +2167,16 @@ impl ::ukcore::Mechanism for UChain {
         let y_13_minus_y_14 = y_13 - y_14;
         let link_13_with_link_14 = y_13_minus_y_14
             .mul_add(y_14_minus_y_15, x_13_minus_x_14 * x_14_minus_x_15);
-        let correction_0_part_6 = y_13_minus_y_14
-            .mul_add(y_13_minus_y_14, x_13_minus_x_14 * x_13_minus_x_14) * pivot_link_14;
-        let pivot_link_13 = lit(2.0)
-            .neg_mul_add(
-                correction_0_part_6,
-                link_13_with_link_14 * link_13_with_link_14 * pivot_link_15,
-            );
+        let correction_0_part_8 = lit(2.0)
+            * y_13_minus_y_14
+                .mul_add(y_13_minus_y_14, x_13_minus_x_14 * x_13_minus_x_14);
+        let correction_0_part_9 = correction_0_part_8 * pivot_link_14;
+        let pivot_link_13 = link_13_with_link_14 * link_13_with_link_14 * pivot_link_15
+            - correction_0_part_9;
         let per_pivot_link_13 = pivot_link_13.recip();
         let safe_link_13 = S::select_le(
             pivot_link_13,
-            lit(-0.001953125) * correction_0_part_6,
+            lit(-0.0009765625) * correction_0_part_9,
             lit(0.0),
             safe_link_3,
         );
@@ -2217,14 +2184,15 @@ impl ::ukcore::Mechanism for UChain {
         let y_4_minus_y_5 = y_4 - y_5;
         let link_4_with_link_3 = y_3_minus_y_4
             .mul_add(y_4_minus_y_5, x_3_minus_x_4 * x_4_minus_x_5);
-        let correction_0_part_7 = y_4_minus_y_5
-            .mul_add(y_4_minus_y_5, x_4_minus_x_5 * x_4_minus_x_5) * pivot_link_3;
+        let correction_0_part_10 = lit(2.0)
+            * y_4_minus_y_5.mul_add(y_4_minus_y_5, x_4_minus_x_5 * x_4_minus_x_5);
+        let correction_0_part_11 = correction_0_part_10 * pivot_link_3;
         let pivot_link_4 = link_4_with_link_3 * link_4_with_link_3 * pivot_link_2
-            + correction_0_part_7;
+            + correction_0_part_11;
         let per_pivot_link_4 = pivot_link_4.recip();
         let safe_link_4 = S::select_le(
-            lit(2.0) * pivot_link_4,
-            lit(0.001953125) * correction_0_part_7,
+            pivot_link_4,
+            lit(0.0009765625) * correction_0_part_11,
             lit(0.0),
             safe_link_13,
         );
@@ -2232,17 +2200,16 @@ impl ::ukcore::Mechanism for UChain {
         let y_12_minus_y_13 = y_12 - y_13;
         let link_12_with_link_13 = y_12_minus_y_13
             .mul_add(y_13_minus_y_14, x_12_minus_x_13 * x_13_minus_x_14);
-        let correction_0_part_8 = y_12_minus_y_13
-            .mul_add(y_12_minus_y_13, x_12_minus_x_13 * x_12_minus_x_13) * pivot_link_13;
-        let pivot_link_12 = lit(2.0)
-            .mul_add(
-                correction_0_part_8,
-                link_12_with_link_13 * link_12_with_link_13 * pivot_link_14,
-            );
+        let correction_0_part_12 = lit(2.0)
+            * y_12_minus_y_13
+                .mul_add(y_12_minus_y_13, x_12_minus_x_13 * x_12_minus_x_13);
+        let correction_0_part_13 = correction_0_part_12 * pivot_link_13;
+        let pivot_link_12 = link_12_with_link_13 * link_12_with_link_13 * pivot_link_14
+            + correction_0_part_13;
         let per_pivot_link_12 = pivot_link_12.recip();
         let safe_link_12 = S::select_le(
             pivot_link_12,
-            lit(0.001953125) * correction_0_part_8,
+            lit(0.0009765625) * correction_0_part_13,
             lit(0.0),
             safe_link_4,
         );
@@ -2250,17 +2217,15 @@ impl ::ukcore::Mechanism for UChain {
         let y_5_minus_y_6 = y_5 - y_6;
         let link_5_with_link_4 = y_4_minus_y_5
             .mul_add(y_5_minus_y_6, x_4_minus_x_5 * x_5_minus_x_6);
-        let correction_0_part_9 = y_5_minus_y_6
-            .mul_add(y_5_minus_y_6, x_5_minus_x_6 * x_5_minus_x_6) * pivot_link_4;
-        let pivot_link_5 = lit(4.0)
-            .neg_mul_add(
-                correction_0_part_9,
-                link_5_with_link_4 * link_5_with_link_4 * pivot_link_3,
-            );
+        let correction_0_part_14 = lit(2.0)
+            * y_5_minus_y_6.mul_add(y_5_minus_y_6, x_5_minus_x_6 * x_5_minus_x_6);
+        let correction_0_part_15 = correction_0_part_14 * pivot_link_4;
+        let pivot_link_5 = link_5_with_link_4 * link_5_with_link_4 * pivot_link_3
+            - correction_0_part_15;
         let per_pivot_link_5 = pivot_link_5.recip();
         let safe_link_5 = S::select_le(
             -pivot_link_5,
-            lit(0.00390625) * correction_0_part_9,
+            lit(0.0009765625) * correction_0_part_15,
             lit(0.0),
             safe_link_12,
         );
@@ -2268,17 +2233,16 @@ impl ::ukcore::Mechanism for UChain {
         let y_11_minus_y_12 = y_11 - y_12;
         let link_11_with_link_12 = y_11_minus_y_12
             .mul_add(y_12_minus_y_13, x_11_minus_x_12 * x_12_minus_x_13);
-        let correction_0_part_10 = y_11_minus_y_12
-            .mul_add(y_11_minus_y_12, x_11_minus_x_12 * x_11_minus_x_12) * pivot_link_12;
-        let pivot_link_11 = lit(2.0)
-            .neg_mul_add(
-                correction_0_part_10,
-                link_11_with_link_12 * link_11_with_link_12 * pivot_link_13,
-            );
+        let correction_0_part_16 = lit(2.0)
+            * y_11_minus_y_12
+                .mul_add(y_11_minus_y_12, x_11_minus_x_12 * x_11_minus_x_12);
+        let correction_0_part_17 = correction_0_part_16 * pivot_link_12;
+        let pivot_link_11 = link_11_with_link_12 * link_11_with_link_12 * pivot_link_13
+            - correction_0_part_17;
         let per_pivot_link_11 = pivot_link_11.recip();
         let safe_link_11 = S::select_le(
             -pivot_link_11,
-            lit(0.001953125) * correction_0_part_10,
+            lit(0.0009765625) * correction_0_part_17,
             lit(0.0),
             safe_link_5,
         );
@@ -2286,14 +2250,15 @@ impl ::ukcore::Mechanism for UChain {
         let y_6_minus_y_7 = y_6 - y_7;
         let link_6_with_link_5 = y_5_minus_y_6
             .mul_add(y_6_minus_y_7, x_5_minus_x_6 * x_6_minus_x_7);
-        let correction_0_part_11 = y_6_minus_y_7
-            .mul_add(y_6_minus_y_7, x_6_minus_x_7 * x_6_minus_x_7) * pivot_link_5;
+        let correction_0_part_18 = lit(2.0)
+            * y_6_minus_y_7.mul_add(y_6_minus_y_7, x_6_minus_x_7 * x_6_minus_x_7);
+        let correction_0_part_19 = correction_0_part_18 * pivot_link_5;
         let pivot_link_6 = link_6_with_link_5 * link_6_with_link_5 * pivot_link_4
-            + correction_0_part_11;
+            + correction_0_part_19;
         let per_pivot_link_6 = pivot_link_6.recip();
         let safe_link_6 = S::select_le(
-            lit(-2.0) * pivot_link_6,
-            lit(-0.001953125) * correction_0_part_11,
+            -pivot_link_6,
+            lit(-0.0009765625) * correction_0_part_19,
             lit(0.0),
             safe_link_11,
         );
@@ -2301,17 +2266,16 @@ impl ::ukcore::Mechanism for UChain {
         let y_10_minus_y_11 = y_10 - y_11;
         let link_10_with_link_11 = y_10_minus_y_11
             .mul_add(y_11_minus_y_12, x_10_minus_x_11 * x_11_minus_x_12);
-        let correction_0_part_12 = y_10_minus_y_11
-            .mul_add(y_10_minus_y_11, x_10_minus_x_11 * x_10_minus_x_11) * pivot_link_11;
-        let pivot_link_10 = lit(2.0)
-            .mul_add(
-                correction_0_part_12,
-                link_10_with_link_11 * link_10_with_link_11 * pivot_link_12,
-            );
+        let correction_0_part_20 = lit(2.0)
+            * y_10_minus_y_11
+                .mul_add(y_10_minus_y_11, x_10_minus_x_11 * x_10_minus_x_11);
+        let correction_0_part_21 = correction_0_part_20 * pivot_link_11;
+        let pivot_link_10 = link_10_with_link_11 * link_10_with_link_11 * pivot_link_12
+            + correction_0_part_21;
         let per_pivot_link_10 = pivot_link_10.recip();
         let safe_link_10 = S::select_le(
             -pivot_link_10,
-            lit(-0.001953125) * correction_0_part_12,
+            lit(-0.0009765625) * correction_0_part_21,
             lit(0.0),
             safe_link_6,
         );
@@ -2319,17 +2283,15 @@ impl ::ukcore::Mechanism for UChain {
         let y_7_minus_y_8 = y_7 - y_8;
         let link_7_with_link_6 = y_6_minus_y_7
             .mul_add(y_7_minus_y_8, x_6_minus_x_7 * x_7_minus_x_8);
-        let correction_0_part_13 = y_7_minus_y_8
-            .mul_add(y_7_minus_y_8, x_7_minus_x_8 * x_7_minus_x_8) * pivot_link_6;
-        let pivot_link_7 = lit(4.0)
-            .neg_mul_add(
-                correction_0_part_13,
-                link_7_with_link_6 * link_7_with_link_6 * pivot_link_5,
-            );
+        let correction_0_part_22 = lit(2.0)
+            * y_7_minus_y_8.mul_add(y_7_minus_y_8, x_7_minus_x_8 * x_7_minus_x_8);
+        let correction_0_part_23 = correction_0_part_22 * pivot_link_6;
+        let pivot_link_7 = link_7_with_link_6 * link_7_with_link_6 * pivot_link_5
+            - correction_0_part_23;
         let per_pivot_link_7 = pivot_link_7.recip();
         let safe_link_7 = S::select_le(
             pivot_link_7,
-            lit(-0.00390625) * correction_0_part_13,
+            lit(-0.0009765625) * correction_0_part_23,
             lit(0.0),
             safe_link_10,
         );
@@ -2337,17 +2299,15 @@ impl ::ukcore::Mechanism for UChain {
         let y_9_minus_y_10 = y_9 - y_10;
         let link_9_with_link_10 = y_9_minus_y_10
             .mul_add(y_10_minus_y_11, x_9_minus_x_10 * x_10_minus_x_11);
-        let correction_0_part_14 = y_9_minus_y_10
-            .mul_add(y_9_minus_y_10, x_9_minus_x_10 * x_9_minus_x_10) * pivot_link_10;
-        let pivot_link_9 = lit(2.0)
-            .neg_mul_add(
-                correction_0_part_14,
-                link_9_with_link_10 * link_9_with_link_10 * pivot_link_11,
-            );
+        let correction_0_part_24 = lit(2.0)
+            * y_9_minus_y_10.mul_add(y_9_minus_y_10, x_9_minus_x_10 * x_9_minus_x_10);
+        let correction_0_part_25 = correction_0_part_24 * pivot_link_10;
+        let pivot_link_9 = link_9_with_link_10 * link_9_with_link_10 * pivot_link_11
+            - correction_0_part_25;
         let per_pivot_link_9 = pivot_link_9.recip();
         let safe_link_9 = S::select_le(
             pivot_link_9,
-            lit(-0.001953125) * correction_0_part_14,
+            lit(-0.0009765625) * correction_0_part_25,
             lit(0.0),
             safe_link_7,
         );
@@ -2355,177 +2315,175 @@ impl ::ukcore::Mechanism for UChain {
         let y_8_minus_y_9 = y_8 - y_9;
         let link_8_with_link_9 = y_8_minus_y_9
             .mul_add(y_9_minus_y_10, x_8_minus_x_9 * x_9_minus_x_10);
-        let correction_0_part_15 = y_8_minus_y_9
-            .mul_add(y_8_minus_y_9, x_8_minus_x_9 * x_8_minus_x_9);
+        let correction_0_part_26 = lit(2.0)
+            * y_8_minus_y_9.mul_add(y_8_minus_y_9, x_8_minus_x_9 * x_8_minus_x_9);
         let link_8_with_link_7 = y_7_minus_y_8
             .mul_add(y_8_minus_y_9, x_7_minus_x_8 * x_8_minus_x_9);
-        let pivot_link_8 = (lit(2.0) * pivot_link_9)
+        let pivot_link_8 = pivot_link_9
             .mul_add(
                 (link_8_with_link_7 * link_8_with_link_7 * pivot_link_6)
-                    .mul_add(per_pivot_link_7, correction_0_part_15),
+                    .mul_add(per_pivot_link_7, correction_0_part_26),
                 link_8_with_link_9 * link_8_with_link_9 * pivot_link_10,
             );
         let per_pivot_link_8 = pivot_link_8.recip();
         let safe_link_8 = S::select_le(
             pivot_link_8,
-            lit(0.001953125) * (correction_0_part_15 * pivot_link_9),
+            lit(0.0009765625) * (correction_0_part_26 * pivot_link_9),
             lit(0.0),
             safe_link_9,
         );
-        let safe = safe_link_8;
-        let safe_part = residual_16
-            .mul_add(link_15_with_support, residual_15 * pivot_support);
-        let safe_part_2 = residual_14
-            .neg_mul_add(pivot_link_15, link_14_with_link_15 * safe_part);
-        let safe_part_3 = residual_13
-            .neg_mul_add(pivot_link_14, link_13_with_link_14 * safe_part_2);
-        let safe_part_4 = residual_12
-            .mul_add(pivot_link_13, link_12_with_link_13 * safe_part_3);
-        let safe_part_5 = residual_11
-            .mul_add(pivot_link_12, link_11_with_link_12 * safe_part_4);
-        let safe_part_6 = residual_10
-            .neg_mul_add(pivot_link_11, link_10_with_link_11 * safe_part_5);
-        let safe_part_7 = residual_9
-            .neg_mul_add(pivot_link_10, link_9_with_link_10 * safe_part_6);
-        let safe_part_8 = residual_1
-            .neg_mul_add(pivot_link_0, lit(0.5) * residual_0 * link_1_with_link_0);
-        let safe_part_9 = (lit(0.5) * residual_2)
-            .mul_add(pivot_link_1, link_2_with_link_1 * safe_part_8);
-        let safe_part_10 = residual_3
-            .mul_add(pivot_link_2, link_3_with_link_2 * safe_part_9);
-        let safe_part_11 = (lit(0.5) * residual_4)
-            .neg_mul_add(pivot_link_3, link_4_with_link_3 * safe_part_10);
-        let safe_part_12 = residual_5
-            .neg_mul_add(pivot_link_4, link_5_with_link_4 * safe_part_11);
-        let safe_part_13 = (lit(0.5) * residual_6)
-            .mul_add(pivot_link_5, link_6_with_link_5 * safe_part_12);
-        let safe_part_14 = residual_7
-            .mul_add(pivot_link_6, link_7_with_link_6 * safe_part_13);
-        let safe_part_15 = pivot_link_9
-            .mul_add(
-                (link_8_with_link_7 * safe_part_14)
-                    .neg_mul_add(per_pivot_link_7, lit(0.5) * residual_8),
-                lit(0.5) * link_8_with_link_9 * safe_part_7,
+        let right_link_0 = lit(0.5) * residual_0;
+        let right_support = lit(0.5) * residual_16;
+        let correction_0_part_27 = lit(0.5) * residual_1;
+        let right_link_1 = correction_0_part_27
+            .neg_mul_add(pivot_link_0, right_link_0 * link_1_with_link_0);
+        let correction_0_part_28 = lit(0.5) * residual_15;
+        let right_link_15 = right_support
+            .mul_add(link_15_with_support, correction_0_part_28 * pivot_support);
+        let correction_0_part_29 = lit(0.5) * residual_2;
+        let right_link_2 = correction_0_part_29
+            .mul_add(pivot_link_1, link_2_with_link_1 * right_link_1);
+        let correction_0_part_30 = lit(0.5) * residual_14;
+        let right_link_14 = correction_0_part_30
+            .neg_mul_add(pivot_link_15, link_14_with_link_15 * right_link_15);
+        let correction_0_part_31 = lit(0.5) * residual_3;
+        let right_link_3 = correction_0_part_31
+            .mul_add(pivot_link_2, link_3_with_link_2 * right_link_2);
+        let correction_0_part_32 = lit(0.5) * residual_13;
+        let right_link_13 = correction_0_part_32
+            .neg_mul_add(pivot_link_14, link_13_with_link_14 * right_link_14);
+        let correction_0_part_33 = lit(0.5) * residual_4;
+        let right_link_4 = correction_0_part_33
+            .neg_mul_add(pivot_link_3, link_4_with_link_3 * right_link_3);
+        let correction_0_part_34 = lit(0.5) * residual_12;
+        let right_link_12 = correction_0_part_34
+            .mul_add(pivot_link_13, link_12_with_link_13 * right_link_13);
+        let correction_0_part_35 = lit(0.5) * residual_5;
+        let right_link_5 = correction_0_part_35
+            .neg_mul_add(pivot_link_4, link_5_with_link_4 * right_link_4);
+        let correction_0_part_36 = lit(0.5) * residual_11;
+        let right_link_11 = correction_0_part_36
+            .mul_add(pivot_link_12, link_11_with_link_12 * right_link_12);
+        let correction_0_part_37 = lit(0.5) * residual_6;
+        let right_link_6 = correction_0_part_37
+            .mul_add(pivot_link_5, link_6_with_link_5 * right_link_5);
+        let correction_0_part_38 = lit(0.5) * residual_10;
+        let right_link_10 = correction_0_part_38
+            .neg_mul_add(pivot_link_11, link_10_with_link_11 * right_link_11);
+        let correction_0_part_39 = lit(0.5) * residual_7;
+        let right_link_7 = correction_0_part_39
+            .mul_add(pivot_link_6, link_7_with_link_6 * right_link_6);
+        let correction_0_part_40 = lit(0.5) * residual_9;
+        let right_link_9 = correction_0_part_40
+            .neg_mul_add(pivot_link_10, link_9_with_link_10 * right_link_10);
+        let correction_0_part_41 = lit(0.5) * residual_8;
+        let right_link_8 = pivot_link_9
+            .neg_mul_add(
+                (link_8_with_link_7 * right_link_7 * per_pivot_link_7
+                    - correction_0_part_41),
+                link_8_with_link_9 * right_link_9,
             );
-        let safe_part_16 = x_8_minus_x_9 * safe_part_15 * per_pivot_link_8;
+        let safe = safe_link_8;
+        let safe_part = x_8_minus_x_9 * right_link_8 * per_pivot_link_8;
         let link_8_by_link_7 = link_8_with_link_7 * pivot_link_6 * per_pivot_link_7;
-        let lambda_link_7 = (lit(2.0) * link_8_by_link_7 * safe_part_15)
-            .mul_add(per_pivot_link_8, safe_part_14 * per_pivot_link_7);
+        let lambda_link_7 = (link_8_by_link_7 * right_link_8)
+            .mul_add(per_pivot_link_8, right_link_7 * per_pivot_link_7);
         let x_7_minus_x_8_lambda_link_7 = x_7_minus_x_8 * lambda_link_7;
-        out[8] = -safe_part_16 - x_7_minus_x_8_lambda_link_7;
-        let correction_9_part = y_8_minus_y_9 * safe_part_15 * per_pivot_link_8;
+        out[8] = -safe_part - x_7_minus_x_8_lambda_link_7;
+        let lambda_link_9 = (link_8_with_link_9 * pivot_link_10 * per_pivot_link_9
+            * right_link_8)
+            .neg_mul_add(per_pivot_link_8, right_link_9 * per_pivot_link_9);
+        let x_9_minus_x_10_lambda_link_9 = x_9_minus_x_10 * lambda_link_9;
+        out[9] = safe_part - x_9_minus_x_10_lambda_link_9;
+        let correction_10_part = y_8_minus_y_9 * right_link_8 * per_pivot_link_8;
         let y_7_minus_y_8_lambda_link_7 = y_7_minus_y_8 * lambda_link_7;
-        out[25] = -correction_9_part - y_7_minus_y_8_lambda_link_7;
-        let correction_26_part = (link_8_with_link_9 * pivot_link_10 * safe_part_15)
-            .neg_mul_add(per_pivot_link_8, lit(0.5) * safe_part_7);
-        let correction_26_part_2 = x_9_minus_x_10 * per_pivot_link_9
-            * correction_26_part;
-        out[9] = safe_part_16 - correction_26_part_2;
-        let correction_10_part = y_9_minus_y_10 * per_pivot_link_9 * correction_26_part;
-        out[26] = correction_9_part - correction_10_part;
-        let correction_27_part = (link_7_with_link_6 * pivot_link_5)
-            .neg_mul_add(lambda_link_7, safe_part_13);
-        let correction_27_part_2 = x_6_minus_x_7 * per_pivot_link_6 * correction_27_part;
-        out[7] = lit(0.5).mul_add(correction_27_part_2, x_7_minus_x_8_lambda_link_7);
-        let correction_8_part = y_6_minus_y_7 * per_pivot_link_6 * correction_27_part;
-        out[24] = lit(0.5).mul_add(correction_8_part, y_7_minus_y_8_lambda_link_7);
-        let correction_25_part = (link_9_with_link_10 * pivot_link_11 * per_pivot_link_9)
-            .neg_mul_add(correction_26_part, lit(0.5) * safe_part_6);
-        let correction_25_part_2 = x_10_minus_x_11 * per_pivot_link_10
-            * correction_25_part;
-        out[10] = correction_26_part_2 + correction_25_part_2;
-        let correction_11_part = y_10_minus_y_11 * per_pivot_link_10
-            * correction_25_part;
-        out[27] = correction_10_part + correction_11_part;
-        let correction_28_part = (link_6_with_link_5 * pivot_link_4 * per_pivot_link_6)
-            .neg_mul_add(correction_27_part, safe_part_12);
-        let correction_28_part_2 = x_5_minus_x_6 * per_pivot_link_5 * correction_28_part;
-        out[6] = lit(0.5).neg_mul_add(correction_27_part_2, correction_28_part_2);
-        let correction_7_part = y_5_minus_y_6 * per_pivot_link_5 * correction_28_part;
-        out[23] = lit(0.5).neg_mul_add(correction_8_part, correction_7_part);
-        let correction_24_part = (link_10_with_link_11 * pivot_link_12
-            * per_pivot_link_10)
-            .neg_mul_add(correction_25_part, lit(0.5) * safe_part_5);
-        let correction_24_part_2 = x_11_minus_x_12 * per_pivot_link_11
-            * correction_24_part;
-        out[11] = correction_24_part_2 - correction_25_part_2;
-        let correction_12_part = y_11_minus_y_12 * per_pivot_link_11
-            * correction_24_part;
-        out[28] = correction_12_part - correction_11_part;
-        let correction_29_part = (link_5_with_link_4 * pivot_link_3 * per_pivot_link_5)
-            .neg_mul_add(correction_28_part, safe_part_11);
-        let correction_29_part_2 = x_4_minus_x_5 * per_pivot_link_4 * correction_29_part;
-        out[5] = lit(0.5).neg_mul_add(correction_29_part_2, -correction_28_part_2);
-        let correction_6_part = y_4_minus_y_5 * per_pivot_link_4 * correction_29_part;
-        out[22] = lit(0.5).neg_mul_add(correction_6_part, -correction_7_part);
-        let correction_23_part = (link_11_with_link_12 * pivot_link_13
-            * per_pivot_link_11)
-            .neg_mul_add(correction_24_part, lit(0.5) * safe_part_4);
-        let correction_23_part_2 = x_12_minus_x_13 * per_pivot_link_12
-            * correction_23_part;
-        out[12] = -correction_24_part_2 - correction_23_part_2;
-        let correction_13_part = y_12_minus_y_13 * per_pivot_link_12
-            * correction_23_part;
-        out[29] = -correction_12_part - correction_13_part;
-        let correction_30_part = (link_4_with_link_3 * pivot_link_2 * per_pivot_link_4)
-            .neg_mul_add(correction_29_part, safe_part_10);
-        let correction_30_part_2 = x_3_minus_x_4 * per_pivot_link_3 * correction_30_part;
-        out[4] = lit(0.5) * correction_29_part_2 - correction_30_part_2;
-        let correction_5_part = y_3_minus_y_4 * per_pivot_link_3 * correction_30_part;
-        out[21] = lit(0.5) * correction_6_part - correction_5_part;
-        let correction_22_part = (link_12_with_link_13 * pivot_link_14
-            * per_pivot_link_12)
-            .neg_mul_add(correction_23_part, lit(0.5) * safe_part_3);
-        let correction_22_part_2 = x_13_minus_x_14 * per_pivot_link_13
-            * correction_22_part;
-        out[13] = correction_23_part_2 - correction_22_part_2;
-        let correction_14_part = y_13_minus_y_14 * per_pivot_link_13
-            * correction_22_part;
-        out[30] = correction_13_part - correction_14_part;
-        let correction_31_part = (link_3_with_link_2 * pivot_link_1 * per_pivot_link_3)
-            .neg_mul_add(correction_30_part, safe_part_9);
-        let correction_31_part_2 = x_2_minus_x_3 * per_pivot_link_2 * correction_31_part;
-        out[3] = lit(0.5).mul_add(correction_31_part_2, correction_30_part_2);
-        let correction_4_part = y_2_minus_y_3 * per_pivot_link_2 * correction_31_part;
-        out[20] = lit(0.5).mul_add(correction_4_part, correction_5_part);
-        let correction_21_part = (link_13_with_link_14 * pivot_link_15
-            * per_pivot_link_13)
-            .neg_mul_add(correction_22_part, lit(0.5) * safe_part_2);
-        let correction_21_part_2 = x_14_minus_x_15 * per_pivot_link_14
-            * correction_21_part;
-        out[14] = correction_22_part_2 + correction_21_part_2;
-        let correction_15_part = y_14_minus_y_15 * per_pivot_link_14
-            * correction_21_part;
-        out[31] = correction_14_part + correction_15_part;
-        let correction_32_part = (pivot_link_0 * link_2_with_link_1 * per_pivot_link_2)
-            .neg_mul_add(correction_31_part, safe_part_8);
-        let correction_32_part_2 = x_1_minus_x_2 * per_pivot_link_1 * correction_32_part;
-        out[2] = lit(0.5).neg_mul_add(correction_31_part_2, correction_32_part_2);
-        let correction_3_part = y_1_minus_y_2 * per_pivot_link_1 * correction_32_part;
-        out[19] = lit(0.5).neg_mul_add(correction_4_part, correction_3_part);
-        let correction_20_part = (pivot_support * link_14_with_link_15
-            * per_pivot_link_14)
-            .neg_mul_add(correction_21_part, lit(0.5) * safe_part);
-        let correction_20_part_2 = x_15_minus_x_16 * per_pivot_link_15
-            * correction_20_part;
-        out[15] = correction_20_part_2 - correction_21_part_2;
-        let correction_16_part = y_15_minus_y_16 * per_pivot_link_15
-            * correction_20_part;
-        out[32] = correction_16_part - correction_15_part;
-        let correction_33_part = (lit(0.5) * link_1_with_link_0 * per_pivot_link_1)
-            .neg_mul_add(correction_32_part, lit(0.25) * residual_0);
-        let correction_33_part_2 = x_1_minus_x_0 * per_pivot_link_0 * correction_33_part;
-        out[0] = correction_33_part_2;
-        let correction_1_part = y_0_minus_y_1 * per_pivot_link_0 * correction_33_part;
-        out[17] = -correction_1_part;
-        out[1] = -correction_32_part_2 - correction_33_part_2;
-        out[18] = correction_1_part - correction_3_part;
-        let correction_19_part = (link_15_with_support * per_pivot_link_15)
-            .neg_mul_add(correction_20_part, lit(0.5) * residual_16);
-        out[16] = (x_16 * per_pivot_support)
-            .neg_mul_add(correction_19_part, -correction_20_part_2);
-        out[33] = (y_16 * per_pivot_support)
-            .neg_mul_add(correction_19_part, -correction_16_part);
+        out[25] = -correction_10_part - y_7_minus_y_8_lambda_link_7;
+        let y_9_minus_y_10_lambda_link_9 = y_9_minus_y_10 * lambda_link_9;
+        out[26] = correction_10_part - y_9_minus_y_10_lambda_link_9;
+        let lambda_link_6 = (link_7_with_link_6 * pivot_link_5 * per_pivot_link_6)
+            .neg_mul_add(lambda_link_7, right_link_6 * per_pivot_link_6);
+        let x_6_minus_x_7_lambda_link_6 = x_6_minus_x_7 * lambda_link_6;
+        out[7] = x_7_minus_x_8_lambda_link_7 + x_6_minus_x_7_lambda_link_6;
+        let lambda_link_10 = (link_9_with_link_10 * pivot_link_11 * per_pivot_link_10)
+            .neg_mul_add(lambda_link_9, right_link_10 * per_pivot_link_10);
+        let x_10_minus_x_11_lambda_link_10 = x_10_minus_x_11 * lambda_link_10;
+        out[10] = x_9_minus_x_10_lambda_link_9 + x_10_minus_x_11_lambda_link_10;
+        let y_6_minus_y_7_lambda_link_6 = y_6_minus_y_7 * lambda_link_6;
+        out[24] = y_7_minus_y_8_lambda_link_7 + y_6_minus_y_7_lambda_link_6;
+        let y_10_minus_y_11_lambda_link_10 = y_10_minus_y_11 * lambda_link_10;
+        out[27] = y_9_minus_y_10_lambda_link_9 + y_10_minus_y_11_lambda_link_10;
+        let lambda_link_11 = (link_10_with_link_11 * pivot_link_12 * per_pivot_link_11)
+            .neg_mul_add(lambda_link_10, right_link_11 * per_pivot_link_11);
+        let x_11_minus_x_12_lambda_link_11 = x_11_minus_x_12 * lambda_link_11;
+        out[11] = x_11_minus_x_12_lambda_link_11 - x_10_minus_x_11_lambda_link_10;
+        let y_11_minus_y_12_lambda_link_11 = y_11_minus_y_12 * lambda_link_11;
+        out[28] = y_11_minus_y_12_lambda_link_11 - y_10_minus_y_11_lambda_link_10;
+        let lambda_link_5 = (link_6_with_link_5 * pivot_link_4 * per_pivot_link_5)
+            .neg_mul_add(lambda_link_6, right_link_5 * per_pivot_link_5);
+        let x_5_minus_x_6_lambda_link_5 = x_5_minus_x_6 * lambda_link_5;
+        out[6] = x_5_minus_x_6_lambda_link_5 - x_6_minus_x_7_lambda_link_6;
+        let y_5_minus_y_6_lambda_link_5 = y_5_minus_y_6 * lambda_link_5;
+        out[23] = y_5_minus_y_6_lambda_link_5 - y_6_minus_y_7_lambda_link_6;
+        let lambda_link_4 = (link_5_with_link_4 * pivot_link_3 * per_pivot_link_4)
+            .neg_mul_add(lambda_link_5, right_link_4 * per_pivot_link_4);
+        let x_4_minus_x_5_lambda_link_4 = x_4_minus_x_5 * lambda_link_4;
+        out[5] = -x_5_minus_x_6_lambda_link_5 - x_4_minus_x_5_lambda_link_4;
+        let lambda_link_12 = (link_11_with_link_12 * pivot_link_13 * per_pivot_link_12)
+            .neg_mul_add(lambda_link_11, right_link_12 * per_pivot_link_12);
+        let x_12_minus_x_13_lambda_link_12 = x_12_minus_x_13 * lambda_link_12;
+        out[12] = -x_11_minus_x_12_lambda_link_11 - x_12_minus_x_13_lambda_link_12;
+        let y_4_minus_y_5_lambda_link_4 = y_4_minus_y_5 * lambda_link_4;
+        out[22] = -y_5_minus_y_6_lambda_link_5 - y_4_minus_y_5_lambda_link_4;
+        let y_12_minus_y_13_lambda_link_12 = y_12_minus_y_13 * lambda_link_12;
+        out[29] = -y_11_minus_y_12_lambda_link_11 - y_12_minus_y_13_lambda_link_12;
+        let lambda_link_3 = (link_4_with_link_3 * pivot_link_2 * per_pivot_link_3)
+            .neg_mul_add(lambda_link_4, right_link_3 * per_pivot_link_3);
+        let x_3_minus_x_4_lambda_link_3 = x_3_minus_x_4 * lambda_link_3;
+        out[4] = x_4_minus_x_5_lambda_link_4 - x_3_minus_x_4_lambda_link_3;
+        let y_3_minus_y_4_lambda_link_3 = y_3_minus_y_4 * lambda_link_3;
+        out[21] = y_4_minus_y_5_lambda_link_4 - y_3_minus_y_4_lambda_link_3;
+        let lambda_link_13 = (link_12_with_link_13 * pivot_link_14 * per_pivot_link_13)
+            .neg_mul_add(lambda_link_12, right_link_13 * per_pivot_link_13);
+        let x_13_minus_x_14_lambda_link_13 = x_13_minus_x_14 * lambda_link_13;
+        out[13] = x_12_minus_x_13_lambda_link_12 - x_13_minus_x_14_lambda_link_13;
+        let y_13_minus_y_14_lambda_link_13 = y_13_minus_y_14 * lambda_link_13;
+        out[30] = y_12_minus_y_13_lambda_link_12 - y_13_minus_y_14_lambda_link_13;
+        let lambda_link_2 = (link_3_with_link_2 * pivot_link_1 * per_pivot_link_2)
+            .neg_mul_add(lambda_link_3, right_link_2 * per_pivot_link_2);
+        let x_2_minus_x_3_lambda_link_2 = x_2_minus_x_3 * lambda_link_2;
+        out[3] = x_3_minus_x_4_lambda_link_3 + x_2_minus_x_3_lambda_link_2;
+        let lambda_link_14 = (link_13_with_link_14 * pivot_link_15 * per_pivot_link_14)
+            .neg_mul_add(lambda_link_13, right_link_14 * per_pivot_link_14);
+        let x_14_minus_x_15_lambda_link_14 = x_14_minus_x_15 * lambda_link_14;
+        out[14] = x_13_minus_x_14_lambda_link_13 + x_14_minus_x_15_lambda_link_14;
+        let y_2_minus_y_3_lambda_link_2 = y_2_minus_y_3 * lambda_link_2;
+        out[20] = y_3_minus_y_4_lambda_link_3 + y_2_minus_y_3_lambda_link_2;
+        let y_14_minus_y_15_lambda_link_14 = y_14_minus_y_15 * lambda_link_14;
+        out[31] = y_13_minus_y_14_lambda_link_13 + y_14_minus_y_15_lambda_link_14;
+        let lambda_link_15 = (pivot_support * link_14_with_link_15 * per_pivot_link_15)
+            .neg_mul_add(lambda_link_14, right_link_15 * per_pivot_link_15);
+        let x_15_minus_x_16_lambda_link_15 = x_15_minus_x_16 * lambda_link_15;
+        out[15] = x_15_minus_x_16_lambda_link_15 - x_14_minus_x_15_lambda_link_14;
+        let y_15_minus_y_16_lambda_link_15 = y_15_minus_y_16 * lambda_link_15;
+        out[32] = y_15_minus_y_16_lambda_link_15 - y_14_minus_y_15_lambda_link_14;
+        let lambda_link_1 = (link_2_with_link_1 * pivot_link_0 * per_pivot_link_1)
+            .neg_mul_add(lambda_link_2, right_link_1 * per_pivot_link_1);
+        let x_1_minus_x_2_lambda_link_1 = x_1_minus_x_2 * lambda_link_1;
+        out[2] = x_1_minus_x_2_lambda_link_1 - x_2_minus_x_3_lambda_link_2;
+        let y_1_minus_y_2_lambda_link_1 = y_1_minus_y_2 * lambda_link_1;
+        out[19] = y_1_minus_y_2_lambda_link_1 - y_2_minus_y_3_lambda_link_2;
+        let lambda_link_0 = (link_1_with_link_0 * per_pivot_link_0)
+            .neg_mul_add(lambda_link_1, right_link_0 * per_pivot_link_0);
+        let x_1_minus_x_0_lambda_link_0 = x_1_minus_x_0 * lambda_link_0;
+        out[0] = x_1_minus_x_0_lambda_link_0;
+        let y_0_minus_y_1_lambda_link_0 = y_0_minus_y_1 * lambda_link_0;
+        out[17] = -y_0_minus_y_1_lambda_link_0;
+        out[1] = -x_1_minus_x_2_lambda_link_1 - x_1_minus_x_0_lambda_link_0;
+        let lambda_support = (link_15_with_support * per_pivot_support)
+            .neg_mul_add(lambda_link_15, right_support * per_pivot_support);
+        out[16] = x_16.neg_mul_add(lambda_support, -x_15_minus_x_16_lambda_link_15);
+        out[18] = y_0_minus_y_1_lambda_link_0 - y_1_minus_y_2_lambda_link_1;
+        out[33] = y_16.neg_mul_add(lambda_support, -y_15_minus_y_16_lambda_link_15);
         safe
     }
 }

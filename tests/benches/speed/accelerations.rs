@@ -72,16 +72,16 @@ impl<'a> Accelerations<'a> {
     }
 
     /// What every mechanism has: ours, with and without the solver, its terms alone, and dense elimination.
-    fn add_ours<M: Mechanism>(&mut self, mechanism: M) {
-        let mech = mechanism.clone();
+    fn add_ours<M: Mechanism>(&mut self, mechanism: &M) {
+        let mech = mechanism.prepared();
         if M::SPEC.structure.straight_line {
-            self.add("Mechanism::acceleration", false, move |s, out| {
+            self.add("Prepared::acceleration", false, move |s, out| {
                 let safe = mech.acceleration(s.t, &s.q, &s.v, out);
                 assert!(safe > 0.5, "the certificate holds");
             });
         }
         let (mech, mut solver) = (
-            mechanism.clone(),
+            mechanism.prepared(),
             Solver::new::<M>(SolverOptions::default()),
         );
         self.add("Solver::acceleration", false, move |s, out| {
@@ -89,12 +89,12 @@ impl<'a> Accelerations<'a> {
                 .acceleration(&mech, s.t, &s.q, &s.v, out)
                 .expect("the constraints are independent");
         });
-        let (mech, mut dense) = (mechanism.clone(), Dense::new::<M>());
-        self.measure("Mechanism::dynamics: M, Q, A, b alone", false, move |s| {
+        let (mech, mut dense) = (mechanism.prepared(), Dense::new::<M>());
+        self.measure("Prepared::dynamics: M, Q, A, b alone", false, move |s| {
             dense.evaluate(&mech, s);
             black_box(&mut dense);
         });
-        let (mech, mut dense) = (mechanism, Dense::new::<M>());
+        let (mech, mut dense) = (mechanism.prepared(), Dense::new::<M>());
         self.add("dense LU of [M Aᵀ; A 0]", false, move |s, out| {
             dense.saddle(&mech, s, out);
         });
@@ -156,10 +156,10 @@ pub(crate) fn uchain17() -> serde_json::Value {
     for (name, f) in by_hand::<17>() {
         all.add(name, true, move |s, out| f(&chain, &s.q, &s.v, out));
     }
-    all.add_ours(mech.clone());
+    all.add_ours(&mech.clone());
     let mut dense = Dense::new::<UChain>();
     all.add("eq. 13 as printed", false, move |s, out| {
-        dense.printed(&mech, s, out);
+        dense.printed(&mech.prepared(), s, out);
     });
     all.group("acceleration/uchain17", &[ELSEWHERE]).run()
 }
@@ -176,7 +176,7 @@ pub(crate) fn uchain65() -> serde_json::Value {
     for (name, f) in by_hand::<65>() {
         all.add(name, true, move |s, out| f(&chain, &s.q, &s.v, out));
     }
-    all.add_ours(mech);
+    all.add_ours(&mech);
     all.group("acceleration/uchain65", &[]).run()
 }
 
@@ -190,7 +190,7 @@ pub(crate) fn fish() -> serde_json::Value {
         let all = |values: &[f64]| -> [f64; 9] { values.try_into().expect("nine coordinates") };
         by_hand.acceleration(s.t, &all(&s.q), &all(&s.v), out);
     });
-    all.add_ours(mech);
+    all.add_ours(&mech);
     all.group("acceleration/fish", &[]).run()
 }
 
@@ -207,6 +207,6 @@ pub(crate) fn fourbars40() -> serde_json::Value {
     all.add("by hand, in the null space", true, move |s, out| {
         by_hand.acceleration(&s.q, &s.v, out);
     });
-    all.add_ours(mech);
+    all.add_ours(&mech);
     all.group("acceleration/fourbars40", &[]).run()
 }

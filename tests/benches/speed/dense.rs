@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 use ukcore::equations::uk;
-use ukcore::{Mechanism, State, Terms};
+use ukcore::{Mechanism, Prepared, State, Terms};
 
 /// Relative rank tolerance of the pseudo-inverses.
 const RANK: f64 = 1e-12;
@@ -34,7 +34,7 @@ impl Dense {
     }
 
     /// M, Q, A and b alone.
-    pub(crate) fn evaluate<M: Mechanism>(&mut self, mechanism: &M, state: &State) {
+    pub(crate) fn evaluate<M: Mechanism>(&mut self, mechanism: &Prepared<M>, state: &State) {
         let mut terms = Terms {
             mass: self.mass.as_mut_slice(),
             force: self.force.as_mut_slice(),
@@ -46,7 +46,12 @@ impl Dense {
     }
 
     /// q̈ by LU decomposition of [M Aᵀ; A 0] with partial pivoting.
-    pub(crate) fn saddle<M: Mechanism>(&mut self, mechanism: &M, state: &State, out: &mut [f64]) {
+    pub(crate) fn saddle<M: Mechanism>(
+        &mut self,
+        mechanism: &Prepared<M>,
+        state: &State,
+        out: &mut [f64],
+    ) {
         self.evaluate(mechanism, state);
         let (m, n) = self.jacobian.shape();
         let mut system = std::mem::replace(&mut self.system, DMatrix::zeros(0, 0));
@@ -64,7 +69,12 @@ impl Dense {
     }
 
     /// q̈ by eq. 13 as printed, with its pseudo-inverse and square roots.
-    pub(crate) fn printed<M: Mechanism>(&mut self, mechanism: &M, state: &State, out: &mut [f64]) {
+    pub(crate) fn printed<M: Mechanism>(
+        &mut self,
+        mechanism: &Prepared<M>,
+        state: &State,
+        out: &mut [f64],
+    ) {
         self.evaluate(mechanism, state);
         let acceleration = uk::acceleration_nonideal(
             &self.mass,

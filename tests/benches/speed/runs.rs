@@ -175,7 +175,8 @@ pub(crate) fn lanes() -> Value {
         chain::lanes::<N>(&chain, q, v, &mut out);
         for (lane, state) in states.iter().enumerate() {
             let mut expected = vec![0.0; 2 * N];
-            mech.acceleration(state.t, &state.q, &state.v, &mut expected);
+            mech.prepared()
+                .acceleration(state.t, &state.q, &state.v, &mut expected);
             let found: Vec<f64> = out.iter().map(|x| x.to_array()[lane]).collect();
             let scale = tests::largest(&expected).max(1.0);
             tests::assert_all_close("lanes", &found, &expected, 1e-9 * scale);

@@ -3,8 +3,8 @@
 //! Pivots, in this order of preference:
 //! 1. A massless coordinate, or one that a constraint prescribes alone, together with a constraint in which its coefficient is a
 //!    number: the 2 × 2 pivot [μ a; a 0] with a ≠ 0 is safe whatever the state.
-//! 2. Coordinates with inertia, and constraints all of whose coordinates are eliminated: definite 1 × 1 pivots. Coordinates that share
-//!    no inertia with others come first; then what has the fewest neighbours (least fill); among equals what waits for the
+//! 2. Coordinates with inertia, and constraints all of whose coordinates are eliminated: 1 × 1 pivots that are definite where A has full
+//!    rank, since what is eliminated is then a saddle-point matrix of its own. Coordinates that share no inertia with others come first; then what has the fewest neighbours (least fill); among equals what waits for the
 //!    shortest chain of divisions, so that a chain of links is taken from both ends at once.
 //!
 //! Every 1 × 1 pivot is compared at run time with the diagonal it started from: see `Mechanism::acceleration`.
@@ -299,6 +299,11 @@ fn adjacency(d: &Dynamics) -> Vec<BTreeSet<usize>> {
 fn order(d: &Dynamics, g: &Graph) -> Result<Vec<Pivoting>, String> {
     let n = d.force.len();
     let mut near = adjacency(d);
+    // The coordinates in each constraint.
+    let mut contained: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); near.len()];
+    for (row, column) in d.jacobian.keys() {
+        contained[n + row].insert(*column);
+    }
     let mut inertia: Vec<bool> = (0..n).map(|i| d.mass.contains_key(&(i, i))).collect();
     let mut alive: BTreeSet<usize> = (0..near.len()).collect();
     let mut depth = vec![0_usize; near.len()];
@@ -347,6 +352,11 @@ fn order(d: &Dynamics, g: &Graph) -> Result<Vec<Pivoting>, String> {
             } else {
                 near[a].insert(b);
                 near[b].insert(a);
+                for (c, q) in [(a, b), (b, a)] {
+                    if c >= n && q < n {
+                        contained[c].insert(q);
+                    }
+                }
             }
             touched.insert(a);
             touched.insert(b);
@@ -373,7 +383,8 @@ fn order(d: &Dynamics, g: &Graph) -> Result<Vec<Pivoting>, String> {
     // Definite pivots.
     let mut entries = 0;
     while !alive.is_empty() {
-        let ready = |k: &usize| *k < n || near[*k].iter().all(|r| *r >= n);
+        // With all its coordinates gone, what is left of a constraint is definite, though it may be coupled to others that share inertia.
+        let ready = |k: &usize| *k < n || contained[*k].iter().all(|q| !alive.contains(q));
         // A coordinate that shares no inertia comes first: the constraints on it must wait for it in any case.
         let single = |k: usize| k < n && near[k].iter().all(|r| *r >= n);
         let candidates = alive.iter().copied().filter(ready);
@@ -456,6 +467,7 @@ impl Entry {
     /// The value before and after the terms of constraints.
     fn values(&self, g: &mut Graph) -> (Id, Id) {
         let gram = g.factored_sum(&self.gram);
+        let gram = g.hold_coefficient(gram);
         if self.schur.is_empty() {
             return (gram, gram);
         }
@@ -618,6 +630,7 @@ impl Matrix {
                     }
                     stages.push([pivot.numerator, pivot.right]);
                     hints.push((pivot.numerator, format!("pivot_{}", names[k])));
+                    hints.push((pivot.right, format!("right_{}", names[k])));
                     let scaled = g.mul(reference, pivot.denominator);
                     hints.push((scaled, format!("diagonal_{}", names[k])));
                     // x_k = right / value
@@ -635,6 +648,7 @@ impl Matrix {
                     }
                     if let [(a, off)] = row[..]
                         && constraint
+                        && a >= self.n
                         && self.defers(k, a, &position)
                     {
                         self.depth[a] = self.depth[k] + 1;
@@ -740,7 +754,8 @@ impl Matrix {
                 };
                 terms.push((-1.0, g.mul(*factor, x)));
             }
-            let x = g.factored_sum(&terms);
+            // Varying factors in front would have to be multiplied by each other.
+            let x = g.factored_sum_of(&terms, |g, id| g.uses(id).constant());
             if unknown >= self.n {
                 hints.push((x, format!("lambda_{}", names[unknown])));
             }

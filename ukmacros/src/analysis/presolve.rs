@@ -39,10 +39,17 @@ pub(crate) fn hoist(
     }
     let (known, values) = (pass.known, pass.values);
     if let Ok(straight) = &mut straight {
-        let stages = straight.stages.iter().filter_map(|id| known.get(id));
-        straight.stages = stages.copied().collect();
+        let g = &system.graph;
+        let reached = |id: Id| known.contains_key(&id);
+        let stages = straight
+            .stages
+            .iter()
+            .flat_map(|id| g.open_products(*id, reached));
+        straight.stages = stages.filter_map(|id| known.get(&id)).copied().collect();
     }
     // Names go with the values.
+    let mut known: Vec<(Id, Id)> = known.into_iter().collect();
+    known.sort_unstable();
     for (old, new) in known {
         let (_, inner) = system.graph.unscaled(new);
         if let Some(name) = system.hints.get(&old).cloned()
@@ -162,7 +169,7 @@ impl<'g> Pass<'g> {
             },
             Node::Held(inner) => {
                 let inner = self.value(inner);
-                self.g.hold(inner)
+                self.g.hold_again(inner)
             }
             Node::Select {
                 a,

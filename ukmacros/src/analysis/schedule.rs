@@ -82,15 +82,10 @@ pub(crate) fn schedule(
     let mut goals: Vec<(Id, Option<usize>)> = Vec::new();
     let mut stores: Vec<usize> = (0..roots.len()).collect();
     if let Sequence::Stages(stages) = sequence {
-        // A product may have been taken apart: then its factors are the goals.
-        let mut stack: Vec<Id> = stages.iter().rev().copied().collect();
-        while let Some(id) = stack.pop() {
-            match g.node(id) {
-                _ if needed.contains(&id) => goals.push((id, None)),
-                Node::Scale(..) | Node::Product(_) | Node::Held(_) => stack.extend(g.operands(id)),
-                _ => {}
-            }
-        }
+        let stages = stages
+            .iter()
+            .flat_map(|id| g.open_products(*id, |id| needed.contains(&id)));
+        goals.extend(stages.map(|id| (id, None)));
         stores.sort_by_key(|k| g.latency(roots[*k]));
     }
     goals.extend(stores.into_iter().map(|k| (roots[k], Some(k))));

@@ -88,6 +88,15 @@ impl Graph {
 
     /// Σ coefficient · term with the factors that all terms share in front: f·a + f·b is f·(a + b).
     pub(crate) fn factored_sum(&mut self, terms: &[(f64, Id)]) -> Id {
+        self.factored_sum_of(terms, |_, _| true)
+    }
+
+    /// As [`Graph::factored_sum`], with those factors alone in front that are `wanted`.
+    pub(crate) fn factored_sum_of(
+        &mut self,
+        terms: &[(f64, Id)],
+        wanted: fn(&Graph, Id) -> bool,
+    ) -> Id {
         let whole = self.sum(terms);
         let (c, inner) = self.unscaled(whole);
         let Node::Sum(constant, parts) = self.node(inner).clone() else {
@@ -117,6 +126,7 @@ impl Graph {
                 alike
             });
         }
+        common.retain(|(base, _)| wanted(self, *base));
         if common.is_empty() {
             return whole;
         }
@@ -298,6 +308,37 @@ impl Graph {
         }
         let held = self.intern(Node::Held(inner));
         self.scale(c, held)
+    }
+
+    /// `id`, which was held, in another form: held as it is, with its coefficient.
+    pub(crate) fn hold_again(&mut self, id: Id) -> Id {
+        match self.node(id) {
+            Node::Product(_) | Node::Scale(..) => self.intern(Node::Held(id)),
+            _ => id,
+        }
+    }
+
+    /// `id` with its coefficient as one value: the coefficient is not carried on into what is computed from it. Factors of parameters
+    /// stay outside, where they may cancel.
+    pub(crate) fn hold_coefficient(&mut self, id: Id) -> Id {
+        let (c, inner) = self.unscaled(id);
+        if c.abs() == 1.0 {
+            return id;
+        }
+        let factors = match self.node(inner) {
+            Node::Product(factors) => factors.clone(),
+            _ => vec![(inner, 1)],
+        };
+        let fixed = |(base, _): &(Id, i32)| self.uses(*base).constant();
+        let (mut outside, inside): (Vec<_>, Vec<_>) = factors.into_iter().partition(fixed);
+        if inside.is_empty() {
+            return id;
+        }
+        let inside = self.product(&inside);
+        let scaled = self.scale(c.abs(), inside);
+        outside.push((self.intern(Node::Held(scaled)), 1));
+        let product = self.product(&outside);
+        self.scale(c.signum(), product)
     }
 
     /// `then` where a ≤ b, else `otherwise`.

@@ -285,6 +285,21 @@ impl Graph {
         self.known.get(&Node::Call(func, vec![arg])).copied()
     }
 
+    /// `id` if it is `known`, else its known factors: a product of it with others has been taken apart.
+    pub(crate) fn open_products(&self, id: Id, known: impl Fn(Id) -> bool) -> Vec<Id> {
+        let (mut found, mut stack) = (Vec::new(), vec![id]);
+        while let Some(id) = stack.pop() {
+            match self.node(id) {
+                _ if known(id) => found.push(id),
+                Node::Scale(..) | Node::Product(_) | Node::Held(_) => {
+                    stack.extend(self.operands(id));
+                }
+                _ => {}
+            }
+        }
+        found
+    }
+
     /// Operands of `id`.
     pub(crate) fn operands(&self, id: Id) -> Vec<Id> {
         operands(self.node(id))
