@@ -6,8 +6,8 @@
 /// Part of the step size that should just meet the tolerance which is taken.
 const SAFETY: f64 = 0.9;
 
-/// Errors below count as this much where the next step looks back on them.
-const SMALLEST_PREVIOUS: f64 = 1e-4;
+/// Logarithm of 1e-4: errors below count as this much where the next step looks back on them.
+const SMALLEST_PREVIOUS: f64 = -4.0 * std::f64::consts::LN_10;
 
 /// Constants of a method.
 pub(crate) struct Control {
@@ -26,7 +26,7 @@ pub(crate) struct Control {
 /// What is remembered from step to step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Pace {
-    /// Error of the previous accepted step.
+    /// Logarithm of the error of the previous accepted step.
     previous: f64,
     /// The last attempt was rejected.
     rejected: bool,
@@ -43,10 +43,9 @@ impl Pace {
 
     /// Size of the step after one of size `h` that was accepted with the error `error`. Does not grow after a rejection.
     pub(crate) fn accepted(&mut self, control: &Control, h: f64, error: f64) -> f64 {
-        let mut factor = error.powf(-control.exponent) * SAFETY;
-        if control.beta > 0.0 {
-            factor *= self.previous.powf(control.beta);
-        }
+        // Powers by logarithms: error^−exponent previous^beta.
+        let error = error.ln();
+        let factor = SAFETY * (control.beta * self.previous - control.exponent * error).exp();
         let largest = if self.rejected { 1.0 } else { control.grow };
         self.previous = error.max(SMALLEST_PREVIOUS);
         self.rejected = false;
@@ -56,8 +55,9 @@ impl Pace {
     /// Size of the next attempt after one of size `h` with an error above 1; NaN where a stage could not be evaluated.
     pub(crate) fn inaccurate(&mut self, control: &Control, h: f64, error: f64) -> f64 {
         self.rejected = true;
+        let factor = SAFETY * error.powf(-control.exponent);
         // `max` takes the other one for NaN.
-        h * (error.powf(-control.exponent) * SAFETY).max(control.shrink)
+        h * factor.max(control.shrink)
     }
 
     /// Size of the next attempt after one of size `h` whose end did not do.

@@ -2,9 +2,8 @@
 
 use super::control::{Guess, Pace};
 use super::dense::{Clock, Interpolant};
-use super::stepper::{Stepper, error_norm};
-use super::tableau::Tableau;
-use super::{Next, Outcome, PROJECTION_LIMIT, Problem, Report, Settings, Step};
+use super::stepper::Stepper;
+use super::{Method, Next, Outcome, PROJECTION_LIMIT, Problem, Report, Settings, Step};
 use crate::error::Error;
 
 /// A sample counts as within a step that ends so many units of rounding before it.
@@ -33,28 +32,17 @@ fn right_hand_side<P: Problem>(
     t0: f64,
 ) -> impl FnMut(f64, &[f64], &mut [f64]) -> Result<(), NoRate> {
     move |s, y, rate| {
-        if !all_finite(y) {
-            return Err(None);
-        }
         let t = t0 + s;
         problem.derivative(t, y, rate).map_err(|error| {
             let y = y.to_vec();
-            Some(Trouble { t, y, error })
+            all_finite(&y).then_some(Trouble { t, y, error })
         })
     }
 }
 
-/// 0 y is 0 where y is finite, else NaN.
+/// Looks at all components, which is faster than to stop at the first one.
 fn all_finite(y: &[f64]) -> bool {
-    let (chunks, rest) = y.as_chunks::<4>();
-    let mut sums = [0.0; 4];
-    for chunk in chunks {
-        for (sum, y) in sums.iter_mut().zip(chunk) {
-            *sum += 0.0 * y;
-        }
-    }
-    let rest: f64 = rest.iter().map(|y| 0.0 * y).sum();
-    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest == 0.0
+    y.iter().fold(true, |all, y| all & y.is_finite())
 }
 
 /// Why an attempted step is not accepted.
@@ -69,7 +57,6 @@ enum Refusal {
 
 struct Driver<'p, P> {
     problem: &'p mut P,
-    tableau: &'static Tableau,
     settings: &'p Settings,
     clock: Clock,
     t_end: f64,
@@ -91,7 +78,7 @@ struct Driver<'p, P> {
 
 /// [`Method::run`](super::Method::run).
 pub(super) fn run<P: Problem>(
-    tableau: &'static Tableau,
+    method: Method,
     problem: &mut P,
     t0: f64,
     y0: &[f64],
@@ -102,12 +89,11 @@ pub(super) fn run<P: Problem>(
     let clock = Clock { t0, sign };
     let mut driver = Driver {
         problem,
-        tableau,
         settings,
         clock,
         t_end,
         s_end: clock.s(t_end),
-        stepper: Stepper::new(tableau, y0.len()),
+        stepper: Stepper::new(method, y0.len()),
         pace: Pace::new(),
         s: 0.0,
         t: t0,
@@ -154,7 +140,7 @@ impl<P: Problem> Driver<'_, P> {
                 return Err(Error::StepTooSmall { step: h });
             }
             self.attempts += 1;
-            let control = &self.tableau.control;
+            let control = &self.stepper.tableau().control;
             h = match self.attempt(size, s, t) {
                 Ok((Next::Stop, _)) => return Ok(Outcome::Stopped),
                 Ok(_) if last => return Ok(Outcome::Reached),
@@ -195,12 +181,13 @@ impl<P: Problem> Driver<'_, P> {
         // Buffers are free at the start.
         self.raw.copy_from_slice(self.stepper.rate());
         let step = self.clock.sign * guess.h;
+        let control = &self.stepper.tableau().control;
         let Ok(after) = self.stepper.probe(f, 0.0, step, &self.y) else {
             return Ok(guess.h);
         };
         let start = self.y.iter().zip(&self.raw).zip(after);
         let start = start.map(|((y, rate), after)| (*y, *rate, *after));
-        Ok(guess.refine(start, &self.tableau.control, tolerance, largest))
+        Ok(guess.refine(start, control, tolerance, largest))
     }
 
     /// Tries the step of size `h` that ends at `s`, which is `t`, and moves to its end if it is good. Returns its error.
@@ -211,13 +198,13 @@ impl<P: Problem> Driver<'_, P> {
         let stages = self.stepper.attempt(f, start, step, &self.y);
         stages.map_err(Refusal::Stage)?;
         let mut error = 0.0;
-        if !self.tableau.closing_in_error {
+        if !self.stepper.tableau().closing_in_error {
             error = self.error(step)?;
         }
         self.project(t)?;
         let f = right_hand_side(self.problem, t0);
         self.stepper.close(f, sign * s).map_err(Refusal::End)?;
-        if self.tableau.closing_in_error {
+        if self.stepper.tableau().closing_in_error {
             error = self.error(step)?;
         }
         let next = self.show(h, s, t)?;
@@ -249,8 +236,10 @@ impl<P: Problem> Driver<'_, P> {
             let y = self.raw.clone();
             return Err(Refusal::End(Some(Trouble { t, y, error })));
         }
-        let size = error_norm(&self.raw, new, &self.y, self.settings.tolerance);
-        if size <= PROJECTION_LIMIT {
+        let pairs = self.raw.iter().zip(&*new);
+        let changed = pairs.fold(false, |any, (raw, new)| any | (raw != new));
+        let tolerance = self.settings.tolerance;
+        if !changed || self.stepper.change(&self.raw, &self.y, tolerance) <= PROJECTION_LIMIT {
             Ok(())
         } else {
             Err(Refusal::End(None))

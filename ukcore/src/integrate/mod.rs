@@ -19,6 +19,7 @@ mod control;
 mod dense;
 mod driver;
 mod stepper;
+mod sums;
 mod tableau;
 #[cfg(test)]
 mod tests;
@@ -123,10 +124,6 @@ impl Method {
         t_end: f64,
         settings: &Settings,
     ) -> Report {
-        let tableau = match self {
-            Method::Dop853 => &tableau::DOP853,
-            Method::Dopri5 => &tableau::DOPRI5,
-        };
-        driver::run(tableau, problem, t0, y0, t_end, settings)
+        driver::run(self, problem, t0, y0, t_end, settings)
     }
 }

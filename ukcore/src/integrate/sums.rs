@@ -1,0 +1,86 @@
+//! The sums of a Runge-Kutta step over all components, for any scalar. Written so that they become vector instructions where the scalar is one lane.
+
+use crate::scalar::Scalar;
+
+/// Sums over components are added up in so many parts, so that not every addition waits for the one before.
+const PARTS: usize = 4;
+
+/// Rows k and factors h c of `terms` = (row, c).
+#[inline(always)]
+fn rows<'a, S: Scalar, const N: usize>(
+    n: usize,
+    h: S,
+    rates: &'a [S],
+    terms: &[(usize, f64); N],
+) -> ([&'a [S]; N], [S; N]) {
+    // Loops, since `map` of arrays of this length is not inlined.
+    let (mut k, mut c) = ([&rates[..n]; N], [h; N]);
+    for j in 0..N {
+        let (row, factor) = terms[j];
+        k[j] = &rates[row * n..][..n];
+        c[j] = h * S::from_f64(factor);
+    }
+    (k, c)
+}
+
+/// Σ c k of component `i`.
+#[inline(always)]
+fn dot<S: Scalar, const N: usize>(c: &[S; N], k: &[&[S]; N], i: usize) -> S {
+    let mut sum = c[0] * k[0][i];
+    for j in 1..N {
+        sum = sum + c[j] * k[j][i];
+    }
+    sum
+}
+
+/// `out` = `base` + h Σ c k over rows k of `rates`; without a base h Σ c k.
+#[inline(always)]
+pub(super) fn sum<S: Scalar, const N: usize>(
+    out: &mut [S],
+    base: Option<&[S]>,
+    h: S,
+    rates: &[S],
+    terms: &[(usize, f64); N],
+) {
+    let n = out.len();
+    let (k, c) = rows(n, h, rates, terms);
+    if let Some(base) = base {
+        let base = &base[..n];
+        for i in 0..n {
+            out[i] = base[i] + dot(&c, &k, i);
+        }
+    } else {
+        for i in 0..n {
+            out[i] = dot(&c, &k, i);
+        }
+    }
+}
+
+/// `out` = 1 / (tol + tol max(|old|, |new|)), the weights of the [error norm](super).
+pub(super) fn weights<S: Scalar>(out: &mut [S], old: &[S], new: &[S], tolerance: f64) {
+    let n = out.len();
+    let (old, new) = (&old[..n], &new[..n]);
+    let tolerance = S::from_f64(tolerance);
+    for i in 0..n {
+        let size = old[i].abs().max(new[i].abs());
+        out[i] = (tolerance + tolerance * size).recip();
+    }
+}
+
+/// Σ (x w)² over all components.
+pub(super) fn sum_of_squares<S: Scalar>(x: &[S], weights: &[S]) -> S {
+    let mut sums = [S::from_f64(0.0); PARTS];
+    let (chunks, rest) = x.as_chunks::<PARTS>();
+    let (weight_chunks, weight_rest) = weights.as_chunks::<PARTS>();
+    for (x, w) in chunks.iter().zip(weight_chunks) {
+        for part in 0..PARTS {
+            let weighted = x[part] * w[part];
+            sums[part] = sums[part] + weighted * weighted;
+        }
+    }
+    for (x, w) in rest.iter().zip(weight_rest) {
+        let weighted = *x * *w;
+        sums[0] = sums[0] + weighted * weighted;
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3])
+}
