@@ -82,7 +82,7 @@ impl Segment {
 /// y = c₀ + θ (c₁ + (1−θ) (c₂ + θ (c₃ + (1−θ) (c₄ + …)))), rows of the length of y; θ from 0 to 1 over the step.
 ///
 /// The first four make the cubic through states and rates at both ends; the others vanish there.
-fn interpolate(theta: f64, coefficients: &[f64], y: &mut [f64]) {
+pub(super) fn interpolate(theta: f64, coefficients: &[f64], y: &mut [f64]) {
     y.fill(0.0);
     if y.is_empty() {
         return;

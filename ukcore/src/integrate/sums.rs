@@ -45,25 +45,22 @@ pub(super) fn sum<S: Scalar, const N: usize>(
     let n = out.len();
     let (k, c) = rows(n, h, rates, terms);
     if let Some(base) = base {
-        let base = &base[..n];
-        for i in 0..n {
-            out[i] = base[i] + dot(&c, &k, i);
+        for (i, (out, base)) in out.iter_mut().zip(&base[..n]).enumerate() {
+            *out = *base + dot(&c, &k, i);
         }
     } else {
-        for i in 0..n {
-            out[i] = dot(&c, &k, i);
+        for (i, out) in out.iter_mut().enumerate() {
+            *out = dot(&c, &k, i);
         }
     }
 }
 
 /// `out` = 1 / (tol + tol max(|old|, |new|)), the weights of the [error norm](super).
 pub(super) fn weights<S: Scalar>(out: &mut [S], old: &[S], new: &[S], tolerance: f64) {
-    let n = out.len();
-    let (old, new) = (&old[..n], &new[..n]);
     let tolerance = S::from_f64(tolerance);
-    for i in 0..n {
-        let size = old[i].abs().max(new[i].abs());
-        out[i] = (tolerance + tolerance * size).recip();
+    for (out, (old, new)) in out.iter_mut().zip(old.iter().zip(new)) {
+        let size = old.abs().max(new.abs());
+        *out = (tolerance + tolerance * size).recip();
     }
 }
 

@@ -21,7 +21,8 @@ pub(crate) type Terms = &'static [(usize, f64)];
 pub(crate) struct Stage {
     /// Its time.
     pub(crate) c: f64,
-    /// The stages it uses.
+    /// The stages it uses. The sums have them as constants, so only the checks read them here.
+    #[cfg(test)]
     pub(crate) a: Terms,
 }
 
@@ -66,7 +67,7 @@ macro_rules! method {
     ) => {
         $(#[$doc])*
         pub(crate) static $table: Tableau = Tableau {
-            stages: &[$(Stage { c: $c, a: &[$($a),*] }),*],
+            stages: &[$(Stage { c: $c, #[cfg(test)] a: &[$($a),*] }),*],
             closing: $closing,
             errors: &[$(&[$($e),*]),*],
             closing_in_error: $in_error,
@@ -216,4 +217,94 @@ method! {
         ];
     }
     control: Control { order: 5.0, exponent: 0.2 - 0.75 * 0.04, beta: 0.04, shrink: 0.2, grow: 10.0 };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The methods with their orders: of the step, of its error estimates, of the interpolant.
+    const ALL: [(&Tableau, usize, &[usize], usize); 2] =
+        [(&DOP853, 8, &[5, 3], 7), (&DOPRI5, 5, &[4], 4)];
+
+    impl Tableau {
+        /// c of a stage.
+        fn c(&self, stage: usize) -> f64 {
+            if stage == 0 {
+                0.0
+            } else {
+                self.stages[stage - 1].c
+            }
+        }
+
+        /// Σ w c^power, and Σ |w c^power|, the measure of its rounding.
+        fn moment(&self, weights: Terms, power: usize) -> (f64, f64) {
+            let terms = (weights.iter()).map(|(stage, w)| w * self.c(*stage).powi(power as i32));
+            terms.fold((0.0, 0.0), |(sum, size), x| (sum + x, size + x.abs()))
+        }
+    }
+
+    #[track_caller]
+    fn check((sum, size): (f64, f64), expect: f64) {
+        assert!(
+            (sum - expect).abs() < 1e-15 * size.max(1.0),
+            "{sum:e} is not {expect:e}"
+        );
+    }
+
+    #[test]
+    fn stages_use_only_stages_before_them_and_are_consistent() {
+        for (table, _, _, _) in ALL {
+            for (index, stage) in table.stages.iter().enumerate() {
+                assert!(stage.a.iter().all(|(j, _)| *j <= index));
+                assert!(stage.a.is_sorted_by(|a, b| a.0 < b.0));
+                check(table.moment(stage.a, 0), stage.c);
+                // From stage 2 on, Σ a c = c²/2, though Dormand and Prince's fifth order leaves out none but stage 1.
+                if index > 0 {
+                    check(table.moment(stage.a, 1), 0.5 * stage.c * stage.c);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn weights_and_estimates_integrate_powers_up_to_their_order() {
+        for (table, order, errors, _) in ALL {
+            let b = table.stages[table.closing - 1].a;
+            for power in 0..order {
+                check(table.moment(b, power), 1.0 / (power as f64 + 1.0));
+            }
+            let next = table.moment(b, order).0 - 1.0 / (order as f64 + 1.0);
+            assert!(next.abs() > 1e-7, "{next}");
+            assert_eq!(table.errors.len(), errors.len());
+            for (terms, order) in table.errors.iter().zip(errors) {
+                for power in 0..*order {
+                    check(table.moment(terms, power), 0.0);
+                }
+                let next = table.moment(terms, *order).0;
+                assert!(next.abs() > 1e-5, "{next}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_interpolant_integrates_powers_up_to_its_order() {
+        for (table, _, _, order) in ALL {
+            // y' = p t^(p−1) over the step from 0 to 1.
+            for power in 1..=order {
+                let rate = |c: f64| power as f64 * c.powi(power as i32 - 1);
+                let (first, last) = (rate(0.0), rate(1.0));
+                let mut rows = vec![0.0, 1.0, first - 1.0, 2.0 - last - first];
+                for terms in table.dense {
+                    rows.push(terms.iter().map(|(j, d)| d * rate(table.c(*j))).sum());
+                }
+                for theta in [0.0, 0.1, 0.3, 0.5, 0.77, 1.0] {
+                    let mut y = [0.0];
+                    super::super::dense::interpolate(theta, &rows, &mut y);
+                    let expect = f64::powi(theta, power as i32);
+                    assert!((y[0] - expect).abs() < 1e-13, "{power}, {theta}: {}", y[0]);
+                }
+            }
+        }
+    }
 }
