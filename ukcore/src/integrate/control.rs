@@ -25,17 +25,17 @@ pub(crate) struct Control {
 
 /// What is remembered from step to step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Pace {
+pub(crate) struct StepSize {
     /// Logarithm of the error of the previous accepted step.
     previous: f64,
     /// The last attempt was rejected.
     rejected: bool,
 }
 
-impl Pace {
+impl StepSize {
     /// At the start of a run.
     pub(crate) fn new() -> Self {
-        Pace {
+        StepSize {
             previous: SMALLEST_PREVIOUS,
             rejected: false,
         }

@@ -1,8 +1,9 @@
 //! A run: steps until the end, and what becomes of those that fail.
 
-use super::control::{Guess, Pace};
+use super::control::{Guess, StepSize};
 use super::dense::{Clock, Interpolant};
 use super::stepper::Stepper;
+use super::sums::error_norm;
 use super::{Method, Next, Outcome, PROJECTION_LIMIT, Problem, Report, Settings, Step};
 use crate::error::Error;
 
@@ -62,7 +63,7 @@ struct Driver<'p, P> {
     t_end: f64,
     s_end: f64,
     stepper: Stepper<f64>,
-    pace: Pace,
+    step_size: StepSize,
     /// Last accepted state.
     s: f64,
     t: f64,
@@ -94,7 +95,7 @@ pub(super) fn run<P: Problem>(
         t_end,
         s_end: clock.s(t_end),
         stepper: Stepper::new(method, y0.len()),
-        pace: Pace::new(),
+        step_size: StepSize::new(),
         s: 0.0,
         t: t0,
         y: y0.to_vec(),
@@ -145,16 +146,16 @@ impl<P: Problem> Driver<'_, P> {
                 Ok((Next::Stop, _)) => return Ok(Outcome::Stopped),
                 Ok(_) if last => return Ok(Outcome::Reached),
                 Ok((Next::Continue, error)) => {
-                    self.pace.accepted(control, size, error).min(largest)
+                    self.step_size.accepted(control, size, error).min(largest)
                 }
-                Err(Refusal::Inaccurate(error)) => self.pace.inaccurate(control, size, error),
+                Err(Refusal::Inaccurate(error)) => self.step_size.inaccurate(control, size, error),
                 Err(Refusal::Stage(cause)) => {
                     self.trouble = cause.or(self.trouble.take());
-                    self.pace.inaccurate(control, size, f64::NAN)
+                    self.step_size.inaccurate(control, size, f64::NAN)
                 }
                 Err(Refusal::End(cause)) => {
                     self.trouble = cause.or(self.trouble.take());
-                    self.pace.unfit(size)
+                    self.step_size.unfit(size)
                 }
             };
         }
@@ -236,10 +237,12 @@ impl<P: Problem> Driver<'_, P> {
             let y = self.raw.clone();
             return Err(Refusal::End(Some(Trouble { t, y, error })));
         }
-        let pairs = self.raw.iter().zip(&*new);
-        let changed = pairs.fold(false, |any, (raw, new)| any | (raw != new));
-        let tolerance = self.settings.tolerance;
-        if !changed || self.stepper.change(&self.raw, &self.y, tolerance) <= PROJECTION_LIMIT {
+        if self.raw == *new {
+            return Ok(());
+        }
+        let pairs = self.raw.iter().zip(&*new).zip(&self.y);
+        let change = pairs.map(|((raw, new), old)| (new - raw, *old, *raw));
+        if error_norm(change, self.settings.tolerance) <= PROJECTION_LIMIT {
             Ok(())
         } else {
             Err(Refusal::End(None))

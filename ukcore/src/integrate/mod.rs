@@ -12,6 +12,8 @@
 //! 3. evaluate f at the projected state, for the next step to begin with;
 //! 4. samples, events, the interpolant.
 //!
+//! Dopri5 needs what 3 gives for its estimate, which then comes after it.
+//!
 //! A failure in 2 to 4 rejects the step like a failure in 1. So an error reaches the user only where no step, however
 //! small, avoids it, and then it carries the place where it arose.
 
@@ -26,6 +28,7 @@ mod tests;
 
 use crate::error::Error;
 pub(crate) use dense::{Interpolant, Segment};
+pub(crate) use sums::error_norm;
 
 /// The explicit Runge-Kutta methods on offer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -47,7 +50,7 @@ pub const PROJECTION_LIMIT: f64 = 10.0;
 
 /// What is to be integrated, and what is to be done along the way.
 pub(crate) trait Problem {
-    /// y' at (t, y) into `rate`. Not called with a non-finite y.
+    /// y' at (t, y) into `rate`. After far too long a step y may not be finite; an error there only shortens the step.
     fn derivative(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Error>;
     /// Moves an accepted y to the nearest consistent state.
     fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), Error>;

@@ -136,7 +136,7 @@ impl<S: Scalar> Stepper<S> {
 
     /// Estimated error of the attempted step from y in the [error norm](super): at most 1 if it has the accuracy asked for.
     ///
-    /// With two estimates e₁, e₂: |e₁|² / √(|e₁|² + 0.01 |e₂|²), eq. (10.17) of the book, which is of the order of the method.
+    /// With two estimates e₁, e₂: |e₁|² / √(|e₁|² + 0.01 |e₂|²), eq. (10.17) of the book, which falls as h⁸.
     pub(crate) fn error(&mut self, h: S, y: &[S], tolerance: f64) -> S {
         (self.sums.errors)(&mut self.errors, h, &self.rates);
         // No stage is evaluated any more.
@@ -147,7 +147,7 @@ impl<S: Scalar> Stepper<S> {
         let other = sum_of_squares(&self.errors[n..], &self.argument);
         let both = best + S::from_f64(0.01) * other;
         let divisor = S::select_le(both, zero, S::from_f64(1.0), both);
-        best / (S::from_f64(n as f64) * divisor).sqrt()
+        best / (S::from_f64(n.max(1) as f64) * divisor).sqrt()
     }
 
     /// Makes the [coefficients](Stepper::dense) of the interpolant of the closed step; evaluates stages for it if the method needs them.
@@ -181,17 +181,6 @@ impl<S: Scalar> Stepper<S> {
     /// Coefficients of the interpolant, rows as [`Interpolant`](super::dense::Interpolant) wants them.
     pub(crate) fn dense(&self) -> &[S] {
         &self.dense
-    }
-
-    /// Size of the change of the new state from `raw`, in the [error norm](super).
-    pub(crate) fn change(&mut self, raw: &[S], y: &[S], tolerance: f64) -> S {
-        let change = &mut self.errors[..self.n];
-        for (change, (new, raw)) in change.iter_mut().zip(self.new.iter().zip(raw)) {
-            *change = *new - *raw;
-        }
-        weights(&mut self.argument, y, raw, tolerance);
-        let sum = sum_of_squares(change, &self.argument);
-        (sum / S::from_f64(self.n.max(1) as f64)).sqrt()
     }
 
     /// Moves on to the end of the closed step. `choose(new, old)` is the new value in the lanes whose step was accepted, the old one in the others.

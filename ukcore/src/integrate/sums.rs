@@ -81,3 +81,16 @@ pub(super) fn sum_of_squares<S: Scalar>(x: &[S], weights: &[S]) -> S {
     }
     (sums[0] + sums[1]) + (sums[2] + sums[3])
 }
+
+/// Root mean square of change / (tol + tol max(|y_old|, |y_new|)) of triples (change, y_old, y_new): the norm in which the methods measure
+/// their error.
+pub(crate) fn error_norm<S: Scalar>(change: impl Iterator<Item = (S, S, S)>, tolerance: f64) -> S {
+    let tolerance = S::from_f64(tolerance);
+    let (mut sum, mut count) = (S::from_f64(0.0), 0.0_f64);
+    for (delta, old, new) in change {
+        let weighted = delta / (tolerance + tolerance * old.abs().max(new.abs()));
+        sum = sum + weighted * weighted;
+        count += 1.0;
+    }
+    (sum / S::from_f64(count.max(1.0))).sqrt()
+}

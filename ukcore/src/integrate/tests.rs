@@ -1,6 +1,6 @@
 //! The methods on plain right-hand sides, without mechanics.
 
-use super::control::Pace;
+use super::control::StepSize;
 use super::*;
 
 mod oracle;
@@ -406,18 +406,18 @@ fn interpolants_run_on_smoothly_through_projected_states() {
 #[test]
 fn the_next_step_aims_at_nine_tenths_of_the_size_that_meets_the_tolerance() {
     let control = &tableau::DOP853.control;
-    let mut pace = Pace::new();
+    let mut size = StepSize::new();
     for error in [0.01_f64, 0.3, 1.0] {
         // An error of order 8 would then be 1 after 0.9 is taken back.
-        let h = pace.accepted(control, 0.2, error);
+        let h = size.accepted(control, 0.2, error);
         assert!((error * (h / 0.9 / 0.2).powi(8) - 1.0).abs() < 1e-13);
     }
-    assert_eq!(pace.accepted(control, 0.2, 0.0), 0.2 * 6.0);
-    assert!((pace.inaccurate(control, 0.2, 10.0) / 0.2 - 0.9 * 10_f64.powf(-0.125)).abs() < 1e-15);
-    assert_eq!(pace.inaccurate(control, 0.2, f64::NAN), 0.2 * 0.333);
+    assert_eq!(size.accepted(control, 0.2, 0.0), 0.2 * 6.0);
+    assert!((size.inaccurate(control, 0.2, 10.0) / 0.2 - 0.9 * 10_f64.powf(-0.125)).abs() < 1e-15);
+    assert_eq!(size.inaccurate(control, 0.2, f64::NAN), 0.2 * 0.333);
     // Not longer directly after a rejection, then again.
-    assert_eq!(pace.accepted(control, 0.2, 1e-6), 0.2);
-    assert!(pace.accepted(control, 0.2, 1e-6) > 0.2);
-    assert_eq!(pace.unfit(0.2), 0.1);
-    assert_eq!(pace.accepted(control, 0.1, 0.0), 0.1);
+    assert_eq!(size.accepted(control, 0.2, 1e-6), 0.2);
+    assert!(size.accepted(control, 0.2, 1e-6) > 0.2);
+    assert_eq!(size.unfit(0.2), 0.1);
+    assert_eq!(size.accepted(control, 0.1, 0.0), 0.1);
 }
