@@ -41,9 +41,13 @@ fn right_hand_side<P: Problem>(
     }
 }
 
-/// Looks at all components, which is faster than to stop at the first one.
 fn all_finite(y: &[f64]) -> bool {
-    y.iter().fold(true, |all, y| all & y.is_finite())
+    all(y.iter().map(|y| y.is_finite()))
+}
+
+/// Looks at each one, which is faster here than to stop at the first that is not.
+fn all(conditions: impl Iterator<Item = bool>) -> bool {
+    conditions.fold(true, |all, one| all & one)
 }
 
 /// Why an attempted step is not accepted.
@@ -237,7 +241,7 @@ impl<P: Problem> Driver<'_, P> {
             let y = self.raw.clone();
             return Err(Refusal::End(Some(Trouble { t, y, error })));
         }
-        if self.raw == *new {
+        if all(self.raw.iter().zip(&*new).map(|(raw, new)| raw == new)) {
             return Ok(());
         }
         let pairs = self.raw.iter().zip(&*new).zip(&self.y);

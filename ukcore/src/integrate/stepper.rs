@@ -168,11 +168,14 @@ impl<S: Scalar> Stepper<S> {
         let (c2, c3) = cubic.split_at_mut(n);
         let (start, end) = (&self.rates[..n], &self.rates[closing * n..][..n]);
         c0.copy_from_slice(y);
-        for (((c1, c2), c3), ((y, new), (start, end))) in
-            (c1.iter_mut().zip(c2).zip(c3)).zip(y.iter().zip(&self.new).zip(start.iter().zip(end)))
-        {
+        // A loop for each row: several at once do not become vector instructions.
+        for (c1, (y, new)) in c1.iter_mut().zip(y.iter().zip(&self.new)) {
             *c1 = *new - *y;
+        }
+        for (c2, (c1, start)) in c2.iter_mut().zip(c1.iter().zip(start)) {
             *c2 = h * *start - *c1;
+        }
+        for (c3, ((c1, c2), end)) in c3.iter_mut().zip(c1.iter().zip(&*c2).zip(end)) {
             *c3 = *c1 - h * *end - *c2;
         }
         Ok(())
