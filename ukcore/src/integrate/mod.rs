@@ -1,8 +1,8 @@
 //! Adaptive integration of y' = f(t, y) with a projection after each step.
 //!
 //! This is the seam between the mechanics and the integrator. [`Simulation`](crate::Simulation) is the problem; a
-//! [`Method`] advances it. The rest of the crate sees neither tableaus nor the library that holds them, so a method
-//! can be replaced, or others (implicit, symplectic) put beside it, without a change elsewhere.
+//! [`Method`] advances it. The rest of the crate sees no tableaus, so a method can be replaced, or others (implicit, symplectic) put
+//! beside it, without a change elsewhere.
 //!
 //! The order of events in one step, which each method keeps:
 //!
@@ -12,14 +12,23 @@
 //! 3. evaluate f at the projected state, for the next step to begin with;
 //! 4. samples, events, the interpolant.
 //!
+//! Dopri5 needs what 3 gives for its estimate, which then comes after it.
+//!
 //! A failure in 2 to 4 rejects the step like a failure in 1. So an error reaches the user only where no step, however
 //! small, avoids it, and then it carries the place where it arose.
 
-mod ivp;
+mod control;
+mod dense;
+mod driver;
+mod stepper;
+mod sums;
+mod tableau;
 #[cfg(test)]
 mod tests;
 
 use crate::error::Error;
+pub(crate) use dense::{Interpolant, Segment};
+pub(crate) use sums::error_norm;
 
 /// The explicit Runge-Kutta methods on offer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -39,24 +48,9 @@ pub enum Method {
 /// another one. In both cases the step does not have the accuracy that was asked for.
 pub const PROJECTION_LIMIT: f64 = 10.0;
 
-/// Root mean square of change / (tol + tol max(|y_old|, |y_new|)): the norm in which both methods measure their error.
-pub(crate) fn error_norm(change: impl Iterator<Item = (f64, f64, f64)>, tolerance: f64) -> f64 {
-    let (mut sum, mut count) = (0.0, 0.0);
-    for (delta, old, new) in change {
-        let weighted = delta / (tolerance + tolerance * old.abs().max(new.abs()));
-        sum += weighted * weighted;
-        count += 1.0;
-    }
-    if count > 0.0 {
-        f64::sqrt(sum / count)
-    } else {
-        0.0
-    }
-}
-
 /// What is to be integrated, and what is to be done along the way.
 pub(crate) trait Problem {
-    /// y' at (t, y) into `rate`. Not called with a non-finite y.
+    /// y' at (t, y) into `rate`. After far too long a step y may not be finite; an error there only shortens the step.
     fn derivative(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Error>;
     /// Moves an accepted y to the nearest consistent state.
     fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), Error>;
@@ -75,40 +69,7 @@ pub(crate) struct Step<'a> {
     /// Projected state at its end.
     pub(crate) y: &'a [f64],
     /// States between; there if [`Settings::dense`] is set or [`Problem::next_sample`] lies in this step.
-    pub(crate) interpolant: Option<&'a dyn Interpolant>,
-}
-
-/// The states within one step.
-pub(crate) trait Interpolant {
-    /// State at `t`, as interpolated: not projected.
-    fn state(&self, t: f64, y: &mut [f64]);
-    /// An owned copy.
-    fn segment(&self) -> Segment;
-}
-
-/// Formula of an interpolant: (s, y, coefficients, s_old, h).
-type Formula = fn(f64, &mut [f64], &[f64], f64, f64);
-
-/// An [`Interpolant`] that is kept.
-#[derive(Clone)]
-pub(crate) struct Segment {
-    clock: ivp::Clock,
-    s_old: f64,
-    h: f64,
-    coefficients: Vec<f64>,
-    formula: Formula,
-}
-
-impl Segment {
-    /// Time at the start of the step.
-    pub(crate) fn t_old(&self) -> f64 {
-        self.clock.t(self.s_old)
-    }
-
-    /// State at `t`, as interpolated: not projected.
-    pub(crate) fn state(&self, t: f64, y: &mut [f64]) {
-        (self.formula)(self.clock.s(t), y, &self.coefficients, self.s_old, self.h);
-    }
+    pub(crate) interpolant: Option<Interpolant<'a>>,
 }
 
 /// How to go on after a step.
@@ -166,6 +127,6 @@ impl Method {
         t_end: f64,
         settings: &Settings,
     ) -> Report {
-        ivp::run(self, problem, t0, y0, t_end, settings)
+        driver::run(self, problem, t0, y0, t_end, settings)
     }
 }

@@ -1,6 +1,10 @@
 //! The methods on plain right-hand sides, without mechanics.
 
+use super::control::StepSize;
 use super::*;
+
+mod oracle;
+mod order;
 
 type Derivative = fn(f64, &[f64], &mut [f64]) -> Result<(), Error>;
 type Projection = fn(f64, &mut [f64]) -> Result<(), Error>;
@@ -344,4 +348,76 @@ fn a_growing_time_does_not_hide_the_end() {
             assert!(circle_error(span, y) < 1e-7);
         }
     }
+}
+
+#[test]
+fn steps_that_run_into_a_wall_are_made_shorter() {
+    for method in METHODS {
+        // e^(−40 t) stays above 0; long steps do not, and there f ends.
+        let mut plain = Plain::new(|_, y, rate| {
+            rate[0] = -40.0 * y[0];
+            if y[0] < 0.0 { Err(failure()) } else { Ok(()) }
+        });
+        let settings = Settings {
+            first_step: Some(1.0),
+            ..settings(1e-8)
+        };
+        let report = method.run(&mut plain, 0.0, &[1.0], 0.5, &settings);
+        assert_eq!(report.outcome, Outcome::Reached);
+        assert!(report.rejected > 1, "{method:?}");
+        let (_, t, y) = plain.steps.last().unwrap();
+        assert_eq!(*t, 0.5);
+        assert!((y[0] - f64::exp(-20.0)).abs() < 1e-8);
+    }
+}
+
+#[test]
+fn interpolants_run_on_smoothly_through_projected_states() {
+    for method in METHODS {
+        for t_end in [10.0, -10.0] {
+            let mut plain = Plain::new(circle);
+            plain.project = normalise;
+            let settings = Settings {
+                dense: true,
+                ..settings(1e-5)
+            };
+            let report = method.run(&mut plain, 0.0, &[1.0, 0.0], t_end, &settings);
+            assert_eq!(report.outcome, Outcome::Reached);
+            for (segment, (t_old, t, end)) in plain.segments.iter().zip(&plain.steps) {
+                let mut y = [0.0; 2];
+                segment.state(*t, &mut y);
+                assert!(f64::hypot(y[0] - end[0], y[1] - end[1]) < 1e-15);
+                // The rate at the end is f of the projected state.
+                let h = 1e-4 * (t - t_old);
+                let mut before = [0.0; 2];
+                segment.state(t - h, &mut before);
+                let mut after = [0.0; 2];
+                segment.state(t + h, &mut after);
+                let rate = [
+                    (after[0] - before[0]) / (2.0 * h),
+                    (after[1] - before[1]) / (2.0 * h),
+                ];
+                assert!(f64::hypot(rate[0] + end[1], rate[1] - end[0]) < 1e-7);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_next_step_aims_at_nine_tenths_of_the_size_that_meets_the_tolerance() {
+    let control = &tableau::DOP853.control;
+    let mut size = StepSize::new();
+    for error in [0.01_f64, 0.3, 1.0] {
+        // An error of order 8 would then be 1 after 0.9 is taken back.
+        let h = size.accepted(control, 0.2, error);
+        assert!((error * (h / 0.9 / 0.2).powi(8) - 1.0).abs() < 1e-13);
+    }
+    assert_eq!(size.accepted(control, 0.2, 0.0), 0.2 * 6.0);
+    assert!((size.inaccurate(control, 0.2, 10.0) / 0.2 - 0.9 * 10_f64.powf(-0.125)).abs() < 1e-15);
+    assert_eq!(size.inaccurate(control, 0.2, f64::NAN), 0.2 * 0.333);
+    // Not longer directly after a rejection, then again.
+    assert_eq!(size.accepted(control, 0.2, 1e-6), 0.2);
+    assert!(size.accepted(control, 0.2, 1e-6) > 0.2);
+    assert_eq!(size.unfit(0.2), 0.1);
+    assert_eq!(size.accepted(control, 0.1, 0.0), 0.1);
 }

@@ -1,0 +1,130 @@
+//! Choice of the step size.
+//!
+//! After Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, §II.4, with the constants of the authors' codes. Pure
+//! functions of numbers: a driver of many lanes uses them for each lane.
+
+/// Part of the step size that should just meet the tolerance which is taken.
+const SAFETY: f64 = 0.9;
+
+/// Logarithm of 1e-4: errors below count as this much where the next step looks back on them.
+const SMALLEST_PREVIOUS: f64 = -4.0 * std::f64::consts::LN_10;
+
+/// Constants of a method.
+pub(crate) struct Control {
+    /// Order of the method.
+    pub(crate) order: f64,
+    /// A step size is thought to change the error by its power 1/`exponent`.
+    pub(crate) exponent: f64,
+    /// Weight of the error of the previous step (Lund's stabilisation).
+    pub(crate) beta: f64,
+    /// Least factor between two steps.
+    pub(crate) shrink: f64,
+    /// Largest factor between two steps.
+    pub(crate) grow: f64,
+}
+
+/// What is remembered from step to step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct StepSize {
+    /// Logarithm of the error of the previous accepted step.
+    previous: f64,
+    /// The last attempt was rejected.
+    rejected: bool,
+}
+
+impl StepSize {
+    /// At the start of a run.
+    pub(crate) fn new() -> Self {
+        StepSize {
+            previous: SMALLEST_PREVIOUS,
+            rejected: false,
+        }
+    }
+
+    /// Size of the step after one of size `h` that was accepted with the error `error`. Does not grow after a rejection.
+    pub(crate) fn accepted(&mut self, control: &Control, h: f64, error: f64) -> f64 {
+        // Powers by logarithms: error^−exponent previous^beta.
+        let error = error.ln();
+        let factor = SAFETY * (control.beta * self.previous - control.exponent * error).exp();
+        let largest = if self.rejected { 1.0 } else { control.grow };
+        self.previous = error.max(SMALLEST_PREVIOUS);
+        self.rejected = false;
+        h * factor.clamp(control.shrink, control.grow).min(largest)
+    }
+
+    /// Size of the next attempt after one of size `h` with an error above 1; NaN where a stage could not be evaluated.
+    pub(crate) fn inaccurate(&mut self, control: &Control, h: f64, error: f64) -> f64 {
+        self.rejected = true;
+        let factor = SAFETY * error.powf(-control.exponent);
+        // `max` takes the other one for NaN.
+        h * factor.max(control.shrink)
+    }
+
+    /// Size of the next attempt after one of size `h` whose end did not do.
+    pub(crate) fn unfit(&mut self, h: f64) -> f64 {
+        self.rejected = true;
+        0.5 * h
+    }
+}
+
+/// First guess of the first step size: h for which an explicit Euler step changes y by a hundredth.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Guess {
+    /// Positive step size.
+    pub(crate) h: f64,
+    /// Norm of f at the start.
+    slope: f64,
+}
+
+impl Guess {
+    /// From pairs (y, f) at the start.
+    pub(crate) fn new(
+        start: impl Iterator<Item = (f64, f64)>,
+        tolerance: f64,
+        largest: f64,
+    ) -> Self {
+        let (mut value, mut slope) = (0.0, 0.0);
+        for (y, rate) in start {
+            let weight = 1.0 / (tolerance + tolerance * y.abs());
+            value += (y * weight) * (y * weight);
+            slope += (rate * weight) * (rate * weight);
+        }
+        let h = if slope <= 1e-10 || value <= 1e-10 {
+            1e-6
+        } else {
+            0.01 * f64::sqrt(value / slope)
+        };
+        Guess {
+            h: h.min(largest),
+            slope: slope.sqrt(),
+        }
+    }
+
+    /// The first step size, from triples (y, f, f after the Euler step of size `h`): h^order max(|f|, |f'|) = 0.01.
+    ///
+    /// NaN for the last one says that f could not be evaluated there; the first guess is then the best one.
+    pub(crate) fn refine(
+        self,
+        start: impl Iterator<Item = (f64, f64, f64)>,
+        control: &Control,
+        tolerance: f64,
+        largest: f64,
+    ) -> f64 {
+        let mut change = 0.0;
+        for (y, rate, after) in start {
+            let weighted = (after - rate) / (tolerance + tolerance * y.abs());
+            change += weighted * weighted;
+        }
+        let curvature = f64::sqrt(change) / self.h;
+        if curvature.is_nan() {
+            return self.h;
+        }
+        let steepest = curvature.max(self.slope);
+        let h = if steepest <= 1e-15 {
+            f64::max(1e-6, 1e-3 * self.h)
+        } else {
+            f64::powf(0.01 / steepest, 1.0 / control.order)
+        };
+        h.min(100.0 * self.h).min(largest)
+    }
+}

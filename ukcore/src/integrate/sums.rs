@@ -1,0 +1,96 @@
+//! The sums of a Runge-Kutta step over all components, for any scalar. Written so that they become vector instructions where the scalar is one lane.
+
+use crate::scalar::Scalar;
+
+/// Sums over components are added up in so many parts, so that not every addition waits for the one before.
+const PARTS: usize = 4;
+
+/// Rows k and factors h c of `terms` = (row, c).
+#[inline(always)]
+fn rows<'a, S: Scalar, const N: usize>(
+    n: usize,
+    h: S,
+    rates: &'a [S],
+    terms: &[(usize, f64); N],
+) -> ([&'a [S]; N], [S; N]) {
+    // Loops, since `map` of arrays of this length is not inlined.
+    let (mut k, mut c) = ([&rates[..n]; N], [h; N]);
+    for j in 0..N {
+        let (row, factor) = terms[j];
+        k[j] = &rates[row * n..][..n];
+        c[j] = h * S::from_f64(factor);
+    }
+    (k, c)
+}
+
+/// Σ c k of component `i`.
+#[inline(always)]
+fn dot<S: Scalar, const N: usize>(c: &[S; N], k: &[&[S]; N], i: usize) -> S {
+    let mut sum = c[0] * k[0][i];
+    for j in 1..N {
+        sum = sum + c[j] * k[j][i];
+    }
+    sum
+}
+
+/// `out` = `base` + h Σ c k over rows k of `rates`; without a base h Σ c k.
+#[inline(always)]
+pub(super) fn sum<S: Scalar, const N: usize>(
+    out: &mut [S],
+    base: Option<&[S]>,
+    h: S,
+    rates: &[S],
+    terms: &[(usize, f64); N],
+) {
+    let n = out.len();
+    let (k, c) = rows(n, h, rates, terms);
+    if let Some(base) = base {
+        for (i, (out, base)) in out.iter_mut().zip(&base[..n]).enumerate() {
+            *out = *base + dot(&c, &k, i);
+        }
+    } else {
+        for (i, out) in out.iter_mut().enumerate() {
+            *out = dot(&c, &k, i);
+        }
+    }
+}
+
+/// `out` = 1 / (tol + tol max(|old|, |new|)), the weights of the [error norm](super).
+pub(super) fn weights<S: Scalar>(out: &mut [S], old: &[S], new: &[S], tolerance: f64) {
+    let tolerance = S::from_f64(tolerance);
+    for (out, (old, new)) in out.iter_mut().zip(old.iter().zip(new)) {
+        let size = old.abs().max(new.abs());
+        *out = (tolerance + tolerance * size).recip();
+    }
+}
+
+/// Σ (x w)² over all components.
+pub(super) fn sum_of_squares<S: Scalar>(x: &[S], weights: &[S]) -> S {
+    let mut sums = [S::from_f64(0.0); PARTS];
+    let (chunks, rest) = x.as_chunks::<PARTS>();
+    let (weight_chunks, weight_rest) = weights.as_chunks::<PARTS>();
+    for (x, w) in chunks.iter().zip(weight_chunks) {
+        for part in 0..PARTS {
+            let weighted = x[part] * w[part];
+            sums[part] = sums[part] + weighted * weighted;
+        }
+    }
+    for (x, w) in rest.iter().zip(weight_rest) {
+        let weighted = *x * *w;
+        sums[0] = sums[0] + weighted * weighted;
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3])
+}
+
+/// Root mean square of change / (tol + tol max(|y_old|, |y_new|)) of triples (change, y_old, y_new): the norm in which the methods measure
+/// their error.
+pub(crate) fn error_norm<S: Scalar>(change: impl Iterator<Item = (S, S, S)>, tolerance: f64) -> S {
+    let tolerance = S::from_f64(tolerance);
+    let (mut sum, mut count) = (S::from_f64(0.0), 0.0_f64);
+    for (delta, old, new) in change {
+        let weighted = delta / (tolerance + tolerance * old.abs().max(new.abs()));
+        sum = sum + weighted * weighted;
+        count += 1.0;
+    }
+    (sum / S::from_f64(count.max(1.0))).sqrt()
+}
