@@ -55,11 +55,11 @@
 /// A[crank[0], y[0]] = 2*y[0]
 /// A[crank[1], x[1]] = 2*(x[1] - l)
 /// A[crank[1], y[1]] = 2*y[1]
-/// A[crank[2], x[2]] = 2*x[2] - 4*l
+/// A[crank[2], x[2]] = 2*(x[2] - 2*l)
 /// A[crank[2], y[2]] = 2*y[2]
-/// A[crank[3], x[3]] = 2*x[3] - 6*l
+/// A[crank[3], x[3]] = 2*(x[3] - 3*l)
 /// A[crank[3], y[3]] = 2*y[3]
-/// A[crank[4], x[4]] = 2*x[4] - 8*l
+/// A[crank[4], x[4]] = 2*(x[4] - 4*l)
 /// A[crank[4], y[4]] = 2*y[4]
 /// … 15 rows like these …
 /// A[coupler[3], y[4]] = 2*(y[4] - y[3])
@@ -141,24 +141,19 @@ impl ::ukcore::Mechanism for FourBars {
         ],
         prepared: &[
             ("m", "m"),
-            ("right_y_0", "m*g"),
+            ("m_g", "m*g"),
             ("sq_l", "sq(l)"),
             ("l", "l"),
             ("times_l", "-2*l"),
             ("times_l_2", "-3*l"),
             ("times_l_3", "-4*l"),
-            ("times_l_4", "-6*l"),
-            ("times_l_5", "-8*l"),
-            ("per_m", "1/m"),
-            ("times_m_g", "1.5*m*g"),
-            ("sq_m", "sq(m)"),
-            ("times_m", "0.25*m"),
-            ("times_m_2", "0.16666666666666666*m"),
+            ("g", "g"),
             ("times_g", "1.5*g"),
-            ("times_per_m", "0.0009765625/m"),
+            ("times_g_2", "6*g"),
             ("safe_x_0", "(m ≤ 0 ? 0 : 1)"),
-            ("times_m_3", "0.6666666666666666*m"),
-            ("times_m_g_2", "-1.5*m*g"),
+            ("times_m", "0.6666666666666666*m"),
+            ("times_m_2", "0.16666666666666666*m"),
+            ("times_m_g", "-1.5*m*g"),
         ],
         coords: &[
             "x[0]",
@@ -309,8 +304,8 @@ impl ::ukcore::Mechanism for FourBars {
                 selections: 0,
             },
             solve_operations: ::ukcore::Operations {
-                additions: 293,
-                multiplications: 583,
+                additions: 283,
+                multiplications: 449,
                 divisions: 13,
                 square_roots: 0,
                 transcendentals: 0,
@@ -352,11 +347,11 @@ impl ::ukcore::Mechanism for FourBars {
                 (0, 5, "2*y[0]"),
                 (1, 1, "2*(x[1] - l)"),
                 (1, 6, "2*y[1]"),
-                (2, 2, "2*x[2] - 4*l"),
+                (2, 2, "2*(x[2] - 2*l)"),
                 (2, 7, "2*y[2]"),
-                (3, 3, "2*x[3] - 6*l"),
+                (3, 3, "2*(x[3] - 3*l)"),
                 (3, 8, "2*y[3]"),
-                (4, 4, "2*x[4] - 8*l"),
+                (4, 4, "2*(x[4] - 4*l)"),
                 (4, 9, "2*y[4]"),
                 (5, 0, "2*(x[0] - x[1])"),
                 (5, 1, "2*(x[1] - x[0])"),
@@ -405,31 +400,25 @@ impl ::ukcore::Mechanism for FourBars {
         }
     }
     fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
-        let prepared = ::ukcore::emitted::exact_mut::<S, 19>(prepared, "prepared");
+        let prepared = ::ukcore::emitted::exact_mut::<S, 14>(prepared, "prepared");
         let [m, l, g] = *::ukcore::emitted::exact::<S, 3>(given, "given");
         let lit = S::from_f64;
         prepared[0] = m;
-        let right_y_0 = m * g;
-        prepared[1] = right_y_0;
+        let m_g = m * g;
+        prepared[1] = m_g;
         prepared[2] = l * l;
         prepared[3] = l;
         prepared[4] = lit(-2.0) * l;
         prepared[5] = lit(-3.0) * l;
         prepared[6] = lit(-4.0) * l;
-        prepared[7] = lit(-6.0) * l;
-        prepared[8] = lit(-8.0) * l;
-        let per_m = m.recip();
-        prepared[9] = per_m;
-        prepared[10] = lit(1.5) * right_y_0;
-        prepared[11] = m * m;
-        prepared[12] = lit(0.25) * m;
-        prepared[13] = lit(0.16666666666666666) * m;
-        prepared[14] = lit(1.5) * g;
-        prepared[15] = lit(0.0009765625) * per_m;
+        prepared[7] = g;
+        prepared[8] = lit(1.5) * g;
+        prepared[9] = lit(6.0) * g;
         let safe_x_0 = S::select_le(m, lit(0.0), lit(0.0), lit(1.0));
-        prepared[16] = safe_x_0;
-        prepared[17] = lit(0.6666666666666666) * m;
-        prepared[18] = lit(-1.5) * right_y_0;
+        prepared[10] = safe_x_0;
+        prepared[11] = lit(0.6666666666666666) * m;
+        prepared[12] = lit(0.16666666666666666) * m;
+        prepared[13] = lit(-1.5) * m_g;
     }
     /// 30 additions, 53 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
@@ -444,11 +433,8 @@ impl ::ukcore::Mechanism for FourBars {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 10>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 90>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 9>(out.rhs, "rhs");
-        let [m, right_y_0, _, l, _, _, times_l_3, times_l_4, times_l_5, _, _, _, _,
-        times_m_2, _, _, _, times_m_3, times_m_g_2] = *::ukcore::emitted::exact::<
-            S,
-            19,
-        >(prepared, "prepared");
+        let [m, m_g, _, l, times_l, times_l_2, times_l_3, _, _, _, _, times_m, times_m_2,
+        times_m_g] = *::ukcore::emitted::exact::<S, 14>(prepared, "prepared");
         let [x_0, x_1, x_2, x_3, x_4, y_0, y_1, y_2, y_3, y_4] = *::ukcore::emitted::exact::<
             S,
             10,
@@ -456,7 +442,7 @@ impl ::ukcore::Mechanism for FourBars {
         let [dot_x_0, dot_x_1, dot_x_2, dot_x_3, dot_x_4, dot_y_0, dot_y_1, dot_y_2,
         dot_y_3, dot_y_4] = *::ukcore::emitted::exact::<S, 10>(v, "v");
         let lit = S::from_f64;
-        mass[0] = times_m_3;
+        mass[0] = times_m;
         mass[1] = times_m_2;
         mass[10] = times_m_2;
         mass[11] = m;
@@ -468,8 +454,8 @@ impl ::ukcore::Mechanism for FourBars {
         mass[33] = m;
         mass[34] = times_m_2;
         mass[43] = times_m_2;
-        mass[44] = times_m_3;
-        mass[55] = times_m_3;
+        mass[44] = times_m;
+        mass[55] = times_m;
         mass[56] = times_m_2;
         mass[65] = times_m_2;
         mass[66] = m;
@@ -481,17 +467,17 @@ impl ::ukcore::Mechanism for FourBars {
         mass[88] = m;
         mass[89] = times_m_2;
         mass[98] = times_m_2;
-        mass[99] = times_m_3;
+        mass[99] = times_m;
         force[0] = lit(0.0);
         force[1] = lit(0.0);
         force[2] = lit(0.0);
         force[3] = lit(0.0);
         force[4] = lit(0.0);
-        force[5] = -right_y_0;
-        force[6] = times_m_g_2;
-        force[7] = times_m_g_2;
-        force[8] = times_m_g_2;
-        force[9] = -right_y_0;
+        force[5] = -m_g;
+        force[6] = times_m_g;
+        force[7] = times_m_g;
+        force[8] = times_m_g;
+        force[9] = -m_g;
         nonideal[0] = lit(0.0);
         nonideal[1] = lit(0.0);
         nonideal[2] = lit(0.0);
@@ -506,36 +492,38 @@ impl ::ukcore::Mechanism for FourBars {
         jacobian[45] = lit(2.0) * y_0;
         jacobian[10] = lit(2.0) * (x_1 - l);
         jacobian[55] = lit(2.0) * y_1;
-        jacobian[20] = lit(2.0) * x_2 + times_l_3;
+        let crank_2_by_x_2 = x_2 + times_l;
+        jacobian[20] = lit(2.0) * crank_2_by_x_2;
         jacobian[65] = lit(2.0) * y_2;
-        jacobian[30] = lit(2.0) * x_3 + times_l_4;
+        jacobian[30] = lit(2.0) * (x_3 + times_l_2);
         jacobian[75] = lit(2.0) * y_3;
-        jacobian[40] = lit(2.0) * x_4 + times_l_5;
+        let crank_4_by_x_4 = x_4 + times_l_3;
+        jacobian[40] = lit(2.0) * crank_4_by_x_4;
         jacobian[85] = lit(2.0) * y_4;
-        let x_0_minus_x_1 = x_0 - x_1;
-        jacobian[5] = lit(2.0) * x_0_minus_x_1;
-        jacobian[14] = lit(-2.0) * x_0_minus_x_1;
-        let y_0_minus_y_1 = y_0 - y_1;
-        jacobian[50] = lit(2.0) * y_0_minus_y_1;
-        jacobian[59] = lit(-2.0) * y_0_minus_y_1;
-        let x_1_minus_x_2 = x_1 - x_2;
-        jacobian[15] = lit(2.0) * x_1_minus_x_2;
-        jacobian[24] = lit(-2.0) * x_1_minus_x_2;
-        let y_1_minus_y_2 = y_1 - y_2;
-        jacobian[60] = lit(2.0) * y_1_minus_y_2;
-        jacobian[69] = lit(-2.0) * y_1_minus_y_2;
-        let x_2_minus_x_3 = x_2 - x_3;
-        jacobian[25] = lit(2.0) * x_2_minus_x_3;
-        jacobian[34] = lit(-2.0) * x_2_minus_x_3;
-        let y_2_minus_y_3 = y_2 - y_3;
-        jacobian[70] = lit(2.0) * y_2_minus_y_3;
-        jacobian[79] = lit(-2.0) * y_2_minus_y_3;
-        let x_3_minus_x_4 = x_3 - x_4;
-        jacobian[35] = lit(2.0) * x_3_minus_x_4;
-        jacobian[44] = lit(-2.0) * x_3_minus_x_4;
-        let y_3_minus_y_4 = y_3 - y_4;
-        jacobian[80] = lit(2.0) * y_3_minus_y_4;
-        jacobian[89] = lit(-2.0) * y_3_minus_y_4;
+        let coupler_0_by_x_0 = x_0 - x_1;
+        jacobian[5] = lit(2.0) * coupler_0_by_x_0;
+        jacobian[14] = lit(-2.0) * coupler_0_by_x_0;
+        let coupler_0_by_y_0 = y_0 - y_1;
+        jacobian[50] = lit(2.0) * coupler_0_by_y_0;
+        jacobian[59] = lit(-2.0) * coupler_0_by_y_0;
+        let coupler_1_by_x_2 = x_1 - x_2;
+        jacobian[15] = lit(2.0) * coupler_1_by_x_2;
+        jacobian[24] = lit(-2.0) * coupler_1_by_x_2;
+        let coupler_1_by_y_2 = y_1 - y_2;
+        jacobian[60] = lit(2.0) * coupler_1_by_y_2;
+        jacobian[69] = lit(-2.0) * coupler_1_by_y_2;
+        let coupler_2_by_x_2 = x_2 - x_3;
+        jacobian[25] = lit(2.0) * coupler_2_by_x_2;
+        jacobian[34] = lit(-2.0) * coupler_2_by_x_2;
+        let coupler_2_by_y_2 = y_2 - y_3;
+        jacobian[70] = lit(2.0) * coupler_2_by_y_2;
+        jacobian[79] = lit(-2.0) * coupler_2_by_y_2;
+        let coupler_3_by_x_4 = x_3 - x_4;
+        jacobian[35] = lit(2.0) * coupler_3_by_x_4;
+        jacobian[44] = lit(-2.0) * coupler_3_by_x_4;
+        let coupler_3_by_y_4 = y_3 - y_4;
+        jacobian[80] = lit(2.0) * coupler_3_by_y_4;
+        jacobian[89] = lit(-2.0) * coupler_3_by_y_4;
         rhs[0] = lit(-2.0) * dot_y_0.mul_add(dot_y_0, dot_x_0 * dot_x_0);
         rhs[1] = lit(-2.0) * dot_y_1.mul_add(dot_y_1, dot_x_1 * dot_x_1);
         rhs[2] = lit(-2.0) * dot_y_2.mul_add(dot_y_2, dot_x_2 * dot_x_2);
@@ -576,11 +564,11 @@ impl ::ukcore::Mechanism for FourBars {
     }
     fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 100>(mass, "mass");
-        let [m, _, _, _, _, _, _, _, _, _, _, _, _, times_m_2, _, _, _, times_m_3, _] = *::ukcore::emitted::exact::<
+        let [m, _, _, _, _, _, _, _, _, _, _, times_m, times_m_2, _] = *::ukcore::emitted::exact::<
             S,
-            19,
+            14,
         >(prepared, "prepared");
-        mass[0] = times_m_3;
+        mass[0] = times_m;
         mass[1] = times_m_2;
         mass[10] = times_m_2;
         mass[11] = m;
@@ -592,8 +580,8 @@ impl ::ukcore::Mechanism for FourBars {
         mass[33] = m;
         mass[34] = times_m_2;
         mass[43] = times_m_2;
-        mass[44] = times_m_3;
-        mass[55] = times_m_3;
+        mass[44] = times_m;
+        mass[55] = times_m;
         mass[56] = times_m_2;
         mass[65] = times_m_2;
         mass[66] = m;
@@ -605,7 +593,7 @@ impl ::ukcore::Mechanism for FourBars {
         mass[88] = m;
         mass[89] = times_m_2;
         mass[98] = times_m_2;
-        mass[99] = times_m_3;
+        mass[99] = times_m;
     }
     fn jacobian<S: ::ukcore::Scalar>(
         prepared: &[S],
@@ -615,8 +603,10 @@ impl ::ukcore::Mechanism for FourBars {
         jacobian: &mut [S],
     ) {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 90>(jacobian, "jacobian");
-        let [_, _, _, l, _, _, times_l_3, times_l_4, times_l_5, _, _, _, _, _, _, _, _,
-        _, _] = *::ukcore::emitted::exact::<S, 19>(prepared, "prepared");
+        let [_, _, _, l, times_l, times_l_2, times_l_3, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            14,
+        >(prepared, "prepared");
         let [x_0, x_1, x_2, x_3, x_4, y_0, y_1, y_2, y_3, y_4] = *::ukcore::emitted::exact::<
             S,
             10,
@@ -626,41 +616,45 @@ impl ::ukcore::Mechanism for FourBars {
         jacobian[45] = lit(2.0) * y_0;
         jacobian[10] = lit(2.0) * (x_1 - l);
         jacobian[55] = lit(2.0) * y_1;
-        jacobian[20] = lit(2.0) * x_2 + times_l_3;
+        let crank_2_by_x_2 = x_2 + times_l;
+        jacobian[20] = lit(2.0) * crank_2_by_x_2;
         jacobian[65] = lit(2.0) * y_2;
-        jacobian[30] = lit(2.0) * x_3 + times_l_4;
+        jacobian[30] = lit(2.0) * (x_3 + times_l_2);
         jacobian[75] = lit(2.0) * y_3;
-        jacobian[40] = lit(2.0) * x_4 + times_l_5;
+        let crank_4_by_x_4 = x_4 + times_l_3;
+        jacobian[40] = lit(2.0) * crank_4_by_x_4;
         jacobian[85] = lit(2.0) * y_4;
-        let x_0_minus_x_1 = x_0 - x_1;
-        jacobian[5] = lit(2.0) * x_0_minus_x_1;
-        jacobian[14] = lit(-2.0) * x_0_minus_x_1;
-        let y_0_minus_y_1 = y_0 - y_1;
-        jacobian[50] = lit(2.0) * y_0_minus_y_1;
-        jacobian[59] = lit(-2.0) * y_0_minus_y_1;
-        let x_1_minus_x_2 = x_1 - x_2;
-        jacobian[15] = lit(2.0) * x_1_minus_x_2;
-        jacobian[24] = lit(-2.0) * x_1_minus_x_2;
-        let y_1_minus_y_2 = y_1 - y_2;
-        jacobian[60] = lit(2.0) * y_1_minus_y_2;
-        jacobian[69] = lit(-2.0) * y_1_minus_y_2;
-        let x_2_minus_x_3 = x_2 - x_3;
-        jacobian[25] = lit(2.0) * x_2_minus_x_3;
-        jacobian[34] = lit(-2.0) * x_2_minus_x_3;
-        let y_2_minus_y_3 = y_2 - y_3;
-        jacobian[70] = lit(2.0) * y_2_minus_y_3;
-        jacobian[79] = lit(-2.0) * y_2_minus_y_3;
-        let x_3_minus_x_4 = x_3 - x_4;
-        jacobian[35] = lit(2.0) * x_3_minus_x_4;
-        jacobian[44] = lit(-2.0) * x_3_minus_x_4;
-        let y_3_minus_y_4 = y_3 - y_4;
-        jacobian[80] = lit(2.0) * y_3_minus_y_4;
-        jacobian[89] = lit(-2.0) * y_3_minus_y_4;
+        let coupler_0_by_x_0 = x_0 - x_1;
+        jacobian[5] = lit(2.0) * coupler_0_by_x_0;
+        jacobian[14] = lit(-2.0) * coupler_0_by_x_0;
+        let coupler_0_by_y_0 = y_0 - y_1;
+        jacobian[50] = lit(2.0) * coupler_0_by_y_0;
+        jacobian[59] = lit(-2.0) * coupler_0_by_y_0;
+        let coupler_1_by_x_2 = x_1 - x_2;
+        jacobian[15] = lit(2.0) * coupler_1_by_x_2;
+        jacobian[24] = lit(-2.0) * coupler_1_by_x_2;
+        let coupler_1_by_y_2 = y_1 - y_2;
+        jacobian[60] = lit(2.0) * coupler_1_by_y_2;
+        jacobian[69] = lit(-2.0) * coupler_1_by_y_2;
+        let coupler_2_by_x_2 = x_2 - x_3;
+        jacobian[25] = lit(2.0) * coupler_2_by_x_2;
+        jacobian[34] = lit(-2.0) * coupler_2_by_x_2;
+        let coupler_2_by_y_2 = y_2 - y_3;
+        jacobian[70] = lit(2.0) * coupler_2_by_y_2;
+        jacobian[79] = lit(-2.0) * coupler_2_by_y_2;
+        let coupler_3_by_x_4 = x_3 - x_4;
+        jacobian[35] = lit(2.0) * coupler_3_by_x_4;
+        jacobian[44] = lit(-2.0) * coupler_3_by_x_4;
+        let coupler_3_by_y_4 = y_3 - y_4;
+        jacobian[80] = lit(2.0) * coupler_3_by_y_4;
+        jacobian[89] = lit(-2.0) * coupler_3_by_y_4;
     }
     fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
         let phi = ::ukcore::emitted::exact_mut::<S, 9>(phi, "phi");
-        let [_, _, sq_l, l, times_l, times_l_2, times_l_3, _, _, _, _, _, _, _, _, _, _,
-        _, _] = *::ukcore::emitted::exact::<S, 19>(prepared, "prepared");
+        let [_, _, sq_l, l, times_l, times_l_2, times_l_3, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            14,
+        >(prepared, "prepared");
         let [x_0, x_1, x_2, x_3, x_4, y_0, y_1, y_2, y_3, y_4] = *::ukcore::emitted::exact::<
             S,
             10,
@@ -668,28 +662,28 @@ impl ::ukcore::Mechanism for FourBars {
         phi[0] = y_0.mul_add(y_0, x_0 * x_0 - sq_l);
         let x_1_minus_l = x_1 - l;
         phi[1] = x_1_minus_l.mul_add(x_1_minus_l, y_1 * y_1 - sq_l);
-        let x_2_plus_times_l = x_2 + times_l;
-        phi[2] = x_2_plus_times_l.mul_add(x_2_plus_times_l, y_2 * y_2 - sq_l);
+        let crank_2_by_x_2 = x_2 + times_l;
+        phi[2] = crank_2_by_x_2.mul_add(crank_2_by_x_2, y_2 * y_2 - sq_l);
         let x_3_plus_times_l_2 = x_3 + times_l_2;
         phi[3] = x_3_plus_times_l_2.mul_add(x_3_plus_times_l_2, y_3 * y_3 - sq_l);
-        let x_4_plus_times_l_3 = x_4 + times_l_3;
-        phi[4] = x_4_plus_times_l_3.mul_add(x_4_plus_times_l_3, y_4 * y_4 - sq_l);
-        let x_0_minus_x_1 = x_0 - x_1;
-        let y_0_minus_y_1 = y_0 - y_1;
-        phi[5] = y_0_minus_y_1
-            .mul_add(y_0_minus_y_1, x_0_minus_x_1 * x_0_minus_x_1 - sq_l);
-        let x_1_minus_x_2 = x_1 - x_2;
-        let y_1_minus_y_2 = y_1 - y_2;
-        phi[6] = y_1_minus_y_2
-            .mul_add(y_1_minus_y_2, x_1_minus_x_2 * x_1_minus_x_2 - sq_l);
-        let x_2_minus_x_3 = x_2 - x_3;
-        let y_2_minus_y_3 = y_2 - y_3;
-        phi[7] = y_2_minus_y_3
-            .mul_add(y_2_minus_y_3, x_2_minus_x_3 * x_2_minus_x_3 - sq_l);
-        let x_3_minus_x_4 = x_3 - x_4;
-        let y_3_minus_y_4 = y_3 - y_4;
-        phi[8] = y_3_minus_y_4
-            .mul_add(y_3_minus_y_4, x_3_minus_x_4 * x_3_minus_x_4 - sq_l);
+        let crank_4_by_x_4 = x_4 + times_l_3;
+        phi[4] = crank_4_by_x_4.mul_add(crank_4_by_x_4, y_4 * y_4 - sq_l);
+        let coupler_0_by_x_0 = x_0 - x_1;
+        let coupler_0_by_y_0 = y_0 - y_1;
+        phi[5] = coupler_0_by_y_0
+            .mul_add(coupler_0_by_y_0, coupler_0_by_x_0 * coupler_0_by_x_0 - sq_l);
+        let coupler_1_by_x_2 = x_1 - x_2;
+        let coupler_1_by_y_2 = y_1 - y_2;
+        phi[6] = coupler_1_by_y_2
+            .mul_add(coupler_1_by_y_2, coupler_1_by_x_2 * coupler_1_by_x_2 - sq_l);
+        let coupler_2_by_x_2 = x_2 - x_3;
+        let coupler_2_by_y_2 = y_2 - y_3;
+        phi[7] = coupler_2_by_y_2
+            .mul_add(coupler_2_by_y_2, coupler_2_by_x_2 * coupler_2_by_x_2 - sq_l);
+        let coupler_3_by_x_4 = x_3 - x_4;
+        let coupler_3_by_y_4 = y_3 - y_4;
+        phi[8] = coupler_3_by_y_4
+            .mul_add(coupler_3_by_y_4, coupler_3_by_x_4 * coupler_3_by_x_4 - sq_l);
     }
     fn residual_rate<S: ::ukcore::Scalar>(
         prepared: &[S],
@@ -699,8 +693,10 @@ impl ::ukcore::Mechanism for FourBars {
         rate: &mut [S],
     ) {
         let rate = ::ukcore::emitted::exact_mut::<S, 9>(rate, "rate");
-        let [_, _, _, l, times_l, times_l_2, times_l_3, _, _, _, _, _, _, _, _, _, _, _,
-        _] = *::ukcore::emitted::exact::<S, 19>(prepared, "prepared");
+        let [_, _, _, l, times_l, times_l_2, times_l_3, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            14,
+        >(prepared, "prepared");
         let [x_0, x_1, x_2, x_3, x_4, y_0, y_1, y_2, y_3, y_4] = *::ukcore::emitted::exact::<
             S,
             10,
@@ -710,21 +706,31 @@ impl ::ukcore::Mechanism for FourBars {
         let lit = S::from_f64;
         rate[0] = lit(2.0) * y_0.mul_add(dot_y_0, x_0 * dot_x_0);
         rate[1] = lit(2.0) * dot_x_1.mul_add((x_1 - l), y_1 * dot_y_1);
-        rate[2] = lit(2.0) * dot_x_2.mul_add((x_2 + times_l), y_2 * dot_y_2);
+        let crank_2_by_x_2 = x_2 + times_l;
+        rate[2] = lit(2.0) * dot_x_2.mul_add(crank_2_by_x_2, y_2 * dot_y_2);
         rate[3] = lit(2.0) * dot_x_3.mul_add((x_3 + times_l_2), y_3 * dot_y_3);
-        rate[4] = lit(2.0) * dot_x_4.mul_add((x_4 + times_l_3), y_4 * dot_y_4);
+        let crank_4_by_x_4 = x_4 + times_l_3;
+        rate[4] = lit(2.0) * dot_x_4.mul_add(crank_4_by_x_4, y_4 * dot_y_4);
+        let coupler_0_by_x_0 = x_0 - x_1;
+        let coupler_0_by_y_0 = y_0 - y_1;
         rate[5] = lit(2.0)
-            * (y_0 - y_1)
-                .mul_add((dot_y_0 - dot_y_1), (x_0 - x_1) * (dot_x_0 - dot_x_1));
+            * coupler_0_by_y_0
+                .mul_add((dot_y_0 - dot_y_1), coupler_0_by_x_0 * (dot_x_0 - dot_x_1));
+        let coupler_1_by_x_2 = x_1 - x_2;
+        let coupler_1_by_y_2 = y_1 - y_2;
         rate[6] = lit(2.0)
-            * (y_1 - y_2)
-                .mul_add((dot_y_1 - dot_y_2), (x_1 - x_2) * (dot_x_1 - dot_x_2));
+            * coupler_1_by_y_2
+                .mul_add((dot_y_1 - dot_y_2), coupler_1_by_x_2 * (dot_x_1 - dot_x_2));
+        let coupler_2_by_x_2 = x_2 - x_3;
+        let coupler_2_by_y_2 = y_2 - y_3;
         rate[7] = lit(2.0)
-            * (y_2 - y_3)
-                .mul_add((dot_y_2 - dot_y_3), (x_2 - x_3) * (dot_x_2 - dot_x_3));
+            * coupler_2_by_y_2
+                .mul_add((dot_y_2 - dot_y_3), coupler_2_by_x_2 * (dot_x_2 - dot_x_3));
+        let coupler_3_by_x_4 = x_3 - x_4;
+        let coupler_3_by_y_4 = y_3 - y_4;
         rate[8] = lit(2.0)
-            * (y_3 - y_4)
-                .mul_add((dot_y_3 - dot_y_4), (x_3 - x_4) * (dot_x_3 - dot_x_4));
+            * coupler_3_by_y_4
+                .mul_add((dot_y_3 - dot_y_4), coupler_3_by_x_4 * (dot_x_3 - dot_x_4));
     }
     fn energy<S: ::ukcore::Scalar>(
         prepared: &[S],
@@ -732,9 +738,9 @@ impl ::ukcore::Mechanism for FourBars {
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
-        let [m, right_y_0, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [m, m_g, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            19,
+            14,
         >(prepared, "prepared");
         let [_, _, _, _, _, y_0, y_1, y_2, y_3, y_4] = *::ukcore::emitted::exact::<
             S,
@@ -804,27 +810,23 @@ impl ::ukcore::Mechanism for FourBars {
                         ),
                 );
         let potential = lit(0.5)
-            * right_y_0
+            * m_g
                 .mul_add(
                     (y_3 + y_4),
-                    right_y_0
+                    m_g
                         .mul_add(
                             (y_2 + y_3),
-                            right_y_0
+                            m_g
                                 .mul_add(
                                     (y_1 + y_2),
-                                    right_y_0
+                                    m_g
                                         .mul_add(
                                             (y_0 + y_1),
                                             y_4
                                                 .mul_add(
-                                                    right_y_0,
+                                                    m_g,
                                                     y_3
-                                                        .mul_add(
-                                                            right_y_0,
-                                                            y_2
-                                                                .mul_add(right_y_0, y_1.mul_add(right_y_0, y_0 * right_y_0)),
-                                                        ),
+                                                        .mul_add(m_g, y_2.mul_add(m_g, y_1.mul_add(m_g, y_0 * m_g))),
                                                 ),
                                         ),
                                 ),
@@ -849,7 +851,7 @@ impl ::ukcore::Mechanism for FourBars {
         >(q, "q");
         outputs[0] = x_0.atan2(y_0);
     }
-    /// 293 additions, 583 multiplications, 13 divisions, 0 square roots, 0 transcendentals, 13 selections.
+    /// 283 additions, 449 multiplications, 13 divisions, 0 square roots, 0 transcendentals, 13 selections.
     fn acceleration<S: ::ukcore::Scalar>(
         prepared: &[S],
         t: S,
@@ -858,11 +860,8 @@ impl ::ukcore::Mechanism for FourBars {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 10>(out, "out");
-        let [m, right_y_0, _, l, _, _, times_l_3, times_l_4, times_l_5, per_m, times_m_g,
-        sq_m, times_m, times_m_2, times_g, times_per_m, safe_x_0, _, _] = *::ukcore::emitted::exact::<
-            S,
-            19,
-        >(prepared, "prepared");
+        let [_, _, _, l, times_l, times_l_2, times_l_3, g, times_g, times_g_2, safe_x_0,
+        _, _, _] = *::ukcore::emitted::exact::<S, 14>(prepared, "prepared");
         let [x_0, x_1, x_2, x_3, x_4, y_0, y_1, y_2, y_3, y_4] = *::ukcore::emitted::exact::<
             S,
             10,
@@ -873,48 +872,26 @@ impl ::ukcore::Mechanism for FourBars {
         let pivot_crank_0 = lit(1.5) * y_0.mul_add(y_0, x_0 * x_0);
         let per_pivot_crank_0 = pivot_crank_0.recip();
         let safe_crank_0 = S::select_le(pivot_crank_0, lit(0.0), lit(0.0), safe_x_0);
-        let crank_0_by_y_0 = y_0 * per_m;
-        let right_crank_0 = times_m_g
-            .neg_mul_add(crank_0_by_y_0, dot_y_0.mul_add(dot_y_0, dot_x_0 * dot_x_0));
-        let acceleration_0_part = lit(2.0) * y_4;
-        let acceleration_0_part_2 = lit(2.0) * x_4 + times_l_5;
-        let pivot_crank_4 = lit(1.5)
-            * acceleration_0_part_2
-                .mul_add(
-                    acceleration_0_part_2,
-                    acceleration_0_part * acceleration_0_part,
-                );
+        let right_crank_0 = y_0
+            .neg_mul_add(times_g, dot_y_0.mul_add(dot_y_0, dot_x_0 * dot_x_0));
+        let crank_4_by_x_4 = x_4 + times_l_3;
+        let pivot_crank_4 = lit(1.5) * crank_4_by_x_4.mul_add(crank_4_by_x_4, y_4 * y_4);
         let per_pivot_crank_4 = pivot_crank_4.recip();
         let safe_crank_4 = S::select_le(pivot_crank_4, lit(0.0), lit(0.0), safe_crank_0);
-        let crank_4_by_y_4 = per_m * acceleration_0_part;
-        let right_crank_4 = times_m_g
-            .neg_mul_add(
-                crank_4_by_y_4,
-                lit(2.0) * dot_y_4.mul_add(dot_y_4, dot_x_4 * dot_x_4),
-            );
-        let acceleration_0_part_3 = lit(2.0) * y_2;
-        let acceleration_0_part_4 = lit(2.0) * x_2 + times_l_3;
-        let pivot_crank_2 = acceleration_0_part_4
-            .mul_add(
-                acceleration_0_part_4,
-                acceleration_0_part_3 * acceleration_0_part_3,
-            );
+        let right_crank_4 = y_4
+            .neg_mul_add(times_g, dot_y_4.mul_add(dot_y_4, dot_x_4 * dot_x_4));
+        let crank_2_by_x_2 = x_2 + times_l;
+        let pivot_crank_2 = crank_2_by_x_2.mul_add(crank_2_by_x_2, y_2 * y_2);
         let per_pivot_crank_2 = pivot_crank_2.recip();
         let safe_crank_2 = S::select_le(pivot_crank_2, lit(0.0), lit(0.0), safe_crank_4);
-        let crank_2_by_y_2 = per_m * acceleration_0_part_3;
-        let right_crank_2 = times_m_g
-            .neg_mul_add(
-                crank_2_by_y_2,
-                lit(2.0) * dot_y_2.mul_add(dot_y_2, dot_x_2 * dot_x_2),
-            );
-        let crank_0_by_x_0 = x_0 * per_m;
-        let acceleration_0_part_5 = lit(0.25) * crank_0_by_x_0;
-        let crank_2_by_x_2 = per_m * acceleration_0_part_4;
-        let acceleration_0_part_6 = lit(0.16666666666666666) * crank_2_by_x_2;
-        let acceleration_0_part_7 = sq_m * acceleration_0_part_6 * acceleration_0_part_6
+        let right_crank_2 = y_2
+            .neg_mul_add(times_g, dot_y_2.mul_add(dot_y_2, dot_x_2 * dot_x_2));
+        let acceleration_0_part = lit(0.25) * x_0;
+        let acceleration_0_part_2 = lit(0.16666666666666666) * crank_2_by_x_2;
+        let acceleration_0_part_3 = acceleration_0_part_2 * acceleration_0_part_2
             * per_pivot_crank_2;
-        let pivot_x_1 = (sq_m * acceleration_0_part_5 * acceleration_0_part_5)
-            .mul_add(per_pivot_crank_0, lit(0.9305555555555556)) + acceleration_0_part_7;
+        let pivot_x_1 = (acceleration_0_part * acceleration_0_part)
+            .mul_add(per_pivot_crank_0, lit(0.9305555555555556)) + acceleration_0_part_3;
         let per_pivot_x_1 = pivot_x_1.recip();
         let safe_x_1 = S::select_le(
             pivot_x_1,
@@ -922,94 +899,89 @@ impl ::ukcore::Mechanism for FourBars {
             lit(0.0),
             safe_crank_2,
         );
-        let x_1_by_crank_0 = sq_m * acceleration_0_part_5 * per_pivot_crank_0;
-        let x_1_by_crank_2 = sq_m * acceleration_0_part_6 * per_pivot_crank_2;
+        let x_1_by_crank_0 = acceleration_0_part * per_pivot_crank_0;
+        let x_1_by_crank_2 = acceleration_0_part_2 * per_pivot_crank_2;
         let right_crank_2_x_1_by_crank_2 = right_crank_2 * x_1_by_crank_2;
         let right_x_1 = right_crank_0 * x_1_by_crank_0 + right_crank_2_x_1_by_crank_2;
-        let acceleration_0_part_8 = lit(0.25) * crank_0_by_y_0;
-        let acceleration_0_part_9 = lit(0.16666666666666666) * crank_2_by_y_2;
-        let acceleration_0_part_10 = sq_m * acceleration_0_part_9 * acceleration_0_part_9
+        let acceleration_0_part_4 = lit(0.25) * y_0;
+        let acceleration_0_part_5 = lit(0.16666666666666666) * y_2;
+        let acceleration_0_part_6 = acceleration_0_part_5 * acceleration_0_part_5
             * per_pivot_crank_2;
-        let y_1_by_crank_0 = sq_m * acceleration_0_part_8 * per_pivot_crank_0;
-        let y_1_by_crank_2 = sq_m * acceleration_0_part_9 * per_pivot_crank_2;
-        let acceleration_0_part_11 = acceleration_0_part_6 * y_1_by_crank_2;
-        let acceleration_0_part_12 = acceleration_0_part_5 * y_1_by_crank_0
-            + acceleration_0_part_11;
-        let pivot_y_1 = (acceleration_0_part_12 * acceleration_0_part_12)
+        let y_1_by_crank_0 = acceleration_0_part_4 * per_pivot_crank_0;
+        let y_1_by_crank_2 = acceleration_0_part_5 * per_pivot_crank_2;
+        let acceleration_0_part_7 = acceleration_0_part_2 * y_1_by_crank_2;
+        let acceleration_0_part_8 = acceleration_0_part * y_1_by_crank_0
+            + acceleration_0_part_7;
+        let pivot_y_1 = (acceleration_0_part_8 * acceleration_0_part_8)
             .neg_mul_add(
                 per_pivot_x_1,
-                (sq_m * acceleration_0_part_8 * acceleration_0_part_8)
+                (acceleration_0_part_4 * acceleration_0_part_4)
                     .mul_add(per_pivot_crank_0, lit(0.9305555555555556))
-                    + acceleration_0_part_10,
+                    + acceleration_0_part_6,
             );
         let per_pivot_y_1 = pivot_y_1.recip();
         let safe_y_1 = S::select_le(pivot_y_1, lit(0.0009765625), lit(0.0), safe_x_1);
         let right_crank_2_y_1_by_crank_2 = right_crank_2 * y_1_by_crank_2;
-        let y_1_by_x_1 = acceleration_0_part_12 * per_pivot_x_1;
+        let y_1_by_x_1 = acceleration_0_part_8 * per_pivot_x_1;
         let right_y_1 = right_crank_0 * y_1_by_crank_0 + right_crank_2_y_1_by_crank_2
-            - right_x_1.mul_add(y_1_by_x_1, right_y_0);
+            - right_x_1.mul_add(y_1_by_x_1, g);
         let x_1_minus_l = x_1 - l;
-        let crank_1_by_x_1 = per_m * x_1_minus_l * per_pivot_x_1;
-        let acceleration_0_part_13 = (m * acceleration_0_part_12)
+        let crank_1_by_x_1 = x_1_minus_l * per_pivot_x_1;
+        let acceleration_0_part_9 = acceleration_0_part_8
             .neg_mul_add(crank_1_by_x_1, y_1);
-        let pivot_crank_1 = (acceleration_0_part_13 * acceleration_0_part_13)
+        let pivot_crank_1 = (acceleration_0_part_9 * acceleration_0_part_9)
             .mul_add(per_pivot_y_1, x_1_minus_l * x_1_minus_l * per_pivot_x_1);
         let per_pivot_crank_1 = pivot_crank_1.recip();
         let safe_crank_1 = S::select_le(pivot_crank_1, lit(0.0), lit(0.0), safe_y_1);
-        let crank_1_by_y_1 = per_m * acceleration_0_part_13 * per_pivot_y_1;
+        let crank_1_by_y_1 = acceleration_0_part_9 * per_pivot_y_1;
         let right_crank_1 = right_y_1
             .mul_add(
                 crank_1_by_y_1,
                 right_x_1
                     .mul_add(crank_1_by_x_1, dot_y_1.mul_add(dot_y_1, dot_x_1 * dot_x_1)),
             );
-        let x_0_minus_x_1 = x_0 - x_1;
-        let coupler_0_by_x_0 = per_m * x_0_minus_x_1;
-        let y_0_minus_y_1 = y_0 - y_1;
-        let coupler_0_by_y_0 = per_m * y_0_minus_y_1;
+        let coupler_0_by_x_0 = x_0 - x_1;
+        let coupler_0_by_y_0 = y_0 - y_1;
         let coupler_0_with_crank_0 = lit(1.5)
             * y_0.mul_add(coupler_0_by_y_0, x_0 * coupler_0_by_x_0);
-        let coupler_0_by_crank_0 = m * coupler_0_with_crank_0 * per_pivot_crank_0;
-        let acceleration_0_part_14 = m * acceleration_0_part_5 * coupler_0_by_crank_0
-            - times_m.mul_add(coupler_0_by_x_0, x_0_minus_x_1);
-        let coupler_0_by_x_1 = per_m * acceleration_0_part_14 * per_pivot_x_1;
-        let acceleration_0_part_15 = m * acceleration_0_part_8 * coupler_0_by_crank_0
-            - (m * acceleration_0_part_12)
-                .mul_add(
-                    coupler_0_by_x_1,
-                    times_m.mul_add(coupler_0_by_y_0, y_0_minus_y_1),
-                );
-        let coupler_0_by_y_1 = per_m * per_pivot_y_1 * acceleration_0_part_15;
-        let coupler_0_with_crank_1 = acceleration_0_part_13
+        let coupler_0_by_crank_0 = coupler_0_with_crank_0 * per_pivot_crank_0;
+        let acceleration_0_part_10 = lit(1.25) * coupler_0_by_x_0;
+        let acceleration_0_part_11 = acceleration_0_part * coupler_0_by_crank_0
+            - acceleration_0_part_10;
+        let coupler_0_by_x_1 = acceleration_0_part_11 * per_pivot_x_1;
+        let acceleration_0_part_12 = acceleration_0_part_4 * coupler_0_by_crank_0
+            - acceleration_0_part_8
+                .mul_add(coupler_0_by_x_1, lit(1.25) * coupler_0_by_y_0);
+        let coupler_0_by_y_1 = acceleration_0_part_12 * per_pivot_y_1;
+        let coupler_0_with_crank_1 = acceleration_0_part_9
             .mul_add(coupler_0_by_y_1, x_1_minus_l * coupler_0_by_x_1);
-        let diagonal_coupler_0 = (per_pivot_y_1 * acceleration_0_part_15)
+        let diagonal_coupler_0 = (acceleration_0_part_12 * acceleration_0_part_12)
             .mul_add(
-                acceleration_0_part_15,
-                (acceleration_0_part_14 * acceleration_0_part_14)
+                per_pivot_y_1,
+                (acceleration_0_part_11 * acceleration_0_part_11)
                     .mul_add(
                         per_pivot_x_1,
-                        (lit(1.5) * y_0_minus_y_1)
+                        (lit(1.5) * coupler_0_by_y_0)
                             .mul_add(
-                                y_0_minus_y_1,
-                                lit(1.5) * x_0_minus_x_1 * x_0_minus_x_1,
+                                coupler_0_by_y_0,
+                                lit(1.5) * coupler_0_by_x_0 * coupler_0_by_x_0,
                             ),
                     ),
             );
-        let per_m_diagonal_coupler_0 = per_m * diagonal_coupler_0;
-        let pivot_coupler_0 = (m * per_pivot_crank_1 * coupler_0_with_crank_1)
+        let pivot_coupler_0 = (per_pivot_crank_1 * coupler_0_with_crank_1)
             .mul_add(
                 coupler_0_with_crank_1,
-                m * coupler_0_with_crank_0 * coupler_0_with_crank_0 * per_pivot_crank_0
-                    - per_m_diagonal_coupler_0,
+                coupler_0_with_crank_0 * coupler_0_with_crank_0 * per_pivot_crank_0
+                    - diagonal_coupler_0,
             );
         let per_pivot_coupler_0 = pivot_coupler_0.recip();
         let safe_coupler_0 = S::select_le(
             -pivot_coupler_0,
-            lit(0.0009765625) * per_m_diagonal_coupler_0,
+            lit(0.0009765625) * diagonal_coupler_0,
             lit(0.0),
             safe_crank_1,
         );
-        let coupler_0_by_crank_1 = m * per_pivot_crank_1 * coupler_0_with_crank_1;
+        let coupler_0_by_crank_1 = per_pivot_crank_1 * coupler_0_with_crank_1;
         let dot_x_0_minus_dot_x_1 = dot_x_0 - dot_x_1;
         let dot_y_0_minus_dot_y_1 = dot_y_0 - dot_y_1;
         let right_coupler_0 = right_crank_1
@@ -1022,7 +994,7 @@ impl ::ukcore::Mechanism for FourBars {
                             right_x_1
                                 .mul_add(
                                     coupler_0_by_x_1,
-                                    times_m_g
+                                    times_g
                                         .neg_mul_add(
                                             coupler_0_by_y_0,
                                             dot_y_0_minus_dot_y_1
@@ -1034,54 +1006,53 @@ impl ::ukcore::Mechanism for FourBars {
                                 ),
                         ),
             );
-        let x_1_minus_x_2 = x_1 - x_2;
-        let coupler_1_by_x_2 = per_m * x_1_minus_x_2;
-        let y_1_minus_y_2 = y_1 - y_2;
-        let coupler_1_by_y_2 = per_m * y_1_minus_y_2;
-        let coupler_1_with_crank_2 = acceleration_0_part_3
-            .mul_add(coupler_1_by_y_2, acceleration_0_part_4 * coupler_1_by_x_2);
-        let coupler_1_by_crank_2 = m * coupler_1_with_crank_2 * per_pivot_crank_2;
-        let acceleration_0_part_16 = m * acceleration_0_part_6 * coupler_1_by_crank_2
-            - times_m_2.mul_add(coupler_1_by_x_2, x_1_minus_x_2);
-        let coupler_1_by_x_1 = per_m * acceleration_0_part_16 * per_pivot_x_1;
-        let acceleration_0_part_17 = m * acceleration_0_part_9 * coupler_1_by_crank_2
-            - (m * acceleration_0_part_12)
-                .mul_add(
-                    coupler_1_by_x_1,
-                    times_m_2.mul_add(coupler_1_by_y_2, y_1_minus_y_2),
-                );
-        let coupler_1_by_y_1 = per_m * acceleration_0_part_17 * per_pivot_y_1;
-        let coupler_1_with_crank_1 = acceleration_0_part_13
+        let coupler_1_by_y_2 = y_1 - y_2;
+        let coupler_1_by_x_2 = x_1 - x_2;
+        let coupler_1_with_crank_2 = coupler_1_by_x_2
+            .mul_add(crank_2_by_x_2, y_2 * coupler_1_by_y_2);
+        let acceleration_0_part_13 = lit(1.1666666666666667) * coupler_1_by_x_2;
+        let coupler_1_by_crank_2 = coupler_1_with_crank_2 * per_pivot_crank_2;
+        let acceleration_0_part_14 = acceleration_0_part_2 * coupler_1_by_crank_2;
+        let acceleration_0_part_15 = acceleration_0_part_13 - acceleration_0_part_14;
+        let coupler_1_by_x_1 = -(acceleration_0_part_15 * per_pivot_x_1);
+        let acceleration_0_part_16 = acceleration_0_part_5 * coupler_1_by_crank_2;
+        let acceleration_0_part_17 = acceleration_0_part_16
+            - acceleration_0_part_8
+                .mul_add(coupler_1_by_x_1, lit(1.1666666666666667) * coupler_1_by_y_2);
+        let coupler_1_by_y_1 = acceleration_0_part_17 * per_pivot_y_1;
+        let coupler_1_with_crank_1 = acceleration_0_part_9
             .mul_add(coupler_1_by_y_1, x_1_minus_l * coupler_1_by_x_1);
-        let coupler_1_by_crank_1 = m * per_pivot_crank_1 * coupler_1_with_crank_1;
+        let coupler_1_by_crank_1 = per_pivot_crank_1 * coupler_1_with_crank_1;
         let coupler_1_with_coupler_0 = coupler_0_with_crank_1 * coupler_1_by_crank_1
-            - acceleration_0_part_15
-                .mul_add(coupler_1_by_y_1, acceleration_0_part_14 * coupler_1_by_x_1);
+            - acceleration_0_part_12
+                .mul_add(coupler_1_by_y_1, acceleration_0_part_11 * coupler_1_by_x_1);
         let diagonal_coupler_1 = (acceleration_0_part_17 * acceleration_0_part_17)
             .mul_add(
                 per_pivot_y_1,
-                (acceleration_0_part_16 * acceleration_0_part_16)
+                (acceleration_0_part_15 * acceleration_0_part_15)
                     .mul_add(
                         per_pivot_x_1,
-                        y_1_minus_y_2
-                            .mul_add(y_1_minus_y_2, x_1_minus_x_2 * x_1_minus_x_2),
+                        coupler_1_by_y_2
+                            .mul_add(
+                                coupler_1_by_y_2,
+                                coupler_1_by_x_2 * coupler_1_by_x_2,
+                            ),
                     ),
             );
-        let per_m_diagonal_coupler_1 = per_m * diagonal_coupler_1;
         let pivot_coupler_1 = (coupler_1_with_coupler_0 * coupler_1_with_coupler_0)
             .neg_mul_add(
                 per_pivot_coupler_0,
-                (m * per_pivot_crank_1 * coupler_1_with_crank_1)
+                (per_pivot_crank_1 * coupler_1_with_crank_1)
                     .mul_add(
                         coupler_1_with_crank_1,
-                        m * coupler_1_with_crank_2 * coupler_1_with_crank_2
-                            * per_pivot_crank_2 - per_m_diagonal_coupler_1,
+                        coupler_1_with_crank_2 * coupler_1_with_crank_2
+                            * per_pivot_crank_2 - diagonal_coupler_1,
                     ),
             );
         let per_pivot_coupler_1 = pivot_coupler_1.recip();
         let safe_coupler_1 = S::select_le(
             -pivot_coupler_1,
-            lit(0.0009765625) * per_m_diagonal_coupler_1,
+            lit(0.0009765625) * diagonal_coupler_1,
             lit(0.0),
             safe_coupler_0,
         );
@@ -1101,64 +1072,51 @@ impl ::ukcore::Mechanism for FourBars {
                                     right_x_1
                                         .neg_mul_add(
                                             coupler_1_by_x_1,
-                                            times_m_g
-                                                .mul_add(
-                                                    coupler_1_by_y_2,
-                                                    dot_y_1_minus_dot_y_2
-                                                        .mul_add(
-                                                            dot_y_1_minus_dot_y_2,
-                                                            dot_x_1_minus_dot_x_2 * dot_x_1_minus_dot_x_2,
-                                                        ),
-                                                ),
+                                            times_g * coupler_1_by_y_2
+                                                + dot_y_1_minus_dot_y_2
+                                                    .mul_add(
+                                                        dot_y_1_minus_dot_y_2,
+                                                        dot_x_1_minus_dot_x_2 * dot_x_1_minus_dot_x_2,
+                                                    ),
                                         ),
                                 ),
                     ),
             );
-        let crank_4_by_x_4 = per_m * acceleration_0_part_2;
         let acceleration_0_part_18 = lit(0.25) * crank_4_by_x_4;
-        let acceleration_0_part_19 = acceleration_0_part_6
-            .neg_mul_add(x_1_by_crank_2, lit(0.027777777777777776));
+        let acceleration_0_part_19 = acceleration_0_part_2 * x_1_by_crank_2
+            - lit(0.027777777777777776);
         let acceleration_0_part_20 = acceleration_0_part_19
-            .mul_add(y_1_by_x_1, acceleration_0_part_11);
+            .neg_mul_add(y_1_by_x_1, acceleration_0_part_7);
         let acceleration_0_part_21 = acceleration_0_part_20
-            .neg_mul_add(crank_1_by_y_1, acceleration_0_part_19 * crank_1_by_x_1);
-        let acceleration_0_part_22 = acceleration_0_part_21
-            .neg_mul_add(
-                coupler_0_by_crank_1,
-                acceleration_0_part_20
-                    .neg_mul_add(
-                        coupler_0_by_y_1,
-                        acceleration_0_part_19 * coupler_0_by_x_1,
-                    ),
-            );
+            .mul_add(crank_1_by_y_1, acceleration_0_part_19 * crank_1_by_x_1);
+        let acceleration_0_part_22 = acceleration_0_part_21 * coupler_0_by_crank_1
+            - acceleration_0_part_20
+                .mul_add(coupler_0_by_y_1, acceleration_0_part_19 * coupler_0_by_x_1);
         let acceleration_0_part_23 = acceleration_0_part_22
-            .mul_add(
+            .neg_mul_add(
                 coupler_1_by_coupler_0,
                 acceleration_0_part_21
                     .mul_add(
                         coupler_1_by_crank_1,
-                        acceleration_0_part_6
-                            .neg_mul_add(
-                                coupler_1_by_crank_2,
-                                acceleration_0_part_20
-                                    .mul_add(
-                                        coupler_1_by_y_1,
-                                        acceleration_0_part_19
-                                            .neg_mul_add(
-                                                coupler_1_by_x_1,
-                                                lit(0.16666666666666666) * coupler_1_by_x_2,
-                                            ),
-                                    ),
-                            ),
+                        acceleration_0_part_14
+                            - acceleration_0_part_20
+                                .mul_add(
+                                    coupler_1_by_y_1,
+                                    acceleration_0_part_19
+                                        .mul_add(
+                                            coupler_1_by_x_1,
+                                            lit(0.16666666666666666) * coupler_1_by_x_2,
+                                        ),
+                                ),
                     ),
             );
-        let pivot_x_3 = (m * acceleration_0_part_23 * acceleration_0_part_23)
+        let pivot_x_3 = (acceleration_0_part_23 * acceleration_0_part_23)
             .neg_mul_add(
                 per_pivot_coupler_1,
-                (m * acceleration_0_part_22 * acceleration_0_part_22)
+                (acceleration_0_part_22 * acceleration_0_part_22)
                     .neg_mul_add(
                         per_pivot_coupler_0,
-                        (sq_m * acceleration_0_part_21 * acceleration_0_part_21)
+                        (acceleration_0_part_21 * acceleration_0_part_21)
                             .mul_add(
                                 per_pivot_crank_1,
                                 (acceleration_0_part_20 * acceleration_0_part_20)
@@ -1167,10 +1125,10 @@ impl ::ukcore::Mechanism for FourBars {
                                         (acceleration_0_part_19 * acceleration_0_part_19)
                                             .neg_mul_add(
                                                 per_pivot_x_1,
-                                                (sq_m * acceleration_0_part_18 * acceleration_0_part_18)
+                                                (acceleration_0_part_18 * acceleration_0_part_18)
                                                     .mul_add(
                                                         per_pivot_crank_4,
-                                                        lit(0.9305555555555556) + acceleration_0_part_7,
+                                                        lit(0.9305555555555556) + acceleration_0_part_3,
                                                     ),
                                             ),
                                     ),
@@ -1184,91 +1142,83 @@ impl ::ukcore::Mechanism for FourBars {
             lit(0.0),
             safe_coupler_1,
         );
-        let x_3_by_crank_4 = sq_m * acceleration_0_part_18 * per_pivot_crank_4;
-        let x_3_by_crank_1 = sq_m * acceleration_0_part_21 * per_pivot_crank_1;
-        let x_3_by_coupler_0 = m * acceleration_0_part_22 * per_pivot_coupler_0;
-        let x_3_by_coupler_1 = m * acceleration_0_part_23 * per_pivot_coupler_1;
+        let x_3_by_crank_4 = acceleration_0_part_18 * per_pivot_crank_4;
+        let x_3_by_crank_1 = acceleration_0_part_21 * per_pivot_crank_1;
+        let x_3_by_coupler_0 = acceleration_0_part_22 * per_pivot_coupler_0;
+        let x_3_by_coupler_1 = acceleration_0_part_23 * per_pivot_coupler_1;
         let x_3_by_x_1 = acceleration_0_part_19 * per_pivot_x_1;
         let x_3_by_y_1 = acceleration_0_part_20 * per_pivot_y_1;
         let right_x_3 = right_coupler_1
-            .mul_add(
+            .neg_mul_add(
                 x_3_by_coupler_1,
                 right_coupler_0
                     .neg_mul_add(
                         x_3_by_coupler_0,
                         right_crank_1
-                            .neg_mul_add(
+                            .mul_add(
                                 x_3_by_crank_1,
                                 right_crank_4
                                     .mul_add(x_3_by_crank_4, right_crank_2_x_1_by_crank_2)
-                                    + right_y_1.neg_mul_add(x_3_by_y_1, right_x_1 * x_3_by_x_1),
+                                    - right_y_1.mul_add(x_3_by_y_1, right_x_1 * x_3_by_x_1),
                             ),
                     ),
             );
-        let acceleration_0_part_24 = lit(0.25) * crank_4_by_y_4;
-        let y_3_by_x_1 = acceleration_0_part_6 * y_1_by_crank_2 * per_pivot_x_1;
-        let acceleration_0_part_25 = acceleration_0_part_9
-            .neg_mul_add(
-                y_1_by_crank_2,
-                acceleration_0_part_12.mul_add(y_3_by_x_1, lit(0.027777777777777776)),
-            );
+        let acceleration_0_part_24 = lit(0.25) * y_4;
+        let y_3_by_x_1 = acceleration_0_part_2 * y_1_by_crank_2 * per_pivot_x_1;
+        let acceleration_0_part_25 = acceleration_0_part_8
+            .neg_mul_add(y_3_by_x_1, acceleration_0_part_5 * y_1_by_crank_2)
+            - lit(0.027777777777777776);
         let acceleration_0_part_26 = acceleration_0_part_25
-            .neg_mul_add(
+            .mul_add(
                 crank_1_by_y_1,
-                acceleration_0_part_6 * y_1_by_crank_2 * crank_1_by_x_1,
+                acceleration_0_part_2 * y_1_by_crank_2 * crank_1_by_x_1,
             );
-        let acceleration_0_part_27 = acceleration_0_part_26
-            .neg_mul_add(
-                coupler_0_by_crank_1,
-                acceleration_0_part_25
-                    .neg_mul_add(
-                        coupler_0_by_y_1,
-                        acceleration_0_part_6 * y_1_by_crank_2 * coupler_0_by_x_1,
-                    ),
-            );
+        let acceleration_0_part_27 = acceleration_0_part_26 * coupler_0_by_crank_1
+            - acceleration_0_part_25
+                .mul_add(
+                    coupler_0_by_y_1,
+                    acceleration_0_part_2 * y_1_by_crank_2 * coupler_0_by_x_1,
+                );
         let acceleration_0_part_28 = acceleration_0_part_27
             .neg_mul_add(
                 coupler_1_by_coupler_0,
                 acceleration_0_part_26
-                    .neg_mul_add(
+                    .mul_add(
                         coupler_1_by_crank_1,
-                        acceleration_0_part_9
-                            .neg_mul_add(
-                                coupler_1_by_crank_2,
-                                acceleration_0_part_25
-                                    .neg_mul_add(
-                                        coupler_1_by_y_1,
-                                        (acceleration_0_part_6 * y_1_by_crank_2)
-                                            .mul_add(
-                                                coupler_1_by_x_1,
-                                                lit(0.16666666666666666) * coupler_1_by_y_2,
-                                            ),
-                                    ),
-                            ),
+                        acceleration_0_part_16
+                            - acceleration_0_part_25
+                                .mul_add(
+                                    coupler_1_by_y_1,
+                                    (acceleration_0_part_2 * y_1_by_crank_2)
+                                        .mul_add(
+                                            coupler_1_by_x_1,
+                                            lit(0.16666666666666666) * coupler_1_by_y_2,
+                                        ),
+                                ),
                     ),
             );
-        let y_3_by_crank_4 = sq_m * acceleration_0_part_24 * per_pivot_crank_4;
+        let y_3_by_crank_4 = acceleration_0_part_24 * per_pivot_crank_4;
         let y_3_by_y_1 = acceleration_0_part_25 * per_pivot_y_1;
-        let y_3_by_crank_1 = sq_m * acceleration_0_part_26 * per_pivot_crank_1;
-        let y_3_by_coupler_0 = m * acceleration_0_part_27 * per_pivot_coupler_0;
-        let y_3_by_coupler_1 = m * acceleration_0_part_28 * per_pivot_coupler_1;
+        let y_3_by_crank_1 = acceleration_0_part_26 * per_pivot_crank_1;
+        let y_3_by_coupler_0 = acceleration_0_part_27 * per_pivot_coupler_0;
+        let y_3_by_coupler_1 = acceleration_0_part_28 * per_pivot_coupler_1;
         let acceleration_0_part_29 = acceleration_0_part_23
             .neg_mul_add(
                 y_3_by_coupler_1,
                 acceleration_0_part_22
-                    .mul_add(
+                    .neg_mul_add(
                         y_3_by_coupler_0,
                         acceleration_0_part_21
-                            .neg_mul_add(
+                            .mul_add(
                                 y_3_by_crank_1,
                                 acceleration_0_part_20
-                                    .mul_add(
+                                    .neg_mul_add(
                                         y_3_by_y_1,
                                         acceleration_0_part_19
-                                            .mul_add(
+                                            .neg_mul_add(
                                                 y_3_by_x_1,
                                                 acceleration_0_part_18
-                                                    .mul_add(y_3_by_crank_4, acceleration_0_part_11),
+                                                    .mul_add(y_3_by_crank_4, acceleration_0_part_7),
                                             ),
                                     ),
                             ),
@@ -1277,26 +1227,26 @@ impl ::ukcore::Mechanism for FourBars {
         let pivot_y_3 = (acceleration_0_part_29 * acceleration_0_part_29)
             .neg_mul_add(
                 per_pivot_x_3,
-                (m * acceleration_0_part_28 * acceleration_0_part_28)
+                (acceleration_0_part_28 * acceleration_0_part_28)
                     .neg_mul_add(
                         per_pivot_coupler_1,
-                        (m * acceleration_0_part_27 * acceleration_0_part_27)
+                        (acceleration_0_part_27 * acceleration_0_part_27)
                             .neg_mul_add(
                                 per_pivot_coupler_0,
-                                (sq_m * acceleration_0_part_26 * acceleration_0_part_26)
+                                (acceleration_0_part_26 * acceleration_0_part_26)
                                     .mul_add(
                                         per_pivot_crank_1,
                                         (acceleration_0_part_25 * acceleration_0_part_25)
                                             .neg_mul_add(
                                                 per_pivot_y_1,
-                                                (acceleration_0_part_6 * acceleration_0_part_6
+                                                (acceleration_0_part_2 * acceleration_0_part_2
                                                     * y_1_by_crank_2 * y_1_by_crank_2)
                                                     .neg_mul_add(
                                                         per_pivot_x_1,
-                                                        (sq_m * acceleration_0_part_24 * acceleration_0_part_24)
+                                                        (acceleration_0_part_24 * acceleration_0_part_24)
                                                             .mul_add(
                                                                 per_pivot_crank_4,
-                                                                lit(0.9305555555555556) + acceleration_0_part_10,
+                                                                lit(0.9305555555555556) + acceleration_0_part_6,
                                                             ),
                                                     ),
                                             ),
@@ -1308,10 +1258,10 @@ impl ::ukcore::Mechanism for FourBars {
         let safe_y_3 = S::select_le(pivot_y_3, lit(0.0009765625), lit(0.0), safe_x_3);
         let y_3_by_x_3 = acceleration_0_part_29 * per_pivot_x_3;
         let right_y_3 = right_coupler_1
-            .mul_add(
+            .neg_mul_add(
                 y_3_by_coupler_1,
                 right_coupler_0
-                    .mul_add(
+                    .neg_mul_add(
                         y_3_by_coupler_0,
                         right_crank_1
                             .mul_add(
@@ -1324,155 +1274,139 @@ impl ::ukcore::Mechanism for FourBars {
             - right_x_3
                 .mul_add(
                     y_3_by_x_3,
-                    right_y_1
-                        .neg_mul_add(
-                            y_3_by_y_1,
-                            right_x_1.mul_add(y_3_by_x_1, right_y_0),
-                        ),
+                    right_y_1.mul_add(y_3_by_y_1, right_x_1.mul_add(y_3_by_x_1, g)),
                 );
-        let acceleration_0_part_30 = lit(2.0) * x_3 + times_l_4;
-        let crank_3_by_x_3 = per_m * acceleration_0_part_30 * per_pivot_x_3;
-        let acceleration_0_part_31 = (m * acceleration_0_part_29)
-            .neg_mul_add(crank_3_by_x_3, lit(2.0) * y_3);
-        let pivot_crank_3 = (acceleration_0_part_31 * acceleration_0_part_31)
+        let x_3_plus_times_l_2 = x_3 + times_l_2;
+        let crank_3_by_x_3 = x_3_plus_times_l_2 * per_pivot_x_3;
+        let acceleration_0_part_30 = acceleration_0_part_29
+            .neg_mul_add(crank_3_by_x_3, y_3);
+        let pivot_crank_3 = (acceleration_0_part_30 * acceleration_0_part_30)
             .mul_add(
                 per_pivot_y_3,
-                acceleration_0_part_30 * acceleration_0_part_30 * per_pivot_x_3,
+                x_3_plus_times_l_2 * x_3_plus_times_l_2 * per_pivot_x_3,
             );
         let per_pivot_crank_3 = pivot_crank_3.recip();
         let safe_crank_3 = S::select_le(pivot_crank_3, lit(0.0), lit(0.0), safe_y_3);
-        let right_crank_3 = (per_m * acceleration_0_part_31 * right_y_3)
+        let right_crank_3 = (acceleration_0_part_30 * right_y_3)
             .mul_add(
                 per_pivot_y_3,
                 right_x_3
-                    .mul_add(
-                        crank_3_by_x_3,
-                        lit(2.0) * dot_y_3.mul_add(dot_y_3, dot_x_3 * dot_x_3),
-                    ),
+                    .mul_add(crank_3_by_x_3, dot_y_3.mul_add(dot_y_3, dot_x_3 * dot_x_3)),
             );
-        let x_2_minus_x_3 = x_2 - x_3;
-        let coupler_2_by_x_2 = per_m * x_2_minus_x_3;
-        let y_2_minus_y_3 = y_2 - y_3;
-        let coupler_2_by_y_2 = per_m * y_2_minus_y_3;
-        let coupler_2_with_crank_2 = acceleration_0_part_3
-            .mul_add(coupler_2_by_y_2, acceleration_0_part_4 * coupler_2_by_x_2);
-        let acceleration_0_part_32 = lit(0.16666666666666666) * coupler_2_by_x_2;
-        let coupler_2_by_crank_2 = m * coupler_2_with_crank_2 * per_pivot_crank_2;
-        let acceleration_0_part_33 = acceleration_0_part_6
-            .neg_mul_add(coupler_2_by_crank_2, acceleration_0_part_32);
-        let coupler_2_by_x_1 = acceleration_0_part_33 * per_pivot_x_1;
-        let acceleration_0_part_34 = acceleration_0_part_9
-            .neg_mul_add(
-                coupler_2_by_crank_2,
-                acceleration_0_part_12
-                    .neg_mul_add(
-                        coupler_2_by_x_1,
-                        lit(0.16666666666666666) * coupler_2_by_y_2,
-                    ),
-            );
-        let coupler_2_by_y_1 = acceleration_0_part_34 * per_pivot_y_1;
-        let coupler_2_with_crank_1 = acceleration_0_part_13
+        let coupler_2_by_y_2 = y_2 - y_3;
+        let coupler_2_by_x_2 = x_2 - x_3;
+        let coupler_2_with_crank_2 = coupler_2_by_x_2
+            .mul_add(crank_2_by_x_2, y_2 * coupler_2_by_y_2);
+        let acceleration_0_part_31 = lit(0.16666666666666666) * coupler_2_by_x_2;
+        let coupler_2_by_crank_2 = coupler_2_with_crank_2 * per_pivot_crank_2;
+        let acceleration_0_part_32 = acceleration_0_part_2 * coupler_2_by_crank_2;
+        let acceleration_0_part_33 = acceleration_0_part_31 - acceleration_0_part_32;
+        let coupler_2_by_x_1 = -(acceleration_0_part_33 * per_pivot_x_1);
+        let acceleration_0_part_34 = acceleration_0_part_5 * coupler_2_by_crank_2;
+        let acceleration_0_part_35 = acceleration_0_part_34
+            - acceleration_0_part_8
+                .mul_add(coupler_2_by_x_1, lit(0.16666666666666666) * coupler_2_by_y_2);
+        let coupler_2_by_y_1 = acceleration_0_part_35 * per_pivot_y_1;
+        let coupler_2_with_crank_1 = acceleration_0_part_9
             .mul_add(coupler_2_by_y_1, x_1_minus_l * coupler_2_by_x_1);
-        let coupler_2_by_crank_1 = m * per_pivot_crank_1 * coupler_2_with_crank_1;
+        let coupler_2_by_crank_1 = per_pivot_crank_1 * coupler_2_with_crank_1;
         let coupler_2_with_coupler_0 = coupler_0_with_crank_1 * coupler_2_by_crank_1
-            - acceleration_0_part_15
-                .mul_add(coupler_2_by_y_1, acceleration_0_part_14 * coupler_2_by_x_1);
+            - acceleration_0_part_12
+                .mul_add(coupler_2_by_y_1, acceleration_0_part_11 * coupler_2_by_x_1);
         let coupler_2_by_coupler_0 = coupler_2_with_coupler_0 * per_pivot_coupler_0;
         let coupler_2_with_coupler_1 = coupler_1_with_coupler_0
-            .mul_add(
+            .neg_mul_add(
                 coupler_2_by_coupler_0,
                 coupler_1_with_crank_1
-                    .neg_mul_add(
+                    .mul_add(
                         coupler_2_by_crank_1,
                         coupler_1_with_crank_2 * coupler_2_by_crank_2
                             - acceleration_0_part_17
-                                .neg_mul_add(
+                                .mul_add(
                                     coupler_2_by_y_1,
-                                    acceleration_0_part_16
+                                    acceleration_0_part_15
                                         .neg_mul_add(
                                             coupler_2_by_x_1,
-                                            y_1_minus_y_2
-                                                .mul_add(coupler_2_by_y_2, x_1_minus_x_2 * coupler_2_by_x_2),
+                                            coupler_1_by_y_2
+                                                .mul_add(
+                                                    coupler_2_by_y_2,
+                                                    coupler_1_by_x_2 * coupler_2_by_x_2,
+                                                ),
                                         ),
                                 ),
                     ),
             );
         let coupler_2_by_coupler_1 = coupler_2_with_coupler_1 * per_pivot_coupler_1;
-        let acceleration_0_part_35 = (m * acceleration_0_part_23)
-            .mul_add(
+        let acceleration_0_part_36 = acceleration_0_part_23
+            .neg_mul_add(
                 coupler_2_by_coupler_1,
-                (m * acceleration_0_part_22)
-                    .mul_add(
+                acceleration_0_part_22
+                    .neg_mul_add(
                         coupler_2_by_coupler_0,
-                        (m * acceleration_0_part_21)
+                        acceleration_0_part_21
                             .mul_add(
                                 coupler_2_by_crank_1,
-                                m * acceleration_0_part_6 * coupler_2_by_crank_2
-                                    - (m * acceleration_0_part_20)
-                                        .neg_mul_add(
+                                acceleration_0_part_32
+                                    - acceleration_0_part_20
+                                        .mul_add(
                                             coupler_2_by_y_1,
-                                            (m * acceleration_0_part_19)
+                                            acceleration_0_part_19
                                                 .mul_add(
                                                     coupler_2_by_x_1,
-                                                    times_m_2.mul_add(coupler_2_by_x_2, x_2_minus_x_3),
+                                                    lit(1.1666666666666667) * coupler_2_by_x_2,
                                                 ),
                                         ),
                             ),
                     ),
             );
-        let coupler_2_by_x_3 = per_m * acceleration_0_part_35 * per_pivot_x_3;
-        let acceleration_0_part_36 = (m * acceleration_0_part_28)
-            .mul_add(
+        let coupler_2_by_x_3 = acceleration_0_part_36 * per_pivot_x_3;
+        let acceleration_0_part_37 = acceleration_0_part_28
+            .neg_mul_add(
                 coupler_2_by_coupler_1,
-                (m * acceleration_0_part_27)
+                acceleration_0_part_27
                     .neg_mul_add(
                         coupler_2_by_coupler_0,
-                        (m * acceleration_0_part_26)
-                            .neg_mul_add(
-                                coupler_2_by_crank_1,
-                                m * acceleration_0_part_9 * coupler_2_by_crank_2,
-                            ),
+                        acceleration_0_part_26
+                            .mul_add(coupler_2_by_crank_1, acceleration_0_part_34),
                     ),
             )
-            - (m * acceleration_0_part_29)
+            - acceleration_0_part_29
                 .mul_add(
                     coupler_2_by_x_3,
-                    (m * acceleration_0_part_25)
+                    acceleration_0_part_25
                         .mul_add(
                             coupler_2_by_y_1,
-                            (m * acceleration_0_part_6 * y_1_by_crank_2)
-                                .neg_mul_add(
+                            (acceleration_0_part_2 * y_1_by_crank_2)
+                                .mul_add(
                                     coupler_2_by_x_1,
-                                    times_m_2.mul_add(coupler_2_by_y_2, y_2_minus_y_3),
+                                    lit(1.1666666666666667) * coupler_2_by_y_2,
                                 ),
                         ),
                 );
-        let coupler_2_with_crank_3 = (per_m * acceleration_0_part_31
-            * acceleration_0_part_36)
-            .mul_add(per_pivot_y_3, acceleration_0_part_30 * coupler_2_by_x_3);
-        let diagonal_coupler_2 = (per_m * acceleration_0_part_36
-            * acceleration_0_part_36)
+        let coupler_2_with_crank_3 = (acceleration_0_part_30 * acceleration_0_part_37)
+            .mul_add(per_pivot_y_3, x_3_plus_times_l_2 * coupler_2_by_x_3);
+        let diagonal_coupler_2 = (acceleration_0_part_37 * acceleration_0_part_37)
             .mul_add(
                 per_pivot_y_3,
-                (per_m * acceleration_0_part_35 * acceleration_0_part_35)
+                (acceleration_0_part_36 * acceleration_0_part_36)
                     .mul_add(
                         per_pivot_x_3,
-                        (m * acceleration_0_part_34 * acceleration_0_part_34)
+                        (acceleration_0_part_35 * acceleration_0_part_35)
                             .mul_add(
                                 per_pivot_y_1,
-                                (m * acceleration_0_part_33 * acceleration_0_part_33)
+                                (acceleration_0_part_33 * acceleration_0_part_33)
                                     .mul_add(
                                         per_pivot_x_1,
-                                        (per_m * y_2_minus_y_3)
+                                        coupler_2_by_y_2
                                             .mul_add(
-                                                y_2_minus_y_3,
-                                                per_m * x_2_minus_x_3 * x_2_minus_x_3,
+                                                coupler_2_by_y_2,
+                                                coupler_2_by_x_2 * coupler_2_by_x_2,
                                             ),
                                     ),
                             ),
                     ),
             );
-        let pivot_coupler_2 = (m * coupler_2_with_crank_3 * coupler_2_with_crank_3)
+        let pivot_coupler_2 = (coupler_2_with_crank_3 * coupler_2_with_crank_3)
             .mul_add(
                 per_pivot_crank_3,
                 (coupler_2_with_coupler_1 * coupler_2_with_coupler_1)
@@ -1481,10 +1415,10 @@ impl ::ukcore::Mechanism for FourBars {
                         (coupler_2_with_coupler_0 * coupler_2_with_coupler_0)
                             .neg_mul_add(
                                 per_pivot_coupler_0,
-                                (m * per_pivot_crank_1 * coupler_2_with_crank_1)
+                                (per_pivot_crank_1 * coupler_2_with_crank_1)
                                     .mul_add(
                                         coupler_2_with_crank_1,
-                                        m * coupler_2_with_crank_2 * coupler_2_with_crank_2
+                                        coupler_2_with_crank_2 * coupler_2_with_crank_2
                                             * per_pivot_crank_2,
                                     ),
                             ),
@@ -1497,7 +1431,7 @@ impl ::ukcore::Mechanism for FourBars {
             lit(0.0),
             safe_crank_3,
         );
-        let coupler_2_by_crank_3 = m * coupler_2_with_crank_3 * per_pivot_crank_3;
+        let coupler_2_by_crank_3 = coupler_2_with_crank_3 * per_pivot_crank_3;
         let dot_x_2_minus_dot_x_3 = dot_x_2 - dot_x_3;
         let dot_y_2_minus_dot_y_3 = dot_y_2 - dot_y_3;
         let right_coupler_2 = right_crank_3
@@ -1507,28 +1441,28 @@ impl ::ukcore::Mechanism for FourBars {
                     .neg_mul_add(
                         coupler_2_by_coupler_1,
                         right_coupler_0
-                            .mul_add(
+                            .neg_mul_add(
                                 coupler_2_by_coupler_0,
                                 right_crank_1
-                                    .neg_mul_add(
+                                    .mul_add(
                                         coupler_2_by_crank_1,
                                         right_crank_2 * coupler_2_by_crank_2,
                                     ),
                             ),
                     )
-                    - (per_m * right_y_3 * acceleration_0_part_36)
+                    - (right_y_3 * acceleration_0_part_37)
                         .mul_add(
                             per_pivot_y_3,
                             right_x_3
                                 .mul_add(
                                     coupler_2_by_x_3,
                                     right_y_1
-                                        .neg_mul_add(
+                                        .mul_add(
                                             coupler_2_by_y_1,
                                             right_x_1
-                                                .neg_mul_add(
+                                                .mul_add(
                                                     coupler_2_by_x_1,
-                                                    times_m_g
+                                                    times_g
                                                         .neg_mul_add(
                                                             coupler_2_by_y_2,
                                                             dot_y_2_minus_dot_y_3
@@ -1542,61 +1476,52 @@ impl ::ukcore::Mechanism for FourBars {
                                 ),
                         ),
             );
-        let x_3_minus_x_4 = x_3 - x_4;
-        let coupler_3_by_x_4 = per_m * x_3_minus_x_4;
-        let y_3_minus_y_4 = y_3 - y_4;
-        let coupler_3_by_y_4 = per_m * y_3_minus_y_4;
+        let coupler_3_by_x_4 = x_3 - x_4;
+        let acceleration_0_part_38 = lit(1.25) * coupler_3_by_x_4;
+        let coupler_3_by_y_4 = y_3 - y_4;
         let coupler_3_with_crank_4 = lit(1.5)
-            * acceleration_0_part
-                .mul_add(coupler_3_by_y_4, acceleration_0_part_2 * coupler_3_by_x_4);
-        let coupler_3_by_crank_4 = m * coupler_3_with_crank_4 * per_pivot_crank_4;
-        let acceleration_0_part_37 = m * acceleration_0_part_18 * coupler_3_by_crank_4
-            - times_m.mul_add(coupler_3_by_x_4, x_3_minus_x_4);
-        let coupler_3_by_x_3 = per_m * acceleration_0_part_37 * per_pivot_x_3;
-        let acceleration_0_part_38 = m * acceleration_0_part_24 * coupler_3_by_crank_4
-            - (m * acceleration_0_part_29)
-                .mul_add(
-                    coupler_3_by_x_3,
-                    times_m.mul_add(coupler_3_by_y_4, y_3_minus_y_4),
-                );
-        let coupler_3_with_crank_3 = (per_m * acceleration_0_part_31
-            * acceleration_0_part_38)
-            .mul_add(per_pivot_y_3, acceleration_0_part_30 * coupler_3_by_x_3);
-        let coupler_3_by_crank_3 = m * coupler_3_with_crank_3 * per_pivot_crank_3;
+            * coupler_3_by_x_4.mul_add(crank_4_by_x_4, y_4 * coupler_3_by_y_4);
+        let coupler_3_by_crank_4 = coupler_3_with_crank_4 * per_pivot_crank_4;
+        let acceleration_0_part_39 = acceleration_0_part_18
+            .neg_mul_add(coupler_3_by_crank_4, acceleration_0_part_38);
+        let coupler_3_by_x_3 = -(acceleration_0_part_39 * per_pivot_x_3);
+        let acceleration_0_part_40 = acceleration_0_part_24 * coupler_3_by_crank_4
+            - acceleration_0_part_29
+                .mul_add(coupler_3_by_x_3, lit(1.25) * coupler_3_by_y_4);
+        let coupler_3_with_crank_3 = (acceleration_0_part_30 * acceleration_0_part_40)
+            .mul_add(per_pivot_y_3, x_3_plus_times_l_2 * coupler_3_by_x_3);
+        let coupler_3_by_crank_3 = coupler_3_with_crank_3 * per_pivot_crank_3;
         let coupler_3_with_coupler_2 = coupler_2_with_crank_3 * coupler_3_by_crank_3
-            - (per_m * acceleration_0_part_38 * acceleration_0_part_36)
-                .mul_add(per_pivot_y_3, acceleration_0_part_35 * coupler_3_by_x_3);
-        let acceleration_0_part_39 = (acceleration_0_part_38 * acceleration_0_part_38)
+            - (acceleration_0_part_37 * acceleration_0_part_40)
+                .mul_add(per_pivot_y_3, acceleration_0_part_36 * coupler_3_by_x_3);
+        let acceleration_0_part_41 = (acceleration_0_part_40 * acceleration_0_part_40)
             .mul_add(
                 per_pivot_y_3,
-                (acceleration_0_part_37 * acceleration_0_part_37)
+                (acceleration_0_part_39 * acceleration_0_part_39)
                     .mul_add(
                         per_pivot_x_3,
-                        (lit(1.5) * y_3_minus_y_4)
+                        (lit(1.5) * coupler_3_by_y_4)
                             .mul_add(
-                                y_3_minus_y_4,
-                                lit(1.5) * x_3_minus_x_4 * x_3_minus_x_4,
+                                coupler_3_by_y_4,
+                                lit(1.5) * coupler_3_by_x_4 * coupler_3_by_x_4,
                             ),
                     ),
             );
-        let pivot_coupler_3 = (m * coupler_3_with_crank_3 * coupler_3_with_crank_3)
-            .mul_add(
-                per_pivot_crank_3,
-                per_m
-                    .neg_mul_add(
-                        acceleration_0_part_39,
-                        m * coupler_3_with_crank_4 * coupler_3_with_crank_4
-                            * per_pivot_crank_4,
-                    ),
-            )
+        let pivot_coupler_3 = pivot_coupler_2
             .neg_mul_add(
-                pivot_coupler_2,
+                (coupler_3_with_crank_3 * coupler_3_with_crank_3)
+                    .mul_add(
+                        per_pivot_crank_3,
+                        coupler_3_with_crank_4 * coupler_3_with_crank_4
+                            * per_pivot_crank_4 - acceleration_0_part_41,
+                    ),
                 coupler_3_with_coupler_2 * coupler_3_with_coupler_2,
             );
         let per_pivot_coupler_3 = pivot_coupler_3.recip();
+        let diagonal_coupler_3 = acceleration_0_part_41 * pivot_coupler_2;
         let safe_coupler_3 = S::select_le(
             -pivot_coupler_3,
-            -(times_per_m * acceleration_0_part_39 * pivot_coupler_2),
+            lit(-0.0009765625) * diagonal_coupler_3,
             lit(0.0),
             safe_coupler_2,
         );
@@ -1608,25 +1533,22 @@ impl ::ukcore::Mechanism for FourBars {
                     .mul_add(
                         coupler_3_by_crank_3,
                         right_crank_4 * coupler_3_by_crank_4
-                            + (per_m * acceleration_0_part_38 * right_y_3)
+                            + (right_y_3 * acceleration_0_part_40)
                                 .neg_mul_add(
                                     per_pivot_y_3,
                                     right_x_3
                                         .neg_mul_add(
                                             coupler_3_by_x_3,
-                                            times_m_g
-                                                .mul_add(
-                                                    coupler_3_by_y_4,
-                                                    dot_y_3_minus_dot_y_4
-                                                        .mul_add(
-                                                            dot_y_3_minus_dot_y_4,
-                                                            dot_x_3_minus_dot_x_4 * dot_x_3_minus_dot_x_4,
-                                                        ),
-                                                ),
+                                            times_g * coupler_3_by_y_4
+                                                + dot_y_3_minus_dot_y_4
+                                                    .mul_add(
+                                                        dot_y_3_minus_dot_y_4,
+                                                        dot_x_3_minus_dot_x_4 * dot_x_3_minus_dot_x_4,
+                                                    ),
                                         ),
                                 ),
                     ),
-                coupler_3_with_coupler_2 * right_coupler_2,
+                right_coupler_2 * coupler_3_with_coupler_2,
             );
         let safe = safe_coupler_3;
         let lambda_coupler_2 = (coupler_3_with_coupler_2 * right_coupler_3
@@ -1636,24 +1558,20 @@ impl ::ukcore::Mechanism for FourBars {
             .neg_mul_add(
                 lambda_coupler_2,
                 (coupler_3_by_crank_3 * right_coupler_3)
-                    .neg_mul_add(
-                        per_pivot_coupler_3,
-                        m * right_crank_3 * per_pivot_crank_3,
-                    ),
+                    .neg_mul_add(per_pivot_coupler_3, right_crank_3 * per_pivot_crank_3),
             );
-        let safe_part = (acceleration_0_part_31 * per_pivot_y_3)
+        let safe_part = (acceleration_0_part_30 * per_pivot_y_3)
             .neg_mul_add(
                 lambda_crank_3,
-                (acceleration_0_part_36 * per_pivot_y_3)
+                (acceleration_0_part_37 * per_pivot_y_3)
                     .neg_mul_add(
                         lambda_coupler_2,
-                        (acceleration_0_part_38 * per_pivot_y_3 * right_coupler_3)
+                        (acceleration_0_part_40 * per_pivot_y_3 * right_coupler_3)
                             .neg_mul_add(per_pivot_coupler_3, right_y_3 * per_pivot_y_3),
                     ),
             );
-        let per_m_safe_part = per_m * safe_part;
-        out[8] = per_m_safe_part;
-        let acceleration_9_part = (per_m * y_3_by_x_3)
+        out[8] = safe_part;
+        let acceleration_9_part = y_3_by_x_3
             .neg_mul_add(
                 safe_part,
                 crank_3_by_x_3
@@ -1663,10 +1581,7 @@ impl ::ukcore::Mechanism for FourBars {
                             .neg_mul_add(
                                 lambda_coupler_2,
                                 (coupler_3_by_x_3 * right_coupler_3)
-                                    .neg_mul_add(
-                                        per_pivot_coupler_3,
-                                        per_m * right_x_3 * per_pivot_x_3,
-                                    ),
+                                    .neg_mul_add(per_pivot_coupler_3, right_x_3 * per_pivot_x_3),
                             ),
                     ),
             );
@@ -1674,41 +1589,35 @@ impl ::ukcore::Mechanism for FourBars {
         let lambda_crank_4 = x_3_by_crank_4
             .neg_mul_add(
                 acceleration_9_part,
-                (per_m * y_3_by_crank_4)
+                y_3_by_crank_4
                     .neg_mul_add(
                         safe_part,
                         (coupler_3_by_crank_4 * right_coupler_3)
                             .neg_mul_add(
                                 per_pivot_coupler_3,
-                                m * right_crank_4 * per_pivot_crank_4,
+                                right_crank_4 * per_pivot_crank_4,
                             ),
                     ),
             );
-        out[4] = (lit(1.5) * crank_4_by_x_4)
-            .neg_mul_add(
-                lambda_crank_4,
-                lit(0.25)
-                    .neg_mul_add(
-                        acceleration_9_part,
-                        -(lit(1.5) * coupler_3_by_x_4 * right_coupler_3
-                            * per_pivot_coupler_3),
-                    ),
-            );
-        out[9] = (lit(1.5) * crank_4_by_y_4)
-            .neg_mul_add(
-                lambda_crank_4,
-                lit(0.25)
-                    .neg_mul_add(
-                        per_m_safe_part,
-                        (lit(1.5) * coupler_3_by_y_4 * right_coupler_3)
-                            .neg_mul_add(per_pivot_coupler_3, -times_g),
-                    ),
-            );
+        out[4] = lit(-0.25)
+            * (lit(6.0) * crank_4_by_x_4)
+                .mul_add(
+                    lambda_crank_4,
+                    lit(6.0) * coupler_3_by_x_4 * right_coupler_3 * per_pivot_coupler_3
+                        + acceleration_9_part,
+                );
+        out[9] = lit(-0.25)
+            * (lit(6.0) * y_4)
+                .mul_add(
+                    lambda_crank_4,
+                    (lit(6.0) * coupler_3_by_y_4 * right_coupler_3)
+                        .mul_add(per_pivot_coupler_3, times_g_2) + safe_part,
+                );
         let lambda_coupler_1 = x_3_by_coupler_1
-            .mul_add(
+            .neg_mul_add(
                 acceleration_9_part,
-                (per_m * y_3_by_coupler_1)
-                    .mul_add(
+                y_3_by_coupler_1
+                    .neg_mul_add(
                         safe_part,
                         coupler_2_by_coupler_1
                             .neg_mul_add(
@@ -1723,11 +1632,11 @@ impl ::ukcore::Mechanism for FourBars {
                 x_3_by_coupler_0
                     .neg_mul_add(
                         acceleration_9_part,
-                        (per_m * y_3_by_coupler_0)
-                            .mul_add(
+                        y_3_by_coupler_0
+                            .neg_mul_add(
                                 safe_part,
                                 coupler_2_by_coupler_0
-                                    .mul_add(
+                                    .neg_mul_add(
                                         lambda_coupler_2,
                                         right_coupler_0 * per_pivot_coupler_0,
                                     ),
@@ -1741,15 +1650,15 @@ impl ::ukcore::Mechanism for FourBars {
                     .neg_mul_add(
                         lambda_coupler_1,
                         x_3_by_crank_1
-                            .mul_add(
+                            .neg_mul_add(
                                 acceleration_9_part,
-                                (per_m * y_3_by_crank_1)
+                                y_3_by_crank_1
                                     .neg_mul_add(
                                         safe_part,
                                         coupler_2_by_crank_1
-                                            .mul_add(
+                                            .neg_mul_add(
                                                 lambda_coupler_2,
-                                                m * right_crank_1 * per_pivot_crank_1,
+                                                right_crank_1 * per_pivot_crank_1,
                                             ),
                                     ),
                             ),
@@ -1767,14 +1676,11 @@ impl ::ukcore::Mechanism for FourBars {
                                 x_3_by_y_1
                                     .neg_mul_add(
                                         acceleration_9_part,
-                                        (per_m * y_3_by_y_1)
-                                            .mul_add(
+                                        y_3_by_y_1
+                                            .neg_mul_add(
                                                 safe_part,
                                                 coupler_2_by_y_1
-                                                    .mul_add(
-                                                        lambda_coupler_2,
-                                                        per_m * right_y_1 * per_pivot_y_1,
-                                                    ),
+                                                    .neg_mul_add(lambda_coupler_2, right_y_1 * per_pivot_y_1),
                                             ),
                                     ),
                             ),
@@ -1794,16 +1700,13 @@ impl ::ukcore::Mechanism for FourBars {
                                     .neg_mul_add(
                                         lambda_coupler_1,
                                         x_3_by_x_1
-                                            .mul_add(
+                                            .neg_mul_add(
                                                 acceleration_9_part,
-                                                (per_m * y_3_by_x_1)
+                                                y_3_by_x_1
                                                     .neg_mul_add(
                                                         safe_part,
                                                         coupler_2_by_x_1
-                                                            .mul_add(
-                                                                lambda_coupler_2,
-                                                                per_m * right_x_1 * per_pivot_x_1,
-                                                            ),
+                                                            .neg_mul_add(lambda_coupler_2, right_x_1 * per_pivot_x_1),
                                                     ),
                                             ),
                                     ),
@@ -1820,19 +1723,16 @@ impl ::ukcore::Mechanism for FourBars {
                         coupler_0_by_crank_0
                             .neg_mul_add(
                                 lambda_coupler_0,
-                                m * right_crank_0 * per_pivot_crank_0,
+                                right_crank_0 * per_pivot_crank_0,
                             ),
                     ),
             );
-        out[0] = (lit(1.5) * crank_0_by_x_0)
-            .neg_mul_add(
-                lambda_crank_0,
-                lit(0.25)
-                    .neg_mul_add(
-                        acceleration_7_part,
-                        -(lit(1.5) * coupler_0_by_x_0 * lambda_coupler_0),
-                    ),
-            );
+        out[0] = lit(-0.25)
+            * (lit(6.0) * x_0)
+                .mul_add(
+                    lambda_crank_0,
+                    lit(6.0) * coupler_0_by_x_0 * lambda_coupler_0 + acceleration_7_part,
+                );
         let lambda_crank_2 = x_1_by_crank_2
             .neg_mul_add(
                 acceleration_7_part,
@@ -1845,13 +1745,13 @@ impl ::ukcore::Mechanism for FourBars {
                                 x_1_by_crank_2
                                     .neg_mul_add(
                                         acceleration_9_part,
-                                        (per_m * y_1_by_crank_2)
+                                        y_1_by_crank_2
                                             .neg_mul_add(
                                                 safe_part,
                                                 coupler_2_by_crank_2
                                                     .neg_mul_add(
                                                         lambda_coupler_2,
-                                                        m * right_crank_2 * per_pivot_crank_2,
+                                                        right_crank_2 * per_pivot_crank_2,
                                                     ),
                                             ),
                                     ),
@@ -1875,17 +1775,14 @@ impl ::ukcore::Mechanism for FourBars {
                             ),
                     ),
             );
-        out[5] = (lit(1.5) * crank_0_by_y_0)
-            .neg_mul_add(
-                lambda_crank_0,
-                lit(0.25)
-                    .neg_mul_add(
-                        safe_part_2,
-                        (lit(1.5) * coupler_0_by_y_0)
-                            .neg_mul_add(lambda_coupler_0, -times_g),
-                    ),
-            );
-        out[7] = crank_2_by_y_2
+        out[5] = lit(-0.25)
+            * (lit(6.0) * y_0)
+                .mul_add(
+                    lambda_crank_0,
+                    (lit(6.0) * coupler_0_by_y_0).mul_add(lambda_coupler_0, times_g_2)
+                        + safe_part_2,
+                );
+        out[7] = y_2
             .neg_mul_add(
                 lambda_crank_2,
                 lit(0.16666666666666666)
@@ -1896,7 +1793,7 @@ impl ::ukcore::Mechanism for FourBars {
                                 lambda_coupler_1,
                                 lit(0.16666666666666666)
                                     .neg_mul_add(
-                                        per_m_safe_part,
+                                        safe_part,
                                         coupler_2_by_y_2.neg_mul_add(lambda_coupler_2, -times_g),
                                     ),
                             ),
@@ -1913,10 +1810,9 @@ impl ::ukcore::Mechanism for FourBars {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 10>(out, "out");
-        let [m, _, _, l, _, _, times_l_3, times_l_4, times_l_5, per_m, _, sq_m, times_m,
-        times_m_2, _, times_per_m, safe_x_0, _, _] = *::ukcore::emitted::exact::<
+        let [_, _, _, l, times_l, times_l_2, times_l_3, _, _, _, safe_x_0, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            19,
+            14,
         >(prepared, "prepared");
         let [x_0, x_1, x_2, x_3, x_4, y_0, y_1, y_2, y_3, y_4] = *::ukcore::emitted::exact::<
             S,
@@ -1931,27 +1827,20 @@ impl ::ukcore::Mechanism for FourBars {
         let pivot_crank_0 = lit(1.5) * y_0.mul_add(y_0, x_0 * x_0);
         let per_pivot_crank_0 = pivot_crank_0.recip();
         let safe_crank_0 = S::select_le(pivot_crank_0, lit(0.0), lit(0.0), safe_x_0);
-        let correction_0_part = lit(2.0) * y_4;
-        let correction_0_part_2 = lit(2.0) * x_4 + times_l_5;
-        let pivot_crank_4 = lit(1.5)
-            * correction_0_part_2
-                .mul_add(correction_0_part_2, correction_0_part * correction_0_part);
+        let crank_4_by_x_4 = x_4 + times_l_3;
+        let pivot_crank_4 = lit(1.5) * crank_4_by_x_4.mul_add(crank_4_by_x_4, y_4 * y_4);
         let per_pivot_crank_4 = pivot_crank_4.recip();
         let safe_crank_4 = S::select_le(pivot_crank_4, lit(0.0), lit(0.0), safe_crank_0);
-        let correction_0_part_3 = lit(2.0) * y_2;
-        let correction_0_part_4 = lit(2.0) * x_2 + times_l_3;
-        let pivot_crank_2 = correction_0_part_4
-            .mul_add(correction_0_part_4, correction_0_part_3 * correction_0_part_3);
+        let crank_2_by_x_2 = x_2 + times_l;
+        let pivot_crank_2 = crank_2_by_x_2.mul_add(crank_2_by_x_2, y_2 * y_2);
         let per_pivot_crank_2 = pivot_crank_2.recip();
         let safe_crank_2 = S::select_le(pivot_crank_2, lit(0.0), lit(0.0), safe_crank_4);
-        let crank_0_by_x_0 = x_0 * per_m;
-        let correction_0_part_5 = lit(0.25) * crank_0_by_x_0;
-        let crank_2_by_x_2 = per_m * correction_0_part_4;
-        let correction_0_part_6 = lit(0.16666666666666666) * crank_2_by_x_2;
-        let correction_0_part_7 = sq_m * correction_0_part_6 * correction_0_part_6
+        let correction_0_part = lit(0.25) * x_0;
+        let correction_0_part_2 = lit(0.16666666666666666) * crank_2_by_x_2;
+        let correction_0_part_3 = correction_0_part_2 * correction_0_part_2
             * per_pivot_crank_2;
-        let pivot_x_1 = (sq_m * correction_0_part_5 * correction_0_part_5)
-            .mul_add(per_pivot_crank_0, lit(0.9305555555555556)) + correction_0_part_7;
+        let pivot_x_1 = (correction_0_part * correction_0_part)
+            .mul_add(per_pivot_crank_0, lit(0.9305555555555556)) + correction_0_part_3;
         let per_pivot_x_1 = pivot_x_1.recip();
         let safe_x_1 = S::select_le(
             pivot_x_1,
@@ -1959,181 +1848,162 @@ impl ::ukcore::Mechanism for FourBars {
             lit(0.0),
             safe_crank_2,
         );
-        let crank_0_by_y_0 = y_0 * per_m;
-        let correction_0_part_8 = lit(0.25) * crank_0_by_y_0;
-        let crank_2_by_y_2 = per_m * correction_0_part_3;
-        let correction_0_part_9 = lit(0.16666666666666666) * crank_2_by_y_2;
-        let correction_0_part_10 = sq_m * correction_0_part_9 * correction_0_part_9
+        let correction_0_part_4 = lit(0.25) * y_0;
+        let correction_0_part_5 = lit(0.16666666666666666) * y_2;
+        let correction_0_part_6 = correction_0_part_5 * correction_0_part_5
             * per_pivot_crank_2;
-        let y_1_by_crank_0 = sq_m * correction_0_part_8 * per_pivot_crank_0;
-        let y_1_by_crank_2 = sq_m * correction_0_part_9 * per_pivot_crank_2;
-        let correction_0_part_11 = correction_0_part_6 * y_1_by_crank_2;
-        let correction_0_part_12 = correction_0_part_5 * y_1_by_crank_0
-            + correction_0_part_11;
-        let pivot_y_1 = (correction_0_part_12 * correction_0_part_12)
+        let y_1_by_crank_0 = correction_0_part_4 * per_pivot_crank_0;
+        let y_1_by_crank_2 = correction_0_part_5 * per_pivot_crank_2;
+        let correction_0_part_7 = correction_0_part_2 * y_1_by_crank_2;
+        let correction_0_part_8 = correction_0_part * y_1_by_crank_0
+            + correction_0_part_7;
+        let pivot_y_1 = (correction_0_part_8 * correction_0_part_8)
             .neg_mul_add(
                 per_pivot_x_1,
-                (sq_m * correction_0_part_8 * correction_0_part_8)
+                (correction_0_part_4 * correction_0_part_4)
                     .mul_add(per_pivot_crank_0, lit(0.9305555555555556))
-                    + correction_0_part_10,
+                    + correction_0_part_6,
             );
         let per_pivot_y_1 = pivot_y_1.recip();
         let safe_y_1 = S::select_le(pivot_y_1, lit(0.0009765625), lit(0.0), safe_x_1);
         let x_1_minus_l = x_1 - l;
-        let crank_1_by_x_1 = per_m * x_1_minus_l * per_pivot_x_1;
-        let correction_0_part_13 = (m * correction_0_part_12)
-            .neg_mul_add(crank_1_by_x_1, y_1);
-        let pivot_crank_1 = (correction_0_part_13 * correction_0_part_13)
+        let crank_1_by_x_1 = x_1_minus_l * per_pivot_x_1;
+        let correction_0_part_9 = correction_0_part_8.neg_mul_add(crank_1_by_x_1, y_1);
+        let pivot_crank_1 = (correction_0_part_9 * correction_0_part_9)
             .mul_add(per_pivot_y_1, x_1_minus_l * x_1_minus_l * per_pivot_x_1);
         let per_pivot_crank_1 = pivot_crank_1.recip();
         let safe_crank_1 = S::select_le(pivot_crank_1, lit(0.0), lit(0.0), safe_y_1);
-        let x_0_minus_x_1 = x_0 - x_1;
-        let coupler_0_by_x_0 = per_m * x_0_minus_x_1;
-        let y_0_minus_y_1 = y_0 - y_1;
-        let coupler_0_by_y_0 = per_m * y_0_minus_y_1;
+        let coupler_0_by_x_0 = x_0 - x_1;
+        let coupler_0_by_y_0 = y_0 - y_1;
         let coupler_0_with_crank_0 = lit(1.5)
             * y_0.mul_add(coupler_0_by_y_0, x_0 * coupler_0_by_x_0);
-        let coupler_0_by_crank_0 = m * coupler_0_with_crank_0 * per_pivot_crank_0;
-        let correction_0_part_14 = m * correction_0_part_5 * coupler_0_by_crank_0
-            - times_m.mul_add(coupler_0_by_x_0, x_0_minus_x_1);
-        let coupler_0_by_x_1 = per_m * correction_0_part_14 * per_pivot_x_1;
-        let correction_0_part_15 = m * correction_0_part_8 * coupler_0_by_crank_0
-            - (m * correction_0_part_12)
-                .mul_add(
-                    coupler_0_by_x_1,
-                    times_m.mul_add(coupler_0_by_y_0, y_0_minus_y_1),
-                );
-        let coupler_0_by_y_1 = per_m * per_pivot_y_1 * correction_0_part_15;
-        let coupler_0_with_crank_1 = correction_0_part_13
+        let coupler_0_by_crank_0 = coupler_0_with_crank_0 * per_pivot_crank_0;
+        let correction_0_part_10 = lit(1.25) * coupler_0_by_x_0;
+        let correction_0_part_11 = correction_0_part * coupler_0_by_crank_0
+            - correction_0_part_10;
+        let coupler_0_by_x_1 = correction_0_part_11 * per_pivot_x_1;
+        let correction_0_part_12 = correction_0_part_4 * coupler_0_by_crank_0
+            - correction_0_part_8
+                .mul_add(coupler_0_by_x_1, lit(1.25) * coupler_0_by_y_0);
+        let coupler_0_by_y_1 = correction_0_part_12 * per_pivot_y_1;
+        let coupler_0_with_crank_1 = correction_0_part_9
             .mul_add(coupler_0_by_y_1, x_1_minus_l * coupler_0_by_x_1);
-        let diagonal_coupler_0 = (per_pivot_y_1 * correction_0_part_15)
+        let diagonal_coupler_0 = (correction_0_part_12 * correction_0_part_12)
             .mul_add(
-                correction_0_part_15,
-                (correction_0_part_14 * correction_0_part_14)
+                per_pivot_y_1,
+                (correction_0_part_11 * correction_0_part_11)
                     .mul_add(
                         per_pivot_x_1,
-                        (lit(1.5) * y_0_minus_y_1)
+                        (lit(1.5) * coupler_0_by_y_0)
                             .mul_add(
-                                y_0_minus_y_1,
-                                lit(1.5) * x_0_minus_x_1 * x_0_minus_x_1,
+                                coupler_0_by_y_0,
+                                lit(1.5) * coupler_0_by_x_0 * coupler_0_by_x_0,
                             ),
                     ),
             );
-        let per_m_diagonal_coupler_0 = per_m * diagonal_coupler_0;
-        let pivot_coupler_0 = (m * per_pivot_crank_1 * coupler_0_with_crank_1)
+        let pivot_coupler_0 = (per_pivot_crank_1 * coupler_0_with_crank_1)
             .mul_add(
                 coupler_0_with_crank_1,
-                m * coupler_0_with_crank_0 * coupler_0_with_crank_0 * per_pivot_crank_0
-                    - per_m_diagonal_coupler_0,
+                coupler_0_with_crank_0 * coupler_0_with_crank_0 * per_pivot_crank_0
+                    - diagonal_coupler_0,
             );
         let per_pivot_coupler_0 = pivot_coupler_0.recip();
         let safe_coupler_0 = S::select_le(
             -pivot_coupler_0,
-            lit(0.0009765625) * per_m_diagonal_coupler_0,
+            lit(0.0009765625) * diagonal_coupler_0,
             lit(0.0),
             safe_crank_1,
         );
-        let x_1_minus_x_2 = x_1 - x_2;
-        let coupler_1_by_x_2 = per_m * x_1_minus_x_2;
-        let y_1_minus_y_2 = y_1 - y_2;
-        let coupler_1_by_y_2 = per_m * y_1_minus_y_2;
-        let coupler_1_with_crank_2 = correction_0_part_3
-            .mul_add(coupler_1_by_y_2, correction_0_part_4 * coupler_1_by_x_2);
-        let coupler_1_by_crank_2 = m * coupler_1_with_crank_2 * per_pivot_crank_2;
-        let correction_0_part_16 = m * correction_0_part_6 * coupler_1_by_crank_2
-            - times_m_2.mul_add(coupler_1_by_x_2, x_1_minus_x_2);
-        let coupler_1_by_x_1 = per_m * correction_0_part_16 * per_pivot_x_1;
-        let correction_0_part_17 = m * correction_0_part_9 * coupler_1_by_crank_2
-            - (m * correction_0_part_12)
-                .mul_add(
-                    coupler_1_by_x_1,
-                    times_m_2.mul_add(coupler_1_by_y_2, y_1_minus_y_2),
-                );
-        let coupler_1_by_y_1 = per_m * correction_0_part_17 * per_pivot_y_1;
-        let coupler_1_with_crank_1 = correction_0_part_13
+        let coupler_1_by_y_2 = y_1 - y_2;
+        let coupler_1_by_x_2 = x_1 - x_2;
+        let coupler_1_with_crank_2 = coupler_1_by_x_2
+            .mul_add(crank_2_by_x_2, y_2 * coupler_1_by_y_2);
+        let correction_0_part_13 = lit(1.1666666666666667) * coupler_1_by_x_2;
+        let coupler_1_by_crank_2 = coupler_1_with_crank_2 * per_pivot_crank_2;
+        let correction_0_part_14 = correction_0_part_2 * coupler_1_by_crank_2;
+        let correction_0_part_15 = correction_0_part_13 - correction_0_part_14;
+        let coupler_1_by_x_1 = -(correction_0_part_15 * per_pivot_x_1);
+        let correction_0_part_16 = correction_0_part_5 * coupler_1_by_crank_2;
+        let correction_0_part_17 = correction_0_part_16
+            - correction_0_part_8
+                .mul_add(coupler_1_by_x_1, lit(1.1666666666666667) * coupler_1_by_y_2);
+        let coupler_1_by_y_1 = correction_0_part_17 * per_pivot_y_1;
+        let coupler_1_with_crank_1 = correction_0_part_9
             .mul_add(coupler_1_by_y_1, x_1_minus_l * coupler_1_by_x_1);
-        let coupler_1_by_crank_1 = m * per_pivot_crank_1 * coupler_1_with_crank_1;
+        let coupler_1_by_crank_1 = per_pivot_crank_1 * coupler_1_with_crank_1;
         let coupler_1_with_coupler_0 = coupler_0_with_crank_1 * coupler_1_by_crank_1
-            - correction_0_part_15
-                .mul_add(coupler_1_by_y_1, correction_0_part_14 * coupler_1_by_x_1);
+            - correction_0_part_12
+                .mul_add(coupler_1_by_y_1, correction_0_part_11 * coupler_1_by_x_1);
         let diagonal_coupler_1 = (correction_0_part_17 * correction_0_part_17)
             .mul_add(
                 per_pivot_y_1,
-                (correction_0_part_16 * correction_0_part_16)
+                (correction_0_part_15 * correction_0_part_15)
                     .mul_add(
                         per_pivot_x_1,
-                        y_1_minus_y_2
-                            .mul_add(y_1_minus_y_2, x_1_minus_x_2 * x_1_minus_x_2),
+                        coupler_1_by_y_2
+                            .mul_add(
+                                coupler_1_by_y_2,
+                                coupler_1_by_x_2 * coupler_1_by_x_2,
+                            ),
                     ),
             );
-        let per_m_diagonal_coupler_1 = per_m * diagonal_coupler_1;
         let pivot_coupler_1 = (coupler_1_with_coupler_0 * coupler_1_with_coupler_0)
             .neg_mul_add(
                 per_pivot_coupler_0,
-                (m * per_pivot_crank_1 * coupler_1_with_crank_1)
+                (per_pivot_crank_1 * coupler_1_with_crank_1)
                     .mul_add(
                         coupler_1_with_crank_1,
-                        m * coupler_1_with_crank_2 * coupler_1_with_crank_2
-                            * per_pivot_crank_2 - per_m_diagonal_coupler_1,
+                        coupler_1_with_crank_2 * coupler_1_with_crank_2
+                            * per_pivot_crank_2 - diagonal_coupler_1,
                     ),
             );
         let per_pivot_coupler_1 = pivot_coupler_1.recip();
         let safe_coupler_1 = S::select_le(
             -pivot_coupler_1,
-            lit(0.0009765625) * per_m_diagonal_coupler_1,
+            lit(0.0009765625) * diagonal_coupler_1,
             lit(0.0),
             safe_coupler_0,
         );
-        let crank_4_by_x_4 = per_m * correction_0_part_2;
         let correction_0_part_18 = lit(0.25) * crank_4_by_x_4;
-        let x_1_by_crank_2 = sq_m * correction_0_part_6 * per_pivot_crank_2;
-        let correction_0_part_19 = correction_0_part_6
-            .neg_mul_add(x_1_by_crank_2, lit(0.027777777777777776));
-        let y_1_by_x_1 = correction_0_part_12 * per_pivot_x_1;
+        let x_1_by_crank_2 = correction_0_part_2 * per_pivot_crank_2;
+        let correction_0_part_19 = correction_0_part_2 * x_1_by_crank_2
+            - lit(0.027777777777777776);
+        let y_1_by_x_1 = correction_0_part_8 * per_pivot_x_1;
         let correction_0_part_20 = correction_0_part_19
-            .mul_add(y_1_by_x_1, correction_0_part_11);
-        let crank_1_by_y_1 = per_m * correction_0_part_13 * per_pivot_y_1;
+            .neg_mul_add(y_1_by_x_1, correction_0_part_7);
+        let crank_1_by_y_1 = correction_0_part_9 * per_pivot_y_1;
         let correction_0_part_21 = correction_0_part_20
-            .neg_mul_add(crank_1_by_y_1, correction_0_part_19 * crank_1_by_x_1);
-        let coupler_0_by_crank_1 = m * per_pivot_crank_1 * coupler_0_with_crank_1;
-        let correction_0_part_22 = correction_0_part_21
-            .neg_mul_add(
-                coupler_0_by_crank_1,
-                correction_0_part_20
-                    .neg_mul_add(
-                        coupler_0_by_y_1,
-                        correction_0_part_19 * coupler_0_by_x_1,
-                    ),
-            );
+            .mul_add(crank_1_by_y_1, correction_0_part_19 * crank_1_by_x_1);
+        let coupler_0_by_crank_1 = per_pivot_crank_1 * coupler_0_with_crank_1;
+        let correction_0_part_22 = correction_0_part_21 * coupler_0_by_crank_1
+            - correction_0_part_20
+                .mul_add(coupler_0_by_y_1, correction_0_part_19 * coupler_0_by_x_1);
         let coupler_1_by_coupler_0 = coupler_1_with_coupler_0 * per_pivot_coupler_0;
         let correction_0_part_23 = correction_0_part_22
-            .mul_add(
+            .neg_mul_add(
                 coupler_1_by_coupler_0,
                 correction_0_part_21
                     .mul_add(
                         coupler_1_by_crank_1,
-                        correction_0_part_6
-                            .neg_mul_add(
-                                coupler_1_by_crank_2,
-                                correction_0_part_20
-                                    .mul_add(
-                                        coupler_1_by_y_1,
-                                        correction_0_part_19
-                                            .neg_mul_add(
-                                                coupler_1_by_x_1,
-                                                lit(0.16666666666666666) * coupler_1_by_x_2,
-                                            ),
-                                    ),
-                            ),
+                        correction_0_part_14
+                            - correction_0_part_20
+                                .mul_add(
+                                    coupler_1_by_y_1,
+                                    correction_0_part_19
+                                        .mul_add(
+                                            coupler_1_by_x_1,
+                                            lit(0.16666666666666666) * coupler_1_by_x_2,
+                                        ),
+                                ),
                     ),
             );
-        let pivot_x_3 = (m * correction_0_part_23 * correction_0_part_23)
+        let pivot_x_3 = (correction_0_part_23 * correction_0_part_23)
             .neg_mul_add(
                 per_pivot_coupler_1,
-                (m * correction_0_part_22 * correction_0_part_22)
+                (correction_0_part_22 * correction_0_part_22)
                     .neg_mul_add(
                         per_pivot_coupler_0,
-                        (sq_m * correction_0_part_21 * correction_0_part_21)
+                        (correction_0_part_21 * correction_0_part_21)
                             .mul_add(
                                 per_pivot_crank_1,
                                 (correction_0_part_20 * correction_0_part_20)
@@ -2142,10 +2012,10 @@ impl ::ukcore::Mechanism for FourBars {
                                         (correction_0_part_19 * correction_0_part_19)
                                             .neg_mul_add(
                                                 per_pivot_x_1,
-                                                (sq_m * correction_0_part_18 * correction_0_part_18)
+                                                (correction_0_part_18 * correction_0_part_18)
                                                     .mul_add(
                                                         per_pivot_crank_4,
-                                                        lit(0.9305555555555556) + correction_0_part_7,
+                                                        lit(0.9305555555555556) + correction_0_part_3,
                                                     ),
                                             ),
                                     ),
@@ -2159,71 +2029,62 @@ impl ::ukcore::Mechanism for FourBars {
             lit(0.0),
             safe_coupler_1,
         );
-        let crank_4_by_y_4 = per_m * correction_0_part;
-        let correction_0_part_24 = lit(0.25) * crank_4_by_y_4;
-        let y_3_by_x_1 = correction_0_part_6 * y_1_by_crank_2 * per_pivot_x_1;
-        let correction_0_part_25 = correction_0_part_9
-            .neg_mul_add(
-                y_1_by_crank_2,
-                correction_0_part_12.mul_add(y_3_by_x_1, lit(0.027777777777777776)),
-            );
+        let correction_0_part_24 = lit(0.25) * y_4;
+        let y_3_by_x_1 = correction_0_part_2 * y_1_by_crank_2 * per_pivot_x_1;
+        let correction_0_part_25 = correction_0_part_8
+            .neg_mul_add(y_3_by_x_1, correction_0_part_5 * y_1_by_crank_2)
+            - lit(0.027777777777777776);
         let correction_0_part_26 = correction_0_part_25
-            .neg_mul_add(
+            .mul_add(
                 crank_1_by_y_1,
-                correction_0_part_6 * y_1_by_crank_2 * crank_1_by_x_1,
+                correction_0_part_2 * y_1_by_crank_2 * crank_1_by_x_1,
             );
-        let correction_0_part_27 = correction_0_part_26
-            .neg_mul_add(
-                coupler_0_by_crank_1,
-                correction_0_part_25
-                    .neg_mul_add(
-                        coupler_0_by_y_1,
-                        correction_0_part_6 * y_1_by_crank_2 * coupler_0_by_x_1,
-                    ),
-            );
+        let correction_0_part_27 = correction_0_part_26 * coupler_0_by_crank_1
+            - correction_0_part_25
+                .mul_add(
+                    coupler_0_by_y_1,
+                    correction_0_part_2 * y_1_by_crank_2 * coupler_0_by_x_1,
+                );
         let correction_0_part_28 = correction_0_part_27
             .neg_mul_add(
                 coupler_1_by_coupler_0,
                 correction_0_part_26
-                    .neg_mul_add(
+                    .mul_add(
                         coupler_1_by_crank_1,
-                        correction_0_part_9
-                            .neg_mul_add(
-                                coupler_1_by_crank_2,
-                                correction_0_part_25
-                                    .neg_mul_add(
-                                        coupler_1_by_y_1,
-                                        (correction_0_part_6 * y_1_by_crank_2)
-                                            .mul_add(
-                                                coupler_1_by_x_1,
-                                                lit(0.16666666666666666) * coupler_1_by_y_2,
-                                            ),
-                                    ),
-                            ),
+                        correction_0_part_16
+                            - correction_0_part_25
+                                .mul_add(
+                                    coupler_1_by_y_1,
+                                    (correction_0_part_2 * y_1_by_crank_2)
+                                        .mul_add(
+                                            coupler_1_by_x_1,
+                                            lit(0.16666666666666666) * coupler_1_by_y_2,
+                                        ),
+                                ),
                     ),
             );
-        let y_3_by_crank_4 = sq_m * correction_0_part_24 * per_pivot_crank_4;
+        let y_3_by_crank_4 = correction_0_part_24 * per_pivot_crank_4;
         let y_3_by_y_1 = correction_0_part_25 * per_pivot_y_1;
-        let y_3_by_crank_1 = sq_m * correction_0_part_26 * per_pivot_crank_1;
-        let y_3_by_coupler_0 = m * correction_0_part_27 * per_pivot_coupler_0;
-        let y_3_by_coupler_1 = m * correction_0_part_28 * per_pivot_coupler_1;
+        let y_3_by_crank_1 = correction_0_part_26 * per_pivot_crank_1;
+        let y_3_by_coupler_0 = correction_0_part_27 * per_pivot_coupler_0;
+        let y_3_by_coupler_1 = correction_0_part_28 * per_pivot_coupler_1;
         let correction_0_part_29 = correction_0_part_23
             .neg_mul_add(
                 y_3_by_coupler_1,
                 correction_0_part_22
-                    .mul_add(
+                    .neg_mul_add(
                         y_3_by_coupler_0,
                         correction_0_part_21
-                            .neg_mul_add(
+                            .mul_add(
                                 y_3_by_crank_1,
                                 correction_0_part_20
-                                    .mul_add(
+                                    .neg_mul_add(
                                         y_3_by_y_1,
                                         correction_0_part_19
-                                            .mul_add(
+                                            .neg_mul_add(
                                                 y_3_by_x_1,
                                                 correction_0_part_18
-                                                    .mul_add(y_3_by_crank_4, correction_0_part_11),
+                                                    .mul_add(y_3_by_crank_4, correction_0_part_7),
                                             ),
                                     ),
                             ),
@@ -2232,26 +2093,26 @@ impl ::ukcore::Mechanism for FourBars {
         let pivot_y_3 = (correction_0_part_29 * correction_0_part_29)
             .neg_mul_add(
                 per_pivot_x_3,
-                (m * correction_0_part_28 * correction_0_part_28)
+                (correction_0_part_28 * correction_0_part_28)
                     .neg_mul_add(
                         per_pivot_coupler_1,
-                        (m * correction_0_part_27 * correction_0_part_27)
+                        (correction_0_part_27 * correction_0_part_27)
                             .neg_mul_add(
                                 per_pivot_coupler_0,
-                                (sq_m * correction_0_part_26 * correction_0_part_26)
+                                (correction_0_part_26 * correction_0_part_26)
                                     .mul_add(
                                         per_pivot_crank_1,
                                         (correction_0_part_25 * correction_0_part_25)
                                             .neg_mul_add(
                                                 per_pivot_y_1,
-                                                (correction_0_part_6 * correction_0_part_6 * y_1_by_crank_2
+                                                (correction_0_part_2 * correction_0_part_2 * y_1_by_crank_2
                                                     * y_1_by_crank_2)
                                                     .neg_mul_add(
                                                         per_pivot_x_1,
-                                                        (sq_m * correction_0_part_24 * correction_0_part_24)
+                                                        (correction_0_part_24 * correction_0_part_24)
                                                             .mul_add(
                                                                 per_pivot_crank_4,
-                                                                lit(0.9305555555555556) + correction_0_part_10,
+                                                                lit(0.9305555555555556) + correction_0_part_6,
                                                             ),
                                                     ),
                                             ),
@@ -2261,139 +2122,130 @@ impl ::ukcore::Mechanism for FourBars {
             );
         let per_pivot_y_3 = pivot_y_3.recip();
         let safe_y_3 = S::select_le(pivot_y_3, lit(0.0009765625), lit(0.0), safe_x_3);
-        let correction_0_part_30 = lit(2.0) * x_3 + times_l_4;
-        let crank_3_by_x_3 = per_m * correction_0_part_30 * per_pivot_x_3;
-        let correction_0_part_31 = (m * correction_0_part_29)
-            .neg_mul_add(crank_3_by_x_3, lit(2.0) * y_3);
-        let pivot_crank_3 = (correction_0_part_31 * correction_0_part_31)
+        let x_3_plus_times_l_2 = x_3 + times_l_2;
+        let crank_3_by_x_3 = x_3_plus_times_l_2 * per_pivot_x_3;
+        let correction_0_part_30 = correction_0_part_29.neg_mul_add(crank_3_by_x_3, y_3);
+        let pivot_crank_3 = (correction_0_part_30 * correction_0_part_30)
             .mul_add(
                 per_pivot_y_3,
-                correction_0_part_30 * correction_0_part_30 * per_pivot_x_3,
+                x_3_plus_times_l_2 * x_3_plus_times_l_2 * per_pivot_x_3,
             );
         let per_pivot_crank_3 = pivot_crank_3.recip();
         let safe_crank_3 = S::select_le(pivot_crank_3, lit(0.0), lit(0.0), safe_y_3);
-        let x_2_minus_x_3 = x_2 - x_3;
-        let coupler_2_by_x_2 = per_m * x_2_minus_x_3;
-        let y_2_minus_y_3 = y_2 - y_3;
-        let coupler_2_by_y_2 = per_m * y_2_minus_y_3;
-        let coupler_2_with_crank_2 = correction_0_part_3
-            .mul_add(coupler_2_by_y_2, correction_0_part_4 * coupler_2_by_x_2);
-        let correction_0_part_32 = lit(0.16666666666666666) * coupler_2_by_x_2;
-        let coupler_2_by_crank_2 = m * coupler_2_with_crank_2 * per_pivot_crank_2;
-        let correction_0_part_33 = correction_0_part_6
-            .neg_mul_add(coupler_2_by_crank_2, correction_0_part_32);
-        let coupler_2_by_x_1 = correction_0_part_33 * per_pivot_x_1;
-        let correction_0_part_34 = correction_0_part_9
-            .neg_mul_add(
-                coupler_2_by_crank_2,
-                correction_0_part_12
-                    .neg_mul_add(
-                        coupler_2_by_x_1,
-                        lit(0.16666666666666666) * coupler_2_by_y_2,
-                    ),
-            );
-        let coupler_2_by_y_1 = correction_0_part_34 * per_pivot_y_1;
-        let coupler_2_with_crank_1 = correction_0_part_13
+        let coupler_2_by_y_2 = y_2 - y_3;
+        let coupler_2_by_x_2 = x_2 - x_3;
+        let coupler_2_with_crank_2 = coupler_2_by_x_2
+            .mul_add(crank_2_by_x_2, y_2 * coupler_2_by_y_2);
+        let correction_0_part_31 = lit(0.16666666666666666) * coupler_2_by_x_2;
+        let coupler_2_by_crank_2 = coupler_2_with_crank_2 * per_pivot_crank_2;
+        let correction_0_part_32 = correction_0_part_2 * coupler_2_by_crank_2;
+        let correction_0_part_33 = correction_0_part_31 - correction_0_part_32;
+        let coupler_2_by_x_1 = -(correction_0_part_33 * per_pivot_x_1);
+        let correction_0_part_34 = correction_0_part_5 * coupler_2_by_crank_2;
+        let correction_0_part_35 = correction_0_part_34
+            - correction_0_part_8
+                .mul_add(coupler_2_by_x_1, lit(0.16666666666666666) * coupler_2_by_y_2);
+        let coupler_2_by_y_1 = correction_0_part_35 * per_pivot_y_1;
+        let coupler_2_with_crank_1 = correction_0_part_9
             .mul_add(coupler_2_by_y_1, x_1_minus_l * coupler_2_by_x_1);
-        let coupler_2_by_crank_1 = m * per_pivot_crank_1 * coupler_2_with_crank_1;
+        let coupler_2_by_crank_1 = per_pivot_crank_1 * coupler_2_with_crank_1;
         let coupler_2_with_coupler_0 = coupler_0_with_crank_1 * coupler_2_by_crank_1
-            - correction_0_part_15
-                .mul_add(coupler_2_by_y_1, correction_0_part_14 * coupler_2_by_x_1);
+            - correction_0_part_12
+                .mul_add(coupler_2_by_y_1, correction_0_part_11 * coupler_2_by_x_1);
         let coupler_2_by_coupler_0 = coupler_2_with_coupler_0 * per_pivot_coupler_0;
         let coupler_2_with_coupler_1 = coupler_1_with_coupler_0
-            .mul_add(
+            .neg_mul_add(
                 coupler_2_by_coupler_0,
                 coupler_1_with_crank_1
-                    .neg_mul_add(
+                    .mul_add(
                         coupler_2_by_crank_1,
                         coupler_1_with_crank_2 * coupler_2_by_crank_2
                             - correction_0_part_17
-                                .neg_mul_add(
+                                .mul_add(
                                     coupler_2_by_y_1,
-                                    correction_0_part_16
+                                    correction_0_part_15
                                         .neg_mul_add(
                                             coupler_2_by_x_1,
-                                            y_1_minus_y_2
-                                                .mul_add(coupler_2_by_y_2, x_1_minus_x_2 * coupler_2_by_x_2),
+                                            coupler_1_by_y_2
+                                                .mul_add(
+                                                    coupler_2_by_y_2,
+                                                    coupler_1_by_x_2 * coupler_2_by_x_2,
+                                                ),
                                         ),
                                 ),
                     ),
             );
         let coupler_2_by_coupler_1 = coupler_2_with_coupler_1 * per_pivot_coupler_1;
-        let correction_0_part_35 = (m * correction_0_part_23)
-            .mul_add(
+        let correction_0_part_36 = correction_0_part_23
+            .neg_mul_add(
                 coupler_2_by_coupler_1,
-                (m * correction_0_part_22)
-                    .mul_add(
+                correction_0_part_22
+                    .neg_mul_add(
                         coupler_2_by_coupler_0,
-                        (m * correction_0_part_21)
+                        correction_0_part_21
                             .mul_add(
                                 coupler_2_by_crank_1,
-                                m * correction_0_part_6 * coupler_2_by_crank_2
-                                    - (m * correction_0_part_20)
-                                        .neg_mul_add(
+                                correction_0_part_32
+                                    - correction_0_part_20
+                                        .mul_add(
                                             coupler_2_by_y_1,
-                                            (m * correction_0_part_19)
+                                            correction_0_part_19
                                                 .mul_add(
                                                     coupler_2_by_x_1,
-                                                    times_m_2.mul_add(coupler_2_by_x_2, x_2_minus_x_3),
+                                                    lit(1.1666666666666667) * coupler_2_by_x_2,
                                                 ),
                                         ),
                             ),
                     ),
             );
-        let coupler_2_by_x_3 = per_m * correction_0_part_35 * per_pivot_x_3;
-        let correction_0_part_36 = (m * correction_0_part_28)
-            .mul_add(
+        let coupler_2_by_x_3 = correction_0_part_36 * per_pivot_x_3;
+        let correction_0_part_37 = correction_0_part_28
+            .neg_mul_add(
                 coupler_2_by_coupler_1,
-                (m * correction_0_part_27)
+                correction_0_part_27
                     .neg_mul_add(
                         coupler_2_by_coupler_0,
-                        (m * correction_0_part_26)
-                            .neg_mul_add(
-                                coupler_2_by_crank_1,
-                                m * correction_0_part_9 * coupler_2_by_crank_2,
-                            ),
+                        correction_0_part_26
+                            .mul_add(coupler_2_by_crank_1, correction_0_part_34),
                     ),
             )
-            - (m * correction_0_part_29)
+            - correction_0_part_29
                 .mul_add(
                     coupler_2_by_x_3,
-                    (m * correction_0_part_25)
+                    correction_0_part_25
                         .mul_add(
                             coupler_2_by_y_1,
-                            (m * correction_0_part_6 * y_1_by_crank_2)
-                                .neg_mul_add(
+                            (correction_0_part_2 * y_1_by_crank_2)
+                                .mul_add(
                                     coupler_2_by_x_1,
-                                    times_m_2.mul_add(coupler_2_by_y_2, y_2_minus_y_3),
+                                    lit(1.1666666666666667) * coupler_2_by_y_2,
                                 ),
                         ),
                 );
-        let coupler_2_with_crank_3 = (per_m * correction_0_part_31
-            * correction_0_part_36)
-            .mul_add(per_pivot_y_3, correction_0_part_30 * coupler_2_by_x_3);
-        let diagonal_coupler_2 = (per_m * correction_0_part_36 * correction_0_part_36)
+        let coupler_2_with_crank_3 = (correction_0_part_30 * correction_0_part_37)
+            .mul_add(per_pivot_y_3, x_3_plus_times_l_2 * coupler_2_by_x_3);
+        let diagonal_coupler_2 = (correction_0_part_37 * correction_0_part_37)
             .mul_add(
                 per_pivot_y_3,
-                (per_m * correction_0_part_35 * correction_0_part_35)
+                (correction_0_part_36 * correction_0_part_36)
                     .mul_add(
                         per_pivot_x_3,
-                        (m * correction_0_part_34 * correction_0_part_34)
+                        (correction_0_part_35 * correction_0_part_35)
                             .mul_add(
                                 per_pivot_y_1,
-                                (m * correction_0_part_33 * correction_0_part_33)
+                                (correction_0_part_33 * correction_0_part_33)
                                     .mul_add(
                                         per_pivot_x_1,
-                                        (per_m * y_2_minus_y_3)
+                                        coupler_2_by_y_2
                                             .mul_add(
-                                                y_2_minus_y_3,
-                                                per_m * x_2_minus_x_3 * x_2_minus_x_3,
+                                                coupler_2_by_y_2,
+                                                coupler_2_by_x_2 * coupler_2_by_x_2,
                                             ),
                                     ),
                             ),
                     ),
             );
-        let pivot_coupler_2 = (m * coupler_2_with_crank_3 * coupler_2_with_crank_3)
+        let pivot_coupler_2 = (coupler_2_with_crank_3 * coupler_2_with_crank_3)
             .mul_add(
                 per_pivot_crank_3,
                 (coupler_2_with_coupler_1 * coupler_2_with_coupler_1)
@@ -2402,10 +2254,10 @@ impl ::ukcore::Mechanism for FourBars {
                         (coupler_2_with_coupler_0 * coupler_2_with_coupler_0)
                             .neg_mul_add(
                                 per_pivot_coupler_0,
-                                (m * per_pivot_crank_1 * coupler_2_with_crank_1)
+                                (per_pivot_crank_1 * coupler_2_with_crank_1)
                                     .mul_add(
                                         coupler_2_with_crank_1,
-                                        m * coupler_2_with_crank_2 * coupler_2_with_crank_2
+                                        coupler_2_with_crank_2 * coupler_2_with_crank_2
                                             * per_pivot_crank_2,
                                     ),
                             ),
@@ -2418,148 +2270,161 @@ impl ::ukcore::Mechanism for FourBars {
             lit(0.0),
             safe_crank_3,
         );
-        let x_3_minus_x_4 = x_3 - x_4;
-        let coupler_3_by_x_4 = per_m * x_3_minus_x_4;
-        let y_3_minus_y_4 = y_3 - y_4;
-        let coupler_3_by_y_4 = per_m * y_3_minus_y_4;
+        let coupler_3_by_x_4 = x_3 - x_4;
+        let correction_0_part_38 = lit(1.25) * coupler_3_by_x_4;
+        let coupler_3_by_y_4 = y_3 - y_4;
         let coupler_3_with_crank_4 = lit(1.5)
-            * correction_0_part
-                .mul_add(coupler_3_by_y_4, correction_0_part_2 * coupler_3_by_x_4);
-        let coupler_3_by_crank_4 = m * coupler_3_with_crank_4 * per_pivot_crank_4;
-        let correction_0_part_37 = m * correction_0_part_18 * coupler_3_by_crank_4
-            - times_m.mul_add(coupler_3_by_x_4, x_3_minus_x_4);
-        let coupler_3_by_x_3 = per_m * correction_0_part_37 * per_pivot_x_3;
-        let correction_0_part_38 = m * correction_0_part_24 * coupler_3_by_crank_4
-            - (m * correction_0_part_29)
-                .mul_add(
-                    coupler_3_by_x_3,
-                    times_m.mul_add(coupler_3_by_y_4, y_3_minus_y_4),
-                );
-        let coupler_3_with_crank_3 = (per_m * correction_0_part_31
-            * correction_0_part_38)
-            .mul_add(per_pivot_y_3, correction_0_part_30 * coupler_3_by_x_3);
-        let coupler_3_by_crank_3 = m * coupler_3_with_crank_3 * per_pivot_crank_3;
+            * coupler_3_by_x_4.mul_add(crank_4_by_x_4, y_4 * coupler_3_by_y_4);
+        let coupler_3_by_crank_4 = coupler_3_with_crank_4 * per_pivot_crank_4;
+        let correction_0_part_39 = correction_0_part_18
+            .neg_mul_add(coupler_3_by_crank_4, correction_0_part_38);
+        let coupler_3_by_x_3 = -(correction_0_part_39 * per_pivot_x_3);
+        let correction_0_part_40 = correction_0_part_24 * coupler_3_by_crank_4
+            - correction_0_part_29
+                .mul_add(coupler_3_by_x_3, lit(1.25) * coupler_3_by_y_4);
+        let coupler_3_with_crank_3 = (correction_0_part_30 * correction_0_part_40)
+            .mul_add(per_pivot_y_3, x_3_plus_times_l_2 * coupler_3_by_x_3);
+        let coupler_3_by_crank_3 = coupler_3_with_crank_3 * per_pivot_crank_3;
         let coupler_3_with_coupler_2 = coupler_2_with_crank_3 * coupler_3_by_crank_3
-            - (per_m * correction_0_part_38 * correction_0_part_36)
-                .mul_add(per_pivot_y_3, correction_0_part_35 * coupler_3_by_x_3);
-        let correction_0_part_39 = (correction_0_part_38 * correction_0_part_38)
+            - (correction_0_part_37 * correction_0_part_40)
+                .mul_add(per_pivot_y_3, correction_0_part_36 * coupler_3_by_x_3);
+        let correction_0_part_41 = (correction_0_part_40 * correction_0_part_40)
             .mul_add(
                 per_pivot_y_3,
-                (correction_0_part_37 * correction_0_part_37)
+                (correction_0_part_39 * correction_0_part_39)
                     .mul_add(
                         per_pivot_x_3,
-                        (lit(1.5) * y_3_minus_y_4)
+                        (lit(1.5) * coupler_3_by_y_4)
                             .mul_add(
-                                y_3_minus_y_4,
-                                lit(1.5) * x_3_minus_x_4 * x_3_minus_x_4,
+                                coupler_3_by_y_4,
+                                lit(1.5) * coupler_3_by_x_4 * coupler_3_by_x_4,
                             ),
                     ),
             );
-        let pivot_coupler_3 = (m * coupler_3_with_crank_3 * coupler_3_with_crank_3)
-            .mul_add(
-                per_pivot_crank_3,
-                per_m
-                    .neg_mul_add(
-                        correction_0_part_39,
-                        m * coupler_3_with_crank_4 * coupler_3_with_crank_4
-                            * per_pivot_crank_4,
-                    ),
-            )
+        let pivot_coupler_3 = pivot_coupler_2
             .neg_mul_add(
-                pivot_coupler_2,
+                (coupler_3_with_crank_3 * coupler_3_with_crank_3)
+                    .mul_add(
+                        per_pivot_crank_3,
+                        coupler_3_with_crank_4 * coupler_3_with_crank_4
+                            * per_pivot_crank_4 - correction_0_part_41,
+                    ),
                 coupler_3_with_coupler_2 * coupler_3_with_coupler_2,
             );
         let per_pivot_coupler_3 = pivot_coupler_3.recip();
+        let diagonal_coupler_3 = correction_0_part_41 * pivot_coupler_2;
         let safe_coupler_3 = S::select_le(
             -pivot_coupler_3,
-            -(times_per_m * correction_0_part_39 * pivot_coupler_2),
+            lit(-0.0009765625) * diagonal_coupler_3,
             lit(0.0),
             safe_coupler_2,
         );
         let right_crank_0 = lit(0.5) * residual_0;
-        let x_1_by_crank_0 = sq_m * correction_0_part_5 * per_pivot_crank_0;
-        let residual_2_x_1_by_crank_2 = residual_2 * x_1_by_crank_2;
-        let right_x_1 = right_crank_0 * x_1_by_crank_0 + residual_2_x_1_by_crank_2;
-        let residual_2_y_1_by_crank_2 = residual_2 * y_1_by_crank_2;
+        let right_crank_4 = lit(0.5) * residual_4;
+        let right_crank_2 = lit(0.5) * residual_2;
+        let x_1_by_crank_0 = correction_0_part * per_pivot_crank_0;
+        let right_crank_2_x_1_by_crank_2 = right_crank_2 * x_1_by_crank_2;
+        let right_x_1 = right_crank_0 * x_1_by_crank_0 + right_crank_2_x_1_by_crank_2;
+        let right_crank_2_y_1_by_crank_2 = right_crank_2 * y_1_by_crank_2;
         let right_y_1 = right_x_1
             .neg_mul_add(
                 y_1_by_x_1,
-                right_crank_0 * y_1_by_crank_0 + residual_2_y_1_by_crank_2,
+                right_crank_0 * y_1_by_crank_0 + right_crank_2_y_1_by_crank_2,
             );
-        let right_crank_1 = right_y_1
-            .mul_add(
-                crank_1_by_y_1,
-                right_x_1.mul_add(crank_1_by_x_1, lit(0.5) * residual_1),
-            );
+        let right_crank_1 = lit(0.5)
+            * (lit(2.0) * right_y_1)
+                .mul_add(
+                    crank_1_by_y_1,
+                    (lit(2.0) * right_x_1).mul_add(crank_1_by_x_1, residual_1),
+                );
+        let correction_0_part_42 = lit(0.5)
+            * (lit(2.0) * right_y_1)
+                .mul_add(
+                    coupler_0_by_y_1,
+                    (lit(2.0) * right_x_1).mul_add(coupler_0_by_x_1, residual_5),
+                );
         let right_coupler_0 = right_crank_1
             .mul_add(
                 coupler_0_by_crank_1,
-                right_crank_0 * coupler_0_by_crank_0
-                    - right_y_1
-                        .mul_add(
-                            coupler_0_by_y_1,
-                            right_x_1.mul_add(coupler_0_by_x_1, lit(0.5) * residual_5),
-                        ),
+                right_crank_0 * coupler_0_by_crank_0 - correction_0_part_42,
             );
+        let correction_0_part_43 = lit(0.5)
+            * (lit(2.0) * right_y_1)
+                .neg_mul_add(
+                    coupler_1_by_y_1,
+                    (lit(2.0) * right_x_1).neg_mul_add(coupler_1_by_x_1, residual_6),
+                );
         let right_coupler_1 = right_coupler_0
             .neg_mul_add(
                 coupler_1_by_coupler_0,
                 right_crank_1
                     .mul_add(
                         coupler_1_by_crank_1,
-                        residual_2 * coupler_1_by_crank_2
-                            + right_y_1
-                                .neg_mul_add(
-                                    coupler_1_by_y_1,
-                                    right_x_1
-                                        .neg_mul_add(coupler_1_by_x_1, lit(0.5) * residual_6),
-                                ),
+                        right_crank_2 * coupler_1_by_crank_2 + correction_0_part_43,
                     ),
             );
-        let x_3_by_crank_4 = sq_m * correction_0_part_18 * per_pivot_crank_4;
-        let x_3_by_crank_1 = sq_m * correction_0_part_21 * per_pivot_crank_1;
-        let x_3_by_coupler_0 = m * correction_0_part_22 * per_pivot_coupler_0;
-        let x_3_by_coupler_1 = m * correction_0_part_23 * per_pivot_coupler_1;
+        let x_3_by_crank_4 = correction_0_part_18 * per_pivot_crank_4;
+        let x_3_by_crank_1 = correction_0_part_21 * per_pivot_crank_1;
+        let x_3_by_coupler_0 = correction_0_part_22 * per_pivot_coupler_0;
+        let x_3_by_coupler_1 = correction_0_part_23 * per_pivot_coupler_1;
         let x_3_by_x_1 = correction_0_part_19 * per_pivot_x_1;
         let x_3_by_y_1 = correction_0_part_20 * per_pivot_y_1;
         let right_x_3 = right_coupler_1
-            .mul_add(
+            .neg_mul_add(
                 x_3_by_coupler_1,
                 right_coupler_0
                     .neg_mul_add(
                         x_3_by_coupler_0,
                         right_crank_1
-                            .neg_mul_add(
+                            .mul_add(
                                 x_3_by_crank_1,
-                                residual_4
-                                    .mul_add(x_3_by_crank_4, residual_2_x_1_by_crank_2)
-                                    + right_y_1.neg_mul_add(x_3_by_y_1, right_x_1 * x_3_by_x_1),
+                                right_crank_4
+                                    .mul_add(x_3_by_crank_4, right_crank_2_x_1_by_crank_2)
+                                    - right_y_1.mul_add(x_3_by_y_1, right_x_1 * x_3_by_x_1),
                             ),
                     ),
             );
         let y_3_by_x_3 = correction_0_part_29 * per_pivot_x_3;
         let right_y_3 = right_coupler_1
-            .mul_add(
+            .neg_mul_add(
                 y_3_by_coupler_1,
                 right_coupler_0
-                    .mul_add(
+                    .neg_mul_add(
                         y_3_by_coupler_0,
                         right_crank_1
                             .mul_add(
                                 y_3_by_crank_1,
-                                residual_4
-                                    .mul_add(y_3_by_crank_4, residual_2_y_1_by_crank_2),
+                                right_crank_4
+                                    .mul_add(y_3_by_crank_4, right_crank_2_y_1_by_crank_2),
                             ),
                     ),
             )
             - right_x_3
                 .mul_add(
                     y_3_by_x_3,
-                    right_y_1.neg_mul_add(y_3_by_y_1, right_x_1 * y_3_by_x_1),
+                    right_y_1.mul_add(y_3_by_y_1, right_x_1 * y_3_by_x_1),
                 );
-        let right_crank_3 = (per_m * correction_0_part_31 * right_y_3)
-            .mul_add(per_pivot_y_3, right_x_3.mul_add(crank_3_by_x_3, residual_3));
-        let coupler_2_by_crank_3 = m * coupler_2_with_crank_3 * per_pivot_crank_3;
+        let right_crank_3 = lit(0.5)
+            * (lit(2.0) * correction_0_part_30 * right_y_3)
+                .mul_add(
+                    per_pivot_y_3,
+                    (lit(2.0) * right_x_3).mul_add(crank_3_by_x_3, residual_3),
+                );
+        let coupler_2_by_crank_3 = coupler_2_with_crank_3 * per_pivot_crank_3;
+        let correction_0_part_44 = lit(0.5)
+            * (lit(2.0) * correction_0_part_37 * right_y_3)
+                .mul_add(
+                    per_pivot_y_3,
+                    (lit(2.0) * right_x_3)
+                        .mul_add(
+                            coupler_2_by_x_3,
+                            (lit(2.0) * right_y_1)
+                                .mul_add(
+                                    coupler_2_by_y_1,
+                                    (lit(2.0) * right_x_1).mul_add(coupler_2_by_x_1, residual_7),
+                                ),
+                        ),
+                );
         let right_coupler_2 = right_crank_3
             .mul_add(
                 coupler_2_by_crank_3,
@@ -2567,42 +2432,28 @@ impl ::ukcore::Mechanism for FourBars {
                     .neg_mul_add(
                         coupler_2_by_coupler_1,
                         right_coupler_0
-                            .mul_add(
+                            .neg_mul_add(
                                 coupler_2_by_coupler_0,
                                 right_crank_1
-                                    .neg_mul_add(
+                                    .mul_add(
                                         coupler_2_by_crank_1,
-                                        residual_2 * coupler_2_by_crank_2,
+                                        right_crank_2 * coupler_2_by_crank_2,
                                     ),
                             ),
-                    )
-                    - (per_m * correction_0_part_36 * right_y_3)
-                        .mul_add(
-                            per_pivot_y_3,
-                            right_x_3
-                                .mul_add(
-                                    coupler_2_by_x_3,
-                                    right_y_1
-                                        .neg_mul_add(
-                                            coupler_2_by_y_1,
-                                            right_x_1
-                                                .neg_mul_add(coupler_2_by_x_1, lit(0.5) * residual_7),
-                                        ),
-                                ),
-                        ),
+                    ) - correction_0_part_44,
             );
+        let correction_0_part_45 = lit(0.5)
+            * (lit(2.0) * correction_0_part_40 * right_y_3)
+                .neg_mul_add(
+                    per_pivot_y_3,
+                    (lit(2.0) * right_x_3).neg_mul_add(coupler_3_by_x_3, residual_8),
+                );
         let right_coupler_3 = pivot_coupler_2
             .neg_mul_add(
                 right_crank_3
                     .mul_add(
                         coupler_3_by_crank_3,
-                        residual_4 * coupler_3_by_crank_4
-                            + (per_m * correction_0_part_38 * right_y_3)
-                                .neg_mul_add(
-                                    per_pivot_y_3,
-                                    right_x_3
-                                        .neg_mul_add(coupler_3_by_x_3, lit(0.5) * residual_8),
-                                ),
+                        right_crank_4 * coupler_3_by_crank_4 + correction_0_part_45,
                     ),
                 coupler_3_with_coupler_2 * right_coupler_2,
             );
@@ -2614,24 +2465,20 @@ impl ::ukcore::Mechanism for FourBars {
             .neg_mul_add(
                 lambda_coupler_2,
                 (coupler_3_by_crank_3 * right_coupler_3)
-                    .neg_mul_add(
-                        per_pivot_coupler_3,
-                        m * right_crank_3 * per_pivot_crank_3,
-                    ),
+                    .neg_mul_add(per_pivot_coupler_3, right_crank_3 * per_pivot_crank_3),
             );
-        let safe_part = (correction_0_part_31 * per_pivot_y_3)
+        let safe_part = (correction_0_part_30 * per_pivot_y_3)
             .neg_mul_add(
                 lambda_crank_3,
-                (correction_0_part_36 * per_pivot_y_3)
+                (correction_0_part_37 * per_pivot_y_3)
                     .neg_mul_add(
                         lambda_coupler_2,
-                        (correction_0_part_38 * per_pivot_y_3 * right_coupler_3)
+                        (correction_0_part_40 * per_pivot_y_3 * right_coupler_3)
                             .neg_mul_add(per_pivot_coupler_3, right_y_3 * per_pivot_y_3),
                     ),
             );
-        let per_m_safe_part = per_m * safe_part;
-        out[8] = per_m_safe_part;
-        let correction_9_part = (per_m * y_3_by_x_3)
+        out[8] = safe_part;
+        let correction_9_part = y_3_by_x_3
             .neg_mul_add(
                 safe_part,
                 crank_3_by_x_3
@@ -2641,10 +2488,7 @@ impl ::ukcore::Mechanism for FourBars {
                             .neg_mul_add(
                                 lambda_coupler_2,
                                 (coupler_3_by_x_3 * right_coupler_3)
-                                    .neg_mul_add(
-                                        per_pivot_coupler_3,
-                                        per_m * right_x_3 * per_pivot_x_3,
-                                    ),
+                                    .neg_mul_add(per_pivot_coupler_3, right_x_3 * per_pivot_x_3),
                             ),
                     ),
             );
@@ -2652,41 +2496,35 @@ impl ::ukcore::Mechanism for FourBars {
         let lambda_crank_4 = x_3_by_crank_4
             .neg_mul_add(
                 correction_9_part,
-                (per_m * y_3_by_crank_4)
+                y_3_by_crank_4
                     .neg_mul_add(
                         safe_part,
                         (coupler_3_by_crank_4 * right_coupler_3)
                             .neg_mul_add(
                                 per_pivot_coupler_3,
-                                residual_4 * m * per_pivot_crank_4,
+                                right_crank_4 * per_pivot_crank_4,
                             ),
                     ),
             );
-        out[4] = (lit(1.5) * crank_4_by_x_4)
-            .neg_mul_add(
-                lambda_crank_4,
-                lit(0.25)
-                    .neg_mul_add(
-                        correction_9_part,
-                        -(lit(1.5) * coupler_3_by_x_4 * right_coupler_3
-                            * per_pivot_coupler_3),
-                    ),
-            );
-        out[9] = (lit(1.5) * crank_4_by_y_4)
-            .neg_mul_add(
-                lambda_crank_4,
-                lit(0.25)
-                    .neg_mul_add(
-                        per_m_safe_part,
-                        -(lit(1.5) * coupler_3_by_y_4 * right_coupler_3
-                            * per_pivot_coupler_3),
-                    ),
-            );
+        out[4] = lit(-0.25)
+            * (lit(6.0) * crank_4_by_x_4)
+                .mul_add(
+                    lambda_crank_4,
+                    lit(6.0) * coupler_3_by_x_4 * right_coupler_3 * per_pivot_coupler_3
+                        + correction_9_part,
+                );
+        out[9] = lit(-0.25)
+            * (lit(6.0) * y_4)
+                .mul_add(
+                    lambda_crank_4,
+                    lit(6.0) * coupler_3_by_y_4 * right_coupler_3 * per_pivot_coupler_3
+                        + safe_part,
+                );
         let lambda_coupler_1 = x_3_by_coupler_1
-            .mul_add(
+            .neg_mul_add(
                 correction_9_part,
-                (per_m * y_3_by_coupler_1)
-                    .mul_add(
+                y_3_by_coupler_1
+                    .neg_mul_add(
                         safe_part,
                         coupler_2_by_coupler_1
                             .neg_mul_add(
@@ -2701,11 +2539,11 @@ impl ::ukcore::Mechanism for FourBars {
                 x_3_by_coupler_0
                     .neg_mul_add(
                         correction_9_part,
-                        (per_m * y_3_by_coupler_0)
-                            .mul_add(
+                        y_3_by_coupler_0
+                            .neg_mul_add(
                                 safe_part,
                                 coupler_2_by_coupler_0
-                                    .mul_add(
+                                    .neg_mul_add(
                                         lambda_coupler_2,
                                         right_coupler_0 * per_pivot_coupler_0,
                                     ),
@@ -2719,15 +2557,15 @@ impl ::ukcore::Mechanism for FourBars {
                     .neg_mul_add(
                         lambda_coupler_1,
                         x_3_by_crank_1
-                            .mul_add(
+                            .neg_mul_add(
                                 correction_9_part,
-                                (per_m * y_3_by_crank_1)
+                                y_3_by_crank_1
                                     .neg_mul_add(
                                         safe_part,
                                         coupler_2_by_crank_1
-                                            .mul_add(
+                                            .neg_mul_add(
                                                 lambda_coupler_2,
-                                                m * right_crank_1 * per_pivot_crank_1,
+                                                right_crank_1 * per_pivot_crank_1,
                                             ),
                                     ),
                             ),
@@ -2745,14 +2583,11 @@ impl ::ukcore::Mechanism for FourBars {
                                 x_3_by_y_1
                                     .neg_mul_add(
                                         correction_9_part,
-                                        (per_m * y_3_by_y_1)
-                                            .mul_add(
+                                        y_3_by_y_1
+                                            .neg_mul_add(
                                                 safe_part,
                                                 coupler_2_by_y_1
-                                                    .mul_add(
-                                                        lambda_coupler_2,
-                                                        per_m * right_y_1 * per_pivot_y_1,
-                                                    ),
+                                                    .neg_mul_add(lambda_coupler_2, right_y_1 * per_pivot_y_1),
                                             ),
                                     ),
                             ),
@@ -2772,16 +2607,13 @@ impl ::ukcore::Mechanism for FourBars {
                                     .neg_mul_add(
                                         lambda_coupler_1,
                                         x_3_by_x_1
-                                            .mul_add(
+                                            .neg_mul_add(
                                                 correction_9_part,
-                                                (per_m * y_3_by_x_1)
+                                                y_3_by_x_1
                                                     .neg_mul_add(
                                                         safe_part,
                                                         coupler_2_by_x_1
-                                                            .mul_add(
-                                                                lambda_coupler_2,
-                                                                per_m * right_x_1 * per_pivot_x_1,
-                                                            ),
+                                                            .neg_mul_add(lambda_coupler_2, right_x_1 * per_pivot_x_1),
                                                     ),
                                             ),
                                     ),
@@ -2798,19 +2630,16 @@ impl ::ukcore::Mechanism for FourBars {
                         coupler_0_by_crank_0
                             .neg_mul_add(
                                 lambda_coupler_0,
-                                m * right_crank_0 * per_pivot_crank_0,
+                                right_crank_0 * per_pivot_crank_0,
                             ),
                     ),
             );
-        out[0] = (lit(1.5) * crank_0_by_x_0)
-            .neg_mul_add(
-                lambda_crank_0,
-                lit(0.25)
-                    .neg_mul_add(
-                        correction_7_part,
-                        -(lit(1.5) * coupler_0_by_x_0 * lambda_coupler_0),
-                    ),
-            );
+        out[0] = lit(-0.25)
+            * (lit(6.0) * x_0)
+                .mul_add(
+                    lambda_crank_0,
+                    lit(6.0) * coupler_0_by_x_0 * lambda_coupler_0 + correction_7_part,
+                );
         let lambda_crank_2 = x_1_by_crank_2
             .neg_mul_add(
                 correction_7_part,
@@ -2823,13 +2652,13 @@ impl ::ukcore::Mechanism for FourBars {
                                 x_1_by_crank_2
                                     .neg_mul_add(
                                         correction_9_part,
-                                        (per_m * y_1_by_crank_2)
+                                        y_1_by_crank_2
                                             .neg_mul_add(
                                                 safe_part,
                                                 coupler_2_by_crank_2
                                                     .neg_mul_add(
                                                         lambda_coupler_2,
-                                                        residual_2 * m * per_pivot_crank_2,
+                                                        right_crank_2 * per_pivot_crank_2,
                                                     ),
                                             ),
                                     ),
@@ -2853,16 +2682,13 @@ impl ::ukcore::Mechanism for FourBars {
                             ),
                     ),
             );
-        out[5] = (lit(1.5) * crank_0_by_y_0)
-            .neg_mul_add(
-                lambda_crank_0,
-                lit(0.25)
-                    .neg_mul_add(
-                        safe_part_2,
-                        -(lit(1.5) * coupler_0_by_y_0 * lambda_coupler_0),
-                    ),
-            );
-        out[7] = crank_2_by_y_2
+        out[5] = lit(-0.25)
+            * (lit(6.0) * y_0)
+                .mul_add(
+                    lambda_crank_0,
+                    lit(6.0) * coupler_0_by_y_0 * lambda_coupler_0 + safe_part_2,
+                );
+        out[7] = y_2
             .neg_mul_add(
                 lambda_crank_2,
                 lit(0.16666666666666666)
@@ -2873,7 +2699,7 @@ impl ::ukcore::Mechanism for FourBars {
                                 lambda_coupler_1,
                                 lit(0.16666666666666666)
                                     .neg_mul_add(
-                                        per_m_safe_part,
+                                        safe_part,
                                         -(coupler_2_by_y_2 * lambda_coupler_2),
                                     ),
                             ),

@@ -120,7 +120,7 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         prepared: &[
             ("w", "w"),
             ("a", "a"),
-            ("right_y", "m*g"),
+            ("m_g", "m*g"),
             ("sq_l", "sq(l)"),
             ("m", "m"),
             ("a_w", "a*w"),
@@ -223,8 +223,7 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         let lit = S::from_f64;
         prepared[0] = w;
         prepared[1] = a;
-        let right_y = m * g;
-        prepared[2] = right_y;
+        prepared[2] = m * g;
         prepared[3] = l * l;
         prepared[4] = m;
         prepared[5] = a * w;
@@ -246,7 +245,7 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
-        let [w, a, right_y, _, m, a_w, a_sq_w, _, _] = *::ukcore::emitted::exact::<
+        let [w, a, m_g, _, m, a_w, a_sq_w, _, _] = *::ukcore::emitted::exact::<
             S,
             9,
         >(prepared, "prepared");
@@ -256,7 +255,7 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         mass[0] = m;
         mass[3] = m;
         force[0] = lit(0.0);
-        force[1] = -right_y;
+        force[1] = -m_g;
         nonideal[0] = lit(0.0);
         nonideal[1] = lit(0.0);
         jacobian[0] = lit(2.0) * x;
@@ -334,7 +333,7 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
-        let [_, _, right_y, _, m, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [_, _, m_g, _, m, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
             9,
         >(prepared, "prepared");
@@ -342,7 +341,7 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
         let kinetic = lit(0.5) * (dot_y * dot_y).mul_add(m, dot_x * dot_x * m);
-        let potential = y * right_y;
+        let potential = y * m_g;
         ::ukcore::Energy {
             kinetic,
             potential,

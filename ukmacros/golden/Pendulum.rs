@@ -95,7 +95,7 @@ impl ::ukcore::Mechanism for Pendulum {
             },
         ],
         prepared: &[
-            ("right_y", "m*g"),
+            ("m_g", "m*g"),
             ("sq_l", "sq(l)"),
             ("g", "g"),
             ("m_per_l", "m/l"),
@@ -187,8 +187,7 @@ impl ::ukcore::Mechanism for Pendulum {
         let prepared = ::ukcore::emitted::exact_mut::<S, 6>(prepared, "prepared");
         let [m, l, g] = *::ukcore::emitted::exact::<S, 3>(given, "given");
         let lit = S::from_f64;
-        let right_y = m * g;
-        prepared[0] = right_y;
+        prepared[0] = m * g;
         prepared[1] = l * l;
         prepared[2] = g;
         prepared[3] = m / l;
@@ -209,7 +208,7 @@ impl ::ukcore::Mechanism for Pendulum {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
-        let [right_y, _, _, _, m, _] = *::ukcore::emitted::exact::<
+        let [m_g, _, _, _, m, _] = *::ukcore::emitted::exact::<
             S,
             6,
         >(prepared, "prepared");
@@ -219,7 +218,7 @@ impl ::ukcore::Mechanism for Pendulum {
         mass[0] = m;
         mass[3] = m;
         force[0] = lit(0.0);
-        force[1] = -right_y;
+        force[1] = -m_g;
         nonideal[0] = lit(0.0);
         nonideal[1] = lit(0.0);
         jacobian[0] = lit(2.0) * x;
@@ -273,7 +272,7 @@ impl ::ukcore::Mechanism for Pendulum {
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
-        let [right_y, _, _, _, m, _] = *::ukcore::emitted::exact::<
+        let [m_g, _, _, _, m, _] = *::ukcore::emitted::exact::<
             S,
             6,
         >(prepared, "prepared");
@@ -281,7 +280,7 @@ impl ::ukcore::Mechanism for Pendulum {
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
         let kinetic = lit(0.5) * (dot_y * dot_y).mul_add(m, dot_x * dot_x * m);
-        let potential = y * right_y;
+        let potential = y * m_g;
         ::ukcore::Energy {
             kinetic,
             potential,

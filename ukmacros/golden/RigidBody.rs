@@ -132,12 +132,9 @@ impl ::ukcore::Mechanism for RigidBody {
             ("i1", "i1"),
             ("i2", "i2"),
             ("i3", "i3"),
-            ("twice_i1", "2*i1"),
-            ("times_i2", "4*i2"),
-            ("times_i3", "4*i3"),
-            ("times_i1", "4*i1"),
             ("twice_i2", "2*i2"),
             ("twice_i3", "2*i3"),
+            ("twice_i1", "2*i1"),
         ],
         coords: &["e0", "e1", "e2", "e3"],
         constraints: &[
@@ -271,18 +268,15 @@ impl ::ukcore::Mechanism for RigidBody {
         }
     }
     fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
-        let prepared = ::ukcore::emitted::exact_mut::<S, 9>(prepared, "prepared");
+        let prepared = ::ukcore::emitted::exact_mut::<S, 6>(prepared, "prepared");
         let [i1, i2, i3] = *::ukcore::emitted::exact::<S, 3>(given, "given");
         let lit = S::from_f64;
         prepared[0] = i1;
         prepared[1] = i2;
         prepared[2] = i3;
-        prepared[3] = lit(2.0) * i1;
-        prepared[4] = lit(4.0) * i2;
-        prepared[5] = lit(4.0) * i3;
-        prepared[6] = lit(4.0) * i1;
-        prepared[7] = lit(2.0) * i2;
-        prepared[8] = lit(2.0) * i3;
+        prepared[3] = lit(2.0) * i2;
+        prepared[4] = lit(2.0) * i3;
+        prepared[5] = lit(2.0) * i1;
     }
     /// 40 additions, 119 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
@@ -297,9 +291,9 @@ impl ::ukcore::Mechanism for RigidBody {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 4>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 4>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
-        let [i1, i2, i3, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [i1, i2, i3, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            9,
+            6,
         >(prepared, "prepared");
         let [e0, e1, e2, e3] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let [dot_e0, dot_e1, dot_e2, dot_e3] = *::ukcore::emitted::exact::<S, 4>(v, "v");
@@ -388,9 +382,9 @@ impl ::ukcore::Mechanism for RigidBody {
     }
     fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 16>(mass, "mass");
-        let [i1, i2, i3, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [i1, i2, i3, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            9,
+            6,
         >(prepared, "prepared");
         let [e0, e1, e2, e3] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let lit = S::from_f64;
@@ -464,9 +458,9 @@ impl ::ukcore::Mechanism for RigidBody {
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
-        let [i1, i2, i3, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [i1, i2, i3, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            9,
+            6,
         >(prepared, "prepared");
         let [e0, e1, e2, e3] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let [dot_e0, dot_e1, dot_e2, dot_e3] = *::ukcore::emitted::exact::<S, 4>(v, "v");
@@ -507,9 +501,9 @@ impl ::ukcore::Mechanism for RigidBody {
         outputs: &mut [S],
     ) {
         let outputs = ::ukcore::emitted::exact_mut::<S, 6>(outputs, "outputs");
-        let [_, _, _, twice_i1, times_i2, times_i3, times_i1, twice_i2, twice_i3] = *::ukcore::emitted::exact::<
+        let [i1, i2, i3, twice_i2, twice_i3, twice_i1] = *::ukcore::emitted::exact::<
             S,
-            9,
+            6,
         >(prepared, "prepared");
         let [e0, e1, e2, e3] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let [dot_e0, dot_e1, dot_e2, dot_e3] = *::ukcore::emitted::exact::<S, 4>(v, "v");
@@ -538,36 +532,39 @@ impl ::ukcore::Mechanism for RigidBody {
         let e0_e3 = e0 * e3;
         let e1_e3 = e1 * e3;
         let e0_e2 = e0 * e2;
-        outputs[3] = (twice_i1 * output_0_part)
-            .neg_mul_add(
-                lit(2.0).neg_mul_add((sq_e2 + sq_e3), lit(1.0)),
-                (times_i3 * output_2_part)
-                    .neg_mul_add(
-                        (e1_e3 + e0_e2),
-                        -(times_i2 * output_1_part * (e1_e2 - e0_e3)),
-                    ),
-            );
+        outputs[3] = lit(-2.0)
+            * (i1 * output_0_part)
+                .mul_add(
+                    lit(2.0).neg_mul_add((sq_e2 + sq_e3), lit(1.0)),
+                    (twice_i3 * output_2_part)
+                        .mul_add(
+                            (e1_e3 + e0_e2),
+                            twice_i2 * output_1_part * (e1_e2 - e0_e3),
+                        ),
+                );
         let sq_e1 = e1 * e1;
         let e3_e2 = e3 * e2;
         let e1_e0 = e1 * e0;
-        outputs[4] = (twice_i2 * output_1_part)
-            .neg_mul_add(
-                lit(2.0).neg_mul_add((sq_e1 + sq_e3), lit(1.0)),
-                (times_i3 * output_2_part)
-                    .neg_mul_add(
-                        (e3_e2 - e1_e0),
-                        -(times_i1 * output_0_part * (e1_e2 + e0_e3)),
-                    ),
-            );
-        outputs[5] = (twice_i3 * output_2_part)
-            .neg_mul_add(
-                lit(2.0).neg_mul_add((sq_e1 + sq_e2), lit(1.0)),
-                (times_i2 * output_1_part)
-                    .neg_mul_add(
-                        (e3_e2 + e1_e0),
-                        -(times_i1 * output_0_part * (e1_e3 - e0_e2)),
-                    ),
-            );
+        outputs[4] = lit(-2.0)
+            * (i2 * output_1_part)
+                .mul_add(
+                    lit(2.0).neg_mul_add((sq_e1 + sq_e3), lit(1.0)),
+                    (twice_i3 * output_2_part)
+                        .mul_add(
+                            (e3_e2 - e1_e0),
+                            twice_i1 * output_0_part * (e1_e2 + e0_e3),
+                        ),
+                );
+        outputs[5] = lit(-2.0)
+            * (i3 * output_2_part)
+                .mul_add(
+                    lit(2.0).neg_mul_add((sq_e1 + sq_e2), lit(1.0)),
+                    (twice_i2 * output_1_part)
+                        .mul_add(
+                            (e3_e2 + e1_e0),
+                            twice_i1 * output_0_part * (e1_e3 - e0_e2),
+                        ),
+                );
     }
     /// 85 additions, 186 multiplications, 5 divisions, 0 square roots, 0 transcendentals, 5 selections.
     fn acceleration<S: ::ukcore::Scalar>(
@@ -578,9 +575,9 @@ impl ::ukcore::Mechanism for RigidBody {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 4>(out, "out");
-        let [i1, i2, i3, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [i1, i2, i3, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            9,
+            6,
         >(prepared, "prepared");
         let [e0, e1, e2, e3] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let [dot_e0, dot_e1, dot_e2, dot_e3] = *::ukcore::emitted::exact::<S, 4>(v, "v");
@@ -836,9 +833,9 @@ impl ::ukcore::Mechanism for RigidBody {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 4>(out, "out");
-        let [i1, i2, i3, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [i1, i2, i3, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            9,
+            6,
         >(prepared, "prepared");
         let [e0, e1, e2, e3] = *::ukcore::emitted::exact::<S, 4>(q, "q");
         let [residual_0] = *::ukcore::emitted::exact::<S, 1>(residual, "residual");

@@ -236,16 +236,16 @@ impl ::ukcore::Mechanism for RoughBlock {
         prepared[5] = mu * m * g * cos_slope * sin_slope;
         prepared[6] = m;
         prepared[7] = mu * cos_slope * sin_slope;
-        let prepared_8_part = cos_slope.mul_add(cos_slope, sin_slope * sin_slope);
-        let per_prepared_8_part = prepared_8_part.recip();
-        prepared[8] = cos_slope * cos_slope * per_prepared_8_part;
+        let pivot_plane = cos_slope.mul_add(cos_slope, sin_slope * sin_slope);
+        let per_pivot_plane = pivot_plane.recip();
+        prepared[8] = cos_slope * cos_slope * per_pivot_plane;
         prepared[9] = g;
         prepared[10] = mu * cos_slope;
-        prepared[11] = sin_slope * per_prepared_8_part;
+        prepared[11] = sin_slope * per_pivot_plane;
         prepared[12] = g * cos_slope;
-        prepared[13] = cos_slope * per_prepared_8_part;
+        prepared[13] = cos_slope * per_pivot_plane;
         let safe_x = S::select_le(m, lit(0.0), lit(0.0), lit(1.0));
-        let safe_plane = S::select_le(prepared_8_part, lit(0.0), lit(0.0), safe_x);
+        let safe_plane = S::select_le(pivot_plane, lit(0.0), lit(0.0), safe_x);
         prepared[14] = safe_plane;
     }
     /// 3 additions, 4 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 1 selections.

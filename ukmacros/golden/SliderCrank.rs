@@ -31,12 +31,12 @@
 /// Constraints φ, eqs. 3 and 4:
 ///
 /// ```text
-/// bearing[0]: x1 - 0.5*r*cos(th1) = 0
-/// bearing[1]: y1 - 0.5*r*sin(th1) = 0
-/// crank_pin[0]: x1 + 0.5*r*cos(th1) + 0.5*l*cos(th2) - x2 = 0
-/// crank_pin[1]: y1 + 0.5*r*sin(th1) + 0.5*l*sin(th2) - y2 = 0
-/// wrist_pin[0]: x2 + 0.5*l*cos(th2) - x3 = 0
-/// wrist_pin[1]: y2 + 0.5*l*sin(th2) - y3 = 0
+/// bearing[0]: 0.5*(2*x1 - r*cos(th1)) = 0
+/// bearing[1]: 0.5*(2*y1 - r*sin(th1)) = 0
+/// crank_pin[0]: 0.5*(2*x1 + r*cos(th1) + l*cos(th2) - 2*x2) = 0
+/// crank_pin[1]: 0.5*(2*y1 + r*sin(th1) + l*sin(th2) - 2*y2) = 0
+/// wrist_pin[0]: 0.5*(2*x2 + l*cos(th2) - 2*x3) = 0
+/// wrist_pin[1]: 0.5*(2*y2 + l*sin(th2) - 2*y3) = 0
 /// guide[0]: y3 = 0
 /// guide[1]: th3 = 0
 /// ```
@@ -223,14 +223,17 @@ impl ::ukcore::Mechanism for SliderCrank {
             ("per_i2_sq_l", "sq(l)/i2"),
             ("per_m1", "1/m1"),
             ("per_i1_torque", "torque/i1"),
+            ("twice_per_i1_torque", "2*torque/i1"),
             ("prepared_part", "r^4/sq(i1)"),
-            ("g", "g"),
+            ("twice_g", "2*g"),
             ("per_m3_and_per_m2", "1/m3 + 1/m2"),
             ("per_m2", "1/m2"),
             ("prepared_part_2", "l^4/sq(i2)"),
             ("per_m1_and_per_m2", "1/m1 + 1/m2"),
+            ("twice_per_i1_torque_r", "2*torque*r/i1"),
             ("per_i2_l", "l/i2"),
             ("per_i1", "1/i1"),
+            ("g", "g"),
             ("per_m3", "1/m3"),
             ("per_i1_r", "r/i1"),
             (
@@ -243,32 +246,32 @@ impl ::ukcore::Mechanism for SliderCrank {
             ::ukcore::ConstraintSpec {
                 name: "bearing[0]",
                 kind: ::ukcore::ConstraintKind::Holonomic,
-                equation: "x1 - 0.5*r*cos(th1) = 0",
+                equation: "0.5*(2*x1 - r*cos(th1)) = 0",
             },
             ::ukcore::ConstraintSpec {
                 name: "bearing[1]",
                 kind: ::ukcore::ConstraintKind::Holonomic,
-                equation: "y1 - 0.5*r*sin(th1) = 0",
+                equation: "0.5*(2*y1 - r*sin(th1)) = 0",
             },
             ::ukcore::ConstraintSpec {
                 name: "crank_pin[0]",
                 kind: ::ukcore::ConstraintKind::Holonomic,
-                equation: "x1 + 0.5*r*cos(th1) + 0.5*l*cos(th2) - x2 = 0",
+                equation: "0.5*(2*x1 + r*cos(th1) + l*cos(th2) - 2*x2) = 0",
             },
             ::ukcore::ConstraintSpec {
                 name: "crank_pin[1]",
                 kind: ::ukcore::ConstraintKind::Holonomic,
-                equation: "y1 + 0.5*r*sin(th1) + 0.5*l*sin(th2) - y2 = 0",
+                equation: "0.5*(2*y1 + r*sin(th1) + l*sin(th2) - 2*y2) = 0",
             },
             ::ukcore::ConstraintSpec {
                 name: "wrist_pin[0]",
                 kind: ::ukcore::ConstraintKind::Holonomic,
-                equation: "x2 + 0.5*l*cos(th2) - x3 = 0",
+                equation: "0.5*(2*x2 + l*cos(th2) - 2*x3) = 0",
             },
             ::ukcore::ConstraintSpec {
                 name: "wrist_pin[1]",
                 kind: ::ukcore::ConstraintKind::Holonomic,
-                equation: "y2 + 0.5*l*sin(th2) - y3 = 0",
+                equation: "0.5*(2*y2 + l*sin(th2) - 2*y3) = 0",
             },
             ::ukcore::ConstraintSpec {
                 name: "guide[0]",
@@ -359,7 +362,7 @@ impl ::ukcore::Mechanism for SliderCrank {
             },
             solve_operations: ::ukcore::Operations {
                 additions: 85,
-                multiplications: 166,
+                multiplications: 168,
                 divisions: 6,
                 square_roots: 0,
                 transcendentals: 2,
@@ -444,7 +447,7 @@ impl ::ukcore::Mechanism for SliderCrank {
         }
     }
     fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
-        let prepared = ::ukcore::emitted::exact_mut::<S, 28>(prepared, "prepared");
+        let prepared = ::ukcore::emitted::exact_mut::<S, 31>(prepared, "prepared");
         let [r, l, m1, m2, m3, i1, i2, i3, g, torque] = *::ukcore::emitted::exact::<
             S,
             10,
@@ -467,29 +470,34 @@ impl ::ukcore::Mechanism for SliderCrank {
         prepared[10] = m3;
         prepared[11] = i3;
         prepared[12] = r * r * per_i1;
-        prepared[13] = torque * r * per_i1;
+        let per_i1_torque_r = torque * r * per_i1;
+        prepared[13] = per_i1_torque_r;
         prepared[14] = l * l * per_i2;
         let per_m1 = m1.recip();
         prepared[15] = per_m1;
-        prepared[16] = torque * per_i1;
-        prepared[17] = r.powi(4) / (i1 * i1);
-        prepared[18] = g;
+        let per_i1_torque = torque * per_i1;
+        prepared[16] = per_i1_torque;
+        prepared[17] = lit(2.0) * per_i1_torque;
+        prepared[18] = r.powi(4) / (i1 * i1);
+        prepared[19] = lit(2.0) * g;
         let per_m3 = m3.recip();
         let per_m2 = m2.recip();
-        prepared[19] = per_m3 + per_m2;
-        prepared[20] = per_m2;
-        prepared[21] = l.powi(4) / (i2 * i2);
-        prepared[22] = per_m1 + per_m2;
-        prepared[23] = l * per_i2;
-        prepared[24] = per_i1;
-        prepared[25] = per_m3;
-        prepared[26] = r * per_i1;
+        prepared[20] = per_m3 + per_m2;
+        prepared[21] = per_m2;
+        prepared[22] = l.powi(4) / (i2 * i2);
+        prepared[23] = per_m1 + per_m2;
+        prepared[24] = lit(2.0) * per_i1_torque_r;
+        prepared[25] = l * per_i2;
+        prepared[26] = per_i1;
+        prepared[27] = g;
+        prepared[28] = per_m3;
+        prepared[29] = r * per_i1;
         let safe_x3 = S::select_le(m3, lit(0.0), lit(0.0), lit(1.0));
         let safe_x1 = S::select_le(m1, lit(0.0), lit(0.0), safe_x3);
         let safe_x2 = S::select_le(m2, lit(0.0), lit(0.0), safe_x1);
         let safe_th1 = S::select_le(i1, lit(0.0), lit(0.0), safe_x2);
         let safe_th2 = S::select_le(i2, lit(0.0), lit(0.0), safe_th1);
-        prepared[27] = safe_th2;
+        prepared[30] = safe_th2;
     }
     /// 5 additions, 28 multiplications, 0 divisions, 0 square roots, 2 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
@@ -505,9 +513,9 @@ impl ::ukcore::Mechanism for SliderCrank {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 72>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 8>(out.rhs, "rhs");
         let [right_y1, right_y2, m3_g, torque, r, l, m1, i1, m2, i2, m3, i3, _, _, _, _,
-        _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            28,
+            31,
         >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [_, _, dot_th1, _, _, dot_th2, _, _, _] = *::ukcore::emitted::exact::<
@@ -584,7 +592,10 @@ impl ::ukcore::Mechanism for SliderCrank {
     fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 81>(mass, "mass");
         let [_, _, _, _, _, _, m1, i1, m2, i2, m3, i3, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _] = *::ukcore::emitted::exact::<S, 28>(prepared, "prepared");
+        _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            31,
+        >(prepared, "prepared");
         mass[0] = m1;
         mass[10] = m1;
         mass[20] = i1;
@@ -604,7 +615,7 @@ impl ::ukcore::Mechanism for SliderCrank {
     ) {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 72>(jacobian, "jacobian");
         let [_, _, _, _, r, l, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _] = *::ukcore::emitted::exact::<S, 28>(prepared, "prepared");
+        _, _, _, _, _, _] = *::ukcore::emitted::exact::<S, 31>(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let lit = S::from_f64;
         jacobian[0] = lit(1.0);
@@ -637,7 +648,7 @@ impl ::ukcore::Mechanism for SliderCrank {
     fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
         let phi = ::ukcore::emitted::exact_mut::<S, 8>(phi, "phi");
         let [_, _, _, _, r, l, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _] = *::ukcore::emitted::exact::<S, 28>(prepared, "prepared");
+        _, _, _, _, _, _] = *::ukcore::emitted::exact::<S, 31>(prepared, "prepared");
         let [x1, y1, th1, x2, y2, th2, x3, y3, th3] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -645,16 +656,18 @@ impl ::ukcore::Mechanism for SliderCrank {
         let lit = S::from_f64;
         let (sin_th1, cos_th1) = th1.sin_cos();
         let cos_th1_r = r * cos_th1;
-        phi[0] = lit(0.5).neg_mul_add(cos_th1_r, x1);
+        phi[0] = lit(0.5) * (lit(2.0) * x1 - cos_th1_r);
         let sin_th1_r = r * sin_th1;
-        phi[1] = lit(0.5).neg_mul_add(sin_th1_r, y1);
+        phi[1] = lit(0.5) * (lit(2.0) * y1 - sin_th1_r);
         let (sin_th2, cos_th2) = th2.sin_cos();
         let cos_th2_l = l * cos_th2;
-        phi[2] = lit(0.5).mul_add(cos_th2_l, lit(0.5).mul_add(cos_th1_r, x1 - x2));
+        phi[2] = lit(0.5)
+            * (lit(2.0).neg_mul_add(x2, lit(2.0) * x1) + cos_th1_r + cos_th2_l);
         let sin_th2_l = l * sin_th2;
-        phi[3] = lit(0.5).mul_add(sin_th2_l, lit(0.5).mul_add(sin_th1_r, y1 - y2));
-        phi[4] = lit(0.5).mul_add(cos_th2_l, x2 - x3);
-        phi[5] = lit(0.5).mul_add(sin_th2_l, y2 - y3);
+        phi[3] = lit(0.5)
+            * (lit(2.0).neg_mul_add(y2, lit(2.0) * y1) + sin_th1_r + sin_th2_l);
+        phi[4] = lit(0.5) * (lit(2.0).neg_mul_add(x3, lit(2.0) * x2) + cos_th2_l);
+        phi[5] = lit(0.5) * (lit(2.0).neg_mul_add(y3, lit(2.0) * y2) + sin_th2_l);
         phi[6] = y3;
         phi[7] = th3;
     }
@@ -667,31 +680,29 @@ impl ::ukcore::Mechanism for SliderCrank {
     ) {
         let rate = ::ukcore::emitted::exact_mut::<S, 8>(rate, "rate");
         let [_, _, _, _, r, l, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _] = *::ukcore::emitted::exact::<S, 28>(prepared, "prepared");
+        _, _, _, _, _, _] = *::ukcore::emitted::exact::<S, 31>(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [dot_x1, dot_y1, dot_th1, dot_x2, dot_y2, dot_th2, dot_x3, dot_y3, dot_th3,
         ] = *::ukcore::emitted::exact::<S, 9>(v, "v");
         let lit = S::from_f64;
         let (sin_th1, cos_th1) = th1.sin_cos();
         let sin_th1_dot_th1_r = dot_th1 * r * sin_th1;
-        rate[0] = lit(0.5).mul_add(sin_th1_dot_th1_r, dot_x1);
+        rate[0] = lit(0.5) * (lit(2.0) * dot_x1 + sin_th1_dot_th1_r);
         let cos_th1_dot_th1_r = dot_th1 * r * cos_th1;
-        rate[1] = lit(0.5).neg_mul_add(cos_th1_dot_th1_r, dot_y1);
+        rate[1] = lit(0.5) * (lit(2.0) * dot_y1 - cos_th1_dot_th1_r);
         let (sin_th2, cos_th2) = th2.sin_cos();
         let sin_th2_dot_th2_l = dot_th2 * l * sin_th2;
         rate[2] = lit(0.5)
-            .neg_mul_add(
-                sin_th2_dot_th2_l,
-                lit(0.5).neg_mul_add(sin_th1_dot_th1_r, dot_x1 - dot_x2),
-            );
+            * (lit(2.0).neg_mul_add(dot_x2, lit(2.0) * dot_x1) - sin_th1_dot_th1_r
+                - sin_th2_dot_th2_l);
         let cos_th2_dot_th2_l = dot_th2 * l * cos_th2;
         rate[3] = lit(0.5)
-            .mul_add(
-                cos_th2_dot_th2_l,
-                lit(0.5).mul_add(cos_th1_dot_th1_r, dot_y1 - dot_y2),
-            );
-        rate[4] = lit(0.5).neg_mul_add(sin_th2_dot_th2_l, dot_x2 - dot_x3);
-        rate[5] = lit(0.5).mul_add(cos_th2_dot_th2_l, dot_y2 - dot_y3);
+            * (lit(2.0).neg_mul_add(dot_y2, lit(2.0) * dot_y1) + cos_th1_dot_th1_r
+                + cos_th2_dot_th2_l);
+        rate[4] = lit(-0.5)
+            * (lit(2.0).neg_mul_add(dot_x2, lit(2.0) * dot_x3) + sin_th2_dot_th2_l);
+        rate[5] = lit(0.5)
+            * (lit(2.0).neg_mul_add(dot_y3, lit(2.0) * dot_y2) + cos_th2_dot_th2_l);
         rate[6] = dot_y3;
         rate[7] = dot_th3;
     }
@@ -702,9 +713,9 @@ impl ::ukcore::Mechanism for SliderCrank {
         v: &[S],
     ) -> ::ukcore::Energy<S> {
         let [right_y1, right_y2, m3_g, torque, _, _, m1, i1, m2, i2, m3, i3, _, _, _, _,
-        _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            28,
+            31,
         >(prepared, "prepared");
         let [_, y1, th1, _, y2, _, _, y3, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [dot_x1, dot_y1, dot_th1, dot_x2, dot_y2, dot_th2, dot_x3, dot_y3, dot_th3,
@@ -761,7 +772,7 @@ impl ::ukcore::Mechanism for SliderCrank {
         outputs[1] = x3;
         outputs[2] = dot_x3;
     }
-    /// 85 additions, 166 multiplications, 6 divisions, 0 square roots, 2 transcendentals, 6 selections.
+    /// 85 additions, 168 multiplications, 6 divisions, 0 square roots, 2 transcendentals, 6 selections.
     fn acceleration<S: ::ukcore::Scalar>(
         prepared: &[S],
         t: S,
@@ -771,10 +782,11 @@ impl ::ukcore::Mechanism for SliderCrank {
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 9>(out, "out");
         let [_, _, _, torque, r, l, _, _, _, _, _, _, per_i1_sq_r, per_i1_torque_r,
-        per_i2_sq_l, per_m1, per_i1_torque, prepared_part, g, per_m3_and_per_m2, per_m2,
-        prepared_part_2, per_m1_and_per_m2, per_i2_l, per_i1, per_m3, _, safe_th2] = *::ukcore::emitted::exact::<
+        per_i2_sq_l, per_m1, _, twice_per_i1_torque, prepared_part, twice_g,
+        per_m3_and_per_m2, per_m2, prepared_part_2, per_m1_and_per_m2,
+        twice_per_i1_torque_r, per_i2_l, per_i1, g, per_m3, _, safe_th2] = *::ukcore::emitted::exact::<
             S,
-            28,
+            31,
         >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [_, _, dot_th1, _, _, dot_th2, _, _, _] = *::ukcore::emitted::exact::<
@@ -789,8 +801,9 @@ impl ::ukcore::Mechanism for SliderCrank {
         let pivot_bearing_0 = per_m1 + acceleration_0_part_2;
         let per_pivot_bearing_0 = pivot_bearing_0.recip();
         let safe_bearing_0 = S::select_le(pivot_bearing_0, lit(0.0), lit(0.0), safe_th2);
-        let right_bearing_0 = per_i1_torque
-            .mul_add(acceleration_0_part, lit(0.5) * dot_th1 * dot_th1 * cos_th1);
+        let right_bearing_0 = lit(0.5)
+            * twice_per_i1_torque
+                .mul_add(acceleration_0_part, dot_th1 * dot_th1 * cos_th1);
         let acceleration_0_part_3 = lit(0.5) * cos_th1;
         let acceleration_0_part_4 = prepared_part * acceleration_0_part
             * acceleration_0_part * acceleration_0_part_3 * acceleration_0_part_3
@@ -811,13 +824,15 @@ impl ::ukcore::Mechanism for SliderCrank {
         let acceleration_0_part_6 = r * right_bearing_0 * bearing_1_by_bearing_0;
         let sin_th1_sq_dot_th1_r = dot_th1 * dot_th1 * r * sin_th1;
         let acceleration_0_part_7 = per_i1_torque_r * acceleration_0_part_3;
-        let right_bearing_1 = (lit(0.5) * sin_th1_sq_dot_th1_r - g
-            - acceleration_0_part_7) + acceleration_0_part_6;
+        let acceleration_0_part_8 = lit(-0.5)
+            * lit(2.0)
+                .neg_mul_add(acceleration_0_part_7, sin_th1_sq_dot_th1_r - twice_g);
+        let right_bearing_1 = acceleration_0_part_6 - acceleration_0_part_8;
         let (sin_th2, cos_th2) = th2.sin_cos();
-        let acceleration_0_part_8 = lit(0.5) * sin_th2;
-        let acceleration_0_part_9 = per_i2_sq_l * acceleration_0_part_8
-            * acceleration_0_part_8;
-        let pivot_wrist_pin_0 = per_m3_and_per_m2 + acceleration_0_part_9;
+        let acceleration_0_part_9 = lit(0.5) * sin_th2;
+        let acceleration_0_part_10 = per_i2_sq_l * acceleration_0_part_9
+            * acceleration_0_part_9;
+        let pivot_wrist_pin_0 = per_m3_and_per_m2 + acceleration_0_part_10;
         let per_pivot_wrist_pin_0 = pivot_wrist_pin_0.recip();
         let safe_wrist_pin_0 = S::select_le(
             pivot_wrist_pin_0,
@@ -826,14 +841,14 @@ impl ::ukcore::Mechanism for SliderCrank {
             safe_bearing_1,
         );
         let right_wrist_pin_0 = lit(0.5) * (dot_th2 * dot_th2 * cos_th2);
-        let acceleration_0_part_10 = lit(0.5) * cos_th2;
-        let acceleration_0_part_11 = prepared_part_2 * acceleration_0_part_8
-            * acceleration_0_part_8 * acceleration_0_part_10 * acceleration_0_part_10
+        let acceleration_0_part_11 = lit(0.5) * cos_th2;
+        let acceleration_0_part_12 = prepared_part_2 * acceleration_0_part_9
+            * acceleration_0_part_9 * acceleration_0_part_11 * acceleration_0_part_11
             * per_pivot_wrist_pin_0;
-        let acceleration_0_part_12 = per_i2_sq_l * acceleration_0_part_10
-            * acceleration_0_part_10;
-        let diagonal_wrist_pin_1 = per_m2 + acceleration_0_part_12;
-        let pivot_wrist_pin_1 = acceleration_0_part_11 - diagonal_wrist_pin_1;
+        let acceleration_0_part_13 = per_i2_sq_l * acceleration_0_part_11
+            * acceleration_0_part_11;
+        let diagonal_wrist_pin_1 = per_m2 + acceleration_0_part_13;
+        let pivot_wrist_pin_1 = acceleration_0_part_12 - diagonal_wrist_pin_1;
         let per_pivot_wrist_pin_1 = pivot_wrist_pin_1.recip();
         let safe_wrist_pin_1 = S::select_le(
             -pivot_wrist_pin_1,
@@ -841,32 +856,32 @@ impl ::ukcore::Mechanism for SliderCrank {
             lit(0.0),
             safe_wrist_pin_0,
         );
-        let crank_pin_1_by_wrist_pin_0 = per_i2_sq_l * acceleration_0_part_8
-            * acceleration_0_part_10 * per_pivot_wrist_pin_0;
-        let acceleration_0_part_13 = l * right_wrist_pin_0 * crank_pin_1_by_wrist_pin_0;
+        let crank_pin_1_by_wrist_pin_0 = per_i2_sq_l * acceleration_0_part_9
+            * acceleration_0_part_11 * per_pivot_wrist_pin_0;
+        let acceleration_0_part_14 = l * right_wrist_pin_0 * crank_pin_1_by_wrist_pin_0;
         let sin_th2_sq_dot_th2_l = dot_th2 * dot_th2 * l * sin_th2;
-        let right_wrist_pin_1 = lit(0.5).mul_add(sin_th2_sq_dot_th2_l, g)
-            + acceleration_0_part_13;
+        let acceleration_0_part_15 = lit(0.5) * (twice_g + sin_th2_sq_dot_th2_l);
+        let right_wrist_pin_1 = acceleration_0_part_15 + acceleration_0_part_14;
         let crank_pin_0_with_bearing_0 = acceleration_0_part_2 - per_m1;
         let crank_pin_0_by_bearing_0 = -(crank_pin_0_with_bearing_0
             * per_pivot_bearing_0);
-        let acceleration_0_part_14 = lit(1.0) + crank_pin_0_by_bearing_0;
-        let crank_pin_0_with_wrist_pin_0 = acceleration_0_part_9 - per_m2;
-        let crank_pin_1_with_wrist_pin_0 = per_i2_sq_l * acceleration_0_part_8
-            * acceleration_0_part_10;
-        let acceleration_0_part_15 = crank_pin_0_with_wrist_pin_0
+        let acceleration_0_part_16 = lit(1.0) + crank_pin_0_by_bearing_0;
+        let crank_pin_0_with_wrist_pin_0 = acceleration_0_part_10 - per_m2;
+        let crank_pin_1_with_wrist_pin_0 = per_i2_sq_l * acceleration_0_part_9
+            * acceleration_0_part_11;
+        let acceleration_0_part_17 = crank_pin_0_with_wrist_pin_0
             * crank_pin_1_by_wrist_pin_0;
         let crank_pin_0_with_wrist_pin_1 = crank_pin_1_with_wrist_pin_0
-            - acceleration_0_part_15;
+            - acceleration_0_part_17;
         let diagonal_crank_pin_0 = per_m1_and_per_m2 + acceleration_0_part_2
-            + acceleration_0_part_9;
+            + acceleration_0_part_10;
         let pivot_crank_pin_0 = (crank_pin_0_with_wrist_pin_1
             * crank_pin_0_with_wrist_pin_1)
             .neg_mul_add(
                 per_pivot_wrist_pin_1,
                 (prepared_part * acceleration_0_part * acceleration_0_part
                     * acceleration_0_part_3 * acceleration_0_part_3
-                    * acceleration_0_part_14 * acceleration_0_part_14)
+                    * acceleration_0_part_16 * acceleration_0_part_16)
                     .neg_mul_add(
                         per_pivot_bearing_1,
                         (crank_pin_0_with_wrist_pin_0 * crank_pin_0_with_wrist_pin_0)
@@ -885,11 +900,18 @@ impl ::ukcore::Mechanism for SliderCrank {
             safe_wrist_pin_1,
         );
         let crank_pin_0_by_bearing_1 = per_i1_sq_r * acceleration_0_part
-            * acceleration_0_part_3 * acceleration_0_part_14 * per_pivot_bearing_1;
+            * acceleration_0_part_3 * acceleration_0_part_16 * per_pivot_bearing_1;
         let crank_pin_0_by_wrist_pin_0 = -(crank_pin_0_with_wrist_pin_0
             * per_pivot_wrist_pin_0);
         let crank_pin_0_by_wrist_pin_1 = crank_pin_0_with_wrist_pin_1
             * per_pivot_wrist_pin_1;
+        let acceleration_0_part_18 = lit(0.5)
+            * twice_per_i1_torque_r
+                .mul_add(
+                    acceleration_0_part,
+                    (dot_th2 * dot_th2 * l)
+                        .mul_add(cos_th2, dot_th1 * dot_th1 * r * cos_th1),
+                );
         let right_crank_pin_0 = right_wrist_pin_1
             .neg_mul_add(
                 crank_pin_0_by_wrist_pin_1,
@@ -900,16 +922,7 @@ impl ::ukcore::Mechanism for SliderCrank {
                             .mul_add(
                                 crank_pin_0_by_wrist_pin_0,
                                 (r * right_bearing_0)
-                                    .mul_add(
-                                        crank_pin_0_by_bearing_0,
-                                        per_i1_torque_r
-                                            .mul_add(
-                                                acceleration_0_part,
-                                                lit(0.5)
-                                                    * (dot_th2 * dot_th2 * l)
-                                                        .mul_add(cos_th2, dot_th1 * dot_th1 * r * cos_th1),
-                                            ),
-                                    ),
+                                    .mul_add(crank_pin_0_by_bearing_0, acceleration_0_part_18),
                             ),
                     ),
             );
@@ -917,9 +930,9 @@ impl ::ukcore::Mechanism for SliderCrank {
             * acceleration_0_part_3 * bearing_1_by_bearing_0
             - (acceleration_0_part_5 - per_m1);
         let crank_pin_1_by_bearing_1 = crank_pin_1_with_bearing_1 * per_pivot_bearing_1;
-        let crank_pin_1_with_wrist_pin_1 = per_i2_sq_l * acceleration_0_part_8
-            * acceleration_0_part_10 * crank_pin_1_by_wrist_pin_0
-            - (acceleration_0_part_12 - per_m2);
+        let crank_pin_1_with_wrist_pin_1 = per_i2_sq_l * acceleration_0_part_9
+            * acceleration_0_part_11 * crank_pin_1_by_wrist_pin_0
+            - (acceleration_0_part_13 - per_m2);
         let crank_pin_1_by_wrist_pin_1 = crank_pin_1_with_wrist_pin_1
             * per_pivot_wrist_pin_1;
         let bearing_1_with_bearing_0 = per_i1_sq_r * acceleration_0_part
@@ -928,16 +941,16 @@ impl ::ukcore::Mechanism for SliderCrank {
             .mul_add(
                 crank_pin_1_by_wrist_pin_1,
                 (per_i1_sq_r * acceleration_0_part * acceleration_0_part_3
-                    * acceleration_0_part_14)
+                    * acceleration_0_part_16)
                     .mul_add(
                         crank_pin_1_by_bearing_1,
                         crank_pin_0_with_bearing_0 * bearing_1_by_bearing_0
                             - (bearing_1_with_bearing_0 + crank_pin_1_with_wrist_pin_0)
-                            + acceleration_0_part_15,
+                            + acceleration_0_part_17,
                     ),
             );
-        let acceleration_0_part_16 = per_m1_and_per_m2 + acceleration_0_part_5
-            + acceleration_0_part_12;
+        let acceleration_0_part_19 = per_m1_and_per_m2 + acceleration_0_part_5
+            + acceleration_0_part_13;
         let pivot_crank_pin_1 = pivot_crank_pin_0
             .neg_mul_add(
                 (crank_pin_1_with_wrist_pin_1 * crank_pin_1_with_wrist_pin_1)
@@ -946,20 +959,26 @@ impl ::ukcore::Mechanism for SliderCrank {
                         (crank_pin_1_with_bearing_1 * crank_pin_1_with_bearing_1)
                             .neg_mul_add(
                                 per_pivot_bearing_1,
-                                acceleration_0_part_4 - acceleration_0_part_16
-                                    + acceleration_0_part_11,
+                                acceleration_0_part_4 - acceleration_0_part_19
+                                    + acceleration_0_part_12,
                             ),
                     ),
                 crank_pin_1_with_crank_pin_0 * crank_pin_1_with_crank_pin_0,
             );
         let per_pivot_crank_pin_1 = pivot_crank_pin_1.recip();
-        let diagonal_crank_pin_1 = acceleration_0_part_16 * pivot_crank_pin_0;
+        let diagonal_crank_pin_1 = acceleration_0_part_19 * pivot_crank_pin_0;
         let safe_crank_pin_1 = S::select_le(
             -pivot_crank_pin_1,
             lit(-0.0009765625) * diagonal_crank_pin_1,
             lit(0.0),
             safe_crank_pin_0,
         );
+        let acceleration_0_part_20 = lit(0.5)
+            * lit(2.0)
+                .neg_mul_add(
+                    acceleration_0_part_7,
+                    (sin_th1_sq_dot_th1_r + sin_th2_sq_dot_th2_l),
+                );
         let right_crank_pin_1 = pivot_crank_pin_0
             .mul_add(
                 right_wrist_pin_1
@@ -968,9 +987,8 @@ impl ::ukcore::Mechanism for SliderCrank {
                         right_bearing_1
                             .neg_mul_add(
                                 crank_pin_1_by_bearing_1,
-                                (lit(0.5) * (sin_th1_sq_dot_th1_r + sin_th2_sq_dot_th2_l)
-                                    - acceleration_0_part_7) + acceleration_0_part_6
-                                    + acceleration_0_part_13,
+                                acceleration_0_part_20 + acceleration_0_part_6
+                                    + acceleration_0_part_14,
                             ),
                     ),
                 right_crank_pin_0 * crank_pin_1_with_crank_pin_0,
@@ -1057,16 +1075,16 @@ impl ::ukcore::Mechanism for SliderCrank {
                         ),
                 );
         out[5] = per_i2_l
-            * acceleration_0_part_8
+            * acceleration_0_part_9
                 .neg_mul_add(
                     lambda_wrist_pin_0,
-                    acceleration_0_part_10
+                    acceleration_0_part_11
                         .neg_mul_add(
                             lambda_wrist_pin_1,
-                            acceleration_0_part_8
+                            acceleration_0_part_9
                                 .mul_add(
                                     lambda_crank_pin_0,
-                                    acceleration_0_part_10 * right_crank_pin_1
+                                    acceleration_0_part_11 * right_crank_pin_1
                                         * per_pivot_crank_pin_1,
                                 ),
                         ),
@@ -1083,10 +1101,10 @@ impl ::ukcore::Mechanism for SliderCrank {
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 9>(out, "out");
         let [_, _, _, _, _, _, _, _, _, _, _, _, per_i1_sq_r, _, per_i2_sq_l, per_m1, _,
-        prepared_part, _, per_m3_and_per_m2, per_m2, prepared_part_2, per_m1_and_per_m2,
-        per_i2_l, _, per_m3, per_i1_r, safe_th2] = *::ukcore::emitted::exact::<
+        _, prepared_part, _, per_m3_and_per_m2, per_m2, prepared_part_2,
+        per_m1_and_per_m2, _, per_i2_l, _, _, per_m3, per_i1_r, safe_th2] = *::ukcore::emitted::exact::<
             S,
-            28,
+            31,
         >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [residual_0, residual_1, residual_2, residual_3, residual_4, residual_5,

@@ -161,7 +161,7 @@ impl ::ukcore::Mechanism for UChain {
             },
         ],
         prepared: &[
-            ("right_y_0", "m*g"),
+            ("m_g", "m*g"),
             ("sq_l", "sq(l)"),
             ("m", "m"),
             ("g", "g"),
@@ -617,8 +617,7 @@ impl ::ukcore::Mechanism for UChain {
         let prepared = ::ukcore::emitted::exact_mut::<S, 5>(prepared, "prepared");
         let [m, l, g] = *::ukcore::emitted::exact::<S, 3>(given, "given");
         let lit = S::from_f64;
-        let right_y_0 = m * g;
-        prepared[0] = right_y_0;
+        prepared[0] = m * g;
         prepared[1] = l * l;
         prepared[2] = m;
         prepared[3] = g;
@@ -638,10 +637,7 @@ impl ::ukcore::Mechanism for UChain {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 34>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 578>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 17>(out.rhs, "rhs");
-        let [right_y_0, _, m, _, _] = *::ukcore::emitted::exact::<
-            S,
-            5,
-        >(prepared, "prepared");
+        let [m_g, _, m, _, _] = *::ukcore::emitted::exact::<S, 5>(prepared, "prepared");
         let [x_0, x_1, x_2, x_3, x_4, x_5, x_6, x_7, x_8, x_9, x_10, x_11, x_12, x_13,
         x_14, x_15, x_16, y_0, y_1, y_2, y_3, y_4, y_5, y_6, y_7, y_8, y_9, y_10, y_11,
         y_12, y_13, y_14, y_15, y_16] = *::ukcore::emitted::exact::<S, 34>(q, "q");
@@ -702,23 +698,23 @@ impl ::ukcore::Mechanism for UChain {
         force[14] = lit(0.0);
         force[15] = lit(0.0);
         force[16] = lit(0.0);
-        force[17] = right_y_0;
-        force[18] = right_y_0;
-        force[19] = right_y_0;
-        force[20] = right_y_0;
-        force[21] = right_y_0;
-        force[22] = right_y_0;
-        force[23] = right_y_0;
-        force[24] = right_y_0;
-        force[25] = right_y_0;
-        force[26] = right_y_0;
-        force[27] = right_y_0;
-        force[28] = right_y_0;
-        force[29] = right_y_0;
-        force[30] = right_y_0;
-        force[31] = right_y_0;
-        force[32] = right_y_0;
-        force[33] = right_y_0;
+        force[17] = m_g;
+        force[18] = m_g;
+        force[19] = m_g;
+        force[20] = m_g;
+        force[21] = m_g;
+        force[22] = m_g;
+        force[23] = m_g;
+        force[24] = m_g;
+        force[25] = m_g;
+        force[26] = m_g;
+        force[27] = m_g;
+        force[28] = m_g;
+        force[29] = m_g;
+        force[30] = m_g;
+        force[31] = m_g;
+        force[32] = m_g;
+        force[33] = m_g;
         nonideal[0] = lit(0.0);
         nonideal[1] = lit(0.0);
         nonideal[2] = lit(0.0);
@@ -1275,10 +1271,7 @@ impl ::ukcore::Mechanism for UChain {
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
-        let [right_y_0, _, m, _, _] = *::ukcore::emitted::exact::<
-            S,
-            5,
-        >(prepared, "prepared");
+        let [m_g, _, m, _, _] = *::ukcore::emitted::exact::<S, 5>(prepared, "prepared");
         let [_, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, y_0, y_1, y_2, y_3, y_4,
         y_5, y_6, y_7, y_8, y_9, y_10, y_11, y_12, y_13, y_14, y_15, y_16] = *::ukcore::emitted::exact::<
             S,
@@ -1422,51 +1415,47 @@ impl ::ukcore::Mechanism for UChain {
                 );
         let potential = y_16
             .neg_mul_add(
-                right_y_0,
+                m_g,
                 y_15
                     .neg_mul_add(
-                        right_y_0,
+                        m_g,
                         y_14
                             .neg_mul_add(
-                                right_y_0,
+                                m_g,
                                 y_13
                                     .neg_mul_add(
-                                        right_y_0,
+                                        m_g,
                                         y_12
                                             .neg_mul_add(
-                                                right_y_0,
+                                                m_g,
                                                 y_11
                                                     .neg_mul_add(
-                                                        right_y_0,
+                                                        m_g,
                                                         y_10
                                                             .neg_mul_add(
-                                                                right_y_0,
+                                                                m_g,
                                                                 y_9
                                                                     .neg_mul_add(
-                                                                        right_y_0,
+                                                                        m_g,
                                                                         y_8
                                                                             .neg_mul_add(
-                                                                                right_y_0,
+                                                                                m_g,
                                                                                 y_7
                                                                                     .neg_mul_add(
-                                                                                        right_y_0,
+                                                                                        m_g,
                                                                                         y_6
                                                                                             .neg_mul_add(
-                                                                                                right_y_0,
+                                                                                                m_g,
                                                                                                 y_5
                                                                                                     .neg_mul_add(
-                                                                                                        right_y_0,
+                                                                                                        m_g,
                                                                                                         y_4
                                                                                                             .neg_mul_add(
-                                                                                                                right_y_0,
+                                                                                                                m_g,
                                                                                                                 y_3
                                                                                                                     .neg_mul_add(
-                                                                                                                        right_y_0,
-                                                                                                                        y_2
-                                                                                                                            .neg_mul_add(
-                                                                                                                                right_y_0,
-                                                                                                                                y_1.neg_mul_add(right_y_0, -(y_0 * right_y_0)),
-                                                                                                                            ),
+                                                                                                                        m_g,
+                                                                                                                        y_2.neg_mul_add(m_g, y_1.neg_mul_add(m_g, -(y_0 * m_g))),
                                                                                                                     ),
                                                                                                             ),
                                                                                                     ),
@@ -1553,13 +1542,12 @@ impl ::ukcore::Mechanism for UChain {
             .neg_mul_add(y_1_minus_y_2, x_1_minus_x_0 * x_1_minus_x_2);
         let acceleration_0_part = lit(2.0)
             * y_1_minus_y_2.mul_add(y_1_minus_y_2, x_1_minus_x_2 * x_1_minus_x_2);
-        let pivot_link_0_acceleration_0_part = pivot_link_0 * acceleration_0_part;
-        let pivot_link_1 = link_1_with_link_0 * link_1_with_link_0
-            - pivot_link_0_acceleration_0_part;
+        let diagonal_link_1 = pivot_link_0 * acceleration_0_part;
+        let pivot_link_1 = link_1_with_link_0 * link_1_with_link_0 - diagonal_link_1;
         let per_pivot_link_1 = pivot_link_1.recip();
         let safe_link_1 = S::select_le(
             -pivot_link_1,
-            lit(0.0009765625) * pivot_link_0_acceleration_0_part,
+            lit(0.0009765625) * diagonal_link_1,
             lit(0.0),
             safe_support,
         );
@@ -1577,13 +1565,13 @@ impl ::ukcore::Mechanism for UChain {
         let acceleration_0_part_2 = lit(2.0)
             * y_15_minus_y_16
                 .mul_add(y_15_minus_y_16, x_15_minus_x_16 * x_15_minus_x_16);
-        let acceleration_0_part_3 = pivot_support * acceleration_0_part_2;
+        let diagonal_link_15 = pivot_support * acceleration_0_part_2;
         let pivot_link_15 = link_15_with_support * link_15_with_support
-            - acceleration_0_part_3;
+            - diagonal_link_15;
         let per_pivot_link_15 = pivot_link_15.recip();
         let safe_link_15 = S::select_le(
             -pivot_link_15,
-            lit(0.0009765625) * acceleration_0_part_3,
+            lit(0.0009765625) * diagonal_link_15,
             lit(0.0),
             safe_link_1,
         );
@@ -1603,15 +1591,15 @@ impl ::ukcore::Mechanism for UChain {
         let y_2_minus_y_3 = y_2 - y_3;
         let link_2_with_link_1 = y_1_minus_y_2
             .mul_add(y_2_minus_y_3, x_1_minus_x_2 * x_2_minus_x_3);
-        let acceleration_0_part_4 = lit(2.0)
+        let acceleration_0_part_3 = lit(2.0)
             * y_2_minus_y_3.mul_add(y_2_minus_y_3, x_2_minus_x_3 * x_2_minus_x_3);
-        let acceleration_0_part_5 = acceleration_0_part_4 * pivot_link_1;
+        let diagonal_link_2 = acceleration_0_part_3 * pivot_link_1;
         let pivot_link_2 = link_2_with_link_1 * link_2_with_link_1 * pivot_link_0
-            + acceleration_0_part_5;
+            + diagonal_link_2;
         let per_pivot_link_2 = pivot_link_2.recip();
         let safe_link_2 = S::select_le(
             -pivot_link_2,
-            lit(-0.0009765625) * acceleration_0_part_5,
+            lit(-0.0009765625) * diagonal_link_2,
             lit(0.0),
             safe_link_15,
         );
@@ -1627,16 +1615,16 @@ impl ::ukcore::Mechanism for UChain {
         let y_14_minus_y_15 = y_14 - y_15;
         let link_14_with_link_15 = y_14_minus_y_15
             .mul_add(y_15_minus_y_16, x_14_minus_x_15 * x_15_minus_x_16);
-        let acceleration_0_part_6 = lit(2.0)
+        let acceleration_0_part_4 = lit(2.0)
             * y_14_minus_y_15
                 .mul_add(y_14_minus_y_15, x_14_minus_x_15 * x_14_minus_x_15);
-        let acceleration_0_part_7 = acceleration_0_part_6 * pivot_link_15;
+        let diagonal_link_14 = acceleration_0_part_4 * pivot_link_15;
         let pivot_link_14 = pivot_support * link_14_with_link_15 * link_14_with_link_15
-            + acceleration_0_part_7;
+            + diagonal_link_14;
         let per_pivot_link_14 = pivot_link_14.recip();
         let safe_link_14 = S::select_le(
             -pivot_link_14,
-            lit(-0.0009765625) * acceleration_0_part_7,
+            lit(-0.0009765625) * diagonal_link_14,
             lit(0.0),
             safe_link_2,
         );
@@ -1655,15 +1643,15 @@ impl ::ukcore::Mechanism for UChain {
         let y_3_minus_y_4 = y_3 - y_4;
         let link_3_with_link_2 = y_2_minus_y_3
             .mul_add(y_3_minus_y_4, x_2_minus_x_3 * x_3_minus_x_4);
-        let acceleration_0_part_8 = lit(2.0)
+        let acceleration_0_part_5 = lit(2.0)
             * y_3_minus_y_4.mul_add(y_3_minus_y_4, x_3_minus_x_4 * x_3_minus_x_4);
-        let acceleration_0_part_9 = acceleration_0_part_8 * pivot_link_2;
+        let diagonal_link_3 = acceleration_0_part_5 * pivot_link_2;
         let pivot_link_3 = link_3_with_link_2 * link_3_with_link_2 * pivot_link_1
-            - acceleration_0_part_9;
+            - diagonal_link_3;
         let per_pivot_link_3 = pivot_link_3.recip();
         let safe_link_3 = S::select_le(
             pivot_link_3,
-            lit(-0.0009765625) * acceleration_0_part_9,
+            lit(-0.0009765625) * diagonal_link_3,
             lit(0.0),
             safe_link_14,
         );
@@ -1679,16 +1667,16 @@ impl ::ukcore::Mechanism for UChain {
         let y_13_minus_y_14 = y_13 - y_14;
         let link_13_with_link_14 = y_13_minus_y_14
             .mul_add(y_14_minus_y_15, x_13_minus_x_14 * x_14_minus_x_15);
-        let acceleration_0_part_10 = lit(2.0)
+        let acceleration_0_part_6 = lit(2.0)
             * y_13_minus_y_14
                 .mul_add(y_13_minus_y_14, x_13_minus_x_14 * x_13_minus_x_14);
-        let acceleration_0_part_11 = acceleration_0_part_10 * pivot_link_14;
+        let diagonal_link_13 = acceleration_0_part_6 * pivot_link_14;
         let pivot_link_13 = link_13_with_link_14 * link_13_with_link_14 * pivot_link_15
-            - acceleration_0_part_11;
+            - diagonal_link_13;
         let per_pivot_link_13 = pivot_link_13.recip();
         let safe_link_13 = S::select_le(
             pivot_link_13,
-            lit(-0.0009765625) * acceleration_0_part_11,
+            lit(-0.0009765625) * diagonal_link_13,
             lit(0.0),
             safe_link_3,
         );
@@ -1707,15 +1695,15 @@ impl ::ukcore::Mechanism for UChain {
         let y_4_minus_y_5 = y_4 - y_5;
         let link_4_with_link_3 = y_3_minus_y_4
             .mul_add(y_4_minus_y_5, x_3_minus_x_4 * x_4_minus_x_5);
-        let acceleration_0_part_12 = lit(2.0)
+        let acceleration_0_part_7 = lit(2.0)
             * y_4_minus_y_5.mul_add(y_4_minus_y_5, x_4_minus_x_5 * x_4_minus_x_5);
-        let acceleration_0_part_13 = acceleration_0_part_12 * pivot_link_3;
+        let diagonal_link_4 = acceleration_0_part_7 * pivot_link_3;
         let pivot_link_4 = link_4_with_link_3 * link_4_with_link_3 * pivot_link_2
-            + acceleration_0_part_13;
+            + diagonal_link_4;
         let per_pivot_link_4 = pivot_link_4.recip();
         let safe_link_4 = S::select_le(
             pivot_link_4,
-            lit(0.0009765625) * acceleration_0_part_13,
+            lit(0.0009765625) * diagonal_link_4,
             lit(0.0),
             safe_link_13,
         );
@@ -1731,16 +1719,16 @@ impl ::ukcore::Mechanism for UChain {
         let y_12_minus_y_13 = y_12 - y_13;
         let link_12_with_link_13 = y_12_minus_y_13
             .mul_add(y_13_minus_y_14, x_12_minus_x_13 * x_13_minus_x_14);
-        let acceleration_0_part_14 = lit(2.0)
+        let acceleration_0_part_8 = lit(2.0)
             * y_12_minus_y_13
                 .mul_add(y_12_minus_y_13, x_12_minus_x_13 * x_12_minus_x_13);
-        let acceleration_0_part_15 = acceleration_0_part_14 * pivot_link_13;
+        let diagonal_link_12 = acceleration_0_part_8 * pivot_link_13;
         let pivot_link_12 = link_12_with_link_13 * link_12_with_link_13 * pivot_link_14
-            + acceleration_0_part_15;
+            + diagonal_link_12;
         let per_pivot_link_12 = pivot_link_12.recip();
         let safe_link_12 = S::select_le(
             pivot_link_12,
-            lit(0.0009765625) * acceleration_0_part_15,
+            lit(0.0009765625) * diagonal_link_12,
             lit(0.0),
             safe_link_4,
         );
@@ -1759,15 +1747,15 @@ impl ::ukcore::Mechanism for UChain {
         let y_5_minus_y_6 = y_5 - y_6;
         let link_5_with_link_4 = y_4_minus_y_5
             .mul_add(y_5_minus_y_6, x_4_minus_x_5 * x_5_minus_x_6);
-        let acceleration_0_part_16 = lit(2.0)
+        let acceleration_0_part_9 = lit(2.0)
             * y_5_minus_y_6.mul_add(y_5_minus_y_6, x_5_minus_x_6 * x_5_minus_x_6);
-        let acceleration_0_part_17 = acceleration_0_part_16 * pivot_link_4;
+        let diagonal_link_5 = acceleration_0_part_9 * pivot_link_4;
         let pivot_link_5 = link_5_with_link_4 * link_5_with_link_4 * pivot_link_3
-            - acceleration_0_part_17;
+            - diagonal_link_5;
         let per_pivot_link_5 = pivot_link_5.recip();
         let safe_link_5 = S::select_le(
             -pivot_link_5,
-            lit(0.0009765625) * acceleration_0_part_17,
+            lit(0.0009765625) * diagonal_link_5,
             lit(0.0),
             safe_link_12,
         );
@@ -1783,16 +1771,16 @@ impl ::ukcore::Mechanism for UChain {
         let y_11_minus_y_12 = y_11 - y_12;
         let link_11_with_link_12 = y_11_minus_y_12
             .mul_add(y_12_minus_y_13, x_11_minus_x_12 * x_12_minus_x_13);
-        let acceleration_0_part_18 = lit(2.0)
+        let acceleration_0_part_10 = lit(2.0)
             * y_11_minus_y_12
                 .mul_add(y_11_minus_y_12, x_11_minus_x_12 * x_11_minus_x_12);
-        let acceleration_0_part_19 = acceleration_0_part_18 * pivot_link_12;
+        let diagonal_link_11 = acceleration_0_part_10 * pivot_link_12;
         let pivot_link_11 = link_11_with_link_12 * link_11_with_link_12 * pivot_link_13
-            - acceleration_0_part_19;
+            - diagonal_link_11;
         let per_pivot_link_11 = pivot_link_11.recip();
         let safe_link_11 = S::select_le(
             -pivot_link_11,
-            lit(0.0009765625) * acceleration_0_part_19,
+            lit(0.0009765625) * diagonal_link_11,
             lit(0.0),
             safe_link_5,
         );
@@ -1811,15 +1799,15 @@ impl ::ukcore::Mechanism for UChain {
         let y_6_minus_y_7 = y_6 - y_7;
         let link_6_with_link_5 = y_5_minus_y_6
             .mul_add(y_6_minus_y_7, x_5_minus_x_6 * x_6_minus_x_7);
-        let acceleration_0_part_20 = lit(2.0)
+        let acceleration_0_part_11 = lit(2.0)
             * y_6_minus_y_7.mul_add(y_6_minus_y_7, x_6_minus_x_7 * x_6_minus_x_7);
-        let acceleration_0_part_21 = acceleration_0_part_20 * pivot_link_5;
+        let diagonal_link_6 = acceleration_0_part_11 * pivot_link_5;
         let pivot_link_6 = link_6_with_link_5 * link_6_with_link_5 * pivot_link_4
-            + acceleration_0_part_21;
+            + diagonal_link_6;
         let per_pivot_link_6 = pivot_link_6.recip();
         let safe_link_6 = S::select_le(
             -pivot_link_6,
-            lit(-0.0009765625) * acceleration_0_part_21,
+            lit(-0.0009765625) * diagonal_link_6,
             lit(0.0),
             safe_link_11,
         );
@@ -1835,16 +1823,16 @@ impl ::ukcore::Mechanism for UChain {
         let y_10_minus_y_11 = y_10 - y_11;
         let link_10_with_link_11 = y_10_minus_y_11
             .mul_add(y_11_minus_y_12, x_10_minus_x_11 * x_11_minus_x_12);
-        let acceleration_0_part_22 = lit(2.0)
+        let acceleration_0_part_12 = lit(2.0)
             * y_10_minus_y_11
                 .mul_add(y_10_minus_y_11, x_10_minus_x_11 * x_10_minus_x_11);
-        let acceleration_0_part_23 = acceleration_0_part_22 * pivot_link_11;
+        let diagonal_link_10 = acceleration_0_part_12 * pivot_link_11;
         let pivot_link_10 = link_10_with_link_11 * link_10_with_link_11 * pivot_link_12
-            + acceleration_0_part_23;
+            + diagonal_link_10;
         let per_pivot_link_10 = pivot_link_10.recip();
         let safe_link_10 = S::select_le(
             -pivot_link_10,
-            lit(-0.0009765625) * acceleration_0_part_23,
+            lit(-0.0009765625) * diagonal_link_10,
             lit(0.0),
             safe_link_6,
         );
@@ -1863,15 +1851,15 @@ impl ::ukcore::Mechanism for UChain {
         let y_7_minus_y_8 = y_7 - y_8;
         let link_7_with_link_6 = y_6_minus_y_7
             .mul_add(y_7_minus_y_8, x_6_minus_x_7 * x_7_minus_x_8);
-        let acceleration_0_part_24 = lit(2.0)
+        let acceleration_0_part_13 = lit(2.0)
             * y_7_minus_y_8.mul_add(y_7_minus_y_8, x_7_minus_x_8 * x_7_minus_x_8);
-        let acceleration_0_part_25 = acceleration_0_part_24 * pivot_link_6;
+        let diagonal_link_7 = acceleration_0_part_13 * pivot_link_6;
         let pivot_link_7 = link_7_with_link_6 * link_7_with_link_6 * pivot_link_5
-            - acceleration_0_part_25;
+            - diagonal_link_7;
         let per_pivot_link_7 = pivot_link_7.recip();
         let safe_link_7 = S::select_le(
             pivot_link_7,
-            lit(-0.0009765625) * acceleration_0_part_25,
+            lit(-0.0009765625) * diagonal_link_7,
             lit(0.0),
             safe_link_10,
         );
@@ -1887,15 +1875,15 @@ impl ::ukcore::Mechanism for UChain {
         let y_9_minus_y_10 = y_9 - y_10;
         let link_9_with_link_10 = y_9_minus_y_10
             .mul_add(y_10_minus_y_11, x_9_minus_x_10 * x_10_minus_x_11);
-        let acceleration_0_part_26 = lit(2.0)
+        let acceleration_0_part_14 = lit(2.0)
             * y_9_minus_y_10.mul_add(y_9_minus_y_10, x_9_minus_x_10 * x_9_minus_x_10);
-        let acceleration_0_part_27 = acceleration_0_part_26 * pivot_link_10;
+        let diagonal_link_9 = acceleration_0_part_14 * pivot_link_10;
         let pivot_link_9 = link_9_with_link_10 * link_9_with_link_10 * pivot_link_11
-            - acceleration_0_part_27;
+            - diagonal_link_9;
         let per_pivot_link_9 = pivot_link_9.recip();
         let safe_link_9 = S::select_le(
             pivot_link_9,
-            lit(-0.0009765625) * acceleration_0_part_27,
+            lit(-0.0009765625) * diagonal_link_9,
             lit(0.0),
             safe_link_7,
         );
@@ -1914,20 +1902,21 @@ impl ::ukcore::Mechanism for UChain {
         let y_8_minus_y_9 = y_8 - y_9;
         let link_8_with_link_9 = y_8_minus_y_9
             .mul_add(y_9_minus_y_10, x_8_minus_x_9 * x_9_minus_x_10);
-        let acceleration_0_part_28 = lit(2.0)
-            * y_8_minus_y_9.mul_add(y_8_minus_y_9, x_8_minus_x_9 * x_8_minus_x_9);
         let link_8_with_link_7 = y_7_minus_y_8
             .mul_add(y_8_minus_y_9, x_7_minus_x_8 * x_8_minus_x_9);
+        let acceleration_0_part_15 = lit(2.0)
+            * y_8_minus_y_9.mul_add(y_8_minus_y_9, x_8_minus_x_9 * x_8_minus_x_9);
         let pivot_link_8 = pivot_link_9
             .mul_add(
                 (link_8_with_link_7 * link_8_with_link_7 * pivot_link_6)
-                    .mul_add(per_pivot_link_7, acceleration_0_part_28),
+                    .mul_add(per_pivot_link_7, acceleration_0_part_15),
                 link_8_with_link_9 * link_8_with_link_9 * pivot_link_10,
             );
         let per_pivot_link_8 = pivot_link_8.recip();
+        let diagonal_link_8 = acceleration_0_part_15 * pivot_link_9;
         let safe_link_8 = S::select_le(
             pivot_link_8,
-            lit(0.0009765625) * (acceleration_0_part_28 * pivot_link_9),
+            lit(0.0009765625) * diagonal_link_8,
             lit(0.0),
             safe_link_9,
         );
@@ -2088,13 +2077,12 @@ impl ::ukcore::Mechanism for UChain {
             .neg_mul_add(y_1_minus_y_2, x_1_minus_x_0 * x_1_minus_x_2);
         let correction_0_part = lit(2.0)
             * y_1_minus_y_2.mul_add(y_1_minus_y_2, x_1_minus_x_2 * x_1_minus_x_2);
-        let pivot_link_0_correction_0_part = pivot_link_0 * correction_0_part;
-        let pivot_link_1 = link_1_with_link_0 * link_1_with_link_0
-            - pivot_link_0_correction_0_part;
+        let diagonal_link_1 = pivot_link_0 * correction_0_part;
+        let pivot_link_1 = link_1_with_link_0 * link_1_with_link_0 - diagonal_link_1;
         let per_pivot_link_1 = pivot_link_1.recip();
         let safe_link_1 = S::select_le(
             -pivot_link_1,
-            lit(0.0009765625) * pivot_link_0_correction_0_part,
+            lit(0.0009765625) * diagonal_link_1,
             lit(0.0),
             safe_support,
         );
@@ -2104,13 +2092,13 @@ impl ::ukcore::Mechanism for UChain {
         let correction_0_part_2 = lit(2.0)
             * y_15_minus_y_16
                 .mul_add(y_15_minus_y_16, x_15_minus_x_16 * x_15_minus_x_16);
-        let correction_0_part_3 = pivot_support * correction_0_part_2;
+        let diagonal_link_15 = pivot_support * correction_0_part_2;
         let pivot_link_15 = link_15_with_support * link_15_with_support
-            - correction_0_part_3;
+            - diagonal_link_15;
         let per_pivot_link_15 = pivot_link_15.recip();
         let safe_link_15 = S::select_le(
             -pivot_link_15,
-            lit(0.0009765625) * correction_0_part_3,
+            lit(0.0009765625) * diagonal_link_15,
             lit(0.0),
             safe_link_1,
         );
@@ -2118,15 +2106,15 @@ impl ::ukcore::Mechanism for UChain {
         let y_2_minus_y_3 = y_2 - y_3;
         let link_2_with_link_1 = y_1_minus_y_2
             .mul_add(y_2_minus_y_3, x_1_minus_x_2 * x_2_minus_x_3);
-        let correction_0_part_4 = lit(2.0)
+        let correction_0_part_3 = lit(2.0)
             * y_2_minus_y_3.mul_add(y_2_minus_y_3, x_2_minus_x_3 * x_2_minus_x_3);
-        let pivot_link_1_correction_0_part_4 = correction_0_part_4 * pivot_link_1;
+        let diagonal_link_2 = correction_0_part_3 * pivot_link_1;
         let pivot_link_2 = link_2_with_link_1 * link_2_with_link_1 * pivot_link_0
-            + pivot_link_1_correction_0_part_4;
+            + diagonal_link_2;
         let per_pivot_link_2 = pivot_link_2.recip();
         let safe_link_2 = S::select_le(
             -pivot_link_2,
-            lit(-0.0009765625) * pivot_link_1_correction_0_part_4,
+            lit(-0.0009765625) * diagonal_link_2,
             lit(0.0),
             safe_link_15,
         );
@@ -2134,16 +2122,16 @@ impl ::ukcore::Mechanism for UChain {
         let y_14_minus_y_15 = y_14 - y_15;
         let link_14_with_link_15 = y_14_minus_y_15
             .mul_add(y_15_minus_y_16, x_14_minus_x_15 * x_15_minus_x_16);
-        let correction_0_part_5 = lit(2.0)
+        let correction_0_part_4 = lit(2.0)
             * y_14_minus_y_15
                 .mul_add(y_14_minus_y_15, x_14_minus_x_15 * x_14_minus_x_15);
-        let correction_0_part_6 = correction_0_part_5 * pivot_link_15;
+        let diagonal_link_14 = correction_0_part_4 * pivot_link_15;
         let pivot_link_14 = pivot_support * link_14_with_link_15 * link_14_with_link_15
-            + correction_0_part_6;
+            + diagonal_link_14;
         let per_pivot_link_14 = pivot_link_14.recip();
         let safe_link_14 = S::select_le(
             -pivot_link_14,
-            lit(-0.0009765625) * correction_0_part_6,
+            lit(-0.0009765625) * diagonal_link_14,
             lit(0.0),
             safe_link_2,
         );
@@ -2151,15 +2139,15 @@ impl ::ukcore::Mechanism for UChain {
         let y_3_minus_y_4 = y_3 - y_4;
         let link_3_with_link_2 = y_2_minus_y_3
             .mul_add(y_3_minus_y_4, x_2_minus_x_3 * x_3_minus_x_4);
-        let correction_0_part_7 = lit(2.0)
+        let correction_0_part_5 = lit(2.0)
             * y_3_minus_y_4.mul_add(y_3_minus_y_4, x_3_minus_x_4 * x_3_minus_x_4);
-        let pivot_link_2_correction_0_part_7 = correction_0_part_7 * pivot_link_2;
+        let diagonal_link_3 = correction_0_part_5 * pivot_link_2;
         let pivot_link_3 = link_3_with_link_2 * link_3_with_link_2 * pivot_link_1
-            - pivot_link_2_correction_0_part_7;
+            - diagonal_link_3;
         let per_pivot_link_3 = pivot_link_3.recip();
         let safe_link_3 = S::select_le(
             pivot_link_3,
-            lit(-0.0009765625) * pivot_link_2_correction_0_part_7,
+            lit(-0.0009765625) * diagonal_link_3,
             lit(0.0),
             safe_link_14,
         );
@@ -2167,16 +2155,16 @@ impl ::ukcore::Mechanism for UChain {
         let y_13_minus_y_14 = y_13 - y_14;
         let link_13_with_link_14 = y_13_minus_y_14
             .mul_add(y_14_minus_y_15, x_13_minus_x_14 * x_14_minus_x_15);
-        let correction_0_part_8 = lit(2.0)
+        let correction_0_part_6 = lit(2.0)
             * y_13_minus_y_14
                 .mul_add(y_13_minus_y_14, x_13_minus_x_14 * x_13_minus_x_14);
-        let correction_0_part_9 = correction_0_part_8 * pivot_link_14;
+        let diagonal_link_13 = correction_0_part_6 * pivot_link_14;
         let pivot_link_13 = link_13_with_link_14 * link_13_with_link_14 * pivot_link_15
-            - correction_0_part_9;
+            - diagonal_link_13;
         let per_pivot_link_13 = pivot_link_13.recip();
         let safe_link_13 = S::select_le(
             pivot_link_13,
-            lit(-0.0009765625) * correction_0_part_9,
+            lit(-0.0009765625) * diagonal_link_13,
             lit(0.0),
             safe_link_3,
         );
@@ -2184,15 +2172,15 @@ impl ::ukcore::Mechanism for UChain {
         let y_4_minus_y_5 = y_4 - y_5;
         let link_4_with_link_3 = y_3_minus_y_4
             .mul_add(y_4_minus_y_5, x_3_minus_x_4 * x_4_minus_x_5);
-        let correction_0_part_10 = lit(2.0)
+        let correction_0_part_7 = lit(2.0)
             * y_4_minus_y_5.mul_add(y_4_minus_y_5, x_4_minus_x_5 * x_4_minus_x_5);
-        let correction_0_part_11 = correction_0_part_10 * pivot_link_3;
+        let diagonal_link_4 = correction_0_part_7 * pivot_link_3;
         let pivot_link_4 = link_4_with_link_3 * link_4_with_link_3 * pivot_link_2
-            + correction_0_part_11;
+            + diagonal_link_4;
         let per_pivot_link_4 = pivot_link_4.recip();
         let safe_link_4 = S::select_le(
             pivot_link_4,
-            lit(0.0009765625) * correction_0_part_11,
+            lit(0.0009765625) * diagonal_link_4,
             lit(0.0),
             safe_link_13,
         );
@@ -2200,16 +2188,16 @@ impl ::ukcore::Mechanism for UChain {
         let y_12_minus_y_13 = y_12 - y_13;
         let link_12_with_link_13 = y_12_minus_y_13
             .mul_add(y_13_minus_y_14, x_12_minus_x_13 * x_13_minus_x_14);
-        let correction_0_part_12 = lit(2.0)
+        let correction_0_part_8 = lit(2.0)
             * y_12_minus_y_13
                 .mul_add(y_12_minus_y_13, x_12_minus_x_13 * x_12_minus_x_13);
-        let correction_0_part_13 = correction_0_part_12 * pivot_link_13;
+        let diagonal_link_12 = correction_0_part_8 * pivot_link_13;
         let pivot_link_12 = link_12_with_link_13 * link_12_with_link_13 * pivot_link_14
-            + correction_0_part_13;
+            + diagonal_link_12;
         let per_pivot_link_12 = pivot_link_12.recip();
         let safe_link_12 = S::select_le(
             pivot_link_12,
-            lit(0.0009765625) * correction_0_part_13,
+            lit(0.0009765625) * diagonal_link_12,
             lit(0.0),
             safe_link_4,
         );
@@ -2217,15 +2205,15 @@ impl ::ukcore::Mechanism for UChain {
         let y_5_minus_y_6 = y_5 - y_6;
         let link_5_with_link_4 = y_4_minus_y_5
             .mul_add(y_5_minus_y_6, x_4_minus_x_5 * x_5_minus_x_6);
-        let correction_0_part_14 = lit(2.0)
+        let correction_0_part_9 = lit(2.0)
             * y_5_minus_y_6.mul_add(y_5_minus_y_6, x_5_minus_x_6 * x_5_minus_x_6);
-        let correction_0_part_15 = correction_0_part_14 * pivot_link_4;
+        let diagonal_link_5 = correction_0_part_9 * pivot_link_4;
         let pivot_link_5 = link_5_with_link_4 * link_5_with_link_4 * pivot_link_3
-            - correction_0_part_15;
+            - diagonal_link_5;
         let per_pivot_link_5 = pivot_link_5.recip();
         let safe_link_5 = S::select_le(
             -pivot_link_5,
-            lit(0.0009765625) * correction_0_part_15,
+            lit(0.0009765625) * diagonal_link_5,
             lit(0.0),
             safe_link_12,
         );
@@ -2233,16 +2221,16 @@ impl ::ukcore::Mechanism for UChain {
         let y_11_minus_y_12 = y_11 - y_12;
         let link_11_with_link_12 = y_11_minus_y_12
             .mul_add(y_12_minus_y_13, x_11_minus_x_12 * x_12_minus_x_13);
-        let correction_0_part_16 = lit(2.0)
+        let correction_0_part_10 = lit(2.0)
             * y_11_minus_y_12
                 .mul_add(y_11_minus_y_12, x_11_minus_x_12 * x_11_minus_x_12);
-        let correction_0_part_17 = correction_0_part_16 * pivot_link_12;
+        let diagonal_link_11 = correction_0_part_10 * pivot_link_12;
         let pivot_link_11 = link_11_with_link_12 * link_11_with_link_12 * pivot_link_13
-            - correction_0_part_17;
+            - diagonal_link_11;
         let per_pivot_link_11 = pivot_link_11.recip();
         let safe_link_11 = S::select_le(
             -pivot_link_11,
-            lit(0.0009765625) * correction_0_part_17,
+            lit(0.0009765625) * diagonal_link_11,
             lit(0.0),
             safe_link_5,
         );
@@ -2250,15 +2238,15 @@ impl ::ukcore::Mechanism for UChain {
         let y_6_minus_y_7 = y_6 - y_7;
         let link_6_with_link_5 = y_5_minus_y_6
             .mul_add(y_6_minus_y_7, x_5_minus_x_6 * x_6_minus_x_7);
-        let correction_0_part_18 = lit(2.0)
+        let correction_0_part_11 = lit(2.0)
             * y_6_minus_y_7.mul_add(y_6_minus_y_7, x_6_minus_x_7 * x_6_minus_x_7);
-        let correction_0_part_19 = correction_0_part_18 * pivot_link_5;
+        let diagonal_link_6 = correction_0_part_11 * pivot_link_5;
         let pivot_link_6 = link_6_with_link_5 * link_6_with_link_5 * pivot_link_4
-            + correction_0_part_19;
+            + diagonal_link_6;
         let per_pivot_link_6 = pivot_link_6.recip();
         let safe_link_6 = S::select_le(
             -pivot_link_6,
-            lit(-0.0009765625) * correction_0_part_19,
+            lit(-0.0009765625) * diagonal_link_6,
             lit(0.0),
             safe_link_11,
         );
@@ -2266,16 +2254,16 @@ impl ::ukcore::Mechanism for UChain {
         let y_10_minus_y_11 = y_10 - y_11;
         let link_10_with_link_11 = y_10_minus_y_11
             .mul_add(y_11_minus_y_12, x_10_minus_x_11 * x_11_minus_x_12);
-        let correction_0_part_20 = lit(2.0)
+        let correction_0_part_12 = lit(2.0)
             * y_10_minus_y_11
                 .mul_add(y_10_minus_y_11, x_10_minus_x_11 * x_10_minus_x_11);
-        let correction_0_part_21 = correction_0_part_20 * pivot_link_11;
+        let diagonal_link_10 = correction_0_part_12 * pivot_link_11;
         let pivot_link_10 = link_10_with_link_11 * link_10_with_link_11 * pivot_link_12
-            + correction_0_part_21;
+            + diagonal_link_10;
         let per_pivot_link_10 = pivot_link_10.recip();
         let safe_link_10 = S::select_le(
             -pivot_link_10,
-            lit(-0.0009765625) * correction_0_part_21,
+            lit(-0.0009765625) * diagonal_link_10,
             lit(0.0),
             safe_link_6,
         );
@@ -2283,15 +2271,15 @@ impl ::ukcore::Mechanism for UChain {
         let y_7_minus_y_8 = y_7 - y_8;
         let link_7_with_link_6 = y_6_minus_y_7
             .mul_add(y_7_minus_y_8, x_6_minus_x_7 * x_7_minus_x_8);
-        let correction_0_part_22 = lit(2.0)
+        let correction_0_part_13 = lit(2.0)
             * y_7_minus_y_8.mul_add(y_7_minus_y_8, x_7_minus_x_8 * x_7_minus_x_8);
-        let correction_0_part_23 = correction_0_part_22 * pivot_link_6;
+        let diagonal_link_7 = correction_0_part_13 * pivot_link_6;
         let pivot_link_7 = link_7_with_link_6 * link_7_with_link_6 * pivot_link_5
-            - correction_0_part_23;
+            - diagonal_link_7;
         let per_pivot_link_7 = pivot_link_7.recip();
         let safe_link_7 = S::select_le(
             pivot_link_7,
-            lit(-0.0009765625) * correction_0_part_23,
+            lit(-0.0009765625) * diagonal_link_7,
             lit(0.0),
             safe_link_10,
         );
@@ -2299,15 +2287,15 @@ impl ::ukcore::Mechanism for UChain {
         let y_9_minus_y_10 = y_9 - y_10;
         let link_9_with_link_10 = y_9_minus_y_10
             .mul_add(y_10_minus_y_11, x_9_minus_x_10 * x_10_minus_x_11);
-        let correction_0_part_24 = lit(2.0)
+        let correction_0_part_14 = lit(2.0)
             * y_9_minus_y_10.mul_add(y_9_minus_y_10, x_9_minus_x_10 * x_9_minus_x_10);
-        let correction_0_part_25 = correction_0_part_24 * pivot_link_10;
+        let diagonal_link_9 = correction_0_part_14 * pivot_link_10;
         let pivot_link_9 = link_9_with_link_10 * link_9_with_link_10 * pivot_link_11
-            - correction_0_part_25;
+            - diagonal_link_9;
         let per_pivot_link_9 = pivot_link_9.recip();
         let safe_link_9 = S::select_le(
             pivot_link_9,
-            lit(-0.0009765625) * correction_0_part_25,
+            lit(-0.0009765625) * diagonal_link_9,
             lit(0.0),
             safe_link_7,
         );
@@ -2315,72 +2303,73 @@ impl ::ukcore::Mechanism for UChain {
         let y_8_minus_y_9 = y_8 - y_9;
         let link_8_with_link_9 = y_8_minus_y_9
             .mul_add(y_9_minus_y_10, x_8_minus_x_9 * x_9_minus_x_10);
-        let correction_0_part_26 = lit(2.0)
-            * y_8_minus_y_9.mul_add(y_8_minus_y_9, x_8_minus_x_9 * x_8_minus_x_9);
         let link_8_with_link_7 = y_7_minus_y_8
             .mul_add(y_8_minus_y_9, x_7_minus_x_8 * x_8_minus_x_9);
+        let correction_0_part_15 = lit(2.0)
+            * y_8_minus_y_9.mul_add(y_8_minus_y_9, x_8_minus_x_9 * x_8_minus_x_9);
         let pivot_link_8 = pivot_link_9
             .mul_add(
                 (link_8_with_link_7 * link_8_with_link_7 * pivot_link_6)
-                    .mul_add(per_pivot_link_7, correction_0_part_26),
+                    .mul_add(per_pivot_link_7, correction_0_part_15),
                 link_8_with_link_9 * link_8_with_link_9 * pivot_link_10,
             );
         let per_pivot_link_8 = pivot_link_8.recip();
+        let diagonal_link_8 = correction_0_part_15 * pivot_link_9;
         let safe_link_8 = S::select_le(
             pivot_link_8,
-            lit(0.0009765625) * (correction_0_part_26 * pivot_link_9),
+            lit(0.0009765625) * diagonal_link_8,
             lit(0.0),
             safe_link_9,
         );
         let right_link_0 = lit(0.5) * residual_0;
         let right_support = lit(0.5) * residual_16;
-        let correction_0_part_27 = lit(0.5) * residual_1;
-        let right_link_1 = correction_0_part_27
+        let correction_0_part_16 = lit(0.5) * residual_1;
+        let right_link_1 = correction_0_part_16
             .neg_mul_add(pivot_link_0, right_link_0 * link_1_with_link_0);
-        let correction_0_part_28 = lit(0.5) * residual_15;
+        let correction_0_part_17 = lit(0.5) * residual_15;
         let right_link_15 = right_support
-            .mul_add(link_15_with_support, correction_0_part_28 * pivot_support);
-        let correction_0_part_29 = lit(0.5) * residual_2;
-        let right_link_2 = correction_0_part_29
+            .mul_add(link_15_with_support, correction_0_part_17 * pivot_support);
+        let correction_0_part_18 = lit(0.5) * residual_2;
+        let right_link_2 = correction_0_part_18
             .mul_add(pivot_link_1, link_2_with_link_1 * right_link_1);
-        let correction_0_part_30 = lit(0.5) * residual_14;
-        let right_link_14 = correction_0_part_30
+        let correction_0_part_19 = lit(0.5) * residual_14;
+        let right_link_14 = correction_0_part_19
             .neg_mul_add(pivot_link_15, link_14_with_link_15 * right_link_15);
-        let correction_0_part_31 = lit(0.5) * residual_3;
-        let right_link_3 = correction_0_part_31
+        let correction_0_part_20 = lit(0.5) * residual_3;
+        let right_link_3 = correction_0_part_20
             .mul_add(pivot_link_2, link_3_with_link_2 * right_link_2);
-        let correction_0_part_32 = lit(0.5) * residual_13;
-        let right_link_13 = correction_0_part_32
+        let correction_0_part_21 = lit(0.5) * residual_13;
+        let right_link_13 = correction_0_part_21
             .neg_mul_add(pivot_link_14, link_13_with_link_14 * right_link_14);
-        let correction_0_part_33 = lit(0.5) * residual_4;
-        let right_link_4 = correction_0_part_33
+        let correction_0_part_22 = lit(0.5) * residual_4;
+        let right_link_4 = correction_0_part_22
             .neg_mul_add(pivot_link_3, link_4_with_link_3 * right_link_3);
-        let correction_0_part_34 = lit(0.5) * residual_12;
-        let right_link_12 = correction_0_part_34
+        let correction_0_part_23 = lit(0.5) * residual_12;
+        let right_link_12 = correction_0_part_23
             .mul_add(pivot_link_13, link_12_with_link_13 * right_link_13);
-        let correction_0_part_35 = lit(0.5) * residual_5;
-        let right_link_5 = correction_0_part_35
+        let correction_0_part_24 = lit(0.5) * residual_5;
+        let right_link_5 = correction_0_part_24
             .neg_mul_add(pivot_link_4, link_5_with_link_4 * right_link_4);
-        let correction_0_part_36 = lit(0.5) * residual_11;
-        let right_link_11 = correction_0_part_36
+        let correction_0_part_25 = lit(0.5) * residual_11;
+        let right_link_11 = correction_0_part_25
             .mul_add(pivot_link_12, link_11_with_link_12 * right_link_12);
-        let correction_0_part_37 = lit(0.5) * residual_6;
-        let right_link_6 = correction_0_part_37
+        let correction_0_part_26 = lit(0.5) * residual_6;
+        let right_link_6 = correction_0_part_26
             .mul_add(pivot_link_5, link_6_with_link_5 * right_link_5);
-        let correction_0_part_38 = lit(0.5) * residual_10;
-        let right_link_10 = correction_0_part_38
+        let correction_0_part_27 = lit(0.5) * residual_10;
+        let right_link_10 = correction_0_part_27
             .neg_mul_add(pivot_link_11, link_10_with_link_11 * right_link_11);
-        let correction_0_part_39 = lit(0.5) * residual_7;
-        let right_link_7 = correction_0_part_39
+        let correction_0_part_28 = lit(0.5) * residual_7;
+        let right_link_7 = correction_0_part_28
             .mul_add(pivot_link_6, link_7_with_link_6 * right_link_6);
-        let correction_0_part_40 = lit(0.5) * residual_9;
-        let right_link_9 = correction_0_part_40
+        let correction_0_part_29 = lit(0.5) * residual_9;
+        let right_link_9 = correction_0_part_29
             .neg_mul_add(pivot_link_10, link_9_with_link_10 * right_link_10);
-        let correction_0_part_41 = lit(0.5) * residual_8;
+        let correction_0_part_30 = lit(0.5) * residual_8;
         let right_link_8 = pivot_link_9
             .neg_mul_add(
                 (link_8_with_link_7 * right_link_7 * per_pivot_link_7
-                    - correction_0_part_41),
+                    - correction_0_part_30),
                 link_8_with_link_9 * right_link_9,
             );
         let safe = safe_link_8;

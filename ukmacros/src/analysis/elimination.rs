@@ -68,7 +68,19 @@ pub(crate) fn eliminate(
     let n = d.force.len();
     let order = order(d, g)?;
     let zero = g.zero();
+    // A factor that all of M shares, as the one mass of all parts, only scales the multipliers: it is taken out of M and Q.
+    let (factor, d) = &without_common_factor(d, g);
     let (mut pivots, mut stages) = (Vec::new(), Vec::new());
+    let first = d.mass.keys().next().map_or(0, |(i, _)| *i);
+    let unit = g.one();
+    if *factor != unit {
+        pivots.push(Pivot {
+            name: names[first].clone(),
+            value: *factor,
+            reference: *factor,
+        });
+        stages.push([*factor; 2]);
+    }
     let force: Vec<Id> = (0..n).map(|i| g.add(d.force[i], d.nonideal[i])).collect();
     // A constraint may be divided by a number: one that all its coefficients share would be multiplied through everything.
     let scales: Vec<f64> = (0..d.rhs.len()).map(|row| share(d, row, g)).collect();
@@ -104,6 +116,36 @@ pub(crate) fn eliminate(
         order,
         hints,
     })
+}
+
+/// The product of parameters that all entries of M have in front, and the equations with M, Q and c divided by it.
+fn without_common_factor(d: &Dynamics, g: &mut Graph) -> (Id, Dynamics) {
+    let factors_of = |id: Id, g: &Graph| match g.node(g.unscaled(id).1) {
+        Node::Product(factors) => factors.clone(),
+        _ => vec![(g.unscaled(id).1, 1)],
+    };
+    let mut entries = d.mass.values();
+    let mut common = entries.next().map_or(Vec::new(), |m| factors_of(*m, g));
+    common.retain(|(base, _)| g.uses(*base).constant() && g.as_const(*base).is_none());
+    for entry in entries {
+        let factors = factors_of(*entry, g);
+        common.retain(|factor| factors.contains(factor));
+    }
+    let factor = g.product(&common);
+    let mut scaled = d.clone();
+    if !common.is_empty() {
+        let vectors = scaled.force.iter_mut().chain(&mut scaled.nonideal);
+        for value in scaled.mass.values_mut().chain(vectors) {
+            // Term by term, so that the factor cancels where it can.
+            let terms = g.open(1.0, *value);
+            let divided: Vec<(f64, Id)> = terms
+                .into_iter()
+                .map(|(k, term)| (k, g.div(term, factor)))
+                .collect();
+            *value = g.sum(&divided);
+        }
+    }
+    (factor, scaled)
 }
 
 /// The magnitude that the coefficients of all entries of a row of A share, if it is a power of two (so that dividing is exact); else 1.

@@ -76,7 +76,19 @@ impl Graph {
         if constant == 0.0 {
             let first = collected[0].0;
             let alike = collected.iter().all(|(c, _)| c.abs() == first.abs());
-            factor = if alike { first } else { first.signum() };
+            let least = collected
+                .iter()
+                .fold(f64::INFINITY, |s, (c, _)| s.min(c.abs()));
+            // 2 x − 8 y is 2 (x − 4 y): exact for powers of two.
+            let power = least.is_normal() && least.to_bits().trailing_zeros() >= 52;
+            let multiples = collected.iter().all(|(c, _)| (c / least).fract() == 0.0);
+            factor = if alike {
+                first
+            } else if power && multiples {
+                least.copysign(first)
+            } else {
+                first.signum()
+            };
         }
         let terms = collected
             .iter()
