@@ -156,6 +156,7 @@ struct Drift {
 }
 
 /// Whether all numbers are finite: x − x is 0 for those alone. Without leaving early, so that it is vectorised.
+#[allow(clippy::eq_op, reason = "x − x is NaN for ∞ and NaN")]
 pub(crate) fn all_finite(x: &[f64]) -> bool {
     x.iter().fold(0, |bits, x| bits | (x - x).to_bits()) == 0
 }

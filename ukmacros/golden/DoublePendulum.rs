@@ -135,7 +135,10 @@ impl ::ukcore::Mechanism for DoublePendulum {
             ("per_m2", "1/m2"),
             ("per_m1", "1/m1"),
             ("g", "g"),
-            ("safe_x1", "(m1 ≤ 0 ? 0 : (m2 ≤ 0 ? 0 : 1))"),
+            (
+                "safe_x1",
+                "(0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ m1 ? (0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ m2 ? 1 : 0) : 0)",
+            ),
         ],
         coords: &["x1", "y1", "x2", "y2"],
         constraints: &[
@@ -253,8 +256,22 @@ impl ::ukcore::Mechanism for DoublePendulum {
         prepared[6] = m2.recip();
         prepared[7] = m1.recip();
         prepared[8] = g;
-        let safe_x2 = S::select_le(m2, lit(0.0), lit(0.0), lit(1.0));
-        let safe_x1 = S::select_le(m1, lit(0.0), lit(0.0), safe_x2);
+        let safe_x2 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            m2,
+            lit(1.0),
+            lit(0.0),
+        );
+        let safe_x1 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            m1,
+            safe_x2,
+            lit(0.0),
+        );
         prepared[9] = safe_x1;
     }
     /// 8 additions, 12 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
@@ -417,7 +434,14 @@ impl ::ukcore::Mechanism for DoublePendulum {
         let lit = S::from_f64;
         let pivot_inner = y1.mul_add(y1, x1 * x1);
         let per_pivot_inner = pivot_inner.recip();
-        let safe_inner = S::select_le(pivot_inner, lit(0.0), lit(0.0), safe_x1);
+        let safe_inner = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            pivot_inner,
+            safe_x1,
+            lit(0.0),
+        );
         let right_inner = y1.neg_mul_add(g, dot_y1.mul_add(dot_y1, dot_x1 * dot_x1));
         let x1_minus_x2 = x1 - x2;
         let y1_minus_y2 = y1 - y2;
@@ -437,10 +461,10 @@ impl ::ukcore::Mechanism for DoublePendulum {
             - acceleration_0_part;
         let per_pivot_outer = pivot_outer.recip();
         let safe_outer = S::select_le(
-            -pivot_outer,
             lit(0.0009765625) * acceleration_0_part,
-            lit(0.0),
+            -pivot_outer,
             safe_inner,
+            lit(0.0),
         );
         let dot_x1_minus_dot_x2 = dot_x1 - dot_x2;
         let dot_y1_minus_dot_y2 = dot_y1 - dot_y2;
@@ -490,7 +514,14 @@ impl ::ukcore::Mechanism for DoublePendulum {
         let lit = S::from_f64;
         let pivot_inner = y1.mul_add(y1, x1 * x1);
         let per_pivot_inner = pivot_inner.recip();
-        let safe_inner = S::select_le(pivot_inner, lit(0.0), lit(0.0), safe_x1);
+        let safe_inner = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            pivot_inner,
+            safe_x1,
+            lit(0.0),
+        );
         let x1_minus_x2 = x1 - x2;
         let y1_minus_y2 = y1 - y2;
         let outer_with_inner = y1.mul_add(y1_minus_y2, x1 * x1_minus_x2);
@@ -509,10 +540,10 @@ impl ::ukcore::Mechanism for DoublePendulum {
             - correction_0_part;
         let per_pivot_outer = pivot_outer.recip();
         let safe_outer = S::select_le(
-            -pivot_outer,
             lit(0.0009765625) * correction_0_part,
-            lit(0.0),
+            -pivot_outer,
             safe_inner,
+            lit(0.0),
         );
         let right_inner = lit(0.5) * residual_0;
         let correction_0_part_2 = lit(0.5) * residual_1;

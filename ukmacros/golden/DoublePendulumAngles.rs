@@ -106,13 +106,17 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
             ("l2", "l2"),
             ("m2_l2", "m2*l2"),
             ("m1_and_m2_g", "(m1 + m2)*g"),
-            ("per_m1_and_m2_per_l1", "1/((m1 + m2)*l1)"),
-            ("m2_per_m1_and_m2_per_l1_l2", "m2*l2/((m1 + m2)*l1)"),
+            ("m2_per_m1_and_m2_l2", "m2*l2/(m1 + m2)"),
             ("m2_per_m1_and_m2", "m2/(m1 + m2)"),
             ("prepared_part", "1/(m2*sq(l2))"),
+            ("per_l2", "1/l2"),
+            ("per_m1_and_m2_per_l1", "1/((m1 + m2)*l1)"),
             ("m2", "m2"),
             ("times_m2", "0.0009765625*m2"),
-            ("safe_th1", "(m1 + m2 ≤ 0 ? 0 : 1)"),
+            (
+                "safe_th1",
+                "(0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ (m1 + m2)*sq(l1) ? 1 : 0)",
+            ),
         ],
         coords: &["th1", "th2"],
         constraints: &[],
@@ -163,7 +167,7 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
             },
             solve_operations: ::ukcore::Operations {
                 additions: 9,
-                multiplications: 26,
+                multiplications: 25,
                 divisions: 1,
                 square_roots: 0,
                 transcendentals: 3,
@@ -213,12 +217,11 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         }
     }
     fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
-        let prepared = ::ukcore::emitted::exact_mut::<S, 17>(prepared, "prepared");
+        let prepared = ::ukcore::emitted::exact_mut::<S, 18>(prepared, "prepared");
         let [m1, m2, l1, l2, g] = *::ukcore::emitted::exact::<S, 5>(given, "given");
         let lit = S::from_f64;
         let m1_plus_m2 = m1 + m2;
         let per_m1_plus_m2 = m1_plus_m2.recip();
-        let per_l1 = l1.recip();
         let pivot_th1 = l1 * l1 * m1_plus_m2;
         prepared[0] = pivot_th1;
         let diagonal_th2 = m2 * l2 * l2;
@@ -232,14 +235,22 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         prepared[7] = l2;
         prepared[8] = m2 * l2;
         prepared[9] = g * m1_plus_m2;
-        prepared[10] = per_l1 * per_m1_plus_m2;
-        prepared[11] = m2 * l2 * per_l1 * per_m1_plus_m2;
-        prepared[12] = m2 * per_m1_plus_m2;
-        prepared[13] = (m2 * l2 * l2).recip();
-        prepared[14] = m2;
-        prepared[15] = lit(0.0009765625) * m2;
-        let safe_th1 = S::select_le(m1_plus_m2, lit(0.0), lit(0.0), lit(1.0));
-        prepared[16] = safe_th1;
+        prepared[10] = m2 * l2 * per_m1_plus_m2;
+        prepared[11] = m2 * per_m1_plus_m2;
+        prepared[12] = (m2 * l2 * l2).recip();
+        prepared[13] = l2.recip();
+        prepared[14] = per_m1_plus_m2 / l1;
+        prepared[15] = m2;
+        prepared[16] = lit(0.0009765625) * m2;
+        let safe_th1 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            pivot_th1,
+            lit(1.0),
+            lit(0.0),
+        );
+        prepared[17] = safe_th1;
     }
     /// 6 additions, 12 multiplications, 0 divisions, 0 square roots, 3 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
@@ -255,16 +266,19 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 0>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 0>(out.rhs, "rhs");
         let [pivot_th1, diagonal_th2, m2_l1_l2, _, m1_and_m2_l1_g, m2_l2_g, _, _, _, _,
-        _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<S, 17>(prepared, "prepared");
+        _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            18,
+        >(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_th1, dot_th2] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
         mass[0] = pivot_th1;
         let th1_minus_th2 = th1 - th2;
-        let (sin_th1_minus_th2, cos_th1_minus_th2) = th1_minus_th2.sin_cos();
-        let cos_th1_minus_th2_m2_l1_l2 = m2_l1_l2 * cos_th1_minus_th2;
-        mass[1] = cos_th1_minus_th2_m2_l1_l2;
-        mass[2] = cos_th1_minus_th2_m2_l1_l2;
+        let (sin_th1_minus_th2, th2_by_th1) = th1_minus_th2.sin_cos();
+        let th2_by_th1_m2_l1_l2 = m2_l1_l2 * th2_by_th1;
+        mass[1] = th2_by_th1_m2_l1_l2;
+        mass[2] = th2_by_th1_m2_l1_l2;
         mass[3] = diagonal_th2;
         let dot_th1_minus_dot_th2 = dot_th1 - dot_th2;
         let force_0_part = dot_th1 * dot_th2 * m2_l1_l2 * sin_th1_minus_th2;
@@ -281,12 +295,13 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
     fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 4>(mass, "mass");
         let [pivot_th1, diagonal_th2, m2_l1_l2, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        ] = *::ukcore::emitted::exact::<S, 17>(prepared, "prepared");
+        _] = *::ukcore::emitted::exact::<S, 18>(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         mass[0] = pivot_th1;
-        let mass_th2_th1 = m2_l1_l2 * (th1 - th2).cos();
-        mass[1] = mass_th2_th1;
-        mass[2] = mass_th2_th1;
+        let th2_by_th1 = (th1 - th2).cos();
+        let th2_by_th1_m2_l1_l2 = m2_l1_l2 * th2_by_th1;
+        mass[1] = th2_by_th1_m2_l1_l2;
+        mass[2] = th2_by_th1_m2_l1_l2;
         mass[3] = diagonal_th2;
     }
     fn jacobian<S: ::ukcore::Scalar>(
@@ -317,17 +332,18 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         v: &[S],
     ) -> ::ukcore::Energy<S> {
         let [pivot_th1, diagonal_th2, _, twice_m2_l1_l2, m1_and_m2_l1_g, m2_l2_g, _, _,
-        _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            17,
+            18,
         >(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_th1, dot_th2] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
+        let th2_by_th1 = (th1 - th2).cos();
         let kinetic = lit(0.5)
             * (dot_th1 * dot_th2 * twice_m2_l1_l2)
                 .mul_add(
-                    (th1 - th2).cos(),
+                    th2_by_th1,
                     (dot_th2 * dot_th2)
                         .mul_add(diagonal_th2, dot_th1 * dot_th1 * pivot_th1),
                 );
@@ -345,9 +361,9 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         outputs: &mut [S],
     ) {
         let outputs = ::ukcore::emitted::exact_mut::<S, 4>(outputs, "outputs");
-        let [_, _, _, _, _, _, l1, l2, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [_, _, _, _, _, _, l1, l2, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            17,
+            18,
         >(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let (sin_th1, cos_th1) = th1.sin_cos();
@@ -359,7 +375,7 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         outputs[2] = l2.mul_add(sin_th2, sin_th1_l1);
         outputs[3] = l2.neg_mul_add(cos_th2, -cos_th1_l1);
     }
-    /// 9 additions, 26 multiplications, 1 divisions, 0 square roots, 3 transcendentals, 1 selections.
+    /// 9 additions, 25 multiplications, 1 divisions, 0 square roots, 3 transcendentals, 1 selections.
     fn acceleration<S: ::ukcore::Scalar>(
         prepared: &[S],
         t: S,
@@ -368,18 +384,18 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
-        let [_, _, m2_l1_l2, _, _, m2_l2_g, l1, _, m2_l2, m1_and_m2_g,
-        per_m1_and_m2_per_l1, m2_per_m1_and_m2_per_l1_l2, m2_per_m1_and_m2,
-        prepared_part, m2, times_m2, safe_th1] = *::ukcore::emitted::exact::<
+        let [_, _, m2_l1_l2, _, _, m2_l2_g, _, _, m2_l2, m1_and_m2_g,
+        m2_per_m1_and_m2_l2, m2_per_m1_and_m2, prepared_part, per_l2,
+        per_m1_and_m2_per_l1, m2, times_m2, safe_th1] = *::ukcore::emitted::exact::<
             S,
-            17,
+            18,
         >(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_th1, dot_th2] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
         let dot_th1_minus_dot_th2 = dot_th1 - dot_th2;
         let th1_minus_th2 = th1 - th2;
-        let (sin_th1_minus_th2, cos_th1_minus_th2) = th1_minus_th2.sin_cos();
+        let (sin_th1_minus_th2, th2_by_th1) = th1_minus_th2.sin_cos();
         let right_th1 = (dot_th1 * dot_th2 * m2_l2)
             .neg_mul_add(
                 sin_th1_minus_th2,
@@ -389,12 +405,11 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
                         dot_th2 * m2_l2 * dot_th1_minus_dot_th2 * sin_th1_minus_th2,
                     ),
             );
-        let pivot_th2 = (m2_per_m1_and_m2 * cos_th1_minus_th2)
-            .neg_mul_add(cos_th1_minus_th2, lit(1.0));
+        let pivot_th2 = (m2_per_m1_and_m2 * th2_by_th1)
+            .neg_mul_add(th2_by_th1, lit(1.0));
         let per_pivot_th2 = pivot_th2.recip();
-        let safe_th2 = S::select_le(m2 * pivot_th2, times_m2, lit(0.0), safe_th1);
-        let th2_by_th1 = m2_per_m1_and_m2_per_l1_l2 * cos_th1_minus_th2;
-        let right_th2 = (l1 * th2_by_th1)
+        let safe_th2 = S::select_le(times_m2, m2 * pivot_th2, safe_th1, lit(0.0));
+        let right_th2 = (m2_per_m1_and_m2_l2 * th2_by_th1)
             .neg_mul_add(
                 right_th1,
                 (dot_th1 * m2_l1_l2 * dot_th1_minus_dot_th2)
@@ -409,8 +424,8 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
             );
         let safe = safe_th2;
         out[1] = prepared_part * right_th2 * per_pivot_th2;
-        out[0] = (prepared_part * th2_by_th1 * right_th2)
-            .neg_mul_add(per_pivot_th2, per_m1_and_m2_per_l1 * right_th1);
+        out[0] = per_m1_and_m2_per_l1
+            * (per_l2 * th2_by_th1 * right_th2).neg_mul_add(per_pivot_th2, right_th1);
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
@@ -422,14 +437,14 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
-        let [_, _, _, _, _, _, _, _, _, _, _, _, m2_per_m1_and_m2, _, m2, times_m2,
-        safe_th1] = *::ukcore::emitted::exact::<S, 17>(prepared, "prepared");
+        let [_, _, _, _, _, _, _, _, _, _, _, m2_per_m1_and_m2, _, _, _, m2, times_m2,
+        safe_th1] = *::ukcore::emitted::exact::<S, 18>(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let lit = S::from_f64;
-        let correction_0_part = (th1 - th2).cos();
-        let pivot_th2 = (m2_per_m1_and_m2 * correction_0_part)
-            .neg_mul_add(correction_0_part, lit(1.0));
-        let safe_th2 = S::select_le(m2 * pivot_th2, times_m2, lit(0.0), safe_th1);
+        let th2_by_th1 = (th1 - th2).cos();
+        let pivot_th2 = (m2_per_m1_and_m2 * th2_by_th1)
+            .neg_mul_add(th2_by_th1, lit(1.0));
+        let safe_th2 = S::select_le(times_m2, m2 * pivot_th2, safe_th1, lit(0.0));
         out[0] = lit(0.0);
         out[1] = lit(0.0);
         let safe = safe_th2;

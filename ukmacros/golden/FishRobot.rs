@@ -327,7 +327,6 @@ impl ::ukcore::Mechanism for FishRobot {
             ("twice_rho_span_half_chord_per_m3", "2*rho*span*half_chord/m3"),
             ("joint1_0_with_joint2_0", "1/m2"),
             ("twice_rho_per_m3", "2*rho/m3"),
-            ("per_per_m3_and_per_m2", "1/(1/m3 + 1/m2)"),
             ("joint1_1_by_joint2_1", "1/(m2*(1/m3 + 1/m2))"),
             ("per_m1_and_per_m2", "1/m1 + 1/m2"),
             ("twice_rho_per_m1_s_cd", "2*rho*s*cd/m1"),
@@ -337,13 +336,14 @@ impl ::ukcore::Mechanism for FishRobot {
             ("prepared_part_3", "1/(sq(m2)*(1/m3 + 1/m2))"),
             ("twice_rho_per_m1_cd_s1", "2*rho*cd*s1/m1"),
             ("per_i1_sq_a_per_m3_and_per_m2", "sq(a)*(1/m3 + 1/m2)/i1"),
+            ("per_per_m3_and_per_m2", "1/(1/m3 + 1/m2)"),
             ("per_i1_a", "a/i1"),
             ("per_m3", "1/m3"),
             ("per_m1", "1/m1"),
             ("per_m3_per_per_m3_and_per_m2", "1/(m3*(1/m3 + 1/m2))"),
             (
                 "safe_joint2_0",
-                "(1/m3 + 1/m2 ≤ 0 ? 0 : (m2 ≤ 0 ? 0 : (i1 ≤ 0 ? 0 : (m3 ≤ 0 ? 0 : (m1 ≤ 0 ? 0 : 1)))))",
+                "(0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ 1/m3 + 1/m2 ? (0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ m2 ? (0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ i1 ? (0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ m3 ? (0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ m1 ? 1 : 0) : 0) : 0) : 0) : 0)",
             ),
         ],
         coords: &["x1", "y1", "th1", "x2", "y2", "th2", "x3", "y3", "th3"],
@@ -631,26 +631,61 @@ impl ::ukcore::Mechanism for FishRobot {
         prepared[43] = lit(2.0) * rho_per_m3;
         let pivot_joint2_0 = per_m3 + per_m2;
         let per_pivot_joint2_0 = pivot_joint2_0.recip();
-        prepared[44] = per_pivot_joint2_0;
         let joint1_1_by_joint2_1 = per_m2 * per_pivot_joint2_0;
-        prepared[45] = joint1_1_by_joint2_1;
-        prepared[46] = per_m1 + per_m2;
-        prepared[47] = lit(2.0) * rho_per_m1_s_cd;
-        prepared[48] = pivot_joint2_0;
-        prepared[49] = (m2 * m2).recip();
-        prepared[50] = a.powi(4) * pivot_joint2_0 / (i1 * i1);
-        prepared[51] = per_pivot_joint2_0 / (m2 * m2);
-        prepared[52] = lit(2.0) * rho_per_m1_cd_s1;
-        prepared[53] = a * a * per_i1 * pivot_joint2_0;
+        prepared[44] = joint1_1_by_joint2_1;
+        prepared[45] = per_m1 + per_m2;
+        prepared[46] = lit(2.0) * rho_per_m1_s_cd;
+        prepared[47] = pivot_joint2_0;
+        prepared[48] = (m2 * m2).recip();
+        prepared[49] = a.powi(4) * pivot_joint2_0 / (i1 * i1);
+        prepared[50] = per_pivot_joint2_0 / (m2 * m2);
+        prepared[51] = lit(2.0) * rho_per_m1_cd_s1;
+        prepared[52] = a * a * per_i1 * pivot_joint2_0;
+        prepared[53] = per_pivot_joint2_0;
         prepared[54] = a * per_i1;
         prepared[55] = per_m3;
         prepared[56] = per_m1;
         prepared[57] = per_m3 * per_pivot_joint2_0;
-        let safe_x1 = S::select_le(m1, lit(0.0), lit(0.0), lit(1.0));
-        let safe_x3 = S::select_le(m3, lit(0.0), lit(0.0), safe_x1);
-        let safe_th1 = S::select_le(i1, lit(0.0), lit(0.0), safe_x3);
-        let safe_x2 = S::select_le(m2, lit(0.0), lit(0.0), safe_th1);
-        let safe_joint2_0 = S::select_le(pivot_joint2_0, lit(0.0), lit(0.0), safe_x2);
+        let safe_x1 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            m1,
+            lit(1.0),
+            lit(0.0),
+        );
+        let safe_x3 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            m3,
+            safe_x1,
+            lit(0.0),
+        );
+        let safe_th1 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            i1,
+            safe_x3,
+            lit(0.0),
+        );
+        let safe_x2 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            m2,
+            safe_th1,
+            lit(0.0),
+        );
+        let safe_joint2_0 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            pivot_joint2_0,
+            safe_x2,
+            lit(0.0),
+        );
         prepared[58] = safe_joint2_0;
     }
     /// 15 additions, 52 multiplications, 0 divisions, 0 square roots, 5 transcendentals, 4 selections.
@@ -992,13 +1027,11 @@ impl ::ukcore::Mechanism for FishRobot {
         l2, _, w, _, phi_2, _, _, _, _, _, twice_a, twice_b, _, a2_sq_w, _, sq_w_a3,
         l2_a2_sq_w, _, _, _, _, _, _, times_span_half_chord, half_cd_s3, rho, _,
         per_i1_sq_a, rho_per_m2_cd_s2, twice_b_sq_w_a3, twice_rho_span_half_chord_per_m3,
-        joint1_0_with_joint2_0, twice_rho_per_m3, per_per_m3_and_per_m2,
-        joint1_1_by_joint2_1, per_m1_and_per_m2, twice_rho_per_m1_s_cd, pivot_joint2_0,
-        prepared_part, prepared_part_2, prepared_part_3, twice_rho_per_m1_cd_s1,
-        per_i1_sq_a_per_m3_and_per_m2, per_i1_a, per_m3, per_m1, _, safe_joint2_0] = *::ukcore::emitted::exact::<
-            S,
-            59,
-        >(prepared, "prepared");
+        joint1_0_with_joint2_0, twice_rho_per_m3, joint1_1_by_joint2_1,
+        per_m1_and_per_m2, twice_rho_per_m1_s_cd, pivot_joint2_0, prepared_part,
+        prepared_part_2, prepared_part_3, twice_rho_per_m1_cd_s1,
+        per_i1_sq_a_per_m3_and_per_m2, per_per_m3_and_per_m2, per_i1_a, per_m3, per_m1,
+        _, safe_joint2_0] = *::ukcore::emitted::exact::<S, 59>(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -1069,10 +1102,10 @@ impl ::ukcore::Mechanism for FishRobot {
         let pivot_joint1_0 = diagonal_joint1_0_pivot_joint2_0 - prepared_part;
         let per_pivot_joint1_0 = pivot_joint1_0.recip();
         let safe_joint1_0 = S::select_le(
-            pivot_joint1_0,
             lit(0.0009765625) * diagonal_joint1_0_pivot_joint2_0,
-            lit(0.0),
+            pivot_joint1_0,
             safe_joint2_0,
+            lit(0.0),
         );
         let acceleration_0_part_6 = lit(0.5)
             * lit(2.0)
@@ -1094,10 +1127,10 @@ impl ::ukcore::Mechanism for FishRobot {
         let per_pivot_joint1_1 = pivot_joint1_1.recip();
         let diagonal_joint1_1 = acceleration_0_part_7 * pivot_joint1_0;
         let safe_joint1_1 = S::select_le(
-            -pivot_joint1_1,
             lit(0.0009765625) * diagonal_joint1_1,
-            lit(0.0),
+            -pivot_joint1_1,
             safe_joint1_0,
+            lit(0.0),
         );
         let acceleration_0_part_8 = lit(0.5)
             * lit(2.0)
@@ -1121,26 +1154,27 @@ impl ::ukcore::Mechanism for FishRobot {
         let safe = safe_joint1_1;
         let lambda_joint1_1 = per_pivot_joint1_1 * right_joint1_1;
         out[1] = -(per_m1 * (rho_cd_s1 * right_y1 + lambda_joint1_1));
-        let lambda_joint2_1 = (joint1_1_by_joint2_1 * per_pivot_joint1_1)
-            .neg_mul_add(right_joint1_1, per_per_m3_and_per_m2 * right_joint2_1);
-        out[7] = per_m3 * (rho * right_y3 - lambda_joint2_1);
         let lambda_joint1_0 = (per_i1_sq_a_per_m3_and_per_m2 * cos_th1 * sin_th1
             * per_pivot_joint1_0 * per_pivot_joint1_1)
             .neg_mul_add(right_joint1_1, per_pivot_joint1_0 * right_joint1_0);
         out[0] = -(per_m1 * (rho_s_cd * right_x1 - lambda_joint1_0));
-        out[4] = -(joint1_0_with_joint2_0
-            * (rho_cd_s2 * right_y2 - lambda_joint1_1 - lambda_joint2_1));
+        let lambda_joint2_1 = (joint1_0_with_joint2_0 * per_pivot_joint1_1)
+            .neg_mul_add(right_joint1_1, right_joint2_1);
+        let acceleration_1_part = per_per_m3_and_per_m2 * lambda_joint2_1;
+        out[7] = per_m3 * (rho * right_y3 - acceleration_1_part);
         out[2] = -(per_i1_a
             * sin_th1
                 .mul_add(
                     lambda_joint1_0,
                     cos_th1 * per_pivot_joint1_1 * right_joint1_1,
                 ));
+        out[4] = -(joint1_0_with_joint2_0
+            * (rho_cd_s2 * right_y2 - lambda_joint1_1 - acceleration_1_part));
         let lambda_joint2_0 = joint1_0_with_joint2_0
             .mul_add(lambda_joint1_0, right_joint2_0);
-        let acceleration_3_part = per_per_m3_and_per_m2 * lambda_joint2_0;
-        out[6] = per_m3 * (rho_span_half_chord * right_x3 - acceleration_3_part);
-        out[3] = -(joint1_0_with_joint2_0 * (lambda_joint1_0 - acceleration_3_part));
+        let acceleration_5_part = per_per_m3_and_per_m2 * lambda_joint2_0;
+        out[6] = per_m3 * (rho_span_half_chord * right_x3 - acceleration_5_part);
+        out[3] = -(joint1_0_with_joint2_0 * (lambda_joint1_0 - acceleration_5_part));
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
@@ -1154,9 +1188,9 @@ impl ::ukcore::Mechanism for FishRobot {
         let out = ::ukcore::emitted::exact_mut::<S, 9>(out, "out");
         let [_, _, _, _, _, _, _, _, _, _, _, l2, b, _, _, _, _, _, _, _, _, _, _, _, _,
         _, _, _, _, _, _, _, _, _, _, _, _, _, per_i1_sq_a, _, _, _,
-        joint1_0_with_joint2_0, _, per_per_m3_and_per_m2, joint1_1_by_joint2_1,
-        per_m1_and_per_m2, _, pivot_joint2_0, prepared_part, prepared_part_2,
-        prepared_part_3, _, per_i1_sq_a_per_m3_and_per_m2, per_i1_a, per_m3, per_m1,
+        joint1_0_with_joint2_0, _, joint1_1_by_joint2_1, per_m1_and_per_m2, _,
+        pivot_joint2_0, prepared_part, prepared_part_2, prepared_part_3, _,
+        per_i1_sq_a_per_m3_and_per_m2, per_per_m3_and_per_m2, per_i1_a, _, per_m1,
         per_m3_per_per_m3_and_per_m2, safe_joint2_0] = *::ukcore::emitted::exact::<
             S,
             59,
@@ -1177,10 +1211,10 @@ impl ::ukcore::Mechanism for FishRobot {
         let pivot_joint1_0 = diagonal_joint1_0_pivot_joint2_0 - prepared_part;
         let per_pivot_joint1_0 = pivot_joint1_0.recip();
         let safe_joint1_0 = S::select_le(
-            pivot_joint1_0,
             lit(0.0009765625) * diagonal_joint1_0_pivot_joint2_0,
-            lit(0.0),
+            pivot_joint1_0,
             safe_joint2_0,
+            lit(0.0),
         );
         let correction_0_part = (per_i1_sq_a * cos_th1)
             .mul_add(cos_th1, per_m1_and_per_m2);
@@ -1192,10 +1226,10 @@ impl ::ukcore::Mechanism for FishRobot {
         let per_pivot_joint1_1 = pivot_joint1_1.recip();
         let diagonal_joint1_1 = correction_0_part * pivot_joint1_0;
         let safe_joint1_1 = S::select_le(
-            -pivot_joint1_1,
             lit(0.0009765625) * diagonal_joint1_1,
-            lit(0.0),
+            -pivot_joint1_1,
             safe_joint1_0,
+            lit(0.0),
         );
         let (sin_th2, cos_th2) = th2.sin_cos();
         let correction_0_part_2 = lit(0.5) * sin_th2;
@@ -1222,9 +1256,9 @@ impl ::ukcore::Mechanism for FishRobot {
         out[8] = -residual_5;
         let safe = safe_joint1_1;
         out[1] = per_m1 * right_joint1_1 * per_pivot_joint1_1;
-        let lambda_joint2_1 = (joint1_1_by_joint2_1 * right_joint1_1)
-            .neg_mul_add(per_pivot_joint1_1, per_per_m3_and_per_m2 * right_joint2_1);
-        out[7] = per_m3 * lambda_joint2_1;
+        let lambda_joint2_1 = (joint1_0_with_joint2_0 * right_joint1_1)
+            .neg_mul_add(per_pivot_joint1_1, right_joint2_1);
+        out[7] = per_m3_per_per_m3_and_per_m2 * lambda_joint2_1;
         let lambda_joint1_0 = (per_i1_sq_a_per_m3_and_per_m2 * cos_th1 * sin_th1
             * right_joint1_1 * per_pivot_joint1_0)
             .neg_mul_add(per_pivot_joint1_1, right_joint1_0 * per_pivot_joint1_0);
@@ -1232,11 +1266,12 @@ impl ::ukcore::Mechanism for FishRobot {
         out[2] = per_i1_a
             * sin_th1
                 .mul_add(lambda_joint1_0, cos_th1 * right_joint1_1 * per_pivot_joint1_1);
-        let lambda_joint1_1 = right_joint1_1 * per_pivot_joint1_1;
-        out[4] = -(joint1_0_with_joint2_0 * (lambda_joint1_1 + lambda_joint2_1));
         let lambda_joint2_0 = joint1_0_with_joint2_0
             .mul_add(lambda_joint1_0, right_joint2_0);
         out[6] = per_m3_per_per_m3_and_per_m2 * lambda_joint2_0;
+        let lambda_joint1_1 = right_joint1_1 * per_pivot_joint1_1;
+        out[4] = -(joint1_0_with_joint2_0
+            * per_per_m3_and_per_m2.mul_add(lambda_joint2_1, lambda_joint1_1));
         out[3] = joint1_0_with_joint2_0
             * per_per_m3_and_per_m2.neg_mul_add(lambda_joint2_0, lambda_joint1_0);
         safe

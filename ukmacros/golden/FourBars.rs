@@ -148,9 +148,13 @@ impl ::ukcore::Mechanism for FourBars {
             ("times_l_2", "-3*l"),
             ("times_l_3", "-4*l"),
             ("g", "g"),
-            ("times_g", "1.5*g"),
-            ("times_g_2", "6*g"),
-            ("safe_x_0", "(m ≤ 0 ? 0 : 1)"),
+            ("times_g", "1.25*g"),
+            ("times_g_2", "1.5*g"),
+            ("times_g_3", "6*g"),
+            (
+                "safe_x_0",
+                "(0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ m ? 1 : 0)",
+            ),
             ("times_m", "0.6666666666666666*m"),
             ("times_m_2", "0.16666666666666666*m"),
             ("times_m_g", "-1.5*m*g"),
@@ -223,7 +227,7 @@ impl ::ukcore::Mechanism for FourBars {
         ],
         structure: ::ukcore::Structure {
             straight_line: true,
-            solve: "by straight-line elimination in the order x[0] x[4] y[0] y[4] crank[0] crank[4] x[2] y[2] crank[2] x[1] y[1] crank[1] coupler[0] coupler[1] x[3] y[3] crank[3] coupler[2] coupler[3]",
+            solve: "by straight-line elimination in the order x[0] x[4] y[0] crank[0] y[4] crank[4] x[1] x[3] y[1] crank[1] coupler[0] y[3] crank[3] coupler[3] x[2] y[2] crank[2] coupler[1] coupler[2]",
             mass_pattern: &[
                 (0, 0),
                 (0, 1),
@@ -304,12 +308,12 @@ impl ::ukcore::Mechanism for FourBars {
                 selections: 0,
             },
             solve_operations: ::ukcore::Operations {
-                additions: 283,
-                multiplications: 449,
-                divisions: 13,
+                additions: 256,
+                multiplications: 384,
+                divisions: 15,
                 square_roots: 0,
                 transcendentals: 0,
-                selections: 13,
+                selections: 15,
             },
         },
         equations: ::ukcore::Equations {
@@ -400,7 +404,7 @@ impl ::ukcore::Mechanism for FourBars {
         }
     }
     fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
-        let prepared = ::ukcore::emitted::exact_mut::<S, 14>(prepared, "prepared");
+        let prepared = ::ukcore::emitted::exact_mut::<S, 15>(prepared, "prepared");
         let [m, l, g] = *::ukcore::emitted::exact::<S, 3>(given, "given");
         let lit = S::from_f64;
         prepared[0] = m;
@@ -412,13 +416,21 @@ impl ::ukcore::Mechanism for FourBars {
         prepared[5] = lit(-3.0) * l;
         prepared[6] = lit(-4.0) * l;
         prepared[7] = g;
-        prepared[8] = lit(1.5) * g;
-        prepared[9] = lit(6.0) * g;
-        let safe_x_0 = S::select_le(m, lit(0.0), lit(0.0), lit(1.0));
-        prepared[10] = safe_x_0;
-        prepared[11] = lit(0.6666666666666666) * m;
-        prepared[12] = lit(0.16666666666666666) * m;
-        prepared[13] = lit(-1.5) * m_g;
+        prepared[8] = lit(1.25) * g;
+        prepared[9] = lit(1.5) * g;
+        prepared[10] = lit(6.0) * g;
+        let safe_x_0 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            m,
+            lit(1.0),
+            lit(0.0),
+        );
+        prepared[11] = safe_x_0;
+        prepared[12] = lit(0.6666666666666666) * m;
+        prepared[13] = lit(0.16666666666666666) * m;
+        prepared[14] = lit(-1.5) * m_g;
     }
     /// 30 additions, 53 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
@@ -433,8 +445,8 @@ impl ::ukcore::Mechanism for FourBars {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 10>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 90>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 9>(out.rhs, "rhs");
-        let [m, m_g, _, l, times_l, times_l_2, times_l_3, _, _, _, _, times_m, times_m_2,
-        times_m_g] = *::ukcore::emitted::exact::<S, 14>(prepared, "prepared");
+        let [m, m_g, _, l, times_l, times_l_2, times_l_3, _, _, _, _, _, times_m,
+        times_m_2, times_m_g] = *::ukcore::emitted::exact::<S, 15>(prepared, "prepared");
         let [x_0, x_1, x_2, x_3, x_4, y_0, y_1, y_2, y_3, y_4] = *::ukcore::emitted::exact::<
             S,
             10,
@@ -492,38 +504,36 @@ impl ::ukcore::Mechanism for FourBars {
         jacobian[45] = lit(2.0) * y_0;
         jacobian[10] = lit(2.0) * (x_1 - l);
         jacobian[55] = lit(2.0) * y_1;
-        let crank_2_by_x_2 = x_2 + times_l;
-        jacobian[20] = lit(2.0) * crank_2_by_x_2;
+        jacobian[20] = lit(2.0) * (x_2 + times_l);
         jacobian[65] = lit(2.0) * y_2;
         jacobian[30] = lit(2.0) * (x_3 + times_l_2);
         jacobian[75] = lit(2.0) * y_3;
-        let crank_4_by_x_4 = x_4 + times_l_3;
-        jacobian[40] = lit(2.0) * crank_4_by_x_4;
+        jacobian[40] = lit(2.0) * (x_4 + times_l_3);
         jacobian[85] = lit(2.0) * y_4;
-        let coupler_0_by_x_0 = x_0 - x_1;
-        jacobian[5] = lit(2.0) * coupler_0_by_x_0;
-        jacobian[14] = lit(-2.0) * coupler_0_by_x_0;
-        let coupler_0_by_y_0 = y_0 - y_1;
-        jacobian[50] = lit(2.0) * coupler_0_by_y_0;
-        jacobian[59] = lit(-2.0) * coupler_0_by_y_0;
-        let coupler_1_by_x_2 = x_1 - x_2;
-        jacobian[15] = lit(2.0) * coupler_1_by_x_2;
-        jacobian[24] = lit(-2.0) * coupler_1_by_x_2;
-        let coupler_1_by_y_2 = y_1 - y_2;
-        jacobian[60] = lit(2.0) * coupler_1_by_y_2;
-        jacobian[69] = lit(-2.0) * coupler_1_by_y_2;
-        let coupler_2_by_x_2 = x_2 - x_3;
-        jacobian[25] = lit(2.0) * coupler_2_by_x_2;
-        jacobian[34] = lit(-2.0) * coupler_2_by_x_2;
-        let coupler_2_by_y_2 = y_2 - y_3;
-        jacobian[70] = lit(2.0) * coupler_2_by_y_2;
-        jacobian[79] = lit(-2.0) * coupler_2_by_y_2;
-        let coupler_3_by_x_4 = x_3 - x_4;
-        jacobian[35] = lit(2.0) * coupler_3_by_x_4;
-        jacobian[44] = lit(-2.0) * coupler_3_by_x_4;
-        let coupler_3_by_y_4 = y_3 - y_4;
-        jacobian[80] = lit(2.0) * coupler_3_by_y_4;
-        jacobian[89] = lit(-2.0) * coupler_3_by_y_4;
+        let x_0_minus_x_1 = x_0 - x_1;
+        jacobian[5] = lit(2.0) * x_0_minus_x_1;
+        jacobian[14] = lit(-2.0) * x_0_minus_x_1;
+        let y_0_minus_y_1 = y_0 - y_1;
+        jacobian[50] = lit(2.0) * y_0_minus_y_1;
+        jacobian[59] = lit(-2.0) * y_0_minus_y_1;
+        let x_1_minus_x_2 = x_1 - x_2;
+        jacobian[15] = lit(2.0) * x_1_minus_x_2;
+        jacobian[24] = lit(-2.0) * x_1_minus_x_2;
+        let y_1_minus_y_2 = y_1 - y_2;
+        jacobian[60] = lit(2.0) * y_1_minus_y_2;
+        jacobian[69] = lit(-2.0) * y_1_minus_y_2;
+        let x_2_minus_x_3 = x_2 - x_3;
+        jacobian[25] = lit(2.0) * x_2_minus_x_3;
+        jacobian[34] = lit(-2.0) * x_2_minus_x_3;
+        let y_2_minus_y_3 = y_2 - y_3;
+        jacobian[70] = lit(2.0) * y_2_minus_y_3;
+        jacobian[79] = lit(-2.0) * y_2_minus_y_3;
+        let x_3_minus_x_4 = x_3 - x_4;
+        jacobian[35] = lit(2.0) * x_3_minus_x_4;
+        jacobian[44] = lit(-2.0) * x_3_minus_x_4;
+        let y_3_minus_y_4 = y_3 - y_4;
+        jacobian[80] = lit(2.0) * y_3_minus_y_4;
+        jacobian[89] = lit(-2.0) * y_3_minus_y_4;
         rhs[0] = lit(-2.0) * dot_y_0.mul_add(dot_y_0, dot_x_0 * dot_x_0);
         rhs[1] = lit(-2.0) * dot_y_1.mul_add(dot_y_1, dot_x_1 * dot_x_1);
         rhs[2] = lit(-2.0) * dot_y_2.mul_add(dot_y_2, dot_x_2 * dot_x_2);
@@ -564,9 +574,9 @@ impl ::ukcore::Mechanism for FourBars {
     }
     fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 100>(mass, "mass");
-        let [m, _, _, _, _, _, _, _, _, _, _, times_m, times_m_2, _] = *::ukcore::emitted::exact::<
+        let [m, _, _, _, _, _, _, _, _, _, _, _, times_m, times_m_2, _] = *::ukcore::emitted::exact::<
             S,
-            14,
+            15,
         >(prepared, "prepared");
         mass[0] = times_m;
         mass[1] = times_m_2;
@@ -603,9 +613,9 @@ impl ::ukcore::Mechanism for FourBars {
         jacobian: &mut [S],
     ) {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 90>(jacobian, "jacobian");
-        let [_, _, _, l, times_l, times_l_2, times_l_3, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [_, _, _, l, times_l, times_l_2, times_l_3, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            14,
+            15,
         >(prepared, "prepared");
         let [x_0, x_1, x_2, x_3, x_4, y_0, y_1, y_2, y_3, y_4] = *::ukcore::emitted::exact::<
             S,
@@ -616,44 +626,42 @@ impl ::ukcore::Mechanism for FourBars {
         jacobian[45] = lit(2.0) * y_0;
         jacobian[10] = lit(2.0) * (x_1 - l);
         jacobian[55] = lit(2.0) * y_1;
-        let crank_2_by_x_2 = x_2 + times_l;
-        jacobian[20] = lit(2.0) * crank_2_by_x_2;
+        jacobian[20] = lit(2.0) * (x_2 + times_l);
         jacobian[65] = lit(2.0) * y_2;
         jacobian[30] = lit(2.0) * (x_3 + times_l_2);
         jacobian[75] = lit(2.0) * y_3;
-        let crank_4_by_x_4 = x_4 + times_l_3;
-        jacobian[40] = lit(2.0) * crank_4_by_x_4;
+        jacobian[40] = lit(2.0) * (x_4 + times_l_3);
         jacobian[85] = lit(2.0) * y_4;
-        let coupler_0_by_x_0 = x_0 - x_1;
-        jacobian[5] = lit(2.0) * coupler_0_by_x_0;
-        jacobian[14] = lit(-2.0) * coupler_0_by_x_0;
-        let coupler_0_by_y_0 = y_0 - y_1;
-        jacobian[50] = lit(2.0) * coupler_0_by_y_0;
-        jacobian[59] = lit(-2.0) * coupler_0_by_y_0;
-        let coupler_1_by_x_2 = x_1 - x_2;
-        jacobian[15] = lit(2.0) * coupler_1_by_x_2;
-        jacobian[24] = lit(-2.0) * coupler_1_by_x_2;
-        let coupler_1_by_y_2 = y_1 - y_2;
-        jacobian[60] = lit(2.0) * coupler_1_by_y_2;
-        jacobian[69] = lit(-2.0) * coupler_1_by_y_2;
-        let coupler_2_by_x_2 = x_2 - x_3;
-        jacobian[25] = lit(2.0) * coupler_2_by_x_2;
-        jacobian[34] = lit(-2.0) * coupler_2_by_x_2;
-        let coupler_2_by_y_2 = y_2 - y_3;
-        jacobian[70] = lit(2.0) * coupler_2_by_y_2;
-        jacobian[79] = lit(-2.0) * coupler_2_by_y_2;
-        let coupler_3_by_x_4 = x_3 - x_4;
-        jacobian[35] = lit(2.0) * coupler_3_by_x_4;
-        jacobian[44] = lit(-2.0) * coupler_3_by_x_4;
-        let coupler_3_by_y_4 = y_3 - y_4;
-        jacobian[80] = lit(2.0) * coupler_3_by_y_4;
-        jacobian[89] = lit(-2.0) * coupler_3_by_y_4;
+        let x_0_minus_x_1 = x_0 - x_1;
+        jacobian[5] = lit(2.0) * x_0_minus_x_1;
+        jacobian[14] = lit(-2.0) * x_0_minus_x_1;
+        let y_0_minus_y_1 = y_0 - y_1;
+        jacobian[50] = lit(2.0) * y_0_minus_y_1;
+        jacobian[59] = lit(-2.0) * y_0_minus_y_1;
+        let x_1_minus_x_2 = x_1 - x_2;
+        jacobian[15] = lit(2.0) * x_1_minus_x_2;
+        jacobian[24] = lit(-2.0) * x_1_minus_x_2;
+        let y_1_minus_y_2 = y_1 - y_2;
+        jacobian[60] = lit(2.0) * y_1_minus_y_2;
+        jacobian[69] = lit(-2.0) * y_1_minus_y_2;
+        let x_2_minus_x_3 = x_2 - x_3;
+        jacobian[25] = lit(2.0) * x_2_minus_x_3;
+        jacobian[34] = lit(-2.0) * x_2_minus_x_3;
+        let y_2_minus_y_3 = y_2 - y_3;
+        jacobian[70] = lit(2.0) * y_2_minus_y_3;
+        jacobian[79] = lit(-2.0) * y_2_minus_y_3;
+        let x_3_minus_x_4 = x_3 - x_4;
+        jacobian[35] = lit(2.0) * x_3_minus_x_4;
+        jacobian[44] = lit(-2.0) * x_3_minus_x_4;
+        let y_3_minus_y_4 = y_3 - y_4;
+        jacobian[80] = lit(2.0) * y_3_minus_y_4;
+        jacobian[89] = lit(-2.0) * y_3_minus_y_4;
     }
     fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
         let phi = ::ukcore::emitted::exact_mut::<S, 9>(phi, "phi");
-        let [_, _, sq_l, l, times_l, times_l_2, times_l_3, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [_, _, sq_l, l, times_l, times_l_2, times_l_3, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            14,
+            15,
         >(prepared, "prepared");
         let [x_0, x_1, x_2, x_3, x_4, y_0, y_1, y_2, y_3, y_4] = *::ukcore::emitted::exact::<
             S,
@@ -662,28 +670,28 @@ impl ::ukcore::Mechanism for FourBars {
         phi[0] = y_0.mul_add(y_0, x_0 * x_0 - sq_l);
         let x_1_minus_l = x_1 - l;
         phi[1] = x_1_minus_l.mul_add(x_1_minus_l, y_1 * y_1 - sq_l);
-        let crank_2_by_x_2 = x_2 + times_l;
-        phi[2] = crank_2_by_x_2.mul_add(crank_2_by_x_2, y_2 * y_2 - sq_l);
+        let x_2_plus_times_l = x_2 + times_l;
+        phi[2] = x_2_plus_times_l.mul_add(x_2_plus_times_l, y_2 * y_2 - sq_l);
         let x_3_plus_times_l_2 = x_3 + times_l_2;
         phi[3] = x_3_plus_times_l_2.mul_add(x_3_plus_times_l_2, y_3 * y_3 - sq_l);
-        let crank_4_by_x_4 = x_4 + times_l_3;
-        phi[4] = crank_4_by_x_4.mul_add(crank_4_by_x_4, y_4 * y_4 - sq_l);
-        let coupler_0_by_x_0 = x_0 - x_1;
-        let coupler_0_by_y_0 = y_0 - y_1;
-        phi[5] = coupler_0_by_y_0
-            .mul_add(coupler_0_by_y_0, coupler_0_by_x_0 * coupler_0_by_x_0 - sq_l);
-        let coupler_1_by_x_2 = x_1 - x_2;
-        let coupler_1_by_y_2 = y_1 - y_2;
-        phi[6] = coupler_1_by_y_2
-            .mul_add(coupler_1_by_y_2, coupler_1_by_x_2 * coupler_1_by_x_2 - sq_l);
-        let coupler_2_by_x_2 = x_2 - x_3;
-        let coupler_2_by_y_2 = y_2 - y_3;
-        phi[7] = coupler_2_by_y_2
-            .mul_add(coupler_2_by_y_2, coupler_2_by_x_2 * coupler_2_by_x_2 - sq_l);
-        let coupler_3_by_x_4 = x_3 - x_4;
-        let coupler_3_by_y_4 = y_3 - y_4;
-        phi[8] = coupler_3_by_y_4
-            .mul_add(coupler_3_by_y_4, coupler_3_by_x_4 * coupler_3_by_x_4 - sq_l);
+        let x_4_plus_times_l_3 = x_4 + times_l_3;
+        phi[4] = x_4_plus_times_l_3.mul_add(x_4_plus_times_l_3, y_4 * y_4 - sq_l);
+        let x_0_minus_x_1 = x_0 - x_1;
+        let y_0_minus_y_1 = y_0 - y_1;
+        phi[5] = y_0_minus_y_1
+            .mul_add(y_0_minus_y_1, x_0_minus_x_1 * x_0_minus_x_1 - sq_l);
+        let x_1_minus_x_2 = x_1 - x_2;
+        let y_1_minus_y_2 = y_1 - y_2;
+        phi[6] = y_1_minus_y_2
+            .mul_add(y_1_minus_y_2, x_1_minus_x_2 * x_1_minus_x_2 - sq_l);
+        let x_2_minus_x_3 = x_2 - x_3;
+        let y_2_minus_y_3 = y_2 - y_3;
+        phi[7] = y_2_minus_y_3
+            .mul_add(y_2_minus_y_3, x_2_minus_x_3 * x_2_minus_x_3 - sq_l);
+        let x_3_minus_x_4 = x_3 - x_4;
+        let y_3_minus_y_4 = y_3 - y_4;
+        phi[8] = y_3_minus_y_4
+            .mul_add(y_3_minus_y_4, x_3_minus_x_4 * x_3_minus_x_4 - sq_l);
     }
     fn residual_rate<S: ::ukcore::Scalar>(
         prepared: &[S],
@@ -693,9 +701,9 @@ impl ::ukcore::Mechanism for FourBars {
         rate: &mut [S],
     ) {
         let rate = ::ukcore::emitted::exact_mut::<S, 9>(rate, "rate");
-        let [_, _, _, l, times_l, times_l_2, times_l_3, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [_, _, _, l, times_l, times_l_2, times_l_3, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            14,
+            15,
         >(prepared, "prepared");
         let [x_0, x_1, x_2, x_3, x_4, y_0, y_1, y_2, y_3, y_4] = *::ukcore::emitted::exact::<
             S,
@@ -706,31 +714,21 @@ impl ::ukcore::Mechanism for FourBars {
         let lit = S::from_f64;
         rate[0] = lit(2.0) * y_0.mul_add(dot_y_0, x_0 * dot_x_0);
         rate[1] = lit(2.0) * dot_x_1.mul_add((x_1 - l), y_1 * dot_y_1);
-        let crank_2_by_x_2 = x_2 + times_l;
-        rate[2] = lit(2.0) * dot_x_2.mul_add(crank_2_by_x_2, y_2 * dot_y_2);
+        rate[2] = lit(2.0) * dot_x_2.mul_add((x_2 + times_l), y_2 * dot_y_2);
         rate[3] = lit(2.0) * dot_x_3.mul_add((x_3 + times_l_2), y_3 * dot_y_3);
-        let crank_4_by_x_4 = x_4 + times_l_3;
-        rate[4] = lit(2.0) * dot_x_4.mul_add(crank_4_by_x_4, y_4 * dot_y_4);
-        let coupler_0_by_x_0 = x_0 - x_1;
-        let coupler_0_by_y_0 = y_0 - y_1;
+        rate[4] = lit(2.0) * dot_x_4.mul_add((x_4 + times_l_3), y_4 * dot_y_4);
         rate[5] = lit(2.0)
-            * coupler_0_by_y_0
-                .mul_add((dot_y_0 - dot_y_1), coupler_0_by_x_0 * (dot_x_0 - dot_x_1));
-        let coupler_1_by_x_2 = x_1 - x_2;
-        let coupler_1_by_y_2 = y_1 - y_2;
+            * (y_0 - y_1)
+                .mul_add((dot_y_0 - dot_y_1), (x_0 - x_1) * (dot_x_0 - dot_x_1));
         rate[6] = lit(2.0)
-            * coupler_1_by_y_2
-                .mul_add((dot_y_1 - dot_y_2), coupler_1_by_x_2 * (dot_x_1 - dot_x_2));
-        let coupler_2_by_x_2 = x_2 - x_3;
-        let coupler_2_by_y_2 = y_2 - y_3;
+            * (y_1 - y_2)
+                .mul_add((dot_y_1 - dot_y_2), (x_1 - x_2) * (dot_x_1 - dot_x_2));
         rate[7] = lit(2.0)
-            * coupler_2_by_y_2
-                .mul_add((dot_y_2 - dot_y_3), coupler_2_by_x_2 * (dot_x_2 - dot_x_3));
-        let coupler_3_by_x_4 = x_3 - x_4;
-        let coupler_3_by_y_4 = y_3 - y_4;
+            * (y_2 - y_3)
+                .mul_add((dot_y_2 - dot_y_3), (x_2 - x_3) * (dot_x_2 - dot_x_3));
         rate[8] = lit(2.0)
-            * coupler_3_by_y_4
-                .mul_add((dot_y_3 - dot_y_4), coupler_3_by_x_4 * (dot_x_3 - dot_x_4));
+            * (y_3 - y_4)
+                .mul_add((dot_y_3 - dot_y_4), (x_3 - x_4) * (dot_x_3 - dot_x_4));
     }
     fn energy<S: ::ukcore::Scalar>(
         prepared: &[S],
@@ -738,9 +736,9 @@ impl ::ukcore::Mechanism for FourBars {
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
-        let [m, m_g, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [m, m_g, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            14,
+            15,
         >(prepared, "prepared");
         let [_, _, _, _, _, y_0, y_1, y_2, y_3, y_4] = *::ukcore::emitted::exact::<
             S,
@@ -851,7 +849,7 @@ impl ::ukcore::Mechanism for FourBars {
         >(q, "q");
         outputs[0] = x_0.atan2(y_0);
     }
-    /// 283 additions, 449 multiplications, 13 divisions, 0 square roots, 0 transcendentals, 13 selections.
+    /// 256 additions, 384 multiplications, 15 divisions, 0 square roots, 0 transcendentals, 15 selections.
     fn acceleration<S: ::ukcore::Scalar>(
         prepared: &[S],
         t: S,
@@ -860,8 +858,8 @@ impl ::ukcore::Mechanism for FourBars {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 10>(out, "out");
-        let [_, _, _, l, times_l, times_l_2, times_l_3, g, times_g, times_g_2, safe_x_0,
-        _, _, _] = *::ukcore::emitted::exact::<S, 14>(prepared, "prepared");
+        let [_, _, _, l, times_l, times_l_2, times_l_3, g, times_g, times_g_2, times_g_3,
+        safe_x_0, _, _, _] = *::ukcore::emitted::exact::<S, 15>(prepared, "prepared");
         let [x_0, x_1, x_2, x_3, x_4, y_0, y_1, y_2, y_3, y_4] = *::ukcore::emitted::exact::<
             S,
             10,
@@ -869,119 +867,133 @@ impl ::ukcore::Mechanism for FourBars {
         let [dot_x_0, dot_x_1, dot_x_2, dot_x_3, dot_x_4, dot_y_0, dot_y_1, dot_y_2,
         dot_y_3, dot_y_4] = *::ukcore::emitted::exact::<S, 10>(v, "v");
         let lit = S::from_f64;
-        let pivot_crank_0 = lit(1.5) * y_0.mul_add(y_0, x_0 * x_0);
+        let crank_0_by_x_0 = lit(1.5) * x_0;
+        let crank_0_by_y_0 = lit(1.5) * y_0;
+        let pivot_crank_0 = y_0.mul_add(crank_0_by_y_0, x_0 * crank_0_by_x_0);
         let per_pivot_crank_0 = pivot_crank_0.recip();
-        let safe_crank_0 = S::select_le(pivot_crank_0, lit(0.0), lit(0.0), safe_x_0);
-        let right_crank_0 = y_0
-            .neg_mul_add(times_g, dot_y_0.mul_add(dot_y_0, dot_x_0 * dot_x_0));
-        let crank_4_by_x_4 = x_4 + times_l_3;
-        let pivot_crank_4 = lit(1.5) * crank_4_by_x_4.mul_add(crank_4_by_x_4, y_4 * y_4);
+        let safe_crank_0 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            pivot_crank_0,
+            safe_x_0,
+            lit(0.0),
+        );
+        let right_crank_0 = g
+            .neg_mul_add(crank_0_by_y_0, dot_y_0.mul_add(dot_y_0, dot_x_0 * dot_x_0));
+        let crank_4_by_y_4 = lit(1.5) * y_4;
+        let x_4_plus_times_l_3 = x_4 + times_l_3;
+        let crank_4_by_x_4 = lit(1.5) * x_4_plus_times_l_3;
+        let pivot_crank_4 = x_4_plus_times_l_3
+            .mul_add(crank_4_by_x_4, y_4 * crank_4_by_y_4);
         let per_pivot_crank_4 = pivot_crank_4.recip();
-        let safe_crank_4 = S::select_le(pivot_crank_4, lit(0.0), lit(0.0), safe_crank_0);
-        let right_crank_4 = y_4
-            .neg_mul_add(times_g, dot_y_4.mul_add(dot_y_4, dot_x_4 * dot_x_4));
-        let crank_2_by_x_2 = x_2 + times_l;
-        let pivot_crank_2 = crank_2_by_x_2.mul_add(crank_2_by_x_2, y_2 * y_2);
-        let per_pivot_crank_2 = pivot_crank_2.recip();
-        let safe_crank_2 = S::select_le(pivot_crank_2, lit(0.0), lit(0.0), safe_crank_4);
-        let right_crank_2 = y_2
-            .neg_mul_add(times_g, dot_y_2.mul_add(dot_y_2, dot_x_2 * dot_x_2));
-        let acceleration_0_part = lit(0.25) * x_0;
-        let acceleration_0_part_2 = lit(0.16666666666666666) * crank_2_by_x_2;
-        let acceleration_0_part_3 = acceleration_0_part_2 * acceleration_0_part_2
-            * per_pivot_crank_2;
-        let pivot_x_1 = (acceleration_0_part * acceleration_0_part)
-            .mul_add(per_pivot_crank_0, lit(0.9305555555555556)) + acceleration_0_part_3;
+        let safe_crank_4 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            pivot_crank_4,
+            safe_crank_0,
+            lit(0.0),
+        );
+        let right_crank_4 = g
+            .neg_mul_add(crank_4_by_y_4, dot_y_4.mul_add(dot_y_4, dot_x_4 * dot_x_4));
+        let acceleration_0_part = lit(0.16666666666666666) * crank_0_by_x_0;
+        let x_1_by_crank_0 = acceleration_0_part * per_pivot_crank_0;
+        let pivot_x_1 = acceleration_0_part
+            .mul_add(x_1_by_crank_0, lit(0.9583333333333334));
         let per_pivot_x_1 = pivot_x_1.recip();
         let safe_x_1 = S::select_le(
-            pivot_x_1,
             lit(0.0009765625),
+            pivot_x_1,
+            safe_crank_4,
             lit(0.0),
-            safe_crank_2,
         );
-        let x_1_by_crank_0 = acceleration_0_part * per_pivot_crank_0;
-        let x_1_by_crank_2 = acceleration_0_part_2 * per_pivot_crank_2;
-        let right_crank_2_x_1_by_crank_2 = right_crank_2 * x_1_by_crank_2;
-        let right_x_1 = right_crank_0 * x_1_by_crank_0 + right_crank_2_x_1_by_crank_2;
-        let acceleration_0_part_4 = lit(0.25) * y_0;
-        let acceleration_0_part_5 = lit(0.16666666666666666) * y_2;
-        let acceleration_0_part_6 = acceleration_0_part_5 * acceleration_0_part_5
-            * per_pivot_crank_2;
-        let y_1_by_crank_0 = acceleration_0_part_4 * per_pivot_crank_0;
-        let y_1_by_crank_2 = acceleration_0_part_5 * per_pivot_crank_2;
-        let acceleration_0_part_7 = acceleration_0_part_2 * y_1_by_crank_2;
-        let acceleration_0_part_8 = acceleration_0_part * y_1_by_crank_0
-            + acceleration_0_part_7;
-        let pivot_y_1 = (acceleration_0_part_8 * acceleration_0_part_8)
+        let right_x_1 = right_crank_0 * x_1_by_crank_0;
+        let acceleration_0_part_2 = lit(0.16666666666666666) * crank_4_by_x_4;
+        let x_3_by_crank_4 = acceleration_0_part_2 * per_pivot_crank_4;
+        let pivot_x_3 = acceleration_0_part_2
+            .mul_add(x_3_by_crank_4, lit(0.9583333333333334));
+        let per_pivot_x_3 = pivot_x_3.recip();
+        let safe_x_3 = S::select_le(lit(0.0009765625), pivot_x_3, safe_x_1, lit(0.0));
+        let right_x_3 = right_crank_4 * x_3_by_crank_4;
+        let acceleration_0_part_3 = lit(0.16666666666666666) * crank_0_by_y_0;
+        let y_1_by_crank_0 = acceleration_0_part_3 * per_pivot_crank_0;
+        let acceleration_0_part_4 = acceleration_0_part * y_1_by_crank_0;
+        let y_1_by_x_1 = acceleration_0_part_4 * per_pivot_x_1;
+        let pivot_y_1 = acceleration_0_part_4
             .neg_mul_add(
-                per_pivot_x_1,
-                (acceleration_0_part_4 * acceleration_0_part_4)
-                    .mul_add(per_pivot_crank_0, lit(0.9305555555555556))
-                    + acceleration_0_part_6,
+                y_1_by_x_1,
+                acceleration_0_part_3.mul_add(y_1_by_crank_0, lit(0.9583333333333334)),
             );
         let per_pivot_y_1 = pivot_y_1.recip();
-        let safe_y_1 = S::select_le(pivot_y_1, lit(0.0009765625), lit(0.0), safe_x_1);
-        let right_crank_2_y_1_by_crank_2 = right_crank_2 * y_1_by_crank_2;
-        let y_1_by_x_1 = acceleration_0_part_8 * per_pivot_x_1;
-        let right_y_1 = right_crank_0 * y_1_by_crank_0 + right_crank_2_y_1_by_crank_2
-            - right_x_1.mul_add(y_1_by_x_1, g);
+        let safe_y_1 = S::select_le(lit(0.0009765625), pivot_y_1, safe_x_3, lit(0.0));
+        let acceleration_0_part_5 = right_x_1;
+        let right_y_1 = right_crank_0 * y_1_by_crank_0
+            - acceleration_0_part_5.mul_add(y_1_by_x_1, times_g);
         let x_1_minus_l = x_1 - l;
         let crank_1_by_x_1 = x_1_minus_l * per_pivot_x_1;
-        let acceleration_0_part_9 = acceleration_0_part_8
+        let acceleration_0_part_6 = acceleration_0_part_4
             .neg_mul_add(crank_1_by_x_1, y_1);
-        let pivot_crank_1 = (acceleration_0_part_9 * acceleration_0_part_9)
-            .mul_add(per_pivot_y_1, x_1_minus_l * x_1_minus_l * per_pivot_x_1);
+        let crank_1_by_y_1 = acceleration_0_part_6 * per_pivot_y_1;
+        let pivot_crank_1 = acceleration_0_part_6
+            .mul_add(crank_1_by_y_1, x_1_minus_l * crank_1_by_x_1);
         let per_pivot_crank_1 = pivot_crank_1.recip();
-        let safe_crank_1 = S::select_le(pivot_crank_1, lit(0.0), lit(0.0), safe_y_1);
-        let crank_1_by_y_1 = acceleration_0_part_9 * per_pivot_y_1;
+        let safe_crank_1 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            pivot_crank_1,
+            safe_y_1,
+            lit(0.0),
+        );
         let right_crank_1 = right_y_1
             .mul_add(
                 crank_1_by_y_1,
-                right_x_1
+                acceleration_0_part_5
                     .mul_add(crank_1_by_x_1, dot_y_1.mul_add(dot_y_1, dot_x_1 * dot_x_1)),
             );
-        let coupler_0_by_x_0 = x_0 - x_1;
-        let coupler_0_by_y_0 = y_0 - y_1;
-        let coupler_0_with_crank_0 = lit(1.5)
-            * y_0.mul_add(coupler_0_by_y_0, x_0 * coupler_0_by_x_0);
+        let x_0_minus_x_1 = x_0 - x_1;
+        let coupler_0_by_x_0 = lit(1.5) * x_0_minus_x_1;
+        let y_0_minus_y_1 = y_0 - y_1;
+        let coupler_0_by_y_0 = lit(1.5) * y_0_minus_y_1;
+        let coupler_0_with_crank_0 = y_0
+            .mul_add(coupler_0_by_y_0, x_0 * coupler_0_by_x_0);
         let coupler_0_by_crank_0 = coupler_0_with_crank_0 * per_pivot_crank_0;
-        let acceleration_0_part_10 = lit(1.25) * coupler_0_by_x_0;
-        let acceleration_0_part_11 = acceleration_0_part * coupler_0_by_crank_0
-            - acceleration_0_part_10;
-        let coupler_0_by_x_1 = acceleration_0_part_11 * per_pivot_x_1;
-        let acceleration_0_part_12 = acceleration_0_part_4 * coupler_0_by_crank_0
-            - acceleration_0_part_8
-                .mul_add(coupler_0_by_x_1, lit(1.25) * coupler_0_by_y_0);
-        let coupler_0_by_y_1 = acceleration_0_part_12 * per_pivot_y_1;
-        let coupler_0_with_crank_1 = acceleration_0_part_9
-            .mul_add(coupler_0_by_y_1, x_1_minus_l * coupler_0_by_x_1);
-        let diagonal_coupler_0 = (acceleration_0_part_12 * acceleration_0_part_12)
+        let acceleration_0_part_7 = acceleration_0_part * coupler_0_by_crank_0
+            - lit(0.16666666666666666).mul_add(coupler_0_by_x_0, x_0_minus_x_1);
+        let coupler_0_by_x_1 = acceleration_0_part_7 * per_pivot_x_1;
+        let acceleration_0_part_8 = acceleration_0_part_3 * coupler_0_by_crank_0
+            - acceleration_0_part_4
+                .mul_add(
+                    coupler_0_by_x_1,
+                    lit(0.16666666666666666).mul_add(coupler_0_by_y_0, y_0_minus_y_1),
+                );
+        let coupler_0_by_y_1 = acceleration_0_part_8 * per_pivot_y_1;
+        let diagonal_coupler_0 = acceleration_0_part_8
             .mul_add(
-                per_pivot_y_1,
-                (acceleration_0_part_11 * acceleration_0_part_11)
+                coupler_0_by_y_1,
+                acceleration_0_part_7
                     .mul_add(
-                        per_pivot_x_1,
-                        (lit(1.5) * coupler_0_by_y_0)
-                            .mul_add(
-                                coupler_0_by_y_0,
-                                lit(1.5) * coupler_0_by_x_0 * coupler_0_by_x_0,
-                            ),
+                        coupler_0_by_x_1,
+                        y_0_minus_y_1
+                            .mul_add(coupler_0_by_y_0, x_0_minus_x_1 * coupler_0_by_x_0),
                     ),
             );
-        let pivot_coupler_0 = (per_pivot_crank_1 * coupler_0_with_crank_1)
+        let coupler_0_with_crank_1 = acceleration_0_part_6
+            .mul_add(coupler_0_by_y_1, x_1_minus_l * coupler_0_by_x_1);
+        let coupler_0_by_crank_1 = coupler_0_with_crank_1 * per_pivot_crank_1;
+        let pivot_coupler_0 = coupler_0_with_crank_1
             .mul_add(
-                coupler_0_with_crank_1,
-                coupler_0_with_crank_0 * coupler_0_with_crank_0 * per_pivot_crank_0
-                    - diagonal_coupler_0,
+                coupler_0_by_crank_1,
+                coupler_0_with_crank_0 * coupler_0_by_crank_0 - diagonal_coupler_0,
             );
         let per_pivot_coupler_0 = pivot_coupler_0.recip();
         let safe_coupler_0 = S::select_le(
-            -pivot_coupler_0,
             lit(0.0009765625) * diagonal_coupler_0,
-            lit(0.0),
+            -pivot_coupler_0,
             safe_crank_1,
+            lit(0.0),
         );
-        let coupler_0_by_crank_1 = per_pivot_crank_1 * coupler_0_with_crank_1;
         let dot_x_0_minus_dot_x_1 = dot_x_0 - dot_x_1;
         let dot_y_0_minus_dot_y_1 = dot_y_0 - dot_y_1;
         let right_coupler_0 = right_crank_1
@@ -991,10 +1003,10 @@ impl ::ukcore::Mechanism for FourBars {
                     - right_y_1
                         .mul_add(
                             coupler_0_by_y_1,
-                            right_x_1
+                            acceleration_0_part_5
                                 .mul_add(
                                     coupler_0_by_x_1,
-                                    times_g
+                                    g
                                         .neg_mul_add(
                                             coupler_0_by_y_0,
                                             dot_y_0_minus_dot_y_1
@@ -1006,247 +1018,167 @@ impl ::ukcore::Mechanism for FourBars {
                                 ),
                         ),
             );
-        let coupler_1_by_y_2 = y_1 - y_2;
-        let coupler_1_by_x_2 = x_1 - x_2;
-        let coupler_1_with_crank_2 = coupler_1_by_x_2
-            .mul_add(crank_2_by_x_2, y_2 * coupler_1_by_y_2);
-        let acceleration_0_part_13 = lit(1.1666666666666667) * coupler_1_by_x_2;
-        let coupler_1_by_crank_2 = coupler_1_with_crank_2 * per_pivot_crank_2;
-        let acceleration_0_part_14 = acceleration_0_part_2 * coupler_1_by_crank_2;
-        let acceleration_0_part_15 = acceleration_0_part_13 - acceleration_0_part_14;
-        let coupler_1_by_x_1 = -(acceleration_0_part_15 * per_pivot_x_1);
-        let acceleration_0_part_16 = acceleration_0_part_5 * coupler_1_by_crank_2;
-        let acceleration_0_part_17 = acceleration_0_part_16
-            - acceleration_0_part_8
-                .mul_add(coupler_1_by_x_1, lit(1.1666666666666667) * coupler_1_by_y_2);
-        let coupler_1_by_y_1 = acceleration_0_part_17 * per_pivot_y_1;
-        let coupler_1_with_crank_1 = acceleration_0_part_9
-            .mul_add(coupler_1_by_y_1, x_1_minus_l * coupler_1_by_x_1);
-        let coupler_1_by_crank_1 = per_pivot_crank_1 * coupler_1_with_crank_1;
-        let coupler_1_with_coupler_0 = coupler_0_with_crank_1 * coupler_1_by_crank_1
-            - acceleration_0_part_12
-                .mul_add(coupler_1_by_y_1, acceleration_0_part_11 * coupler_1_by_x_1);
-        let diagonal_coupler_1 = (acceleration_0_part_17 * acceleration_0_part_17)
-            .mul_add(
-                per_pivot_y_1,
-                (acceleration_0_part_15 * acceleration_0_part_15)
-                    .mul_add(
-                        per_pivot_x_1,
-                        coupler_1_by_y_2
-                            .mul_add(
-                                coupler_1_by_y_2,
-                                coupler_1_by_x_2 * coupler_1_by_x_2,
-                            ),
-                    ),
-            );
-        let pivot_coupler_1 = (coupler_1_with_coupler_0 * coupler_1_with_coupler_0)
+        let acceleration_0_part_9 = lit(0.16666666666666666) * crank_4_by_y_4;
+        let y_3_by_crank_4 = acceleration_0_part_9 * per_pivot_crank_4;
+        let acceleration_0_part_10 = acceleration_0_part_2 * y_3_by_crank_4;
+        let y_3_by_x_3 = acceleration_0_part_10 * per_pivot_x_3;
+        let pivot_y_3 = acceleration_0_part_10
             .neg_mul_add(
-                per_pivot_coupler_0,
-                (per_pivot_crank_1 * coupler_1_with_crank_1)
-                    .mul_add(
-                        coupler_1_with_crank_1,
-                        coupler_1_with_crank_2 * coupler_1_with_crank_2
-                            * per_pivot_crank_2 - diagonal_coupler_1,
-                    ),
+                y_3_by_x_3,
+                acceleration_0_part_9.mul_add(y_3_by_crank_4, lit(0.9583333333333334)),
             );
-        let per_pivot_coupler_1 = pivot_coupler_1.recip();
-        let safe_coupler_1 = S::select_le(
-            -pivot_coupler_1,
-            lit(0.0009765625) * diagonal_coupler_1,
-            lit(0.0),
-            safe_coupler_0,
-        );
-        let coupler_1_by_coupler_0 = coupler_1_with_coupler_0 * per_pivot_coupler_0;
-        let dot_x_1_minus_dot_x_2 = dot_x_1 - dot_x_2;
-        let dot_y_1_minus_dot_y_2 = dot_y_1 - dot_y_2;
-        let right_coupler_1 = right_coupler_0
-            .neg_mul_add(
-                coupler_1_by_coupler_0,
-                right_crank_1
-                    .mul_add(
-                        coupler_1_by_crank_1,
-                        right_crank_2 * coupler_1_by_crank_2
-                            + right_y_1
-                                .neg_mul_add(
-                                    coupler_1_by_y_1,
-                                    right_x_1
-                                        .neg_mul_add(
-                                            coupler_1_by_x_1,
-                                            times_g * coupler_1_by_y_2
-                                                + dot_y_1_minus_dot_y_2
-                                                    .mul_add(
-                                                        dot_y_1_minus_dot_y_2,
-                                                        dot_x_1_minus_dot_x_2 * dot_x_1_minus_dot_x_2,
-                                                    ),
-                                        ),
-                                ),
-                    ),
-            );
-        let acceleration_0_part_18 = lit(0.25) * crank_4_by_x_4;
-        let acceleration_0_part_19 = acceleration_0_part_2 * x_1_by_crank_2
-            - lit(0.027777777777777776);
-        let acceleration_0_part_20 = acceleration_0_part_19
-            .neg_mul_add(y_1_by_x_1, acceleration_0_part_7);
-        let acceleration_0_part_21 = acceleration_0_part_20
-            .mul_add(crank_1_by_y_1, acceleration_0_part_19 * crank_1_by_x_1);
-        let acceleration_0_part_22 = acceleration_0_part_21 * coupler_0_by_crank_1
-            - acceleration_0_part_20
-                .mul_add(coupler_0_by_y_1, acceleration_0_part_19 * coupler_0_by_x_1);
-        let acceleration_0_part_23 = acceleration_0_part_22
-            .neg_mul_add(
-                coupler_1_by_coupler_0,
-                acceleration_0_part_21
-                    .mul_add(
-                        coupler_1_by_crank_1,
-                        acceleration_0_part_14
-                            - acceleration_0_part_20
-                                .mul_add(
-                                    coupler_1_by_y_1,
-                                    acceleration_0_part_19
-                                        .mul_add(
-                                            coupler_1_by_x_1,
-                                            lit(0.16666666666666666) * coupler_1_by_x_2,
-                                        ),
-                                ),
-                    ),
-            );
-        let pivot_x_3 = (acceleration_0_part_23 * acceleration_0_part_23)
-            .neg_mul_add(
-                per_pivot_coupler_1,
-                (acceleration_0_part_22 * acceleration_0_part_22)
-                    .neg_mul_add(
-                        per_pivot_coupler_0,
-                        (acceleration_0_part_21 * acceleration_0_part_21)
-                            .mul_add(
-                                per_pivot_crank_1,
-                                (acceleration_0_part_20 * acceleration_0_part_20)
-                                    .neg_mul_add(
-                                        per_pivot_y_1,
-                                        (acceleration_0_part_19 * acceleration_0_part_19)
-                                            .neg_mul_add(
-                                                per_pivot_x_1,
-                                                (acceleration_0_part_18 * acceleration_0_part_18)
-                                                    .mul_add(
-                                                        per_pivot_crank_4,
-                                                        lit(0.9305555555555556) + acceleration_0_part_3,
-                                                    ),
-                                            ),
-                                    ),
-                            ),
-                    ),
-            );
-        let per_pivot_x_3 = pivot_x_3.recip();
-        let safe_x_3 = S::select_le(
-            pivot_x_3,
+        let per_pivot_y_3 = pivot_y_3.recip();
+        let safe_y_3 = S::select_le(
             lit(0.0009765625),
+            pivot_y_3,
+            safe_coupler_0,
             lit(0.0),
-            safe_coupler_1,
         );
-        let x_3_by_crank_4 = acceleration_0_part_18 * per_pivot_crank_4;
-        let x_3_by_crank_1 = acceleration_0_part_21 * per_pivot_crank_1;
-        let x_3_by_coupler_0 = acceleration_0_part_22 * per_pivot_coupler_0;
-        let x_3_by_coupler_1 = acceleration_0_part_23 * per_pivot_coupler_1;
-        let x_3_by_x_1 = acceleration_0_part_19 * per_pivot_x_1;
-        let x_3_by_y_1 = acceleration_0_part_20 * per_pivot_y_1;
-        let right_x_3 = right_coupler_1
+        let acceleration_0_part_11 = right_x_3;
+        let right_y_3 = right_crank_4 * y_3_by_crank_4
+            - acceleration_0_part_11.mul_add(y_3_by_x_3, times_g);
+        let x_3_plus_times_l_2 = x_3 + times_l_2;
+        let crank_3_by_x_3 = x_3_plus_times_l_2 * per_pivot_x_3;
+        let acceleration_0_part_12 = acceleration_0_part_10
+            .neg_mul_add(crank_3_by_x_3, y_3);
+        let crank_3_by_y_3 = acceleration_0_part_12 * per_pivot_y_3;
+        let pivot_crank_3 = acceleration_0_part_12
+            .mul_add(crank_3_by_y_3, x_3_plus_times_l_2 * crank_3_by_x_3);
+        let per_pivot_crank_3 = pivot_crank_3.recip();
+        let safe_crank_3 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            pivot_crank_3,
+            safe_y_3,
+            lit(0.0),
+        );
+        let right_crank_3 = right_y_3
+            .mul_add(
+                crank_3_by_y_3,
+                acceleration_0_part_11
+                    .mul_add(crank_3_by_x_3, dot_y_3.mul_add(dot_y_3, dot_x_3 * dot_x_3)),
+            );
+        let y_3_minus_y_4 = y_3 - y_4;
+        let coupler_3_by_y_4 = lit(1.5) * y_3_minus_y_4;
+        let x_3_minus_x_4 = x_3 - x_4;
+        let coupler_3_by_x_4 = lit(1.5) * x_3_minus_x_4;
+        let coupler_3_with_crank_4 = x_4_plus_times_l_3
+            .mul_add(coupler_3_by_x_4, y_4 * coupler_3_by_y_4);
+        let coupler_3_by_crank_4 = coupler_3_with_crank_4 * per_pivot_crank_4;
+        let acceleration_0_part_13 = acceleration_0_part_2
             .neg_mul_add(
-                x_3_by_coupler_1,
-                right_coupler_0
+                coupler_3_by_crank_4,
+                lit(0.16666666666666666).mul_add(coupler_3_by_x_4, x_3_minus_x_4),
+            );
+        let coupler_3_by_x_3 = -(acceleration_0_part_13 * per_pivot_x_3);
+        let acceleration_0_part_14 = acceleration_0_part_9 * coupler_3_by_crank_4
+            - acceleration_0_part_10
+                .mul_add(
+                    coupler_3_by_x_3,
+                    lit(0.16666666666666666).mul_add(coupler_3_by_y_4, y_3_minus_y_4),
+                );
+        let coupler_3_by_y_3 = acceleration_0_part_14 * per_pivot_y_3;
+        let coupler_3_with_crank_3 = acceleration_0_part_12
+            .mul_add(coupler_3_by_y_3, x_3_plus_times_l_2 * coupler_3_by_x_3);
+        let coupler_3_by_crank_3 = coupler_3_with_crank_3 * per_pivot_crank_3;
+        let diagonal_coupler_3 = acceleration_0_part_14
+            .mul_add(
+                coupler_3_by_y_3,
+                acceleration_0_part_13
                     .neg_mul_add(
-                        x_3_by_coupler_0,
-                        right_crank_1
-                            .mul_add(
-                                x_3_by_crank_1,
-                                right_crank_4
-                                    .mul_add(x_3_by_crank_4, right_crank_2_x_1_by_crank_2)
-                                    - right_y_1.mul_add(x_3_by_y_1, right_x_1 * x_3_by_x_1),
-                            ),
+                        coupler_3_by_x_3,
+                        y_3_minus_y_4
+                            .mul_add(coupler_3_by_y_4, x_3_minus_x_4 * coupler_3_by_x_4),
                     ),
             );
-        let acceleration_0_part_24 = lit(0.25) * y_4;
-        let y_3_by_x_1 = acceleration_0_part_2 * y_1_by_crank_2 * per_pivot_x_1;
-        let acceleration_0_part_25 = acceleration_0_part_8
-            .neg_mul_add(y_3_by_x_1, acceleration_0_part_5 * y_1_by_crank_2)
-            - lit(0.027777777777777776);
-        let acceleration_0_part_26 = acceleration_0_part_25
+        let pivot_coupler_3 = coupler_3_with_crank_3
             .mul_add(
-                crank_1_by_y_1,
-                acceleration_0_part_2 * y_1_by_crank_2 * crank_1_by_x_1,
+                coupler_3_by_crank_3,
+                coupler_3_with_crank_4 * coupler_3_by_crank_4 - diagonal_coupler_3,
             );
-        let acceleration_0_part_27 = acceleration_0_part_26 * coupler_0_by_crank_1
-            - acceleration_0_part_25
-                .mul_add(
-                    coupler_0_by_y_1,
-                    acceleration_0_part_2 * y_1_by_crank_2 * coupler_0_by_x_1,
-                );
-        let acceleration_0_part_28 = acceleration_0_part_27
-            .neg_mul_add(
-                coupler_1_by_coupler_0,
-                acceleration_0_part_26
-                    .mul_add(
-                        coupler_1_by_crank_1,
-                        acceleration_0_part_16
-                            - acceleration_0_part_25
-                                .mul_add(
-                                    coupler_1_by_y_1,
-                                    (acceleration_0_part_2 * y_1_by_crank_2)
+        let per_pivot_coupler_3 = pivot_coupler_3.recip();
+        let safe_coupler_3 = S::select_le(
+            lit(0.0009765625) * diagonal_coupler_3,
+            -pivot_coupler_3,
+            safe_crank_3,
+            lit(0.0),
+        );
+        let dot_x_3_minus_dot_x_4 = dot_x_3 - dot_x_4;
+        let dot_y_3_minus_dot_y_4 = dot_y_3 - dot_y_4;
+        let right_coupler_3 = right_crank_3
+            .mul_add(
+                coupler_3_by_crank_3,
+                right_crank_4 * coupler_3_by_crank_4
+                    + right_y_3
+                        .neg_mul_add(
+                            coupler_3_by_y_3,
+                            acceleration_0_part_11
+                                .neg_mul_add(
+                                    coupler_3_by_x_3,
+                                    g
                                         .mul_add(
-                                            coupler_1_by_x_1,
-                                            lit(0.16666666666666666) * coupler_1_by_y_2,
+                                            coupler_3_by_y_4,
+                                            dot_y_3_minus_dot_y_4
+                                                .mul_add(
+                                                    dot_y_3_minus_dot_y_4,
+                                                    dot_x_3_minus_dot_x_4 * dot_x_3_minus_dot_x_4,
+                                                ),
                                         ),
                                 ),
+                        ),
+            );
+        let x_2_by_x_1 = lit(0.16666666666666666) * (per_pivot_x_1);
+        let acceleration_0_part_15 = lit(0.16666666666666666) * y_1_by_x_1;
+        let x_2_by_y_1 = acceleration_0_part_15 * per_pivot_y_1;
+        let x_2_by_x_3 = lit(0.16666666666666666) * (per_pivot_x_3);
+        let acceleration_0_part_16 = acceleration_0_part_15
+            .neg_mul_add(crank_1_by_y_1, lit(0.16666666666666666) * crank_1_by_x_1);
+        let x_2_by_crank_1 = acceleration_0_part_16 * per_pivot_crank_1;
+        let acceleration_0_part_17 = acceleration_0_part_16
+            .neg_mul_add(
+                coupler_0_by_crank_1,
+                acceleration_0_part_15
+                    .neg_mul_add(
+                        coupler_0_by_y_1,
+                        lit(0.16666666666666666) * coupler_0_by_x_1,
                     ),
             );
-        let y_3_by_crank_4 = acceleration_0_part_24 * per_pivot_crank_4;
-        let y_3_by_y_1 = acceleration_0_part_25 * per_pivot_y_1;
-        let y_3_by_crank_1 = acceleration_0_part_26 * per_pivot_crank_1;
-        let y_3_by_coupler_0 = acceleration_0_part_27 * per_pivot_coupler_0;
-        let y_3_by_coupler_1 = acceleration_0_part_28 * per_pivot_coupler_1;
-        let acceleration_0_part_29 = acceleration_0_part_23
+        let x_2_by_coupler_0 = -(acceleration_0_part_17 * per_pivot_coupler_0);
+        let acceleration_0_part_18 = lit(0.16666666666666666) * y_3_by_x_3;
+        let x_2_by_y_3 = acceleration_0_part_18 * per_pivot_y_3;
+        let acceleration_0_part_19 = acceleration_0_part_18
+            .neg_mul_add(crank_3_by_y_3, lit(0.16666666666666666) * crank_3_by_x_3);
+        let x_2_by_crank_3 = acceleration_0_part_19 * per_pivot_crank_3;
+        let acceleration_0_part_20 = acceleration_0_part_19 * coupler_3_by_crank_3
+            - acceleration_0_part_18
+                .neg_mul_add(
+                    coupler_3_by_y_3,
+                    lit(0.16666666666666666) * coupler_3_by_x_3,
+                );
+        let x_2_by_coupler_3 = acceleration_0_part_20 * per_pivot_coupler_3;
+        let pivot_x_2 = acceleration_0_part_20
             .neg_mul_add(
-                y_3_by_coupler_1,
-                acceleration_0_part_22
-                    .neg_mul_add(
-                        y_3_by_coupler_0,
-                        acceleration_0_part_21
+                x_2_by_coupler_3,
+                acceleration_0_part_17
+                    .mul_add(
+                        x_2_by_coupler_0,
+                        acceleration_0_part_19
                             .mul_add(
-                                y_3_by_crank_1,
-                                acceleration_0_part_20
+                                x_2_by_crank_3,
+                                acceleration_0_part_18
                                     .neg_mul_add(
-                                        y_3_by_y_1,
-                                        acceleration_0_part_19
+                                        x_2_by_y_3,
+                                        acceleration_0_part_15
                                             .neg_mul_add(
-                                                y_3_by_x_1,
-                                                acceleration_0_part_18
-                                                    .mul_add(y_3_by_crank_4, acceleration_0_part_7),
-                                            ),
-                                    ),
-                            ),
-                    ),
-            );
-        let pivot_y_3 = (acceleration_0_part_29 * acceleration_0_part_29)
-            .neg_mul_add(
-                per_pivot_x_3,
-                (acceleration_0_part_28 * acceleration_0_part_28)
-                    .neg_mul_add(
-                        per_pivot_coupler_1,
-                        (acceleration_0_part_27 * acceleration_0_part_27)
-                            .neg_mul_add(
-                                per_pivot_coupler_0,
-                                (acceleration_0_part_26 * acceleration_0_part_26)
-                                    .mul_add(
-                                        per_pivot_crank_1,
-                                        (acceleration_0_part_25 * acceleration_0_part_25)
-                                            .neg_mul_add(
-                                                per_pivot_y_1,
-                                                (acceleration_0_part_2 * acceleration_0_part_2
-                                                    * y_1_by_crank_2 * y_1_by_crank_2)
+                                                x_2_by_y_1,
+                                                lit(0.16666666666666666)
                                                     .neg_mul_add(
-                                                        per_pivot_x_1,
-                                                        (acceleration_0_part_24 * acceleration_0_part_24)
-                                                            .mul_add(
-                                                                per_pivot_crank_4,
-                                                                lit(0.9305555555555556) + acceleration_0_part_6,
+                                                        x_2_by_x_3,
+                                                        lit(0.16666666666666666)
+                                                            .neg_mul_add(
+                                                                x_2_by_x_1,
+                                                                acceleration_0_part_16.mul_add(x_2_by_crank_1, lit(1.0)),
                                                             ),
                                                     ),
                                             ),
@@ -1254,472 +1186,530 @@ impl ::ukcore::Mechanism for FourBars {
                             ),
                     ),
             );
-        let per_pivot_y_3 = pivot_y_3.recip();
-        let safe_y_3 = S::select_le(pivot_y_3, lit(0.0009765625), lit(0.0), safe_x_3);
-        let y_3_by_x_3 = acceleration_0_part_29 * per_pivot_x_3;
-        let right_y_3 = right_coupler_1
+        let per_pivot_x_2 = pivot_x_2.recip();
+        let safe_x_2 = S::select_le(
+            lit(0.0009765625),
+            pivot_x_2,
+            safe_coupler_3,
+            lit(0.0),
+        );
+        let right_x_2 = right_coupler_3
             .neg_mul_add(
-                y_3_by_coupler_1,
+                x_2_by_coupler_3,
                 right_coupler_0
                     .neg_mul_add(
-                        y_3_by_coupler_0,
-                        right_crank_1
+                        x_2_by_coupler_0,
+                        right_crank_3
                             .mul_add(
-                                y_3_by_crank_1,
-                                right_crank_4
-                                    .mul_add(y_3_by_crank_4, right_crank_2_y_1_by_crank_2),
-                            ),
-                    ),
-            )
-            - right_x_3
-                .mul_add(
-                    y_3_by_x_3,
-                    right_y_1.mul_add(y_3_by_y_1, right_x_1.mul_add(y_3_by_x_1, g)),
-                );
-        let x_3_plus_times_l_2 = x_3 + times_l_2;
-        let crank_3_by_x_3 = x_3_plus_times_l_2 * per_pivot_x_3;
-        let acceleration_0_part_30 = acceleration_0_part_29
-            .neg_mul_add(crank_3_by_x_3, y_3);
-        let pivot_crank_3 = (acceleration_0_part_30 * acceleration_0_part_30)
-            .mul_add(
-                per_pivot_y_3,
-                x_3_plus_times_l_2 * x_3_plus_times_l_2 * per_pivot_x_3,
-            );
-        let per_pivot_crank_3 = pivot_crank_3.recip();
-        let safe_crank_3 = S::select_le(pivot_crank_3, lit(0.0), lit(0.0), safe_y_3);
-        let right_crank_3 = (acceleration_0_part_30 * right_y_3)
-            .mul_add(
-                per_pivot_y_3,
-                right_x_3
-                    .mul_add(crank_3_by_x_3, dot_y_3.mul_add(dot_y_3, dot_x_3 * dot_x_3)),
-            );
-        let coupler_2_by_y_2 = y_2 - y_3;
-        let coupler_2_by_x_2 = x_2 - x_3;
-        let coupler_2_with_crank_2 = coupler_2_by_x_2
-            .mul_add(crank_2_by_x_2, y_2 * coupler_2_by_y_2);
-        let acceleration_0_part_31 = lit(0.16666666666666666) * coupler_2_by_x_2;
-        let coupler_2_by_crank_2 = coupler_2_with_crank_2 * per_pivot_crank_2;
-        let acceleration_0_part_32 = acceleration_0_part_2 * coupler_2_by_crank_2;
-        let acceleration_0_part_33 = acceleration_0_part_31 - acceleration_0_part_32;
-        let coupler_2_by_x_1 = -(acceleration_0_part_33 * per_pivot_x_1);
-        let acceleration_0_part_34 = acceleration_0_part_5 * coupler_2_by_crank_2;
-        let acceleration_0_part_35 = acceleration_0_part_34
-            - acceleration_0_part_8
-                .mul_add(coupler_2_by_x_1, lit(0.16666666666666666) * coupler_2_by_y_2);
-        let coupler_2_by_y_1 = acceleration_0_part_35 * per_pivot_y_1;
-        let coupler_2_with_crank_1 = acceleration_0_part_9
-            .mul_add(coupler_2_by_y_1, x_1_minus_l * coupler_2_by_x_1);
-        let coupler_2_by_crank_1 = per_pivot_crank_1 * coupler_2_with_crank_1;
-        let coupler_2_with_coupler_0 = coupler_0_with_crank_1 * coupler_2_by_crank_1
-            - acceleration_0_part_12
-                .mul_add(coupler_2_by_y_1, acceleration_0_part_11 * coupler_2_by_x_1);
-        let coupler_2_by_coupler_0 = coupler_2_with_coupler_0 * per_pivot_coupler_0;
-        let coupler_2_with_coupler_1 = coupler_1_with_coupler_0
-            .neg_mul_add(
-                coupler_2_by_coupler_0,
-                coupler_1_with_crank_1
-                    .mul_add(
-                        coupler_2_by_crank_1,
-                        coupler_1_with_crank_2 * coupler_2_by_crank_2
-                            - acceleration_0_part_17
-                                .mul_add(
-                                    coupler_2_by_y_1,
-                                    acceleration_0_part_15
+                                x_2_by_crank_3,
+                                right_crank_1 * x_2_by_crank_1
+                                    - right_y_3
                                         .neg_mul_add(
-                                            coupler_2_by_x_1,
-                                            coupler_1_by_y_2
-                                                .mul_add(
-                                                    coupler_2_by_y_2,
-                                                    coupler_1_by_x_2 * coupler_2_by_x_2,
-                                                ),
-                                        ),
-                                ),
-                    ),
-            );
-        let coupler_2_by_coupler_1 = coupler_2_with_coupler_1 * per_pivot_coupler_1;
-        let acceleration_0_part_36 = acceleration_0_part_23
-            .neg_mul_add(
-                coupler_2_by_coupler_1,
-                acceleration_0_part_22
-                    .neg_mul_add(
-                        coupler_2_by_coupler_0,
-                        acceleration_0_part_21
-                            .mul_add(
-                                coupler_2_by_crank_1,
-                                acceleration_0_part_32
-                                    - acceleration_0_part_20
-                                        .mul_add(
-                                            coupler_2_by_y_1,
-                                            acceleration_0_part_19
-                                                .mul_add(
-                                                    coupler_2_by_x_1,
-                                                    lit(1.1666666666666667) * coupler_2_by_x_2,
+                                            x_2_by_y_3,
+                                            right_y_1
+                                                .neg_mul_add(
+                                                    x_2_by_y_1,
+                                                    acceleration_0_part_11
+                                                        .mul_add(x_2_by_x_3, acceleration_0_part_5 * x_2_by_x_1),
                                                 ),
                                         ),
                             ),
                     ),
             );
-        let coupler_2_by_x_3 = acceleration_0_part_36 * per_pivot_x_3;
-        let acceleration_0_part_37 = acceleration_0_part_28
+        let y_2_by_y_1 = lit(0.16666666666666666) * (per_pivot_y_1);
+        let acceleration_0_part_21 = lit(0.16666666666666666) * crank_1_by_y_1;
+        let y_2_by_crank_1 = acceleration_0_part_21 * per_pivot_crank_1;
+        let acceleration_0_part_22 = lit(0.16666666666666666) * coupler_0_by_y_1;
+        let acceleration_0_part_23 = acceleration_0_part_21
+            .neg_mul_add(coupler_0_by_crank_1, acceleration_0_part_22);
+        let y_2_by_coupler_0 = -(acceleration_0_part_23 * per_pivot_coupler_0);
+        let y_2_by_y_3 = lit(0.16666666666666666) * (per_pivot_y_3);
+        let acceleration_0_part_24 = lit(0.16666666666666666) * crank_3_by_y_3;
+        let y_2_by_crank_3 = acceleration_0_part_24 * per_pivot_crank_3;
+        let acceleration_0_part_25 = lit(0.16666666666666666) * coupler_3_by_y_3;
+        let acceleration_0_part_26 = acceleration_0_part_24 * coupler_3_by_crank_3
+            - acceleration_0_part_25;
+        let y_2_by_coupler_3 = acceleration_0_part_26 * per_pivot_coupler_3;
+        let acceleration_0_part_27 = acceleration_0_part_20
             .neg_mul_add(
-                coupler_2_by_coupler_1,
-                acceleration_0_part_27
-                    .neg_mul_add(
-                        coupler_2_by_coupler_0,
-                        acceleration_0_part_26
-                            .mul_add(coupler_2_by_crank_1, acceleration_0_part_34),
-                    ),
-            )
-            - acceleration_0_part_29
-                .mul_add(
-                    coupler_2_by_x_3,
-                    acceleration_0_part_25
-                        .mul_add(
-                            coupler_2_by_y_1,
-                            (acceleration_0_part_2 * y_1_by_crank_2)
-                                .mul_add(
-                                    coupler_2_by_x_1,
-                                    lit(1.1666666666666667) * coupler_2_by_y_2,
-                                ),
-                        ),
-                );
-        let coupler_2_with_crank_3 = (acceleration_0_part_30 * acceleration_0_part_37)
-            .mul_add(per_pivot_y_3, x_3_plus_times_l_2 * coupler_2_by_x_3);
-        let diagonal_coupler_2 = (acceleration_0_part_37 * acceleration_0_part_37)
-            .mul_add(
-                per_pivot_y_3,
-                (acceleration_0_part_36 * acceleration_0_part_36)
+                y_2_by_coupler_3,
+                acceleration_0_part_17
                     .mul_add(
-                        per_pivot_x_3,
-                        (acceleration_0_part_35 * acceleration_0_part_35)
+                        y_2_by_coupler_0,
+                        acceleration_0_part_19
                             .mul_add(
-                                per_pivot_y_1,
-                                (acceleration_0_part_33 * acceleration_0_part_33)
+                                y_2_by_crank_3,
+                                acceleration_0_part_16
                                     .mul_add(
-                                        per_pivot_x_1,
-                                        coupler_2_by_y_2
-                                            .mul_add(
-                                                coupler_2_by_y_2,
-                                                coupler_2_by_x_2 * coupler_2_by_x_2,
+                                        y_2_by_crank_1,
+                                        acceleration_0_part_18
+                                            .mul_add(y_2_by_y_3, acceleration_0_part_15 * y_2_by_y_1),
+                                    ),
+                            ),
+                    ),
+            );
+        let y_2_by_x_2 = acceleration_0_part_27 * per_pivot_x_2;
+        let pivot_y_2 = acceleration_0_part_27
+            .neg_mul_add(
+                y_2_by_x_2,
+                acceleration_0_part_26
+                    .neg_mul_add(
+                        y_2_by_coupler_3,
+                        acceleration_0_part_23
+                            .mul_add(
+                                y_2_by_coupler_0,
+                                acceleration_0_part_24
+                                    .mul_add(
+                                        y_2_by_crank_3,
+                                        lit(0.16666666666666666)
+                                            .neg_mul_add(
+                                                y_2_by_y_3,
+                                                lit(0.16666666666666666)
+                                                    .neg_mul_add(
+                                                        y_2_by_y_1,
+                                                        acceleration_0_part_21.mul_add(y_2_by_crank_1, lit(1.0)),
+                                                    ),
                                             ),
                                     ),
                             ),
                     ),
             );
-        let pivot_coupler_2 = (coupler_2_with_crank_3 * coupler_2_with_crank_3)
-            .mul_add(
-                per_pivot_crank_3,
-                (coupler_2_with_coupler_1 * coupler_2_with_coupler_1)
+        let per_pivot_y_2 = pivot_y_2.recip();
+        let safe_y_2 = S::select_le(lit(0.0009765625), pivot_y_2, safe_x_2, lit(0.0));
+        let right_y_2 = right_coupler_3
+            .neg_mul_add(
+                y_2_by_coupler_3,
+                right_coupler_0
                     .neg_mul_add(
-                        per_pivot_coupler_1,
-                        (coupler_2_with_coupler_0 * coupler_2_with_coupler_0)
-                            .neg_mul_add(
-                                per_pivot_coupler_0,
-                                (per_pivot_crank_1 * coupler_2_with_crank_1)
-                                    .mul_add(
-                                        coupler_2_with_crank_1,
-                                        coupler_2_with_crank_2 * coupler_2_with_crank_2
-                                            * per_pivot_crank_2,
-                                    ),
-                            ),
-                    ) - diagonal_coupler_2,
-            );
-        let per_pivot_coupler_2 = pivot_coupler_2.recip();
-        let safe_coupler_2 = S::select_le(
-            -pivot_coupler_2,
-            lit(0.0009765625) * diagonal_coupler_2,
+                        y_2_by_coupler_0,
+                        right_crank_3
+                            .mul_add(y_2_by_crank_3, right_crank_1 * y_2_by_crank_1),
+                    ),
+            )
+            - right_x_2
+                .mul_add(
+                    y_2_by_x_2,
+                    right_y_3
+                        .mul_add(y_2_by_y_3, right_y_1.mul_add(y_2_by_y_1, times_g_2)),
+                );
+        let x_2_plus_times_l = x_2 + times_l;
+        let crank_2_by_x_2 = x_2_plus_times_l * per_pivot_x_2;
+        let acceleration_0_part_28 = acceleration_0_part_27
+            .neg_mul_add(crank_2_by_x_2, y_2);
+        let pivot_crank_2 = (acceleration_0_part_28 * acceleration_0_part_28)
+            .mul_add(per_pivot_y_2, x_2_plus_times_l * crank_2_by_x_2);
+        let per_pivot_crank_2 = pivot_crank_2.recip();
+        let safe_crank_2 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            pivot_crank_2,
+            safe_y_2,
             lit(0.0),
-            safe_crank_3,
         );
-        let coupler_2_by_crank_3 = coupler_2_with_crank_3 * per_pivot_crank_3;
-        let dot_x_2_minus_dot_x_3 = dot_x_2 - dot_x_3;
-        let dot_y_2_minus_dot_y_3 = dot_y_2 - dot_y_3;
-        let right_coupler_2 = right_crank_3
+        let right_crank_2 = (acceleration_0_part_28 * right_y_2)
             .mul_add(
-                coupler_2_by_crank_3,
-                right_coupler_1
+                per_pivot_y_2,
+                right_x_2
+                    .mul_add(crank_2_by_x_2, dot_y_2.mul_add(dot_y_2, dot_x_2 * dot_x_2)),
+            );
+        let x_1_minus_x_2 = x_1 - x_2;
+        let coupler_1_by_x_1 = x_1_minus_x_2 * per_pivot_x_1;
+        let y_1_minus_y_2 = y_1 - y_2;
+        let acceleration_0_part_29 = acceleration_0_part_4
+            .neg_mul_add(coupler_1_by_x_1, y_1_minus_y_2);
+        let coupler_1_by_y_1 = acceleration_0_part_29 * per_pivot_y_1;
+        let coupler_1_with_crank_1 = acceleration_0_part_6
+            .mul_add(coupler_1_by_y_1, x_1_minus_l * coupler_1_by_x_1);
+        let coupler_1_by_crank_1 = coupler_1_with_crank_1 * per_pivot_crank_1;
+        let coupler_1_with_coupler_0 = coupler_0_with_crank_1
+            .neg_mul_add(
+                coupler_1_by_crank_1,
+                acceleration_0_part_8
+                    .mul_add(coupler_1_by_y_1, acceleration_0_part_7 * coupler_1_by_x_1),
+            );
+        let coupler_1_by_coupler_0 = -(coupler_1_with_coupler_0 * per_pivot_coupler_0);
+        let acceleration_0_part_30 = acceleration_0_part_17
+            .neg_mul_add(
+                coupler_1_by_coupler_0,
+                acceleration_0_part_16
                     .neg_mul_add(
-                        coupler_2_by_coupler_1,
-                        right_coupler_0
+                        coupler_1_by_crank_1,
+                        acceleration_0_part_15
                             .neg_mul_add(
-                                coupler_2_by_coupler_0,
-                                right_crank_1
-                                    .mul_add(
-                                        coupler_2_by_crank_1,
-                                        right_crank_2 * coupler_2_by_crank_2,
-                                    ),
+                                coupler_1_by_y_1,
+                                lit(0.16666666666666666)
+                                    .mul_add(coupler_1_by_x_1, x_1_minus_x_2),
                             ),
+                    ),
+            );
+        let coupler_1_by_x_2 = -(acceleration_0_part_30 * per_pivot_x_2);
+        let acceleration_0_part_31 = acceleration_0_part_23
+            .mul_add(
+                coupler_1_by_coupler_0,
+                acceleration_0_part_21 * coupler_1_by_crank_1,
+            )
+            - acceleration_0_part_27
+                .mul_add(
+                    coupler_1_by_x_2,
+                    lit(0.16666666666666666).mul_add(coupler_1_by_y_1, y_1_minus_y_2),
+                );
+        let coupler_1_with_crank_2 = (acceleration_0_part_28 * acceleration_0_part_31)
+            .mul_add(per_pivot_y_2, x_2_plus_times_l * coupler_1_by_x_2);
+        let coupler_1_by_crank_2 = coupler_1_with_crank_2 * per_pivot_crank_2;
+        let diagonal_coupler_1 = (acceleration_0_part_31 * acceleration_0_part_31)
+            .mul_add(
+                per_pivot_y_2,
+                acceleration_0_part_30
+                    .neg_mul_add(
+                        coupler_1_by_x_2,
+                        acceleration_0_part_29
+                            .mul_add(coupler_1_by_y_1, x_1_minus_x_2 * coupler_1_by_x_1),
+                    ),
+            );
+        let pivot_coupler_1 = coupler_1_with_crank_2
+            .mul_add(
+                coupler_1_by_crank_2,
+                coupler_1_with_coupler_0
+                    .mul_add(
+                        coupler_1_by_coupler_0,
+                        coupler_1_with_crank_1 * coupler_1_by_crank_1,
+                    ) - diagonal_coupler_1,
+            );
+        let per_pivot_coupler_1 = pivot_coupler_1.recip();
+        let safe_coupler_1 = S::select_le(
+            lit(0.0009765625) * diagonal_coupler_1,
+            -pivot_coupler_1,
+            safe_crank_2,
+            lit(0.0),
+        );
+        let dot_x_1_minus_dot_x_2 = dot_x_1 - dot_x_2;
+        let dot_y_1_minus_dot_y_2 = dot_y_1 - dot_y_2;
+        let right_coupler_1 = right_crank_2
+            .mul_add(
+                coupler_1_by_crank_2,
+                right_coupler_0
+                    .neg_mul_add(
+                        coupler_1_by_coupler_0,
+                        right_crank_1 * coupler_1_by_crank_1,
                     )
-                    - (right_y_3 * acceleration_0_part_37)
+                    - (right_y_2 * acceleration_0_part_31)
                         .mul_add(
-                            per_pivot_y_3,
-                            right_x_3
+                            per_pivot_y_2,
+                            right_x_2
                                 .mul_add(
-                                    coupler_2_by_x_3,
+                                    coupler_1_by_x_2,
                                     right_y_1
                                         .mul_add(
-                                            coupler_2_by_y_1,
-                                            right_x_1
+                                            coupler_1_by_y_1,
+                                            acceleration_0_part_5
                                                 .mul_add(
-                                                    coupler_2_by_x_1,
-                                                    times_g
-                                                        .neg_mul_add(
-                                                            coupler_2_by_y_2,
-                                                            dot_y_2_minus_dot_y_3
-                                                                .mul_add(
-                                                                    dot_y_2_minus_dot_y_3,
-                                                                    dot_x_2_minus_dot_x_3 * dot_x_2_minus_dot_x_3,
-                                                                ),
+                                                    coupler_1_by_x_1,
+                                                    dot_y_1_minus_dot_y_2
+                                                        .mul_add(
+                                                            dot_y_1_minus_dot_y_2,
+                                                            dot_x_1_minus_dot_x_2 * dot_x_1_minus_dot_x_2,
                                                         ),
                                                 ),
                                         ),
                                 ),
                         ),
             );
-        let coupler_3_by_x_4 = x_3 - x_4;
-        let acceleration_0_part_38 = lit(1.25) * coupler_3_by_x_4;
-        let coupler_3_by_y_4 = y_3 - y_4;
-        let coupler_3_with_crank_4 = lit(1.5)
-            * coupler_3_by_x_4.mul_add(crank_4_by_x_4, y_4 * coupler_3_by_y_4);
-        let coupler_3_by_crank_4 = coupler_3_with_crank_4 * per_pivot_crank_4;
-        let acceleration_0_part_39 = acceleration_0_part_18
-            .neg_mul_add(coupler_3_by_crank_4, acceleration_0_part_38);
-        let coupler_3_by_x_3 = -(acceleration_0_part_39 * per_pivot_x_3);
-        let acceleration_0_part_40 = acceleration_0_part_24 * coupler_3_by_crank_4
-            - acceleration_0_part_29
-                .mul_add(coupler_3_by_x_3, lit(1.25) * coupler_3_by_y_4);
-        let coupler_3_with_crank_3 = (acceleration_0_part_30 * acceleration_0_part_40)
-            .mul_add(per_pivot_y_3, x_3_plus_times_l_2 * coupler_3_by_x_3);
-        let coupler_3_by_crank_3 = coupler_3_with_crank_3 * per_pivot_crank_3;
-        let coupler_3_with_coupler_2 = coupler_2_with_crank_3 * coupler_3_by_crank_3
-            - (acceleration_0_part_37 * acceleration_0_part_40)
-                .mul_add(per_pivot_y_3, acceleration_0_part_36 * coupler_3_by_x_3);
-        let acceleration_0_part_41 = (acceleration_0_part_40 * acceleration_0_part_40)
+        let x_2_minus_x_3 = x_2 - x_3;
+        let coupler_2_by_x_3 = x_2_minus_x_3 * per_pivot_x_3;
+        let y_2_minus_y_3 = y_2 - y_3;
+        let acceleration_0_part_32 = acceleration_0_part_10
+            .neg_mul_add(coupler_2_by_x_3, y_2_minus_y_3);
+        let coupler_2_by_y_3 = acceleration_0_part_32 * per_pivot_y_3;
+        let coupler_2_with_crank_3 = acceleration_0_part_12
+            .mul_add(coupler_2_by_y_3, x_3_plus_times_l_2 * coupler_2_by_x_3);
+        let coupler_2_by_crank_3 = coupler_2_with_crank_3 * per_pivot_crank_3;
+        let coupler_2_with_coupler_3 = coupler_2_with_crank_3 * coupler_3_by_crank_3
+            - acceleration_0_part_32
+                .mul_add(coupler_3_by_y_3, x_2_minus_x_3 * coupler_3_by_x_3);
+        let coupler_2_by_coupler_3 = coupler_2_with_coupler_3 * per_pivot_coupler_3;
+        let acceleration_0_part_33 = acceleration_0_part_20
+            .neg_mul_add(
+                coupler_2_by_coupler_3,
+                acceleration_0_part_19 * coupler_2_by_crank_3
+                    - acceleration_0_part_18
+                        .neg_mul_add(
+                            coupler_2_by_y_3,
+                            lit(0.16666666666666666)
+                                .mul_add(coupler_2_by_x_3, x_2_minus_x_3),
+                        ),
+            );
+        let coupler_2_by_x_2 = acceleration_0_part_33 * per_pivot_x_2;
+        let acceleration_0_part_34 = acceleration_0_part_26
+            .neg_mul_add(
+                coupler_2_by_coupler_3,
+                acceleration_0_part_24 * coupler_2_by_crank_3,
+            )
+            - acceleration_0_part_27
+                .mul_add(
+                    coupler_2_by_x_2,
+                    lit(0.16666666666666666).mul_add(coupler_2_by_y_3, y_2_minus_y_3),
+                );
+        let coupler_2_with_crank_2 = (acceleration_0_part_28 * acceleration_0_part_34)
+            .mul_add(per_pivot_y_2, x_2_plus_times_l * coupler_2_by_x_2);
+        let coupler_2_by_crank_2 = coupler_2_with_crank_2 * per_pivot_crank_2;
+        let coupler_2_with_coupler_1 = coupler_1_with_crank_2
             .mul_add(
-                per_pivot_y_3,
-                (acceleration_0_part_39 * acceleration_0_part_39)
-                    .mul_add(
-                        per_pivot_x_3,
-                        (lit(1.5) * coupler_3_by_y_4)
-                            .mul_add(
-                                coupler_3_by_y_4,
-                                lit(1.5) * coupler_3_by_x_4 * coupler_3_by_x_4,
-                            ),
+                coupler_2_by_crank_2,
+                (acceleration_0_part_34 * acceleration_0_part_31)
+                    .neg_mul_add(
+                        per_pivot_y_2,
+                        acceleration_0_part_30 * coupler_2_by_x_2,
                     ),
             );
-        let pivot_coupler_3 = pivot_coupler_2
+        let acceleration_0_part_35 = (acceleration_0_part_34 * acceleration_0_part_34)
+            .mul_add(
+                per_pivot_y_2,
+                acceleration_0_part_33
+                    .mul_add(
+                        coupler_2_by_x_2,
+                        acceleration_0_part_32
+                            .mul_add(coupler_2_by_y_3, x_2_minus_x_3 * coupler_2_by_x_3),
+                    ),
+            );
+        let pivot_coupler_2 = coupler_2_with_crank_2
+            .mul_add(
+                coupler_2_by_crank_2,
+                coupler_2_with_coupler_3
+                    .neg_mul_add(
+                        coupler_2_by_coupler_3,
+                        coupler_2_with_crank_3 * coupler_2_by_crank_3,
+                    ) - acceleration_0_part_35,
+            )
             .neg_mul_add(
-                (coupler_3_with_crank_3 * coupler_3_with_crank_3)
-                    .mul_add(
-                        per_pivot_crank_3,
-                        coupler_3_with_crank_4 * coupler_3_with_crank_4
-                            * per_pivot_crank_4 - acceleration_0_part_41,
-                    ),
-                coupler_3_with_coupler_2 * coupler_3_with_coupler_2,
+                pivot_coupler_1,
+                coupler_2_with_coupler_1 * coupler_2_with_coupler_1,
             );
-        let per_pivot_coupler_3 = pivot_coupler_3.recip();
-        let diagonal_coupler_3 = acceleration_0_part_41 * pivot_coupler_2;
-        let safe_coupler_3 = S::select_le(
-            -pivot_coupler_3,
-            lit(-0.0009765625) * diagonal_coupler_3,
+        let per_pivot_coupler_2 = pivot_coupler_2.recip();
+        let diagonal_coupler_2 = acceleration_0_part_35 * pivot_coupler_1;
+        let safe_coupler_2 = S::select_le(
+            lit(-0.0009765625) * diagonal_coupler_2,
+            -pivot_coupler_2,
+            safe_coupler_1,
             lit(0.0),
-            safe_coupler_2,
         );
-        let dot_x_3_minus_dot_x_4 = dot_x_3 - dot_x_4;
-        let dot_y_3_minus_dot_y_4 = dot_y_3 - dot_y_4;
-        let right_coupler_3 = pivot_coupler_2
-            .neg_mul_add(
-                right_crank_3
-                    .mul_add(
-                        coupler_3_by_crank_3,
-                        right_crank_4 * coupler_3_by_crank_4
-                            + (right_y_3 * acceleration_0_part_40)
+        let dot_x_2_minus_dot_x_3 = dot_x_2 - dot_x_3;
+        let dot_y_2_minus_dot_y_3 = dot_y_2 - dot_y_3;
+        let right_coupler_2 = right_crank_2
+            .mul_add(
+                coupler_2_by_crank_2,
+                right_coupler_3
+                    .neg_mul_add(
+                        coupler_2_by_coupler_3,
+                        right_crank_3 * coupler_2_by_crank_3,
+                    )
+                    + (right_y_2 * acceleration_0_part_34)
+                        .neg_mul_add(
+                            per_pivot_y_2,
+                            right_x_2
                                 .neg_mul_add(
-                                    per_pivot_y_3,
-                                    right_x_3
+                                    coupler_2_by_x_2,
+                                    right_y_3
                                         .neg_mul_add(
-                                            coupler_3_by_x_3,
-                                            times_g * coupler_3_by_y_4
-                                                + dot_y_3_minus_dot_y_4
-                                                    .mul_add(
-                                                        dot_y_3_minus_dot_y_4,
-                                                        dot_x_3_minus_dot_x_4 * dot_x_3_minus_dot_x_4,
-                                                    ),
+                                            coupler_2_by_y_3,
+                                            acceleration_0_part_11
+                                                .neg_mul_add(
+                                                    coupler_2_by_x_3,
+                                                    dot_y_2_minus_dot_y_3
+                                                        .mul_add(
+                                                            dot_y_2_minus_dot_y_3,
+                                                            dot_x_2_minus_dot_x_3 * dot_x_2_minus_dot_x_3,
+                                                        ),
+                                                ),
                                         ),
                                 ),
-                    ),
-                right_coupler_2 * coupler_3_with_coupler_2,
-            );
-        let safe = safe_coupler_3;
-        let lambda_coupler_2 = (coupler_3_with_coupler_2 * right_coupler_3
-            * per_pivot_coupler_2)
-            .neg_mul_add(per_pivot_coupler_3, right_coupler_2 * per_pivot_coupler_2);
-        let lambda_crank_3 = coupler_2_by_crank_3
-            .neg_mul_add(
-                lambda_coupler_2,
-                (coupler_3_by_crank_3 * right_coupler_3)
-                    .neg_mul_add(per_pivot_coupler_3, right_crank_3 * per_pivot_crank_3),
-            );
-        let safe_part = (acceleration_0_part_30 * per_pivot_y_3)
-            .neg_mul_add(
-                lambda_crank_3,
-                (acceleration_0_part_37 * per_pivot_y_3)
-                    .neg_mul_add(
-                        lambda_coupler_2,
-                        (acceleration_0_part_40 * per_pivot_y_3 * right_coupler_3)
-                            .neg_mul_add(per_pivot_coupler_3, right_y_3 * per_pivot_y_3),
-                    ),
-            );
-        out[8] = safe_part;
-        let acceleration_9_part = y_3_by_x_3
-            .neg_mul_add(
-                safe_part,
-                crank_3_by_x_3
-                    .neg_mul_add(
-                        lambda_crank_3,
-                        coupler_2_by_x_3
-                            .neg_mul_add(
-                                lambda_coupler_2,
-                                (coupler_3_by_x_3 * right_coupler_3)
-                                    .neg_mul_add(per_pivot_coupler_3, right_x_3 * per_pivot_x_3),
-                            ),
-                    ),
-            );
-        out[3] = acceleration_9_part;
-        let lambda_crank_4 = x_3_by_crank_4
-            .neg_mul_add(
-                acceleration_9_part,
-                y_3_by_crank_4
-                    .neg_mul_add(
-                        safe_part,
-                        (coupler_3_by_crank_4 * right_coupler_3)
-                            .neg_mul_add(
-                                per_pivot_coupler_3,
-                                right_crank_4 * per_pivot_crank_4,
-                            ),
-                    ),
-            );
-        out[4] = lit(-0.25)
-            * (lit(6.0) * crank_4_by_x_4)
-                .mul_add(
-                    lambda_crank_4,
-                    lit(6.0) * coupler_3_by_x_4 * right_coupler_3 * per_pivot_coupler_3
-                        + acceleration_9_part,
-                );
-        out[9] = lit(-0.25)
-            * (lit(6.0) * y_4)
-                .mul_add(
-                    lambda_crank_4,
-                    (lit(6.0) * coupler_3_by_y_4 * right_coupler_3)
-                        .mul_add(per_pivot_coupler_3, times_g_2) + safe_part,
-                );
-        let lambda_coupler_1 = x_3_by_coupler_1
-            .neg_mul_add(
-                acceleration_9_part,
-                y_3_by_coupler_1
-                    .neg_mul_add(
-                        safe_part,
-                        coupler_2_by_coupler_1
-                            .neg_mul_add(
-                                lambda_coupler_2,
-                                right_coupler_1 * per_pivot_coupler_1,
-                            ),
-                    ),
-            );
-        let lambda_coupler_0 = coupler_1_by_coupler_0
+                        ),
+            )
+            .neg_mul_add(pivot_coupler_1, coupler_2_with_coupler_1 * right_coupler_1);
+        let safe = safe_coupler_2;
+        let lambda_coupler_1 = (coupler_2_with_coupler_1 * right_coupler_2
+            * per_pivot_coupler_1)
+            .neg_mul_add(per_pivot_coupler_2, right_coupler_1 * per_pivot_coupler_1);
+        let lambda_crank_2 = coupler_1_by_crank_2
             .neg_mul_add(
                 lambda_coupler_1,
-                x_3_by_coupler_0
+                (coupler_2_by_crank_2 * right_coupler_2)
+                    .neg_mul_add(per_pivot_coupler_2, right_crank_2 * per_pivot_crank_2),
+            );
+        let safe_part = (acceleration_0_part_28 * per_pivot_y_2)
+            .neg_mul_add(
+                lambda_crank_2,
+                (acceleration_0_part_31 * per_pivot_y_2)
                     .neg_mul_add(
-                        acceleration_9_part,
-                        y_3_by_coupler_0
+                        lambda_coupler_1,
+                        (acceleration_0_part_34 * per_pivot_y_2 * right_coupler_2)
+                            .neg_mul_add(per_pivot_coupler_2, right_y_2 * per_pivot_y_2),
+                    ),
+            );
+        out[7] = safe_part;
+        let acceleration_8_part = y_2_by_x_2
+            .neg_mul_add(
+                safe_part,
+                crank_2_by_x_2
+                    .neg_mul_add(
+                        lambda_crank_2,
+                        coupler_1_by_x_2
                             .neg_mul_add(
-                                safe_part,
-                                coupler_2_by_coupler_0
-                                    .neg_mul_add(
-                                        lambda_coupler_2,
-                                        right_coupler_0 * per_pivot_coupler_0,
-                                    ),
+                                lambda_coupler_1,
+                                (coupler_2_by_x_2 * right_coupler_2)
+                                    .neg_mul_add(per_pivot_coupler_2, right_x_2 * per_pivot_x_2),
+                            ),
+                    ),
+            );
+        out[2] = acceleration_8_part;
+        let lambda_coupler_0 = x_2_by_coupler_0
+            .neg_mul_add(
+                acceleration_8_part,
+                y_2_by_coupler_0
+                    .neg_mul_add(
+                        safe_part,
+                        coupler_1_by_coupler_0
+                            .neg_mul_add(
+                                lambda_coupler_1,
+                                right_coupler_0 * per_pivot_coupler_0,
                             ),
                     ),
             );
         let lambda_crank_1 = coupler_0_by_crank_1
             .neg_mul_add(
                 lambda_coupler_0,
-                coupler_1_by_crank_1
+                x_2_by_crank_1
                     .neg_mul_add(
-                        lambda_coupler_1,
-                        x_3_by_crank_1
+                        acceleration_8_part,
+                        y_2_by_crank_1
                             .neg_mul_add(
-                                acceleration_9_part,
-                                y_3_by_crank_1
+                                safe_part,
+                                coupler_1_by_crank_1
                                     .neg_mul_add(
-                                        safe_part,
-                                        coupler_2_by_crank_1
-                                            .neg_mul_add(
-                                                lambda_coupler_2,
-                                                right_crank_1 * per_pivot_crank_1,
-                                            ),
+                                        lambda_coupler_1,
+                                        right_crank_1 * per_pivot_crank_1,
                                     ),
                             ),
                     ),
             );
-        let safe_part_2 = crank_1_by_y_1
+        let acceleration_3_part = crank_1_by_y_1
             .neg_mul_add(
                 lambda_crank_1,
                 coupler_0_by_y_1
                     .neg_mul_add(
                         lambda_coupler_0,
-                        coupler_1_by_y_1
-                            .neg_mul_add(
-                                lambda_coupler_1,
-                                x_3_by_y_1
+                        x_2_by_y_1
+                            .mul_add(
+                                acceleration_8_part,
+                                y_2_by_y_1
                                     .neg_mul_add(
-                                        acceleration_9_part,
-                                        y_3_by_y_1
-                                            .neg_mul_add(
-                                                safe_part,
-                                                coupler_2_by_y_1
-                                                    .neg_mul_add(lambda_coupler_2, right_y_1 * per_pivot_y_1),
-                                            ),
+                                        safe_part,
+                                        coupler_1_by_y_1
+                                            .neg_mul_add(lambda_coupler_1, right_y_1 * per_pivot_y_1),
                                     ),
                             ),
                     ),
             );
-        out[6] = safe_part_2;
-        let acceleration_7_part = y_1_by_x_1
+        out[6] = acceleration_3_part;
+        let lambda_coupler_3 = x_2_by_coupler_3
             .neg_mul_add(
-                safe_part_2,
+                acceleration_8_part,
+                y_2_by_coupler_3
+                    .neg_mul_add(
+                        safe_part,
+                        (coupler_2_by_coupler_3 * right_coupler_2)
+                            .neg_mul_add(
+                                per_pivot_coupler_2,
+                                right_coupler_3 * per_pivot_coupler_3,
+                            ),
+                    ),
+            );
+        let lambda_crank_3 = coupler_3_by_crank_3
+            .neg_mul_add(
+                lambda_coupler_3,
+                x_2_by_crank_3
+                    .neg_mul_add(
+                        acceleration_8_part,
+                        y_2_by_crank_3
+                            .neg_mul_add(
+                                safe_part,
+                                (coupler_2_by_crank_3 * right_coupler_2)
+                                    .neg_mul_add(
+                                        per_pivot_coupler_2,
+                                        right_crank_3 * per_pivot_crank_3,
+                                    ),
+                            ),
+                    ),
+            );
+        let acceleration_7_part = crank_3_by_y_3
+            .neg_mul_add(
+                lambda_crank_3,
+                coupler_3_by_y_3
+                    .neg_mul_add(
+                        lambda_coupler_3,
+                        x_2_by_y_3
+                            .mul_add(
+                                acceleration_8_part,
+                                y_2_by_y_3
+                                    .neg_mul_add(
+                                        safe_part,
+                                        (coupler_2_by_y_3 * right_coupler_2)
+                                            .neg_mul_add(per_pivot_coupler_2, right_y_3 * per_pivot_y_3),
+                                    ),
+                            ),
+                    ),
+            );
+        out[8] = acceleration_7_part;
+        let acceleration_9_part = y_1_by_x_1
+            .neg_mul_add(
+                acceleration_3_part,
                 crank_1_by_x_1
                     .neg_mul_add(
                         lambda_crank_1,
                         coupler_0_by_x_1
                             .neg_mul_add(
                                 lambda_coupler_0,
-                                coupler_1_by_x_1
+                                x_2_by_x_1
                                     .neg_mul_add(
-                                        lambda_coupler_1,
-                                        x_3_by_x_1
+                                        acceleration_8_part,
+                                        coupler_1_by_x_1
                                             .neg_mul_add(
-                                                acceleration_9_part,
-                                                y_3_by_x_1
-                                                    .neg_mul_add(
-                                                        safe_part,
-                                                        coupler_2_by_x_1
-                                                            .neg_mul_add(lambda_coupler_2, right_x_1 * per_pivot_x_1),
-                                                    ),
+                                                lambda_coupler_1,
+                                                right_crank_0 * x_1_by_crank_0 * per_pivot_x_1,
                                             ),
                                     ),
                             ),
                     ),
             );
-        out[1] = acceleration_7_part;
-        let lambda_crank_0 = x_1_by_crank_0
+        out[1] = acceleration_9_part;
+        let acceleration_2_part = y_3_by_x_3
             .neg_mul_add(
                 acceleration_7_part,
+                crank_3_by_x_3
+                    .neg_mul_add(
+                        lambda_crank_3,
+                        coupler_3_by_x_3
+                            .neg_mul_add(
+                                lambda_coupler_3,
+                                x_2_by_x_3
+                                    .neg_mul_add(
+                                        acceleration_8_part,
+                                        (coupler_2_by_x_3 * right_coupler_2)
+                                            .neg_mul_add(
+                                                per_pivot_coupler_2,
+                                                right_crank_4 * x_3_by_crank_4 * per_pivot_x_3,
+                                            ),
+                                    ),
+                            ),
+                    ),
+            );
+        out[3] = acceleration_2_part;
+        let lambda_crank_0 = x_1_by_crank_0
+            .neg_mul_add(
+                acceleration_9_part,
                 y_1_by_crank_0
                     .neg_mul_add(
-                        safe_part_2,
+                        acceleration_3_part,
                         coupler_0_by_crank_0
                             .neg_mul_add(
                                 lambda_coupler_0,
@@ -1728,77 +1718,44 @@ impl ::ukcore::Mechanism for FourBars {
                     ),
             );
         out[0] = lit(-0.25)
-            * (lit(6.0) * x_0)
+            * (lit(4.0) * crank_0_by_x_0)
                 .mul_add(
                     lambda_crank_0,
-                    lit(6.0) * coupler_0_by_x_0 * lambda_coupler_0 + acceleration_7_part,
+                    lit(4.0) * coupler_0_by_x_0 * lambda_coupler_0 + acceleration_9_part,
                 );
-        let lambda_crank_2 = x_1_by_crank_2
+        let lambda_crank_4 = x_3_by_crank_4
             .neg_mul_add(
-                acceleration_7_part,
-                y_1_by_crank_2
-                    .neg_mul_add(
-                        safe_part_2,
-                        coupler_1_by_crank_2
-                            .neg_mul_add(
-                                lambda_coupler_1,
-                                x_1_by_crank_2
-                                    .neg_mul_add(
-                                        acceleration_9_part,
-                                        y_1_by_crank_2
-                                            .neg_mul_add(
-                                                safe_part,
-                                                coupler_2_by_crank_2
-                                                    .neg_mul_add(
-                                                        lambda_coupler_2,
-                                                        right_crank_2 * per_pivot_crank_2,
-                                                    ),
-                                            ),
-                                    ),
-                            ),
-                    ),
-            );
-        out[2] = crank_2_by_x_2
-            .neg_mul_add(
-                lambda_crank_2,
-                lit(0.16666666666666666)
+                acceleration_2_part,
+                y_3_by_crank_4
                     .neg_mul_add(
                         acceleration_7_part,
-                        coupler_1_by_x_2
+                        coupler_3_by_crank_4
                             .neg_mul_add(
-                                lambda_coupler_1,
-                                lit(0.16666666666666666)
-                                    .neg_mul_add(
-                                        acceleration_9_part,
-                                        -(coupler_2_by_x_2 * lambda_coupler_2),
-                                    ),
+                                lambda_coupler_3,
+                                right_crank_4 * per_pivot_crank_4,
                             ),
                     ),
             );
+        out[4] = lit(-0.25)
+            * (lit(4.0) * crank_4_by_x_4)
+                .mul_add(
+                    lambda_crank_4,
+                    lit(4.0) * coupler_3_by_x_4 * lambda_coupler_3 + acceleration_2_part,
+                );
         out[5] = lit(-0.25)
-            * (lit(6.0) * y_0)
+            * (lit(4.0) * crank_0_by_y_0)
                 .mul_add(
                     lambda_crank_0,
-                    (lit(6.0) * coupler_0_by_y_0).mul_add(lambda_coupler_0, times_g_2)
-                        + safe_part_2,
+                    (lit(4.0) * coupler_0_by_y_0).mul_add(lambda_coupler_0, times_g_3)
+                        + acceleration_3_part,
                 );
-        out[7] = y_2
-            .neg_mul_add(
-                lambda_crank_2,
-                lit(0.16666666666666666)
-                    .neg_mul_add(
-                        safe_part_2,
-                        coupler_1_by_y_2
-                            .neg_mul_add(
-                                lambda_coupler_1,
-                                lit(0.16666666666666666)
-                                    .neg_mul_add(
-                                        safe_part,
-                                        coupler_2_by_y_2.neg_mul_add(lambda_coupler_2, -times_g),
-                                    ),
-                            ),
-                    ),
-            );
+        out[9] = lit(-0.25)
+            * (lit(4.0) * crank_4_by_y_4)
+                .mul_add(
+                    lambda_crank_4,
+                    (lit(4.0) * coupler_3_by_y_4).mul_add(lambda_coupler_3, times_g_3)
+                        + acceleration_7_part,
+                );
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
@@ -1810,9 +1767,9 @@ impl ::ukcore::Mechanism for FourBars {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 10>(out, "out");
-        let [_, _, _, l, times_l, times_l_2, times_l_3, _, _, _, safe_x_0, _, _, _] = *::ukcore::emitted::exact::<
+        let [_, _, _, l, times_l, times_l_2, times_l_3, _, _, _, _, safe_x_0, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            14,
+            15,
         >(prepared, "prepared");
         let [x_0, x_1, x_2, x_3, x_4, y_0, y_1, y_2, y_3, y_4] = *::ukcore::emitted::exact::<
             S,
@@ -1824,295 +1781,244 @@ impl ::ukcore::Mechanism for FourBars {
             9,
         >(residual, "residual");
         let lit = S::from_f64;
-        let pivot_crank_0 = lit(1.5) * y_0.mul_add(y_0, x_0 * x_0);
+        let crank_0_by_x_0 = lit(1.5) * x_0;
+        let crank_0_by_y_0 = lit(1.5) * y_0;
+        let pivot_crank_0 = y_0.mul_add(crank_0_by_y_0, x_0 * crank_0_by_x_0);
         let per_pivot_crank_0 = pivot_crank_0.recip();
-        let safe_crank_0 = S::select_le(pivot_crank_0, lit(0.0), lit(0.0), safe_x_0);
-        let crank_4_by_x_4 = x_4 + times_l_3;
-        let pivot_crank_4 = lit(1.5) * crank_4_by_x_4.mul_add(crank_4_by_x_4, y_4 * y_4);
+        let safe_crank_0 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            pivot_crank_0,
+            safe_x_0,
+            lit(0.0),
+        );
+        let crank_4_by_y_4 = lit(1.5) * y_4;
+        let x_4_plus_times_l_3 = x_4 + times_l_3;
+        let crank_4_by_x_4 = lit(1.5) * x_4_plus_times_l_3;
+        let pivot_crank_4 = x_4_plus_times_l_3
+            .mul_add(crank_4_by_x_4, y_4 * crank_4_by_y_4);
         let per_pivot_crank_4 = pivot_crank_4.recip();
-        let safe_crank_4 = S::select_le(pivot_crank_4, lit(0.0), lit(0.0), safe_crank_0);
-        let crank_2_by_x_2 = x_2 + times_l;
-        let pivot_crank_2 = crank_2_by_x_2.mul_add(crank_2_by_x_2, y_2 * y_2);
-        let per_pivot_crank_2 = pivot_crank_2.recip();
-        let safe_crank_2 = S::select_le(pivot_crank_2, lit(0.0), lit(0.0), safe_crank_4);
-        let correction_0_part = lit(0.25) * x_0;
-        let correction_0_part_2 = lit(0.16666666666666666) * crank_2_by_x_2;
-        let correction_0_part_3 = correction_0_part_2 * correction_0_part_2
-            * per_pivot_crank_2;
-        let pivot_x_1 = (correction_0_part * correction_0_part)
-            .mul_add(per_pivot_crank_0, lit(0.9305555555555556)) + correction_0_part_3;
+        let safe_crank_4 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            pivot_crank_4,
+            safe_crank_0,
+            lit(0.0),
+        );
+        let correction_0_part = lit(0.16666666666666666) * crank_0_by_x_0;
+        let x_1_by_crank_0 = correction_0_part * per_pivot_crank_0;
+        let pivot_x_1 = correction_0_part
+            .mul_add(x_1_by_crank_0, lit(0.9583333333333334));
         let per_pivot_x_1 = pivot_x_1.recip();
         let safe_x_1 = S::select_le(
-            pivot_x_1,
             lit(0.0009765625),
+            pivot_x_1,
+            safe_crank_4,
             lit(0.0),
-            safe_crank_2,
         );
-        let correction_0_part_4 = lit(0.25) * y_0;
-        let correction_0_part_5 = lit(0.16666666666666666) * y_2;
-        let correction_0_part_6 = correction_0_part_5 * correction_0_part_5
-            * per_pivot_crank_2;
-        let y_1_by_crank_0 = correction_0_part_4 * per_pivot_crank_0;
-        let y_1_by_crank_2 = correction_0_part_5 * per_pivot_crank_2;
-        let correction_0_part_7 = correction_0_part_2 * y_1_by_crank_2;
-        let correction_0_part_8 = correction_0_part * y_1_by_crank_0
-            + correction_0_part_7;
-        let pivot_y_1 = (correction_0_part_8 * correction_0_part_8)
+        let correction_0_part_2 = lit(0.16666666666666666) * crank_4_by_x_4;
+        let x_3_by_crank_4 = correction_0_part_2 * per_pivot_crank_4;
+        let pivot_x_3 = correction_0_part_2
+            .mul_add(x_3_by_crank_4, lit(0.9583333333333334));
+        let per_pivot_x_3 = pivot_x_3.recip();
+        let safe_x_3 = S::select_le(lit(0.0009765625), pivot_x_3, safe_x_1, lit(0.0));
+        let correction_0_part_3 = lit(0.16666666666666666) * crank_0_by_y_0;
+        let y_1_by_crank_0 = correction_0_part_3 * per_pivot_crank_0;
+        let correction_0_part_4 = correction_0_part * y_1_by_crank_0;
+        let y_1_by_x_1 = correction_0_part_4 * per_pivot_x_1;
+        let pivot_y_1 = correction_0_part_4
             .neg_mul_add(
-                per_pivot_x_1,
-                (correction_0_part_4 * correction_0_part_4)
-                    .mul_add(per_pivot_crank_0, lit(0.9305555555555556))
-                    + correction_0_part_6,
+                y_1_by_x_1,
+                correction_0_part_3.mul_add(y_1_by_crank_0, lit(0.9583333333333334)),
             );
         let per_pivot_y_1 = pivot_y_1.recip();
-        let safe_y_1 = S::select_le(pivot_y_1, lit(0.0009765625), lit(0.0), safe_x_1);
+        let safe_y_1 = S::select_le(lit(0.0009765625), pivot_y_1, safe_x_3, lit(0.0));
         let x_1_minus_l = x_1 - l;
         let crank_1_by_x_1 = x_1_minus_l * per_pivot_x_1;
-        let correction_0_part_9 = correction_0_part_8.neg_mul_add(crank_1_by_x_1, y_1);
-        let pivot_crank_1 = (correction_0_part_9 * correction_0_part_9)
-            .mul_add(per_pivot_y_1, x_1_minus_l * x_1_minus_l * per_pivot_x_1);
+        let correction_0_part_5 = correction_0_part_4.neg_mul_add(crank_1_by_x_1, y_1);
+        let crank_1_by_y_1 = correction_0_part_5 * per_pivot_y_1;
+        let pivot_crank_1 = correction_0_part_5
+            .mul_add(crank_1_by_y_1, x_1_minus_l * crank_1_by_x_1);
         let per_pivot_crank_1 = pivot_crank_1.recip();
-        let safe_crank_1 = S::select_le(pivot_crank_1, lit(0.0), lit(0.0), safe_y_1);
-        let coupler_0_by_x_0 = x_0 - x_1;
-        let coupler_0_by_y_0 = y_0 - y_1;
-        let coupler_0_with_crank_0 = lit(1.5)
-            * y_0.mul_add(coupler_0_by_y_0, x_0 * coupler_0_by_x_0);
+        let safe_crank_1 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            pivot_crank_1,
+            safe_y_1,
+            lit(0.0),
+        );
+        let x_0_minus_x_1 = x_0 - x_1;
+        let coupler_0_by_x_0 = lit(1.5) * x_0_minus_x_1;
+        let y_0_minus_y_1 = y_0 - y_1;
+        let coupler_0_by_y_0 = lit(1.5) * y_0_minus_y_1;
+        let coupler_0_with_crank_0 = y_0
+            .mul_add(coupler_0_by_y_0, x_0 * coupler_0_by_x_0);
         let coupler_0_by_crank_0 = coupler_0_with_crank_0 * per_pivot_crank_0;
-        let correction_0_part_10 = lit(1.25) * coupler_0_by_x_0;
-        let correction_0_part_11 = correction_0_part * coupler_0_by_crank_0
-            - correction_0_part_10;
-        let coupler_0_by_x_1 = correction_0_part_11 * per_pivot_x_1;
-        let correction_0_part_12 = correction_0_part_4 * coupler_0_by_crank_0
-            - correction_0_part_8
-                .mul_add(coupler_0_by_x_1, lit(1.25) * coupler_0_by_y_0);
-        let coupler_0_by_y_1 = correction_0_part_12 * per_pivot_y_1;
-        let coupler_0_with_crank_1 = correction_0_part_9
-            .mul_add(coupler_0_by_y_1, x_1_minus_l * coupler_0_by_x_1);
-        let diagonal_coupler_0 = (correction_0_part_12 * correction_0_part_12)
+        let correction_0_part_6 = correction_0_part * coupler_0_by_crank_0
+            - lit(0.16666666666666666).mul_add(coupler_0_by_x_0, x_0_minus_x_1);
+        let coupler_0_by_x_1 = correction_0_part_6 * per_pivot_x_1;
+        let correction_0_part_7 = correction_0_part_3 * coupler_0_by_crank_0
+            - correction_0_part_4
+                .mul_add(
+                    coupler_0_by_x_1,
+                    lit(0.16666666666666666).mul_add(coupler_0_by_y_0, y_0_minus_y_1),
+                );
+        let coupler_0_by_y_1 = correction_0_part_7 * per_pivot_y_1;
+        let diagonal_coupler_0 = correction_0_part_7
             .mul_add(
-                per_pivot_y_1,
-                (correction_0_part_11 * correction_0_part_11)
+                coupler_0_by_y_1,
+                correction_0_part_6
                     .mul_add(
-                        per_pivot_x_1,
-                        (lit(1.5) * coupler_0_by_y_0)
-                            .mul_add(
-                                coupler_0_by_y_0,
-                                lit(1.5) * coupler_0_by_x_0 * coupler_0_by_x_0,
-                            ),
+                        coupler_0_by_x_1,
+                        y_0_minus_y_1
+                            .mul_add(coupler_0_by_y_0, x_0_minus_x_1 * coupler_0_by_x_0),
                     ),
             );
-        let pivot_coupler_0 = (per_pivot_crank_1 * coupler_0_with_crank_1)
+        let coupler_0_with_crank_1 = correction_0_part_5
+            .mul_add(coupler_0_by_y_1, x_1_minus_l * coupler_0_by_x_1);
+        let coupler_0_by_crank_1 = coupler_0_with_crank_1 * per_pivot_crank_1;
+        let pivot_coupler_0 = coupler_0_with_crank_1
             .mul_add(
-                coupler_0_with_crank_1,
-                coupler_0_with_crank_0 * coupler_0_with_crank_0 * per_pivot_crank_0
-                    - diagonal_coupler_0,
+                coupler_0_by_crank_1,
+                coupler_0_with_crank_0 * coupler_0_by_crank_0 - diagonal_coupler_0,
             );
         let per_pivot_coupler_0 = pivot_coupler_0.recip();
         let safe_coupler_0 = S::select_le(
-            -pivot_coupler_0,
             lit(0.0009765625) * diagonal_coupler_0,
-            lit(0.0),
+            -pivot_coupler_0,
             safe_crank_1,
-        );
-        let coupler_1_by_y_2 = y_1 - y_2;
-        let coupler_1_by_x_2 = x_1 - x_2;
-        let coupler_1_with_crank_2 = coupler_1_by_x_2
-            .mul_add(crank_2_by_x_2, y_2 * coupler_1_by_y_2);
-        let correction_0_part_13 = lit(1.1666666666666667) * coupler_1_by_x_2;
-        let coupler_1_by_crank_2 = coupler_1_with_crank_2 * per_pivot_crank_2;
-        let correction_0_part_14 = correction_0_part_2 * coupler_1_by_crank_2;
-        let correction_0_part_15 = correction_0_part_13 - correction_0_part_14;
-        let coupler_1_by_x_1 = -(correction_0_part_15 * per_pivot_x_1);
-        let correction_0_part_16 = correction_0_part_5 * coupler_1_by_crank_2;
-        let correction_0_part_17 = correction_0_part_16
-            - correction_0_part_8
-                .mul_add(coupler_1_by_x_1, lit(1.1666666666666667) * coupler_1_by_y_2);
-        let coupler_1_by_y_1 = correction_0_part_17 * per_pivot_y_1;
-        let coupler_1_with_crank_1 = correction_0_part_9
-            .mul_add(coupler_1_by_y_1, x_1_minus_l * coupler_1_by_x_1);
-        let coupler_1_by_crank_1 = per_pivot_crank_1 * coupler_1_with_crank_1;
-        let coupler_1_with_coupler_0 = coupler_0_with_crank_1 * coupler_1_by_crank_1
-            - correction_0_part_12
-                .mul_add(coupler_1_by_y_1, correction_0_part_11 * coupler_1_by_x_1);
-        let diagonal_coupler_1 = (correction_0_part_17 * correction_0_part_17)
-            .mul_add(
-                per_pivot_y_1,
-                (correction_0_part_15 * correction_0_part_15)
-                    .mul_add(
-                        per_pivot_x_1,
-                        coupler_1_by_y_2
-                            .mul_add(
-                                coupler_1_by_y_2,
-                                coupler_1_by_x_2 * coupler_1_by_x_2,
-                            ),
-                    ),
-            );
-        let pivot_coupler_1 = (coupler_1_with_coupler_0 * coupler_1_with_coupler_0)
-            .neg_mul_add(
-                per_pivot_coupler_0,
-                (per_pivot_crank_1 * coupler_1_with_crank_1)
-                    .mul_add(
-                        coupler_1_with_crank_1,
-                        coupler_1_with_crank_2 * coupler_1_with_crank_2
-                            * per_pivot_crank_2 - diagonal_coupler_1,
-                    ),
-            );
-        let per_pivot_coupler_1 = pivot_coupler_1.recip();
-        let safe_coupler_1 = S::select_le(
-            -pivot_coupler_1,
-            lit(0.0009765625) * diagonal_coupler_1,
             lit(0.0),
-            safe_coupler_0,
         );
-        let correction_0_part_18 = lit(0.25) * crank_4_by_x_4;
-        let x_1_by_crank_2 = correction_0_part_2 * per_pivot_crank_2;
-        let correction_0_part_19 = correction_0_part_2 * x_1_by_crank_2
-            - lit(0.027777777777777776);
-        let y_1_by_x_1 = correction_0_part_8 * per_pivot_x_1;
-        let correction_0_part_20 = correction_0_part_19
-            .neg_mul_add(y_1_by_x_1, correction_0_part_7);
-        let crank_1_by_y_1 = correction_0_part_9 * per_pivot_y_1;
-        let correction_0_part_21 = correction_0_part_20
-            .mul_add(crank_1_by_y_1, correction_0_part_19 * crank_1_by_x_1);
-        let coupler_0_by_crank_1 = per_pivot_crank_1 * coupler_0_with_crank_1;
-        let correction_0_part_22 = correction_0_part_21 * coupler_0_by_crank_1
-            - correction_0_part_20
-                .mul_add(coupler_0_by_y_1, correction_0_part_19 * coupler_0_by_x_1);
-        let coupler_1_by_coupler_0 = coupler_1_with_coupler_0 * per_pivot_coupler_0;
-        let correction_0_part_23 = correction_0_part_22
+        let correction_0_part_8 = lit(0.16666666666666666) * crank_4_by_y_4;
+        let y_3_by_crank_4 = correction_0_part_8 * per_pivot_crank_4;
+        let correction_0_part_9 = correction_0_part_2 * y_3_by_crank_4;
+        let y_3_by_x_3 = correction_0_part_9 * per_pivot_x_3;
+        let pivot_y_3 = correction_0_part_9
             .neg_mul_add(
-                coupler_1_by_coupler_0,
-                correction_0_part_21
-                    .mul_add(
-                        coupler_1_by_crank_1,
-                        correction_0_part_14
-                            - correction_0_part_20
-                                .mul_add(
-                                    coupler_1_by_y_1,
-                                    correction_0_part_19
-                                        .mul_add(
-                                            coupler_1_by_x_1,
-                                            lit(0.16666666666666666) * coupler_1_by_x_2,
-                                        ),
-                                ),
-                    ),
+                y_3_by_x_3,
+                correction_0_part_8.mul_add(y_3_by_crank_4, lit(0.9583333333333334)),
             );
-        let pivot_x_3 = (correction_0_part_23 * correction_0_part_23)
-            .neg_mul_add(
-                per_pivot_coupler_1,
-                (correction_0_part_22 * correction_0_part_22)
-                    .neg_mul_add(
-                        per_pivot_coupler_0,
-                        (correction_0_part_21 * correction_0_part_21)
-                            .mul_add(
-                                per_pivot_crank_1,
-                                (correction_0_part_20 * correction_0_part_20)
-                                    .neg_mul_add(
-                                        per_pivot_y_1,
-                                        (correction_0_part_19 * correction_0_part_19)
-                                            .neg_mul_add(
-                                                per_pivot_x_1,
-                                                (correction_0_part_18 * correction_0_part_18)
-                                                    .mul_add(
-                                                        per_pivot_crank_4,
-                                                        lit(0.9305555555555556) + correction_0_part_3,
-                                                    ),
-                                            ),
-                                    ),
-                            ),
-                    ),
-            );
-        let per_pivot_x_3 = pivot_x_3.recip();
-        let safe_x_3 = S::select_le(
-            pivot_x_3,
+        let per_pivot_y_3 = pivot_y_3.recip();
+        let safe_y_3 = S::select_le(
             lit(0.0009765625),
+            pivot_y_3,
+            safe_coupler_0,
             lit(0.0),
-            safe_coupler_1,
         );
-        let correction_0_part_24 = lit(0.25) * y_4;
-        let y_3_by_x_1 = correction_0_part_2 * y_1_by_crank_2 * per_pivot_x_1;
-        let correction_0_part_25 = correction_0_part_8
-            .neg_mul_add(y_3_by_x_1, correction_0_part_5 * y_1_by_crank_2)
-            - lit(0.027777777777777776);
-        let correction_0_part_26 = correction_0_part_25
-            .mul_add(
-                crank_1_by_y_1,
-                correction_0_part_2 * y_1_by_crank_2 * crank_1_by_x_1,
+        let x_3_plus_times_l_2 = x_3 + times_l_2;
+        let crank_3_by_x_3 = x_3_plus_times_l_2 * per_pivot_x_3;
+        let correction_0_part_10 = correction_0_part_9.neg_mul_add(crank_3_by_x_3, y_3);
+        let crank_3_by_y_3 = correction_0_part_10 * per_pivot_y_3;
+        let pivot_crank_3 = correction_0_part_10
+            .mul_add(crank_3_by_y_3, x_3_plus_times_l_2 * crank_3_by_x_3);
+        let per_pivot_crank_3 = pivot_crank_3.recip();
+        let safe_crank_3 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            pivot_crank_3,
+            safe_y_3,
+            lit(0.0),
+        );
+        let y_3_minus_y_4 = y_3 - y_4;
+        let coupler_3_by_y_4 = lit(1.5) * y_3_minus_y_4;
+        let x_3_minus_x_4 = x_3 - x_4;
+        let coupler_3_by_x_4 = lit(1.5) * x_3_minus_x_4;
+        let coupler_3_with_crank_4 = x_4_plus_times_l_3
+            .mul_add(coupler_3_by_x_4, y_4 * coupler_3_by_y_4);
+        let coupler_3_by_crank_4 = coupler_3_with_crank_4 * per_pivot_crank_4;
+        let correction_0_part_11 = correction_0_part_2
+            .neg_mul_add(
+                coupler_3_by_crank_4,
+                lit(0.16666666666666666).mul_add(coupler_3_by_x_4, x_3_minus_x_4),
             );
-        let correction_0_part_27 = correction_0_part_26 * coupler_0_by_crank_1
-            - correction_0_part_25
+        let coupler_3_by_x_3 = -(correction_0_part_11 * per_pivot_x_3);
+        let correction_0_part_12 = correction_0_part_8 * coupler_3_by_crank_4
+            - correction_0_part_9
                 .mul_add(
-                    coupler_0_by_y_1,
-                    correction_0_part_2 * y_1_by_crank_2 * coupler_0_by_x_1,
+                    coupler_3_by_x_3,
+                    lit(0.16666666666666666).mul_add(coupler_3_by_y_4, y_3_minus_y_4),
                 );
-        let correction_0_part_28 = correction_0_part_27
+        let coupler_3_by_y_3 = correction_0_part_12 * per_pivot_y_3;
+        let coupler_3_with_crank_3 = correction_0_part_10
+            .mul_add(coupler_3_by_y_3, x_3_plus_times_l_2 * coupler_3_by_x_3);
+        let coupler_3_by_crank_3 = coupler_3_with_crank_3 * per_pivot_crank_3;
+        let diagonal_coupler_3 = correction_0_part_12
+            .mul_add(
+                coupler_3_by_y_3,
+                correction_0_part_11
+                    .neg_mul_add(
+                        coupler_3_by_x_3,
+                        y_3_minus_y_4
+                            .mul_add(coupler_3_by_y_4, x_3_minus_x_4 * coupler_3_by_x_4),
+                    ),
+            );
+        let pivot_coupler_3 = coupler_3_with_crank_3
+            .mul_add(
+                coupler_3_by_crank_3,
+                coupler_3_with_crank_4 * coupler_3_by_crank_4 - diagonal_coupler_3,
+            );
+        let per_pivot_coupler_3 = pivot_coupler_3.recip();
+        let safe_coupler_3 = S::select_le(
+            lit(0.0009765625) * diagonal_coupler_3,
+            -pivot_coupler_3,
+            safe_crank_3,
+            lit(0.0),
+        );
+        let x_2_by_x_1 = lit(0.16666666666666666) * (per_pivot_x_1);
+        let correction_0_part_13 = lit(0.16666666666666666) * y_1_by_x_1;
+        let x_2_by_y_1 = correction_0_part_13 * per_pivot_y_1;
+        let x_2_by_x_3 = lit(0.16666666666666666) * (per_pivot_x_3);
+        let correction_0_part_14 = correction_0_part_13
+            .neg_mul_add(crank_1_by_y_1, lit(0.16666666666666666) * crank_1_by_x_1);
+        let x_2_by_crank_1 = correction_0_part_14 * per_pivot_crank_1;
+        let correction_0_part_15 = correction_0_part_14
             .neg_mul_add(
-                coupler_1_by_coupler_0,
-                correction_0_part_26
+                coupler_0_by_crank_1,
+                correction_0_part_13
+                    .neg_mul_add(
+                        coupler_0_by_y_1,
+                        lit(0.16666666666666666) * coupler_0_by_x_1,
+                    ),
+            );
+        let x_2_by_coupler_0 = -(correction_0_part_15 * per_pivot_coupler_0);
+        let correction_0_part_16 = lit(0.16666666666666666) * y_3_by_x_3;
+        let x_2_by_y_3 = correction_0_part_16 * per_pivot_y_3;
+        let correction_0_part_17 = correction_0_part_16
+            .neg_mul_add(crank_3_by_y_3, lit(0.16666666666666666) * crank_3_by_x_3);
+        let x_2_by_crank_3 = correction_0_part_17 * per_pivot_crank_3;
+        let correction_0_part_18 = correction_0_part_17 * coupler_3_by_crank_3
+            - correction_0_part_16
+                .neg_mul_add(
+                    coupler_3_by_y_3,
+                    lit(0.16666666666666666) * coupler_3_by_x_3,
+                );
+        let x_2_by_coupler_3 = correction_0_part_18 * per_pivot_coupler_3;
+        let pivot_x_2 = correction_0_part_18
+            .neg_mul_add(
+                x_2_by_coupler_3,
+                correction_0_part_15
                     .mul_add(
-                        coupler_1_by_crank_1,
-                        correction_0_part_16
-                            - correction_0_part_25
-                                .mul_add(
-                                    coupler_1_by_y_1,
-                                    (correction_0_part_2 * y_1_by_crank_2)
-                                        .mul_add(
-                                            coupler_1_by_x_1,
-                                            lit(0.16666666666666666) * coupler_1_by_y_2,
-                                        ),
-                                ),
-                    ),
-            );
-        let y_3_by_crank_4 = correction_0_part_24 * per_pivot_crank_4;
-        let y_3_by_y_1 = correction_0_part_25 * per_pivot_y_1;
-        let y_3_by_crank_1 = correction_0_part_26 * per_pivot_crank_1;
-        let y_3_by_coupler_0 = correction_0_part_27 * per_pivot_coupler_0;
-        let y_3_by_coupler_1 = correction_0_part_28 * per_pivot_coupler_1;
-        let correction_0_part_29 = correction_0_part_23
-            .neg_mul_add(
-                y_3_by_coupler_1,
-                correction_0_part_22
-                    .neg_mul_add(
-                        y_3_by_coupler_0,
-                        correction_0_part_21
+                        x_2_by_coupler_0,
+                        correction_0_part_17
                             .mul_add(
-                                y_3_by_crank_1,
-                                correction_0_part_20
+                                x_2_by_crank_3,
+                                correction_0_part_16
                                     .neg_mul_add(
-                                        y_3_by_y_1,
-                                        correction_0_part_19
+                                        x_2_by_y_3,
+                                        correction_0_part_13
                                             .neg_mul_add(
-                                                y_3_by_x_1,
-                                                correction_0_part_18
-                                                    .mul_add(y_3_by_crank_4, correction_0_part_7),
-                                            ),
-                                    ),
-                            ),
-                    ),
-            );
-        let pivot_y_3 = (correction_0_part_29 * correction_0_part_29)
-            .neg_mul_add(
-                per_pivot_x_3,
-                (correction_0_part_28 * correction_0_part_28)
-                    .neg_mul_add(
-                        per_pivot_coupler_1,
-                        (correction_0_part_27 * correction_0_part_27)
-                            .neg_mul_add(
-                                per_pivot_coupler_0,
-                                (correction_0_part_26 * correction_0_part_26)
-                                    .mul_add(
-                                        per_pivot_crank_1,
-                                        (correction_0_part_25 * correction_0_part_25)
-                                            .neg_mul_add(
-                                                per_pivot_y_1,
-                                                (correction_0_part_2 * correction_0_part_2 * y_1_by_crank_2
-                                                    * y_1_by_crank_2)
+                                                x_2_by_y_1,
+                                                lit(0.16666666666666666)
                                                     .neg_mul_add(
-                                                        per_pivot_x_1,
-                                                        (correction_0_part_24 * correction_0_part_24)
-                                                            .mul_add(
-                                                                per_pivot_crank_4,
-                                                                lit(0.9305555555555556) + correction_0_part_6,
+                                                        x_2_by_x_3,
+                                                        lit(0.16666666666666666)
+                                                            .neg_mul_add(
+                                                                x_2_by_x_1,
+                                                                correction_0_part_14.mul_add(x_2_by_crank_1, lit(1.0)),
                                                             ),
                                                     ),
                                             ),
@@ -2120,513 +2026,552 @@ impl ::ukcore::Mechanism for FourBars {
                             ),
                     ),
             );
-        let per_pivot_y_3 = pivot_y_3.recip();
-        let safe_y_3 = S::select_le(pivot_y_3, lit(0.0009765625), lit(0.0), safe_x_3);
-        let x_3_plus_times_l_2 = x_3 + times_l_2;
-        let crank_3_by_x_3 = x_3_plus_times_l_2 * per_pivot_x_3;
-        let correction_0_part_30 = correction_0_part_29.neg_mul_add(crank_3_by_x_3, y_3);
-        let pivot_crank_3 = (correction_0_part_30 * correction_0_part_30)
-            .mul_add(
-                per_pivot_y_3,
-                x_3_plus_times_l_2 * x_3_plus_times_l_2 * per_pivot_x_3,
-            );
-        let per_pivot_crank_3 = pivot_crank_3.recip();
-        let safe_crank_3 = S::select_le(pivot_crank_3, lit(0.0), lit(0.0), safe_y_3);
-        let coupler_2_by_y_2 = y_2 - y_3;
-        let coupler_2_by_x_2 = x_2 - x_3;
-        let coupler_2_with_crank_2 = coupler_2_by_x_2
-            .mul_add(crank_2_by_x_2, y_2 * coupler_2_by_y_2);
-        let correction_0_part_31 = lit(0.16666666666666666) * coupler_2_by_x_2;
-        let coupler_2_by_crank_2 = coupler_2_with_crank_2 * per_pivot_crank_2;
-        let correction_0_part_32 = correction_0_part_2 * coupler_2_by_crank_2;
-        let correction_0_part_33 = correction_0_part_31 - correction_0_part_32;
-        let coupler_2_by_x_1 = -(correction_0_part_33 * per_pivot_x_1);
-        let correction_0_part_34 = correction_0_part_5 * coupler_2_by_crank_2;
-        let correction_0_part_35 = correction_0_part_34
-            - correction_0_part_8
-                .mul_add(coupler_2_by_x_1, lit(0.16666666666666666) * coupler_2_by_y_2);
-        let coupler_2_by_y_1 = correction_0_part_35 * per_pivot_y_1;
-        let coupler_2_with_crank_1 = correction_0_part_9
-            .mul_add(coupler_2_by_y_1, x_1_minus_l * coupler_2_by_x_1);
-        let coupler_2_by_crank_1 = per_pivot_crank_1 * coupler_2_with_crank_1;
-        let coupler_2_with_coupler_0 = coupler_0_with_crank_1 * coupler_2_by_crank_1
-            - correction_0_part_12
-                .mul_add(coupler_2_by_y_1, correction_0_part_11 * coupler_2_by_x_1);
-        let coupler_2_by_coupler_0 = coupler_2_with_coupler_0 * per_pivot_coupler_0;
-        let coupler_2_with_coupler_1 = coupler_1_with_coupler_0
+        let per_pivot_x_2 = pivot_x_2.recip();
+        let safe_x_2 = S::select_le(
+            lit(0.0009765625),
+            pivot_x_2,
+            safe_coupler_3,
+            lit(0.0),
+        );
+        let y_2_by_y_1 = lit(0.16666666666666666) * (per_pivot_y_1);
+        let correction_0_part_19 = lit(0.16666666666666666) * crank_1_by_y_1;
+        let y_2_by_crank_1 = correction_0_part_19 * per_pivot_crank_1;
+        let correction_0_part_20 = lit(0.16666666666666666) * coupler_0_by_y_1;
+        let correction_0_part_21 = correction_0_part_19
+            .neg_mul_add(coupler_0_by_crank_1, correction_0_part_20);
+        let y_2_by_coupler_0 = -(correction_0_part_21 * per_pivot_coupler_0);
+        let y_2_by_y_3 = lit(0.16666666666666666) * (per_pivot_y_3);
+        let correction_0_part_22 = lit(0.16666666666666666) * crank_3_by_y_3;
+        let y_2_by_crank_3 = correction_0_part_22 * per_pivot_crank_3;
+        let correction_0_part_23 = lit(0.16666666666666666) * coupler_3_by_y_3;
+        let correction_0_part_24 = correction_0_part_22 * coupler_3_by_crank_3
+            - correction_0_part_23;
+        let y_2_by_coupler_3 = correction_0_part_24 * per_pivot_coupler_3;
+        let correction_0_part_25 = correction_0_part_18
             .neg_mul_add(
-                coupler_2_by_coupler_0,
-                coupler_1_with_crank_1
+                y_2_by_coupler_3,
+                correction_0_part_15
                     .mul_add(
-                        coupler_2_by_crank_1,
-                        coupler_1_with_crank_2 * coupler_2_by_crank_2
-                            - correction_0_part_17
-                                .mul_add(
-                                    coupler_2_by_y_1,
-                                    correction_0_part_15
-                                        .neg_mul_add(
-                                            coupler_2_by_x_1,
-                                            coupler_1_by_y_2
-                                                .mul_add(
-                                                    coupler_2_by_y_2,
-                                                    coupler_1_by_x_2 * coupler_2_by_x_2,
-                                                ),
-                                        ),
-                                ),
+                        y_2_by_coupler_0,
+                        correction_0_part_17
+                            .mul_add(
+                                y_2_by_crank_3,
+                                correction_0_part_14
+                                    .mul_add(
+                                        y_2_by_crank_1,
+                                        correction_0_part_16
+                                            .mul_add(y_2_by_y_3, correction_0_part_13 * y_2_by_y_1),
+                                    ),
+                            ),
                     ),
             );
-        let coupler_2_by_coupler_1 = coupler_2_with_coupler_1 * per_pivot_coupler_1;
-        let correction_0_part_36 = correction_0_part_23
+        let y_2_by_x_2 = correction_0_part_25 * per_pivot_x_2;
+        let pivot_y_2 = correction_0_part_25
             .neg_mul_add(
-                coupler_2_by_coupler_1,
-                correction_0_part_22
+                y_2_by_x_2,
+                correction_0_part_24
                     .neg_mul_add(
-                        coupler_2_by_coupler_0,
+                        y_2_by_coupler_3,
                         correction_0_part_21
                             .mul_add(
-                                coupler_2_by_crank_1,
-                                correction_0_part_32
-                                    - correction_0_part_20
-                                        .mul_add(
-                                            coupler_2_by_y_1,
-                                            correction_0_part_19
-                                                .mul_add(
-                                                    coupler_2_by_x_1,
-                                                    lit(1.1666666666666667) * coupler_2_by_x_2,
-                                                ),
-                                        ),
-                            ),
-                    ),
-            );
-        let coupler_2_by_x_3 = correction_0_part_36 * per_pivot_x_3;
-        let correction_0_part_37 = correction_0_part_28
-            .neg_mul_add(
-                coupler_2_by_coupler_1,
-                correction_0_part_27
-                    .neg_mul_add(
-                        coupler_2_by_coupler_0,
-                        correction_0_part_26
-                            .mul_add(coupler_2_by_crank_1, correction_0_part_34),
-                    ),
-            )
-            - correction_0_part_29
-                .mul_add(
-                    coupler_2_by_x_3,
-                    correction_0_part_25
-                        .mul_add(
-                            coupler_2_by_y_1,
-                            (correction_0_part_2 * y_1_by_crank_2)
-                                .mul_add(
-                                    coupler_2_by_x_1,
-                                    lit(1.1666666666666667) * coupler_2_by_y_2,
-                                ),
-                        ),
-                );
-        let coupler_2_with_crank_3 = (correction_0_part_30 * correction_0_part_37)
-            .mul_add(per_pivot_y_3, x_3_plus_times_l_2 * coupler_2_by_x_3);
-        let diagonal_coupler_2 = (correction_0_part_37 * correction_0_part_37)
-            .mul_add(
-                per_pivot_y_3,
-                (correction_0_part_36 * correction_0_part_36)
-                    .mul_add(
-                        per_pivot_x_3,
-                        (correction_0_part_35 * correction_0_part_35)
-                            .mul_add(
-                                per_pivot_y_1,
-                                (correction_0_part_33 * correction_0_part_33)
+                                y_2_by_coupler_0,
+                                correction_0_part_22
                                     .mul_add(
-                                        per_pivot_x_1,
-                                        coupler_2_by_y_2
-                                            .mul_add(
-                                                coupler_2_by_y_2,
-                                                coupler_2_by_x_2 * coupler_2_by_x_2,
-                                            ),
-                                    ),
-                            ),
-                    ),
-            );
-        let pivot_coupler_2 = (coupler_2_with_crank_3 * coupler_2_with_crank_3)
-            .mul_add(
-                per_pivot_crank_3,
-                (coupler_2_with_coupler_1 * coupler_2_with_coupler_1)
-                    .neg_mul_add(
-                        per_pivot_coupler_1,
-                        (coupler_2_with_coupler_0 * coupler_2_with_coupler_0)
-                            .neg_mul_add(
-                                per_pivot_coupler_0,
-                                (per_pivot_crank_1 * coupler_2_with_crank_1)
-                                    .mul_add(
-                                        coupler_2_with_crank_1,
-                                        coupler_2_with_crank_2 * coupler_2_with_crank_2
-                                            * per_pivot_crank_2,
-                                    ),
-                            ),
-                    ) - diagonal_coupler_2,
-            );
-        let per_pivot_coupler_2 = pivot_coupler_2.recip();
-        let safe_coupler_2 = S::select_le(
-            -pivot_coupler_2,
-            lit(0.0009765625) * diagonal_coupler_2,
-            lit(0.0),
-            safe_crank_3,
-        );
-        let coupler_3_by_x_4 = x_3 - x_4;
-        let correction_0_part_38 = lit(1.25) * coupler_3_by_x_4;
-        let coupler_3_by_y_4 = y_3 - y_4;
-        let coupler_3_with_crank_4 = lit(1.5)
-            * coupler_3_by_x_4.mul_add(crank_4_by_x_4, y_4 * coupler_3_by_y_4);
-        let coupler_3_by_crank_4 = coupler_3_with_crank_4 * per_pivot_crank_4;
-        let correction_0_part_39 = correction_0_part_18
-            .neg_mul_add(coupler_3_by_crank_4, correction_0_part_38);
-        let coupler_3_by_x_3 = -(correction_0_part_39 * per_pivot_x_3);
-        let correction_0_part_40 = correction_0_part_24 * coupler_3_by_crank_4
-            - correction_0_part_29
-                .mul_add(coupler_3_by_x_3, lit(1.25) * coupler_3_by_y_4);
-        let coupler_3_with_crank_3 = (correction_0_part_30 * correction_0_part_40)
-            .mul_add(per_pivot_y_3, x_3_plus_times_l_2 * coupler_3_by_x_3);
-        let coupler_3_by_crank_3 = coupler_3_with_crank_3 * per_pivot_crank_3;
-        let coupler_3_with_coupler_2 = coupler_2_with_crank_3 * coupler_3_by_crank_3
-            - (correction_0_part_37 * correction_0_part_40)
-                .mul_add(per_pivot_y_3, correction_0_part_36 * coupler_3_by_x_3);
-        let correction_0_part_41 = (correction_0_part_40 * correction_0_part_40)
-            .mul_add(
-                per_pivot_y_3,
-                (correction_0_part_39 * correction_0_part_39)
-                    .mul_add(
-                        per_pivot_x_3,
-                        (lit(1.5) * coupler_3_by_y_4)
-                            .mul_add(
-                                coupler_3_by_y_4,
-                                lit(1.5) * coupler_3_by_x_4 * coupler_3_by_x_4,
-                            ),
-                    ),
-            );
-        let pivot_coupler_3 = pivot_coupler_2
-            .neg_mul_add(
-                (coupler_3_with_crank_3 * coupler_3_with_crank_3)
-                    .mul_add(
-                        per_pivot_crank_3,
-                        coupler_3_with_crank_4 * coupler_3_with_crank_4
-                            * per_pivot_crank_4 - correction_0_part_41,
-                    ),
-                coupler_3_with_coupler_2 * coupler_3_with_coupler_2,
-            );
-        let per_pivot_coupler_3 = pivot_coupler_3.recip();
-        let diagonal_coupler_3 = correction_0_part_41 * pivot_coupler_2;
-        let safe_coupler_3 = S::select_le(
-            -pivot_coupler_3,
-            lit(-0.0009765625) * diagonal_coupler_3,
-            lit(0.0),
-            safe_coupler_2,
-        );
-        let right_crank_0 = lit(0.5) * residual_0;
-        let right_crank_4 = lit(0.5) * residual_4;
-        let right_crank_2 = lit(0.5) * residual_2;
-        let x_1_by_crank_0 = correction_0_part * per_pivot_crank_0;
-        let right_crank_2_x_1_by_crank_2 = right_crank_2 * x_1_by_crank_2;
-        let right_x_1 = right_crank_0 * x_1_by_crank_0 + right_crank_2_x_1_by_crank_2;
-        let right_crank_2_y_1_by_crank_2 = right_crank_2 * y_1_by_crank_2;
-        let right_y_1 = right_x_1
-            .neg_mul_add(
-                y_1_by_x_1,
-                right_crank_0 * y_1_by_crank_0 + right_crank_2_y_1_by_crank_2,
-            );
-        let right_crank_1 = lit(0.5)
-            * (lit(2.0) * right_y_1)
-                .mul_add(
-                    crank_1_by_y_1,
-                    (lit(2.0) * right_x_1).mul_add(crank_1_by_x_1, residual_1),
-                );
-        let correction_0_part_42 = lit(0.5)
-            * (lit(2.0) * right_y_1)
-                .mul_add(
-                    coupler_0_by_y_1,
-                    (lit(2.0) * right_x_1).mul_add(coupler_0_by_x_1, residual_5),
-                );
-        let right_coupler_0 = right_crank_1
-            .mul_add(
-                coupler_0_by_crank_1,
-                right_crank_0 * coupler_0_by_crank_0 - correction_0_part_42,
-            );
-        let correction_0_part_43 = lit(0.5)
-            * (lit(2.0) * right_y_1)
-                .neg_mul_add(
-                    coupler_1_by_y_1,
-                    (lit(2.0) * right_x_1).neg_mul_add(coupler_1_by_x_1, residual_6),
-                );
-        let right_coupler_1 = right_coupler_0
-            .neg_mul_add(
-                coupler_1_by_coupler_0,
-                right_crank_1
-                    .mul_add(
-                        coupler_1_by_crank_1,
-                        right_crank_2 * coupler_1_by_crank_2 + correction_0_part_43,
-                    ),
-            );
-        let x_3_by_crank_4 = correction_0_part_18 * per_pivot_crank_4;
-        let x_3_by_crank_1 = correction_0_part_21 * per_pivot_crank_1;
-        let x_3_by_coupler_0 = correction_0_part_22 * per_pivot_coupler_0;
-        let x_3_by_coupler_1 = correction_0_part_23 * per_pivot_coupler_1;
-        let x_3_by_x_1 = correction_0_part_19 * per_pivot_x_1;
-        let x_3_by_y_1 = correction_0_part_20 * per_pivot_y_1;
-        let right_x_3 = right_coupler_1
-            .neg_mul_add(
-                x_3_by_coupler_1,
-                right_coupler_0
-                    .neg_mul_add(
-                        x_3_by_coupler_0,
-                        right_crank_1
-                            .mul_add(
-                                x_3_by_crank_1,
-                                right_crank_4
-                                    .mul_add(x_3_by_crank_4, right_crank_2_x_1_by_crank_2)
-                                    - right_y_1.mul_add(x_3_by_y_1, right_x_1 * x_3_by_x_1),
-                            ),
-                    ),
-            );
-        let y_3_by_x_3 = correction_0_part_29 * per_pivot_x_3;
-        let right_y_3 = right_coupler_1
-            .neg_mul_add(
-                y_3_by_coupler_1,
-                right_coupler_0
-                    .neg_mul_add(
-                        y_3_by_coupler_0,
-                        right_crank_1
-                            .mul_add(
-                                y_3_by_crank_1,
-                                right_crank_4
-                                    .mul_add(y_3_by_crank_4, right_crank_2_y_1_by_crank_2),
-                            ),
-                    ),
-            )
-            - right_x_3
-                .mul_add(
-                    y_3_by_x_3,
-                    right_y_1.mul_add(y_3_by_y_1, right_x_1 * y_3_by_x_1),
-                );
-        let right_crank_3 = lit(0.5)
-            * (lit(2.0) * correction_0_part_30 * right_y_3)
-                .mul_add(
-                    per_pivot_y_3,
-                    (lit(2.0) * right_x_3).mul_add(crank_3_by_x_3, residual_3),
-                );
-        let coupler_2_by_crank_3 = coupler_2_with_crank_3 * per_pivot_crank_3;
-        let correction_0_part_44 = lit(0.5)
-            * (lit(2.0) * correction_0_part_37 * right_y_3)
-                .mul_add(
-                    per_pivot_y_3,
-                    (lit(2.0) * right_x_3)
-                        .mul_add(
-                            coupler_2_by_x_3,
-                            (lit(2.0) * right_y_1)
-                                .mul_add(
-                                    coupler_2_by_y_1,
-                                    (lit(2.0) * right_x_1).mul_add(coupler_2_by_x_1, residual_7),
-                                ),
-                        ),
-                );
-        let right_coupler_2 = right_crank_3
-            .mul_add(
-                coupler_2_by_crank_3,
-                right_coupler_1
-                    .neg_mul_add(
-                        coupler_2_by_coupler_1,
-                        right_coupler_0
-                            .neg_mul_add(
-                                coupler_2_by_coupler_0,
-                                right_crank_1
-                                    .mul_add(
-                                        coupler_2_by_crank_1,
-                                        right_crank_2 * coupler_2_by_crank_2,
-                                    ),
-                            ),
-                    ) - correction_0_part_44,
-            );
-        let correction_0_part_45 = lit(0.5)
-            * (lit(2.0) * correction_0_part_40 * right_y_3)
-                .neg_mul_add(
-                    per_pivot_y_3,
-                    (lit(2.0) * right_x_3).neg_mul_add(coupler_3_by_x_3, residual_8),
-                );
-        let right_coupler_3 = pivot_coupler_2
-            .neg_mul_add(
-                right_crank_3
-                    .mul_add(
-                        coupler_3_by_crank_3,
-                        right_crank_4 * coupler_3_by_crank_4 + correction_0_part_45,
-                    ),
-                coupler_3_with_coupler_2 * right_coupler_2,
-            );
-        let safe = safe_coupler_3;
-        let lambda_coupler_2 = (coupler_3_with_coupler_2 * right_coupler_3
-            * per_pivot_coupler_2)
-            .neg_mul_add(per_pivot_coupler_3, right_coupler_2 * per_pivot_coupler_2);
-        let lambda_crank_3 = coupler_2_by_crank_3
-            .neg_mul_add(
-                lambda_coupler_2,
-                (coupler_3_by_crank_3 * right_coupler_3)
-                    .neg_mul_add(per_pivot_coupler_3, right_crank_3 * per_pivot_crank_3),
-            );
-        let safe_part = (correction_0_part_30 * per_pivot_y_3)
-            .neg_mul_add(
-                lambda_crank_3,
-                (correction_0_part_37 * per_pivot_y_3)
-                    .neg_mul_add(
-                        lambda_coupler_2,
-                        (correction_0_part_40 * per_pivot_y_3 * right_coupler_3)
-                            .neg_mul_add(per_pivot_coupler_3, right_y_3 * per_pivot_y_3),
-                    ),
-            );
-        out[8] = safe_part;
-        let correction_9_part = y_3_by_x_3
-            .neg_mul_add(
-                safe_part,
-                crank_3_by_x_3
-                    .neg_mul_add(
-                        lambda_crank_3,
-                        coupler_2_by_x_3
-                            .neg_mul_add(
-                                lambda_coupler_2,
-                                (coupler_3_by_x_3 * right_coupler_3)
-                                    .neg_mul_add(per_pivot_coupler_3, right_x_3 * per_pivot_x_3),
-                            ),
-                    ),
-            );
-        out[3] = correction_9_part;
-        let lambda_crank_4 = x_3_by_crank_4
-            .neg_mul_add(
-                correction_9_part,
-                y_3_by_crank_4
-                    .neg_mul_add(
-                        safe_part,
-                        (coupler_3_by_crank_4 * right_coupler_3)
-                            .neg_mul_add(
-                                per_pivot_coupler_3,
-                                right_crank_4 * per_pivot_crank_4,
-                            ),
-                    ),
-            );
-        out[4] = lit(-0.25)
-            * (lit(6.0) * crank_4_by_x_4)
-                .mul_add(
-                    lambda_crank_4,
-                    lit(6.0) * coupler_3_by_x_4 * right_coupler_3 * per_pivot_coupler_3
-                        + correction_9_part,
-                );
-        out[9] = lit(-0.25)
-            * (lit(6.0) * y_4)
-                .mul_add(
-                    lambda_crank_4,
-                    lit(6.0) * coupler_3_by_y_4 * right_coupler_3 * per_pivot_coupler_3
-                        + safe_part,
-                );
-        let lambda_coupler_1 = x_3_by_coupler_1
-            .neg_mul_add(
-                correction_9_part,
-                y_3_by_coupler_1
-                    .neg_mul_add(
-                        safe_part,
-                        coupler_2_by_coupler_1
-                            .neg_mul_add(
-                                lambda_coupler_2,
-                                right_coupler_1 * per_pivot_coupler_1,
-                            ),
-                    ),
-            );
-        let lambda_coupler_0 = coupler_1_by_coupler_0
-            .neg_mul_add(
-                lambda_coupler_1,
-                x_3_by_coupler_0
-                    .neg_mul_add(
-                        correction_9_part,
-                        y_3_by_coupler_0
-                            .neg_mul_add(
-                                safe_part,
-                                coupler_2_by_coupler_0
-                                    .neg_mul_add(
-                                        lambda_coupler_2,
-                                        right_coupler_0 * per_pivot_coupler_0,
-                                    ),
-                            ),
-                    ),
-            );
-        let lambda_crank_1 = coupler_0_by_crank_1
-            .neg_mul_add(
-                lambda_coupler_0,
-                coupler_1_by_crank_1
-                    .neg_mul_add(
-                        lambda_coupler_1,
-                        x_3_by_crank_1
-                            .neg_mul_add(
-                                correction_9_part,
-                                y_3_by_crank_1
-                                    .neg_mul_add(
-                                        safe_part,
-                                        coupler_2_by_crank_1
+                                        y_2_by_crank_3,
+                                        lit(0.16666666666666666)
                                             .neg_mul_add(
-                                                lambda_coupler_2,
-                                                right_crank_1 * per_pivot_crank_1,
-                                            ),
-                                    ),
-                            ),
-                    ),
-            );
-        let safe_part_2 = crank_1_by_y_1
-            .neg_mul_add(
-                lambda_crank_1,
-                coupler_0_by_y_1
-                    .neg_mul_add(
-                        lambda_coupler_0,
-                        coupler_1_by_y_1
-                            .neg_mul_add(
-                                lambda_coupler_1,
-                                x_3_by_y_1
-                                    .neg_mul_add(
-                                        correction_9_part,
-                                        y_3_by_y_1
-                                            .neg_mul_add(
-                                                safe_part,
-                                                coupler_2_by_y_1
-                                                    .neg_mul_add(lambda_coupler_2, right_y_1 * per_pivot_y_1),
-                                            ),
-                                    ),
-                            ),
-                    ),
-            );
-        out[6] = safe_part_2;
-        let correction_7_part = y_1_by_x_1
-            .neg_mul_add(
-                safe_part_2,
-                crank_1_by_x_1
-                    .neg_mul_add(
-                        lambda_crank_1,
-                        coupler_0_by_x_1
-                            .neg_mul_add(
-                                lambda_coupler_0,
-                                coupler_1_by_x_1
-                                    .neg_mul_add(
-                                        lambda_coupler_1,
-                                        x_3_by_x_1
-                                            .neg_mul_add(
-                                                correction_9_part,
-                                                y_3_by_x_1
+                                                y_2_by_y_3,
+                                                lit(0.16666666666666666)
                                                     .neg_mul_add(
-                                                        safe_part,
-                                                        coupler_2_by_x_1
-                                                            .neg_mul_add(lambda_coupler_2, right_x_1 * per_pivot_x_1),
+                                                        y_2_by_y_1,
+                                                        correction_0_part_19.mul_add(y_2_by_crank_1, lit(1.0)),
                                                     ),
                                             ),
                                     ),
                             ),
                     ),
             );
-        out[1] = correction_7_part;
-        let lambda_crank_0 = x_1_by_crank_0
+        let per_pivot_y_2 = pivot_y_2.recip();
+        let safe_y_2 = S::select_le(lit(0.0009765625), pivot_y_2, safe_x_2, lit(0.0));
+        let x_2_plus_times_l = x_2 + times_l;
+        let crank_2_by_x_2 = x_2_plus_times_l * per_pivot_x_2;
+        let correction_0_part_26 = correction_0_part_25.neg_mul_add(crank_2_by_x_2, y_2);
+        let pivot_crank_2 = (correction_0_part_26 * correction_0_part_26)
+            .mul_add(per_pivot_y_2, x_2_plus_times_l * crank_2_by_x_2);
+        let per_pivot_crank_2 = pivot_crank_2.recip();
+        let safe_crank_2 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            pivot_crank_2,
+            safe_y_2,
+            lit(0.0),
+        );
+        let x_1_minus_x_2 = x_1 - x_2;
+        let coupler_1_by_x_1 = x_1_minus_x_2 * per_pivot_x_1;
+        let y_1_minus_y_2 = y_1 - y_2;
+        let correction_0_part_27 = correction_0_part_4
+            .neg_mul_add(coupler_1_by_x_1, y_1_minus_y_2);
+        let coupler_1_by_y_1 = correction_0_part_27 * per_pivot_y_1;
+        let coupler_1_with_crank_1 = correction_0_part_5
+            .mul_add(coupler_1_by_y_1, x_1_minus_l * coupler_1_by_x_1);
+        let coupler_1_by_crank_1 = coupler_1_with_crank_1 * per_pivot_crank_1;
+        let coupler_1_with_coupler_0 = coupler_0_with_crank_1
+            .neg_mul_add(
+                coupler_1_by_crank_1,
+                correction_0_part_7
+                    .mul_add(coupler_1_by_y_1, correction_0_part_6 * coupler_1_by_x_1),
+            );
+        let coupler_1_by_coupler_0 = -(coupler_1_with_coupler_0 * per_pivot_coupler_0);
+        let correction_0_part_28 = correction_0_part_15
+            .neg_mul_add(
+                coupler_1_by_coupler_0,
+                correction_0_part_14
+                    .neg_mul_add(
+                        coupler_1_by_crank_1,
+                        correction_0_part_13
+                            .neg_mul_add(
+                                coupler_1_by_y_1,
+                                lit(0.16666666666666666)
+                                    .mul_add(coupler_1_by_x_1, x_1_minus_x_2),
+                            ),
+                    ),
+            );
+        let coupler_1_by_x_2 = -(correction_0_part_28 * per_pivot_x_2);
+        let correction_0_part_29 = correction_0_part_21
+            .mul_add(coupler_1_by_coupler_0, correction_0_part_19 * coupler_1_by_crank_1)
+            - correction_0_part_25
+                .mul_add(
+                    coupler_1_by_x_2,
+                    lit(0.16666666666666666).mul_add(coupler_1_by_y_1, y_1_minus_y_2),
+                );
+        let coupler_1_with_crank_2 = (correction_0_part_26 * correction_0_part_29)
+            .mul_add(per_pivot_y_2, x_2_plus_times_l * coupler_1_by_x_2);
+        let coupler_1_by_crank_2 = coupler_1_with_crank_2 * per_pivot_crank_2;
+        let diagonal_coupler_1 = (correction_0_part_29 * correction_0_part_29)
+            .mul_add(
+                per_pivot_y_2,
+                correction_0_part_28
+                    .neg_mul_add(
+                        coupler_1_by_x_2,
+                        correction_0_part_27
+                            .mul_add(coupler_1_by_y_1, x_1_minus_x_2 * coupler_1_by_x_1),
+                    ),
+            );
+        let pivot_coupler_1 = coupler_1_with_crank_2
+            .mul_add(
+                coupler_1_by_crank_2,
+                coupler_1_with_coupler_0
+                    .mul_add(
+                        coupler_1_by_coupler_0,
+                        coupler_1_with_crank_1 * coupler_1_by_crank_1,
+                    ) - diagonal_coupler_1,
+            );
+        let per_pivot_coupler_1 = pivot_coupler_1.recip();
+        let safe_coupler_1 = S::select_le(
+            lit(0.0009765625) * diagonal_coupler_1,
+            -pivot_coupler_1,
+            safe_crank_2,
+            lit(0.0),
+        );
+        let x_2_minus_x_3 = x_2 - x_3;
+        let coupler_2_by_x_3 = x_2_minus_x_3 * per_pivot_x_3;
+        let y_2_minus_y_3 = y_2 - y_3;
+        let correction_0_part_30 = correction_0_part_9
+            .neg_mul_add(coupler_2_by_x_3, y_2_minus_y_3);
+        let coupler_2_by_y_3 = correction_0_part_30 * per_pivot_y_3;
+        let coupler_2_with_crank_3 = correction_0_part_10
+            .mul_add(coupler_2_by_y_3, x_3_plus_times_l_2 * coupler_2_by_x_3);
+        let coupler_2_by_crank_3 = coupler_2_with_crank_3 * per_pivot_crank_3;
+        let coupler_2_with_coupler_3 = coupler_2_with_crank_3 * coupler_3_by_crank_3
+            - correction_0_part_30
+                .mul_add(coupler_3_by_y_3, x_2_minus_x_3 * coupler_3_by_x_3);
+        let coupler_2_by_coupler_3 = coupler_2_with_coupler_3 * per_pivot_coupler_3;
+        let correction_0_part_31 = correction_0_part_18
+            .neg_mul_add(
+                coupler_2_by_coupler_3,
+                correction_0_part_17 * coupler_2_by_crank_3
+                    - correction_0_part_16
+                        .neg_mul_add(
+                            coupler_2_by_y_3,
+                            lit(0.16666666666666666)
+                                .mul_add(coupler_2_by_x_3, x_2_minus_x_3),
+                        ),
+            );
+        let coupler_2_by_x_2 = correction_0_part_31 * per_pivot_x_2;
+        let correction_0_part_32 = correction_0_part_24
+            .neg_mul_add(
+                coupler_2_by_coupler_3,
+                correction_0_part_22 * coupler_2_by_crank_3,
+            )
+            - correction_0_part_25
+                .mul_add(
+                    coupler_2_by_x_2,
+                    lit(0.16666666666666666).mul_add(coupler_2_by_y_3, y_2_minus_y_3),
+                );
+        let coupler_2_with_crank_2 = (correction_0_part_26 * correction_0_part_32)
+            .mul_add(per_pivot_y_2, x_2_plus_times_l * coupler_2_by_x_2);
+        let coupler_2_by_crank_2 = coupler_2_with_crank_2 * per_pivot_crank_2;
+        let coupler_2_with_coupler_1 = coupler_1_with_crank_2
+            .mul_add(
+                coupler_2_by_crank_2,
+                (correction_0_part_32 * correction_0_part_29)
+                    .neg_mul_add(per_pivot_y_2, correction_0_part_28 * coupler_2_by_x_2),
+            );
+        let correction_0_part_33 = (correction_0_part_32 * correction_0_part_32)
+            .mul_add(
+                per_pivot_y_2,
+                correction_0_part_31
+                    .mul_add(
+                        coupler_2_by_x_2,
+                        correction_0_part_30
+                            .mul_add(coupler_2_by_y_3, x_2_minus_x_3 * coupler_2_by_x_3),
+                    ),
+            );
+        let pivot_coupler_2 = coupler_2_with_crank_2
+            .mul_add(
+                coupler_2_by_crank_2,
+                coupler_2_with_coupler_3
+                    .neg_mul_add(
+                        coupler_2_by_coupler_3,
+                        coupler_2_with_crank_3 * coupler_2_by_crank_3,
+                    ) - correction_0_part_33,
+            )
+            .neg_mul_add(
+                pivot_coupler_1,
+                coupler_2_with_coupler_1 * coupler_2_with_coupler_1,
+            );
+        let per_pivot_coupler_2 = pivot_coupler_2.recip();
+        let diagonal_coupler_2 = correction_0_part_33 * pivot_coupler_1;
+        let safe_coupler_2 = S::select_le(
+            lit(-0.0009765625) * diagonal_coupler_2,
+            -pivot_coupler_2,
+            safe_coupler_1,
+            lit(0.0),
+        );
+        let right_crank_0 = lit(0.5) * residual_0;
+        let right_crank_4 = lit(0.5) * residual_4;
+        let right_x_1 = right_crank_0 * x_1_by_crank_0;
+        let right_x_3 = right_crank_4 * x_3_by_crank_4;
+        let correction_0_part_34 = right_x_1;
+        let right_y_1 = correction_0_part_34
+            .neg_mul_add(y_1_by_x_1, right_crank_0 * y_1_by_crank_0);
+        let right_crank_1 = lit(0.5)
+            * (lit(2.0) * right_y_1)
+                .mul_add(
+                    crank_1_by_y_1,
+                    (lit(2.0) * correction_0_part_34).mul_add(crank_1_by_x_1, residual_1),
+                );
+        let correction_0_part_35 = lit(0.5)
+            * (lit(2.0) * right_y_1)
+                .mul_add(
+                    coupler_0_by_y_1,
+                    (lit(2.0) * correction_0_part_34)
+                        .mul_add(coupler_0_by_x_1, residual_5),
+                );
+        let right_coupler_0 = right_crank_1
+            .mul_add(
+                coupler_0_by_crank_1,
+                right_crank_0 * coupler_0_by_crank_0 - correction_0_part_35,
+            );
+        let correction_0_part_36 = right_x_3;
+        let right_y_3 = correction_0_part_36
+            .neg_mul_add(y_3_by_x_3, right_crank_4 * y_3_by_crank_4);
+        let right_crank_3 = lit(0.5)
+            * (lit(2.0) * right_y_3)
+                .mul_add(
+                    crank_3_by_y_3,
+                    (lit(2.0) * correction_0_part_36).mul_add(crank_3_by_x_3, residual_3),
+                );
+        let correction_0_part_37 = lit(0.5)
+            * (lit(2.0) * right_y_3)
+                .neg_mul_add(
+                    coupler_3_by_y_3,
+                    (lit(2.0) * correction_0_part_36)
+                        .neg_mul_add(coupler_3_by_x_3, residual_8),
+                );
+        let right_coupler_3 = right_crank_3
+            .mul_add(
+                coupler_3_by_crank_3,
+                right_crank_4 * coupler_3_by_crank_4 + correction_0_part_37,
+            );
+        let right_x_2 = right_coupler_3
+            .neg_mul_add(
+                x_2_by_coupler_3,
+                right_coupler_0
+                    .neg_mul_add(
+                        x_2_by_coupler_0,
+                        right_crank_3
+                            .mul_add(
+                                x_2_by_crank_3,
+                                right_crank_1 * x_2_by_crank_1
+                                    - right_y_3
+                                        .neg_mul_add(
+                                            x_2_by_y_3,
+                                            right_y_1
+                                                .neg_mul_add(
+                                                    x_2_by_y_1,
+                                                    correction_0_part_36
+                                                        .mul_add(x_2_by_x_3, correction_0_part_34 * x_2_by_x_1),
+                                                ),
+                                        ),
+                            ),
+                    ),
+            );
+        let right_y_2 = right_coupler_3
+            .neg_mul_add(
+                y_2_by_coupler_3,
+                right_coupler_0
+                    .neg_mul_add(
+                        y_2_by_coupler_0,
+                        right_crank_3
+                            .mul_add(y_2_by_crank_3, right_crank_1 * y_2_by_crank_1),
+                    ),
+            )
+            - right_x_2
+                .mul_add(
+                    y_2_by_x_2,
+                    right_y_3.mul_add(y_2_by_y_3, right_y_1 * y_2_by_y_1),
+                );
+        let right_crank_2 = lit(0.5)
+            * (lit(2.0) * correction_0_part_26 * right_y_2)
+                .mul_add(
+                    per_pivot_y_2,
+                    (lit(2.0) * right_x_2).mul_add(crank_2_by_x_2, residual_2),
+                );
+        let correction_0_part_38 = lit(0.5)
+            * (lit(2.0) * right_y_2 * correction_0_part_29)
+                .mul_add(
+                    per_pivot_y_2,
+                    (lit(2.0) * right_x_2)
+                        .mul_add(
+                            coupler_1_by_x_2,
+                            (lit(2.0) * right_y_1)
+                                .mul_add(
+                                    coupler_1_by_y_1,
+                                    (lit(2.0) * correction_0_part_34)
+                                        .mul_add(coupler_1_by_x_1, residual_6),
+                                ),
+                        ),
+                );
+        let right_coupler_1 = right_crank_2
+            .mul_add(
+                coupler_1_by_crank_2,
+                right_coupler_0
+                    .neg_mul_add(
+                        coupler_1_by_coupler_0,
+                        right_crank_1 * coupler_1_by_crank_1,
+                    ) - correction_0_part_38,
+            );
+        let correction_0_part_39 = lit(0.5)
+            * (lit(2.0) * correction_0_part_32 * right_y_2)
+                .neg_mul_add(
+                    per_pivot_y_2,
+                    (lit(2.0) * right_x_2)
+                        .neg_mul_add(
+                            coupler_2_by_x_2,
+                            (lit(2.0) * right_y_3)
+                                .neg_mul_add(
+                                    coupler_2_by_y_3,
+                                    (lit(2.0) * correction_0_part_36)
+                                        .neg_mul_add(coupler_2_by_x_3, residual_7),
+                                ),
+                        ),
+                );
+        let right_coupler_2 = right_crank_2
+            .mul_add(
+                coupler_2_by_crank_2,
+                right_coupler_3
+                    .neg_mul_add(
+                        coupler_2_by_coupler_3,
+                        right_crank_3 * coupler_2_by_crank_3,
+                    ) + correction_0_part_39,
+            )
+            .neg_mul_add(pivot_coupler_1, coupler_2_with_coupler_1 * right_coupler_1);
+        let safe = safe_coupler_2;
+        let lambda_coupler_1 = (coupler_2_with_coupler_1 * right_coupler_2
+            * per_pivot_coupler_1)
+            .neg_mul_add(per_pivot_coupler_2, right_coupler_1 * per_pivot_coupler_1);
+        let lambda_crank_2 = coupler_1_by_crank_2
+            .neg_mul_add(
+                lambda_coupler_1,
+                (coupler_2_by_crank_2 * right_coupler_2)
+                    .neg_mul_add(per_pivot_coupler_2, right_crank_2 * per_pivot_crank_2),
+            );
+        let safe_part = (correction_0_part_26 * per_pivot_y_2)
+            .neg_mul_add(
+                lambda_crank_2,
+                (correction_0_part_29 * per_pivot_y_2)
+                    .neg_mul_add(
+                        lambda_coupler_1,
+                        (correction_0_part_32 * per_pivot_y_2 * right_coupler_2)
+                            .neg_mul_add(per_pivot_coupler_2, right_y_2 * per_pivot_y_2),
+                    ),
+            );
+        out[7] = safe_part;
+        let correction_8_part = y_2_by_x_2
+            .neg_mul_add(
+                safe_part,
+                crank_2_by_x_2
+                    .neg_mul_add(
+                        lambda_crank_2,
+                        coupler_1_by_x_2
+                            .neg_mul_add(
+                                lambda_coupler_1,
+                                (coupler_2_by_x_2 * right_coupler_2)
+                                    .neg_mul_add(per_pivot_coupler_2, right_x_2 * per_pivot_x_2),
+                            ),
+                    ),
+            );
+        out[2] = correction_8_part;
+        let lambda_coupler_0 = x_2_by_coupler_0
+            .neg_mul_add(
+                correction_8_part,
+                y_2_by_coupler_0
+                    .neg_mul_add(
+                        safe_part,
+                        coupler_1_by_coupler_0
+                            .neg_mul_add(
+                                lambda_coupler_1,
+                                right_coupler_0 * per_pivot_coupler_0,
+                            ),
+                    ),
+            );
+        let lambda_crank_1 = coupler_0_by_crank_1
+            .neg_mul_add(
+                lambda_coupler_0,
+                x_2_by_crank_1
+                    .neg_mul_add(
+                        correction_8_part,
+                        y_2_by_crank_1
+                            .neg_mul_add(
+                                safe_part,
+                                coupler_1_by_crank_1
+                                    .neg_mul_add(
+                                        lambda_coupler_1,
+                                        right_crank_1 * per_pivot_crank_1,
+                                    ),
+                            ),
+                    ),
+            );
+        let correction_3_part = crank_1_by_y_1
+            .neg_mul_add(
+                lambda_crank_1,
+                coupler_0_by_y_1
+                    .neg_mul_add(
+                        lambda_coupler_0,
+                        x_2_by_y_1
+                            .mul_add(
+                                correction_8_part,
+                                y_2_by_y_1
+                                    .neg_mul_add(
+                                        safe_part,
+                                        coupler_1_by_y_1
+                                            .neg_mul_add(lambda_coupler_1, right_y_1 * per_pivot_y_1),
+                                    ),
+                            ),
+                    ),
+            );
+        out[6] = correction_3_part;
+        let lambda_coupler_3 = x_2_by_coupler_3
+            .neg_mul_add(
+                correction_8_part,
+                y_2_by_coupler_3
+                    .neg_mul_add(
+                        safe_part,
+                        (coupler_2_by_coupler_3 * right_coupler_2)
+                            .neg_mul_add(
+                                per_pivot_coupler_2,
+                                right_coupler_3 * per_pivot_coupler_3,
+                            ),
+                    ),
+            );
+        let lambda_crank_3 = coupler_3_by_crank_3
+            .neg_mul_add(
+                lambda_coupler_3,
+                x_2_by_crank_3
+                    .neg_mul_add(
+                        correction_8_part,
+                        y_2_by_crank_3
+                            .neg_mul_add(
+                                safe_part,
+                                (coupler_2_by_crank_3 * right_coupler_2)
+                                    .neg_mul_add(
+                                        per_pivot_coupler_2,
+                                        right_crank_3 * per_pivot_crank_3,
+                                    ),
+                            ),
+                    ),
+            );
+        let correction_7_part = crank_3_by_y_3
+            .neg_mul_add(
+                lambda_crank_3,
+                coupler_3_by_y_3
+                    .neg_mul_add(
+                        lambda_coupler_3,
+                        x_2_by_y_3
+                            .mul_add(
+                                correction_8_part,
+                                y_2_by_y_3
+                                    .neg_mul_add(
+                                        safe_part,
+                                        (coupler_2_by_y_3 * right_coupler_2)
+                                            .neg_mul_add(per_pivot_coupler_2, right_y_3 * per_pivot_y_3),
+                                    ),
+                            ),
+                    ),
+            );
+        out[8] = correction_7_part;
+        let correction_9_part = y_1_by_x_1
+            .neg_mul_add(
+                correction_3_part,
+                crank_1_by_x_1
+                    .neg_mul_add(
+                        lambda_crank_1,
+                        coupler_0_by_x_1
+                            .neg_mul_add(
+                                lambda_coupler_0,
+                                x_2_by_x_1
+                                    .neg_mul_add(
+                                        correction_8_part,
+                                        coupler_1_by_x_1
+                                            .neg_mul_add(
+                                                lambda_coupler_1,
+                                                right_crank_0 * x_1_by_crank_0 * per_pivot_x_1,
+                                            ),
+                                    ),
+                            ),
+                    ),
+            );
+        out[1] = correction_9_part;
+        let correction_2_part = y_3_by_x_3
             .neg_mul_add(
                 correction_7_part,
+                crank_3_by_x_3
+                    .neg_mul_add(
+                        lambda_crank_3,
+                        coupler_3_by_x_3
+                            .neg_mul_add(
+                                lambda_coupler_3,
+                                x_2_by_x_3
+                                    .neg_mul_add(
+                                        correction_8_part,
+                                        (coupler_2_by_x_3 * right_coupler_2)
+                                            .neg_mul_add(
+                                                per_pivot_coupler_2,
+                                                right_crank_4 * x_3_by_crank_4 * per_pivot_x_3,
+                                            ),
+                                    ),
+                            ),
+                    ),
+            );
+        out[3] = correction_2_part;
+        let lambda_crank_0 = x_1_by_crank_0
+            .neg_mul_add(
+                correction_9_part,
                 y_1_by_crank_0
                     .neg_mul_add(
-                        safe_part_2,
+                        correction_3_part,
                         coupler_0_by_crank_0
                             .neg_mul_add(
                                 lambda_coupler_0,
@@ -2635,76 +2580,42 @@ impl ::ukcore::Mechanism for FourBars {
                     ),
             );
         out[0] = lit(-0.25)
-            * (lit(6.0) * x_0)
+            * (lit(4.0) * crank_0_by_x_0)
                 .mul_add(
                     lambda_crank_0,
-                    lit(6.0) * coupler_0_by_x_0 * lambda_coupler_0 + correction_7_part,
+                    lit(4.0) * coupler_0_by_x_0 * lambda_coupler_0 + correction_9_part,
                 );
-        let lambda_crank_2 = x_1_by_crank_2
+        let lambda_crank_4 = x_3_by_crank_4
             .neg_mul_add(
-                correction_7_part,
-                y_1_by_crank_2
-                    .neg_mul_add(
-                        safe_part_2,
-                        coupler_1_by_crank_2
-                            .neg_mul_add(
-                                lambda_coupler_1,
-                                x_1_by_crank_2
-                                    .neg_mul_add(
-                                        correction_9_part,
-                                        y_1_by_crank_2
-                                            .neg_mul_add(
-                                                safe_part,
-                                                coupler_2_by_crank_2
-                                                    .neg_mul_add(
-                                                        lambda_coupler_2,
-                                                        right_crank_2 * per_pivot_crank_2,
-                                                    ),
-                                            ),
-                                    ),
-                            ),
-                    ),
-            );
-        out[2] = crank_2_by_x_2
-            .neg_mul_add(
-                lambda_crank_2,
-                lit(0.16666666666666666)
+                correction_2_part,
+                y_3_by_crank_4
                     .neg_mul_add(
                         correction_7_part,
-                        coupler_1_by_x_2
+                        coupler_3_by_crank_4
                             .neg_mul_add(
-                                lambda_coupler_1,
-                                lit(0.16666666666666666)
-                                    .neg_mul_add(
-                                        correction_9_part,
-                                        -(coupler_2_by_x_2 * lambda_coupler_2),
-                                    ),
+                                lambda_coupler_3,
+                                right_crank_4 * per_pivot_crank_4,
                             ),
                     ),
             );
+        out[4] = lit(-0.25)
+            * (lit(4.0) * crank_4_by_x_4)
+                .mul_add(
+                    lambda_crank_4,
+                    lit(4.0) * coupler_3_by_x_4 * lambda_coupler_3 + correction_2_part,
+                );
         out[5] = lit(-0.25)
-            * (lit(6.0) * y_0)
+            * (lit(4.0) * crank_0_by_y_0)
                 .mul_add(
                     lambda_crank_0,
-                    lit(6.0) * coupler_0_by_y_0 * lambda_coupler_0 + safe_part_2,
+                    lit(4.0) * coupler_0_by_y_0 * lambda_coupler_0 + correction_3_part,
                 );
-        out[7] = y_2
-            .neg_mul_add(
-                lambda_crank_2,
-                lit(0.16666666666666666)
-                    .neg_mul_add(
-                        safe_part_2,
-                        coupler_1_by_y_2
-                            .neg_mul_add(
-                                lambda_coupler_1,
-                                lit(0.16666666666666666)
-                                    .neg_mul_add(
-                                        safe_part,
-                                        -(coupler_2_by_y_2 * lambda_coupler_2),
-                                    ),
-                            ),
-                    ),
-            );
+        out[9] = lit(-0.25)
+            * (lit(4.0) * crank_4_by_y_4)
+                .mul_add(
+                    lambda_crank_4,
+                    lit(4.0) * coupler_3_by_y_4 * lambda_coupler_3 + correction_7_part,
+                );
         safe
     }
 }

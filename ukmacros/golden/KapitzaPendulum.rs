@@ -126,7 +126,10 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
             ("a_w", "a*w"),
             ("a_sq_w", "a*sq(w)"),
             ("g", "g"),
-            ("safe_x", "(m ≤ 0 ? 0 : 1)"),
+            (
+                "safe_x",
+                "(0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ m ? 1 : 0)",
+            ),
         ],
         coords: &["x", "y"],
         constraints: &[
@@ -229,7 +232,14 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         prepared[5] = a * w;
         prepared[6] = a * w * w;
         prepared[7] = g;
-        let safe_x = S::select_le(m, lit(0.0), lit(0.0), lit(1.0));
+        let safe_x = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            m,
+            lit(1.0),
+            lit(0.0),
+        );
         prepared[8] = safe_x;
     }
     /// 5 additions, 10 multiplications, 0 divisions, 0 square roots, 1 transcendentals, 0 selections.
@@ -386,7 +396,14 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         let y_minus_pivot = y - pivot;
         let pivot_rod = y_minus_pivot.mul_add(y_minus_pivot, x * x);
         let per_pivot_rod = pivot_rod.recip();
-        let safe_rod = S::select_le(pivot_rod, lit(0.0), lit(0.0), safe_x);
+        let safe_rod = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            pivot_rod,
+            safe_x,
+            lit(0.0),
+        );
         let acceleration_0_part = a_w.mul_add(sin_t_w, dot_y);
         let right_rod = g
             .neg_mul_add(
@@ -422,7 +439,14 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         let y_minus_pivot = y - pivot;
         let pivot_rod = y_minus_pivot.mul_add(y_minus_pivot, x * x);
         let per_pivot_rod = pivot_rod.recip();
-        let safe_rod = S::select_le(pivot_rod, lit(0.0), lit(0.0), safe_x);
+        let safe_rod = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            pivot_rod,
+            safe_x,
+            lit(0.0),
+        );
         let right_rod = lit(0.5) * residual_0;
         let safe = safe_rod;
         out[0] = -(x * right_rod * per_pivot_rod);

@@ -215,7 +215,7 @@ impl ::ukcore::Mechanism for RigidBody {
             },
             solve_operations: ::ukcore::Operations {
                 additions: 85,
-                multiplications: 186,
+                multiplications: 177,
                 divisions: 5,
                 square_roots: 0,
                 transcendentals: 0,
@@ -566,7 +566,7 @@ impl ::ukcore::Mechanism for RigidBody {
                         ),
                 );
     }
-    /// 85 additions, 186 multiplications, 5 divisions, 0 square roots, 0 transcendentals, 5 selections.
+    /// 85 additions, 177 multiplications, 5 divisions, 0 square roots, 0 transcendentals, 5 selections.
     fn acceleration<S: ::ukcore::Scalar>(
         prepared: &[S],
         t: S,
@@ -585,7 +585,14 @@ impl ::ukcore::Mechanism for RigidBody {
         let pivot_e0 = lit(4.0)
             * (e3 * e3).mul_add(i3, (e2 * e2).mul_add(i2, e1 * e1 * i1));
         let per_pivot_e0 = pivot_e0.recip();
-        let safe_e0 = S::select_le(pivot_e0, lit(0.0), lit(0.0), lit(1.0));
+        let safe_e0 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            pivot_e0,
+            lit(1.0),
+            lit(0.0),
+        );
         let acceleration_0_part = e2
             .mul_add(
                 dot_e3,
@@ -613,18 +620,17 @@ impl ::ukcore::Mechanism for RigidBody {
                 );
         let acceleration_0_part_4 = lit(4.0)
             * (e3 * e2).mul_add(i3, (e3 * e2).neg_mul_add(i2, e1 * e0 * i1));
+        let e1_by_e0 = acceleration_0_part_4 * per_pivot_e0;
         let diagonal_e1 = lit(4.0)
             * (e2 * e2).mul_add(i3, (e3 * e3).mul_add(i2, e0 * e0 * i1));
-        let pivot_e1 = acceleration_0_part_4 * acceleration_0_part_4 * per_pivot_e0
-            - diagonal_e1;
+        let pivot_e1 = acceleration_0_part_4 * e1_by_e0 - diagonal_e1;
         let per_pivot_e1 = pivot_e1.recip();
         let safe_e1 = S::select_le(
-            -pivot_e1,
             lit(0.0009765625) * diagonal_e1,
-            lit(0.0),
+            -pivot_e1,
             safe_e0,
+            lit(0.0),
         );
-        let e1_by_e0 = acceleration_0_part_4 * per_pivot_e0;
         let right_e1 = right_e0
             .neg_mul_add(
                 e1_by_e0,
@@ -646,22 +652,18 @@ impl ::ukcore::Mechanism for RigidBody {
             * (e1 * e2).neg_mul_add(i3, (e0 * e3).neg_mul_add(i2, e0 * e3 * i1));
         let acceleration_0_part_7 = acceleration_0_part_4 * e2_by_e0
             - acceleration_0_part_6;
+        let e2_by_e1 = acceleration_0_part_7 * per_pivot_e1;
         let diagonal_e2 = lit(4.0)
             * (e1 * e1).mul_add(i3, (e0 * e0).mul_add(i2, e3 * e3 * i1));
-        let pivot_e2 = (acceleration_0_part_7 * acceleration_0_part_7)
-            .neg_mul_add(
-                per_pivot_e1,
-                acceleration_0_part_5 * acceleration_0_part_5 * per_pivot_e0
-                    - diagonal_e2,
-            );
+        let pivot_e2 = acceleration_0_part_7
+            .neg_mul_add(e2_by_e1, acceleration_0_part_5 * e2_by_e0 - diagonal_e2);
         let per_pivot_e2 = pivot_e2.recip();
         let safe_e2 = S::select_le(
-            -pivot_e2,
             lit(0.0009765625) * diagonal_e2,
-            lit(0.0),
+            -pivot_e2,
             safe_e1,
+            lit(0.0),
         );
-        let e2_by_e1 = acceleration_0_part_7 * per_pivot_e1;
         let right_e2 = right_e1
             .neg_mul_add(
                 e2_by_e1,
@@ -695,26 +697,25 @@ impl ::ukcore::Mechanism for RigidBody {
                 e3_by_e1,
                 acceleration_0_part_5 * e3_by_e0 - acceleration_0_part_11,
             );
+        let e3_by_e2 = acceleration_0_part_12 * per_pivot_e2;
         let diagonal_e3 = lit(4.0)
             * (e0 * e0).mul_add(i3, (e1 * e1).mul_add(i2, e2 * e2 * i1));
-        let pivot_e3 = (acceleration_0_part_12 * acceleration_0_part_12)
+        let pivot_e3 = acceleration_0_part_12
             .neg_mul_add(
-                per_pivot_e2,
-                (acceleration_0_part_10 * acceleration_0_part_10)
+                e3_by_e2,
+                acceleration_0_part_10
                     .neg_mul_add(
-                        per_pivot_e1,
-                        acceleration_0_part_8 * acceleration_0_part_8 * per_pivot_e0
-                            - diagonal_e3,
+                        e3_by_e1,
+                        acceleration_0_part_8 * e3_by_e0 - diagonal_e3,
                     ),
             );
         let per_pivot_e3 = pivot_e3.recip();
         let safe_e3 = S::select_le(
-            -pivot_e3,
             lit(0.0009765625) * diagonal_e3,
-            lit(0.0),
+            -pivot_e3,
             safe_e2,
+            lit(0.0),
         );
-        let e3_by_e2 = acceleration_0_part_12 * per_pivot_e2;
         let right_e3 = right_e2
             .neg_mul_add(
                 e3_by_e2,
@@ -755,15 +756,21 @@ impl ::ukcore::Mechanism for RigidBody {
         let pivot_unit = (acceleration_0_part_15 * acceleration_0_part_15)
             .neg_mul_add(
                 per_pivot_e3,
-                (acceleration_0_part_14 * acceleration_0_part_14)
+                acceleration_0_part_14
                     .neg_mul_add(
-                        per_pivot_e2,
-                        (acceleration_0_part_13 * acceleration_0_part_13)
-                            .neg_mul_add(per_pivot_e1, e0 * e0 * per_pivot_e0),
+                        unit_by_e2,
+                        acceleration_0_part_13.neg_mul_add(unit_by_e1, e0 * unit_by_e0),
                     ),
             );
         let per_pivot_unit = pivot_unit.recip();
-        let safe_unit = S::select_le(pivot_unit, lit(0.0), lit(0.0), safe_e3);
+        let safe_unit = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            pivot_unit,
+            safe_e3,
+            lit(0.0),
+        );
         let right_unit = (right_e3 * acceleration_0_part_15)
             .mul_add(
                 per_pivot_e3,
@@ -843,19 +850,26 @@ impl ::ukcore::Mechanism for RigidBody {
         let pivot_e0 = lit(4.0)
             * (e3 * e3).mul_add(i3, (e2 * e2).mul_add(i2, e1 * e1 * i1));
         let per_pivot_e0 = pivot_e0.recip();
-        let safe_e0 = S::select_le(pivot_e0, lit(0.0), lit(0.0), lit(1.0));
+        let safe_e0 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            pivot_e0,
+            lit(1.0),
+            lit(0.0),
+        );
         let correction_0_part = lit(4.0)
             * (e3 * e2).mul_add(i3, (e3 * e2).neg_mul_add(i2, e1 * e0 * i1));
+        let e1_by_e0 = correction_0_part * per_pivot_e0;
         let diagonal_e1 = lit(4.0)
             * (e2 * e2).mul_add(i3, (e3 * e3).mul_add(i2, e0 * e0 * i1));
-        let pivot_e1 = correction_0_part * correction_0_part * per_pivot_e0
-            - diagonal_e1;
+        let pivot_e1 = correction_0_part * e1_by_e0 - diagonal_e1;
         let per_pivot_e1 = pivot_e1.recip();
         let safe_e1 = S::select_le(
-            -pivot_e1,
             lit(0.0009765625) * diagonal_e1,
-            lit(0.0),
+            -pivot_e1,
             safe_e0,
+            lit(0.0),
         );
         let correction_0_part_2 = lit(4.0)
             * (e1 * e3).neg_mul_add(i3, (e0 * e2).mul_add(i2, e1 * e3 * i1));
@@ -863,19 +877,17 @@ impl ::ukcore::Mechanism for RigidBody {
         let correction_0_part_3 = lit(4.0)
             * (e1 * e2).neg_mul_add(i3, (e0 * e3).neg_mul_add(i2, e0 * e3 * i1));
         let correction_0_part_4 = correction_0_part * e2_by_e0 - correction_0_part_3;
+        let e2_by_e1 = correction_0_part_4 * per_pivot_e1;
         let diagonal_e2 = lit(4.0)
             * (e1 * e1).mul_add(i3, (e0 * e0).mul_add(i2, e3 * e3 * i1));
-        let pivot_e2 = (correction_0_part_4 * correction_0_part_4)
-            .neg_mul_add(
-                per_pivot_e1,
-                correction_0_part_2 * correction_0_part_2 * per_pivot_e0 - diagonal_e2,
-            );
+        let pivot_e2 = correction_0_part_4
+            .neg_mul_add(e2_by_e1, correction_0_part_2 * e2_by_e0 - diagonal_e2);
         let per_pivot_e2 = pivot_e2.recip();
         let safe_e2 = S::select_le(
-            -pivot_e2,
             lit(0.0009765625) * diagonal_e2,
-            lit(0.0),
+            -pivot_e2,
             safe_e1,
+            lit(0.0),
         );
         let correction_0_part_5 = lit(4.0)
             * (e0 * e3).neg_mul_add(i3, (e1 * e2).neg_mul_add(i2, e1 * e2 * i1));
@@ -888,24 +900,21 @@ impl ::ukcore::Mechanism for RigidBody {
             * (e1 * e0).mul_add(i3, (e1 * e0).neg_mul_add(i2, e3 * e2 * i1));
         let correction_0_part_9 = correction_0_part_4
             .neg_mul_add(e3_by_e1, correction_0_part_2 * e3_by_e0 - correction_0_part_8);
+        let e3_by_e2 = correction_0_part_9 * per_pivot_e2;
         let diagonal_e3 = lit(4.0)
             * (e0 * e0).mul_add(i3, (e1 * e1).mul_add(i2, e2 * e2 * i1));
-        let pivot_e3 = (correction_0_part_9 * correction_0_part_9)
+        let pivot_e3 = correction_0_part_9
             .neg_mul_add(
-                per_pivot_e2,
-                (correction_0_part_7 * correction_0_part_7)
-                    .neg_mul_add(
-                        per_pivot_e1,
-                        correction_0_part_5 * correction_0_part_5 * per_pivot_e0
-                            - diagonal_e3,
-                    ),
+                e3_by_e2,
+                correction_0_part_7
+                    .neg_mul_add(e3_by_e1, correction_0_part_5 * e3_by_e0 - diagonal_e3),
             );
         let per_pivot_e3 = pivot_e3.recip();
         let safe_e3 = S::select_le(
-            -pivot_e3,
             lit(0.0009765625) * diagonal_e3,
-            lit(0.0),
+            -pivot_e3,
             safe_e2,
+            lit(0.0),
         );
         let unit_by_e0 = e0 * per_pivot_e0;
         let correction_0_part_10 = correction_0_part.mul_add(unit_by_e0, e1);
@@ -922,19 +931,24 @@ impl ::ukcore::Mechanism for RigidBody {
         let pivot_unit = (correction_0_part_12 * correction_0_part_12)
             .neg_mul_add(
                 per_pivot_e3,
-                (correction_0_part_11 * correction_0_part_11)
+                correction_0_part_11
                     .neg_mul_add(
-                        per_pivot_e2,
-                        (correction_0_part_10 * correction_0_part_10)
-                            .neg_mul_add(per_pivot_e1, e0 * e0 * per_pivot_e0),
+                        unit_by_e2,
+                        correction_0_part_10.neg_mul_add(unit_by_e1, e0 * unit_by_e0),
                     ),
             );
         let per_pivot_unit = pivot_unit.recip();
-        let safe_unit = S::select_le(pivot_unit, lit(0.0), lit(0.0), safe_e3);
+        let safe_unit = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            pivot_unit,
+            safe_e3,
+            lit(0.0),
+        );
         let right_unit = lit(0.5) * residual_0;
         let safe = safe_unit;
         out[3] = right_unit * correction_0_part_12 * per_pivot_e3 * per_pivot_unit;
-        let e3_by_e2 = correction_0_part_9 * per_pivot_e2;
         let safe_part = (right_unit * unit_by_e2)
             .mul_add(
                 per_pivot_unit,
@@ -942,7 +956,6 @@ impl ::ukcore::Mechanism for RigidBody {
                     * per_pivot_unit,
             );
         out[2] = safe_part;
-        let e2_by_e1 = correction_0_part_4 * per_pivot_e1;
         let correction_3_part = (right_unit * unit_by_e1)
             .neg_mul_add(
                 per_pivot_unit,
@@ -950,7 +963,6 @@ impl ::ukcore::Mechanism for RigidBody {
                     .neg_mul_add(per_pivot_unit, e2_by_e1 * safe_part),
             );
         out[1] = -correction_3_part;
-        let e1_by_e0 = correction_0_part * per_pivot_e0;
         out[0] = e1_by_e0
             .neg_mul_add(
                 correction_3_part,

@@ -225,10 +225,12 @@ impl ::ukcore::Mechanism for SliderCrank {
             ("per_i1_torque", "torque/i1"),
             ("twice_per_i1_torque", "2*torque/i1"),
             ("prepared_part", "r^4/sq(i1)"),
+            ("prepared_part_2", "r^3/i1"),
             ("twice_g", "2*g"),
             ("per_m3_and_per_m2", "1/m3 + 1/m2"),
             ("per_m2", "1/m2"),
-            ("prepared_part_2", "l^4/sq(i2)"),
+            ("prepared_part_3", "l^4/sq(i2)"),
+            ("prepared_part_4", "l^3/i2"),
             ("per_m1_and_per_m2", "1/m1 + 1/m2"),
             ("twice_per_i1_torque_r", "2*torque*r/i1"),
             ("per_i2_l", "l/i2"),
@@ -238,7 +240,7 @@ impl ::ukcore::Mechanism for SliderCrank {
             ("per_i1_r", "r/i1"),
             (
                 "safe_th2",
-                "(i2 ≤ 0 ? 0 : (i1 ≤ 0 ? 0 : (m2 ≤ 0 ? 0 : (m1 ≤ 0 ? 0 : (m3 ≤ 0 ? 0 : 1)))))",
+                "(0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ i2 ? (0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ i1 ? (0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ m2 ? (0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ m1 ? (0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ m3 ? 1 : 0) : 0) : 0) : 0) : 0)",
             ),
         ],
         coords: &["x1", "y1", "th1", "x2", "y2", "th2", "x3", "y3", "th3"],
@@ -362,7 +364,7 @@ impl ::ukcore::Mechanism for SliderCrank {
             },
             solve_operations: ::ukcore::Operations {
                 additions: 85,
-                multiplications: 168,
+                multiplications: 153,
                 divisions: 6,
                 square_roots: 0,
                 transcendentals: 2,
@@ -447,7 +449,7 @@ impl ::ukcore::Mechanism for SliderCrank {
         }
     }
     fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
-        let prepared = ::ukcore::emitted::exact_mut::<S, 31>(prepared, "prepared");
+        let prepared = ::ukcore::emitted::exact_mut::<S, 33>(prepared, "prepared");
         let [r, l, m1, m2, m3, i1, i2, i3, g, torque] = *::ukcore::emitted::exact::<
             S,
             10,
@@ -479,25 +481,62 @@ impl ::ukcore::Mechanism for SliderCrank {
         prepared[16] = per_i1_torque;
         prepared[17] = lit(2.0) * per_i1_torque;
         prepared[18] = r.powi(4) / (i1 * i1);
-        prepared[19] = lit(2.0) * g;
+        prepared[19] = r * r * r * per_i1;
+        prepared[20] = lit(2.0) * g;
         let per_m3 = m3.recip();
         let per_m2 = m2.recip();
-        prepared[20] = per_m3 + per_m2;
-        prepared[21] = per_m2;
-        prepared[22] = l.powi(4) / (i2 * i2);
-        prepared[23] = per_m1 + per_m2;
-        prepared[24] = lit(2.0) * per_i1_torque_r;
-        prepared[25] = l * per_i2;
-        prepared[26] = per_i1;
-        prepared[27] = g;
-        prepared[28] = per_m3;
-        prepared[29] = r * per_i1;
-        let safe_x3 = S::select_le(m3, lit(0.0), lit(0.0), lit(1.0));
-        let safe_x1 = S::select_le(m1, lit(0.0), lit(0.0), safe_x3);
-        let safe_x2 = S::select_le(m2, lit(0.0), lit(0.0), safe_x1);
-        let safe_th1 = S::select_le(i1, lit(0.0), lit(0.0), safe_x2);
-        let safe_th2 = S::select_le(i2, lit(0.0), lit(0.0), safe_th1);
-        prepared[30] = safe_th2;
+        prepared[21] = per_m3 + per_m2;
+        prepared[22] = per_m2;
+        prepared[23] = l.powi(4) / (i2 * i2);
+        prepared[24] = l * l * l * per_i2;
+        prepared[25] = per_m1 + per_m2;
+        prepared[26] = lit(2.0) * per_i1_torque_r;
+        prepared[27] = l * per_i2;
+        prepared[28] = per_i1;
+        prepared[29] = g;
+        prepared[30] = per_m3;
+        prepared[31] = r * per_i1;
+        let safe_x3 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            m3,
+            lit(1.0),
+            lit(0.0),
+        );
+        let safe_x1 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            m1,
+            safe_x3,
+            lit(0.0),
+        );
+        let safe_x2 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            m2,
+            safe_x1,
+            lit(0.0),
+        );
+        let safe_th1 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            i1,
+            safe_x2,
+            lit(0.0),
+        );
+        let safe_th2 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            i2,
+            safe_th1,
+            lit(0.0),
+        );
+        prepared[32] = safe_th2;
     }
     /// 5 additions, 28 multiplications, 0 divisions, 0 square roots, 2 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
@@ -513,9 +552,9 @@ impl ::ukcore::Mechanism for SliderCrank {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 72>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 8>(out.rhs, "rhs");
         let [right_y1, right_y2, m3_g, torque, r, l, m1, i1, m2, i2, m3, i3, _, _, _, _,
-        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            31,
+            33,
         >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [_, _, dot_th1, _, _, dot_th2, _, _, _] = *::ukcore::emitted::exact::<
@@ -592,9 +631,9 @@ impl ::ukcore::Mechanism for SliderCrank {
     fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 81>(mass, "mass");
         let [_, _, _, _, _, _, m1, i1, m2, i2, m3, i3, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            31,
+            33,
         >(prepared, "prepared");
         mass[0] = m1;
         mass[10] = m1;
@@ -615,7 +654,10 @@ impl ::ukcore::Mechanism for SliderCrank {
     ) {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 72>(jacobian, "jacobian");
         let [_, _, _, _, r, l, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _, _] = *::ukcore::emitted::exact::<S, 31>(prepared, "prepared");
+        _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            33,
+        >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let lit = S::from_f64;
         jacobian[0] = lit(1.0);
@@ -648,7 +690,10 @@ impl ::ukcore::Mechanism for SliderCrank {
     fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
         let phi = ::ukcore::emitted::exact_mut::<S, 8>(phi, "phi");
         let [_, _, _, _, r, l, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _, _] = *::ukcore::emitted::exact::<S, 31>(prepared, "prepared");
+        _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            33,
+        >(prepared, "prepared");
         let [x1, y1, th1, x2, y2, th2, x3, y3, th3] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -680,7 +725,10 @@ impl ::ukcore::Mechanism for SliderCrank {
     ) {
         let rate = ::ukcore::emitted::exact_mut::<S, 8>(rate, "rate");
         let [_, _, _, _, r, l, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _, _] = *::ukcore::emitted::exact::<S, 31>(prepared, "prepared");
+        _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            33,
+        >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [dot_x1, dot_y1, dot_th1, dot_x2, dot_y2, dot_th2, dot_x3, dot_y3, dot_th3,
         ] = *::ukcore::emitted::exact::<S, 9>(v, "v");
@@ -713,9 +761,9 @@ impl ::ukcore::Mechanism for SliderCrank {
         v: &[S],
     ) -> ::ukcore::Energy<S> {
         let [right_y1, right_y2, m3_g, torque, _, _, m1, i1, m2, i2, m3, i3, _, _, _, _,
-        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            31,
+            33,
         >(prepared, "prepared");
         let [_, y1, th1, _, y2, _, _, y3, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [dot_x1, dot_y1, dot_th1, dot_x2, dot_y2, dot_th2, dot_x3, dot_y3, dot_th3,
@@ -772,7 +820,7 @@ impl ::ukcore::Mechanism for SliderCrank {
         outputs[1] = x3;
         outputs[2] = dot_x3;
     }
-    /// 85 additions, 168 multiplications, 6 divisions, 0 square roots, 2 transcendentals, 6 selections.
+    /// 85 additions, 153 multiplications, 6 divisions, 0 square roots, 2 transcendentals, 6 selections.
     fn acceleration<S: ::ukcore::Scalar>(
         prepared: &[S],
         t: S,
@@ -782,12 +830,10 @@ impl ::ukcore::Mechanism for SliderCrank {
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 9>(out, "out");
         let [_, _, _, torque, r, l, _, _, _, _, _, _, per_i1_sq_r, per_i1_torque_r,
-        per_i2_sq_l, per_m1, _, twice_per_i1_torque, prepared_part, twice_g,
-        per_m3_and_per_m2, per_m2, prepared_part_2, per_m1_and_per_m2,
-        twice_per_i1_torque_r, per_i2_l, per_i1, g, per_m3, _, safe_th2] = *::ukcore::emitted::exact::<
-            S,
-            31,
-        >(prepared, "prepared");
+        per_i2_sq_l, per_m1, _, twice_per_i1_torque, prepared_part, prepared_part_2,
+        twice_g, per_m3_and_per_m2, per_m2, prepared_part_3, prepared_part_4,
+        per_m1_and_per_m2, twice_per_i1_torque_r, per_i2_l, per_i1, g, per_m3, _,
+        safe_th2] = *::ukcore::emitted::exact::<S, 33>(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [_, _, dot_th1, _, _, dot_th2, _, _, _] = *::ukcore::emitted::exact::<
             S,
@@ -800,198 +846,205 @@ impl ::ukcore::Mechanism for SliderCrank {
             * acceleration_0_part;
         let pivot_bearing_0 = per_m1 + acceleration_0_part_2;
         let per_pivot_bearing_0 = pivot_bearing_0.recip();
-        let safe_bearing_0 = S::select_le(pivot_bearing_0, lit(0.0), lit(0.0), safe_th2);
+        let safe_bearing_0 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            pivot_bearing_0,
+            safe_th2,
+            lit(0.0),
+        );
         let right_bearing_0 = lit(0.5)
             * twice_per_i1_torque
                 .mul_add(acceleration_0_part, dot_th1 * dot_th1 * cos_th1);
         let acceleration_0_part_3 = lit(0.5) * cos_th1;
-        let acceleration_0_part_4 = prepared_part * acceleration_0_part
-            * acceleration_0_part * acceleration_0_part_3 * acceleration_0_part_3
-            * per_pivot_bearing_0;
-        let acceleration_0_part_5 = per_i1_sq_r * acceleration_0_part_3
+        let acceleration_0_part_4 = acceleration_0_part * acceleration_0_part_3;
+        let acceleration_0_part_5 = acceleration_0_part_4;
+        let bearing_1_by_bearing_0 = acceleration_0_part_5 * per_pivot_bearing_0;
+        let acceleration_0_part_6 = prepared_part * acceleration_0_part_5
+            * bearing_1_by_bearing_0;
+        let acceleration_0_part_7 = per_i1_sq_r * acceleration_0_part_3
             * acceleration_0_part_3;
-        let diagonal_bearing_1 = per_m1 + acceleration_0_part_5;
-        let pivot_bearing_1 = acceleration_0_part_4 - diagonal_bearing_1;
+        let diagonal_bearing_1 = per_m1 + acceleration_0_part_7;
+        let pivot_bearing_1 = acceleration_0_part_6 - diagonal_bearing_1;
         let per_pivot_bearing_1 = pivot_bearing_1.recip();
         let safe_bearing_1 = S::select_le(
-            -pivot_bearing_1,
             lit(0.0009765625) * diagonal_bearing_1,
-            lit(0.0),
+            -pivot_bearing_1,
             safe_bearing_0,
+            lit(0.0),
         );
-        let bearing_1_by_bearing_0 = per_i1_sq_r * acceleration_0_part
-            * acceleration_0_part_3 * per_pivot_bearing_0;
-        let acceleration_0_part_6 = r * right_bearing_0 * bearing_1_by_bearing_0;
+        let acceleration_0_part_8 = prepared_part_2 * right_bearing_0
+            * bearing_1_by_bearing_0;
         let sin_th1_sq_dot_th1_r = dot_th1 * dot_th1 * r * sin_th1;
-        let acceleration_0_part_7 = per_i1_torque_r * acceleration_0_part_3;
-        let acceleration_0_part_8 = lit(-0.5)
+        let acceleration_0_part_9 = per_i1_torque_r * acceleration_0_part_3;
+        let acceleration_0_part_10 = lit(-0.5)
             * lit(2.0)
-                .neg_mul_add(acceleration_0_part_7, sin_th1_sq_dot_th1_r - twice_g);
-        let right_bearing_1 = acceleration_0_part_6 - acceleration_0_part_8;
+                .neg_mul_add(acceleration_0_part_9, sin_th1_sq_dot_th1_r - twice_g);
+        let right_bearing_1 = acceleration_0_part_8 - acceleration_0_part_10;
         let (sin_th2, cos_th2) = th2.sin_cos();
-        let acceleration_0_part_9 = lit(0.5) * sin_th2;
-        let acceleration_0_part_10 = per_i2_sq_l * acceleration_0_part_9
-            * acceleration_0_part_9;
-        let pivot_wrist_pin_0 = per_m3_and_per_m2 + acceleration_0_part_10;
+        let acceleration_0_part_11 = lit(0.5) * sin_th2;
+        let acceleration_0_part_12 = per_i2_sq_l * acceleration_0_part_11
+            * acceleration_0_part_11;
+        let pivot_wrist_pin_0 = per_m3_and_per_m2 + acceleration_0_part_12;
         let per_pivot_wrist_pin_0 = pivot_wrist_pin_0.recip();
         let safe_wrist_pin_0 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
             pivot_wrist_pin_0,
-            lit(0.0),
-            lit(0.0),
             safe_bearing_1,
+            lit(0.0),
         );
         let right_wrist_pin_0 = lit(0.5) * (dot_th2 * dot_th2 * cos_th2);
-        let acceleration_0_part_11 = lit(0.5) * cos_th2;
-        let acceleration_0_part_12 = prepared_part_2 * acceleration_0_part_9
-            * acceleration_0_part_9 * acceleration_0_part_11 * acceleration_0_part_11
-            * per_pivot_wrist_pin_0;
-        let acceleration_0_part_13 = per_i2_sq_l * acceleration_0_part_11
-            * acceleration_0_part_11;
-        let diagonal_wrist_pin_1 = per_m2 + acceleration_0_part_13;
-        let pivot_wrist_pin_1 = acceleration_0_part_12 - diagonal_wrist_pin_1;
+        let acceleration_0_part_13 = lit(0.5) * cos_th2;
+        let acceleration_0_part_14 = acceleration_0_part_11 * acceleration_0_part_13;
+        let acceleration_0_part_15 = acceleration_0_part_14;
+        let crank_pin_1_by_wrist_pin_0 = acceleration_0_part_15 * per_pivot_wrist_pin_0;
+        let acceleration_0_part_16 = prepared_part_3 * acceleration_0_part_15
+            * crank_pin_1_by_wrist_pin_0;
+        let acceleration_0_part_17 = per_i2_sq_l * acceleration_0_part_13
+            * acceleration_0_part_13;
+        let diagonal_wrist_pin_1 = per_m2 + acceleration_0_part_17;
+        let pivot_wrist_pin_1 = acceleration_0_part_16 - diagonal_wrist_pin_1;
         let per_pivot_wrist_pin_1 = pivot_wrist_pin_1.recip();
         let safe_wrist_pin_1 = S::select_le(
-            -pivot_wrist_pin_1,
             lit(0.0009765625) * diagonal_wrist_pin_1,
-            lit(0.0),
+            -pivot_wrist_pin_1,
             safe_wrist_pin_0,
+            lit(0.0),
         );
-        let crank_pin_1_by_wrist_pin_0 = per_i2_sq_l * acceleration_0_part_9
-            * acceleration_0_part_11 * per_pivot_wrist_pin_0;
-        let acceleration_0_part_14 = l * right_wrist_pin_0 * crank_pin_1_by_wrist_pin_0;
+        let acceleration_0_part_18 = prepared_part_4 * right_wrist_pin_0
+            * crank_pin_1_by_wrist_pin_0;
         let sin_th2_sq_dot_th2_l = dot_th2 * dot_th2 * l * sin_th2;
-        let acceleration_0_part_15 = lit(0.5) * (twice_g + sin_th2_sq_dot_th2_l);
-        let right_wrist_pin_1 = acceleration_0_part_15 + acceleration_0_part_14;
+        let acceleration_0_part_19 = lit(0.5) * (twice_g + sin_th2_sq_dot_th2_l);
+        let right_wrist_pin_1 = acceleration_0_part_19 + acceleration_0_part_18;
         let crank_pin_0_with_bearing_0 = acceleration_0_part_2 - per_m1;
         let crank_pin_0_by_bearing_0 = -(crank_pin_0_with_bearing_0
             * per_pivot_bearing_0);
-        let acceleration_0_part_16 = lit(1.0) + crank_pin_0_by_bearing_0;
-        let crank_pin_0_with_wrist_pin_0 = acceleration_0_part_10 - per_m2;
-        let crank_pin_1_with_wrist_pin_0 = per_i2_sq_l * acceleration_0_part_9
-            * acceleration_0_part_11;
-        let acceleration_0_part_17 = crank_pin_0_with_wrist_pin_0
-            * crank_pin_1_by_wrist_pin_0;
-        let crank_pin_0_with_wrist_pin_1 = crank_pin_1_with_wrist_pin_0
-            - acceleration_0_part_17;
+        let crank_pin_0_with_bearing_1 = acceleration_0_part_5
+            .mul_add(crank_pin_0_by_bearing_0, acceleration_0_part_4);
+        let crank_pin_0_by_bearing_1 = crank_pin_0_with_bearing_1 * per_pivot_bearing_1;
+        let crank_pin_0_with_wrist_pin_0 = acceleration_0_part_12 - per_m2;
+        let crank_pin_0_by_wrist_pin_0 = -(crank_pin_0_with_wrist_pin_0
+            * per_pivot_wrist_pin_0);
+        let crank_pin_0_with_wrist_pin_1 = crank_pin_0_with_wrist_pin_0
+            .neg_mul_add(crank_pin_1_by_wrist_pin_0, acceleration_0_part_14);
+        let crank_pin_0_by_wrist_pin_1 = crank_pin_0_with_wrist_pin_1
+            * per_pivot_wrist_pin_1;
         let diagonal_crank_pin_0 = per_m1_and_per_m2 + acceleration_0_part_2
-            + acceleration_0_part_10;
-        let pivot_crank_pin_0 = (crank_pin_0_with_wrist_pin_1
-            * crank_pin_0_with_wrist_pin_1)
-            .neg_mul_add(
-                per_pivot_wrist_pin_1,
-                (prepared_part * acceleration_0_part * acceleration_0_part
-                    * acceleration_0_part_3 * acceleration_0_part_3
-                    * acceleration_0_part_16 * acceleration_0_part_16)
-                    .neg_mul_add(
-                        per_pivot_bearing_1,
-                        (crank_pin_0_with_wrist_pin_0 * crank_pin_0_with_wrist_pin_0)
+            + acceleration_0_part_12;
+        let pivot_crank_pin_0 = (prepared_part * crank_pin_0_with_bearing_1)
+            .mul_add(
+                crank_pin_0_by_bearing_1,
+                (prepared_part_3 * crank_pin_0_with_wrist_pin_1)
+                    .mul_add(
+                        crank_pin_0_by_wrist_pin_1,
+                        crank_pin_0_with_wrist_pin_0
                             .mul_add(
-                                per_pivot_wrist_pin_0,
-                                crank_pin_0_with_bearing_0 * crank_pin_0_with_bearing_0
-                                    * per_pivot_bearing_0 - diagonal_crank_pin_0,
+                                crank_pin_0_by_wrist_pin_0,
+                                crank_pin_0_with_bearing_0
+                                    .mul_add(crank_pin_0_by_bearing_0, diagonal_crank_pin_0),
                             ),
                     ),
             );
         let per_pivot_crank_pin_0 = pivot_crank_pin_0.recip();
         let safe_crank_pin_0 = S::select_le(
-            -pivot_crank_pin_0,
             lit(0.0009765625) * diagonal_crank_pin_0,
-            lit(0.0),
+            pivot_crank_pin_0,
             safe_wrist_pin_1,
+            lit(0.0),
         );
-        let crank_pin_0_by_bearing_1 = per_i1_sq_r * acceleration_0_part
-            * acceleration_0_part_3 * acceleration_0_part_16 * per_pivot_bearing_1;
-        let crank_pin_0_by_wrist_pin_0 = -(crank_pin_0_with_wrist_pin_0
-            * per_pivot_wrist_pin_0);
-        let crank_pin_0_by_wrist_pin_1 = crank_pin_0_with_wrist_pin_1
-            * per_pivot_wrist_pin_1;
-        let acceleration_0_part_18 = lit(0.5)
+        let acceleration_0_part_20 = lit(0.5)
             * twice_per_i1_torque_r
                 .mul_add(
                     acceleration_0_part,
                     (dot_th2 * dot_th2 * l)
                         .mul_add(cos_th2, dot_th1 * dot_th1 * r * cos_th1),
                 );
-        let right_crank_pin_0 = right_wrist_pin_1
+        let right_crank_pin_0 = (per_i1_sq_r * right_bearing_1)
             .neg_mul_add(
-                crank_pin_0_by_wrist_pin_1,
-                right_bearing_1
+                crank_pin_0_by_bearing_1,
+                (per_i2_sq_l * right_wrist_pin_1)
                     .neg_mul_add(
-                        crank_pin_0_by_bearing_1,
+                        crank_pin_0_by_wrist_pin_1,
                         (l * right_wrist_pin_0)
                             .mul_add(
                                 crank_pin_0_by_wrist_pin_0,
                                 (r * right_bearing_0)
-                                    .mul_add(crank_pin_0_by_bearing_0, acceleration_0_part_18),
+                                    .mul_add(crank_pin_0_by_bearing_0, acceleration_0_part_20),
                             ),
                     ),
             );
-        let crank_pin_1_with_bearing_1 = per_i1_sq_r * acceleration_0_part
-            * acceleration_0_part_3 * bearing_1_by_bearing_0
-            - (acceleration_0_part_5 - per_m1);
+        let crank_pin_1_with_bearing_1 = acceleration_0_part_6
+            - (acceleration_0_part_7 - per_m1);
         let crank_pin_1_by_bearing_1 = crank_pin_1_with_bearing_1 * per_pivot_bearing_1;
-        let crank_pin_1_with_wrist_pin_1 = per_i2_sq_l * acceleration_0_part_9
-            * acceleration_0_part_11 * crank_pin_1_by_wrist_pin_0
-            - (acceleration_0_part_13 - per_m2);
+        let crank_pin_1_with_wrist_pin_1 = acceleration_0_part_16
+            - (acceleration_0_part_17 - per_m2);
         let crank_pin_1_by_wrist_pin_1 = crank_pin_1_with_wrist_pin_1
             * per_pivot_wrist_pin_1;
         let bearing_1_with_bearing_0 = per_i1_sq_r * acceleration_0_part
             * acceleration_0_part_3;
-        let crank_pin_1_with_crank_pin_0 = crank_pin_0_with_wrist_pin_1
+        let crank_pin_1_with_wrist_pin_0 = per_i2_sq_l * acceleration_0_part_11
+            * acceleration_0_part_13;
+        let crank_pin_1_with_crank_pin_0 = (per_i2_sq_l * crank_pin_0_with_wrist_pin_1)
             .mul_add(
                 crank_pin_1_by_wrist_pin_1,
-                (per_i1_sq_r * acceleration_0_part * acceleration_0_part_3
-                    * acceleration_0_part_16)
+                (per_i1_sq_r * crank_pin_0_with_bearing_1)
                     .mul_add(
                         crank_pin_1_by_bearing_1,
-                        crank_pin_0_with_bearing_0 * bearing_1_by_bearing_0
-                            - (bearing_1_with_bearing_0 + crank_pin_1_with_wrist_pin_0)
-                            + acceleration_0_part_17,
-                    ),
-            );
-        let acceleration_0_part_19 = per_m1_and_per_m2 + acceleration_0_part_5
-            + acceleration_0_part_13;
-        let pivot_crank_pin_1 = pivot_crank_pin_0
-            .neg_mul_add(
-                (crank_pin_1_with_wrist_pin_1 * crank_pin_1_with_wrist_pin_1)
-                    .neg_mul_add(
-                        per_pivot_wrist_pin_1,
-                        (crank_pin_1_with_bearing_1 * crank_pin_1_with_bearing_1)
-                            .neg_mul_add(
-                                per_pivot_bearing_1,
-                                acceleration_0_part_4 - acceleration_0_part_19
-                                    + acceleration_0_part_12,
+                        (per_i2_sq_l * crank_pin_0_with_wrist_pin_0)
+                            .mul_add(
+                                crank_pin_1_by_wrist_pin_0,
+                                per_i1_sq_r * crank_pin_0_with_bearing_0
+                                    * bearing_1_by_bearing_0
+                                    - (bearing_1_with_bearing_0 + crank_pin_1_with_wrist_pin_0),
                             ),
                     ),
+            );
+        let acceleration_0_part_21 = per_m1_and_per_m2 + acceleration_0_part_7
+            + acceleration_0_part_17;
+        let pivot_crank_pin_1 = crank_pin_1_with_wrist_pin_1
+            .neg_mul_add(
+                crank_pin_1_by_wrist_pin_1,
+                crank_pin_1_with_bearing_1
+                    .neg_mul_add(
+                        crank_pin_1_by_bearing_1,
+                        acceleration_0_part_6 - acceleration_0_part_21
+                            + acceleration_0_part_16,
+                    ),
+            )
+            .mul_add(
+                pivot_crank_pin_0,
                 crank_pin_1_with_crank_pin_0 * crank_pin_1_with_crank_pin_0,
             );
         let per_pivot_crank_pin_1 = pivot_crank_pin_1.recip();
-        let diagonal_crank_pin_1 = acceleration_0_part_19 * pivot_crank_pin_0;
+        let diagonal_crank_pin_1 = acceleration_0_part_21 * pivot_crank_pin_0;
         let safe_crank_pin_1 = S::select_le(
+            lit(0.0009765625) * diagonal_crank_pin_1,
             -pivot_crank_pin_1,
-            lit(-0.0009765625) * diagonal_crank_pin_1,
-            lit(0.0),
             safe_crank_pin_0,
+            lit(0.0),
         );
-        let acceleration_0_part_20 = lit(0.5)
+        let acceleration_0_part_22 = lit(0.5)
             * lit(2.0)
                 .neg_mul_add(
-                    acceleration_0_part_7,
+                    acceleration_0_part_9,
                     (sin_th1_sq_dot_th1_r + sin_th2_sq_dot_th2_l),
                 );
-        let right_crank_pin_1 = pivot_crank_pin_0
-            .mul_add(
-                right_wrist_pin_1
+        let right_crank_pin_1 = right_wrist_pin_1
+            .neg_mul_add(
+                crank_pin_1_by_wrist_pin_1,
+                right_bearing_1
                     .neg_mul_add(
-                        crank_pin_1_by_wrist_pin_1,
-                        right_bearing_1
-                            .neg_mul_add(
-                                crank_pin_1_by_bearing_1,
-                                acceleration_0_part_20 + acceleration_0_part_6
-                                    + acceleration_0_part_14,
-                            ),
+                        crank_pin_1_by_bearing_1,
+                        acceleration_0_part_22 + acceleration_0_part_8
+                            + acceleration_0_part_18,
                     ),
-                right_crank_pin_0 * crank_pin_1_with_crank_pin_0,
+            )
+            .neg_mul_add(
+                pivot_crank_pin_0,
+                crank_pin_1_with_crank_pin_0 * right_crank_pin_0,
             );
         out[7] = lit(0.0);
         out[8] = lit(0.0);
@@ -1002,8 +1055,8 @@ impl ::ukcore::Mechanism for SliderCrank {
                 per_pivot_crank_pin_1,
                 right_crank_pin_0 * per_pivot_crank_pin_0,
             );
-        let lambda_bearing_1 = crank_pin_0_by_bearing_1
-            .neg_mul_add(
+        let lambda_bearing_1 = (per_i1_sq_r * crank_pin_0_by_bearing_1)
+            .mul_add(
                 lambda_crank_pin_0,
                 (crank_pin_1_by_bearing_1 * right_crank_pin_1)
                     .mul_add(
@@ -1016,8 +1069,8 @@ impl ::ukcore::Mechanism for SliderCrank {
                 lambda_bearing_1,
                 per_m1 * right_crank_pin_1 * per_pivot_crank_pin_1 - g,
             );
-        let lambda_wrist_pin_1 = crank_pin_0_by_wrist_pin_1
-            .neg_mul_add(
+        let lambda_wrist_pin_1 = (per_i2_sq_l * crank_pin_0_by_wrist_pin_1)
+            .mul_add(
                 lambda_crank_pin_0,
                 (crank_pin_1_by_wrist_pin_1 * right_crank_pin_1)
                     .mul_add(
@@ -1030,35 +1083,34 @@ impl ::ukcore::Mechanism for SliderCrank {
                 lambda_wrist_pin_1,
                 (per_m2 * right_crank_pin_1).neg_mul_add(per_pivot_crank_pin_1, -g),
             );
-        let lambda_wrist_pin_0 = crank_pin_1_by_wrist_pin_0
-            .neg_mul_add(
-                lambda_wrist_pin_1,
-                crank_pin_0_by_wrist_pin_0
-                    .neg_mul_add(
-                        lambda_crank_pin_0,
-                        (crank_pin_1_by_wrist_pin_0 * right_crank_pin_1)
-                            .mul_add(
-                                per_pivot_crank_pin_1,
-                                l * right_wrist_pin_0 * per_pivot_wrist_pin_0,
-                            ),
-                    ),
-            );
-        out[3] = per_m2 * (lambda_crank_pin_0 + lambda_wrist_pin_0);
-        out[6] = -(per_m3 * lambda_wrist_pin_0);
-        let lambda_bearing_0 = bearing_1_by_bearing_0
+        let lambda_bearing_0 = (per_i1_sq_r * bearing_1_by_bearing_0)
             .neg_mul_add(
                 lambda_bearing_1,
                 crank_pin_0_by_bearing_0
-                    .neg_mul_add(
+                    .mul_add(
                         lambda_crank_pin_0,
-                        (bearing_1_by_bearing_0 * right_crank_pin_1)
+                        (per_i1_sq_r * bearing_1_by_bearing_0 * right_crank_pin_1)
                             .mul_add(
                                 per_pivot_crank_pin_1,
                                 r * right_bearing_0 * per_pivot_bearing_0,
                             ),
                     ),
             );
-        out[0] = -(per_m1 * (lambda_crank_pin_0 + lambda_bearing_0));
+        out[0] = per_m1 * (lambda_crank_pin_0 - lambda_bearing_0);
+        let lambda_wrist_pin_0 = (per_i2_sq_l * crank_pin_1_by_wrist_pin_0)
+            .neg_mul_add(
+                lambda_wrist_pin_1,
+                crank_pin_0_by_wrist_pin_0
+                    .mul_add(
+                        lambda_crank_pin_0,
+                        (per_i2_sq_l * crank_pin_1_by_wrist_pin_0 * right_crank_pin_1)
+                            .mul_add(
+                                per_pivot_crank_pin_1,
+                                l * right_wrist_pin_0 * per_pivot_wrist_pin_0,
+                            ),
+                    ),
+            );
+        out[6] = -(per_m3 * lambda_wrist_pin_0);
         out[2] = per_i1
             * (r * acceleration_0_part)
                 .neg_mul_add(
@@ -1067,28 +1119,28 @@ impl ::ukcore::Mechanism for SliderCrank {
                         .neg_mul_add(
                             lambda_bearing_1,
                             (r * acceleration_0_part)
-                                .mul_add(
+                                .neg_mul_add(
                                     lambda_crank_pin_0,
                                     (r * acceleration_0_part_3 * right_crank_pin_1)
                                         .mul_add(per_pivot_crank_pin_1, torque),
                                 ),
                         ),
                 );
-        out[5] = per_i2_l
-            * acceleration_0_part_9
-                .neg_mul_add(
+        out[3] = -(per_m2 * (lambda_crank_pin_0 - lambda_wrist_pin_0));
+        out[5] = -(per_i2_l
+            * acceleration_0_part_11
+                .mul_add(
                     lambda_wrist_pin_0,
-                    acceleration_0_part_11
-                        .neg_mul_add(
+                    acceleration_0_part_13
+                        .mul_add(
                             lambda_wrist_pin_1,
-                            acceleration_0_part_9
-                                .mul_add(
-                                    lambda_crank_pin_0,
-                                    acceleration_0_part_11 * right_crank_pin_1
-                                        * per_pivot_crank_pin_1,
+                            (acceleration_0_part_13 * right_crank_pin_1)
+                                .neg_mul_add(
+                                    per_pivot_crank_pin_1,
+                                    acceleration_0_part_11 * lambda_crank_pin_0,
                                 ),
                         ),
-                );
+                ));
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
@@ -1101,10 +1153,10 @@ impl ::ukcore::Mechanism for SliderCrank {
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 9>(out, "out");
         let [_, _, _, _, _, _, _, _, _, _, _, _, per_i1_sq_r, _, per_i2_sq_l, per_m1, _,
-        _, prepared_part, _, per_m3_and_per_m2, per_m2, prepared_part_2,
+        _, prepared_part, _, _, per_m3_and_per_m2, per_m2, prepared_part_3, _,
         per_m1_and_per_m2, _, per_i2_l, _, _, per_m3, per_i1_r, safe_th2] = *::ukcore::emitted::exact::<
             S,
-            31,
+            33,
         >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [residual_0, residual_1, residual_2, residual_3, residual_4, residual_5,
@@ -1119,152 +1171,157 @@ impl ::ukcore::Mechanism for SliderCrank {
             * correction_0_part;
         let pivot_bearing_0 = per_m1 + sq_correction_0_part_per_i1_sq_r;
         let per_pivot_bearing_0 = pivot_bearing_0.recip();
-        let safe_bearing_0 = S::select_le(pivot_bearing_0, lit(0.0), lit(0.0), safe_th2);
+        let safe_bearing_0 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            pivot_bearing_0,
+            safe_th2,
+            lit(0.0),
+        );
         let correction_0_part_2 = lit(0.5) * cos_th1;
-        let correction_0_part_3 = prepared_part * correction_0_part * correction_0_part
-            * correction_0_part_2 * correction_0_part_2 * per_pivot_bearing_0;
-        let correction_0_part_4 = per_i1_sq_r * correction_0_part_2
+        let correction_0_part_3 = correction_0_part * correction_0_part_2;
+        let correction_0_part_4 = correction_0_part_3;
+        let bearing_1_by_bearing_0 = correction_0_part_4 * per_pivot_bearing_0;
+        let correction_0_part_5 = prepared_part * correction_0_part_4
+            * bearing_1_by_bearing_0;
+        let correction_0_part_6 = per_i1_sq_r * correction_0_part_2
             * correction_0_part_2;
-        let diagonal_bearing_1 = per_m1 + correction_0_part_4;
-        let pivot_bearing_1 = correction_0_part_3 - diagonal_bearing_1;
+        let diagonal_bearing_1 = per_m1 + correction_0_part_6;
+        let pivot_bearing_1 = correction_0_part_5 - diagonal_bearing_1;
         let per_pivot_bearing_1 = pivot_bearing_1.recip();
         let safe_bearing_1 = S::select_le(
-            -pivot_bearing_1,
             lit(0.0009765625) * diagonal_bearing_1,
-            lit(0.0),
+            -pivot_bearing_1,
             safe_bearing_0,
+            lit(0.0),
         );
         let (sin_th2, cos_th2) = th2.sin_cos();
-        let correction_0_part_5 = lit(0.5) * sin_th2;
-        let correction_0_part_6 = per_i2_sq_l * correction_0_part_5
-            * correction_0_part_5;
-        let pivot_wrist_pin_0 = per_m3_and_per_m2 + correction_0_part_6;
+        let correction_0_part_7 = lit(0.5) * sin_th2;
+        let correction_0_part_8 = per_i2_sq_l * correction_0_part_7
+            * correction_0_part_7;
+        let pivot_wrist_pin_0 = per_m3_and_per_m2 + correction_0_part_8;
         let per_pivot_wrist_pin_0 = pivot_wrist_pin_0.recip();
         let safe_wrist_pin_0 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
             pivot_wrist_pin_0,
-            lit(0.0),
-            lit(0.0),
             safe_bearing_1,
+            lit(0.0),
         );
-        let correction_0_part_7 = lit(0.5) * cos_th2;
-        let correction_0_part_8 = prepared_part_2 * correction_0_part_5
-            * correction_0_part_5 * correction_0_part_7 * correction_0_part_7
-            * per_pivot_wrist_pin_0;
-        let correction_0_part_9 = per_i2_sq_l * correction_0_part_7
-            * correction_0_part_7;
-        let diagonal_wrist_pin_1 = per_m2 + correction_0_part_9;
-        let pivot_wrist_pin_1 = correction_0_part_8 - diagonal_wrist_pin_1;
+        let correction_0_part_9 = lit(0.5) * cos_th2;
+        let correction_0_part_10 = correction_0_part_7 * correction_0_part_9;
+        let correction_0_part_11 = correction_0_part_10;
+        let crank_pin_1_by_wrist_pin_0 = correction_0_part_11 * per_pivot_wrist_pin_0;
+        let correction_0_part_12 = prepared_part_3 * correction_0_part_11
+            * crank_pin_1_by_wrist_pin_0;
+        let correction_0_part_13 = per_i2_sq_l * correction_0_part_9
+            * correction_0_part_9;
+        let diagonal_wrist_pin_1 = per_m2 + correction_0_part_13;
+        let pivot_wrist_pin_1 = correction_0_part_12 - diagonal_wrist_pin_1;
         let per_pivot_wrist_pin_1 = pivot_wrist_pin_1.recip();
         let safe_wrist_pin_1 = S::select_le(
-            -pivot_wrist_pin_1,
             lit(0.0009765625) * diagonal_wrist_pin_1,
-            lit(0.0),
+            -pivot_wrist_pin_1,
             safe_wrist_pin_0,
+            lit(0.0),
         );
         let crank_pin_0_with_bearing_0 = sq_correction_0_part_per_i1_sq_r - per_m1;
         let crank_pin_0_by_bearing_0 = -(crank_pin_0_with_bearing_0
             * per_pivot_bearing_0);
-        let correction_0_part_10 = lit(1.0) + crank_pin_0_by_bearing_0;
-        let crank_pin_0_with_wrist_pin_0 = correction_0_part_6 - per_m2;
-        let crank_pin_1_with_wrist_pin_0 = per_i2_sq_l * correction_0_part_5
-            * correction_0_part_7;
-        let crank_pin_1_by_wrist_pin_0 = per_i2_sq_l * correction_0_part_5
-            * correction_0_part_7 * per_pivot_wrist_pin_0;
-        let correction_0_part_11 = crank_pin_0_with_wrist_pin_0
-            * crank_pin_1_by_wrist_pin_0;
-        let crank_pin_0_with_wrist_pin_1 = crank_pin_1_with_wrist_pin_0
-            - correction_0_part_11;
+        let crank_pin_0_with_bearing_1 = correction_0_part_4
+            .mul_add(crank_pin_0_by_bearing_0, correction_0_part_3);
+        let crank_pin_0_by_bearing_1 = crank_pin_0_with_bearing_1 * per_pivot_bearing_1;
+        let crank_pin_0_with_wrist_pin_0 = correction_0_part_8 - per_m2;
+        let crank_pin_0_by_wrist_pin_0 = -(crank_pin_0_with_wrist_pin_0
+            * per_pivot_wrist_pin_0);
+        let crank_pin_0_with_wrist_pin_1 = crank_pin_0_with_wrist_pin_0
+            .neg_mul_add(crank_pin_1_by_wrist_pin_0, correction_0_part_10);
+        let crank_pin_0_by_wrist_pin_1 = crank_pin_0_with_wrist_pin_1
+            * per_pivot_wrist_pin_1;
         let diagonal_crank_pin_0 = per_m1_and_per_m2 + sq_correction_0_part_per_i1_sq_r
-            + correction_0_part_6;
-        let pivot_crank_pin_0 = (crank_pin_0_with_wrist_pin_1
-            * crank_pin_0_with_wrist_pin_1)
-            .neg_mul_add(
-                per_pivot_wrist_pin_1,
-                (prepared_part * correction_0_part * correction_0_part
-                    * correction_0_part_2 * correction_0_part_2 * correction_0_part_10
-                    * correction_0_part_10)
-                    .neg_mul_add(
-                        per_pivot_bearing_1,
-                        (crank_pin_0_with_wrist_pin_0 * crank_pin_0_with_wrist_pin_0)
+            + correction_0_part_8;
+        let pivot_crank_pin_0 = (prepared_part * crank_pin_0_with_bearing_1)
+            .mul_add(
+                crank_pin_0_by_bearing_1,
+                (prepared_part_3 * crank_pin_0_with_wrist_pin_1)
+                    .mul_add(
+                        crank_pin_0_by_wrist_pin_1,
+                        crank_pin_0_with_wrist_pin_0
                             .mul_add(
-                                per_pivot_wrist_pin_0,
-                                crank_pin_0_with_bearing_0 * crank_pin_0_with_bearing_0
-                                    * per_pivot_bearing_0 - diagonal_crank_pin_0,
+                                crank_pin_0_by_wrist_pin_0,
+                                crank_pin_0_with_bearing_0
+                                    .mul_add(crank_pin_0_by_bearing_0, diagonal_crank_pin_0),
                             ),
                     ),
             );
         let per_pivot_crank_pin_0 = pivot_crank_pin_0.recip();
         let safe_crank_pin_0 = S::select_le(
-            -pivot_crank_pin_0,
             lit(0.0009765625) * diagonal_crank_pin_0,
-            lit(0.0),
+            pivot_crank_pin_0,
             safe_wrist_pin_1,
+            lit(0.0),
         );
-        let bearing_1_by_bearing_0 = per_i1_sq_r * correction_0_part
-            * correction_0_part_2 * per_pivot_bearing_0;
-        let crank_pin_1_with_bearing_1 = per_i1_sq_r * correction_0_part
-            * correction_0_part_2 * bearing_1_by_bearing_0
-            - (correction_0_part_4 - per_m1);
+        let crank_pin_1_with_bearing_1 = correction_0_part_5
+            - (correction_0_part_6 - per_m1);
         let crank_pin_1_by_bearing_1 = crank_pin_1_with_bearing_1 * per_pivot_bearing_1;
-        let crank_pin_1_with_wrist_pin_1 = per_i2_sq_l * correction_0_part_5
-            * correction_0_part_7 * crank_pin_1_by_wrist_pin_0
-            - (correction_0_part_9 - per_m2);
+        let crank_pin_1_with_wrist_pin_1 = correction_0_part_12
+            - (correction_0_part_13 - per_m2);
         let crank_pin_1_by_wrist_pin_1 = crank_pin_1_with_wrist_pin_1
             * per_pivot_wrist_pin_1;
         let bearing_1_with_bearing_0 = per_i1_sq_r * correction_0_part
             * correction_0_part_2;
-        let crank_pin_1_with_crank_pin_0 = crank_pin_0_with_wrist_pin_1
+        let crank_pin_1_with_wrist_pin_0 = per_i2_sq_l * correction_0_part_7
+            * correction_0_part_9;
+        let crank_pin_1_with_crank_pin_0 = (per_i2_sq_l * crank_pin_0_with_wrist_pin_1)
             .mul_add(
                 crank_pin_1_by_wrist_pin_1,
-                (per_i1_sq_r * correction_0_part * correction_0_part_2
-                    * correction_0_part_10)
+                (per_i1_sq_r * crank_pin_0_with_bearing_1)
                     .mul_add(
                         crank_pin_1_by_bearing_1,
-                        crank_pin_0_with_bearing_0 * bearing_1_by_bearing_0
-                            - (bearing_1_with_bearing_0 + crank_pin_1_with_wrist_pin_0)
-                            + correction_0_part_11,
-                    ),
-            );
-        let correction_0_part_12 = per_m1_and_per_m2 + correction_0_part_4
-            + correction_0_part_9;
-        let pivot_crank_pin_1 = pivot_crank_pin_0
-            .neg_mul_add(
-                (crank_pin_1_with_wrist_pin_1 * crank_pin_1_with_wrist_pin_1)
-                    .neg_mul_add(
-                        per_pivot_wrist_pin_1,
-                        (crank_pin_1_with_bearing_1 * crank_pin_1_with_bearing_1)
-                            .neg_mul_add(
-                                per_pivot_bearing_1,
-                                correction_0_part_3 - correction_0_part_12
-                                    + correction_0_part_8,
+                        (per_i2_sq_l * crank_pin_0_with_wrist_pin_0)
+                            .mul_add(
+                                crank_pin_1_by_wrist_pin_0,
+                                per_i1_sq_r * crank_pin_0_with_bearing_0
+                                    * bearing_1_by_bearing_0
+                                    - (bearing_1_with_bearing_0 + crank_pin_1_with_wrist_pin_0),
                             ),
                     ),
+            );
+        let correction_0_part_14 = per_m1_and_per_m2 + correction_0_part_6
+            + correction_0_part_13;
+        let pivot_crank_pin_1 = crank_pin_1_with_wrist_pin_1
+            .neg_mul_add(
+                crank_pin_1_by_wrist_pin_1,
+                crank_pin_1_with_bearing_1
+                    .neg_mul_add(
+                        crank_pin_1_by_bearing_1,
+                        correction_0_part_5 - correction_0_part_14 + correction_0_part_12,
+                    ),
+            )
+            .mul_add(
+                pivot_crank_pin_0,
                 crank_pin_1_with_crank_pin_0 * crank_pin_1_with_crank_pin_0,
             );
         let per_pivot_crank_pin_1 = pivot_crank_pin_1.recip();
-        let diagonal_crank_pin_1 = correction_0_part_12 * pivot_crank_pin_0;
+        let diagonal_crank_pin_1 = correction_0_part_14 * pivot_crank_pin_0;
         let safe_crank_pin_1 = S::select_le(
+            lit(0.0009765625) * diagonal_crank_pin_1,
             -pivot_crank_pin_1,
-            lit(-0.0009765625) * diagonal_crank_pin_1,
-            lit(0.0),
             safe_crank_pin_0,
+            lit(0.0),
         );
-        let correction_0_part_13 = residual_0 * bearing_1_by_bearing_0;
-        let right_bearing_1 = residual_1 + correction_0_part_13;
-        let correction_0_part_14 = residual_4 * crank_pin_1_by_wrist_pin_0;
-        let right_wrist_pin_1 = (residual_5 + residual_6) + correction_0_part_14;
-        let crank_pin_0_by_bearing_1 = per_i1_sq_r * correction_0_part
-            * correction_0_part_2 * correction_0_part_10 * per_pivot_bearing_1;
-        let crank_pin_0_by_wrist_pin_0 = -(crank_pin_0_with_wrist_pin_0
-            * per_pivot_wrist_pin_0);
-        let crank_pin_0_by_wrist_pin_1 = crank_pin_0_with_wrist_pin_1
-            * per_pivot_wrist_pin_1;
-        let right_crank_pin_0 = right_wrist_pin_1
-            .neg_mul_add(
-                crank_pin_0_by_wrist_pin_1,
-                right_bearing_1
-                    .mul_add(
-                        crank_pin_0_by_bearing_1,
+        let correction_0_part_15 = residual_0 * per_i1_sq_r * bearing_1_by_bearing_0;
+        let right_bearing_1 = residual_1 + correction_0_part_15;
+        let correction_0_part_16 = residual_4 * per_i2_sq_l * crank_pin_1_by_wrist_pin_0;
+        let right_wrist_pin_1 = (residual_5 + residual_6) + correction_0_part_16;
+        let right_crank_pin_0 = (per_i1_sq_r * right_bearing_1)
+            .mul_add(
+                crank_pin_0_by_bearing_1,
+                (per_i2_sq_l * right_wrist_pin_1)
+                    .neg_mul_add(
+                        crank_pin_0_by_wrist_pin_1,
                         residual_4
                             .mul_add(
                                 crank_pin_0_by_wrist_pin_0,
@@ -1272,17 +1329,17 @@ impl ::ukcore::Mechanism for SliderCrank {
                             ),
                     ),
             );
-        let right_crank_pin_1 = pivot_crank_pin_0
-            .mul_add(
-                right_wrist_pin_1
-                    .neg_mul_add(
-                        crank_pin_1_by_wrist_pin_1,
-                        right_bearing_1
-                            .mul_add(
-                                crank_pin_1_by_bearing_1,
-                                residual_3 - correction_0_part_13 + correction_0_part_14,
-                            ),
+        let right_crank_pin_1 = right_wrist_pin_1
+            .neg_mul_add(
+                crank_pin_1_by_wrist_pin_1,
+                right_bearing_1
+                    .mul_add(
+                        crank_pin_1_by_bearing_1,
+                        residual_3 - correction_0_part_15 + correction_0_part_16,
                     ),
+            )
+            .neg_mul_add(
+                pivot_crank_pin_0,
                 crank_pin_1_with_crank_pin_0 * right_crank_pin_0,
             );
         out[7] = -residual_6;
@@ -1295,8 +1352,8 @@ impl ::ukcore::Mechanism for SliderCrank {
                 per_pivot_crank_pin_1,
                 right_crank_pin_0 * per_pivot_crank_pin_0,
             );
-        let lambda_wrist_pin_1 = crank_pin_0_by_wrist_pin_1
-            .neg_mul_add(
+        let lambda_wrist_pin_1 = (per_i2_sq_l * crank_pin_0_by_wrist_pin_1)
+            .mul_add(
                 lambda_crank_pin_0,
                 (crank_pin_1_by_wrist_pin_1 * right_crank_pin_1)
                     .mul_add(
@@ -1305,8 +1362,8 @@ impl ::ukcore::Mechanism for SliderCrank {
                     ),
             );
         out[4] = per_m2 * (lambda_crank_pin_1 + lambda_wrist_pin_1);
-        let lambda_bearing_1 = crank_pin_0_by_bearing_1
-            .mul_add(
+        let lambda_bearing_1 = (per_i1_sq_r * crank_pin_0_by_bearing_1)
+            .neg_mul_add(
                 lambda_crank_pin_0,
                 (crank_pin_1_by_bearing_1 * right_crank_pin_1)
                     .neg_mul_add(
@@ -1315,13 +1372,13 @@ impl ::ukcore::Mechanism for SliderCrank {
                     ),
             );
         out[1] = -(per_m1 * (lambda_crank_pin_1 - lambda_bearing_1));
-        let lambda_wrist_pin_0 = crank_pin_1_by_wrist_pin_0
+        let lambda_wrist_pin_0 = (per_i2_sq_l * crank_pin_1_by_wrist_pin_0)
             .neg_mul_add(
                 lambda_wrist_pin_1,
                 crank_pin_0_by_wrist_pin_0
-                    .neg_mul_add(
+                    .mul_add(
                         lambda_crank_pin_0,
-                        (crank_pin_1_by_wrist_pin_0 * right_crank_pin_1)
+                        (per_i2_sq_l * crank_pin_1_by_wrist_pin_0 * right_crank_pin_1)
                             .mul_add(
                                 per_pivot_crank_pin_1,
                                 residual_4 * per_pivot_wrist_pin_0,
@@ -1329,21 +1386,35 @@ impl ::ukcore::Mechanism for SliderCrank {
                     ),
             );
         out[6] = per_m3 * lambda_wrist_pin_0;
-        let lambda_bearing_0 = bearing_1_by_bearing_0
+        out[3] = per_m2 * (lambda_crank_pin_0 - lambda_wrist_pin_0);
+        let lambda_bearing_0 = (per_i1_sq_r * bearing_1_by_bearing_0)
             .neg_mul_add(
                 lambda_bearing_1,
                 crank_pin_0_by_bearing_0
-                    .mul_add(
+                    .neg_mul_add(
                         lambda_crank_pin_0,
-                        (bearing_1_by_bearing_0 * right_crank_pin_1)
+                        (per_i1_sq_r * bearing_1_by_bearing_0 * right_crank_pin_1)
                             .neg_mul_add(
                                 per_pivot_crank_pin_1,
                                 residual_0 * per_pivot_bearing_0,
                             ),
                     ),
             );
-        out[0] = per_m1 * (lambda_crank_pin_0 - lambda_bearing_0);
-        out[3] = -(per_m2 * (lambda_crank_pin_0 + lambda_wrist_pin_0));
+        out[0] = -(per_m1 * (lambda_crank_pin_0 + lambda_bearing_0));
+        out[5] = per_i2_l
+            * correction_0_part_7
+                .mul_add(
+                    lambda_wrist_pin_0,
+                    correction_0_part_9
+                        .mul_add(
+                            lambda_wrist_pin_1,
+                            (correction_0_part_9 * right_crank_pin_1)
+                                .neg_mul_add(
+                                    per_pivot_crank_pin_1,
+                                    correction_0_part_7 * lambda_crank_pin_0,
+                                ),
+                        ),
+                );
         out[2] = -(per_i1_r
             * correction_0_part
                 .mul_add(
@@ -1352,24 +1423,9 @@ impl ::ukcore::Mechanism for SliderCrank {
                         .mul_add(
                             lambda_bearing_1,
                             correction_0_part
-                                .mul_add(
+                                .neg_mul_add(
                                     lambda_crank_pin_0,
                                     correction_0_part_2 * right_crank_pin_1
-                                        * per_pivot_crank_pin_1,
-                                ),
-                        ),
-                ));
-        out[5] = -(per_i2_l
-            * correction_0_part_5
-                .neg_mul_add(
-                    lambda_wrist_pin_0,
-                    correction_0_part_7
-                        .neg_mul_add(
-                            lambda_wrist_pin_1,
-                            correction_0_part_5
-                                .mul_add(
-                                    lambda_crank_pin_0,
-                                    correction_0_part_7 * right_crank_pin_1
                                         * per_pivot_crank_pin_1,
                                 ),
                         ),

@@ -165,7 +165,10 @@ impl ::ukcore::Mechanism for UChain {
             ("sq_l", "sq(l)"),
             ("m", "m"),
             ("g", "g"),
-            ("safe_x_0", "(m ≤ 0 ? 0 : 1)"),
+            (
+                "safe_x_0",
+                "(0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ m ? 1 : 0)",
+            ),
         ],
         coords: &[
             "x[0]",
@@ -438,7 +441,7 @@ impl ::ukcore::Mechanism for UChain {
             },
             solve_operations: ::ukcore::Operations {
                 additions: 229,
-                multiplications: 311,
+                multiplications: 309,
                 divisions: 17,
                 square_roots: 0,
                 transcendentals: 0,
@@ -621,7 +624,14 @@ impl ::ukcore::Mechanism for UChain {
         prepared[1] = l * l;
         prepared[2] = m;
         prepared[3] = g;
-        let safe_x_0 = S::select_le(m, lit(0.0), lit(0.0), lit(1.0));
+        let safe_x_0 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            m,
+            lit(1.0),
+            lit(0.0),
+        );
         prepared[4] = safe_x_0;
     }
     /// 81 additions, 117 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
@@ -1497,7 +1507,7 @@ impl ::ukcore::Mechanism for UChain {
             * (y_0 + y_1 + y_2 + y_3 + y_4 + y_5 + y_6 + y_7 + y_8 + y_9 + y_10 + y_11
                 + y_12 + y_13 + y_14 + y_15 + y_16);
     }
-    /// 229 additions, 311 multiplications, 17 divisions, 0 square roots, 0 transcendentals, 17 selections.
+    /// 229 additions, 309 multiplications, 17 divisions, 0 square roots, 0 transcendentals, 17 selections.
     fn acceleration<S: ::ukcore::Scalar>(
         prepared: &[S],
         t: S,
@@ -1524,7 +1534,14 @@ impl ::ukcore::Mechanism for UChain {
         let pivot_link_0 = lit(2.0)
             * y_0_minus_y_1.mul_add(y_0_minus_y_1, x_1_minus_x_0 * x_1_minus_x_0);
         let per_pivot_link_0 = pivot_link_0.recip();
-        let safe_link_0 = S::select_le(pivot_link_0, lit(0.0), lit(0.0), safe_x_0);
+        let safe_link_0 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            pivot_link_0,
+            safe_x_0,
+            lit(0.0),
+        );
         let dot_x_0_minus_dot_x_1 = dot_x_0 - dot_x_1;
         let dot_y_0_minus_dot_y_1 = dot_y_0 - dot_y_1;
         let right_link_0 = dot_y_0_minus_dot_y_1
@@ -1534,7 +1551,14 @@ impl ::ukcore::Mechanism for UChain {
             );
         let pivot_support = y_16.mul_add(y_16, x_16 * x_16);
         let per_pivot_support = pivot_support.recip();
-        let safe_support = S::select_le(pivot_support, lit(0.0), lit(0.0), safe_link_0);
+        let safe_support = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            pivot_support,
+            safe_link_0,
+            lit(0.0),
+        );
         let right_support = y_16 * g + dot_y_16.mul_add(dot_y_16, dot_x_16 * dot_x_16);
         let x_1_minus_x_2 = x_1 - x_2;
         let y_1_minus_y_2 = y_1 - y_2;
@@ -1546,10 +1570,10 @@ impl ::ukcore::Mechanism for UChain {
         let pivot_link_1 = link_1_with_link_0 * link_1_with_link_0 - diagonal_link_1;
         let per_pivot_link_1 = pivot_link_1.recip();
         let safe_link_1 = S::select_le(
-            -pivot_link_1,
             lit(0.0009765625) * diagonal_link_1,
-            lit(0.0),
+            -pivot_link_1,
             safe_support,
+            lit(0.0),
         );
         let dot_x_1_minus_dot_x_2 = dot_x_1 - dot_x_2;
         let dot_y_1_minus_dot_y_2 = dot_y_1 - dot_y_2;
@@ -1570,10 +1594,10 @@ impl ::ukcore::Mechanism for UChain {
             - diagonal_link_15;
         let per_pivot_link_15 = pivot_link_15.recip();
         let safe_link_15 = S::select_le(
-            -pivot_link_15,
             lit(0.0009765625) * diagonal_link_15,
-            lit(0.0),
+            -pivot_link_15,
             safe_link_1,
+            lit(0.0),
         );
         let dot_x_15_minus_dot_x_16 = dot_x_15 - dot_x_16;
         let dot_y_15_minus_dot_y_16 = dot_y_15 - dot_y_16;
@@ -1598,10 +1622,10 @@ impl ::ukcore::Mechanism for UChain {
             + diagonal_link_2;
         let per_pivot_link_2 = pivot_link_2.recip();
         let safe_link_2 = S::select_le(
-            -pivot_link_2,
             lit(-0.0009765625) * diagonal_link_2,
-            lit(0.0),
+            -pivot_link_2,
             safe_link_15,
+            lit(0.0),
         );
         let dot_x_2_minus_dot_x_3 = dot_x_2 - dot_x_3;
         let dot_y_2_minus_dot_y_3 = dot_y_2 - dot_y_3;
@@ -1623,10 +1647,10 @@ impl ::ukcore::Mechanism for UChain {
             + diagonal_link_14;
         let per_pivot_link_14 = pivot_link_14.recip();
         let safe_link_14 = S::select_le(
-            -pivot_link_14,
             lit(-0.0009765625) * diagonal_link_14,
-            lit(0.0),
+            -pivot_link_14,
             safe_link_2,
+            lit(0.0),
         );
         let dot_x_14_minus_dot_x_15 = dot_x_14 - dot_x_15;
         let dot_y_14_minus_dot_y_15 = dot_y_14 - dot_y_15;
@@ -1650,10 +1674,10 @@ impl ::ukcore::Mechanism for UChain {
             - diagonal_link_3;
         let per_pivot_link_3 = pivot_link_3.recip();
         let safe_link_3 = S::select_le(
-            pivot_link_3,
             lit(-0.0009765625) * diagonal_link_3,
-            lit(0.0),
+            pivot_link_3,
             safe_link_14,
+            lit(0.0),
         );
         let dot_x_3_minus_dot_x_4 = dot_x_3 - dot_x_4;
         let dot_y_3_minus_dot_y_4 = dot_y_3 - dot_y_4;
@@ -1675,10 +1699,10 @@ impl ::ukcore::Mechanism for UChain {
             - diagonal_link_13;
         let per_pivot_link_13 = pivot_link_13.recip();
         let safe_link_13 = S::select_le(
-            pivot_link_13,
             lit(-0.0009765625) * diagonal_link_13,
-            lit(0.0),
+            pivot_link_13,
             safe_link_3,
+            lit(0.0),
         );
         let dot_x_13_minus_dot_x_14 = dot_x_13 - dot_x_14;
         let dot_y_13_minus_dot_y_14 = dot_y_13 - dot_y_14;
@@ -1702,10 +1726,10 @@ impl ::ukcore::Mechanism for UChain {
             + diagonal_link_4;
         let per_pivot_link_4 = pivot_link_4.recip();
         let safe_link_4 = S::select_le(
-            pivot_link_4,
             lit(0.0009765625) * diagonal_link_4,
-            lit(0.0),
+            pivot_link_4,
             safe_link_13,
+            lit(0.0),
         );
         let dot_x_4_minus_dot_x_5 = dot_x_4 - dot_x_5;
         let dot_y_4_minus_dot_y_5 = dot_y_4 - dot_y_5;
@@ -1727,10 +1751,10 @@ impl ::ukcore::Mechanism for UChain {
             + diagonal_link_12;
         let per_pivot_link_12 = pivot_link_12.recip();
         let safe_link_12 = S::select_le(
-            pivot_link_12,
             lit(0.0009765625) * diagonal_link_12,
-            lit(0.0),
+            pivot_link_12,
             safe_link_4,
+            lit(0.0),
         );
         let dot_x_12_minus_dot_x_13 = dot_x_12 - dot_x_13;
         let dot_y_12_minus_dot_y_13 = dot_y_12 - dot_y_13;
@@ -1754,10 +1778,10 @@ impl ::ukcore::Mechanism for UChain {
             - diagonal_link_5;
         let per_pivot_link_5 = pivot_link_5.recip();
         let safe_link_5 = S::select_le(
-            -pivot_link_5,
             lit(0.0009765625) * diagonal_link_5,
-            lit(0.0),
+            -pivot_link_5,
             safe_link_12,
+            lit(0.0),
         );
         let dot_x_5_minus_dot_x_6 = dot_x_5 - dot_x_6;
         let dot_y_5_minus_dot_y_6 = dot_y_5 - dot_y_6;
@@ -1779,10 +1803,10 @@ impl ::ukcore::Mechanism for UChain {
             - diagonal_link_11;
         let per_pivot_link_11 = pivot_link_11.recip();
         let safe_link_11 = S::select_le(
-            -pivot_link_11,
             lit(0.0009765625) * diagonal_link_11,
-            lit(0.0),
+            -pivot_link_11,
             safe_link_5,
+            lit(0.0),
         );
         let dot_x_11_minus_dot_x_12 = dot_x_11 - dot_x_12;
         let dot_y_11_minus_dot_y_12 = dot_y_11 - dot_y_12;
@@ -1806,10 +1830,10 @@ impl ::ukcore::Mechanism for UChain {
             + diagonal_link_6;
         let per_pivot_link_6 = pivot_link_6.recip();
         let safe_link_6 = S::select_le(
-            -pivot_link_6,
             lit(-0.0009765625) * diagonal_link_6,
-            lit(0.0),
+            -pivot_link_6,
             safe_link_11,
+            lit(0.0),
         );
         let dot_x_6_minus_dot_x_7 = dot_x_6 - dot_x_7;
         let dot_y_6_minus_dot_y_7 = dot_y_6 - dot_y_7;
@@ -1831,10 +1855,10 @@ impl ::ukcore::Mechanism for UChain {
             + diagonal_link_10;
         let per_pivot_link_10 = pivot_link_10.recip();
         let safe_link_10 = S::select_le(
-            -pivot_link_10,
             lit(-0.0009765625) * diagonal_link_10,
-            lit(0.0),
+            -pivot_link_10,
             safe_link_6,
+            lit(0.0),
         );
         let dot_x_10_minus_dot_x_11 = dot_x_10 - dot_x_11;
         let dot_y_10_minus_dot_y_11 = dot_y_10 - dot_y_11;
@@ -1858,10 +1882,10 @@ impl ::ukcore::Mechanism for UChain {
             - diagonal_link_7;
         let per_pivot_link_7 = pivot_link_7.recip();
         let safe_link_7 = S::select_le(
-            pivot_link_7,
             lit(-0.0009765625) * diagonal_link_7,
-            lit(0.0),
+            pivot_link_7,
             safe_link_10,
+            lit(0.0),
         );
         let dot_x_7_minus_dot_x_8 = dot_x_7 - dot_x_8;
         let dot_y_7_minus_dot_y_8 = dot_y_7 - dot_y_8;
@@ -1882,10 +1906,10 @@ impl ::ukcore::Mechanism for UChain {
             - diagonal_link_9;
         let per_pivot_link_9 = pivot_link_9.recip();
         let safe_link_9 = S::select_le(
-            pivot_link_9,
             lit(-0.0009765625) * diagonal_link_9,
-            lit(0.0),
+            pivot_link_9,
             safe_link_7,
+            lit(0.0),
         );
         let dot_x_9_minus_dot_x_10 = dot_x_9 - dot_x_10;
         let dot_y_9_minus_dot_y_10 = dot_y_9 - dot_y_10;
@@ -1904,21 +1928,21 @@ impl ::ukcore::Mechanism for UChain {
             .mul_add(y_9_minus_y_10, x_8_minus_x_9 * x_9_minus_x_10);
         let link_8_with_link_7 = y_7_minus_y_8
             .mul_add(y_8_minus_y_9, x_7_minus_x_8 * x_8_minus_x_9);
+        let link_8_by_link_7 = link_8_with_link_7 * pivot_link_6 * per_pivot_link_7;
         let acceleration_0_part_15 = lit(2.0)
             * y_8_minus_y_9.mul_add(y_8_minus_y_9, x_8_minus_x_9 * x_8_minus_x_9);
         let pivot_link_8 = pivot_link_9
             .mul_add(
-                (link_8_with_link_7 * link_8_with_link_7 * pivot_link_6)
-                    .mul_add(per_pivot_link_7, acceleration_0_part_15),
+                link_8_with_link_7.mul_add(link_8_by_link_7, acceleration_0_part_15),
                 link_8_with_link_9 * link_8_with_link_9 * pivot_link_10,
             );
         let per_pivot_link_8 = pivot_link_8.recip();
         let diagonal_link_8 = acceleration_0_part_15 * pivot_link_9;
         let safe_link_8 = S::select_le(
-            pivot_link_8,
             lit(0.0009765625) * diagonal_link_8,
-            lit(0.0),
+            pivot_link_8,
             safe_link_9,
+            lit(0.0),
         );
         let dot_x_8_minus_dot_x_9 = dot_x_8 - dot_x_9;
         let dot_y_8_minus_dot_y_9 = dot_y_8 - dot_y_9;
@@ -1944,7 +1968,6 @@ impl ::ukcore::Mechanism for UChain {
         let safe_part = x_8_minus_x_9 * right_link_8 * per_pivot_link_8;
         out[9] = safe_part + x_9_minus_x_10_lambda_link_9;
         let acceleration_10_part = y_8_minus_y_9 * right_link_8 * per_pivot_link_8;
-        let link_8_by_link_7 = link_8_with_link_7 * pivot_link_6 * per_pivot_link_7;
         let lambda_link_7 = (link_8_by_link_7 * right_link_8)
             .mul_add(per_pivot_link_8, right_link_7 * per_pivot_link_7);
         let y_7_minus_y_8_lambda_link_7 = y_7_minus_y_8 * lambda_link_7;
@@ -2067,10 +2090,24 @@ impl ::ukcore::Mechanism for UChain {
         let pivot_link_0 = lit(2.0)
             * y_0_minus_y_1.mul_add(y_0_minus_y_1, x_1_minus_x_0 * x_1_minus_x_0);
         let per_pivot_link_0 = pivot_link_0.recip();
-        let safe_link_0 = S::select_le(pivot_link_0, lit(0.0), lit(0.0), safe_x_0);
+        let safe_link_0 = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            pivot_link_0,
+            safe_x_0,
+            lit(0.0),
+        );
         let pivot_support = y_16.mul_add(y_16, x_16 * x_16);
         let per_pivot_support = pivot_support.recip();
-        let safe_support = S::select_le(pivot_support, lit(0.0), lit(0.0), safe_link_0);
+        let safe_support = S::select_le(
+            lit(
+                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
+            ),
+            pivot_support,
+            safe_link_0,
+            lit(0.0),
+        );
         let x_1_minus_x_2 = x_1 - x_2;
         let y_1_minus_y_2 = y_1 - y_2;
         let link_1_with_link_0 = y_0_minus_y_1
@@ -2081,10 +2118,10 @@ impl ::ukcore::Mechanism for UChain {
         let pivot_link_1 = link_1_with_link_0 * link_1_with_link_0 - diagonal_link_1;
         let per_pivot_link_1 = pivot_link_1.recip();
         let safe_link_1 = S::select_le(
-            -pivot_link_1,
             lit(0.0009765625) * diagonal_link_1,
-            lit(0.0),
+            -pivot_link_1,
             safe_support,
+            lit(0.0),
         );
         let x_15_minus_x_16 = x_15 - x_16;
         let y_15_minus_y_16 = y_15 - y_16;
@@ -2097,10 +2134,10 @@ impl ::ukcore::Mechanism for UChain {
             - diagonal_link_15;
         let per_pivot_link_15 = pivot_link_15.recip();
         let safe_link_15 = S::select_le(
-            -pivot_link_15,
             lit(0.0009765625) * diagonal_link_15,
-            lit(0.0),
+            -pivot_link_15,
             safe_link_1,
+            lit(0.0),
         );
         let x_2_minus_x_3 = x_2 - x_3;
         let y_2_minus_y_3 = y_2 - y_3;
@@ -2113,10 +2150,10 @@ impl ::ukcore::Mechanism for UChain {
             + diagonal_link_2;
         let per_pivot_link_2 = pivot_link_2.recip();
         let safe_link_2 = S::select_le(
-            -pivot_link_2,
             lit(-0.0009765625) * diagonal_link_2,
-            lit(0.0),
+            -pivot_link_2,
             safe_link_15,
+            lit(0.0),
         );
         let x_14_minus_x_15 = x_14 - x_15;
         let y_14_minus_y_15 = y_14 - y_15;
@@ -2130,10 +2167,10 @@ impl ::ukcore::Mechanism for UChain {
             + diagonal_link_14;
         let per_pivot_link_14 = pivot_link_14.recip();
         let safe_link_14 = S::select_le(
-            -pivot_link_14,
             lit(-0.0009765625) * diagonal_link_14,
-            lit(0.0),
+            -pivot_link_14,
             safe_link_2,
+            lit(0.0),
         );
         let x_3_minus_x_4 = x_3 - x_4;
         let y_3_minus_y_4 = y_3 - y_4;
@@ -2146,10 +2183,10 @@ impl ::ukcore::Mechanism for UChain {
             - diagonal_link_3;
         let per_pivot_link_3 = pivot_link_3.recip();
         let safe_link_3 = S::select_le(
-            pivot_link_3,
             lit(-0.0009765625) * diagonal_link_3,
-            lit(0.0),
+            pivot_link_3,
             safe_link_14,
+            lit(0.0),
         );
         let x_13_minus_x_14 = x_13 - x_14;
         let y_13_minus_y_14 = y_13 - y_14;
@@ -2163,10 +2200,10 @@ impl ::ukcore::Mechanism for UChain {
             - diagonal_link_13;
         let per_pivot_link_13 = pivot_link_13.recip();
         let safe_link_13 = S::select_le(
-            pivot_link_13,
             lit(-0.0009765625) * diagonal_link_13,
-            lit(0.0),
+            pivot_link_13,
             safe_link_3,
+            lit(0.0),
         );
         let x_4_minus_x_5 = x_4 - x_5;
         let y_4_minus_y_5 = y_4 - y_5;
@@ -2179,10 +2216,10 @@ impl ::ukcore::Mechanism for UChain {
             + diagonal_link_4;
         let per_pivot_link_4 = pivot_link_4.recip();
         let safe_link_4 = S::select_le(
-            pivot_link_4,
             lit(0.0009765625) * diagonal_link_4,
-            lit(0.0),
+            pivot_link_4,
             safe_link_13,
+            lit(0.0),
         );
         let x_12_minus_x_13 = x_12 - x_13;
         let y_12_minus_y_13 = y_12 - y_13;
@@ -2196,10 +2233,10 @@ impl ::ukcore::Mechanism for UChain {
             + diagonal_link_12;
         let per_pivot_link_12 = pivot_link_12.recip();
         let safe_link_12 = S::select_le(
-            pivot_link_12,
             lit(0.0009765625) * diagonal_link_12,
-            lit(0.0),
+            pivot_link_12,
             safe_link_4,
+            lit(0.0),
         );
         let x_5_minus_x_6 = x_5 - x_6;
         let y_5_minus_y_6 = y_5 - y_6;
@@ -2212,10 +2249,10 @@ impl ::ukcore::Mechanism for UChain {
             - diagonal_link_5;
         let per_pivot_link_5 = pivot_link_5.recip();
         let safe_link_5 = S::select_le(
-            -pivot_link_5,
             lit(0.0009765625) * diagonal_link_5,
-            lit(0.0),
+            -pivot_link_5,
             safe_link_12,
+            lit(0.0),
         );
         let x_11_minus_x_12 = x_11 - x_12;
         let y_11_minus_y_12 = y_11 - y_12;
@@ -2229,10 +2266,10 @@ impl ::ukcore::Mechanism for UChain {
             - diagonal_link_11;
         let per_pivot_link_11 = pivot_link_11.recip();
         let safe_link_11 = S::select_le(
-            -pivot_link_11,
             lit(0.0009765625) * diagonal_link_11,
-            lit(0.0),
+            -pivot_link_11,
             safe_link_5,
+            lit(0.0),
         );
         let x_6_minus_x_7 = x_6 - x_7;
         let y_6_minus_y_7 = y_6 - y_7;
@@ -2245,10 +2282,10 @@ impl ::ukcore::Mechanism for UChain {
             + diagonal_link_6;
         let per_pivot_link_6 = pivot_link_6.recip();
         let safe_link_6 = S::select_le(
-            -pivot_link_6,
             lit(-0.0009765625) * diagonal_link_6,
-            lit(0.0),
+            -pivot_link_6,
             safe_link_11,
+            lit(0.0),
         );
         let x_10_minus_x_11 = x_10 - x_11;
         let y_10_minus_y_11 = y_10 - y_11;
@@ -2262,10 +2299,10 @@ impl ::ukcore::Mechanism for UChain {
             + diagonal_link_10;
         let per_pivot_link_10 = pivot_link_10.recip();
         let safe_link_10 = S::select_le(
-            -pivot_link_10,
             lit(-0.0009765625) * diagonal_link_10,
-            lit(0.0),
+            -pivot_link_10,
             safe_link_6,
+            lit(0.0),
         );
         let x_7_minus_x_8 = x_7 - x_8;
         let y_7_minus_y_8 = y_7 - y_8;
@@ -2278,10 +2315,10 @@ impl ::ukcore::Mechanism for UChain {
             - diagonal_link_7;
         let per_pivot_link_7 = pivot_link_7.recip();
         let safe_link_7 = S::select_le(
-            pivot_link_7,
             lit(-0.0009765625) * diagonal_link_7,
-            lit(0.0),
+            pivot_link_7,
             safe_link_10,
+            lit(0.0),
         );
         let x_9_minus_x_10 = x_9 - x_10;
         let y_9_minus_y_10 = y_9 - y_10;
@@ -2294,10 +2331,10 @@ impl ::ukcore::Mechanism for UChain {
             - diagonal_link_9;
         let per_pivot_link_9 = pivot_link_9.recip();
         let safe_link_9 = S::select_le(
-            pivot_link_9,
             lit(-0.0009765625) * diagonal_link_9,
-            lit(0.0),
+            pivot_link_9,
             safe_link_7,
+            lit(0.0),
         );
         let x_8_minus_x_9 = x_8 - x_9;
         let y_8_minus_y_9 = y_8 - y_9;
@@ -2305,21 +2342,21 @@ impl ::ukcore::Mechanism for UChain {
             .mul_add(y_9_minus_y_10, x_8_minus_x_9 * x_9_minus_x_10);
         let link_8_with_link_7 = y_7_minus_y_8
             .mul_add(y_8_minus_y_9, x_7_minus_x_8 * x_8_minus_x_9);
+        let link_8_by_link_7 = link_8_with_link_7 * pivot_link_6 * per_pivot_link_7;
         let correction_0_part_15 = lit(2.0)
             * y_8_minus_y_9.mul_add(y_8_minus_y_9, x_8_minus_x_9 * x_8_minus_x_9);
         let pivot_link_8 = pivot_link_9
             .mul_add(
-                (link_8_with_link_7 * link_8_with_link_7 * pivot_link_6)
-                    .mul_add(per_pivot_link_7, correction_0_part_15),
+                link_8_with_link_7.mul_add(link_8_by_link_7, correction_0_part_15),
                 link_8_with_link_9 * link_8_with_link_9 * pivot_link_10,
             );
         let per_pivot_link_8 = pivot_link_8.recip();
         let diagonal_link_8 = correction_0_part_15 * pivot_link_9;
         let safe_link_8 = S::select_le(
-            pivot_link_8,
             lit(0.0009765625) * diagonal_link_8,
-            lit(0.0),
+            pivot_link_8,
             safe_link_9,
+            lit(0.0),
         );
         let right_link_0 = lit(0.5) * residual_0;
         let right_support = lit(0.5) * residual_16;
@@ -2374,7 +2411,6 @@ impl ::ukcore::Mechanism for UChain {
             );
         let safe = safe_link_8;
         let safe_part = x_8_minus_x_9 * right_link_8 * per_pivot_link_8;
-        let link_8_by_link_7 = link_8_with_link_7 * pivot_link_6 * per_pivot_link_7;
         let lambda_link_7 = (link_8_by_link_7 * right_link_8)
             .mul_add(per_pivot_link_8, right_link_7 * per_pivot_link_7);
         let x_7_minus_x_8_lambda_link_7 = x_7_minus_x_8 * lambda_link_7;

@@ -232,11 +232,11 @@ impl Elimination {
     /// pivots they check: what depends on parameters only first, then
     /// in the order of the elimination, so that no pivot has to be kept for it.
     fn certificate(&self, g: &mut Graph) -> (Id, Vec<(usize, Id)>) {
-        let zero = g.zero();
+        let (zero, tiny) = (g.zero(), g.constant(f64::MIN_POSITIVE));
         let positive: BTreeSet<Id> = self
             .pivots
             .iter()
-            .filter(|p| p.value == p.reference)
+            .filter(|p| p.value == p.reference && g.unscaled(p.value).0 > 0.0)
             .map(|p| g.unscaled(p.value).1)
             .collect();
         let mut conditions: Vec<(usize, Id, Id)> = Vec::new();
@@ -249,12 +249,12 @@ impl Elimination {
         {
             let (value, least) = if value == reference {
                 // Nothing was taken off the diagonal: it has to be positive.
-                (sign_of(*value, &positive, g), zero)
+                (sign_of(*value, &positive, g), tiny)
             } else {
                 let (value, reference) = reduced(*value, *reference, &positive, g);
                 (value, g.scale(SAFE_SHARE, reference))
             };
-            let holds = g.as_const(value).is_some_and(|x| x > 0.0) && least == zero;
+            let holds = g.as_const(value).is_some_and(|x| x > 0.0) && least == tiny;
             let known = conditions.iter().any(|c| (c.1, c.2) == (value, least));
             if !holds && !known {
                 conditions.push((k, value, least));
@@ -264,7 +264,8 @@ impl Elimination {
         let mut safe = g.one();
         let mut chain = Vec::new();
         for (k, value, least) in conditions {
-            safe = g.select(value, least, zero, safe);
+            // In this order a pivot that is not a number is not safe.
+            safe = g.select(least, value, safe, zero);
             chain.push((k, safe));
         }
         (safe, chain)
@@ -277,7 +278,7 @@ fn sign_of(id: Id, positive: &BTreeSet<Id>, g: &mut Graph) -> Id {
     let Node::Product(factors) = g.node(inner).clone() else {
         return g.scale(c.signum(), inner);
     };
-    let known = |(base, e): &(Id, i32)| e % 2 == 0 || positive.contains(base);
+    let known = |(base, _): &(Id, i32)| positive.contains(base);
     let open: Vec<(Id, i32)> = factors.into_iter().filter(|f| !known(f)).collect();
     if open.is_empty() {
         return id;
@@ -286,7 +287,7 @@ fn sign_of(id: Id, positive: &BTreeSet<Id>, g: &mut Graph) -> Id {
     g.scale(c.signum(), product)
 }
 
-/// Both without the factors that they share and that are positive: even powers, and `positive` ones.
+/// Both without the `positive` factors that they share.
 fn reduced(a: Id, b: Id, positive: &BTreeSet<Id>, g: &mut Graph) -> (Id, Id) {
     let factors = |id: Id, g: &Graph| match g.node(g.unscaled(id).1) {
         Node::Product(factors) => factors.clone(),
@@ -424,13 +425,16 @@ fn order(d: &Dynamics, g: &Graph) -> Result<Vec<Pivoting>, String> {
     }
     // Definite pivots.
     let mut entries = 0;
+    let mut coupled = vec![false; near.len()];
     while !alive.is_empty() {
         // With all its coordinates gone, what is left of a constraint is definite, though it may be coupled to others that share inertia.
         let ready = |k: &usize| *k < n || contained[*k].iter().all(|q| !alive.contains(q));
         // A coordinate that shares no inertia comes first: the constraints on it must wait for it in any case.
         let single = |k: usize| k < n && near[k].iter().all(|r| *r >= n);
         let candidates = alive.iter().copied().filter(ready);
-        let next = candidates.min_by_key(|k| (!single(*k), near[*k].len(), depth[*k], *k));
+        // Among equals what was coupled by an elimination comes first, so that a chain is taken link by link; then what waits least.
+        let next =
+            candidates.min_by_key(|k| (!single(*k), near[*k].len(), !coupled[*k], depth[*k], *k));
         let Some(k) = next else {
             return Err("no definite pivot is left".to_owned());
         };
@@ -441,6 +445,7 @@ fn order(d: &Dynamics, g: &Graph) -> Result<Vec<Pivoting>, String> {
         let later = depth[k] + usize::from(k >= n);
         for (p, a) in neighbours.iter().enumerate() {
             near[*a].remove(&k);
+            coupled[*a] = true;
             depth[*a] = depth[*a].max(later);
             for b in &neighbours[p + 1..] {
                 near[*a].insert(*b);
@@ -509,7 +514,10 @@ impl Entry {
     /// The value before and after the terms of constraints.
     fn values(&self, g: &mut Graph) -> (Id, Id) {
         let gram = g.factored_sum(&self.gram);
-        let gram = g.hold_coefficient(gram);
+        let gram = match g.unscaled(gram).0.abs() {
+            1.0 => gram,
+            _ => g.hold_whole(gram),
+        };
         if self.schur.is_empty() {
             return (gram, gram);
         }
@@ -675,13 +683,16 @@ impl Matrix {
                     hints.push((pivot.right, format!("right_{}", names[k])));
                     let scaled = g.mul(reference, pivot.denominator);
                     hints.push((scaled, format!("diagonal_{}", names[k])));
-                    // x_k = right / value
+                    // x_k = solved − Σ row · x / value
                     let value = g.div(pivot.numerator, pivot.denominator);
                     let value = g.scale(sign, value);
                     let solved = g.div(pivot.right, pivot.numerator);
                     let solved = g.scale(sign, solved);
                     let neighbours = self.take(k);
-                    let row: Vec<(usize, Id)> = neighbours
+                    // What constraints or shared inertia divide by is computed once; for a coordinate that shares none, products are
+                    // left open, so that terms of different coordinates can be collected.
+                    let shared = constraint || neighbours.iter().any(|a| *a < self.n);
+                    let mut row: Vec<(usize, Id)> = neighbours
                         .iter()
                         .map(|a| (*a, self.value(*a, k, g)))
                         .collect();
@@ -702,14 +713,16 @@ impl Matrix {
                         eliminated.push((vec![(a, g.div(off, value))], solved));
                         continue;
                     }
-                    // What constraints or shared inertia divide by is computed once; for a coordinate that shares none, the product is
-                    // left open, so that terms of different coordinates can be collected.
-                    let shared = constraint || neighbours.iter().any(|a| *a < self.n);
+                    let mut right = right;
+                    if shared {
+                        row.iter_mut().for_each(|(_, ka)| *ka = g.hold_whole(*ka));
+                        right = g.hold_whole(right);
+                    }
                     let factors: Vec<(usize, Id)> = row
                         .iter()
                         .map(|(a, ka)| {
                             let factor = g.div(*ka, value);
-                            let factor = if shared { g.hold(factor) } else { factor };
+                            let factor = if shared { g.hold_whole(factor) } else { factor };
                             if shared {
                                 hints.push((factor, format!("{}_by_{}", names[*a], names[k])));
                             }
@@ -718,12 +731,7 @@ impl Matrix {
                         .collect();
                     for (p, (a, factor)) in factors.iter().enumerate() {
                         for (b, kb) in &row[..=p] {
-                            // The square is known before the pivot is: one multiplication less on the critical path.
-                            let term = if a == b {
-                                g.product(&[(*kb, 2), (value, -1)])
-                            } else {
-                                g.mul(*factor, *kb)
-                            };
+                            let term = g.mul(*factor, *kb);
                             // What a coordinate adds to constraints makes up G; all else is taken off a diagonal that stood before.
                             self.update(*a, *b, constraint || *a < self.n, term, g);
                         }

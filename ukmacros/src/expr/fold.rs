@@ -330,20 +330,17 @@ impl Graph {
         }
     }
 
-    /// `id` with its coefficient as one value: the coefficient is not carried on into what is computed from it. Factors of parameters
-    /// stay outside, where they may cancel.
-    pub(crate) fn hold_coefficient(&mut self, id: Id) -> Id {
+    /// `id` with its coefficient as one value, which is not carried on into what is computed from it. Factors of parameters stay outside, where
+    /// they may cancel.
+    pub(crate) fn hold_whole(&mut self, id: Id) -> Id {
         let (c, inner) = self.unscaled(id);
-        if c.abs() == 1.0 {
-            return id;
-        }
         let factors = match self.node(inner) {
             Node::Product(factors) => factors.clone(),
             _ => vec![(inner, 1)],
         };
         let fixed = |(base, _): &(Id, i32)| self.uses(*base).constant();
         let (mut outside, inside): (Vec<_>, Vec<_>) = factors.into_iter().partition(fixed);
-        if inside.is_empty() {
+        if inside.is_empty() || (c.abs() == 1.0 && inside.len() == 1) {
             return id;
         }
         let inside = self.product(&inside);
