@@ -106,8 +106,12 @@ fn expand(input: TokenStream) -> (TokenStream, diag::Diagnostics) {
     let Some(mut decl) = parse::parse(input, &diag) else {
         return (diag.to_tokens(), diag);
     };
+    let before = diag.len();
     let model = model::resolve(&mut decl, &diag);
-    let mut system = expr::lower(&decl, &model, &diag);
+    // Where names are missing because of an error, what follows from that is not reported.
+    let quiet = diag::Diagnostics::default();
+    let trusted = !diag.damaged() && diag.len() == before;
+    let mut system = expr::lower(&decl, &model, if trusted { &diag } else { &quiet });
     if diag.is_empty() {
         let dynamics = analysis::derive(&mut system, model.coord_elements.len());
         analysis::check(&system, &dynamics, &model, &diag);

@@ -2,12 +2,14 @@
 
 use crate::parse::{Const, Expr};
 use proc_macro2::Ident;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Names of a declaration, resolved.
 pub(crate) struct Model {
     /// Integer constants and their doc comments.
     pub(crate) integers: BTreeMap<String, (i64, Vec<String>)>,
+    /// Integer constants whose value is in error, which is reported.
+    pub(crate) faulty: HashSet<String>,
     /// `f64` constants, whose values are lowered later.
     pub(crate) floats: Vec<Const>,
     pub(crate) params: Vec<Family>,
