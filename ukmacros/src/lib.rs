@@ -111,7 +111,9 @@ fn expand(input: TokenStream) -> (TokenStream, diag::Diagnostics) {
     // Where names are missing because of an error, what follows from that is not reported.
     let quiet = diag::Diagnostics::default();
     let trusted = !diag.damaged() && diag.len() == before;
-    let mut system = expr::lower(&decl, &model, if trusted { &diag } else { &quiet });
+    let heard = if trusted { &diag } else { &quiet };
+    let mut system = expr::lower(&decl, &model, heard);
+    let constants = analysis::constants(&model, &system, heard);
     if diag.is_empty() {
         let dynamics = analysis::derive(&mut system, model.coord_elements.len());
         analysis::check(&system, &dynamics, &model, &diag);
@@ -138,13 +140,15 @@ fn expand(input: TokenStream) -> (TokenStream, diag::Diagnostics) {
                     ),
                 );
             }
-            let code = emit::emit(&decl, &model, &system, &dynamics, &structure, &hoisted);
+            let code = emit::emit(
+                &decl, &model, &system, &constants, &dynamics, &structure, &hoisted,
+            );
             if diag.is_empty() {
                 return (code, diag);
             }
         }
     }
     let mut tokens = diag.to_tokens();
-    tokens.extend(emit::fallback(&decl, &model, &system));
+    tokens.extend(emit::fallback(&decl, &model, &system, &constants));
     (tokens, diag)
 }

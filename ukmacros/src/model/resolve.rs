@@ -1,10 +1,10 @@
 //! Integer constants, families, loops; duplicates and reserved names.
 
-use super::types::{Element, Family, Model, Name};
+use super::types::{Element, Family, Integer, Model, Name};
 use crate::diag::{Diagnostics, Loc, suggest};
 use crate::parse::{BinaryOp, Block, Declaration, Expr, ExprKind, Key, Range};
 use proc_macro2::Ident;
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap};
 
 /// More repetitions than this are a slip, and would keep the compiler busy for hours.
 const MAX_REPETITIONS: i64 = 100_000;
@@ -23,7 +23,6 @@ const COLUMNS: [&str; 3] = ["t", "energy", "residual"];
 pub(crate) fn resolve(decl: &mut Declaration, diag: &Diagnostics) -> Model {
     let mut model = Model {
         integers: BTreeMap::new(),
-        faulty: HashSet::new(),
         floats: Vec::new(),
         params: Vec::new(),
         coords: Vec::new(),
@@ -46,11 +45,12 @@ pub(crate) fn resolve(decl: &mut Declaration, diag: &Diagnostics) -> Model {
                 }
                 fits
             });
-            let docs = constant.docs.clone();
-            if value.is_none() {
-                model.faulty.insert(name.clone());
-            }
-            model.integers.insert(name, (value.unwrap_or(0), docs));
+            let integer = Integer {
+                docs: constant.docs.clone(),
+                name: constant.name.clone(),
+                value,
+            };
+            model.integers.entry(name).or_insert(integer);
             Name::Integer
         } else {
             Name::Float(model.floats.len())
@@ -260,7 +260,7 @@ impl<'m> Scope<'m> {
         let variable = self.variables.iter().rev().find(|(n, _)| n == name);
         variable
             .map(|(_, v)| *v)
-            .or_else(|| self.model.integers.get(name).map(|(v, _)| *v))
+            .or_else(|| self.model.integers.get(name)?.value)
     }
 
     /// This scope with the variable `var` = `value`.
@@ -284,7 +284,8 @@ impl<'m> Scope<'m> {
             }
             ExprKind::Name(name) => {
                 let text = name.to_string();
-                if self.model.faulty.contains(&text) {
+                let constant = self.model.integers.get(&text);
+                if constant.is_some_and(|c| c.value.is_none()) {
                     return None;
                 }
                 let found = self.lookup(&text);
