@@ -120,7 +120,12 @@ fn expand(input: TokenStream) -> (TokenStream, diag::Diagnostics) {
         if diag.is_empty() {
             if cfg!(debug_assertions) {
                 for what in analysis::verify(&system, &dynamics, model.coord_elements.len()) {
-                    diag.error(decl.name.span(), format!("defect in `multibody!`: wrong derivatives of constraint `{what}`; please report it"));
+                    diag.error(
+                        decl.name.span(),
+                        format!(
+                            "defect in `multibody!`: wrong derivatives of {what}; please report it"
+                        ),
+                    );
                 }
             }
             let structure = analysis::structure(&mut system, &dynamics);
