@@ -34,16 +34,30 @@ struct Open {
     rest: usize,
 }
 
+impl Open {
+    fn sum(self) -> usize {
+        self.affixes + self.assignments + self.rest
+    }
+}
+
+/// As [`too_deep`], for tokens inside of `depth` others.
 fn level(tokens: &TokenStream, depth: usize) -> Option<Span> {
     let mut open = Open::default();
-    // Whether the token before ends an operand, and whether it is the `#` of an attribute.
-    let (mut operand, mut hash) = (false, false);
+    // Whether the token before ends an operand, and whether it is the `#` of an attribute or the `'` of a lifetime.
+    let (mut operand, mut prefix) = (false, false);
     for token in tokens.clone() {
         let before = std::mem::replace(&mut operand, true);
-        let attribute = std::mem::replace(&mut hash, false);
+        let prefixed = std::mem::replace(&mut prefix, false);
         match &token {
-            TokenTree::Group(_) if attribute => operand = false,
-            TokenTree::Group(_) => open.affixes += usize::from(before),
+            TokenTree::Ident(_) if prefixed => operand = false,
+            TokenTree::Group(g) => {
+                let inside = level(&g.stream(), depth + open.sum() + 1);
+                if inside.is_some() {
+                    return inside;
+                }
+                operand = !prefixed;
+                open.affixes += usize::from(before);
+            }
             TokenTree::Literal(_) if before => open = Open::default(),
             TokenTree::Literal(_) => {}
             TokenTree::Ident(name) => {
@@ -65,7 +79,7 @@ fn level(tokens: &TokenStream, depth: usize) -> Option<Span> {
                     '+' | '-' | '*' | '/' if before => open.affixes = 0,
                     ';' => open = Open::default(),
                     '#' => {
-                        hash = true;
+                        prefix = true;
                         if before {
                             open = Open::default();
                         }
@@ -74,20 +88,15 @@ fn level(tokens: &TokenStream, depth: usize) -> Option<Span> {
                     ':' => open.affixes = 0,
                     '=' => (open.affixes, open.assignments) = (0, open.assignments + 1),
                     '|' | '<' => open.rest += 1,
-                    // Part of an operand.
-                    '\'' | '>' => operand = before,
+                    '\'' => prefix = true,
+                    // The end of an operand.
+                    '>' => operand = before,
                     _ => open.affixes += 1,
                 }
             }
         }
-        let here = depth + open.affixes + open.assignments + open.rest;
-        if here > MAX_NESTING {
+        if depth + open.sum() > MAX_NESTING {
             return Some(token.span());
-        }
-        if let TokenTree::Group(g) = &token
-            && let Some(span) = level(&g.stream(), here + 1)
-        {
-            return Some(span);
         }
     }
     None

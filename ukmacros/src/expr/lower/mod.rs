@@ -144,6 +144,7 @@ pub(crate) fn lower(decl: &Declaration, model: &Model, diag: &Diagnostics) -> Sy
         lets: HashMap::new(),
         active: Vec::new(),
         depth: 0,
+        outermost: None,
         known_params: 0,
         hints: HashMap::new(),
     };
@@ -160,6 +161,8 @@ struct Lowering<'m> {
     active: Vec<String>,
     /// Nesting of the expression being lowered.
     depth: usize,
+    /// The application that all active ones are within.
+    outermost: Option<Loc>,
     /// Parameters whose default is known: those a default may use.
     known_params: usize,
     hints: HashMap<Id, String>,

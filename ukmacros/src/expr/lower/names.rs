@@ -265,6 +265,9 @@ impl<'m> Lowering<'m> {
             );
         }
         let values: Vec<Value> = args.iter().map(|a| self.value(a, env)).collect();
+        if values.iter().any(|v| matches!(v, Value::Error)) {
+            return Value::Error;
+        }
         // An integer argument may serve as an index inside the function.
         let integers = parameters
             .iter()
@@ -282,6 +285,9 @@ impl<'m> Lowering<'m> {
                 .collect(),
             place: Place::Let,
         };
+        if self.active.is_empty() {
+            self.outermost = Some(e.loc);
+        }
         self.active.push(text);
         let value = self.value(&body, &inner);
         self.active.pop();

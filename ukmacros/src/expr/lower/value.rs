@@ -39,7 +39,7 @@ impl<'m> Lowering<'m> {
     pub(super) fn value(&mut self, e: &Expr, env: &Env<'m>) -> Value {
         if self.depth >= MAX_DEPTH {
             return self.error(
-                e.loc,
+                self.outermost.unwrap_or(e.loc),
                 "functions call each other too deeply; name parts of the result with `let`",
             );
         }
