@@ -89,10 +89,10 @@ fn deep_nesting_is_refused_before_it_overflows() {
     // As deep as anyone writes.
     accepted(&forced(&format!(
         "{}x{}",
-        "sin(".repeat(60),
-        ")".repeat(60)
+        "sin(".repeat(90),
+        ")".repeat(90)
     )));
-    accepted(&forced(&format!("{}x", "-".repeat(60))));
+    accepted(&forced(&format!("{}x", "-".repeat(90))));
     let deep = format!("{}x{}", "(".repeat(300), ")".repeat(300));
     assert_eq!(expand(&forced(&deep)).1.len(), 1);
 }
