@@ -104,8 +104,8 @@ impl Expr {
 pub(super) fn location(e: &syn::Expr) -> Loc {
     let (start, end) = (leftmost(e), rightmost(e));
     Loc {
-        start: start.map_or_else(|e| Loc::of(e).start, |span| span),
-        end: end.map_or_else(|e| Loc::of(e).end, |span| span),
+        start: start.unwrap_or_else(|e| Loc::of(e).start),
+        end: end.unwrap_or_else(|e| Loc::of(e).end),
     }
 }
 
