@@ -185,7 +185,7 @@ impl ::ukcore::Mechanism for RoughBlock {
                 selections: 1,
             },
             solve_operations: ::ukcore::Operations {
-                additions: 6,
+                additions: 7,
                 multiplications: 8,
                 divisions: 0,
                 square_roots: 0,
@@ -367,7 +367,7 @@ impl ::ukcore::Mechanism for RoughBlock {
         let neg_friction = cos_slope_mu_m_g * right_x;
         outputs[2] = -neg_friction;
     }
-    /// 6 additions, 8 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 1 selections.
+    /// 7 additions, 8 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 1 selections.
     fn acceleration<S: ::ukcore::Scalar>(
         prepared: &[S],
         t: S,
@@ -386,12 +386,12 @@ impl ::ukcore::Mechanism for RoughBlock {
         let speed_down = dot_y.neg_mul_add(sin_slope, dot_x * cos_slope);
         let right_x = speed_down.sign();
         let right_x_cos_slope_sin_slope_mu = cos_slope_sin_slope_mu * right_x;
-        let right_y = right_x_cos_slope_sin_slope_mu - lit(1.0);
-        let right_plane = right_x_cos_slope_sin_slope_mu - right_y;
+        let right_y = lit(1.0) - right_x_cos_slope_sin_slope_mu;
+        let right_plane = right_x_cos_slope_sin_slope_mu + right_y;
         let safe = safe_plane;
-        out[1] = g * prepared_part.mul_add(right_plane, right_y);
         out[0] = -(cos_slope_g
             * prepared_part_2.neg_mul_add(right_plane, cos_slope_mu * right_x));
+        out[1] = -(g * prepared_part.neg_mul_add(right_plane, right_y));
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
