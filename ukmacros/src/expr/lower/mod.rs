@@ -502,7 +502,13 @@ impl<'m> Lowering<'m> {
                     });
                 }
             }
-            Value::Error => {}
+            // The name stays declared: what uses it gives no second message.
+            Value::Error => out.push(Constraint {
+                item,
+                kind,
+                phi: self.graph.zero(),
+                loc,
+            }),
         }
     }
 
@@ -537,7 +543,8 @@ impl<'m> Lowering<'m> {
                     .enumerate()
                     .map(|(c, id)| (Some(c), id))
                     .collect(),
-                Value::Error => return,
+                // The name stays declared: what uses it gives no second message.
+                Value::Error => vec![(None, self.graph.zero())],
             };
             for (component, value) in ids {
                 item.component = component;
