@@ -167,6 +167,7 @@ fn loops_and_families_serve_in_every_section() {
     assert_eq!((Families::TIE, Families::ROLL), ([[0, 1], [2, 3]], [4]));
     assert_eq!(Families::OUT_PLACE, [[0, 1], [2, 3], [4, 5]]);
     assert_eq!((Families::OUT_TOTAL, Families::OUT_SPEED), (6, [7, 8]));
+    assert_eq!(Families::HALF.to_bits(), 0.5_f64.to_bits());
     let names: Vec<&str> = spec.constraints.iter().map(|c| c.name).collect();
     assert_eq!(
         names,
@@ -352,6 +353,66 @@ fn lagrange_with_time_in_the_kinetic_energy() {
         }
     }
     assert!(!Hoop::SPEC.structure.scleronomic && !Hoop::SPEC.structure.conservative);
+}
+
+/// Energy is conserved by definition of T and V, or it is not: the facts that `conservative` decides on.
+mod energy {
+    ukcore::multibody! { pub Quadratic { params { m = 1.0, l = 0.5 } coords { x, th } kinetic { 0.5 * m * sq(dot(x + l * sin(th))), sq(dot(th)) } potential { sq(x) } } }
+    ukcore::multibody! { pub Drifting { params { w = 2.0 } coords { x } kinetic { 0.5 * sq(dot(x)) + 0.5 * sq(w * x) } } }
+    ukcore::multibody! { pub Linear { coords { x, y } kinetic { 0.5 * sq(dot(x)) + 0.5 * sq(dot(y)) + x * dot(y) } } }
+    ukcore::multibody! { pub Moved { params { u = 3.0 } coords { x } kinetic { 0.5 * sq(dot(x) + u) } potential { sq(x) } } }
+    ukcore::multibody! { pub Timed { coords { x } kinetic { 0.5 * sq(dot(x)) + sq(t) } } }
+    ukcore::multibody! { pub Kinked { coords { x } kinetic { 0.5 * sq(dot(x)) + abs(dot(x)) } potential { sq(x) } } }
+    ukcore::multibody! { pub Rolling { coords { x, y, th } mass { x: 1.0, y: 1.0, th: 1.0 } nonholonomic { edge: dot(x) * sin(th) = dot(y) * cos(th) } } }
+    ukcore::multibody! { pub Driven { coords { x, y, th } mass { x: 1.0, y: 1.0, th: 1.0 } nonholonomic { edge: dot(x) * sin(th) = dot(y) * cos(th) + 1.0 } } }
+}
+
+#[test]
+fn only_what_conserves_energy_is_called_conservative() {
+    let facts = [
+        (true, energy::Quadratic::SPEC),
+        (false, energy::Drifting::SPEC),
+        (false, energy::Linear::SPEC),
+        (false, energy::Moved::SPEC),
+        (false, energy::Timed::SPEC),
+        (false, energy::Kinked::SPEC),
+        (true, energy::Rolling::SPEC),
+        (false, energy::Driven::SPEC),
+    ];
+    for (conservative, spec) in facts {
+        assert_eq!(spec.structure.conservative, conservative, "{}", spec.name);
+    }
+}
+
+ukcore::multibody! {
+    /// Names that come close to those of the emitted code, to Rust's own, and to each other.
+    pub Names {
+        params { safe = 2.0, s1 = 0.5, lit = 3.0, prepared = 4.0, given = 5.0, n = 7.0, N = 8.0 }
+        coords { Virtual, unsized_, Gen, out, a, a_, s2 }
+        mass { Virtual: safe, unsized_: lit, Gen: prepared, out: given, a: n, a_: N, s2: s1 }
+        potential { 0.5 * safe * sq(Virtual - a) + s1 * sq(a_ - s2) }
+        holonomic {
+            for i in 1..3 { late[i]: Virtual + i * unsized_ = i * Gen }
+            for i in 0..2 { back[1 - i]: out + i * a = (2 - i) * a_ }
+        }
+        output { mixed[0] = [a, a_], mixed[1] = 2.0 * a, safe = safe * Virtual }
+    }
+}
+
+#[test]
+fn names_keep_out_of_each_others_way() {
+    assert_eq!((Names::VIRTUAL, Names::A, Names::A_), (0, 4, 5));
+    assert_eq!(Names::BACK, [3, 2], "an array by index, not by order");
+    assert_eq!(Names::OUT_SAFE, 3);
+    let mut random = Random::new(65);
+    let names = Names::default();
+    for _ in 0..20 {
+        let state = state(&mut random, 7);
+        let auto = acceleration(&names, Formula::Auto, &state).expect("solvable");
+        let expected = acceleration(&names, Formula::UdwadiaKalaba, &state).expect("solvable");
+        let size = tests::largest(&expected).max(1.0);
+        assert_all_close("q̈", &auto, &expected, 1e-9 * size);
+    }
 }
 
 /// q̈ by `formula`.

@@ -1,7 +1,7 @@
 //! Errors: collected, located, reported together.
 
 use proc_macro2::{Delimiter, Group, Ident, Literal, Punct, Spacing, Span, TokenStream, TokenTree};
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 
 /// The source range of something: its first and its last token (stable Rust cannot join spans).
 #[derive(Clone, Copy, Debug)]
@@ -43,9 +43,21 @@ pub(crate) struct Diagnostic {
 #[derive(Default)]
 pub(crate) struct Diagnostics {
     found: RefCell<Vec<Diagnostic>>,
+    damaged: Cell<bool>,
 }
 
 impl Diagnostics {
+    /// Records an error that leaves names undeclared: what follows from that is not the user's mistake.
+    pub(crate) fn damage(&self, loc: impl Into<Loc>, message: impl Into<String>) {
+        self.error(loc, message);
+        self.damaged.set(true);
+    }
+
+    /// Whether names are missing because of an error.
+    pub(crate) fn damaged(&self) -> bool {
+        self.damaged.get()
+    }
+
     /// Records an error, unless the same one is recorded for the same place (in a function that is called twice, say).
     pub(crate) fn error(&self, loc: impl Into<Loc>, message: impl Into<String>) {
         let (loc, message) = (loc.into(), message.into());
@@ -63,7 +75,7 @@ impl Diagnostics {
     /// Records what `syn` found wrong.
     pub(crate) fn syntax(&self, error: &syn::Error) {
         for e in error.clone() {
-            self.error(e.span(), e.to_string());
+            self.damage(e.span(), e.to_string());
         }
     }
 
@@ -112,14 +124,21 @@ fn compile_error(diagnostic: &Diagnostic) -> TokenStream {
     .collect()
 }
 
-/// The nearest of `names` to `name`, as a half-sentence of an error message (empty if none is near).
-pub(crate) fn suggest<'a>(name: &str, names: impl IntoIterator<Item = &'a str>) -> String {
+/// The end of an error message about `name`: the nearest of `names`, if one is near, and the `remedy`.
+pub(crate) fn suggest<'a>(
+    name: &str,
+    names: impl IntoIterator<Item = &'a str>,
+    remedy: &str,
+) -> String {
     let near = names
         .into_iter()
         .map(|n| (distance(name, n), n))
         .min()
         .filter(|(d, n)| *d <= n.len().max(name.len()) / 3);
-    near.map_or_else(String::new, |(_, n)| format!("; did you mean `{n}`?"))
+    match near {
+        Some((_, n)) => format!("; did you mean `{n}`?"),
+        None => format!("; {remedy}"),
+    }
 }
 
 /// Levenshtein distance.

@@ -21,8 +21,8 @@ use proc_macro2::TokenStream;
 /// M, Q, A, b (and c) of Zhao, Zhen & Chen 2013, eqs. 1, 5 and 8. Constraints are differentiated symbolically, twice, when the
 /// macro runs; the emitted type's own documentation shows the result.
 ///
-/// ```text
-/// multibody! {
+/// ```
+/// ukcore::multibody! {
 ///     /// A pendulum of length l hanging from a spring.
 ///     pub SpringPendulum {
 ///         params {
@@ -37,6 +37,7 @@ use proc_macro2::TokenStream;
 ///         output { angle = atan2(x, s - y) }
 ///     }
 /// }
+/// assert_eq!((SpringPendulum::Y, SpringPendulum::default().k), (2, 50.0));
 /// ```
 ///
 /// # Sections
@@ -54,7 +55,7 @@ use proc_macro2::TokenStream;
 /// | `kinetic` | `0.5 * m * sq(dot(x))` | instead of `mass`: terms of T(q, q̇, t); M = ∂²T/∂q̇² and the velocity terms of Lagrange's equations are derived |
 /// | `force` | `x: -c * dot(x)` | generalised forces Q; entries for one coordinate add up |
 /// | `potential` | `m * g * y` | terms of V(q, t); −∂V/∂q goes into Q |
-/// | `holonomic` | `rod: sq(x) + sq(y) = sq(l)`, `joint: [a, b] = [c, d]` | φ(q, t) = 0 (eq. 3); a vector equation gives one constraint for each component |
+/// | `holonomic` | `rod: sq(x) + sq(y) = sq(l)`, `joint: [a, b] = [c, d]` | φ(q, t) = 0 (eq. 3); a vector equation gives one constraint for each component; redundant equations are welcome, but the same one under two names is taken for a slip, an error |
 /// | `nonholonomic` | `blade: dot(x) * sin(th) = dot(y) * cos(th)` | φ(q, q̇, t) = 0 (eq. 4), linear in q̇ or not |
 /// | `nonideal` | `x: -mu * n * sign(dot(x))` | the force c of eq. 8, which may do work in virtual displacements |
 /// | `output` | `fall = y[0]` | quantities to report, of q, q̇, t |
@@ -64,15 +65,18 @@ use proc_macro2::TokenStream;
 /// Rust's grammar. Numbers, `PI`, the time `t`, names, members `x[i + 1]`, `+ - * /`, vectors `[a, b]` (sum, difference, product and quotient
 /// with a number), `dot(q)` for a velocity (of an expression of q and t: its total time derivative), `sum(0..N, |i| …)`, and in function or
 /// method form: `sqrt sin cos tan asin acos atan atan2 sinh cosh tanh exp ln abs sign min max hypot sq powi powf recip`.
-/// A power is `x.powi(2)` or `sq(x)`, never `x ^ 2`. Parentheses around a sum are kept in the emitted arithmetic.
+/// A power is `x.powi(2)` (exponents from −64 to 64) or `sq(x)`, never `x ^ 2`. Parentheses around a sum are kept in the emitted arithmetic.
+/// Sums and products may be as long as they like, but are nested at most 100 deep.
 ///
 /// abs and sign have derivative sign and 0 (0 at 0); min and max follow the branch taken. sqrt at 0, asin and acos at ±1, ln and negative
 /// powers at 0, atan2 and hypot at (0, 0) have no finite derivative: evaluating there is reported as an error at run time.
 ///
 /// # What is emitted
 ///
-/// For `pub T { … }`: `struct T` with its parameters as public fields, `Default`, `Clone`, `Debug`, `PartialEq`; index constants `T::X` for coordinate `x`
-/// (`[usize; N]` for families), `T::ROD` for the row of constraint `rod`, `T::OUT_FALL` for output `fall`, `T::N` for constant `N`;
+/// For `pub T { … }`: `struct T` with its parameters as public fields, `Default`, `Clone`, `Debug`, `PartialEq`; `T::N` for constant `N`; index constants
+/// `T::X` for coordinate `x` (`[usize; N]` for families), `T::ROD` for the row of constraint `rod`, `T::OUT_FALL` for output `fall`. Families of
+/// constraints and outputs have theirs if their indices are 0, 1, 2, … and their members are numbers, or vectors of one length; the names of all stand in
+/// `T::SPEC`. Two names that would become one constant are an error. Further,
 /// `impl ukcore::Mechanism for T`.
 ///
 /// # Grammar
@@ -106,15 +110,26 @@ fn expand(input: TokenStream) -> (TokenStream, diag::Diagnostics) {
     let Some(mut decl) = parse::parse(input, &diag) else {
         return (diag.to_tokens(), diag);
     };
+    let before = diag.len();
     let model = model::resolve(&mut decl, &diag);
-    let mut system = expr::lower(&decl, &model, &diag);
+    // Where names are missing because of an error, what follows from that is not reported.
+    let quiet = diag::Diagnostics::default();
+    let trusted = !diag.damaged() && diag.len() == before;
+    let heard = if trusted { &diag } else { &quiet };
+    let mut system = expr::lower(&decl, &model, heard);
+    let constants = analysis::constants(&model, &system, heard);
     if diag.is_empty() {
         let dynamics = analysis::derive(&mut system, model.coord_elements.len());
         analysis::check(&system, &dynamics, &model, &diag);
         if diag.is_empty() {
             if cfg!(debug_assertions) {
                 for what in analysis::verify(&system, &dynamics, model.coord_elements.len()) {
-                    diag.error(decl.name.span(), format!("defect in `multibody!`: wrong derivatives of constraint `{what}`; please report it"));
+                    diag.error(
+                        decl.name.span(),
+                        format!(
+                            "defect in `multibody!`: wrong derivatives of {what}; please report it"
+                        ),
+                    );
                 }
             }
             let structure = analysis::structure(&mut system, &dynamics);
@@ -134,13 +149,15 @@ fn expand(input: TokenStream) -> (TokenStream, diag::Diagnostics) {
                     ),
                 );
             }
-            let code = emit::emit(&decl, &model, &system, &dynamics, &structure, &hoisted);
+            let code = emit::emit(
+                &decl, &model, &system, &constants, &dynamics, &structure, &hoisted,
+            );
             if diag.is_empty() {
                 return (code, diag);
             }
         }
     }
     let mut tokens = diag.to_tokens();
-    tokens.extend(emit::fallback(&decl, &model, &system));
+    tokens.extend(emit::fallback(&decl, &model, &system, &constants));
     (tokens, diag)
 }

@@ -9,17 +9,17 @@ use std::collections::HashMap;
 
 /// Reports what makes the motion undetermined or a constraint meaningless.
 pub(crate) fn check(system: &System, dynamics: &Dynamics, model: &Model, diag: &Diagnostics) {
-    constraints(system, diag);
+    constraints(system, dynamics, diag);
     masses(system, dynamics, diag);
     if diag.is_empty() {
         determined(dynamics, model, diag);
     }
 }
 
-fn constraints(system: &System, diag: &Diagnostics) {
+fn constraints(system: &System, dynamics: &Dynamics, diag: &Diagnostics) {
     let g = &system.graph;
     let mut seen: HashMap<(Kind, Id), String> = HashMap::new();
-    for constraint in &system.constraints {
+    for (row, constraint) in system.constraints.iter().enumerate() {
         let name = constraint.item.text();
         let uses = g.uses(constraint.phi);
         let message = match constraint.kind {
@@ -32,6 +32,16 @@ fn constraints(system: &System, diag: &Diagnostics) {
             Kind::Nonholonomic if !uses.velocity => Some(format!(
                 "constraint `{name}` contains no velocity; move it under `holonomic`"
             )),
+            _ if dynamics
+                .jacobian
+                .range((row, 0)..(row + 1, 0))
+                .next()
+                .is_none() =>
+            {
+                Some(format!(
+                    "constraint `{name}` restricts no velocity: all its derivatives are zero; remove it"
+                ))
+            }
             _ => None,
         };
         if let Some(message) = message {

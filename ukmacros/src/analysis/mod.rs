@@ -1,6 +1,7 @@
 //! From equations of a mechanism to what is emitted: derivatives, structure, checks.
 
 mod check;
+mod constants;
 mod cost;
 mod dynamics;
 mod elimination;
@@ -11,6 +12,7 @@ mod structure;
 mod verify;
 
 pub(crate) use check::check;
+pub(crate) use constants::{Constant, ConstantValue, Positions, constants};
 pub(crate) use cost::{Operations, count};
 pub(crate) use dynamics::{Dynamics, derive};
 pub(crate) use elimination::{Pivoting, Straight, eliminate};

@@ -1,7 +1,8 @@
 //! Facts about a mechanism that solver and reader use, and what the emitted code leaves out because of them.
 
 use super::dynamics::Dynamics;
-use crate::expr::{Graph, Kind, Symbol, System};
+use crate::expr::{Derivative, Graph, Id, Kind, Node, Symbol, System};
+use std::collections::HashSet;
 
 /// Facts known at compile time.
 pub(crate) struct Structure {
@@ -20,6 +21,10 @@ pub(crate) struct Structure {
 pub(crate) fn structure(system: &mut System, dynamics: &Dynamics) -> Structure {
     let n = dynamics.force.len();
     let homogeneous = homogeneous(system);
+    let quadratic = match system.kinetic {
+        Some((kinetic, _)) => quadratic(kinetic, &mut system.graph),
+        None => true,
+    };
     let g = &system.graph;
     let has_mass = |i: usize| dynamics.mass.keys().any(|(r, c)| *r == i || *c == i);
     let mass_diagonal = dynamics.mass.keys().all(|(r, c)| r == c);
@@ -41,6 +46,7 @@ pub(crate) fn structure(system: &mut System, dynamics: &Dynamics) -> Structure {
         && !nonideal
         && !forced
         && homogeneous
+        && quadratic
         && (mass_constant || system.kinetic.is_some());
     let mut structure = Structure {
         mass_diagonal,
@@ -113,39 +119,55 @@ fn left_out(s: &Structure, system: &System, dynamics: &Dynamics) -> Vec<String> 
     out
 }
 
-/// Whether all nonholonomic constraints are homogeneous of degree one in q̇ (Σ q̇ ∂φ/∂q̇ = φ), so that their forces do no work.
+/// Whether all nonholonomic constraints are linear in q̇ without a rest, so that their forces do no work.
 fn homogeneous(system: &mut System) -> bool {
     let g = &mut system.graph;
-    let rows: Vec<_> = system
-        .constraints
-        .iter()
-        .filter(|c| c.kind == Kind::Nonholonomic)
-        .map(|c| c.phi)
-        .collect();
-    rows.into_iter().all(|phi| linear_homogeneous(phi, g))
+    let constraints = system.constraints.iter();
+    let mut rows = constraints.filter(|c| c.kind == Kind::Nonholonomic);
+    rows.all(|c| {
+        let slopes = slopes(c.phi, g);
+        smooth(c.phi, g)
+            && slopes.iter().all(|s| !g.uses(*s).velocity)
+            && vanishes_at_rest(c.phi, g)
+    })
 }
 
-fn linear_homogeneous(phi: crate::expr::Id, g: &mut Graph) -> bool {
-    // Linear with no rest: the second derivatives vanish, and φ vanishes with q̇.
-    let velocities: Vec<Symbol> = g
-        .support(phi)
-        .iter()
-        .copied()
-        .filter(|s| matches!(s, Symbol::Velocity(_)))
-        .collect();
-    let mut terms = vec![(1.0, phi)];
-    for symbol in velocities {
-        let slope = crate::expr::Derivative::partial(symbol).of(phi, g);
-        if g.uses(slope).velocity {
+/// Whether T = ½ q̇ᵀ M q̇ exactly. As M contains no velocity (which is checked), T is of second degree in q̇: the terms of first
+/// and zeroth degree are ∂T/∂q̇ and T at q̇ = 0.
+fn quadratic(kinetic: Id, g: &mut Graph) -> bool {
+    let momenta = slopes(kinetic, g);
+    smooth(kinetic, g)
+        && vanishes_at_rest(kinetic, g)
+        && momenta.into_iter().all(|p| vanishes_at_rest(p, g))
+}
+
+/// ∂/∂q̇ of `id`, for each velocity in it.
+fn slopes(id: Id, g: &mut Graph) -> Vec<Id> {
+    let symbols = g.support(id).to_vec().into_iter();
+    let velocities = symbols.filter(|s| matches!(s, Symbol::Velocity(_)));
+    velocities
+        .map(|s| Derivative::partial(s).of(id, g))
+        .collect()
+}
+
+/// Whether velocities enter `id` by arithmetic alone: no function of them, which may have kinks that derivatives do not show.
+fn smooth(id: Id, g: &Graph) -> bool {
+    let mut stack = vec![id];
+    let mut seen = HashSet::new();
+    while let Some(id) = stack.pop() {
+        if !g.uses(id).velocity || !seen.insert(id) {
+            continue;
+        }
+        if matches!(g.node(id), Node::Call(..) | Node::Select { .. }) {
             return false;
         }
-        let v = g.symbol(symbol);
-        let product = g.mul(slope, v);
-        terms.extend(g.open(-1.0, product));
+        stack.extend(g.operands(id));
     }
-    let first = terms.remove(0).1;
-    let mut all = g.open(1.0, first);
-    all.extend(terms);
-    let rest = g.sum(&all);
+    true
+}
+
+/// Whether `id` is identically zero at q̇ = 0.
+fn vanishes_at_rest(id: Id, g: &mut Graph) -> bool {
+    let rest = g.at_rest(id);
     g.is_zero(rest)
 }

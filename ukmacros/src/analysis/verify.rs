@@ -1,7 +1,9 @@
 //! Each derivation checked by substituting back, in debug builds of the macro.
 //!
-//! The derivatives that the graph made symbolically are compared with truncated Taylor arithmetic: φ is evaluated along a
-//! parabola q(s) at three points, with its first and second derivative in s, which must be φ̇ and A q̈ − b.
+//! The derivatives that the graph made symbolically are compared with truncated Taylor arithmetic along a path s ↦ (q, q̇, t):
+//! - φ along the parabola q + q̇ s + q̈ s²/2 has the derivatives φ̇ and A q̈ − b;
+//! - T along q̇ + δ s has the second derivative δᵀ M δ, and second derivatives along other straight lines make up
+//!   δᵀ (d/dt ∂T/∂q̇ − ∂T/∂q), which must be δᵀ (M q̈ − Q) with Q without the declared forces and −∂V/∂q.
 
 use super::dynamics::Dynamics;
 use crate::expr::{Func, Graph, Id, Kind, Node, Point, Symbol, System, eval};
@@ -10,7 +12,7 @@ use std::collections::HashSet;
 /// Relative difference that rounding can explain at arguments of order one; a wrong derivative is off by far more.
 const TOLERANCE: f64 = 1e-8;
 
-/// Names of what disagrees at every point tried: a defect of this compiler.
+/// What disagrees at every point tried: a defect of this compiler.
 pub(crate) fn verify(system: &System, dynamics: &Dynamics, n: usize) -> Vec<String> {
     let mut suspects: Option<HashSet<String>> = None;
     for seed in 1..=3 {
@@ -23,7 +25,9 @@ pub(crate) fn verify(system: &System, dynamics: &Dynamics, n: usize) -> Vec<Stri
             a: draw(),
             t: 0.7,
         };
-        let wrong = motion.disagreements(system, dynamics);
+        let mut wrong = motion.disagreements(system, dynamics);
+        let direction = draw();
+        wrong.extend(motion.lagrange(&direction, system, dynamics));
         suspects = Some(match suspects {
             None => wrong,
             Some(known) => known.intersection(&wrong).cloned().collect(),
@@ -49,7 +53,15 @@ impl Random {
     }
 }
 
-/// q + v s + a s²/2 with velocity v + a s, at time t + s.
+/// The values of the symbols along a path, with their derivatives.
+struct Path<'a> {
+    params: &'a [f64],
+    q: Vec<Jet>,
+    v: Vec<Jet>,
+    t: Jet,
+}
+
+/// A state with its q̈.
 struct Motion<'a> {
     params: &'a [f64],
     q: Vec<f64>,
@@ -82,7 +94,7 @@ impl Motion<'_> {
             second[*row].1 += term.abs();
         }
         let phis: Vec<Id> = system.constraints.iter().map(|c| c.phi).collect();
-        let jets = self.jets(g, &phis);
+        let jets = self.parabola().jets(g, &phis);
         let mut wrong = HashSet::new();
         for (row, constraint) in system.constraints.iter().enumerate() {
             let jet = jets[row];
@@ -92,12 +104,97 @@ impl Motion<'_> {
                 Kind::Nonholonomic => (agree(jet.0, rate[row], 1.0), agree(jet.1, value, scale)),
             };
             if !first_ok || !second_ok {
-                wrong.insert(constraint.item.text());
+                wrong.insert(format!("constraint `{}`", constraint.item.text()));
             }
         }
         wrong
     }
 
+    /// q + v s + a s²/2 with velocity v + a s, at time t + s.
+    fn parabola(&self) -> Path<'_> {
+        let of_q = self.q.iter().zip(&self.v).zip(&self.a);
+        Path {
+            params: self.params,
+            q: of_q.map(|((q, v), a)| Jet(*q, *v, *a)).collect(),
+            v: self
+                .v
+                .iter()
+                .zip(&self.a)
+                .map(|(v, a)| Jet(*v, *a, 0.0))
+                .collect(),
+            t: Jet(self.t, 1.0, 0.0),
+        }
+    }
+
+    /// q + a s, v + b s, t + c s.
+    fn line(&self, a: &[f64], b: &[f64], c: f64) -> Path<'_> {
+        let straight = |x: &[f64], d: &[f64]| -> Vec<Jet> {
+            x.iter().zip(d).map(|(x, d)| Jet(*x, *d, 0.0)).collect()
+        };
+        Path {
+            params: self.params,
+            q: straight(&self.q, a),
+            v: straight(&self.v, b),
+            t: Jet(self.t, c, 0.0),
+        }
+    }
+
+    /// Whether M and Q are those of `kinetic`, `force` and `potential`, seen in one direction.
+    fn lagrange(&self, direction: &[f64], system: &System, dynamics: &Dynamics) -> Option<String> {
+        let g = &system.graph;
+        let n = self.q.len();
+        let still = vec![0.0; n];
+        let point = Point {
+            params: self.params,
+            q: &self.q,
+            v: &self.v,
+            t: self.t,
+            residual: &[],
+            prepared: &[],
+        };
+        let along = |x: &[f64]| -> f64 { x.iter().zip(direction).map(|(x, d)| x * d).sum() };
+        let declared: Vec<Id> = system.force.values().copied().collect();
+        let mut given = vec![0.0; n];
+        for (i, value) in system.force.keys().zip(eval(g, &declared, &point)) {
+            given[*i] = value;
+        }
+        let force = along(&eval(g, &dynamics.force, &point));
+        let potential = self
+            .line(direction, &still, 0.0)
+            .jets(g, &[dynamics.potential])[0]
+            .1;
+        // Q of `force` and `potential`; with `kinetic`, M q̈ less the left side of Lagrange's equations is added.
+        let mut expected = along(&given) - potential;
+        let mut scale = expected.abs() + potential.abs() + 1.0;
+        if let Some((kinetic, _)) = system.kinetic {
+            let t = |a: &[f64], b: &[f64], c: f64| self.line(a, b, c).jets(g, &[kinetic])[0];
+            let entries: Vec<Id> = dynamics.mass.values().copied().collect();
+            let (mut momentum, mut twice) = (0.0, 0.0);
+            for ((i, j), m) in dynamics.mass.keys().zip(eval(g, &entries, &point)) {
+                momentum += m * direction[*i] * self.a[*j];
+                twice += m * direction[*i] * direction[*j];
+                if i != j {
+                    momentum += m * direction[*j] * self.a[*i];
+                    twice += m * direction[*i] * direction[*j];
+                }
+            }
+            let bend = t(&still, direction, 0.0).2;
+            if !agree(bend, twice, twice.abs() + 1.0) {
+                return Some("M".to_owned());
+            }
+            // d/dt (δ · ∂T/∂q̇) is a mixed second derivative, by polarisation.
+            let both: Vec<f64> = self.a.iter().zip(direction).map(|(a, d)| a + d).collect();
+            let (sum, time) = (t(&self.v, &both, 1.0).2, t(&self.v, &self.a, 1.0).2);
+            let gradient = t(direction, &still, 0.0).1;
+            let rate = 0.5 * (sum - time - bend);
+            expected += momentum - (rate - gradient);
+            scale += sum.abs() + time.abs() + bend.abs() + gradient.abs() + momentum.abs();
+        }
+        (!agree(force, expected, scale)).then(|| "Q".to_owned())
+    }
+}
+
+impl Path<'_> {
     fn jets(&self, g: &Graph, roots: &[Id]) -> Vec<Jet> {
         let top = roots.iter().map(|r| r.index() + 1).max().unwrap_or(0);
         let mut values: Vec<Jet> = Vec::with_capacity(top);
@@ -113,9 +210,9 @@ impl Motion<'_> {
         match node {
             Node::Const(x) => Jet(x.get(), 0.0, 0.0),
             Node::Symbol(Symbol::Param(i)) => Jet(self.params[*i], 0.0, 0.0),
-            Node::Symbol(Symbol::Coord(i)) => Jet(self.q[*i], self.v[*i], self.a[*i]),
-            Node::Symbol(Symbol::Velocity(i)) => Jet(self.v[*i], self.a[*i], 0.0),
-            Node::Symbol(Symbol::Time) => Jet(self.t, 1.0, 0.0),
+            Node::Symbol(Symbol::Coord(i)) => self.q[*i],
+            Node::Symbol(Symbol::Velocity(i)) => self.v[*i],
+            Node::Symbol(Symbol::Time) => self.t,
             Node::Symbol(Symbol::Residual(_) | Symbol::Prepared(_)) => Jet(0.0, 0.0, 0.0),
             Node::Sum(c, terms) => terms.iter().fold(Jet(c.get(), 0.0, 0.0), |sum, (k, t)| {
                 sum.plus(at(t).times(Jet(k.get(), 0.0, 0.0)))

@@ -4,7 +4,7 @@ use super::names::Namer;
 use crate::analysis::Dynamics;
 use crate::expr::{Id, Printer, Symbol, System};
 use crate::model::Model;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fmt::Write as _;
 
 /// A shared subexpression of at least this many symbols gets a name of its own.
@@ -59,7 +59,10 @@ pub(super) fn listing(
         .copied()
         .chain(phis.iter().copied())
         .collect();
-    let definitions = abbreviate(system, &roots, &mut printer);
+    let families = model.coords.iter().chain(&model.params);
+    let taken = families.map(|f| f.name.to_string());
+    let taken = taken.chain(system.hints.values().cloned()).collect();
+    let definitions = abbreviate(system, &roots, &taken, &mut printer);
     let g = &system.graph;
     let vector = |ids: &[Id]| -> Vec<(usize, String)> {
         let present = ids.iter().enumerate().filter(|(_, id)| !g.is_zero(**id));
@@ -88,8 +91,13 @@ pub(super) fn listing(
     }
 }
 
-/// Names what is long and used more than once, and what the modeller named by `let`.
-fn abbreviate(system: &System, roots: &[Id], printer: &mut Printer<'_>) -> Vec<(String, String)> {
+/// Names what is long and used more than once, and what the modeller named by `let`. Names that are `taken` are not made.
+fn abbreviate(
+    system: &System,
+    roots: &[Id],
+    taken: &HashSet<String>,
+    printer: &mut Printer<'_>,
+) -> Vec<(String, String)> {
     let g = &system.graph;
     let mut readers: HashMap<Id, usize> = HashMap::new();
     let mut stack = roots.to_vec();
@@ -104,6 +112,9 @@ fn abbreviate(system: &System, roots: &[Id], printer: &mut Printer<'_>) -> Vec<(
     order.sort_unstable();
     let mut sizes: HashMap<Id, usize> = HashMap::new();
     let mut definitions = Vec::new();
+    let mut free = (1_usize..)
+        .map(|k| format!("s{k}"))
+        .filter(|name| !taken.contains(name));
     for id in order {
         let operands = g.operands(id);
         let size = 1 + operands.iter().map(|o| sizes[o]).sum::<usize>();
@@ -113,9 +124,9 @@ fn abbreviate(system: &System, roots: &[Id], printer: &mut Printer<'_>) -> Vec<(
             sizes.insert(id, size);
             continue;
         }
-        let name = hint
-            .cloned()
-            .unwrap_or_else(|| format!("s{}", definitions.len() + 1));
+        let Some(name) = hint.cloned().or_else(|| free.next()) else {
+            break;
+        };
         definitions.push((name.clone(), printer.definition(id)));
         printer.named.insert(id, name);
         sizes.insert(id, 1);

@@ -1,7 +1,7 @@
 //! After an error: a type with the right names and an empty implementation, so that one mistake gives one message.
 
-use super::impls::{constants, item, operations_literal, parameters};
-use crate::analysis::Operations;
+use super::impls::{associated, item, operations_literal, parameters};
+use crate::analysis::{Constant, Operations};
 use crate::expr::System;
 use crate::model::Model;
 use crate::parse::Declaration;
@@ -9,9 +9,14 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 /// The type without its equations.
-pub(crate) fn fallback(decl: &Declaration, model: &Model, system: &System) -> TokenStream {
+pub(crate) fn fallback(
+    decl: &Declaration,
+    model: &Model,
+    system: &System,
+    constants: &[Constant],
+) -> TokenStream {
     let item = item(decl, model, &system.defaults, "");
-    let constants = constants(decl, model, system);
+    let constants = associated(decl, constants);
     let parameters = parameters(model);
     let name = &decl.name;
     let text = name.to_string();

@@ -2,12 +2,15 @@
 
 use super::body::{Body, Root, body, float};
 use super::docs::{Listing, listing};
-use super::names::{constant, plain};
-use crate::analysis::{Dynamics, Hoisted, Operations, Pivoting, Sequence, Structure};
-use crate::expr::{ConstraintRef, Id, Kind, System};
+use super::names::plain;
+use crate::analysis::{
+    Constant, ConstantValue, Dynamics, Hoisted, Operations, Pivoting, Positions, Sequence,
+    Structure,
+};
+use crate::expr::{Id, Kind, System};
 use crate::model::Model;
 use crate::parse::Declaration;
-use proc_macro2::{Ident, Literal, TokenStream};
+use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
 /// Everything the declaration becomes.
@@ -15,6 +18,7 @@ pub(crate) fn emit(
     decl: &Declaration,
     model: &Model,
     system: &System,
+    constants: &[Constant],
     dynamics: &Dynamics,
     structure: &Structure,
     hoisted: &Hoisted,
@@ -24,7 +28,7 @@ pub(crate) fn emit(
                    M q̈ = Q is the unconstrained motion, A q̈ = b what the constraints demand.";
     let equations = format!("{heading}\n\n{}", listing.markdown(system, model));
     let item = item(decl, model, &system.defaults, &equations);
-    let constants = constants(decl, model, system);
+    let constants = associated(decl, constants);
     let functions = Functions {
         system,
         model,
@@ -107,115 +111,48 @@ pub(super) fn item(
     }
 }
 
-/// Index constants: coordinates, constraints, outputs.
-pub(super) fn constants(decl: &Declaration, model: &Model, system: &System) -> TokenStream {
+/// The associated constants.
+pub(super) fn associated(decl: &Declaration, constants: &[Constant]) -> TokenStream {
     let name = &decl.name;
-    let mut out = TokenStream::new();
-    for (text, (value, docs)) in &model.integers {
-        let ident = format_ident!("{}", plain(text).to_uppercase());
-        let docs = match docs.as_slice() {
-            [] => doc(&format!("Constant `{text}` of the declaration.")),
-            docs => doc(&docs.join("\n")),
+    let constants = constants.iter().map(|constant| {
+        let docs = doc(&constant.docs.join("\n"));
+        let ident = format_ident!("{}", constant.name);
+        let (ty, value) = match &constant.value {
+            ConstantValue::Integer(n) => {
+                let n = Literal::i64_unsuffixed(*n);
+                (quote! { usize }, quote! { #n })
+            }
+            ConstantValue::Float(x) => (quote! { f64 }, float(*x)),
+            ConstantValue::Position(positions) => array(positions),
         };
-        let value = Literal::i64_unsuffixed(*value);
-        out.extend(quote! { #docs pub const #ident: usize = #value; });
-    }
-    for family in &model.coords {
-        let rows: Vec<Place> = family.members.iter().map(|i| (None, *i)).collect();
-        let docs = format!(
-            "Position in q of coordinate{} `{}`.",
-            plural(family.indexed),
-            family.name
-        );
-        let ident = constant(&family.name);
-        out.extend(index(&ident, family.indexed, &rows, &docs));
-    }
-    let constraints = system.constraints.iter().enumerate();
-    for (base, indexed, rows) in group(constraints.map(|(row, c)| (&c.item, row))) {
-        let docs = format!(
-            "Row in A of constraint{} `{base}`.",
-            plural(indexed || rows.len() > 1)
-        );
-        out.extend(index(&constant(&base), indexed, &rows, &docs));
-    }
-    let outputs = system.outputs.iter().enumerate();
-    for (base, indexed, rows) in group(outputs.map(|(row, o)| (&o.item, row))) {
-        let docs = format!(
-            "Position of output{} `{base}`.",
-            plural(indexed || rows.len() > 1)
-        );
-        let ident = format_ident!("OUT_{}", constant(&base));
-        out.extend(index(&ident, indexed, &rows, &docs));
-    }
+        // Lints on what a user may well write: letters without an upper case, 3.14.
+        let caseless = constant.name.chars().any(char::is_lowercase);
+        let caseless = caseless.then(|| quote! { #[allow(non_upper_case_globals)] });
+        let float = matches!(constant.value, ConstantValue::Float(_));
+        let float =
+            float.then(|| quote! { #[allow(clippy::approx_constant, clippy::unreadable_literal)] });
+        quote! { #docs #caseless #float pub const #ident: #ty = #value; }
+    });
     quote! {
         #[automatically_derived]
         #[allow(dead_code)]
-        impl #name { #out }
+        impl #name { #(#constants)* }
     }
 }
 
-/// Component (if a vector) and position.
-type Place = (Option<usize>, usize);
-
-fn plural(several: bool) -> &'static str {
-    if several { "s" } else { "" }
-}
-
-/// Items of one family, in order of appearance.
-fn group<'a>(
-    items: impl Iterator<Item = (&'a ConstraintRef, usize)>,
-) -> Vec<(Ident, bool, Vec<Place>)> {
-    let mut out: Vec<(Ident, bool, Vec<Place>)> = Vec::new();
-    for (item, row) in items {
-        let place = (item.component, row);
-        match out.iter_mut().find(|(base, ..)| *base == item.base) {
-            Some((.., rows)) => rows.push(place),
-            None => out.push((item.base.clone(), item.index.is_some(), vec![place])),
+/// Type and value: a number, an array for families, an array of arrays for families of vectors.
+fn array(positions: &Positions) -> (TokenStream, TokenStream) {
+    match positions {
+        Positions::One(place) => {
+            let place = Literal::usize_unsuffixed(*place);
+            (quote! { usize }, quote! { #place })
         }
-    }
-    out
-}
-
-/// `pub const NAME: usize`, an array for families, an array of arrays for families of vectors.
-fn index(ident: &Ident, indexed: bool, rows: &[Place], docs: &str) -> TokenStream {
-    let docs = doc(docs);
-    let number = |n: usize| Literal::usize_unsuffixed(n);
-    let mut groups: Vec<Vec<Literal>> = Vec::new();
-    for (component, row) in rows {
-        if component.is_none_or(|c| c == 0) || groups.is_empty() {
-            groups.push(Vec::new());
+        Positions::Many(members) => {
+            let len = Literal::usize_unsuffixed(members.len());
+            let (types, values): (Vec<_>, Vec<_>) = members.iter().map(array).unzip();
+            let inner = types.into_iter().next().unwrap_or_else(|| quote! { usize });
+            (quote! { [#inner; #len] }, quote! { [#(#values),*] })
         }
-        if let Some(last) = groups.last_mut() {
-            last.push(number(*row));
-        }
-    }
-    let vector = rows.iter().any(|(component, _)| component.is_some());
-    let members: Vec<TokenStream> = groups
-        .iter()
-        .map(|g| {
-            if vector {
-                quote! { [#(#g),*] }
-            } else {
-                quote! { #(#g)* }
-            }
-        })
-        .collect();
-    let len = number(members.len());
-    // Vectors of different lengths in one family have no array type; their names still find them.
-    let width = groups.first().map_or(0, Vec::len);
-    if groups.iter().any(|g| g.len() != width) {
-        return TokenStream::new();
-    }
-    let width = number(width);
-    let inner = if vector {
-        quote! { [usize; #width] }
-    } else {
-        quote! { usize }
-    };
-    if indexed {
-        quote! { #docs pub const #ident: [#inner; #len] = [#(#members),*]; }
-    } else {
-        quote! { #docs pub const #ident: #inner = #(#members)*; }
     }
 }
 

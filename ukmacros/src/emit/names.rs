@@ -2,12 +2,12 @@
 
 use crate::expr::{Graph, Id, Node, Symbol};
 use crate::model::Model;
-use proc_macro2::{Ident, Span};
+use proc_macro2::Ident;
 use quote::format_ident;
 use std::collections::{HashMap, HashSet};
 
 /// Names that emitted functions use themselves, or that Rust reserves.
-const TAKEN: [&str; 66] = [
+const TAKEN: [&str; 70] = [
     "given",
     "prepared",
     "t",
@@ -74,6 +74,10 @@ const TAKEN: [&str; 66] = [
     "try",
     "gen",
     "yield",
+    "safe",
+    "residual",
+    "virtual",
+    "unsized",
 ];
 
 /// Longest composed name.
@@ -95,11 +99,6 @@ pub(super) fn plain(text: &str) -> String {
         Some(c) if c.is_numeric() => format!("n_{trimmed}"),
         Some(_) => trimmed.to_owned(),
     }
-}
-
-/// An associated constant's name: `x` → `X`.
-pub(super) fn constant(name: &Ident) -> Ident {
-    Ident::new(&plain(&name.to_string()).to_uppercase(), Span::call_site())
 }
 
 /// Variables of one emitted function.
@@ -286,6 +285,5 @@ impl<'a> Namer<'a> {
 }
 
 fn snake(text: &str) -> String {
-    // `X1` and `x1` cannot both be declared, so lower case stays unique.
     plain(text).to_lowercase()
 }

@@ -5,7 +5,7 @@
 //! asin′ and acos′ at ±1, ln′ and negative powers at 0, atan2′ and hypot′ at (0, 0): there the result is not finite.
 
 use super::graph::{Func, Graph, Id, Node, Symbol};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// A derivation: how symbols change. Remembers what it has differentiated.
 pub(crate) struct Derivative {
@@ -61,13 +61,40 @@ impl Derivative {
 
     /// The derivative of `id`.
     pub(crate) fn of(&mut self, id: Id, g: &mut Graph) -> Id {
+        if let Some(known) = self.known(id, g) {
+            return known;
+        }
+        // Operands before their users, without recursion: a chain of values can be long.
+        let mut needed = vec![id];
+        let mut seen = HashSet::from([id]);
+        let mut at = 0;
+        while let Some(next) = needed.get(at) {
+            for operand in g.operands(*next) {
+                if self.known(operand, g).is_none() && seen.insert(operand) {
+                    needed.push(operand);
+                }
+            }
+            at += 1;
+        }
+        needed.sort_unstable();
+        for id in needed {
+            let derivative = self.of_node(id, g);
+            self.known.insert(id, derivative);
+        }
+        self.known[&id]
+    }
+
+    /// The derivative of `id` if there is nothing to compute.
+    fn known(&self, id: Id, g: &mut Graph) -> Option<Id> {
         if self.blind(id, g) {
-            return g.zero();
+            return Some(g.zero());
         }
-        if let Some(known) = self.known.get(&id) {
-            return *known;
-        }
-        let result = match g.node(id).clone() {
+        self.known.get(&id).copied()
+    }
+
+    /// The derivative of a node whose operands have theirs.
+    fn of_node(&mut self, id: Id, g: &mut Graph) -> Id {
+        match g.node(id).clone() {
             Node::Const(_) => g.zero(),
             Node::Symbol(s) => self.of_symbol(s, g),
             Node::Scale(c, inner) => {
@@ -115,9 +142,7 @@ impl Derivative {
                 let otherwise = self.of(otherwise, g);
                 g.select(a, b, then, otherwise)
             }
-        };
-        self.known.insert(id, result);
-        result
+        }
     }
 
     fn of_call(&mut self, func: Func, args: &[Id], value: Id, g: &mut Graph) -> Id {

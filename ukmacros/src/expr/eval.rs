@@ -12,6 +12,18 @@ pub(crate) struct Point<'a> {
     pub(crate) prepared: &'a [f64],
 }
 
+impl Point<'_> {
+    /// No values: for what contains no symbol.
+    pub(crate) const NOWHERE: Point<'static> = Point {
+        params: &[],
+        q: &[],
+        v: &[],
+        t: f64::NAN,
+        residual: &[],
+        prepared: &[],
+    };
+}
+
 /// Values of all nodes up to the highest of `roots`, in one sweep; returns those of `roots`.
 pub(crate) fn eval(g: &Graph, roots: &[Id], point: &Point<'_>) -> Vec<f64> {
     let mut needed = vec![false; roots.iter().map(|r| r.index() + 1).max().unwrap_or(0)];

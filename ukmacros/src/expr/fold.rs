@@ -3,8 +3,24 @@
 //! Simplifications are those of real arithmetic that do not lose accuracy: like terms are collected, zero and one vanish,
 //! powers of one base are joined, constants are folded where `f64` rounds as it would at run time.
 //! `x / x` becomes 1 and `0 · x` becomes 0: removable singularities are removed.
+//! Where folding would leave the range of `f64` or of exponents, or make one product of very many factors, a part stays whole
+//! ([`Node::Held`]).
 
 use super::graph::{Func, Graph, Id, Node, Num, Symbol};
+use std::collections::HashMap;
+
+/// Products of more factors stay whole inside of other products. Opened, a chain of products of products would lose what it shares.
+const MAX_OPENED: usize = 16;
+
+/// Larger exponents are not composed: far from overflow, whatever derivatives do to them.
+const MAX_EXPONENT: i32 = 1 << 20;
+
+/// c · k, unless rounding loses it: under- or overflow where neither factor is at fault.
+fn times(c: f64, k: f64) -> Option<f64> {
+    let product = c * k;
+    let at_fault = c == 0.0 || k == 0.0 || !c.is_finite() || !k.is_finite();
+    (product.is_normal() || at_fault || c.is_subnormal() || k.is_subnormal()).then_some(product)
+}
 
 impl Graph {
     pub(crate) fn constant(&mut self, x: f64) -> Id {
@@ -28,7 +44,10 @@ impl Graph {
             return self.constant(c * x);
         }
         let (inner_c, inner) = self.unscaled(id);
-        let c = c * inner_c;
+        let Some(c) = times(c, inner_c) else {
+            let whole = self.keep(id);
+            return self.intern(Node::Scale(Num::new(c), whole));
+        };
         if c == 0.0 {
             self.zero()
         } else if c == 1.0 {
@@ -54,15 +73,33 @@ impl Graph {
     pub(crate) fn sum(&mut self, terms: &[(f64, Id)]) -> Id {
         let mut constant = 0.0;
         let mut collected: Vec<(f64, Id)> = Vec::with_capacity(terms.len());
+        let mut place: HashMap<Id, usize> = HashMap::with_capacity(terms.len());
         for &(c, id) in terms {
             if let Some(x) = self.as_const(id) {
                 constant += c * x;
                 continue;
             }
             let (inner_c, inner) = self.unscaled(id);
-            match collected.iter_mut().find(|(_, known)| *known == inner) {
-                Some((known, _)) => *known += c * inner_c,
-                None => collected.push((c * inner_c, inner)),
+            let (mut c, mut inner) = match times(c, inner_c) {
+                Some(c) => (c, inner),
+                None => (c, self.keep(id)),
+            };
+            loop {
+                match place.get(&inner).map(|at| &mut collected[*at].0) {
+                    None => {
+                        place.insert(inner, collected.len());
+                        collected.push((c, inner));
+                        break;
+                    }
+                    Some(known) if (*known + c).is_finite() => {
+                        *known += c;
+                        break;
+                    }
+                    Some(_) => {
+                        let term = self.scale(c, inner);
+                        (c, inner) = (1.0, self.keep(term));
+                    }
+                }
             }
         }
         collected.retain(|(c, _)| *c != 0.0);
@@ -117,10 +154,7 @@ impl Graph {
         if constant.get() != 0.0 {
             return whole;
         }
-        let factors_of = |g: &Graph, id: Id| match g.node(id) {
-            Node::Product(factors) => factors.clone(),
-            _ => vec![(id, 1)],
-        };
+        let factors_of = |g: &Graph, id: Id| g.opened(id).unwrap_or_else(|| vec![(id, 1)]);
         let mut common = factors_of(self, parts[0].1);
         for (_, part) in &parts[1..] {
             let factors = factors_of(self, *part);
@@ -162,9 +196,19 @@ impl Graph {
         let Node::Sum(constant, terms) = self.node(inner).clone() else {
             return vec![(c, id)];
         };
-        let mut out: Vec<(f64, Id)> = terms.iter().map(|(ci, t)| (c * k * ci.get(), *t)).collect();
+        let Some(c) = times(c, k) else {
+            return vec![(c, id)];
+        };
+        let mut out = Vec::with_capacity(terms.len() + 1);
+        for (k, term) in terms {
+            match times(c, k.get()) {
+                Some(k) => out.push((k, term)),
+                None => out.push((c, self.scale(k.get(), term))),
+            }
+        }
         if constant.get() != 0.0 {
-            out.push((c * k * constant.get(), self.one()));
+            let one = self.one();
+            out.push((c * constant.get(), one));
         }
         out
     }
@@ -188,7 +232,7 @@ impl Graph {
     /// Π factor^exponent.
     pub(crate) fn product(&mut self, factors: &[(Id, i32)]) -> Id {
         let mut coefficient = 1.0;
-        let mut collected: Vec<(Id, i32)> = Vec::with_capacity(factors.len());
+        let mut collected = Factors::default();
         for &(id, exponent) in factors {
             if exponent == 0 {
                 continue;
@@ -201,35 +245,82 @@ impl Graph {
                 }
             };
             // Division where the exponent is −1: x / 3 is better rounded than x · 3⁻¹.
-            coefficient = match exponent {
-                -1 => coefficient / c,
-                _ => coefficient * c.powi(exponent),
+            let power = c.powi(exponent);
+            let quotient = coefficient / c;
+            let folded = match exponent {
+                -1 if quotient.is_normal() => Some(quotient),
+                _ => times(coefficient, power).filter(|_| power.is_normal() || inner.is_none()),
             };
-            let Some(inner) = inner else { continue };
-            let opened = match self.node(inner) {
-                Node::Product(inner_factors) => inner_factors.clone(),
-                _ => vec![(inner, 1)],
-            };
-            for (base, e) in opened {
-                let Some(e) = e.checked_mul(exponent) else {
-                    // An exponent beyond i32: keep the power as it is.
-                    collected.push((inner, exponent));
-                    break;
-                };
-                match collected.iter_mut().find(|(known, _)| *known == base) {
-                    Some((_, known)) => *known = known.saturating_add(e),
-                    None => collected.push((base, e)),
+            match folded {
+                Some(folded) => coefficient = folded,
+                None if inner.is_none() && collected.list.is_empty() => coefficient *= power,
+                // A number by itself: what stands so far stays whole.
+                None if inner.is_none() => {
+                    let so_far = self.close(coefficient, collected);
+                    let whole = self.keep(so_far);
+                    collected = Factors::default();
+                    collected.enter(whole, 1);
+                    coefficient = power;
+                }
+                None => {
+                    let whole = self.keep(id);
+                    self.enter(whole, exponent, &mut collected);
+                    continue;
                 }
             }
+            if let Some(inner) = inner {
+                self.enter(inner, exponent, &mut collected);
+            }
         }
-        collected.retain(|(_, e)| *e != 0);
-        collected.sort_unstable();
-        if coefficient == 0.0 || collected.is_empty() {
+        self.close(coefficient, collected)
+    }
+
+    /// `inner`^exponent into `collected`: a product is opened where that stays in bounds.
+    fn enter(&mut self, inner: Id, exponent: i32, collected: &mut Factors) {
+        let opened = match self.opened(inner) {
+            Some(factors) => factors,
+            None => vec![(self.keep(inner), 1)],
+        };
+        let composed: Option<Vec<(Id, i32)>> = opened
+            .iter()
+            .map(|(base, e)| {
+                let e = e.checked_mul(exponent)?;
+                collected.takes(*base, e).then_some((*base, e))
+            })
+            .collect();
+        if let Some(composed) = composed {
+            for (base, e) in composed {
+                collected.enter(base, e);
+            }
+            return;
+        }
+        let whole = self.keep(inner);
+        if !collected.enter(whole, exponent) {
+            let power = self.intern(Node::Product(vec![(whole, exponent)]));
+            let whole = self.keep(power);
+            collected.enter(whole, 1);
+        }
+    }
+
+    /// The factors of a product that may be opened, or `id` itself if it is none; nothing for a product that stays whole.
+    fn opened(&self, id: Id) -> Option<Vec<(Id, i32)>> {
+        match self.node(id) {
+            Node::Product(factors) if factors.len() > MAX_OPENED => None,
+            Node::Product(factors) => Some(factors.clone()),
+            _ => Some(vec![(id, 1)]),
+        }
+    }
+
+    fn close(&mut self, coefficient: f64, collected: Factors) -> Id {
+        let mut factors = collected.list;
+        factors.retain(|(_, e)| *e != 0);
+        factors.sort_unstable();
+        if coefficient == 0.0 || factors.is_empty() {
             return self.constant(coefficient);
         }
-        let product = match collected.as_slice() {
+        let product = match factors.as_slice() {
             [(id, 1)] => *id,
-            _ => self.intern(Node::Product(collected)),
+            _ => self.intern(Node::Product(factors)),
         };
         self.scale(coefficient, product)
     }
@@ -318,7 +409,7 @@ impl Graph {
         if !matches!(self.node(inner), Node::Product(_)) {
             return id;
         }
-        let held = self.intern(Node::Held(inner));
+        let held = self.keep(inner);
         self.scale(c, held)
     }
 
@@ -350,6 +441,14 @@ impl Graph {
         self.scale(c.signum(), product)
     }
 
+    /// `id` with its coefficient as one factor or term.
+    fn keep(&mut self, id: Id) -> Id {
+        match self.node(id) {
+            Node::Const(_) | Node::Held(_) => id,
+            _ => self.intern(Node::Held(id)),
+        }
+    }
+
     /// `then` where a ≤ b, else `otherwise`.
     pub(crate) fn select(&mut self, a: Id, b: Id, then: Id, otherwise: Id) -> Id {
         if then == otherwise {
@@ -361,5 +460,34 @@ impl Graph {
             then,
             otherwise,
         })
+    }
+}
+
+/// Factors of a product, each base once.
+#[derive(Default)]
+struct Factors {
+    list: Vec<(Id, i32)>,
+    place: HashMap<Id, usize>,
+}
+
+impl Factors {
+    /// Whether base^e can be entered.
+    fn takes(&self, base: Id, e: i32) -> bool {
+        let known = self.place.get(&base).map_or(0, |at| self.list[*at].1);
+        let sum = known.checked_add(e);
+        sum.is_some_and(|sum| (-MAX_EXPONENT..=MAX_EXPONENT).contains(&sum))
+    }
+
+    /// Enters base^e, or returns false if the exponent leaves its bounds.
+    fn enter(&mut self, base: Id, e: i32) -> bool {
+        let fits = self.takes(base, e);
+        if fits {
+            let at = *self.place.entry(base).or_insert(self.list.len());
+            match self.list.get_mut(at) {
+                Some((_, known)) => *known += e,
+                None => self.list.push((base, e)),
+            }
+        }
+        fits
     }
 }

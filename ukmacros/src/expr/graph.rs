@@ -200,6 +200,12 @@ impl Graph {
         Id(u32::try_from(index).unwrap_or(u32::MAX))
     }
 
+    /// Number of nodes.
+    #[cfg(test)]
+    pub(crate) fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
     pub(crate) fn node(&self, id: Id) -> &Node {
         &self.nodes[id.index()]
     }

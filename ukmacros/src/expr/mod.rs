@@ -6,6 +6,7 @@ mod eval;
 mod fold;
 mod graph;
 mod lower;
+mod rest;
 
 pub(crate) use diff::Derivative;
 pub(crate) use display::Printer;

@@ -1,6 +1,6 @@
 //! Integer constants, families, loops; duplicates and reserved names.
 
-use super::types::{Element, Family, Model, Name};
+use super::types::{Element, Family, Integer, Model, Name};
 use crate::diag::{Diagnostics, Loc, suggest};
 use crate::parse::{BinaryOp, Block, Declaration, Expr, ExprKind, Key, Range};
 use proc_macro2::Ident;
@@ -10,11 +10,14 @@ use std::collections::{BTreeMap, HashMap};
 const MAX_REPETITIONS: i64 = 100_000;
 
 /// Names with a fixed meaning.
-const RESERVED: [&str; 33] = [
+const RESERVED: [&str; 34] = [
     "t", "PI", "dot", "ddot", "sum", "sq", "sin", "cos", "tan", "asin", "acos", "atan", "atan2",
     "sinh", "cosh", "tanh", "exp", "ln", "abs", "sign", "signum", "min", "max", "hypot", "sqrt",
-    "powi", "powf", "recip", "self", "Self", "super", "crate", "_",
+    "powi", "powf", "recip", "self", "Self", "super", "crate", "gen", "_",
 ];
+
+/// Columns of every run beside coordinates, velocities and outputs.
+const COLUMNS: [&str; 3] = ["t", "energy", "residual"];
 
 /// Resolves constants, parameters and coordinates.
 pub(crate) fn resolve(decl: &mut Declaration, diag: &Diagnostics) -> Model {
@@ -32,14 +35,22 @@ pub(crate) fn resolve(decl: &mut Declaration, diag: &Diagnostics) -> Model {
         let meaning = if constant.integer {
             let scope = Scope::new(&model);
             let value = scope.integer(&constant.value, diag);
-            if value.is_some_and(|v| v < 0) {
-                diag.error(
-                    constant.value.loc,
-                    format!("`{name}` is a `usize`, which cannot be negative"),
-                );
-            }
-            let docs = constant.docs.clone();
-            model.integers.insert(name, (value.unwrap_or(0), docs));
+            let value = value.filter(|v| {
+                let fits = *v >= 0;
+                if !fits {
+                    diag.error(
+                        constant.value.loc,
+                        format!("`{name}` is a `usize`, which cannot be negative"),
+                    );
+                }
+                fits
+            });
+            let integer = Integer {
+                docs: constant.docs.clone(),
+                name: constant.name.clone(),
+                value,
+            };
+            model.integers.entry(name).or_insert(integer);
             Name::Integer
         } else {
             Name::Float(model.floats.len())
@@ -159,6 +170,12 @@ fn add(found: Found, kind: Kind, model: &mut Model, diag: &Diagnostics) {
             Kind::Param => Name::Param(family),
             Kind::Coord => Name::Coord(family),
         };
+        if kind == Kind::Coord
+            && let Err(reason) = model.column(&found.name)
+        {
+            diag.error(found.name.span(), reason);
+            return;
+        }
         if !declare(&found.name, meaning, model, diag) {
             return;
         }
@@ -204,10 +221,18 @@ impl Model {
         if self.names.contains_key(&text) {
             return Err(format!("`{text}` is declared twice; names must be unique"));
         }
-        let upper = text.to_uppercase();
-        if let Some(other) = self.names.keys().find(|n| n.to_uppercase() == upper) {
+        Ok(())
+    }
+
+    /// Whether `name` may head a column of a run's table; the reason if not.
+    pub(crate) fn column(&self, name: &Ident) -> Result<(), String> {
+        let text = name.to_string();
+        if RESERVED.contains(&text.as_str()) || text.starts_with("r#") {
+            return Err(format!("`{text}` is reserved; choose another name"));
+        }
+        if COLUMNS.contains(&text.as_str()) {
             return Err(format!(
-                "`{text}` and `{other}` would both become the constant `{upper}`; rename one"
+                "`{text}` is a column of every run; choose another name"
             ));
         }
         Ok(())
@@ -235,7 +260,7 @@ impl<'m> Scope<'m> {
         let variable = self.variables.iter().rev().find(|(n, _)| n == name);
         variable
             .map(|(_, v)| *v)
-            .or_else(|| self.model.integers.get(name).map(|(v, _)| *v))
+            .or_else(|| self.model.integers.get(name)?.value)
     }
 
     /// This scope with the variable `var` = `value`.
@@ -247,40 +272,59 @@ impl<'m> Scope<'m> {
 
     /// An integer known at compile time.
     pub(crate) fn integer(&self, e: &Expr, diag: &Diagnostics) -> Option<i64> {
-        let overflow = || diag.error(e.loc, "integer overflow");
         match &e.kind {
             ExprKind::Int(n) => Some(*n),
             ExprKind::Group(inner) => self.integer(inner, diag),
-            ExprKind::Neg(inner) => self.integer(inner, diag)?.checked_neg(),
+            ExprKind::Neg(inner) => {
+                let negative = self.integer(inner, diag)?.checked_neg();
+                if negative.is_none() {
+                    diag.error(e.loc, "integer overflow");
+                }
+                negative
+            }
             ExprKind::Name(name) => {
-                let found = self.lookup(&name.to_string());
+                let text = name.to_string();
+                let constant = self.model.integers.get(&text);
+                if constant.is_some_and(|c| c.value.is_none()) {
+                    return None;
+                }
+                let found = self.lookup(&text);
                 if found.is_none() {
                     let names = self.model.integers.keys().map(String::as_str);
                     let names = names.chain(self.variables.iter().map(|(n, _)| n.as_str()));
-                    let near = suggest(&name.to_string(), names);
+                    let remedy = "indices and ranges must be known at compile time";
+                    let end = suggest(&text, names, remedy);
                     diag.error(
                         e.loc,
-                        format!("`{name}` is not an integer constant or loop variable{near}; indices and ranges must be known at compile time"),
+                        format!("`{name}` is not an integer constant or loop variable{end}"),
                     );
                 }
                 found
             }
-            ExprKind::Binary(op, a, b) => {
-                let (a, b) = (self.integer(a, diag)?, self.integer(b, diag)?);
-                let result = match op {
-                    BinaryOp::Add => a.checked_add(b),
-                    BinaryOp::Sub => a.checked_sub(b),
-                    BinaryOp::Mul => a.checked_mul(b),
-                    BinaryOp::Div if b == 0 => {
-                        diag.error(e.loc, "division by zero");
+            ExprKind::Chain(first, rest) => {
+                let mut result = self.integer(first, diag)?;
+                for (op, operand) in rest {
+                    let loc = Loc {
+                        start: e.loc.start,
+                        end: operand.loc.end,
+                    };
+                    let b = self.integer(operand, diag)?;
+                    if *op == BinaryOp::Div && b == 0 {
+                        diag.error(loc, "division by zero");
                         return None;
                     }
-                    BinaryOp::Div => a.checked_div(b),
-                };
-                if result.is_none() {
-                    overflow();
+                    let next = match op {
+                        BinaryOp::Add => result.checked_add(b),
+                        BinaryOp::Sub => result.checked_sub(b),
+                        BinaryOp::Mul => result.checked_mul(b),
+                        BinaryOp::Div => result.checked_div(b),
+                    };
+                    if next.is_none() {
+                        diag.error(loc, "integer overflow");
+                    }
+                    result = next?;
                 }
-                result
+                Some(result)
             }
             ExprKind::Error => None,
             _ => {
@@ -298,7 +342,7 @@ impl<'m> Scope<'m> {
         let from = self.integer(&range.from, diag)?;
         let to = self
             .integer(&range.to, diag)?
-            .checked_add(i64::from(range.inclusive))?;
+            .saturating_add(i64::from(range.inclusive));
         if to.saturating_sub(from) > MAX_REPETITIONS {
             let loc = Loc {
                 start: range.from.loc.start,

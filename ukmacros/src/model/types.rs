@@ -6,8 +6,7 @@ use std::collections::{BTreeMap, HashMap};
 
 /// Names of a declaration, resolved.
 pub(crate) struct Model {
-    /// Integer constants and their doc comments.
-    pub(crate) integers: BTreeMap<String, (i64, Vec<String>)>,
+    pub(crate) integers: BTreeMap<String, Integer>,
     /// `f64` constants, whose values are lowered later.
     pub(crate) floats: Vec<Const>,
     pub(crate) params: Vec<Family>,
@@ -18,6 +17,14 @@ pub(crate) struct Model {
     pub(crate) coord_elements: Vec<Element>,
     /// What each name stands for.
     pub(crate) names: HashMap<String, Name>,
+}
+
+/// `const N: usize = …;`
+pub(crate) struct Integer {
+    pub(crate) docs: Vec<String>,
+    pub(crate) name: Ident,
+    /// Nothing where it is in error, which is reported.
+    pub(crate) value: Option<i64>,
 }
 
 /// What a name stands for.

@@ -1,7 +1,7 @@
 //! Expressions: Rust's grammar, cut down to what can be differentiated.
 
 use crate::diag::{Diagnostics, Loc};
-use proc_macro2::Ident;
+use proc_macro2::{Ident, Span};
 use syn::spanned::Spanned as _;
 
 /// An expression and where it stands.
@@ -18,7 +18,8 @@ pub(crate) enum ExprKind {
     Name(Ident),
     Index(Ident, Box<Expr>),
     Neg(Box<Expr>),
-    Binary(BinaryOp, Box<Expr>, Box<Expr>),
+    /// Operands joined by operators of one precedence, from left to right: flat, since sums may have thousands of terms.
+    Chain(Box<Expr>, Vec<(BinaryOp, Expr)>),
     /// Parentheses: they keep a sum together, as they do in floating-point arithmetic.
     Group(Box<Expr>),
     /// `f(a, b)` or `a.f(b)`.
@@ -42,6 +43,13 @@ pub(crate) enum BinaryOp {
     Div,
 }
 
+impl BinaryOp {
+    /// `+` or `-`.
+    pub(crate) fn adds(self) -> bool {
+        matches!(self, BinaryOp::Add | BinaryOp::Sub)
+    }
+}
+
 /// `from..to`.
 #[derive(Clone, Debug)]
 pub(crate) struct Range {
@@ -52,92 +60,189 @@ pub(crate) struct Range {
 
 impl Range {
     /// From Rust's range expression; both ends are needed.
-    pub(crate) fn convert(range: &syn::Expr, diag: &Diagnostics) -> Option<Self> {
+    pub(crate) fn convert(range: syn::Expr, diag: &Diagnostics) -> Option<Self> {
+        let loc = location(&range);
         let syn::Expr::Range(r) = range else {
-            diag.error(Loc::of(range), "expected a range such as `0..N`");
+            diag.error(loc, "expected a range such as `0..N`");
             return None;
         };
-        let (Some(from), Some(to)) = (&r.start, &r.end) else {
-            diag.error(Loc::of(r), "a range needs both ends, such as `0..N`");
+        let (Some(from), Some(to)) = (r.start, r.end) else {
+            diag.error(loc, "a range needs both ends, such as `0..N`");
             return None;
         };
         Some(Range {
-            from: Box::new(Expr::convert(from, diag)),
-            to: Box::new(Expr::convert(to, diag)),
+            from: Box::new(Expr::convert(*from, diag)),
+            to: Box::new(Expr::convert(*to, diag)),
             inclusive: matches!(r.limits, syn::RangeLimits::Closed(_)),
         })
     }
 }
 
-/// Nesting beyond this is refused: deeper trees would overflow the compiler's stack.
-const MAX_DEPTH: usize = 200;
-
 impl Expr {
     /// From Rust's expression; what has no meaning here is reported and becomes [`ExprKind::Error`].
-    pub(crate) fn convert(e: &syn::Expr, diag: &Diagnostics) -> Self {
-        convert(e, diag, 0)
+    pub(crate) fn convert(e: syn::Expr, diag: &Diagnostics) -> Self {
+        let loc = location(&e);
+        let kind = match e {
+            syn::Expr::Binary(_) => chain(e, diag),
+            // Everything is an `f64`: a cast to it says nothing.
+            syn::Expr::Cast(c) if is_f64(&c.ty) => return Expr::convert(*c.expr, diag),
+            other => simple(other, loc, diag),
+        };
+        Expr { loc, kind }
+    }
+
+    /// What stands for an expression that is reported already.
+    pub(crate) fn error(loc: Loc) -> Self {
+        Expr {
+            loc,
+            kind: ExprKind::Error,
+        }
     }
 }
 
-fn convert(e: &syn::Expr, diag: &Diagnostics, depth: usize) -> Expr {
-    let loc = Loc::of(e);
-    if depth > MAX_DEPTH {
-        diag.error(
-            loc,
-            "expression is nested too deeply; name parts of it with `let`",
-        );
-        return Expr {
-            loc,
-            kind: ExprKind::Error,
+/// The range of `e`, found without walking through it: operands may be many.
+pub(super) fn location(e: &syn::Expr) -> Loc {
+    let (start, end) = (leftmost(e), rightmost(e));
+    Loc {
+        start: start.unwrap_or_else(|e| Loc::of(e).start),
+        end: end.unwrap_or_else(|e| Loc::of(e).end),
+    }
+}
+
+/// The span of the first token, or what to take it of.
+fn leftmost(mut e: &syn::Expr) -> Result<Span, &syn::Expr> {
+    loop {
+        e = match e {
+            syn::Expr::Binary(b) => &b.left,
+            syn::Expr::MethodCall(m) => &m.receiver,
+            syn::Expr::Call(c) => &c.func,
+            syn::Expr::Index(i) => &i.expr,
+            syn::Expr::Cast(c) => &c.expr,
+            syn::Expr::Field(f) => &f.base,
+            syn::Expr::Assign(a) => &a.left,
+            syn::Expr::Group(g) => &g.expr,
+            syn::Expr::Range(r) => match &r.start {
+                Some(start) => start,
+                None => return Ok(Loc::of(&r.limits).start),
+            },
+            syn::Expr::Paren(p) => return Ok(p.paren_token.span.open()),
+            syn::Expr::Array(a) => return Ok(a.bracket_token.span.open()),
+            syn::Expr::Unary(u) => return Ok(Loc::of(&u.op).start),
+            other => return Err(other),
         };
     }
-    let go = |e: &syn::Expr| convert(e, diag, depth + 1);
-    let boxed = |e: &syn::Expr| Box::new(go(e));
-    let all = |list: &syn::punctuated::Punctuated<syn::Expr, syn::Token![,]>| -> Vec<Expr> {
-        list.iter().map(go).collect()
+}
+
+/// The span of the last token, or what to take it of.
+fn rightmost(mut e: &syn::Expr) -> Result<Span, &syn::Expr> {
+    loop {
+        e = match e {
+            syn::Expr::Binary(b) => &b.right,
+            syn::Expr::Unary(u) => &u.expr,
+            syn::Expr::Assign(a) => &a.right,
+            syn::Expr::Closure(c) => &c.body,
+            syn::Expr::Group(g) => &g.expr,
+            syn::Expr::Range(r) => match &r.end {
+                Some(end) => end,
+                None => return Ok(Loc::of(&r.limits).end),
+            },
+            syn::Expr::Cast(c) => return Ok(Loc::of(&c.ty).end),
+            syn::Expr::Field(f) => return Ok(Loc::of(&f.member).end),
+            syn::Expr::Paren(p) => return Ok(p.paren_token.span.close()),
+            syn::Expr::Call(c) => return Ok(c.paren_token.span.close()),
+            syn::Expr::MethodCall(m) => return Ok(m.paren_token.span.close()),
+            syn::Expr::Index(i) => return Ok(i.bracket_token.span.close()),
+            syn::Expr::Array(a) => return Ok(a.bracket_token.span.close()),
+            other => return Err(other),
+        };
+    }
+}
+
+fn is_f64(ty: &syn::Type) -> bool {
+    matches!(ty, syn::Type::Path(p) if p.path.is_ident("f64"))
+}
+
+/// Operands and operators, taken apart from the right: Rust nests them to the left.
+fn chain(mut e: syn::Expr, diag: &Diagnostics) -> ExprKind {
+    let mut operations = Vec::new();
+    while let syn::Expr::Binary(b) = e {
+        match binary_op(&b.op) {
+            Ok(op) => operations.push((op, *b.right)),
+            Err(message) => {
+                diag.error(Loc::of(&b.op), message);
+                return ExprKind::Error;
+            }
+        }
+        e = *b.left;
+    }
+    let first = Expr::convert(e, diag);
+    let start = first.loc.start;
+    let mut done = first;
+    let mut chain: Vec<(BinaryOp, Expr)> = Vec::new();
+    let close = |first: Expr, chain: Vec<(BinaryOp, Expr)>| {
+        let end = chain.last().map_or(first.loc.end, |(_, last)| last.loc.end);
+        Expr {
+            loc: Loc { start, end },
+            kind: ExprKind::Chain(Box::new(first), chain),
+        }
+    };
+    for (op, right) in operations.into_iter().rev() {
+        // What binds more tightly comes first: `a * b` is the first operand of `a * b + c`.
+        if chain
+            .last()
+            .is_some_and(|(last, _)| last.adds() != op.adds())
+        {
+            done = close(done, std::mem::take(&mut chain));
+        }
+        chain.push((op, Expr::convert(right, diag)));
+    }
+    close(done, chain).kind
+}
+
+/// Everything but operators between operands.
+fn simple(e: syn::Expr, loc: Loc, diag: &Diagnostics) -> ExprKind {
+    let boxed = |e: syn::Expr| Box::new(Expr::convert(e, diag));
+    let all = |list: syn::punctuated::Punctuated<syn::Expr, syn::Token![,]>| -> Vec<Expr> {
+        list.into_iter().map(|e| Expr::convert(e, diag)).collect()
     };
     let refuse = |loc: Loc, message: &str| {
         diag.error(loc, message);
         ExprKind::Error
     };
-    let kind = match e {
+    match e {
         syn::Expr::Lit(l) => literal(&l.lit, diag),
-        syn::Expr::Path(p) => match name_of(p) {
+        syn::Expr::Path(p) => match name_of(&p) {
             Ok(name) => ExprKind::Name(name),
             Err(message) => refuse(loc, &message),
         },
-        syn::Expr::Paren(p) => ExprKind::Group(boxed(&p.expr)),
-        syn::Expr::Group(g) => ExprKind::Group(boxed(&g.expr)),
+        syn::Expr::Paren(p) => ExprKind::Group(boxed(*p.expr)),
+        syn::Expr::Group(g) => ExprKind::Group(boxed(*g.expr)),
         syn::Expr::Unary(u) => match u.op {
-            syn::UnOp::Neg(_) => ExprKind::Neg(boxed(&u.expr)),
+            syn::UnOp::Neg(_) => ExprKind::Neg(boxed(*u.expr)),
             syn::UnOp::Deref(star) => refuse(
                 star.span().into(),
                 "`**` is not a power in Rust; write `x.powi(2)` or `sq(x)`",
             ),
             _ => refuse(loc, "`!` has no meaning in an equation"),
         },
-        syn::Expr::Binary(b) => match binary_op(&b.op) {
-            Ok(op) => ExprKind::Binary(op, boxed(&b.left), boxed(&b.right)),
-            Err(message) => refuse(Loc::of(&b.op), message),
-        },
         syn::Expr::Index(i) => match &*i.expr {
             syn::Expr::Path(p) => match name_of(p) {
-                Ok(name) => ExprKind::Index(name, boxed(&i.index)),
+                Ok(name) => ExprKind::Index(name, boxed(*i.index)),
                 Err(message) => refuse(loc, &message),
             },
             other => refuse(
-                Loc::of(other),
+                location(other),
                 "only a named family can be indexed, such as `x[i]`",
             ),
         },
         syn::Expr::Call(c) => match &*c.func {
             syn::Expr::Path(p) => match name_of(p) {
-                Ok(name) if name == "sum" => sum(c, diag, depth),
-                Ok(name) => ExprKind::Call(name, all(&c.args)),
+                Ok(name) if name == "sum" => sum(c, loc, diag),
+                Ok(name) => ExprKind::Call(name, all(c.args)),
                 Err(message) => refuse(Loc::of(p), &message),
             },
             other => refuse(
-                Loc::of(other),
+                location(other),
                 "only a function's name can be called, such as `sin(x)`",
             ),
         },
@@ -148,19 +253,16 @@ fn convert(e: &syn::Expr, diag: &Diagnostics, depth: usize) -> Expr {
                     "a function takes no type arguments here",
                 )
             } else {
-                let mut args = vec![go(&m.receiver)];
-                args.extend(all(&m.args));
-                ExprKind::Call(m.method.clone(), args)
+                let mut args = vec![Expr::convert(*m.receiver, diag)];
+                args.extend(all(m.args));
+                ExprKind::Call(m.method, args)
             }
         }
-        syn::Expr::Array(a) => ExprKind::Vector(all(&a.elems)),
-        syn::Expr::Cast(c) => match &*c.ty {
-            syn::Type::Path(p) if p.path.is_ident("f64") => return go(&c.expr),
-            ty => refuse(
-                Loc::of(ty),
-                "everything is an `f64` here; only `as f64` is allowed",
-            ),
-        },
+        syn::Expr::Array(a) => ExprKind::Vector(all(a.elems)),
+        syn::Expr::Cast(c) => refuse(
+            Loc::of(&c.ty),
+            "everything is an `f64` here; only `as f64` is allowed",
+        ),
         syn::Expr::Assign(a) => refuse(
             a.eq_token.span.into(),
             "an equation has one `=`: `lhs = rhs`",
@@ -186,8 +288,7 @@ fn convert(e: &syn::Expr, diag: &Diagnostics, depth: usize) -> Expr {
             loc,
             "not an equation's expression; allowed are numbers, names, `+ - * /`, functions and vectors `[a, b]`",
         ),
-    };
-    Expr { loc, kind }
+    }
 }
 
 fn name_of(path: &syn::ExprPath) -> Result<Ident, String> {
@@ -245,25 +346,25 @@ fn binary_op(op: &syn::BinOp) -> Result<BinaryOp, &'static str> {
     })
 }
 
-fn sum(call: &syn::ExprCall, diag: &Diagnostics, depth: usize) -> ExprKind {
+fn sum(call: syn::ExprCall, loc: Loc, diag: &Diagnostics) -> ExprKind {
     let usage = "`sum` is written `sum(0..N, |i| …)`";
-    let mut args = call.args.iter();
+    let mut args = call.args.into_iter();
     let (Some(range), Some(syn::Expr::Closure(closure)), None) =
         (args.next(), args.next(), args.next())
     else {
-        diag.error(Loc::of(call), usage);
+        diag.error(loc, usage);
         return ExprKind::Error;
     };
     let mut inputs = closure.inputs.iter();
     let (Some(syn::Pat::Ident(var)), None) = (inputs.next(), inputs.next()) else {
-        diag.error(Loc::of(closure), usage);
+        diag.error(location(&syn::Expr::Closure(closure)), usage);
         return ExprKind::Error;
     };
     match Range::convert(range, diag) {
         Some(range) => ExprKind::Sum {
             var: var.ident.clone(),
             range,
-            body: Box::new(convert(&closure.body, diag, depth + 1)),
+            body: Box::new(Expr::convert(*closure.body, diag)),
         },
         None => ExprKind::Error,
     }

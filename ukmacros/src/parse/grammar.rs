@@ -18,13 +18,14 @@
 //! ```
 //! `expr` is Rust's expression grammar, of which `+ - * /`, calls, method calls, indexing, vectors `[a, b]` and `sum(a..b, |i| …)` have a meaning.
 
-use super::expr::{Expr, Range};
+use super::expr::{Expr, Range, location};
 use super::item::{
     Block, Const, Coord, Declaration, Entry, Equation, Function, Key, Let, LetValue, MassEntry,
     Output, Param, Section,
 };
+use super::nesting;
 use crate::diag::{Diagnostics, Loc, suggest};
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
 use quote::ToTokens as _;
 use syn::parse::ParseStream;
 use syn::{Token, braced, bracketed, parenthesized};
@@ -45,7 +46,11 @@ const SECTIONS: [&str; 12] = [
 ];
 
 /// Parses a declaration; `None` if not even its name could be read.
-pub(crate) fn parse(tokens: TokenStream, diag: &Diagnostics) -> Option<Declaration> {
+pub(crate) fn parse(mut tokens: TokenStream, diag: &Diagnostics) -> Option<Declaration> {
+    if let Some(place) = nesting::too_deep(&tokens) {
+        diag.damage(place, "nested too deeply; name parts of it with `let`");
+        tokens = nesting::head(tokens);
+    }
     let parser = |input: ParseStream<'_>| declaration(input, diag);
     match syn::parse::Parser::parse2(parser, tokens) {
         Ok(declaration) => Some(declaration),
@@ -142,16 +147,28 @@ fn section(
         "nonholonomic" => blocks(input, &mut out.nonholonomic, diag, equation),
         "output" => blocks(input, &mut out.outputs, diag, output_entry),
         _ => {
-            diag.error(
-                keyword.span(),
-                format!(
-                    "unknown section `{name}`{}; sections are {}",
-                    suggest(&name, SECTIONS),
-                    list(&SECTIONS)
-                ),
+            let near = suggest(
+                &name,
+                SECTIONS,
+                &format!("sections are {}", list(&SECTIONS)),
             );
-            let _: proc_macro2::TokenTree = input.parse()?;
+            diag.damage(keyword.span(), format!("unknown section `{name}`{near}"));
+            skip(input);
             Ok(())
+        }
+    }
+}
+
+/// Skips a section: up to its braces or semicolon.
+fn skip(input: ParseStream<'_>) {
+    while let Ok(token) = input.parse::<TokenTree>() {
+        let last = match &token {
+            TokenTree::Group(g) => g.delimiter() == Delimiter::Brace,
+            TokenTree::Punct(p) => p.as_char() == ';',
+            _ => false,
+        };
+        if last {
+            break;
         }
     }
 }
@@ -207,7 +224,7 @@ fn constant(input: ParseStream<'_>, docs: Vec<String>, diag: &Diagnostics) -> sy
 
 fn expression(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Expr> {
     let e: syn::Expr = input.parse()?;
-    Ok(Expr::convert(&e, diag))
+    Ok(Expr::convert(e, diag))
 }
 
 fn key(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Key> {
@@ -266,7 +283,7 @@ fn for_block<T>(
     let var: Ident = input.parse()?;
     let _: Token![in] = input.parse()?;
     let range = syn::Expr::parse_without_eager_brace(input)?;
-    let range = Range::convert(&range, diag);
+    let range = Range::convert(range, diag);
     let mut body = Vec::new();
     blocks(input, &mut body, diag, parse)?;
     match range {
@@ -274,20 +291,13 @@ fn for_block<T>(
         // Reported already; an empty loop keeps the rest going.
         None => Ok(Block::For {
             range: Range {
-                from: Box::new(error_at(&var)),
-                to: Box::new(error_at(&var)),
+                from: Box::new(Expr::error(var.span().into())),
+                to: Box::new(Expr::error(var.span().into())),
                 inclusive: false,
             },
             var,
             body: Vec::new(),
         }),
-    }
-}
-
-fn error_at(ident: &Ident) -> Expr {
-    Expr {
-        loc: ident.span().into(),
-        kind: super::ExprKind::Error,
     }
 }
 
@@ -329,7 +339,7 @@ fn let_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Let> {
     let key = key(input, diag)?;
     let _: Token![=] = input.parse()?;
     let e: syn::Expr = input.parse()?;
-    let value = match &e {
+    let value = match e {
         syn::Expr::Closure(closure) => {
             let mut args = Vec::new();
             for pattern in &closure.inputs {
@@ -345,7 +355,7 @@ fn let_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Let> {
             }
             LetValue::Function(Function {
                 args,
-                body: Expr::convert(&closure.body, diag),
+                body: Expr::convert(*closure.body, diag),
             })
         }
         value => LetValue::Value(Expr::convert(value, diag)),
@@ -401,23 +411,19 @@ fn equation(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Equation>
     }
     let _: Token![:] = input.parse()?;
     let e: syn::Expr = input.parse()?;
-    let syn::Expr::Assign(assign) = &e else {
-        let loc = Loc::of(&e);
+    let syn::Expr::Assign(assign) = e else {
+        let loc = location(&e);
         diag.error(loc, "a constraint is an equation: `lhs = rhs`");
-        let error = |loc| Expr {
-            loc,
-            kind: super::ExprKind::Error,
-        };
         return Ok(Equation {
             key,
-            lhs: error(loc),
-            rhs: error(loc),
+            lhs: Expr::error(loc),
+            rhs: Expr::error(loc),
         });
     };
     Ok(Equation {
         key,
-        lhs: Expr::convert(&assign.left, diag),
-        rhs: Expr::convert(&assign.right, diag),
+        lhs: Expr::convert(*assign.left, diag),
+        rhs: Expr::convert(*assign.right, diag),
     })
 }
 

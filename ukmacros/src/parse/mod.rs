@@ -3,6 +3,7 @@
 mod expr;
 mod grammar;
 mod item;
+mod nesting;
 
 pub(crate) use expr::{BinaryOp, Expr, ExprKind, Range};
 pub(crate) use grammar::parse;

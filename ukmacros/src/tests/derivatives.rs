@@ -158,6 +158,30 @@ fn build(g: &mut Graph, steps: &[(u8, u8, u8)]) -> Id {
     *made.last().unwrap_or(&made[0])
 }
 
+/// The value of a recipe, step by step, without any graph; and the largest value on the way.
+fn naive(steps: &[(u8, u8, u8)], x: f64, y: f64) -> (f64, f64) {
+    let mut made = vec![x, y, 2.0, -0.5];
+    for (operation, a, b) in steps {
+        let pick = |k: &u8| made[*k as usize % made.len()];
+        let (a, b) = (pick(a), pick(b));
+        made.push(match operation % 12 {
+            0 => a + b,
+            1 => a - b,
+            2 | 3 => a * b,
+            4 => a * a,
+            5 => a.sin(),
+            6 => a.cos(),
+            7 => a.tanh(),
+            8 => a / (1.0 + b * b),
+            9 => (1.0 + a * a).sqrt(),
+            10 => a.atan2(b),
+            _ => -a,
+        });
+    }
+    let largest = made.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    (made[made.len() - 1], largest)
+}
+
 proptest! {
     #[test]
     fn random_expressions(steps in proptest::collection::vec((0u8..12, any::<u8>(), any::<u8>()), 1..14), x in -1.2f64..1.2, y in -1.2f64..1.2) {
@@ -165,11 +189,74 @@ proptest! {
         let id = build(&mut g, &steps);
         let derivative = Derivative::partial(X).of(id, &mut g);
         let (value, slope) = (at(&g, id, x, y), at(&g, derivative, x, y));
-        let expected = difference(&g, id, x, y);
-        let coarse = (at(&g, id, x + 2e-3, y) - at(&g, id, x - 2e-3, y)) / 4e-3;
+        let f = |k: f64| naive(&steps, x + k * 1e-3, y).0;
+        let expected = (8.0 * (f(1.0) - f(-1.0)) - (f(2.0) - f(-2.0))) / 12e-3;
+        let coarse = (f(2.0) - f(-2.0)) / 4e-3;
         // Where the two differences disagree the expression is too rough (a pole, atan2's cut) to judge by differences.
-        let smooth = (expected - coarse).abs() < 1e-3 * (1.0 + expected.abs()) && value.abs() < 1e3;
+        let (by_hand, largest) = naive(&steps, x, y);
+        let smooth = (expected - coarse).abs() < 1e-3 * (1.0 + expected.abs()) && largest < 1e3;
         prop_assume!(smooth && slope.is_finite());
+        prop_assert!((value - by_hand).abs() <= 1e-9 * (1.0 + largest), "{value} {by_hand}");
         prop_assert!((slope - expected).abs() <= 1e-5 * (1.0 + expected.abs()), "{slope} {expected}");
     }
+}
+
+#[test]
+fn folding_keeps_to_the_range_of_numbers() {
+    let mut g = Graph::default();
+    let (x, y) = (g.symbol(X), g.symbol(Y));
+    let (tiny, huge) = (g.scale(1e-200, x), g.scale(1e200, y));
+    let square = g.square(tiny);
+    assert!(!g.is_zero(square), "1e-400 x² is not 0");
+    let balanced = {
+        let big = g.square(huge);
+        g.mul(square, big)
+    };
+    // Each square alone leaves the range at 1, and neither does where x is large and y is small.
+    close(at(&g, square, 1e150, 0.0), 1e-100, 1e-12, "(1e-200 x)²");
+    close(
+        at(&g, balanced, 1e150, 1e-150),
+        1.0,
+        1e-12,
+        "product of squares",
+    );
+    let (a, b) = (g.scale(1e300, x), g.scale(1e300, x));
+    let (a, b) = (g.scale(1e200, a), g.scale(1e8, b));
+    close(at(&g, a, 1e-250, 0.0), 1e250, 1e-12, "1e200 · 1e300 x");
+    let sum = g.add(b, b);
+    close(
+        at(&g, sum, 1e-300, 0.0),
+        2e8,
+        1e-12,
+        "a sum of large coefficients",
+    );
+    let quotient = g.div(tiny, huge);
+    close(
+        at(&g, quotient, 1e200, 1e-200),
+        1.0,
+        1e-12,
+        "1e-200 x / 1e200 y",
+    );
+    let slope = Derivative::partial(X).of(square, &mut g);
+    close(at(&g, slope, 1e300, 0.0), 2e-100, 1e-12, "its derivative");
+}
+
+#[test]
+fn powers_of_powers_stay_exact() {
+    let mut g = Graph::default();
+    let x = g.symbol(X);
+    let mut power = x;
+    for _ in 0..30 {
+        power = g.pow(power, 60);
+    }
+    assert_eq!(at(&g, power, 1.0, 0.0), 1.0);
+    assert_eq!(at(&g, power, -1.0, 0.0), 1.0, "an even power");
+    assert_eq!(at(&g, power, 0.5, 0.0), 0.0);
+    let mut inverse = x;
+    for _ in 0..31 {
+        inverse = g.pow(inverse, -61);
+    }
+    assert_eq!(at(&g, inverse, -1.0, 0.0), -1.0, "an odd power");
+    let twice = Derivative::partial(X).of(inverse, &mut g);
+    Derivative::partial(X).of(twice, &mut g);
 }

@@ -80,7 +80,7 @@ cases! {
     reserved_name: "coords { «t» } mass { }" => "`t` is reserved";
     reserved_function_name: "params { «sin» = 1.0 } coords { x } mass { x: 1.0 }" => "`sin` is reserved";
     duplicate_constraint_name: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { c: x = 1.0  «c»: y = 1.0 }" => "constraint `c` is declared twice";
-    unindexed_constraint_in_a_loop: "coords { x[2] } mass { for i in 0..2 { x[i]: 1.0 } } holonomic { for i in 0..2 { «c»: x[i] = 1.0 } }" => "in a loop, index it: `c[i]: …`";
+    unindexed_constraint_in_a_loop: "coords { x[2] } mass { for i in 0..2 { x[i]: 1.0 } } holonomic { for i in 0..2 { «c»: x[i] = 1.0 } }" => "in a loop, index it: `c[i]`";
     constraint_named_as_a_let: "coords { x } let d = x - 1.0; mass { x: 1.0 } holonomic { «d»: d = 0.0 }" => "`d` is declared twice";
     duplicate_output: "coords { x } mass { x: 1.0 } output { o = x, «o» = 2.0 * x }" => "output `o` is declared twice";
     output_named_as_a_coordinate: "coords { x } mass { x: 1.0 } output { «x» = x }" => "is a coordinate and in the output anyway";
@@ -170,6 +170,51 @@ cases! {
     same_constraint_twice: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { a: x - y = 0.0  «b»: y = x }" => "constraint `b` is the same equation as `a`";
     massless_and_unconstrained: "coords { x, «y» } mass { x: 1.0 } force { y: 1.0 }" => "coordinate `y` has neither mass nor constraint";
     massless_outnumber_constraints: "coords { x, y, «z» } mass { x: 1.0 } holonomic { c: x + y + z = 0.0 }" => "rank [M | Aᵀ] is below 3";
+    // One mistake, one message.
+    coordinates_alike_but_for_case: "coords { x, «X» } mass { x: 1.0, X: 1.0 } force { X: x }" => "coordinate `X` and coordinate `x` would both become the constant `X`; rename one";
+    coordinate_named_as_a_function: "coords { «sin», x } mass { sin: 1.0, x: 1.0 } force { x: sin }" => "`sin` is reserved";
+    coordinate_named_as_a_parameter: "params { m = 1.0 } coords { «m», x } mass { x: m } force { m: 1.0 }" => "`m` is declared twice";
+    parameter_named_as_the_time: "params { «t» = 1.0 } coords { x } mass { x: t } force { x: y }" => "`t` is reserved";
+    section_in_upper_case: "«Params» { m = 1.0 } coords { x } mass { x: m }" => "unknown section `Params`; did you mean `params`?";
+    section_that_is_none: "«JUNK» x: 3 { m = 1.0 } coords { x } mass { x: m }" => "unknown section `JUNK`; sections are `const`";
+    coords_in_upper_case: "«Coords» { x } mass { x: 1.0 } holonomic { c: x = 1.0 }" => "unknown section `Coords`";
+    negative_constant_in_use: "const N: usize = «0 - 1»; coords { x[N] } mass { for i in 0..N { x[i]: 1.0 } }" => "`N` is a `usize`, which cannot be negative";
+    syntax_error_in_coords: "coords { x y , «,» z } mass { x: 1.0, y: 1.0, z: 1.0 }" => "expected identifier";
+    unknown_name_in_a_function: "coords { x } mass { x: 1.0 } force { x: recip(«y») + 1.0 / «z» }" => "unknown name `y`", "unknown name `z`";
+    // Associated constants.
+    constraint_as_a_coordinate: "coords { rod } mass { rod: 1.0 } holonomic { «Rod»: rod = 1.0 }" => "constraint `Rod` and coordinate `rod` would both become the constant `ROD`";
+    outputs_alike_but_for_case: "coords { x } mass { x: 1.0 } output { o = x, «O» = 2.0 * x }" => "output `O` and output `o` would both become the constant `OUT_O`";
+    output_and_coordinate: "coords { out_fall } mass { out_fall: 1.0 } output { «fall» = 2.0 * out_fall }" => "output `fall` and coordinate `out_fall` would both become the constant `OUT_FALL`";
+    float_constant_and_coordinate: "const A: f64 = 1.0; coords { «a» } mass { a: A }" => "coordinate `a` and constant `A` would both become the constant `A`";
+    coordinate_named_spec: "coords { «spec» } mass { spec: 1.0 }" => "the constant `SPEC`, which every mechanism has";
+    constraint_with_and_without_an_index: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { rod: x = 1.0  «rod[0]»: y = 1.0 }" => "constraint `rod` is declared both with and without an index";
+    vector_constraint_and_a_member: "coords { x, y, z } mass { x: 1.0, y: 1.0, z: 1.0 } holonomic { joint: [x, y] = 0.0  «joint[0]»: z = 1.0 }" => "constraint `joint` is declared both with and without an index";
+    output_with_and_without_an_index: "coords { x } mass { x: 1.0 } output { o[0] = x, «o» = 2.0 * x }" => "output `o` is declared both with and without an index";
+    reserved_keyword: "params { «gen» = 1.0 } coords { x } mass { x: gen }" => "`gen` is reserved";
+    raw_output: "coords { x } mass { x: 1.0 } output { «r#type» = x }" => "`r#type` is reserved";
+    // Columns of a run.
+    output_named_as_the_time: "coords { x } mass { x: 1.0 } output { «t» = x }" => "`t` is reserved";
+    output_named_energy: "coords { x } mass { x: 1.0 } output { «energy» = x }" => "`energy` is a column of every run";
+    coordinate_named_residual: "coords { «residual» } mass { residual: 1.0 }" => "`residual` is a column of every run";
+    vector_output_as_a_family: "coords { x[2] } mass { x[0]: 1.0, x[1]: 1.0 } output { «x» = [1.0 * t, t] }" => "`x[0]` is a coordinate and in the output anyway";
+    // Arguments.
+    sum_variable_named_as_an_argument: "coords { x[3] } let f = |i| sum(0..3, |«i»| i * x[i]); mass { for i in 0..3 { x[i]: 1.0 } } force { x[0]: f(x[1]) }" => "`i` is already an argument";
+    argument_twice: "coords { x } let f = |u, «u»| u; mass { x: 1.0 } force { x: f(x, 1.0) }" => "argument `u` is declared twice";
+    // Numbers.
+    exponent_too_large: "coords { x } mass { x: 1.0 } force { x: x.powi(«2147483647») }" => "`powi` takes exponents from -64 to 64; use `powf`";
+    exponent_too_small: "coords { x } mass { x: 1.0 } force { x: x.powi(«-2147483648») }" => "`powi` takes exponents from -64 to 64";
+    reciprocal_of_zero: "coords { x } mass { x: 1.0 } force { x: x * «recip(0)» }" => "this constant is not a finite number";
+    negative_power_of_zero: "coords { x } mass { x: 1.0 } force { x: «powf(0, -1)» + x }" => "this constant is not a finite number";
+    overflowing_product: "coords { x } mass { x: 1.0 } force { x: «1e300 * 1e300» * x }" => "this constant is not a finite number";
+    vanishing_product: "coords { x } mass { x: 1.0 } force { x: «1e-300 * 1e-300» * x }" => "this constant is too small for an `f64`";
+    overflowing_sum: "coords { x } mass { x: 1.0 } force { x: «1e308 + x + 1e308» }" => "this constant is not a finite number";
+    undefined_function_value: "coords { x } mass { x: 1.0 } force { x: 2.0 * «ln(-1.0)» * x }" => "this constant is not a finite number";
+    constant_not_finite: "const A: f64 = «ln(-1)»; coords { x } mass { x: A }" => "constant `A` is not a finite number";
+    integer_overflow_of_a_remainder: "const N: usize = «(0 - 9223372036854775807 - 1) / (0 - 1)»; coords { x } mass { x: 1.0 }" => "integer overflow";
+    // Mechanics.
+    constraint_without_slope: "coords { x } mass { x: 1.0 } holonomic { «c»: sign(x) = 1.0 }" => "constraint `c` restricts no velocity";
+    nonholonomic_without_slope: "coords { x } mass { x: 1.0 } nonholonomic { «c»: sign(dot(x)) = 1.0 }" => "constraint `c` restricts no velocity";
+    coordinate_without_neighbour: "coords { alpha, beta } mass { alpha: 1.0, beta: 1.0, «z»: 1.0 }" => "`z` is not a coordinate; coordinates are `alpha`, `beta`";
 }
 
 #[test]
@@ -191,6 +236,14 @@ fn no_coordinates() {
     assert_eq!(found.len(), 1);
     assert!(found[0].message.contains("`T` has no coordinates"));
     assert_eq!(found[0].loc.start.start().column, 4);
+}
+
+#[test]
+fn no_coords_section() {
+    let (_, found) =
+        expand("pub T { params { m = 1.0 } mass { x: m, y: m } holonomic { c: x = y } }");
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(found[0].message.contains("`T` has no coordinates"));
 }
 
 #[test]

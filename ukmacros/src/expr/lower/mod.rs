@@ -14,6 +14,8 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 /// The equations of a declaration as a graph.
 pub(crate) struct System {
     pub(crate) graph: Graph,
+    /// Value of each `f64` constant.
+    pub(crate) constants: Vec<f64>,
     /// Default of each parameter.
     pub(crate) defaults: Vec<f64>,
     /// Lower triangle (row ≥ column) of the declared M, with where it was declared first.
@@ -103,6 +105,35 @@ enum Binding {
     Function(Function),
 }
 
+/// Names of constraints or outputs declared so far.
+#[derive(Default)]
+struct Names {
+    items: HashSet<String>,
+    /// By base, whether it is indexed: `rod` and `rod[0]` are not both declared, so that `T::ROD` has one meaning.
+    indexed: HashMap<String, bool>,
+}
+
+impl Names {
+    /// Enters a name; the reason if it is taken. `what` it names and whether it is `looped` go into the reason.
+    fn enter(&mut self, what: &str, item: &ConstraintRef, looped: bool) -> Result<(), String> {
+        let (base, text) = (item.base.to_string(), item.text());
+        let indexed = item.index.is_some();
+        if *self.indexed.entry(base.clone()).or_insert(indexed) != indexed {
+            return Err(format!(
+                "{what} `{base}` is declared both with and without an index; rename one"
+            ));
+        }
+        if self.items.insert(text.clone()) {
+            return Ok(());
+        }
+        Err(if looped && !indexed {
+            format!("{what} `{base}` is declared twice; in a loop, index it: `{base}[i]`")
+        } else {
+            format!("{what} `{text}` is declared twice; names must be unique")
+        })
+    }
+}
+
 /// Lowers everything.
 pub(crate) fn lower(decl: &Declaration, model: &Model, diag: &Diagnostics) -> System {
     let mut lowering = Lowering {
@@ -112,6 +143,8 @@ pub(crate) fn lower(decl: &Declaration, model: &Model, diag: &Diagnostics) -> Sy
         floats: Vec::new(),
         lets: HashMap::new(),
         active: Vec::new(),
+        depth: 0,
+        outermost: None,
         known_params: 0,
         hints: HashMap::new(),
     };
@@ -126,6 +159,10 @@ struct Lowering<'m> {
     lets: HashMap<String, Binding>,
     /// Functions being applied, against recursion.
     active: Vec<String>,
+    /// Nesting of the expression being lowered.
+    depth: usize,
+    /// The application that all active ones are within.
+    outermost: Option<Loc>,
     /// Parameters whose default is known: those a default may use.
     known_params: usize,
     hints: HashMap<Id, String>,
@@ -152,10 +189,7 @@ impl<'m> Env<'m> {
 impl<'m> Lowering<'m> {
     fn run(&mut self, decl: &Declaration) -> System {
         let top = Scope::new(self.model);
-        for constant in &self.model.floats {
-            let value = self.scalar(&constant.value, &Env::new(&top, Place::Const));
-            self.floats.push(value);
-        }
+        let constants = self.constants(&top);
         let defaults = self.defaults();
         self.lower_lets(decl, &top);
 
@@ -207,7 +241,7 @@ impl<'m> Lowering<'m> {
             .as_ref()
             .map(|s| self.entries(&s.blocks, &top, Place::Nonideal));
         let mut constraints = Vec::new();
-        let mut names = HashSet::new();
+        let mut names = Names::default();
         for (blocks, kind) in [
             (&decl.holonomic, Kind::Holonomic),
             (&decl.nonholonomic, Kind::Nonholonomic),
@@ -219,6 +253,7 @@ impl<'m> Lowering<'m> {
         let outputs = self.outputs(decl, &top);
         System {
             graph: std::mem::take(&mut self.graph),
+            constants,
             defaults,
             mass,
             kinetic,
@@ -231,23 +266,39 @@ impl<'m> Lowering<'m> {
         }
     }
 
+    /// Values of the `f64` constants.
+    fn constants(&mut self, top: &Scope<'m>) -> Vec<f64> {
+        let mut values = Vec::new();
+        for constant in &self.model.floats {
+            let before = self.diag.len();
+            let id = self.scalar(&constant.value, &Env::new(top, Place::Const));
+            let value = eval(&self.graph, &[id], &Point::NOWHERE)[0];
+            if !value.is_finite() && self.diag.len() == before {
+                self.diag.error(
+                    constant.value.loc,
+                    format!("constant `{}` is not a finite number", constant.name),
+                );
+            }
+            self.floats.push(id);
+            values.push(value);
+        }
+        values
+    }
+
     fn defaults(&mut self) -> Vec<f64> {
         let mut defaults = Vec::new();
         for element in &self.model.param_elements {
             let mut value = f64::NAN;
             if let Some((expr, variables)) = &element.default {
                 let scope = Scope::with(self.model, variables.clone());
+                let before = self.diag.len();
                 let id = self.scalar(expr, &Env::new(&scope, Place::Default));
                 let point = Point {
                     params: &defaults,
-                    q: &[],
-                    v: &[],
-                    t: 0.0,
-                    residual: &[],
-                    prepared: &[],
+                    ..Point::NOWHERE
                 };
                 value = eval(&self.graph, &[id], &point)[0];
-                if !value.is_finite() && self.diag.is_empty() {
+                if !value.is_finite() && self.diag.len() == before {
                     self.diag.error(
                         expr.loc,
                         format!("default of `{}` is not a finite number", element.name),
@@ -276,6 +327,16 @@ impl<'m> Lowering<'m> {
                 (Some(Binding::Family(members)), Some(i)) => members.contains_key(&i),
                 (Some(_), _) => true,
             };
+            if let LetValue::Function(f) = &binding.value {
+                let again = |k: &usize| f.args[..*k].contains(&f.args[*k]);
+                if let Some(k) = (0..f.args.len()).find(again) {
+                    let arg = &f.args[k];
+                    self.diag.error(
+                        arg.span(),
+                        format!("argument `{arg}` is declared twice; names must be unique"),
+                    );
+                }
+            }
             let taken = match self.model.free(&key.name) {
                 Err(reason) => Some(reason),
                 Ok(()) if again => {
@@ -384,7 +445,7 @@ impl<'m> Lowering<'m> {
         equation: &Equation,
         kind: Kind,
         scope: &Scope<'m>,
-        names: &mut HashSet<String>,
+        names: &mut Names,
         out: &mut Vec<Constraint>,
     ) {
         let key = &equation.key;
@@ -406,19 +467,9 @@ impl<'m> Lowering<'m> {
                 "`{}` is declared twice; names must be unique",
                 key.name
             )),
-            Ok(()) if !names.insert(item.text()) => {
-                Some(match (index, scope.variables.is_empty()) {
-                    (None, false) => format!(
-                        "constraint `{0}` is declared twice; in a loop, index it: `{0}[i]: …`",
-                        key.name
-                    ),
-                    _ => format!(
-                        "constraint `{}` is declared twice; names must be unique",
-                        item.text()
-                    ),
-                })
-            }
-            Ok(()) => None,
+            Ok(()) => names
+                .enter("constraint", &item, !scope.variables.is_empty())
+                .err(),
         };
         if let Some(reason) = reason {
             self.diag.error(key.loc, reason);
@@ -451,12 +502,19 @@ impl<'m> Lowering<'m> {
                     });
                 }
             }
-            Value::Error => {}
+            // The name stays declared: what uses it gives no second message.
+            Value::Error => out.push(Constraint {
+                item,
+                kind,
+                phi: self.graph.zero(),
+                loc,
+            }),
         }
     }
 
     fn outputs(&mut self, decl: &Declaration, top: &Scope<'m>) -> Vec<OutputValue> {
         let mut out: Vec<OutputValue> = Vec::new();
+        let mut names = Names::default();
         top.unroll(&decl.outputs, self.diag, &mut |output, scope| {
             let key = &output.key;
             let index = match &key.index {
@@ -466,6 +524,17 @@ impl<'m> Lowering<'m> {
                     None => return,
                 },
             };
+            let mut item = ConstraintRef {
+                base: key.name.clone(),
+                index,
+                component: None,
+            };
+            let looped = !scope.variables.is_empty();
+            let free = self.model.column(&key.name);
+            if let Err(reason) = free.and_then(|()| names.enter("output", &item, looped)) {
+                self.diag.error(key.loc, reason);
+                return;
+            }
             let value = self.value(&output.value, &Env::new(scope, Place::Output));
             let ids = match value {
                 Value::Scalar(id) => vec![(None, id)],
@@ -474,23 +543,13 @@ impl<'m> Lowering<'m> {
                     .enumerate()
                     .map(|(c, id)| (Some(c), id))
                     .collect(),
-                Value::Error => return,
+                // The name stays declared: what uses it gives no second message.
+                Value::Error => vec![(None, self.graph.zero())],
             };
             for (component, value) in ids {
-                let item = ConstraintRef {
-                    base: key.name.clone(),
-                    index,
-                    component,
-                };
+                item.component = component;
                 let text = item.text();
                 let coordinates = &self.model.coord_elements;
-                if out.iter().any(|o| o.item.text() == text) {
-                    self.diag.error(
-                        key.loc,
-                        format!("output `{text}` is declared twice; names must be unique"),
-                    );
-                    return;
-                }
                 if coordinates.iter().any(|c| c.name == text) {
                     self.diag.error(
                         key.loc,
@@ -501,7 +560,7 @@ impl<'m> Lowering<'m> {
                     return;
                 }
                 out.push(OutputValue {
-                    item,
+                    item: item.clone(),
                     docs: output.docs.clone(),
                     value,
                 });
@@ -520,10 +579,14 @@ impl<'m> Lowering<'m> {
                 .iter()
                 .map(|f| f.name.to_string())
                 .collect::<Vec<_>>();
-            let near = suggest(&name, coords.iter().map(String::as_str));
+            let remedy = match coords.len() {
+                0..=8 => format!("coordinates are `{}`", coords.join("`, `")),
+                _ => "declare it under `coords`".to_owned(),
+            };
+            let end = suggest(&name, coords.iter().map(String::as_str), &remedy);
             self.diag.error(
                 key.name.span(),
-                format!("`{name}` is not a coordinate{near}"),
+                format!("`{name}` is not a coordinate{end}"),
             );
             return None;
         };

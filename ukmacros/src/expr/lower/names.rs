@@ -9,6 +9,9 @@ use crate::model::{Name, Scope};
 use crate::parse::Expr;
 use proc_macro2::Ident;
 
+/// Largest exponent of `powi`.
+const MAX_POWER: i32 = 64;
+
 impl<'m> Lowering<'m> {
     pub(super) fn name(&mut self, name: &Ident, env: &Env<'m>) -> Value {
         let text = name.to_string();
@@ -76,13 +79,9 @@ impl<'m> Lowering<'m> {
             .chain(self.lets.keys())
             .map(String::as_str);
         let names = names.chain(env.args.iter().map(|(n, _)| n.as_str()));
-        let near = suggest(&text, names.chain(["t", "PI"]));
-        let hint = if near.is_empty() {
-            "; declare it under `params`, `coords` or by `let` before its use"
-        } else {
-            ""
-        };
-        self.error(name.span(), format!("unknown name `{text}`{near}{hint}"))
+        let remedy = "declare it under `params`, `coords` or by `let` before its use";
+        let end = suggest(&text, names.chain(["t", "PI"]), remedy);
+        self.error(name.span(), format!("unknown name `{text}`{end}"))
     }
 
     pub(super) fn indexed(&mut self, name: &Ident, index: &Expr, env: &Env<'m>) -> Value {
@@ -171,22 +170,29 @@ impl<'m> Lowering<'m> {
                 let [base, exponent] = args else {
                     return self.arity(name, 2, args.len());
                 };
-                let base = self.scalar(base, env);
-                let Some(n) = self.integer(exponent, &env.scope) else {
+                let base = self.number(base, env);
+                let (Some(base), Some(n)) = (base, self.integer(exponent, &env.scope)) else {
                     return Value::Error;
                 };
                 return match i32::try_from(n) {
-                    Ok(n) => Value::Scalar(self.graph.pow(base, n)),
-                    Err(_) => {
-                        self.error(exponent.loc, "exponent is too large for `powi`; use `powf`")
+                    Ok(n) if (-MAX_POWER..=MAX_POWER).contains(&n) => {
+                        Value::Scalar(self.graph.pow(base, n))
                     }
+                    _ => self.error(
+                        exponent.loc,
+                        format!(
+                            "`powi` takes exponents from -{MAX_POWER} to {MAX_POWER}; use `powf`"
+                        ),
+                    ),
                 };
             }
             "sq" | "recip" => {
                 let [u] = args else {
                     return self.arity(name, 1, args.len());
                 };
-                let u = self.scalar(u, env);
+                let Some(u) = self.number(u, env) else {
+                    return Value::Error;
+                };
                 let exponent = if text == "sq" { 2 } else { -1 };
                 return Value::Scalar(self.graph.pow(u, exponent));
             }
@@ -204,11 +210,12 @@ impl<'m> Lowering<'m> {
         if args.len() != func.arity() {
             return self.arity(name, func.arity(), args.len());
         }
-        let ids: Vec<Id> = args.iter().map(|a| self.scalar(a, env)).collect();
-        Value::Scalar(match ids.as_slice() {
-            [u, w] => self.graph.call2(func, *u, *w),
-            _ => self.graph.call1(func, ids[0]),
-        })
+        let ids: Vec<Option<Id>> = args.iter().map(|a| self.number(a, env)).collect();
+        match ids[..] {
+            [Some(u), Some(w)] => Value::Scalar(self.graph.call2(func, u, w)),
+            [Some(u)] => Value::Scalar(self.graph.call1(func, u)),
+            _ => Value::Error,
+        }
     }
 
     fn arity(&mut self, name: &Ident, expected: usize, found: usize) -> Value {
@@ -236,8 +243,9 @@ impl<'m> Lowering<'m> {
             .iter()
             .filter(|(_, b)| matches!(b, Binding::Function(_)));
         names.extend(functions.map(|(n, _)| n.as_str()));
-        let near = suggest(&text, names);
-        self.error(name.span(), format!("unknown function `{text}`{near}; functions are {list}, and those declared by `let f = |u| …;`"))
+        let remedy = format!("functions are {list}, and those declared by `let f = |u| …;`");
+        let end = suggest(&text, names, &remedy);
+        self.error(name.span(), format!("unknown function `{text}`{end}"))
     }
 
     /// Applies a function declared by `let`.
@@ -257,6 +265,9 @@ impl<'m> Lowering<'m> {
             );
         }
         let values: Vec<Value> = args.iter().map(|a| self.value(a, env)).collect();
+        if values.iter().any(|v| matches!(v, Value::Error)) {
+            return Value::Error;
+        }
         // An integer argument may serve as an index inside the function.
         let integers = parameters
             .iter()
@@ -274,6 +285,9 @@ impl<'m> Lowering<'m> {
                 .collect(),
             place: Place::Let,
         };
+        if self.active.is_empty() {
+            self.outermost = Some(e.loc);
+        }
         self.active.push(text);
         let value = self.value(&body, &inner);
         self.active.pop();

@@ -1,23 +1,33 @@
 //! Arithmetic: expressions to values.
 
-use super::{Env, Lowering, Value};
+use super::{Env, Lowering, Place, Value};
 use crate::diag::{Diagnostics, Loc};
-use crate::expr::graph::Id;
+use crate::expr::eval::{Point, eval};
+use crate::expr::graph::{Id, Node, Uses};
 use crate::model::Scope;
 use crate::parse::{BinaryOp, Expr, ExprKind};
 
+/// Deeper evaluation is refused, since it recurses: expressions within functions within functions.
+const MAX_DEPTH: usize = 300;
+
 impl<'m> Lowering<'m> {
+    /// A number; 0 for what is in error.
     pub(super) fn scalar(&mut self, e: &Expr, env: &Env<'m>) -> Id {
+        self.number(e, env).unwrap_or_else(|| self.graph.zero())
+    }
+
+    /// A number, unless it is in error.
+    pub(super) fn number(&mut self, e: &Expr, env: &Env<'m>) -> Option<Id> {
         match self.value(e, env) {
-            Value::Scalar(id) => id,
+            Value::Scalar(id) => Some(id),
             Value::Vector(v) => {
                 self.diag.error(
                     e.loc,
                     format!("expected a number, found a vector of {}", v.len()),
                 );
-                self.graph.zero()
+                None
             }
-            Value::Error => self.graph.zero(),
+            Value::Error => None,
         }
     }
 
@@ -27,6 +37,19 @@ impl<'m> Lowering<'m> {
     }
 
     pub(super) fn value(&mut self, e: &Expr, env: &Env<'m>) -> Value {
+        if self.depth >= MAX_DEPTH {
+            return self.error(
+                self.outermost.unwrap_or(e.loc),
+                "functions call each other too deeply; name parts of the result with `let`",
+            );
+        }
+        self.depth += 1;
+        let value = self.value_of(e, env);
+        self.depth -= 1;
+        value
+    }
+
+    fn value_of(&mut self, e: &Expr, env: &Env<'m>) -> Value {
         match &e.kind {
             ExprKind::Error => Value::Error,
             #[allow(
@@ -38,26 +61,15 @@ impl<'m> Lowering<'m> {
             ExprKind::Group(inner) => self.value(inner, env),
             ExprKind::Name(name) => self.name(name, env),
             ExprKind::Index(name, index) => self.indexed(name, index, env),
-            ExprKind::Neg(_) | ExprKind::Binary(BinaryOp::Add | BinaryOp::Sub, ..) => {
+            ExprKind::Chain(first, rest) if rest.iter().all(|(op, _)| !op.adds()) => {
+                self.product(first, rest, env)
+            }
+            ExprKind::Neg(_) | ExprKind::Chain(..) => {
                 let mut terms = Vec::new();
                 self.chain(e, 1.0, env, &mut terms);
-                self.total(&terms, false)
+                let value = self.total(&terms, false);
+                self.finite(value, e.loc, env)
             }
-            ExprKind::Binary(BinaryOp::Mul, a, b) => {
-                let (va, vb) = (self.value(a, env), self.value(b, env));
-                match (va, vb) {
-                    (Value::Error, _) | (_, Value::Error) => Value::Error,
-                    (Value::Scalar(a), Value::Scalar(b)) => Value::Scalar(self.graph.mul(a, b)),
-                    (Value::Scalar(s), Value::Vector(v)) | (Value::Vector(v), Value::Scalar(s)) => {
-                        Value::Vector(v.into_iter().map(|c| self.graph.mul(s, c)).collect())
-                    }
-                    (Value::Vector(_), Value::Vector(_)) => self.error(
-                        e.loc,
-                        "the product of two vectors is not defined; write out the components",
-                    ),
-                }
-            }
-            ExprKind::Binary(BinaryOp::Div, a, b) => self.quotient(e, a, b, env),
             ExprKind::Vector(components) => {
                 let components = components
                     .iter()
@@ -69,6 +81,12 @@ impl<'m> Lowering<'m> {
                 Value::Vector(components)
             }
             ExprKind::Sum { var, range, body } => {
+                if env.args.iter().any(|(n, _)| var == n) {
+                    return self.error(
+                        var.span(),
+                        format!("`{var}` is already an argument; choose another name"),
+                    );
+                }
                 if !env.scope.loop_variable(var, self.diag) {
                     return Value::Error;
                 }
@@ -85,41 +103,125 @@ impl<'m> Lowering<'m> {
                         break;
                     }
                 }
-                self.total(&terms, false)
+                let value = self.total(&terms, false);
+                self.finite(value, e.loc, env)
             }
-            ExprKind::Call(name, args) => self.call(e, name, args, env),
+            ExprKind::Call(name, args) => {
+                let value = self.call(e, name, args, env);
+                self.finite(value, e.loc, env)
+            }
         }
     }
 
-    pub(super) fn quotient(&mut self, e: &Expr, a: &Expr, b: &Expr, env: &Env<'m>) -> Value {
-        if is_integer(a, &env.scope) && is_integer(b, &env.scope) {
-            let quiet = Diagnostics::default();
-            let (x, y) = (env.scope.integer(a, &quiet), env.scope.integer(b, &quiet));
-            if let (Some(x), Some(y)) = (x, y)
-                && y != 0
-                && x % y != 0
+    /// Factors and divisors from left to right.
+    fn product(&mut self, first: &Expr, rest: &[(BinaryOp, Expr)], env: &Env<'m>) -> Value {
+        let quiet = Diagnostics::default();
+        let integer = |e: &Expr| {
+            let by_form = is_integer(e, &env.scope);
+            by_form.then(|| env.scope.integer(e, &quiet)).flatten()
+        };
+        // What stands so far: as an integer, if it is one; a vector's components, if there is one; factors.
+        let mut whole = integer(first);
+        let mut vector: Option<Vec<Id>> = None;
+        let mut factors: Vec<(Id, i32)> = Vec::with_capacity(rest.len() + 1);
+        let mut failed = false;
+        match self.value(first, env) {
+            Value::Scalar(id) => factors.push((id, 1)),
+            Value::Vector(components) => vector = Some(components),
+            Value::Error => failed = true,
+        }
+        for (op, operand) in rest {
+            let loc = Loc {
+                start: first.loc.start,
+                end: operand.loc.end,
+            };
+            let divides = *op == BinaryOp::Div;
+            let by = integer(operand);
+            if let (true, Some(x), Some(y)) = (divides, whole, by)
+                && x.checked_rem(y).is_some_and(|r| r != 0)
             {
-                return self.error(
-                    e.loc,
+                self.error(
+                    loc,
                     format!("`{x} / {y}` is an integer division, which Rust rounds to {}; write `{x}.0 / {y}.0`", x / y),
                 );
+                return Value::Error;
+            }
+            whole = match (whole, by) {
+                (Some(x), Some(y)) if divides => x.checked_div(y),
+                (Some(x), Some(y)) => x.checked_mul(y),
+                _ => None,
+            };
+            match self.value(operand, env) {
+                Value::Error => failed = true,
+                Value::Vector(_) if divides => {
+                    self.error(operand.loc, "cannot divide by a vector");
+                    failed = true;
+                }
+                Value::Vector(_) if vector.is_some() => {
+                    self.error(
+                        loc,
+                        "the product of two vectors is not defined; write out the components",
+                    );
+                    failed = true;
+                }
+                Value::Vector(components) => vector = Some(components),
+                Value::Scalar(id) if divides && self.graph.is_zero(id) => {
+                    self.error(operand.loc, "division by zero");
+                    failed = true;
+                }
+                Value::Scalar(id) => factors.push((id, if divides { -1 } else { 1 })),
+            }
+            // Numbers are multiplied as Rust would, one by one.
+            if let [(a, 1), b] = factors[..]
+                && let (Some(x), Some(y)) = (self.graph.as_const(a), self.graph.as_const(b.0))
+            {
+                let folded = self.graph.product(&factors);
+                let vanished = x != 0.0 && y != 0.0 && self.graph.is_zero(folded);
+                if vanished {
+                    self.error(loc, "this constant is too small for an `f64`");
+                    failed = true;
+                }
+                failed |= matches!(self.finite(Value::Scalar(folded), loc, env), Value::Error);
+                factors = vec![(folded, 1)];
             }
         }
-        let top = self.value(a, env);
-        let bottom = match self.value(b, env) {
-            Value::Scalar(id) => id,
-            Value::Vector(_) => return self.error(b.loc, "cannot divide by a vector"),
-            Value::Error => return Value::Error,
+        if failed {
+            return Value::Error;
+        }
+        let Some(components) = vector else {
+            return Value::Scalar(self.graph.product(&factors));
         };
-        if self.graph.is_zero(bottom) {
-            return self.error(b.loc, "division by zero");
+        let products = components.into_iter().map(|c| {
+            factors.push((c, 1));
+            let product = self.graph.product(&factors);
+            factors.pop();
+            product
+        });
+        Value::Vector(products.collect())
+    }
+
+    /// `value`, unless it is a number that is infinite or not a number. (Constants and defaults are checked as a whole.)
+    fn finite(&mut self, value: Value, loc: Loc, env: &Env<'m>) -> Value {
+        if let Value::Scalar(id) = value
+            && !matches!(env.place, Place::Const | Place::Default)
+            && !self.graph_finite(id)
+        {
+            return self.error(
+                loc,
+                "this constant is not a finite number; there is nothing it could mean in an equation",
+            );
         }
-        match top {
-            Value::Scalar(a) => Value::Scalar(self.graph.div(a, bottom)),
-            Value::Vector(v) => {
-                Value::Vector(v.into_iter().map(|c| self.graph.div(c, bottom)).collect())
-            }
-            Value::Error => Value::Error,
+        value
+    }
+
+    /// Whether the constant part of `id` is finite.
+    fn graph_finite(&self, id: Id) -> bool {
+        let g = &self.graph;
+        match g.node(g.unscaled(id).1) {
+            Node::Const(x) => x.get().is_finite(),
+            Node::Sum(c, _) if !c.get().is_finite() => false,
+            _ if g.uses(id) == Uses::default() => eval(g, &[id], &Point::NOWHERE)[0].is_finite(),
+            _ => true,
         }
     }
 
@@ -132,13 +234,12 @@ impl<'m> Lowering<'m> {
         out: &mut Vec<(f64, Value, Loc)>,
     ) {
         match &e.kind {
-            ExprKind::Binary(BinaryOp::Add, a, b) => {
-                self.chain(a, sign, env, out);
-                self.chain(b, sign, env, out);
-            }
-            ExprKind::Binary(BinaryOp::Sub, a, b) => {
-                self.chain(a, sign, env, out);
-                self.chain(b, -sign, env, out);
+            ExprKind::Chain(first, rest) if rest.iter().all(|(op, _)| op.adds()) => {
+                self.chain(first, sign, env, out);
+                for (op, operand) in rest {
+                    let sign = if *op == BinaryOp::Sub { -sign } else { sign };
+                    self.chain(operand, sign, env, out);
+                }
             }
             ExprKind::Neg(inner) => self.chain(inner, -sign, env, out),
             _ => {
@@ -200,7 +301,9 @@ pub(super) fn is_integer(e: &Expr, scope: &Scope<'_>) -> bool {
         ExprKind::Int(_) => true,
         ExprKind::Name(n) => scope.lookup(&n.to_string()).is_some(),
         ExprKind::Neg(a) | ExprKind::Group(a) => is_integer(a, scope),
-        ExprKind::Binary(_, a, b) => is_integer(a, scope) && is_integer(b, scope),
+        ExprKind::Chain(first, rest) => {
+            is_integer(first, scope) && rest.iter().all(|(_, e)| is_integer(e, scope))
+        }
         _ => false,
     }
 }

@@ -1,0 +1,173 @@
+//! Associated constants of the emitted type: what users read instead of numbers, `T::X[3]`, `T::ROD`, `T::OUT_FALL`, `T::N`.
+
+use crate::diag::Diagnostics;
+use crate::expr::{ConstraintRef, System};
+use crate::model::Model;
+use proc_macro2::Ident;
+use std::collections::HashMap;
+
+/// One constant.
+pub(crate) struct Constant {
+    pub(crate) name: String,
+    pub(crate) docs: Vec<String>,
+    pub(crate) value: ConstantValue,
+}
+
+pub(crate) enum ConstantValue {
+    Integer(i64),
+    Float(f64),
+    Position(Positions),
+}
+
+/// A position, those of a family in the order of its indices, or those of a family of vectors.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Positions {
+    One(usize),
+    Many(Vec<Positions>),
+}
+
+/// All constants; reports names that would become one constant, of which it leaves out the second.
+pub(crate) fn constants(model: &Model, system: &System, diag: &Diagnostics) -> Vec<Constant> {
+    let mut register = Register {
+        diag,
+        owners: HashMap::new(),
+        out: Vec::new(),
+    };
+    for integer in model.integers.values() {
+        let value = ConstantValue::Integer(integer.value.unwrap_or(0));
+        register.declared(&integer.name, &integer.docs, value);
+    }
+    for (constant, value) in model.floats.iter().zip(&system.constants) {
+        register.declared(&constant.name, &constant.docs, ConstantValue::Float(*value));
+    }
+    for family in &model.coords {
+        let positions = family.members.iter().map(|i| Positions::One(*i)).collect();
+        let positions = match (family.indexed, family.members.first()) {
+            (false, Some(i)) => Positions::One(*i),
+            _ => Positions::Many(positions),
+        };
+        register.positions(
+            "",
+            "coordinate",
+            "Position in q of",
+            &family.name,
+            positions,
+        );
+    }
+    let constraints = system.constraints.iter().map(|c| &c.item);
+    for (base, positions) in grouped(constraints) {
+        register.positions("", "constraint", "Row in A of", base, positions);
+    }
+    for (base, positions) in grouped(system.outputs.iter().map(|o| &o.item)) {
+        register.positions("OUT_", "output", "Position of", base, positions);
+    }
+    register.out
+}
+
+struct Register<'d> {
+    diag: &'d Diagnostics,
+    /// What each constant stands for.
+    owners: HashMap<String, String>,
+    out: Vec<Constant>,
+}
+
+impl Register<'_> {
+    /// Enters the constant `name` for `what` named `source`, unless its name is taken.
+    fn enter(
+        &mut self,
+        name: String,
+        what: &str,
+        source: &Ident,
+        docs: Vec<String>,
+        value: ConstantValue,
+    ) {
+        let what = format!("{what} `{source}`");
+        if name == "SPEC" {
+            let message = format!(
+                "{what} would become the constant `SPEC`, which every mechanism has; rename it"
+            );
+            self.diag.error(source.span(), message);
+            return;
+        }
+        if let Some(owner) = self.owners.get(&name) {
+            let message =
+                format!("{what} and {owner} would both become the constant `{name}`; rename one");
+            self.diag.error(source.span(), message);
+            return;
+        }
+        self.owners.insert(name.clone(), what);
+        self.out.push(Constant { name, docs, value });
+    }
+
+    /// A `const` of the declaration.
+    fn declared(&mut self, source: &Ident, docs: &[String], value: ConstantValue) {
+        let docs = match docs {
+            [] => vec![format!("Constant `{source}` of the declaration.")],
+            docs => docs.to_vec(),
+        };
+        let name = source.to_string().to_uppercase();
+        self.enter(name, "constant", source, docs, value);
+    }
+
+    fn positions(
+        &mut self,
+        prefix: &str,
+        what: &str,
+        of: &str,
+        source: &Ident,
+        positions: Positions,
+    ) {
+        let plural = if matches!(positions, Positions::One(_)) {
+            ""
+        } else {
+            "s"
+        };
+        let docs = vec![format!("{of} {what}{plural} `{source}`.")];
+        let name = format!("{prefix}{source}").to_uppercase();
+        self.enter(name, what, source, docs, ConstantValue::Position(positions));
+    }
+}
+
+/// Positions of constraints or outputs by base, in order of appearance. Left out are families that no array can stand for: those
+/// whose indices are not 0, 1, 2, … or whose vectors differ in length.
+fn grouped<'a>(items: impl Iterator<Item = &'a ConstraintRef>) -> Vec<(&'a Ident, Positions)> {
+    /// Of a family: index and component of each position.
+    type Members = Vec<(Option<i64>, Option<usize>, usize)>;
+    let mut families: Vec<(&Ident, Members)> = Vec::new();
+    let mut places: HashMap<&Ident, usize> = HashMap::new();
+    for (position, item) in items.enumerate() {
+        let at = *places.entry(&item.base).or_insert(families.len());
+        if at == families.len() {
+            families.push((&item.base, Vec::new()));
+        }
+        families[at].1.push((item.index, item.component, position));
+    }
+    let arranged = families.into_iter().filter_map(|(base, mut members)| {
+        members.sort_unstable();
+        let mut groups: Vec<(Option<i64>, Positions)> = Vec::new();
+        for (index, component, position) in members {
+            let one = Positions::One(position);
+            match (groups.last_mut(), component) {
+                (Some((last, Positions::Many(vector))), Some(_)) if *last == index => {
+                    vector.push(one)
+                }
+                (_, Some(_)) => groups.push((index, Positions::Many(vec![one]))),
+                (_, None) => groups.push((index, one)),
+            }
+        }
+        if groups[0].0.is_none() {
+            return groups.pop().map(|(_, positions)| (base, positions));
+        }
+        let shape = |p: &Positions| match p {
+            Positions::One(_) => None,
+            Positions::Many(vector) => Some(vector.len()),
+        };
+        let alike = groups.windows(2).all(|w| shape(&w[0].1) == shape(&w[1].1));
+        let counted = (0_i64..)
+            .zip(&groups)
+            .all(|(k, (index, _))| *index == Some(k));
+        let positions = groups.into_iter().map(|(_, positions)| positions).collect();
+        (alike && counted).then_some((base, Positions::Many(positions)))
+    });
+    arranged.collect()
+}

@@ -1,0 +1,150 @@
+//! Sizes: what is long is taken, what is deep is refused, and the graph grows no faster than the declaration.
+
+use super::{expand, system};
+use crate::expr::Graph;
+
+/// A declaration of one coordinate under the force `force`.
+fn forced(force: &str) -> String {
+    format!("pub T {{ coords {{ x, y }} mass {{ x: 1.0, y: 1.0 }} force {{ x: {force} }} }}")
+}
+
+/// `count` copies of `piece` with its number in place of `#`.
+fn repeated(piece: &str, count: usize) -> String {
+    (0..count)
+        .map(|k| piece.replace('#', &k.to_string()))
+        .collect()
+}
+
+#[track_caller]
+fn accepted(source: &str) {
+    let (_, errors) = expand(source);
+    let first: Vec<_> = errors.iter().take(3).map(|e| &e.message).collect();
+    assert!(errors.is_empty(), "{first:?}");
+}
+
+#[test]
+fn flat_expressions_of_thousands_of_operands_are_taken() {
+    let n = 3000;
+    accepted(&forced(&format!("x{}", repeated(" + #.5 * x", n))));
+    accepted(&forced(&format!("x{}", repeated(" - -sin(#.5)", n))));
+    accepted(&forced(&format!("x{}", repeated(" * y / 1.5", n / 100))));
+    let params: String = repeated("p# = 1.5, ", n);
+    let product = format!("x{}", repeated(" * p#", n));
+    accepted(&format!(
+        "pub T {{ params {{ {params} }} coords {{ x }} mass {{ x: 1.0 }} force {{ x: {product} }} }}"
+    ));
+    // Thousands of entries, with and without commas, docs and `=` included.
+    let families = format!(
+        "params {{ {} }} coords {{ x[{n}] }}",
+        repeated("/// p\np# = 1.0\n", n)
+    );
+    let mass = repeated("x[#]: 1.0 ", n);
+    let outputs = repeated("o# = -2.0 * x[#] ", n);
+    let loops = repeated("for i in 0..1 { x[i]: p# } ", n);
+    let lets = repeated("let f# = |u| u; ", n);
+    accepted(&format!(
+        "pub T {{ {families} {lets} mass {{ {mass} }} force {{ {loops} }} output {{ {outputs} }} }}"
+    ));
+}
+
+#[test]
+fn deep_nesting_is_refused_before_it_overflows() {
+    let n = 20_000;
+    let nested = |open: &str, inner: &str, close: &str| {
+        format!("{}{inner}{}", open.repeat(n), close.repeat(n))
+    };
+    for force in [
+        nested("-", "x", ""),
+        nested("- ", "x", ""),
+        nested("!", "x", ""),
+        nested("&", "x", ""),
+        nested("x = ", "x", ""),
+        nested("|u| ", "x", ""),
+        nested("|u,| ", "x", ""),
+        nested("x + |u| ", "x", ""),
+        nested("#[a] -", "x", ""),
+        nested("return ", "x", ""),
+        nested("x as A<", "f64", ">"),
+        nested("x as &'a ", "f64", ""),
+        nested("x + if x {} else ", "x", ""),
+        nested("", "x", ".sin()"),
+        nested("", "x", "[0]"),
+        nested("", "x", "(0)"),
+        nested("", "x", " as f64"),
+        nested("..", "x", ""),
+    ] {
+        let start: String = force.chars().take(20).collect();
+        let (code, errors) = expand(&forced(&force));
+        assert_eq!(errors.len(), 1, "{start}");
+        assert!(
+            errors[0].message.contains("nested too deeply"),
+            "{start}: {}",
+            errors[0].message
+        );
+        assert!(
+            code.to_string().contains("struct T"),
+            "the type is still there"
+        );
+    }
+    // As deep as anyone writes.
+    accepted(&forced(&format!(
+        "{}x{}",
+        "sin(".repeat(90),
+        ")".repeat(90)
+    )));
+    accepted(&forced(&format!("{}x", "-".repeat(90))));
+    let deep = format!("{}x{}", "(".repeat(300), ")".repeat(300));
+    assert_eq!(expand(&forced(&deep)).1.len(), 1);
+}
+
+#[test]
+fn functions_within_functions_are_bounded() {
+    let chain = |n: usize| {
+        let functions = repeated("let f#_ = |u| f#(u) + 1.0; ", n);
+        let mut renamed = functions;
+        for k in (0..n).rev() {
+            renamed = renamed.replace(&format!("f{k}_ "), &format!("f{} ", k + 1));
+        }
+        format!(
+            "pub T {{ coords {{ x }} let f0 = |u| u; {renamed} mass {{ x: 1.0 }} force {{ x: f{n}(x) }} }}"
+        )
+    };
+    accepted(&chain(20));
+    let (_, errors) = expand(&chain(500));
+    let messages: Vec<_> = errors.iter().map(|e| &e.message).collect();
+    assert_eq!(errors.len(), 1, "{messages:?}");
+    assert!(messages[0].contains("too deeply"), "{messages:?}");
+}
+
+/// Nodes of the graph with all derivatives.
+fn nodes(source: &str) -> usize {
+    let (mut system, model) = system(source);
+    crate::analysis::derive(&mut system, model.coord_elements.len());
+    Graph::len(&system.graph)
+}
+
+#[test]
+fn chains_of_values_make_graphs_in_proportion() {
+    for step in [
+        "let a# = a0# * (a0# + x); ",
+        "let a# = a0# * a0#; ",
+        "let a# = (a0# + x) * (a0# + y) * a0#; ",
+        "let a# = a0# * x / (a0# + y); ",
+        "let a# = a0# + x * a0# + y; ",
+        "let a# = sin(a0#) * a0# * y; ",
+    ] {
+        let chain = |n: usize| {
+            let lets: String = (1..=n)
+                .map(|k| {
+                    step.replace("a0#", &format!("a{}", k - 1))
+                        .replace('#', &k.to_string())
+                })
+                .collect();
+            format!(
+                "pub T {{ coords {{ x, y }} let a0 = x * y; {lets} mass {{ x: 1.0, y: 1.0 }} holonomic {{ c: a{n} = 1.0 }} }}"
+            )
+        };
+        let (short, long) = (nodes(&chain(250)), nodes(&chain(500)));
+        assert!(long < 9 * short / 4, "{step}: {short} nodes, then {long}");
+    }
+}
