@@ -403,16 +403,6 @@ impl Graph {
         self.intern(Node::Call(func, args))
     }
 
-    /// `id`, kept whole in products. Only what products would open needs it.
-    pub(crate) fn hold(&mut self, id: Id) -> Id {
-        let (c, inner) = self.unscaled(id);
-        if !matches!(self.node(inner), Node::Product(_)) {
-            return id;
-        }
-        let held = self.keep(inner);
-        self.scale(c, held)
-    }
-
     /// `id`, which was held, in another form: held as it is, with its coefficient.
     pub(crate) fn hold_again(&mut self, id: Id) -> Id {
         match self.node(id) {
