@@ -30,6 +30,11 @@ pub trait Scalar:
     fn neg_mul_add(self, b: Self, c: Self) -> Self {
         c - self * b
     }
+    /// Whether the value is 0, in all lanes: emitted code then leaves early. Never doing so is right, too.
+    #[inline]
+    fn is_zero(self) -> bool {
+        false
+    }
     /// 1/x.
     #[inline]
     fn recip(self) -> Self {
@@ -96,6 +101,10 @@ macro_rules! float {
             #[inline]
             fn select_le(a: Self, b: Self, then: Self, otherwise: Self) -> Self {
                 if a <= b { then } else { otherwise }
+            }
+            #[inline]
+            fn is_zero(self) -> bool {
+                self == 0.0
             }
             #[inline]
             fn mul_add(self, b: Self, c: Self) -> Self {

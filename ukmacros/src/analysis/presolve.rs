@@ -46,6 +46,8 @@ pub(crate) fn hoist(
             .iter()
             .flat_map(|id| g.open_products(*id, reached));
         straight.stages = stages.filter_map(|id| known.get(&id)).copied().collect();
+        let exits = straight.exits.iter().filter_map(|id| known.get(id));
+        straight.exits = exits.copied().collect();
     }
     // Names go with the values.
     let mut known: Vec<(Id, Id)> = known.into_iter().collect();

@@ -20,13 +20,15 @@ pub(super) struct Body {
     pub(super) operations: Operations,
 }
 
-/// Writes straight-line code for `roots`, with the coordinates, velocities and parameters that it reads.
+/// Writes straight-line code for `roots`, with the coordinates, velocities and parameters that it reads. After each of `exits` it returns
+/// that value if it is zero.
 pub(super) fn body(
     system: &System,
     model: &Model,
     prepared: &[Id],
     roots: &[Root],
     sequence: Sequence<'_>,
+    exits: &[Id],
 ) -> Body {
     let g = &system.graph;
     let ids: Vec<Id> = roots.iter().map(|r| r.id).collect();
@@ -51,6 +53,9 @@ pub(super) fn body(
                 };
                 let name = writer.namer.declare(id, &purpose);
                 statements.extend(quote! { let #name = #value; });
+                if exits.contains(&id) {
+                    statements.extend(quote! { if #name.is_zero() { return #name; } });
+                }
             }
             Step::Reciprocal(id) => {
                 let receiver = writer.receiver(id);

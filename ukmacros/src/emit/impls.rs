@@ -179,6 +179,7 @@ impl Functions<'_> {
             &self.hoisted.values,
             roots,
             Sequence::Roots,
+            &[],
         )
     }
 
@@ -280,6 +281,7 @@ impl Functions<'_> {
                 &self.hoisted.values,
                 &roots,
                 Sequence::Stages(&straight.stages),
+                &straight.exits,
             )
         };
         let acceleration = function(&straight.elimination.acceleration, "acceleration");
@@ -311,7 +313,7 @@ impl Functions<'_> {
         }
         let len = Literal::usize_unsuffixed(values.len());
         let roots = vector("prepared", "prepared", values);
-        let body = body(self.system, self.model, &[], &roots, Sequence::Roots);
+        let body = body(self.system, self.model, &[], &roots, Sequence::Roots, &[]);
         let tokens = body.tokens;
         quote! {
             let prepared = ::ukcore::emitted::exact_mut::<S, #len>(prepared, "prepared");
