@@ -58,10 +58,10 @@ const SAFE_SHARE: f64 = 1.0 / 1024.0;
 
 /// A program with more pivots leaves early, after each [`STRETCH`] of them, if the certificate does not hold. That is seldom; what it is for is
 /// the compiler of the emitted code: it packs scalars of one stretch without branches into vectors, and in long stretches finds pairs that are far
-/// apart and have to be kept for each other. The U-chain with 65 links takes 290 ns with exits and 450 without, that with 17 links 79 and 67.
+/// apart and have to be kept for each other. The U-chain with 65 links takes 280 ns with exits and 450 without, that with 17 links 79 and 67.
 const UNBROKEN: usize = 24;
 /// See [`UNBROKEN`].
-const STRETCH: usize = 8;
+const STRETCH: usize = 12;
 
 /// Programs larger than this are not worth their compile time: the solve is then left to the runtime.
 const MAX_ENTRIES: usize = 20_000;
