@@ -2,6 +2,7 @@
 
 mod constants;
 mod derivatives;
+mod elimination;
 mod errors;
 mod golden;
 mod limits;

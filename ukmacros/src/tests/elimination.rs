@@ -1,0 +1,205 @@
+//! The straight-line solve of random mechanisms against dense elimination with pivoting.
+
+use super::system;
+use crate::analysis::{Dynamics, Straight, derive, eliminate};
+use crate::expr::{Point, System, eval};
+use std::fmt::Write as _;
+
+/// SplitMix64.
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, n: usize) -> usize {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        usize::try_from((z ^ (z >> 31)) >> 33).expect("31 bits") % n
+    }
+
+    /// Between 0.3 and 1.3.
+    fn unit(&mut self) -> f64 {
+        0.3 + self.below(1_000_000) as f64 * 1e-6
+    }
+}
+
+/// Particles in a plane with links in trees and loops; some with rods between them that share inertia, some driven, some followed by
+/// massless pointers.
+fn declaration(random: &mut Random) -> String {
+    let n = 2 + random.below(5);
+    let mut text = format!("pub T {{ const N: usize = {n}; params {{ k = 0.7, ");
+    for i in 0..n {
+        let _ = write!(text, "m{i} = {}, ", random.unit());
+    }
+    let pointer = random.below(3) == 0;
+    let _ = write!(
+        text,
+        "}} coords {{ x[N], y[N], {} }}",
+        if pointer { "th" } else { "" }
+    );
+    if random.below(2) == 0 {
+        text += " kinetic { ";
+        for i in 0..n {
+            let _ = write!(text, "0.5 * m{i} * (sq(dot(x[{i}])) + sq(dot(y[{i}]))), ");
+        }
+        for i in 1..n {
+            if random.below(2) == 0 {
+                let j = random.below(i);
+                for c in ["x", "y"] {
+                    let _ = write!(
+                        text,
+                        "k / 6.0 * (sq(dot({c}[{j}])) + dot({c}[{j}]) * dot({c}[{i}]) + sq(dot({c}[{i}]))), "
+                    );
+                }
+            }
+        }
+        text += "}";
+    } else {
+        text += " mass { ";
+        for i in 0..n {
+            let _ = write!(text, "x[{i}]: m{i}, y[{i}]: m{i}, ");
+        }
+        text += "}";
+    }
+    text +=
+        " force { for i in 0..N { y[i]: -k * dot(y[i]) - 9.8, x[i]: x[i] * y[i] } } holonomic { ";
+    // A tree of links, the first to the ground; then loops as long as they leave freedom.
+    let mut freedom = 2 * n;
+    for i in 0..n {
+        if random.below(4) == 0 {
+            continue;
+        }
+        let end = match i {
+            0 => "sq(x[0] - 0.2) + sq(y[0] + 0.1)".to_owned(),
+            _ => {
+                let j = random.below(i);
+                format!("sq(x[{i}] - x[{j}]) + sq(y[{i}] - y[{j}])")
+            }
+        };
+        let _ = write!(text, "tree{i}: {end} = k, ");
+        freedom -= 1;
+    }
+    for extra in 0..random.below(3) {
+        let (i, j) = (random.below(n), random.below(n));
+        if i != j && freedom > 2 {
+            let _ = write!(
+                text,
+                "loop{extra}: x[{i}] * {} + y[{j}] * x[{j}] = sin(x[{i}]) , ",
+                random.unit()
+            );
+            freedom -= 1;
+        }
+    }
+    if random.below(3) == 0 && freedom > 1 {
+        let _ = write!(text, "driven: y[{}] = 0.3 * sin(2.0 * t), ", n - 1);
+    }
+    if pointer {
+        let _ = write!(text, "pointer: 2.0 * th = x[0] * y[{}], ", n - 1);
+    }
+    text + "} }"
+}
+
+/// x of K x = r, or nothing where K is singular or nearly so.
+fn solve(mut k: Vec<Vec<f64>>, mut r: Vec<f64>) -> Option<Vec<f64>> {
+    let n = r.len();
+    for c in 0..n {
+        let p = (c..n).max_by(|a, b| k[*a][c].abs().total_cmp(&k[*b][c].abs()))?;
+        k.swap(c, p);
+        r.swap(c, p);
+        if k[c][c].abs() < 1e-3 {
+            return None;
+        }
+        for i in c + 1..n {
+            let f = k[i][c] / k[c][c];
+            for j in c..n {
+                let above = k[c][j];
+                k[i][j] -= f * above;
+            }
+            r[i] -= f * r[c];
+        }
+    }
+    for c in (0..n).rev() {
+        let known: f64 = (c + 1..n).map(|j| k[c][j] * r[j]).sum();
+        r[c] = (r[c] - known) / k[c][c];
+    }
+    Some(r)
+}
+
+/// [M Aᵀ; A 0] with its right-hand side at a point.
+fn saddle(system: &System, d: &Dynamics, point: &Point<'_>) -> (Vec<Vec<f64>>, Vec<f64>) {
+    let (n, m) = (d.force.len(), d.rhs.len());
+    let at = |ids: Vec<_>| eval(&system.graph, &ids, point);
+    let mut k = vec![vec![0.0; n + m]; n + m];
+    for ((i, j), x) in d.mass.keys().zip(at(d.mass.values().copied().collect())) {
+        (k[*i][*j], k[*j][*i]) = (x, x);
+    }
+    for ((row, j), x) in d
+        .jacobian
+        .keys()
+        .zip(at(d.jacobian.values().copied().collect()))
+    {
+        (k[n + row][*j], k[*j][n + row]) = (x, x);
+    }
+    (k, at(d.force.iter().chain(&d.rhs).copied().collect()))
+}
+
+#[test]
+fn straight_lines_solve_the_saddle_point_system() {
+    let mut random = Random(20_131);
+    let (mut solved, mut refused, mut without) = (0, 0, 0);
+    for case in 0..300 {
+        let source = declaration(&mut random);
+        let (mut system, model) = system(&source);
+        let n = model.coord_elements.len();
+        let dynamics = derive(&mut system, n);
+        let m = dynamics.rhs.len();
+        let names: Vec<String> = (0..n + m).map(|i| format!("u{i}")).collect();
+        let Ok(elimination) = eliminate(&dynamics, &names, &mut system.graph) else {
+            without += 1;
+            continue;
+        };
+        let straight = Straight::new(elimination, &mut system);
+        for _ in 0..3 {
+            let mut draw = |len: usize| (0..len).map(|_| random.unit()).collect::<Vec<f64>>();
+            let (q, v, residual) = (draw(n), draw(n), draw(m));
+            let point = Point {
+                params: &system.defaults,
+                q: &q,
+                v: &v,
+                t: 0.4,
+                residual: &residual,
+                prepared: &[],
+            };
+            let (k, right) = saddle(&system, &dynamics, &point);
+            let mut projection = vec![0.0; n];
+            projection.extend(residual.iter().map(|r| -r));
+            let both = (solve(k.clone(), right), solve(k, projection));
+            let (Some(motion), Some(projection)) = both else {
+                continue;
+            };
+            let ids = [straight.certificate]
+                .into_iter()
+                .chain(straight.elimination.acceleration.iter().copied())
+                .chain(straight.elimination.correction.iter().copied());
+            let found = eval(&system.graph, &ids.collect::<Vec<_>>(), &point);
+            if found[0] == 0.0 {
+                refused += 1;
+                continue;
+            }
+            solved += 1;
+            let expected = motion[..n].iter().chain(&projection[..n]);
+            let size = expected.clone().fold(1.0, |s: f64, x| s.max(x.abs()));
+            for (i, (a, b)) in found[1..].iter().zip(expected).enumerate() {
+                // 1/1024 of a diagonal may be left of each pivot.
+                assert!(
+                    (a - b).abs() <= 1e-8 * size,
+                    "case {case}, value {i}: {a} is not {b}\n{source}"
+                );
+            }
+        }
+    }
+    assert!(
+        solved > 500 && refused < solved / 10 && without < 30,
+        "{solved} solved, {refused} refused, {without} without a straight line"
+    );
+}
