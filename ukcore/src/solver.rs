@@ -250,7 +250,11 @@ impl Solver {
                 self.work.evaluations += 1;
                 return Ok(());
             }
-            self.work.fallbacks += 1;
+            // Once for a solution, whatever else is left on the way.
+            let fallbacks = self.work.fallbacks + 1;
+            let result = self.rank_revealing(mech, t, q, v, out);
+            self.work.fallbacks = fallbacks;
+            return result;
         }
         self.rank_revealing(mech, t, q, v, out)
     }

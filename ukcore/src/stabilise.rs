@@ -1,7 +1,8 @@
 //! Keeping the state on the constraints.
 //!
 //! The smallest change of q (in the metric M) with φ(q, t) = 0 solves, to first order, minimise ½ Δᵀ M Δ subject to A Δ = −φ: the
-//! constrained solve of eqs. 13 and 19 with Q = 0 and b = −φ. Newton's method repeats it; near the manifold the factors of the
+//! constrained solve of eqs. 13 and 19 with Q = 0 and b = −φ. Newton's method repeats it, by the emitted elimination where there is one and its
+//! certificate holds, else by the rank-revealing solve; near the manifold the factors of the
 //! first step serve for the following ones too, since each step then still divides the residual by 1/δ for a state at distance δ.
 
 use crate::diagnose;
@@ -49,7 +50,7 @@ pub enum Stabilisation {
 pub struct Correction {
     /// Size of the change: the largest |Δq_j| (or |Δq̇_j|) over all coordinates, in their own units.
     pub norm: f64,
-    /// Newton steps; 0 if the state was consistent already.
+    /// Newton steps; 0 if the state was consistent already, or one that changes it by rounding alone.
     pub iterations: usize,
     /// Largest |φ| (or |φ̇|, |ψ|) left, in the constraints' own units.
     pub residual: f64,

@@ -1,6 +1,6 @@
 //! Newton's method with the emitted elimination: no matrix is formed, and it is known beforehand where one step is enough.
 
-use super::{Correction, Level, NEIGHBOUR, PROGRESS, Projector, ROUNDING, STALLED};
+use super::{Correction, Level, NEIGHBOUR, PROGRESS, Projector, ROUNDING};
 use crate::mechanism::{Mechanism, Prepared};
 use crate::scan::{all_finite, all_pairs, largest, largest_difference};
 
@@ -42,9 +42,9 @@ impl Projector {
                 return None;
             }
             let change = largest(&self.step);
-            if change <= STALLED * f64::EPSILON * self.size {
+            if change <= ROUNDING * f64::EPSILON * self.size {
                 // Where rounding alone is left. As |φ_c| ≤ Σ|A_cj Δ_j|, Δ at the rounding of x has φ at rounding level; the rows say
-                // it more exactly.
+                // it more exactly, but cost more than a step.
                 if self.step_within(x, ROUNDING * f64::EPSILON) {
                     break;
                 }
