@@ -130,6 +130,7 @@ fn ukcore() {
         "ukcore",
         &[
             "error",
+            "scan",
             "scalar",
             "rounding",
             "mechanism",

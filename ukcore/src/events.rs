@@ -163,6 +163,9 @@ impl Watch {
             state,
         } = self;
         crossings.clear();
+        if events.is_empty() {
+            return Ok(());
+        }
         current.copy_from_slice(accepted);
         let n = state.len() / 2;
         let mut a = t_old;

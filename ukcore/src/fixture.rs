@@ -214,6 +214,17 @@ const fn param(name: &'static str, default: f64) -> ParamSpec {
     }
 }
 
+/// All (row, column) of a matrix of `m` rows.
+const fn every_entry<const ENTRIES: usize>(m: usize) -> [(usize, usize); ENTRIES] {
+    let mut entries = [(0, 0); ENTRIES];
+    let mut k = 0;
+    while k < ENTRIES {
+        entries[k] = (k % m, k / m);
+        k += 1;
+    }
+    entries
+}
+
 /// Declares a toy type: parameters with defaults, facts about it.
 macro_rules! toy {
     ($(#[$doc:meta])* $name:ident [$($param:ident = $value:expr),*] { $($field:ident: $facts:expr),* $(,)? }
@@ -233,7 +244,14 @@ macro_rules! toy {
                 name: stringify!($name),
                 params: &[$(param(stringify!($param), $value)),*],
                 prepared: &[$((stringify!($param), "")),*],
-                structure: Structure { $($sfield: $sfacts,)* ..EMPTY.structure },
+                structure: Structure {
+                    jacobian_pattern: {
+                        const SIZES: Spec = Spec { $($field: $facts,)* ..EMPTY };
+                        &every_entry::<{ SIZES.n() * SIZES.m() }>(SIZES.m())
+                    },
+                    $($sfield: $sfacts,)*
+                    ..EMPTY.structure
+                },
                 $($field: $facts,)*
                 ..EMPTY
             };

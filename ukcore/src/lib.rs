@@ -35,6 +35,7 @@ pub mod pinv;
 mod rounding;
 mod saddle;
 pub mod scalar;
+mod scan;
 #[cfg(feature = "simulate")]
 pub mod simulate;
 pub mod solver;

@@ -21,6 +21,7 @@ use crate::error::Error;
 use crate::mechanism::{Mechanism, Prepared};
 use crate::metric::MassFault;
 use crate::saddle::Saddle;
+use crate::scan::all_finite;
 use crate::workspace::{Dense, Evaluated, Owner, Route, Rows};
 
 /// Default of [`SolverOptions::rank_tolerance`].
@@ -129,6 +130,8 @@ pub struct Solver {
     owner: Owner,
     options: SolverOptions,
     work: SolverWork,
+    /// The emitted elimination is wanted and exists.
+    straight_line: bool,
     /// M was found singular at run time: Formula::Auto does not try to factor it any more.
     singular: bool,
     n: usize,
@@ -153,12 +156,6 @@ struct Drift {
     q: Vec<f64>,
     v: Vec<f64>,
     correction: Vec<f64>,
-}
-
-/// Whether all numbers are finite: x − x is 0 for those alone. Without leaving early, so that it is vectorised.
-#[allow(clippy::eq_op, reason = "x − x is NaN for ∞ and NaN")]
-pub(crate) fn all_finite(x: &[f64]) -> bool {
-    x.iter().fold(0, |bits, x| bits | (x - x).to_bits()) == 0
 }
 
 /// Rank and formula of the evaluation in hand.
@@ -186,6 +183,9 @@ impl Solver {
                 ..options
             },
             work: SolverWork::default(),
+            straight_line: options.formula == Formula::Auto
+                && options.baumgarte.is_none()
+                && spec.structure.straight_line,
             singular: false,
             n,
             m,
@@ -223,9 +223,51 @@ impl Solver {
         out: &mut [f64],
     ) -> Result<(), Error> {
         diagnose::check_length("out", out.len(), self.n)?;
-        if self.straight_line(mech, t, q, v, out)? {
-            return Ok(());
+        diagnose::check_length("q", q.len(), self.n)?;
+        diagnose::check_length("v", v.len(), self.n)?;
+        self.owner.check::<M>("solver")?;
+        // A coordinate that no equation contains must not hide that it is not a number.
+        if t.is_finite() && all_finite(q) && all_finite(v) {
+            self.acceleration_in_run(mech, t, q, v, out)
+        } else {
+            self.rank_revealing(mech, t, q, v, out)
         }
+    }
+
+    /// The same without a look at what is given: slices of the right lengths, for the mechanism that the solver was made for. A number
+    /// that is not finite may pass where no equation contains it; an integrator sees it in its states.
+    #[inline]
+    pub(crate) fn acceleration_in_run<M: Mechanism>(
+        &mut self,
+        mech: &Prepared<M>,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        out: &mut [f64],
+    ) -> Result<(), Error> {
+        if self.straight_line && !self.singular {
+            if mech.acceleration(t, q, v, out) > 0.5 && all_finite(out) {
+                self.work.evaluations += 1;
+                return Ok(());
+            }
+            // Once for a solution, whatever else is left on the way.
+            let fallbacks = self.work.fallbacks + 1;
+            let result = self.rank_revealing(mech, t, q, v, out);
+            self.work.fallbacks = fallbacks;
+            return result;
+        }
+        self.rank_revealing(mech, t, q, v, out)
+    }
+
+    /// The same by the rank-revealing solve.
+    fn rank_revealing<M: Mechanism>(
+        &mut self,
+        mech: &Prepared<M>,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        out: &mut [f64],
+    ) -> Result<(), Error> {
         let decided = self.decide(mech, t, q, v)?;
         if M::SPEC.structure.nonideal {
             let sum = self.here.force.iter().zip(&self.here.nonideal);
@@ -312,32 +354,6 @@ impl Solver {
         self.work
     }
 
-    /// q̈ by the emitted elimination; `false` where there is none, or its certificate does not hold.
-    fn straight_line<M: Mechanism>(
-        &mut self,
-        mech: &Prepared<M>,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
-        out: &mut [f64],
-    ) -> Result<bool, Error> {
-        let wanted = self.options.formula == Formula::Auto && self.options.baumgarte.is_none();
-        if !(wanted && M::SPEC.structure.straight_line) || self.singular {
-            return Ok(false);
-        }
-        self.owner.check::<M>("solver")?;
-        diagnose::check_length("q", q.len(), self.n)?;
-        diagnose::check_length("v", v.len(), self.n)?;
-        // A coordinate that no equation contains must not hide that it is not a number.
-        let given = t.is_finite() && all_finite(q) && all_finite(v);
-        if given && mech.acceleration(t, q, v, out) > 0.5 && all_finite(out) {
-            self.work.evaluations += 1;
-            return Ok(true);
-        }
-        self.work.fallbacks += 1;
-        Ok(false)
-    }
-
     fn rows(&self) -> Rows<'_> {
         rows(&self.here, self.m)
     }
@@ -375,11 +391,16 @@ impl Solver {
                 };
             }
         }
-        let finite = |x: &[f64]| x.iter().all(|x| x.is_finite());
         let terms = &self.here;
-        if !(t.is_finite() && finite(q) && finite(v) && finite(&terms.mass) && finite(&terms.force))
-            || !(finite(&terms.nonideal) && finite(&terms.jacobian) && finite(&self.rhs))
-        {
+        let evaluated = [
+            &terms.mass,
+            &terms.force,
+            &terms.nonideal,
+            &terms.jacobian,
+            &self.rhs,
+        ];
+        let given = t.is_finite() && all_finite(q) && all_finite(v);
+        if !(given && evaluated.iter().all(|x| all_finite(x))) {
             return Err(diagnose::non_finite_input(mech, t, q, v)
                 .unwrap_or_else(|| diagnose::non_finite_terms::<M>(terms, &self.rhs)));
         }

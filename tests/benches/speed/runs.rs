@@ -7,7 +7,7 @@ use ivp::methods::{DOP853, IntegrationResult, Tolerance};
 use ivp::solout::{ControlFlag, SolOut};
 use models::{Model, UChain};
 use serde_json::Value;
-use ukcore::{Mechanism, Simulation, State};
+use ukcore::{Mechanism, Simulation, Stabilisation, State};
 use wide::f64x8;
 
 use crate::accelerations::states;
@@ -81,9 +81,15 @@ fn bare(chain: Chain, start: &State, tolerance: f64) -> (Vec<f64>, IntegrationRe
 }
 
 /// The run by ours: last state, and evaluations.
-fn ours(mech: &UChain, start: &State, tolerance: f64) -> (Vec<f64>, usize) {
+fn ours(
+    mech: &UChain,
+    start: &State,
+    tolerance: f64,
+    stabilisation: Stabilisation,
+) -> (Vec<f64>, usize) {
     let run = Simulation::new(mech.clone())
         .start(start.clone())
+        .stabilise(stabilisation)
         .tolerance(tolerance)
         .at(vec![END])
         .until(END)
@@ -135,18 +141,24 @@ pub(crate) fn uchain17() -> Vec<Value> {
             work: Box::new(move || drop(black_box(bare(chain, start, tolerance)))),
             remark: remark(&y, report.evals.ode),
         };
-        let (y, evaluations) = ours(mech, start, tolerance);
-        let ours = Contender {
-            name: "Simulation, with projection".to_owned(),
-            by_hand: false,
-            evaluations: 1,
-            work: Box::new(move || drop(black_box(ours(mech, start, tolerance)))),
-            remark: remark(&y, evaluations),
+        let contender = |name: &str, stabilisation| {
+            let (y, evaluations) = ours(mech, start, tolerance, stabilisation);
+            Contender {
+                name: name.to_owned(),
+                by_hand: false,
+                evaluations: 1,
+                work: Box::new(move || {
+                    drop(black_box(ours(mech, start, tolerance, stabilisation)))
+                }),
+                remark: remark(&y, evaluations),
+            }
         };
+        let projected = contender("Simulation, with projection", Stabilisation::Projection);
+        let drifting = contender("Simulation, without projection", Stabilisation::None);
         let group = Group {
             name,
             remarks: Vec::new(),
-            contenders: vec![by_hand, ours],
+            contenders: vec![by_hand, projected, drifting],
         };
         group.run()
     };
@@ -253,7 +265,8 @@ pub(crate) fn ensemble() -> Value {
         work: Box::new(|| {
             for _ in 0..MEASURED {
                 own = (own + 1) % CHAINS;
-                black_box(ours(&mech, &starts[own], 1e-9));
+                let stabilisation = Stabilisation::Projection;
+                black_box(ours(&mech, &starts[own], 1e-9, stabilisation));
             }
         }),
         remark: String::new(),

@@ -6,6 +6,7 @@ use super::stepper::Stepper;
 use super::sums::error_norm;
 use super::{Method, Next, Outcome, PROJECTION_LIMIT, Problem, Report, Settings, Step};
 use crate::error::Error;
+use crate::scan::{all_finite, all_pairs};
 
 /// A sample counts as within a step that ends so many units of rounding before it.
 const END_ROUNDING: f64 = 4.0 * f64::EPSILON;
@@ -39,15 +40,6 @@ fn right_hand_side<P: Problem>(
             all_finite(&y).then_some(Trouble { t, y, error })
         })
     }
-}
-
-fn all_finite(y: &[f64]) -> bool {
-    all(y.iter().map(|y| y.is_finite()))
-}
-
-/// Looks at each one, which is faster here than to stop at the first that is not.
-fn all(conditions: impl Iterator<Item = bool>) -> bool {
-    conditions.fold(true, |all, one| all & one)
 }
 
 /// Why an attempted step is not accepted.
@@ -241,7 +233,9 @@ impl<P: Problem> Driver<'_, P> {
             let y = self.raw.clone();
             return Err(Refusal::End(Some(Trouble { t, y, error })));
         }
-        if all(self.raw.iter().zip(&*new).map(|(raw, new)| raw == new)) {
+        // No weight of the norm is above 1 / tol.
+        let least = PROJECTION_LIMIT * self.settings.tolerance;
+        if all_pairs(&self.raw, new, |raw, new| (new - raw).abs() <= least) {
             return Ok(());
         }
         let pairs = self.raw.iter().zip(&*new).zip(&self.y);

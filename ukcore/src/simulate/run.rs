@@ -194,7 +194,8 @@ impl<M: Mechanism> Problem for Run<'_, M> {
         let (q, v) = y.split_at(self.n);
         let (q_rate, v_rate) = rate.split_at_mut(self.n);
         q_rate.copy_from_slice(v);
-        let result = self.solver.acceleration(self.mechanism, t, q, v, v_rate);
+        let solver = &mut self.solver;
+        let result = solver.acceleration_in_run(self.mechanism, t, q, v, v_rate);
         result.inspect_err(|error| self.conflict.note(t, y, error))
     }
 

@@ -1,0 +1,92 @@
+//! Passes over vectors that become vector instructions: sums and maxima in several parts, so that not every operation waits for the one before.
+
+const PARTS: usize = 8;
+
+/// Whether all numbers are finite. A sum is finite only if all its terms are; where it is not, it may have overflowed, and each is looked at.
+#[inline]
+pub(crate) fn all_finite(x: &[f64]) -> bool {
+    let sum = reduce(x, x, |x, _| x, |s, x| s + x);
+    sum.is_finite() || x.iter().all(|x| x.is_finite())
+}
+
+/// max|x|, 0 of none. Passes over NaN.
+#[inline]
+pub(crate) fn largest(x: &[f64]) -> f64 {
+    reduce(x, x, |x, _| x.abs(), larger)
+}
+
+/// max|x − y|, 0 of none. Passes over NaN.
+#[inline]
+pub(crate) fn largest_difference(x: &[f64], y: &[f64]) -> f64 {
+    reduce(x, y, |x, y| (x - y).abs(), larger)
+}
+
+#[inline(always)]
+fn larger(s: f64, x: f64) -> f64 {
+    if x > s { x } else { s }
+}
+
+/// Joins what `f` makes of each pair of numbers, starting from 0.
+#[inline(always)]
+fn reduce(
+    x: &[f64],
+    y: &[f64],
+    f: impl Fn(f64, f64) -> f64,
+    join: impl Fn(f64, f64) -> f64,
+) -> f64 {
+    let mut s = [0.0; PARTS];
+    let ((x, x_rest), (y, y_rest)) = (x.as_chunks::<PARTS>(), y.as_chunks::<PARTS>());
+    for (x, y) in x.iter().zip(y) {
+        for part in 0..PARTS {
+            s[part] = join(s[part], f(x[part], y[part]));
+        }
+    }
+    let mut rest = 0.0;
+    for (x, y) in x_rest.iter().zip(y_rest) {
+        rest = join(rest, f(*x, *y));
+    }
+    let mut half = PARTS / 2;
+    while half > 0 {
+        for part in 0..half {
+            s[part] = join(s[part], s[part + half]);
+        }
+        half /= 2;
+    }
+    join(s[0], rest)
+}
+
+/// Whether `holds` of each pair. Looks at all, which is faster than to stop at the first of which it does not.
+#[inline]
+pub(crate) fn all_pairs(x: &[f64], y: &[f64], holds: impl Fn(f64, f64) -> bool) -> bool {
+    let pairs = x.iter().zip(y);
+    pairs.fold(true, |all, (x, y)| all & holds(*x, *y))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_number_at_any_place_is_seen() {
+        for len in 1..40 {
+            for place in 0..len {
+                let mut x = vec![-1.0; len];
+                x[place] = -2.0;
+                assert_eq!((all_finite(&x), largest(&x)), (true, 2.0));
+                assert!(!all_pairs(&x, &x, |x, y| x == -1.0 && y == -1.0));
+                for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                    x[place] = bad;
+                    assert!(!all_finite(&x), "{bad} at {place} of {len}");
+                }
+            }
+        }
+        assert!(all_finite(&[]) && largest(&[]) == 0.0);
+        assert_eq!(largest_difference(&[1.0, -2.0, 3.0], &[1.0, 3.0, 4.0]), 5.0);
+    }
+
+    #[test]
+    fn a_sum_that_overflows_is_no_infinite_number() {
+        assert!(all_finite(&[f64::MAX; 20]));
+        assert!(!all_finite(&[f64::INFINITY, f64::NEG_INFINITY]));
+    }
+}
