@@ -31,7 +31,7 @@ fn wrong_start_names_are_answered() {
         .expect_err("a slip");
     assert_eq!(
         error.to_string(),
-        "no start is called `trapezium`; did you mean `trapezoid`?"
+        "no start is called `trapezium`; did you mean `trapezoid`? There are `trapezoid`, `catenary`"
     );
     let options = models::StartOptions::new().with("x", 12.0);
     let error = chain.start("catenary", &options).expect_err("a slip");

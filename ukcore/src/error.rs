@@ -235,7 +235,7 @@ impl fmt::Display for Error {
                 match (nearest, known.len()) {
                     (Some(_), 0 | 1) => Ok(()),
                     (None, 0) => write!(f, "; there is none"),
-                    (Some(_), 2..=MOST_LISTED) => write!(f, " There is {}", quoted(known)),
+                    (Some(_), 2..=MOST_LISTED) => write!(f, " There are {}", quoted(known)),
                     (None, 1..=MOST_LISTED) => write!(f, "; there is {}", quoted(known)),
                     _ => Ok(()),
                 }
@@ -325,7 +325,7 @@ mod tests {
         );
         assert_eq!(
             message("floor", &["flour", "turn"]),
-            format!("{none}; did you mean `flour`? There is `flour`, `turn`")
+            format!("{none}; did you mean `flour`? There are `flour`, `turn`")
         );
         let many = ["flour"; MOST_LISTED + 1];
         assert_eq!(
