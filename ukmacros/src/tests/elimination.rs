@@ -109,11 +109,11 @@ fn solve(mut k: Vec<Vec<f64>>, mut r: Vec<f64>) -> Option<Vec<f64>> {
         if k[c][c].abs() < 1e-3 {
             return None;
         }
-        for i in c + 1..n {
-            let f = k[i][c] / k[c][c];
-            for j in c..n {
-                let above = k[c][j];
-                k[i][j] -= f * above;
+        let (done, below) = k.split_at_mut(c + 1);
+        for (row, i) in below.iter_mut().zip(c + 1..) {
+            let f = row[c] / done[c][c];
+            for (x, above) in row.iter_mut().zip(&done[c]).skip(c) {
+                *x -= f * above;
             }
             r[i] -= f * r[c];
         }
