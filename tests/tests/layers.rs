@@ -141,6 +141,7 @@ fn ukcore() {
             "diagnose",
             "solver",
             "stabilise",
+            "lanes",
             "assemble",
             "integrate",
             "events",

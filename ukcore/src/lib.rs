@@ -29,6 +29,7 @@ pub mod events;
 mod fixture;
 #[cfg(feature = "simulate")]
 pub mod integrate;
+pub mod lanes;
 pub mod mechanism;
 mod metric;
 pub mod pinv;
@@ -45,6 +46,7 @@ mod workspace;
 
 pub use assemble::{Residuals, State, assemble, residuals};
 pub use error::Error;
+pub use lanes::{LaneSolver, Lanes};
 #[doc(hidden)]
 pub use mechanism::emitted;
 pub use mechanism::{

@@ -7,8 +7,8 @@ use ivp::methods::{DOP853, IntegrationResult, Tolerance};
 use ivp::solout::{ControlFlag, SolOut};
 use models::{Model, UChain};
 use serde_json::Value;
-use ukcore::{Mechanism, Simulation, State};
-use wide::f64x8;
+use ukcore::{LaneSolver, Lanes, Mechanism, Simulation, State};
+use wide::{f64x4, f64x8};
 
 use crate::accelerations::states;
 use crate::chain::{self, Chain};
@@ -153,6 +153,51 @@ pub(crate) fn uchain17() -> Vec<Value> {
     groups.map(run).into()
 }
 
+/// Positions and velocities of as many states as there are lanes.
+type Pack<L> = (Vec<L>, Vec<L>);
+
+fn packs<L: Lanes>(states: &[State]) -> Vec<Pack<L>> {
+    let pack = |states: &[State]| {
+        let part = |part: fn(&State) -> &[f64]| {
+            let lanes = |i: usize| L::from_lanes(|k| part(&states[k])[i]);
+            (0..2 * N).map(lanes).collect::<Vec<L>>()
+        };
+        (part(|s| &s.q), part(|s| &s.v))
+    };
+    states.chunks_exact(L::WIDTH).map(pack).collect()
+}
+
+/// The generated code in lanes, with its certificates looked at; each lane agrees with the solver.
+fn ours_in_lanes<L: Lanes>(mech: &UChain, states: &[State]) -> Contender<'static> {
+    let packs: Vec<Pack<L>> = packs(states);
+    let mut solver = LaneSolver::<UChain, L>::new(mech);
+    let mut out = vec![L::from_f64(0.0); 2 * N];
+    let t = L::from_f64(0.0);
+    for ((q, v), states) in packs.iter().zip(states.chunks_exact(L::WIDTH)) {
+        assert!(solver.acceleration(t, q, v, &mut out, |_| true));
+        for (lane, state) in states.iter().enumerate() {
+            let mut expected = vec![0.0; 2 * N];
+            mech.prepared()
+                .acceleration(state.t, &state.q, &state.v, &mut expected);
+            let found: Vec<f64> = out.iter().map(|x| x.lane(lane)).collect();
+            let scale = tests::largest(&expected).max(1.0);
+            tests::assert_all_close("lanes", &found, &expected, 1e-9 * scale);
+        }
+    }
+    Contender {
+        name: format!("LaneSolver::acceleration in {} lanes", L::WIDTH),
+        by_hand: false,
+        evaluations: packs.len() * L::WIDTH,
+        work: Box::new(move || {
+            for (q, v) in &packs {
+                black_box(solver.acceleration(t, q, v, &mut out, |_| true));
+                black_box(&mut out);
+            }
+        }),
+        remark: String::new(),
+    }
+}
+
 /// Eight chains at once, each in its lane and at its state; times are per chain.
 pub(crate) fn lanes() -> Value {
     const LANES: usize = 8;
@@ -160,16 +205,7 @@ pub(crate) fn lanes() -> Value {
     let start = mech.default_start().expect("the default start exists");
     let states = states(mech.clone(), start, END);
     let chain = parameters(&mech);
-    let packs: Vec<(Vec<f64x8>, Vec<f64x8>)> = states
-        .chunks_exact(LANES)
-        .map(|states| {
-            let pack = |part: fn(&State) -> &[f64]| {
-                let lane = |k: usize| f64x8::new(std::array::from_fn(|s| part(&states[s])[k]));
-                (0..2 * N).map(lane).collect::<Vec<f64x8>>()
-            };
-            (pack(|s| &s.q), pack(|s| &s.v))
-        })
-        .collect();
+    let packs: Vec<Pack<f64x8>> = packs(&states);
     let mut out = vec![f64x8::splat(0.0); 2 * N];
     for ((q, v), states) in packs.iter().zip(states.chunks_exact(LANES)) {
         chain::lanes::<N>(&chain, q, v, &mut out);
@@ -208,8 +244,12 @@ pub(crate) fn lanes() -> Value {
         }),
         remark: String::new(),
     };
-    // Place for ours in lanes.
-    let contenders = vec![one_by_one, in_lanes];
+    let contenders = vec![
+        one_by_one,
+        in_lanes,
+        ours_in_lanes::<f64x4>(&mech, &states),
+        ours_in_lanes::<f64x8>(&mech, &states),
+    ];
     let group = Group {
         name: "lanes/uchain17",
         remarks: vec!["time per chain".to_owned()],
