@@ -143,6 +143,7 @@ fn ukcore() {
             "stabilise",
             "lanes",
             "assemble",
+            "linearise",
             "integrate",
             "events",
             "trajectory",
