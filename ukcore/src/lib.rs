@@ -65,6 +65,8 @@ pub use ukmacros::multibody;
 pub use events::{Direction, Event, EventHit};
 #[cfg(feature = "simulate")]
 pub use integrate::Method;
+#[cfg(feature = "ensemble")]
+pub use simulate::ensemble::{Ensemble, Member};
 #[cfg(feature = "simulate")]
 pub use simulate::{Failure, Simulation};
 #[cfg(feature = "simulate")]

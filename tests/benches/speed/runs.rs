@@ -7,7 +7,7 @@ use ivp::methods::{DOP853, IntegrationResult, Tolerance};
 use ivp::solout::{ControlFlag, SolOut};
 use models::{Model, UChain};
 use serde_json::Value;
-use ukcore::{LaneSolver, Lanes, Mechanism, Simulation, State};
+use ukcore::{Ensemble, LaneSolver, Lanes, Mechanism, Simulation, State};
 use wide::{f64x4, f64x8};
 
 use crate::accelerations::states;
@@ -81,7 +81,7 @@ fn bare(chain: Chain, start: &State, tolerance: f64) -> (Vec<f64>, IntegrationRe
 }
 
 /// The run by ours: last state, and evaluations.
-fn ours(mech: &UChain, start: &State, tolerance: f64) -> (Vec<f64>, usize) {
+fn ours_alone(mech: &UChain, start: &State, tolerance: f64) -> (Vec<f64>, usize) {
     let run = Simulation::new(mech.clone())
         .start(start.clone())
         .tolerance(tolerance)
@@ -135,12 +135,12 @@ pub(crate) fn uchain17() -> Vec<Value> {
             work: Box::new(move || drop(black_box(bare(chain, start, tolerance)))),
             remark: remark(&y, report.evals.ode),
         };
-        let (y, evaluations) = ours(mech, start, tolerance);
+        let (y, evaluations) = ours_alone(mech, start, tolerance);
         let ours = Contender {
             name: "Simulation, with projection".to_owned(),
             by_hand: false,
             evaluations: 1,
-            work: Box::new(move || drop(black_box(ours(mech, start, tolerance)))),
+            work: Box::new(move || drop(black_box(ours_alone(mech, start, tolerance)))),
             remark: remark(&y, evaluations),
         };
         let group = Group {
@@ -293,13 +293,37 @@ pub(crate) fn ensemble() -> Value {
         work: Box::new(|| {
             for _ in 0..MEASURED {
                 own = (own + 1) % CHAINS;
-                black_box(ours(&mech, &starts[own], 1e-9));
+                black_box(ours_alone(&mech, &starts[own], 1e-9));
             }
         }),
         remark: String::new(),
     };
-    // Place for ours as an ensemble.
-    let contenders = vec![by_hand, ours];
+    let members = starts.iter().map(|s| (mech.clone(), s.clone())).collect();
+    let ensemble = Ensemble::new(members).tolerance(1e-9);
+    let one_core = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .expect("a thread");
+    let results = one_core.install(|| ensemble.until(END));
+    let mut rejected = 0;
+    for (k, result) in results.iter().enumerate() {
+        let member = result.as_ref().expect("the run succeeds");
+        rejected += member.work.rejected;
+        if k % 100 == 0 {
+            let (expected, _) = ours_alone(&mech, &starts[k], 1e-9);
+            tests::assert_all_close("ensemble", &member.end.q, &expected[..2 * N], 1e-6);
+        }
+    }
+    let in_lanes = Contender {
+        name: "Ensemble, in lanes, on one core".to_owned(),
+        by_hand: false,
+        evaluations: CHAINS,
+        work: Box::new(|| {
+            black_box(one_core.install(|| ensemble.until(END)));
+        }),
+        remark: format!("{rejected} steps rejected in all"),
+    };
+    let contenders = vec![by_hand, ours, in_lanes];
     let group = Group {
         name: "ensemble/uchain17",
         remarks: vec!["time per chain".to_owned()],
