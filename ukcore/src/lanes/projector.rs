@@ -50,7 +50,7 @@ impl<L: Lanes> LaneProjector<L> {
             self.bounds::<M>(spec.holonomic, q);
             good = self.newton(spec.holonomic, q, good, solvable, steps, |x, own, solve| {
                 if solve {
-                    mech.correction(t, x, v, &own.0, own.1)
+                    mech.correction(t, x, v, own.0, own.1)
                 } else {
                     mech.residual(t, x, own.0);
                     L::from_f64(1.0)
@@ -63,7 +63,7 @@ impl<L: Lanes> LaneProjector<L> {
             let solvable = spec.structure.straight_line;
             good = self.newton(spec.m(), v, good, solvable, steps, |x, own, solve| {
                 if solve {
-                    mech.correction(t, q, x, &own.0, own.1)
+                    mech.correction(t, q, x, own.0, own.1)
                 } else {
                     mech.residual_rate(t, q, x, own.0);
                     L::from_f64(1.0)

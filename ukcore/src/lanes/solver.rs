@@ -45,7 +45,7 @@ fn zero_if_finite<L: Lanes>(t: L, all: [&[L]; 3]) -> L {
         }
     }
     let sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
-    sum - sum
+    sum * L::from_f64(0.0)
 }
 
 impl<M: Mechanism, L: Lanes> LaneSolver<M, L> {
