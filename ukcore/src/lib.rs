@@ -8,6 +8,7 @@
 //!   constraints, with ideal and non-ideal constraint forces. Without heap allocation once it is made.
 //! - [`assemble`](assemble()): a consistent state from a rough guess. [`Projector`]: the nearest consistent state.
 //! - `Simulation` (feature `simulate`, on by default): adaptive integration with projection, events, dense output and named CSV.
+//! - [`LaneSolver`]: accelerations of several mechanisms at once, in lanes. [`Linearisation`]: exact derivatives of the accelerations.
 //! - [`equations`]: the formulas as printed, [`pinv`]: the pseudo-inverse under them, [`diagnose`]: rank and redundancy by name.
 //!
 //! Notation is that of Zhao, Zhen & Chen 2013 (DOI 10.3901/CJME.2013.05.839), whose equation numbers the documentation cites:
@@ -29,6 +30,8 @@ pub mod events;
 mod fixture;
 #[cfg(feature = "simulate")]
 pub mod integrate;
+pub mod lanes;
+pub mod linearise;
 pub mod mechanism;
 mod metric;
 pub mod pinv;
@@ -46,6 +49,8 @@ mod workspace;
 
 pub use assemble::{Residuals, State, assemble, residuals};
 pub use error::Error;
+pub use lanes::{LaneSolver, Lanes};
+pub use linearise::Linearisation;
 #[doc(hidden)]
 pub use mechanism::emitted;
 pub use mechanism::{
@@ -61,6 +66,8 @@ pub use ukmacros::multibody;
 pub use events::{Direction, Event, EventHit};
 #[cfg(feature = "simulate")]
 pub use integrate::Method;
+#[cfg(feature = "ensemble")]
+pub use simulate::ensemble::{Ensemble, Member};
 #[cfg(feature = "simulate")]
 pub use simulate::{Failure, Simulation};
 #[cfg(feature = "simulate")]

@@ -11,8 +11,10 @@ use crate::integrate::{Method, Outcome, Settings};
 use crate::mechanism::Mechanism;
 use crate::solver::{Formula, Solver, SolverOptions};
 use crate::stabilise::{Projector, Stabilisation};
-use crate::trajectory::{Ending, Trajectory};
+use crate::trajectory::{Ending, Trajectory, Work};
 
+#[cfg(feature = "ensemble")]
+pub mod ensemble;
 mod run;
 #[cfg(test)]
 mod tests;
@@ -211,7 +213,7 @@ impl<M: Mechanism> Simulation<M> {
             return Err(fail(error, trajectory));
         }
         let mut projector = Projector::new::<M>();
-        let state = match self.consistent_start(&mut projector, &mut trajectory) {
+        let state = match self.consistent_start(&mut projector, &mut trajectory.work) {
             Ok(state) => state,
             Err(error) => return Err(fail(error, trajectory)),
         };
@@ -355,11 +357,7 @@ impl<M: Mechanism> Simulation<M> {
     }
 
     /// The start, checked and projected.
-    fn consistent_start(
-        &self,
-        projector: &mut Projector,
-        trajectory: &mut Trajectory<M>,
-    ) -> Result<State, Error> {
+    fn consistent_start(&self, projector: &mut Projector, work: &mut Work) -> Result<State, Error> {
         let spec = M::SPEC;
         let Some(State { t, q, v }) = self.start.clone() else {
             let what = "start";
@@ -385,8 +383,8 @@ impl<M: Mechanism> Simulation<M> {
             mech.residual_rate(t, &new_q, &v, &mut residual);
             return Err(off_constraint::<M>("velocity", &residual));
         }
-        trajectory.work.projections += 1;
-        trajectory.work.projection_iterations += position.iterations + velocity.iterations;
+        work.projections += 1;
+        work.projection_iterations += position.iterations + velocity.iterations;
         Ok(State {
             t,
             q: new_q,

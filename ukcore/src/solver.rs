@@ -348,6 +348,41 @@ impl Solver {
         })
     }
 
+    /// q̈ and all λ, with M q̈ = Q + c + Aᵀλ, by the rank-revealing solve, whose factors then serve [`Solver::respond`].
+    pub(crate) fn balance<M: Mechanism>(
+        &mut self,
+        mech: &Prepared<M>,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        acceleration: &mut [f64],
+        multipliers: &mut [f64],
+    ) -> Result<Formula, Error> {
+        let decided = self.decide(mech, t, q, v)?;
+        let applied = self.here.force.iter().zip(&self.here.nonideal);
+        let applied: Vec<f64> = applied.map(|(a, b)| a + b).collect();
+        self.force.copy_from_slice(&applied);
+        self.solve_for_force(decided.formula, acceleration);
+        self.check(mech, t, q, v, decided.tolerance, acceleration)?;
+        let mut reaction = self.mass_times(acceleration);
+        reaction.iter_mut().zip(&applied).for_each(|(r, f)| *r -= f);
+        self.dense.multipliers(&mut reaction, multipliers);
+        Ok(decided.formula)
+    }
+
+    /// x with M x = `force` + Aᵀμ and A x = `rhs`, with M and A as in the last [`Solver::balance`].
+    pub(crate) fn respond(
+        &mut self,
+        formula: Formula,
+        force: &[f64],
+        rhs: &[f64],
+        out: &mut [f64],
+    ) {
+        self.force.copy_from_slice(force);
+        self.rhs.copy_from_slice(rhs);
+        self.solve_for_force(formula, out);
+    }
+
     /// What has been done so far.
     #[must_use]
     pub fn work(&self) -> SolverWork {

@@ -18,17 +18,17 @@ mod straight_line;
 
 /// A residual is at rounding level if it does not exceed this many ε of the size Σ|A_ij q_j| of what q's own rounding contributes:
 /// one for q, one or two for the evaluation of φ.
-const ROUNDING: f64 = 4.0;
+pub(crate) const ROUNDING: f64 = 4.0;
 
 /// A projection that has stopped making progress is accepted if no residual exceeds this many ε of max|A_ij| max|q_j| over the
 /// coordinates of its constraint, or of the rounding that evaluating it carries where that is more: terms that cancel, or constraints that nearly lose rank, can keep it above [`ROUNDING`].
 /// Lengths of links among coordinates thirty times as large still hold to 1e-12.
-const STALLED: f64 = 64.0;
+pub(crate) const STALLED: f64 = 64.0;
 
 /// The largest coordinate counts into the size of every constraint's terms with this share: a coordinate that the constraints put
 /// to zero takes rounding errors from the others through the solve, and has no size of its own to measure them by. The share is
 /// small because coordinates need not be of one unit.
-const NEIGHBOUR: f64 = 1e-4;
+pub(crate) const NEIGHBOUR: f64 = 1e-4;
 
 /// Progress: a Newton step that does not divide the residual by this is not converging quadratically.
 const PROGRESS: f64 = 0.1;

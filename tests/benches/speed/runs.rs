@@ -7,8 +7,8 @@ use ivp::methods::{DOP853, IntegrationResult, Tolerance};
 use ivp::solout::{ControlFlag, SolOut};
 use models::{Model, UChain};
 use serde_json::Value;
-use ukcore::{Mechanism, Simulation, Stabilisation, State};
-use wide::f64x8;
+use ukcore::{Ensemble, LaneSolver, Lanes, Mechanism, Simulation, Stabilisation, State};
+use wide::{f64x4, f64x8};
 
 use crate::accelerations::states;
 use crate::chain::{self, Chain};
@@ -81,7 +81,7 @@ fn bare(chain: Chain, start: &State, tolerance: f64) -> (Vec<f64>, IntegrationRe
 }
 
 /// The run by ours: last state, and evaluations.
-fn ours(
+fn ours_alone(
     mech: &UChain,
     start: &State,
     tolerance: f64,
@@ -166,15 +166,15 @@ pub(crate) fn uchain17() -> Vec<Value> {
             remark: remark(tolerance, &y, report.evals.ode),
         };
         let contender = |name: &str, stabilisation| {
-            let run = |tolerance| ours(mech, start, tolerance, stabilisation).0;
+            let run = |tolerance| ours_alone(mech, start, tolerance, stabilisation).0;
             let tolerance = tolerance_for(wanted, run);
-            let (y, evaluations) = ours(mech, start, tolerance, stabilisation);
+            let (y, evaluations) = ours_alone(mech, start, tolerance, stabilisation);
             Contender {
                 name: name.to_owned(),
                 by_hand: false,
                 evaluations: 1,
                 work: Box::new(move || {
-                    drop(black_box(ours(mech, start, tolerance, stabilisation)))
+                    drop(black_box(ours_alone(mech, start, tolerance, stabilisation)))
                 }),
                 remark: remark(tolerance, &y, evaluations),
             }
@@ -191,6 +191,51 @@ pub(crate) fn uchain17() -> Vec<Value> {
     groups.map(run).into()
 }
 
+/// Positions and velocities of as many states as there are lanes.
+type Pack<L> = (Vec<L>, Vec<L>);
+
+fn packs<L: Lanes>(states: &[State]) -> Vec<Pack<L>> {
+    let pack = |states: &[State]| {
+        let part = |part: fn(&State) -> &[f64]| {
+            let lanes = |i: usize| L::from_lanes(|k| part(&states[k])[i]);
+            (0..2 * N).map(lanes).collect::<Vec<L>>()
+        };
+        (part(|s| &s.q), part(|s| &s.v))
+    };
+    states.chunks_exact(L::WIDTH).map(pack).collect()
+}
+
+/// The generated code in lanes, with its certificates looked at; each lane agrees with the solver.
+fn ours_in_lanes<L: Lanes>(mech: &UChain, states: &[State]) -> Contender<'static> {
+    let packs: Vec<Pack<L>> = packs(states);
+    let mut solver = LaneSolver::<UChain, L>::new(mech);
+    let mut out = vec![L::from_f64(0.0); 2 * N];
+    let t = L::from_f64(0.0);
+    for ((q, v), states) in packs.iter().zip(states.chunks_exact(L::WIDTH)) {
+        assert!(solver.acceleration(t, q, v, &mut out, |_| true));
+        for (lane, state) in states.iter().enumerate() {
+            let mut expected = vec![0.0; 2 * N];
+            mech.prepared()
+                .acceleration(state.t, &state.q, &state.v, &mut expected);
+            let found: Vec<f64> = out.iter().map(|x| x.lane(lane)).collect();
+            let scale = tests::largest(&expected).max(1.0);
+            tests::assert_all_close("lanes", &found, &expected, 1e-9 * scale);
+        }
+    }
+    Contender {
+        name: format!("LaneSolver::acceleration in {} lanes", L::WIDTH),
+        by_hand: false,
+        evaluations: packs.len() * L::WIDTH,
+        work: Box::new(move || {
+            for (q, v) in &packs {
+                black_box(solver.acceleration(t, q, v, &mut out, |_| true));
+                black_box(&mut out);
+            }
+        }),
+        remark: String::new(),
+    }
+}
+
 /// Eight chains at once, each in its lane and at its state; times are per chain.
 pub(crate) fn lanes() -> Value {
     const LANES: usize = 8;
@@ -198,16 +243,7 @@ pub(crate) fn lanes() -> Value {
     let start = mech.default_start().expect("the default start exists");
     let states = states(mech.clone(), start, END);
     let chain = parameters(&mech);
-    let packs: Vec<(Vec<f64x8>, Vec<f64x8>)> = states
-        .chunks_exact(LANES)
-        .map(|states| {
-            let pack = |part: fn(&State) -> &[f64]| {
-                let lane = |k: usize| f64x8::new(std::array::from_fn(|s| part(&states[s])[k]));
-                (0..2 * N).map(lane).collect::<Vec<f64x8>>()
-            };
-            (pack(|s| &s.q), pack(|s| &s.v))
-        })
-        .collect();
+    let packs: Vec<Pack<f64x8>> = packs(&states);
     let mut out = vec![f64x8::splat(0.0); 2 * N];
     for ((q, v), states) in packs.iter().zip(states.chunks_exact(LANES)) {
         chain::lanes::<N>(&chain, q, v, &mut out);
@@ -246,8 +282,12 @@ pub(crate) fn lanes() -> Value {
         }),
         remark: String::new(),
     };
-    // Place for ours in lanes.
-    let contenders = vec![one_by_one, in_lanes];
+    let contenders = vec![
+        one_by_one,
+        in_lanes,
+        ours_in_lanes::<f64x4>(&mech, &states),
+        ours_in_lanes::<f64x8>(&mech, &states),
+    ];
     let group = Group {
         name: "lanes/uchain17",
         remarks: vec!["time per chain".to_owned()],
@@ -292,13 +332,37 @@ pub(crate) fn ensemble() -> Value {
             for _ in 0..MEASURED {
                 own = (own + 1) % CHAINS;
                 let stabilisation = Stabilisation::Projection;
-                black_box(ours(&mech, &starts[own], 1e-9, stabilisation));
+                black_box(ours_alone(&mech, &starts[own], 1e-9, stabilisation));
             }
         }),
         remark: String::new(),
     };
-    // Place for ours as an ensemble.
-    let contenders = vec![by_hand, ours];
+    let members = starts.iter().map(|s| (mech.clone(), s.clone())).collect();
+    let ensemble = Ensemble::new(members).tolerance(1e-9);
+    let one_core = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .expect("a thread");
+    let results = one_core.install(|| ensemble.until(END));
+    let mut rejected = 0;
+    for (k, result) in results.iter().enumerate() {
+        let member = result.as_ref().expect("the run succeeds");
+        rejected += member.work.rejected;
+        if k % 100 == 0 {
+            let (expected, _) = ours_alone(&mech, &starts[k], 1e-9, Stabilisation::Projection);
+            tests::assert_all_close("ensemble", &member.end.q, &expected[..2 * N], 1e-6);
+        }
+    }
+    let in_lanes = Contender {
+        name: "Ensemble, in lanes, on one core".to_owned(),
+        by_hand: false,
+        evaluations: CHAINS,
+        work: Box::new(|| {
+            black_box(one_core.install(|| ensemble.until(END)));
+        }),
+        remark: format!("{rejected} steps rejected in all"),
+    };
+    let contenders = vec![by_hand, ours, in_lanes];
     let group = Group {
         name: "ensemble/uchain17",
         remarks: vec!["time per chain".to_owned()],

@@ -3,6 +3,8 @@
 //! After Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, §II.4, with the constants of the authors' codes. Pure
 //! functions of numbers: a driver of many lanes uses them for each lane.
 
+use super::dense::Clock;
+
 /// Part of the step size that should just meet the tolerance which is taken.
 const SAFETY: f64 = 0.9;
 
@@ -64,6 +66,56 @@ impl StepSize {
     pub(crate) fn unfit(&mut self, h: f64) -> f64 {
         self.rejected = true;
         0.5 * h
+    }
+}
+
+/// A step is the last one if what would remain behind it is less than this part of it.
+const LAST: f64 = 0.01;
+
+/// Steps shorter than this share (ε²) of the run are not tried: near s = 0, where no rounding of s stops it, halving could go on
+/// through three hundred decades.
+const SHORTEST: f64 = f64::EPSILON * f64::EPSILON;
+
+/// The step to be tried next.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Plan {
+    /// Its positive size.
+    pub(crate) size: f64,
+    /// Its end.
+    pub(crate) s: f64,
+    /// The same as a time.
+    pub(crate) t: f64,
+    /// It ends at the end of the run.
+    pub(crate) last: bool,
+}
+
+impl Plan {
+    /// A step of proposed size `h` from (s, t), in a run to (s_end, t_end). `None` where it would be lost in rounding.
+    pub(crate) fn new(
+        h: f64,
+        (s, t): (f64, f64),
+        (s_end, t_end): (f64, f64),
+        clock: Clock,
+    ) -> Option<Self> {
+        let last = s + (1.0 + LAST) * h > s_end;
+        let plan = if last {
+            Plan {
+                size: s_end - s,
+                s: s_end,
+                t: t_end,
+                last,
+            }
+        } else {
+            Plan {
+                size: h,
+                s: s + h,
+                t: clock.t(s + h),
+                last,
+            }
+        };
+        // The proposed size counts, not what is left to the end.
+        let lost = 0.1 * h <= s * f64::EPSILON || plan.size < SHORTEST * s_end;
+        (!lost && plan.t != t).then_some(plan)
     }
 }
 

@@ -1,5 +1,8 @@
 //! The states within a step.
 
+/// A sample counts as within a step that ends so many units of rounding before it.
+const END_ROUNDING: f64 = 4.0 * f64::EPSILON;
+
 /// From s to t and back: s counts from the start of the run, upward in either direction.
 ///
 /// Counting from t0 keeps a large t0 from rounding the step sizes: at t = 1e9 the sum t + h would keep seven digits of h = 1.
@@ -18,17 +21,23 @@ impl Clock {
     pub(crate) fn s(self, t: f64) -> f64 {
         self.sign * (t - self.t0)
     }
+
+    /// Whether a sample at `t` is within a step that ends at `s`.
+    pub(crate) fn passed(self, t: f64, s: f64) -> bool {
+        let sample = self.s(t);
+        sample - END_ROUNDING * sample.abs() <= s
+    }
 }
 
 /// Interpolant of a step: the time it covers, and coefficients.
 #[derive(Clone, Copy)]
 pub(crate) struct Interpolant<'a> {
-    pub(super) clock: Clock,
-    pub(super) s_old: f64,
+    pub(crate) clock: Clock,
+    pub(crate) s_old: f64,
     /// Positive size of the step.
-    pub(super) h: f64,
+    pub(crate) h: f64,
     /// Rows c₀, c₁, … of [`interpolate`].
-    pub(super) coefficients: &'a [f64],
+    pub(crate) coefficients: &'a [f64],
 }
 
 impl Interpolant<'_> {

@@ -1,22 +1,12 @@
 //! A run: steps until the end, and what becomes of those that fail.
 
-use super::control::{Guess, StepSize};
+use super::control::{Guess, Plan, StepSize};
 use super::dense::{Clock, Interpolant};
 use super::stepper::Stepper;
 use super::sums::error_norm;
 use super::{Method, Next, Outcome, PROJECTION_LIMIT, Problem, Report, Settings, Step};
 use crate::error::Error;
 use crate::scan::{all_finite, all_pairs};
-
-/// A sample counts as within a step that ends so many units of rounding before it.
-const END_ROUNDING: f64 = 4.0 * f64::EPSILON;
-
-/// A step is the last one if what would remain behind it is less than this part of it.
-const LAST: f64 = 0.01;
-
-/// Steps shorter than this share (ε²) of the run are not tried: near s = 0, where no rounding of s stops it, halving could go on
-/// through three hundred decades.
-const SHORTEST: f64 = f64::EPSILON * f64::EPSILON;
 
 /// An error and where it arose.
 struct Trouble {
@@ -125,17 +115,11 @@ impl<P: Problem> Driver<'_, P> {
                 let steps = self.settings.max_steps;
                 return Err(Error::TooManySteps { steps });
             }
-            let last = self.s + (1.0 + LAST) * h > self.s_end;
-            let (size, s, t) = if last {
-                (self.s_end - self.s, self.s_end, self.t_end)
-            } else {
-                (h, self.s + h, self.clock.t(self.s + h))
-            };
-            // The proposed size counts, not what is left to the end.
-            let lost = 0.1 * h <= self.s * f64::EPSILON || size < SHORTEST * self.s_end;
-            if lost || t == self.t {
+            let end = (self.s_end, self.t_end);
+            let Some(plan) = Plan::new(h, (self.s, self.t), end, self.clock) else {
                 return Err(Error::StepTooSmall { step: h });
-            }
+            };
+            let Plan { size, s, t, last } = plan;
             self.attempts += 1;
             let control = &self.stepper.tableau().control;
             h = match self.attempt(size, s, t) {
@@ -250,10 +234,7 @@ impl<P: Problem> Driver<'_, P> {
     /// Shows the problem the step, with its interpolant if one is wanted.
     fn show(&mut self, h: f64, s: f64, t: f64) -> Result<Next, Refusal> {
         let clock = self.clock;
-        let within = |sample: f64| {
-            let sample = clock.s(sample);
-            sample - END_ROUNDING * sample.abs() <= s
-        };
+        let within = |sample: f64| clock.passed(sample, s);
         let wanted = self.settings.dense || self.problem.next_sample().is_some_and(within);
         if wanted {
             let f = right_hand_side(self.problem, clock.t0);

@@ -27,7 +27,13 @@ mod tableau;
 mod tests;
 
 use crate::error::Error;
+#[cfg(feature = "ensemble")]
+pub(crate) use control::{Guess, Plan, StepSize};
+#[cfg(feature = "ensemble")]
+pub(crate) use dense::Clock;
 pub(crate) use dense::{Interpolant, Segment};
+#[cfg(feature = "ensemble")]
+pub(crate) use stepper::Stepper;
 pub(crate) use sums::error_norm;
 
 /// The explicit Runge-Kutta methods on offer.

@@ -44,7 +44,7 @@ pub(super) struct Agenda {
     t0: f64,
     t_end: f64,
     /// Samples taken from it so far.
-    taken: usize,
+    pub(super) taken: usize,
 }
 
 impl Agenda {
@@ -58,7 +58,7 @@ impl Agenda {
     }
 
     /// Time of the next sample that does not come by itself at the end of a step.
-    fn next(&self) -> Option<f64> {
+    pub(super) fn next(&self) -> Option<f64> {
         match &self.sampling {
             Sampling::Steps => None,
             Sampling::Every(dt) => {
@@ -74,7 +74,7 @@ impl Agenda {
     }
 
     /// Whether the end of the run is a sample in any case.
-    fn wants_end(&self) -> bool {
+    pub(super) fn wants_end(&self) -> bool {
         !matches!(self.sampling, Sampling::At(_))
     }
 }
@@ -251,7 +251,7 @@ impl<M: Mechanism> Problem for Run<'_, M> {
 }
 
 /// Projects y = [q; q̇], positions first, and counts it.
-fn project<M: Mechanism>(
+pub(super) fn project<M: Mechanism>(
     mechanism: &Prepared<M>,
     projector: &mut Projector,
     work: &mut Work,

@@ -121,6 +121,12 @@ impl Pace {
         }
     }
 
+    /// Whether there is a switch to be watched.
+    #[cfg(feature = "ensemble")]
+    pub(super) fn watches(&self) -> bool {
+        !self.terms.is_empty()
+    }
+
     /// An accepted step from `y_old` to `y` that took `time`.
     pub(super) fn step(&mut self, time: f64, y_old: &[f64], y: &[f64]) {
         if self.terms.is_empty() {

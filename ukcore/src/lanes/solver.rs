@@ -1,0 +1,153 @@
+//! Accelerations in lanes.
+
+use super::Lanes;
+use crate::error::Error;
+use crate::mechanism::{Mechanism, Prepared};
+use crate::solver::{Solver, SolverOptions, SolverWork};
+
+/// Solves for q̈ of several mechanisms at once, one in each lane.
+///
+/// The emitted elimination computes all lanes. Where its certificate does not hold in a lane, or something is not finite there, a [`Solver`] of that lane's own solves it
+/// again; so a lane has the acceleration, or the error, that it would have alone.
+#[derive(Debug, Clone)]
+pub struct LaneSolver<M, L> {
+    mechanisms: Vec<M>,
+    prepared: Prepared<M, L>,
+    /// A lane's own solver and mechanism, once it needs them.
+    own: Vec<Option<Box<Own<M>>>>,
+    errors: Vec<Option<Error>>,
+    evaluations: Vec<usize>,
+}
+
+#[derive(Debug, Clone)]
+struct Own<M> {
+    prepared: Prepared<M>,
+    solver: Solver,
+    /// State and acceleration: q, q̇, q̈.
+    state: [Vec<f64>; 3],
+}
+
+/// 0 in the lanes where all numbers are finite, NaN where one is not, or where their sum overflows.
+fn zero_if_finite<L: Lanes>(t: L, all: [&[L]; 3]) -> L {
+    /// Parts of the sum, so that not every addition waits for the one before.
+    const PARTS: usize = 4;
+    let mut sums = [L::from_f64(0.0); PARTS];
+    sums[0] = t;
+    for x in all {
+        let (chunks, rest) = x.as_chunks::<PARTS>();
+        for chunk in chunks {
+            for (sum, x) in sums.iter_mut().zip(chunk) {
+                *sum = *sum + *x;
+            }
+        }
+        for (sum, x) in sums.iter_mut().zip(rest) {
+            *sum = *sum + *x;
+        }
+    }
+    let sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+    sum * L::from_f64(0.0)
+}
+
+impl<M: Mechanism, L: Lanes> LaneSolver<M, L> {
+    /// A solver with `mechanism` in each lane.
+    #[must_use]
+    pub fn new(mechanism: &M) -> Self {
+        LaneSolver {
+            mechanisms: vec![mechanism.clone(); L::WIDTH],
+            prepared: mechanism.prepared(),
+            own: (0..L::WIDTH).map(|_| None).collect(),
+            errors: vec![None; L::WIDTH],
+            evaluations: vec![0; L::WIDTH],
+        }
+    }
+
+    /// Puts `mechanism` into lane `lane`, below [`Lanes::WIDTH`], and begins to count its work anew.
+    pub fn set(&mut self, lane: usize, mechanism: &M) {
+        self.mechanisms[lane] = mechanism.clone();
+        let parameter = |i| L::from_lanes(|k| self.mechanisms[k].parameter(i));
+        self.prepared = Prepared::new((0..M::SPEC.params.len()).map(parameter).collect());
+        self.own[lane] = None;
+        self.errors[lane] = None;
+        self.evaluations[lane] = 0;
+    }
+
+    /// The mechanisms, for what needs no solver.
+    #[must_use]
+    pub fn prepared(&self) -> &Prepared<M, L> {
+        &self.prepared
+    }
+
+    /// q̈ at (t, q, q̇) into `out` (each of length n), in the lanes for which `wanted` holds; the others are left as they come.
+    /// Returns whether all of them have one; where one has not, [`LaneSolver::error`] says why, and `out` is NaN.
+    ///
+    /// # Panics
+    /// If a slice has not the stated length.
+    pub fn acceleration(
+        &mut self,
+        t: L,
+        q: &[L],
+        v: &[L],
+        out: &mut [L],
+        wanted: impl Fn(usize) -> bool,
+    ) -> bool {
+        let straight_line = M::SPEC.structure.straight_line;
+        let mut safe = L::from_f64(0.0);
+        if straight_line {
+            safe = self.prepared.acceleration(t, q, v, out);
+            // A coordinate that no equation contains must not hide that it is not a number.
+            safe = safe + zero_if_finite(t, [q, v, out]);
+        }
+        let mut all = true;
+        for lane in (0..L::WIDTH).filter(|&k| wanted(k)) {
+            self.errors[lane] = None;
+            if safe.lane(lane) > 0.5 {
+                self.evaluations[lane] += 1;
+            } else {
+                all &= self.alone(lane, t, q, v, out);
+            }
+        }
+        all
+    }
+
+    /// Solves lane `lane` by its own solver.
+    #[cold]
+    fn alone(&mut self, lane: usize, t: L, q: &[L], v: &[L], out: &mut [L]) -> bool {
+        let own = self.own[lane].get_or_insert_with(|| {
+            Box::new(Own {
+                prepared: self.mechanisms[lane].prepared(),
+                solver: Solver::new::<M>(SolverOptions::default()),
+                state: std::array::from_fn(|_| vec![0.0; M::SPEC.n()]),
+            })
+        });
+        let [own_q, own_v, own_out] = &mut own.state;
+        for (own, all) in [(&mut *own_q, q), (&mut *own_v, v)] {
+            own.iter_mut().zip(all).for_each(|(x, y)| *x = y.lane(lane));
+        }
+        let result = own
+            .solver
+            .acceleration(&own.prepared, t.lane(lane), own_q, own_v, own_out);
+        if let Err(error) = result {
+            own_out.fill(f64::NAN);
+            self.errors[lane] = Some(error);
+        }
+        for (out, x) in out.iter_mut().zip(own_out) {
+            out.set_lane(lane, *x);
+        }
+        self.errors[lane].is_none()
+    }
+
+    /// Why lane `lane` had no acceleration when it was wanted last.
+    #[must_use]
+    pub fn error(&self, lane: usize) -> Option<&Error> {
+        self.errors[lane].as_ref()
+    }
+
+    /// What has been done in lane `lane` since its mechanism was set. A fallback is a solution that the lane's own solver had to find in place of the emitted elimination.
+    #[must_use]
+    pub fn work(&self, lane: usize) -> SolverWork {
+        let own = self.own[lane].as_ref();
+        let mut work = own.map_or_else(SolverWork::default, |own| own.solver.work());
+        work.evaluations += self.evaluations[lane];
+        work
+    }
+}
