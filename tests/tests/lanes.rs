@@ -136,12 +136,12 @@ fn what_fails_in_a_lane_leaves_the_others_as_they_are() {
         assert_eq!(solver.work(k).fallbacks, 0);
     }
     for k in [2, 5, 6] {
-        assert_eq!(solver.work(k).fallbacks, 1);
         let mut state = members[k].1.clone();
         (state.t, state.q, state.v) = (t.lane(k), lane(&q, k), lane(&v, k));
         let mechanism = if k == 5 { &broken } else { &members[k].0 };
         let mut alone = [0.0; 2];
-        let result = Solver::new::<Pendulum>(SolverOptions::default()).acceleration(
+        let mut solver_alone = Solver::new::<Pendulum>(SolverOptions::default());
+        let result = solver_alone.acceleration(
             &mechanism.prepared(),
             state.t,
             &state.q,
@@ -149,6 +149,7 @@ fn what_fails_in_a_lane_leaves_the_others_as_they_are() {
             &mut alone,
         );
         assert_eq!(result.as_ref().err(), solver.error(k));
+        assert_eq!(solver.work(k), solver_alone.work());
         match result {
             Ok(()) => assert_eq!(lane(&out, k), alone),
             Err(_) => assert!(lane(&out, k).iter().all(|x| x.is_nan())),
