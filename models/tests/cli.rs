@@ -395,7 +395,7 @@ fn explain_shows_equations_and_rank() {
         "redundant constraints: none",
         "Udwadia-Phohomsiri",
         "Left out",
-        "additions",
+        "multiply",
     ] {
         assert!(fish.contains(part), "{part} in {fish}");
     }
