@@ -3,11 +3,14 @@
 use super::cost::{Operations, cost, dense};
 use super::dynamics::Dynamics;
 use super::elimination::{Pivoting, SAFE_SHARE, Straight};
+use super::structure::Structure;
 use crate::expr::Graph;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Decisions and costs. Positions: coordinate i is i, constraint i is n + i.
 pub(crate) struct Plan {
+    /// The facts it rests on.
+    pub(crate) structure: Structure,
     /// The order, or why there is none.
     pub(crate) pivots: Result<Vec<Chosen>, String>,
     /// Positions (row > column) that are zero in [M Aᵀ; A 0] and filled by its elimination.
@@ -34,9 +37,15 @@ pub(crate) enum Chosen {
 }
 
 /// Collects what is to be told of `straight`, before anything is hoisted.
-pub(crate) fn plan(d: &Dynamics, straight: &Result<Straight, String>, g: &Graph) -> Plan {
+pub(crate) fn plan(
+    structure: Structure,
+    d: &Dynamics,
+    straight: &Result<Straight, String>,
+    g: &Graph,
+) -> Plan {
     let n = d.force.len();
     let mut plan = Plan {
+        structure,
         pivots: Ok(Vec::new()),
         fill: Vec::new(),
         checks: Vec::new(),

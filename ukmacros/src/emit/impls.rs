@@ -7,7 +7,7 @@ use super::print;
 use super::spec::{Costs, Facts};
 use crate::analysis::{
     Constant, ConstantValue, Dynamics, Elimination, Hoisted, Operations, Plan, Positions, Sequence,
-    Straight, Structure,
+    Straight,
 };
 use crate::expr::{Id, System};
 use crate::model::Model;
@@ -22,7 +22,6 @@ pub(crate) fn emit(
     system: &System,
     constants: &[Constant],
     dynamics: &Dynamics,
-    structure: &Structure,
     plan: &Plan,
     hoisted: &Hoisted,
 ) -> TokenStream {
@@ -33,7 +32,7 @@ pub(crate) fn emit(
         dynamics: &hoisted.dynamics,
         hoisted,
     };
-    let (implementation, costs) = functions.implementation(decl, structure, plan, &listing);
+    let (implementation, costs) = functions.implementation(decl, plan, &listing);
     let heading = "# Equations of motion\n\nDerived from the declaration at compile time, in the notation of Zhao, Zhen & Chen 2013: \
                    M q̈ = Q is the unconstrained motion, A q̈ = b what the constraints demand.";
     let equations = listing.markdown(system, model);
@@ -239,7 +238,6 @@ impl Functions<'_> {
     fn implementation(
         &self,
         decl: &Declaration,
-        structure: &Structure,
         plan: &Plan,
         listing: &Listing,
     ) -> (TokenStream, Costs) {
@@ -261,7 +259,6 @@ impl Functions<'_> {
             system: self.system,
             model: self.model,
             dynamics: self.dynamics,
-            structure,
             plan,
             costs: &costs,
         };

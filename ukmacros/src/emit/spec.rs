@@ -14,7 +14,6 @@ pub(super) struct Facts<'a> {
     pub(super) system: &'a System,
     pub(super) model: &'a Model,
     pub(super) dynamics: &'a Dynamics,
-    pub(super) structure: &'a Structure,
     pub(super) plan: &'a Plan,
     pub(super) costs: &'a Costs,
 }
@@ -104,7 +103,7 @@ impl Facts<'_> {
     }
 
     fn structure(&self) -> TokenStream {
-        let s = self.structure;
+        let s = &self.plan.structure;
         let pair = |i: usize, j: usize| {
             let (i, j) = (Literal::usize_unsuffixed(i), Literal::usize_unsuffixed(j));
             quote! { (#i, #j) }
