@@ -395,7 +395,7 @@ fn explain_shows_equations_and_rank() {
         "redundant constraints: none",
         "Udwadia-Phohomsiri",
         "Left out",
-        "additions",
+        "multiply",
     ] {
         assert!(fish.contains(part), "{part} in {fish}");
     }
@@ -403,6 +403,43 @@ fn explain_shows_equations_and_rank() {
     assert!(crank.contains("degrees of freedom: 1"), "{crank}");
     assert!(crank.contains("redundant constraints: "), "{crank}");
     assert!(!crank.contains("redundant constraints: none"), "{crank}");
+}
+
+#[test]
+fn explain_shows_the_plan() {
+    let fish = output(&["explain", "fish"]);
+    for part in [
+        "th2 with peduncle: it has no mass, and its coefficient in the constraint is 1 at any state",
+        "coordinates with inertia: ",
+        "at least 1/1024 of the diagonal they started from: the pivots of ",
+        "Hoisted: computed once for a set of parameters",
+        "straight line, as emitted",
+        "K = [M Aᵀ; A 0], in the order of its elimination",
+        "      th2 \\#····",
+    ] {
+        assert!(fish.contains(part), "{part} in {fish}");
+    }
+    let spring = output(&["explain", "massless_spring"]);
+    assert!(
+        spring.contains("there is no straight line, since `"),
+        "{spring}"
+    );
+}
+
+#[test]
+fn explain_shows_the_code() {
+    let all = output(&["explain", "pendulum", "--code"]);
+    let one = output(&["explain", "pendulum", "--code", "acceleration"]);
+    assert!(one.starts_with("fn acceleration<S: "), "{one}");
+    assert!(
+        all.contains(&one) && all.contains("fn dynamics<S: "),
+        "{all}"
+    );
+    fails(
+        &["explain", "pendulum", "--code", "accelerate"],
+        USAGE,
+        "it has prepare, dynamics,",
+    );
 }
 
 #[test]

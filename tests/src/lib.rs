@@ -6,7 +6,7 @@
 mod oracle;
 mod random;
 
-pub use oracle::{Dense, pseudo_inverse};
+pub use oracle::{Dense, pseudo_inverse, singular_values};
 pub use random::Random;
 
 use models::{Model, Visitor};

@@ -4,13 +4,40 @@ use nalgebra::{DMatrix, DVector};
 use ukcore::{Mechanism, State, Terms};
 
 /// Moore-Penrose inverse by singular values; those below `tolerance` times the largest count as zero.
-///
-/// One-sided Jacobi rotations (Hestenes 1958): slow, short, and accurate to rounding also for small singular values.
 #[must_use]
 pub fn pseudo_inverse(matrix: &DMatrix<f64>, tolerance: f64) -> DMatrix<f64> {
     if matrix.nrows() < matrix.ncols() {
         return pseudo_inverse(&matrix.transpose(), tolerance).transpose();
     }
+    let (mut left, right) = rotated(matrix);
+    // Now left = U Σ, so A⁺ = V Σ⁻² (U Σ)ᵀ on the singular values that count.
+    let sizes: Vec<f64> = left.column_iter().map(|c| c.norm()).collect();
+    let cut = tolerance * sizes.iter().fold(0.0_f64, |s, x| s.max(*x));
+    for (k, size) in sizes.iter().enumerate() {
+        let weight = if *size > cut {
+            1.0 / (size * size)
+        } else {
+            0.0
+        };
+        left.column_mut(k).scale_mut(weight);
+    }
+    right * left.transpose()
+}
+
+/// Singular values of a matrix, in no order.
+#[must_use]
+pub fn singular_values(matrix: &DMatrix<f64>) -> Vec<f64> {
+    let tall = match matrix.nrows() < matrix.ncols() {
+        true => matrix.transpose(),
+        false => matrix.clone(),
+    };
+    rotated(&tall).0.column_iter().map(|c| c.norm()).collect()
+}
+
+/// U Σ and V of a matrix U Σ Vᵀ that is not wider than high.
+///
+/// One-sided Jacobi rotations (Hestenes 1958): slow, short, and accurate to rounding also for small singular values.
+fn rotated(matrix: &DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
     let n = matrix.ncols();
     let mut left = matrix.clone();
     let mut right = DMatrix::identity(n, n);
@@ -41,18 +68,7 @@ pub fn pseudo_inverse(matrix: &DMatrix<f64>, tolerance: f64) -> DMatrix<f64> {
             break;
         }
     }
-    // Now left = U Σ, so A⁺ = V Σ⁻² (U Σ)ᵀ on the singular values that count.
-    let sizes: Vec<f64> = left.column_iter().map(|c| c.norm()).collect();
-    let cut = tolerance * sizes.iter().fold(0.0_f64, |s, x| s.max(*x));
-    for (k, size) in sizes.iter().enumerate() {
-        let weight = if *size > cut {
-            1.0 / (size * size)
-        } else {
-            0.0
-        };
-        left.column_mut(k).scale_mut(weight);
-    }
-    right * left.transpose()
+    (left, right)
 }
 
 /// M, Q, c, A and b of a state, as matrices.

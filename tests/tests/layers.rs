@@ -133,6 +133,8 @@ fn ukcore() {
             "scan",
             "scalar",
             "rounding",
+            "spec",
+            "plan",
             "mechanism",
             "pinv",
             "equations",

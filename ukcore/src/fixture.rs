@@ -4,7 +4,7 @@
 //! is independent of the macro's symbolic derivatives.
 
 use crate::mechanism::{
-    ConstraintKind, ConstraintSpec, Energy, Equations, Mechanism, Operations, ParamSpec, Spec,
+    ConstraintKind, ConstraintSpec, Costs, Energy, Equations, Mechanism, ParamSpec, Solve, Spec,
     Structure, Terms,
 };
 use crate::scalar::{Dual, Scalar};
@@ -159,15 +159,7 @@ const EMPTY: Spec = Spec {
     outputs: &[],
     structure: Structure {
         straight_line: false,
-        solve_operations: crate::mechanism::Operations {
-            additions: 0,
-            multiplications: 0,
-            divisions: 0,
-            square_roots: 0,
-            transcendentals: 0,
-            selections: 0,
-        },
-        solve: "",
+        solve: Solve::none("it is written by hand"),
         mass_pattern: &[],
         jacobian_pattern: &[],
         mass_diagonal: true,
@@ -179,14 +171,7 @@ const EMPTY: Spec = Spec {
         potential: false,
         conservative: false,
         left_out: &[],
-        operations: Operations {
-            additions: 0,
-            multiplications: 0,
-            divisions: 0,
-            square_roots: 0,
-            transcendentals: 0,
-            selections: 0,
-        },
+        costs: Costs::NONE,
     },
     equations: Equations {
         definitions: &[],

@@ -35,6 +35,7 @@ pub mod linearise;
 pub mod mechanism;
 mod metric;
 pub mod pinv;
+pub mod plan;
 mod rounding;
 mod saddle;
 pub mod scalar;
@@ -42,6 +43,7 @@ mod scan;
 #[cfg(feature = "simulate")]
 pub mod simulate;
 pub mod solver;
+mod spec;
 pub mod stabilise;
 #[cfg(feature = "simulate")]
 pub mod trajectory;
@@ -54,9 +56,10 @@ pub use linearise::Linearisation;
 #[doc(hidden)]
 pub use mechanism::emitted;
 pub use mechanism::{
-    ConstraintKind, ConstraintSpec, Energy, Equations, Mechanism, Operations, OutputSpec,
-    ParamSpec, Prepared, Spec, Structure, Terms,
+    Check, ConstraintKind, ConstraintSpec, Costs, Energy, Equations, Mechanism, Operations,
+    OutputSpec, ParamSpec, Pivot, Prepared, Solve, Spec, Structure, Terms,
 };
+pub use plan::Plan;
 pub use scalar::{Dual, Scalar};
 pub use solver::{Baumgarte, Formula, Solution, Solver, SolverOptions, SolverWork};
 pub use stabilise::{Correction, Projector, Stabilisation};

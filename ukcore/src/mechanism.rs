@@ -7,7 +7,13 @@
 use std::marker::PhantomData;
 
 use crate::error::Error;
+use crate::plan::Plan;
 use crate::scalar::Scalar;
+
+pub use crate::spec::{
+    Check, ConstraintKind, ConstraintSpec, Costs, Equations, Operations, OutputSpec, ParamSpec,
+    Pivot, Solve, Spec, Structure,
+};
 
 /// A declared mechanism: its parameters (`self`), what is known about it (`SPEC`), and its equations as straight-line code.
 ///
@@ -19,6 +25,10 @@ use crate::scalar::Scalar;
 pub trait Mechanism: Clone + Default + Send + Sync + 'static {
     /// Names, structure and readable equations.
     const SPEC: &'static Spec;
+
+    /// The emitted functions, in the order of this trait: name and formatted text. The numbers in it are those that run. Nothing of it is
+    /// in a program that does not read it.
+    const CODE: &'static [(&'static str, &'static str)] = &[];
 
     /// Value of parameter `index` (order of `SPEC.params`).
     fn parameter(&self, index: usize) -> f64;
@@ -67,6 +77,12 @@ pub trait Mechanism: Clone + Default + Send + Sync + 'static {
     fn prepared<S: Scalar>(&self) -> Prepared<Self, S> {
         let given = (0..Self::SPEC.params.len()).map(|i| S::from_f64(self.parameter(i)));
         Prepared::new(given.collect())
+    }
+
+    /// What the compiler decided about this mechanism, with reasons, costs and the sparsity of its equations: print it.
+    #[must_use]
+    fn plan() -> Plan {
+        Plan::new(Self::SPEC)
     }
 
     /// Value of the parameter called `name` (`"m"`, `"m[3]"`).
@@ -208,197 +224,6 @@ impl Energy<f64> {
     pub fn total(&self) -> f64 {
         self.kinetic + self.potential
     }
-}
-
-/// Everything known about a mechanism at compile time.
-#[derive(Debug)]
-pub struct Spec {
-    /// Type name.
-    pub name: &'static str,
-    /// Doc comment of the declaration.
-    pub doc: &'static str,
-    /// Parameters, families flattened (`m[0]`, `m[1]`, …).
-    pub params: &'static [ParamSpec],
-    /// What depends on parameters only and is computed once for a set of them: name and expression.
-    pub prepared: &'static [(&'static str, &'static str)],
-    /// Coordinate names (`x[0]`, `th1`), the order of q.
-    pub coords: &'static [&'static str],
-    /// Constraints, holonomic ones first, the order of the rows of A.
-    pub constraints: &'static [ConstraintSpec],
-    /// Number h of holonomic constraints.
-    pub holonomic: usize,
-    /// Outputs, in declared order.
-    pub outputs: &'static [OutputSpec],
-    /// What the compiler found out.
-    pub structure: Structure,
-    /// The derived equations, readable.
-    pub equations: Equations,
-}
-
-/// A parameter.
-#[derive(Debug)]
-pub struct ParamSpec {
-    /// Name as declared.
-    pub name: &'static str,
-    /// Doc comment; empty if none.
-    pub doc: &'static str,
-    /// Default value.
-    pub default: f64,
-}
-
-/// An output.
-#[derive(Debug)]
-pub struct OutputSpec {
-    /// Name as declared.
-    pub name: &'static str,
-    /// Doc comment; empty if none.
-    pub doc: &'static str,
-}
-
-/// A constraint.
-#[derive(Debug)]
-pub struct ConstraintSpec {
-    /// Name as declared, with indices (`link[3]`; components of vector equations `joint[0]`, `joint[1]`).
-    pub name: &'static str,
-    /// Holonomic or nonholonomic.
-    pub kind: ConstraintKind,
-    /// φ = 0, readable.
-    pub equation: &'static str,
-}
-
-/// Kind of a constraint (eqs. 3 and 4).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ConstraintKind {
-    /// φ(q, t) = 0, differentiated twice.
-    Holonomic,
-    /// φ(q, q̇, t) = 0, differentiated once.
-    Nonholonomic,
-}
-
-/// What the compiler found out about a mechanism.
-#[derive(Debug)]
-pub struct Structure {
-    /// [`Mechanism::acceleration`] and [`Mechanism::correction`] exist.
-    pub straight_line: bool,
-    /// How q̈ is solved for: the order of the elimination, or why there is none.
-    pub solve: &'static str,
-    /// Structural non-zeros (row, column) of M, both triangles.
-    pub mass_pattern: &'static [(usize, usize)],
-    /// Structural non-zeros (row, column) of A.
-    pub jacobian_pattern: &'static [(usize, usize)],
-    /// M has no off-diagonal entry.
-    pub mass_diagonal: bool,
-    /// M depends on neither q nor t.
-    pub mass_constant: bool,
-    /// A depends on neither q, q̇ nor t.
-    pub jacobian_constant: bool,
-    /// Coordinates whose row of M is zero: they need the Udwadia-Phohomsiri equation (eq. 19).
-    pub massless: &'static [usize],
-    /// No explicit time anywhere.
-    pub scleronomic: bool,
-    /// A `nonideal` section exists (c of eq. 8).
-    pub nonideal: bool,
-    /// A `potential` section exists.
-    pub potential: bool,
-    /// T + V is conserved: scleronomic, no `force` and no `nonideal`, nonholonomic constraints homogeneous in q̇, and M either constant or from `kinetic`.
-    pub conservative: bool,
-    /// Sentences: what was left out of the code for this mechanism, and why.
-    pub left_out: &'static [&'static str],
-    /// Operations in one call of [`Mechanism::dynamics`].
-    pub operations: Operations,
-    /// Operations in one call of [`Mechanism::acceleration`]; zero where there is no straight-line solve.
-    pub solve_operations: Operations,
-}
-
-/// Operation counts of emitted code.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Operations {
-    /// Additions, subtractions and negations.
-    pub additions: usize,
-    /// Multiplications.
-    pub multiplications: usize,
-    /// Divisions and reciprocals.
-    pub divisions: usize,
-    /// Square roots.
-    pub square_roots: usize,
-    /// Sines, exponentials, powers and the like; sine and cosine of one argument count as one.
-    pub transcendentals: usize,
-    /// Comparisons and selections (abs, sign, min, max).
-    pub selections: usize,
-}
-
-/// The derived equations as text; entries that are zero are absent.
-#[derive(Debug)]
-pub struct Equations {
-    /// Abbreviations (name, text) that the others use.
-    pub definitions: &'static [(&'static str, &'static str)],
-    /// Entries (row, column, text) of the lower triangle of M.
-    pub mass: &'static [(usize, usize, &'static str)],
-    /// Entries (coordinate, text) of Q.
-    pub force: &'static [(usize, &'static str)],
-    /// Entries (coordinate, text) of c.
-    pub nonideal: &'static [(usize, &'static str)],
-    /// Entries (row, column, text) of A.
-    pub jacobian: &'static [(usize, usize, &'static str)],
-    /// Entries (constraint, text) of b.
-    pub rhs: &'static [(usize, &'static str)],
-}
-
-impl Spec {
-    /// Number n of coordinates.
-    #[must_use]
-    pub const fn n(&self) -> usize {
-        self.coords.len()
-    }
-
-    /// Number m of constraints.
-    #[must_use]
-    pub const fn m(&self) -> usize {
-        self.constraints.len()
-    }
-
-    /// Index of the parameter called `name`.
-    ///
-    /// # Errors
-    /// [`Error::UnknownName`] with the nearest name.
-    pub fn parameter_index(&self, name: &str) -> Result<usize, Error> {
-        find("parameter", name, self.params.iter().map(|p| p.name))
-    }
-
-    /// Index of the coordinate called `name`.
-    ///
-    /// # Errors
-    /// [`Error::UnknownName`] with the nearest name.
-    pub fn coordinate_index(&self, name: &str) -> Result<usize, Error> {
-        find("coordinate", name, self.coords.iter().copied())
-    }
-
-    /// Index of the output called `name`.
-    ///
-    /// # Errors
-    /// [`Error::UnknownName`] with the nearest name.
-    pub fn output_index(&self, name: &str) -> Result<usize, Error> {
-        find("output", name, self.outputs.iter().map(|o| o.name))
-    }
-
-    /// Index of the constraint called `name`.
-    ///
-    /// # Errors
-    /// [`Error::UnknownName`] with the nearest name.
-    pub fn constraint_index(&self, name: &str) -> Result<usize, Error> {
-        find("constraint", name, self.constraints.iter().map(|c| c.name))
-    }
-}
-
-fn find<'a>(
-    kind: &'static str,
-    name: &str,
-    mut names: impl Iterator<Item = &'a str> + Clone,
-) -> Result<usize, Error> {
-    names
-        .clone()
-        .position(|n| n == name)
-        .ok_or_else(|| Error::unknown_name(kind, name, &mut names))
 }
 
 /// What emitted code calls. Not for other use.

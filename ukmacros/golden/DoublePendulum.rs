@@ -45,6 +45,20 @@
 /// b[outer] = -2*(sq(dot(x1) - dot(x2)) + sq(dot(y1) - dot(y2)))
 /// ```
 ///
+/// # How it is computed
+///
+/// By straight-line code: [M Aᵀ; A 0] is eliminated at compile time, which fills in 2 of its entries.
+///
+/// | operations | add | multiply | divide | root | function | select |
+/// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
+/// | M, Q, c, A and b | 8 | 12 | 0 | 0 | 0 | 0 |
+/// | dense LDLᵀ of [M Aᵀ; A 0] after that | 65 | 86 | 6 | 0 | 0 | 0 |
+/// | straight line, nothing hoisted | 23 | 43 | 4 | 0 | 0 | 6 |
+/// | straight line, as emitted | 24 | 43 | 2 | 0 | 0 | 2 |
+/// | correction of a projection | 15 | 39 | 2 | 0 | 0 | 2 |
+/// | once for a set of parameters | 0 | 4 | 2 | 0 | 0 | 4 |
+///
+/// `Mechanism::plan` tells the order, what is hoisted and left out, and draws the sparsity; `Mechanism::CODE` is the code.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(non_snake_case, clippy::approx_constant)]
 pub struct DoublePendulum {
@@ -137,7 +151,7 @@ impl ::ukcore::Mechanism for DoublePendulum {
             ("g", "g"),
             (
                 "safe_x1",
-                "(0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ m1 ? (0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ m2 ? 1 : 0) : 0)",
+                "(m1 ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ m1 ? (m2 ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ m2 ? 1 : 0) : 0) : 0) : 0)",
             ),
         ],
         coords: &["x1", "y1", "x2", "y2"],
@@ -166,7 +180,25 @@ impl ::ukcore::Mechanism for DoublePendulum {
         ],
         structure: ::ukcore::Structure {
             straight_line: true,
-            solve: "by straight-line elimination in the order x2 y2 x1 y1 inner outer",
+            solve: ::ukcore::Solve {
+                refusal: "",
+                pivots: &[
+                    ::ukcore::Pivot::Coordinate(2),
+                    ::ukcore::Pivot::Coordinate(3),
+                    ::ukcore::Pivot::Coordinate(0),
+                    ::ukcore::Pivot::Coordinate(1),
+                    ::ukcore::Pivot::Constraint(0),
+                    ::ukcore::Pivot::Constraint(1),
+                ],
+                fill: &[(5, 4)],
+                checks: &[
+                    ::ukcore::Check::Positive(2),
+                    ::ukcore::Check::Positive(0),
+                    ::ukcore::Check::Positive(4),
+                    ::ukcore::Check::Share(5),
+                ],
+                least_share: 0.0009765625,
+            },
             mass_pattern: &[(0, 0), (1, 1), (2, 2), (3, 3)],
             jacobian_pattern: &[(0, 0), (0, 1), (1, 0), (1, 1), (1, 2), (1, 3)],
             mass_diagonal: true,
@@ -185,21 +217,55 @@ impl ::ukcore::Mechanism for DoublePendulum {
                 "2 of 4 entries of Q: identically zero",
                 "Udwadia-Phohomsiri formula (eq. 19): no coordinate is massless while the parameters are positive",
             ],
-            operations: ::ukcore::Operations {
-                additions: 8,
-                multiplications: 12,
-                divisions: 0,
-                square_roots: 0,
-                transcendentals: 0,
-                selections: 0,
-            },
-            solve_operations: ::ukcore::Operations {
-                additions: 24,
-                multiplications: 43,
-                divisions: 2,
-                square_roots: 0,
-                transcendentals: 0,
-                selections: 2,
+            costs: ::ukcore::Costs {
+                dynamics: ::ukcore::Operations {
+                    additions: 8,
+                    multiplications: 12,
+                    divisions: 0,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 0,
+                },
+                dense: ::ukcore::Operations {
+                    additions: 65,
+                    multiplications: 86,
+                    divisions: 6,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 0,
+                },
+                unprepared: ::ukcore::Operations {
+                    additions: 23,
+                    multiplications: 43,
+                    divisions: 4,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 6,
+                },
+                acceleration: ::ukcore::Operations {
+                    additions: 24,
+                    multiplications: 43,
+                    divisions: 2,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 2,
+                },
+                correction: ::ukcore::Operations {
+                    additions: 15,
+                    multiplications: 39,
+                    divisions: 2,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 2,
+                },
+                prepare: ::ukcore::Operations {
+                    additions: 0,
+                    multiplications: 4,
+                    divisions: 2,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 4,
+                },
             },
         },
         equations: ::ukcore::Equations {
@@ -257,19 +323,15 @@ impl ::ukcore::Mechanism for DoublePendulum {
         prepared[7] = m1.recip();
         prepared[8] = g;
         let safe_x2 = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
             m2,
-            lit(1.0),
+            lit(1.7976931348623157e308),
+            S::select_le(lit(2.2250738585072014e-308), m2, lit(1.0), lit(0.0)),
             lit(0.0),
         );
         let safe_x1 = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
             m1,
-            safe_x2,
+            lit(1.7976931348623157e308),
+            S::select_le(lit(2.2250738585072014e-308), m1, safe_x2, lit(0.0)),
             lit(0.0),
         );
         prepared[9] = safe_x1;
@@ -435,9 +497,7 @@ impl ::ukcore::Mechanism for DoublePendulum {
         let pivot_inner = y1.mul_add(y1, x1 * x1);
         let per_pivot_inner = pivot_inner.recip();
         let safe_inner = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
+            lit(2.2250738585072014e-308),
             pivot_inner,
             safe_x1,
             lit(0.0),
@@ -515,9 +575,7 @@ impl ::ukcore::Mechanism for DoublePendulum {
         let pivot_inner = y1.mul_add(y1, x1 * x1);
         let per_pivot_inner = pivot_inner.recip();
         let safe_inner = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
+            lit(2.2250738585072014e-308),
             pivot_inner,
             safe_x1,
             lit(0.0),

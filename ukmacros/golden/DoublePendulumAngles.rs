@@ -19,6 +19,20 @@
 /// Q[th2] = m2*l1*dot(th1)*l2*dot(th2)*sin(th1 - th2) + m2*l1*dot(th1)*l2*(dot(th1) - dot(th2))*sin(th1 - th2) - m2*l2*g*sin(th2)
 /// ```
 ///
+/// # How it is computed
+///
+/// By straight-line code: [M Aᵀ; A 0] is eliminated at compile time, which fills in 0 of its entries.
+///
+/// | operations | add | multiply | divide | root | function | select |
+/// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
+/// | M, Q, c, A and b | 6 | 12 | 0 | 0 | 3 | 0 |
+/// | dense LDLᵀ of [M Aᵀ; A 0] after that | 3 | 6 | 2 | 0 | 0 | 0 |
+/// | straight line, nothing hoisted | 10 | 40 | 5 | 0 | 3 | 3 |
+/// | straight line, as emitted | 9 | 25 | 1 | 0 | 3 | 1 |
+/// | correction of a projection | 2 | 3 | 0 | 0 | 1 | 1 |
+/// | once for a set of parameters | 1 | 19 | 4 | 0 | 0 | 2 |
+///
+/// `Mechanism::plan` tells the order, what is hoisted and left out, and draws the sparsity; `Mechanism::CODE` is the code.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(non_snake_case, clippy::approx_constant)]
 pub struct DoublePendulumAngles {
@@ -115,7 +129,7 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
             ("times_m2", "0.0009765625*m2"),
             (
                 "safe_th1",
-                "(0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ (m1 + m2)*sq(l1) ? 1 : 0)",
+                "((m1 + m2)*sq(l1) ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ (m1 + m2)*sq(l1) ? 1 : 0) : 0)",
             ),
         ],
         coords: &["th1", "th2"],
@@ -141,7 +155,16 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         ],
         structure: ::ukcore::Structure {
             straight_line: true,
-            solve: "by straight-line elimination in the order th1 th2",
+            solve: ::ukcore::Solve {
+                refusal: "",
+                pivots: &[
+                    ::ukcore::Pivot::Coordinate(0),
+                    ::ukcore::Pivot::Coordinate(1),
+                ],
+                fill: &[],
+                checks: &[::ukcore::Check::Positive(0), ::ukcore::Check::Share(1)],
+                least_share: 0.0009765625,
+            },
             mass_pattern: &[(0, 0), (0, 1), (1, 0), (1, 1)],
             jacobian_pattern: &[],
             mass_diagonal: false,
@@ -157,21 +180,55 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
                 "∂/∂t terms: no equation contains the time",
                 "non-ideal force c (eq. 12): all constraints are ideal",
             ],
-            operations: ::ukcore::Operations {
-                additions: 6,
-                multiplications: 12,
-                divisions: 0,
-                square_roots: 0,
-                transcendentals: 3,
-                selections: 0,
-            },
-            solve_operations: ::ukcore::Operations {
-                additions: 9,
-                multiplications: 25,
-                divisions: 1,
-                square_roots: 0,
-                transcendentals: 3,
-                selections: 1,
+            costs: ::ukcore::Costs {
+                dynamics: ::ukcore::Operations {
+                    additions: 6,
+                    multiplications: 12,
+                    divisions: 0,
+                    square_roots: 0,
+                    transcendentals: 3,
+                    selections: 0,
+                },
+                dense: ::ukcore::Operations {
+                    additions: 3,
+                    multiplications: 6,
+                    divisions: 2,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 0,
+                },
+                unprepared: ::ukcore::Operations {
+                    additions: 10,
+                    multiplications: 40,
+                    divisions: 5,
+                    square_roots: 0,
+                    transcendentals: 3,
+                    selections: 3,
+                },
+                acceleration: ::ukcore::Operations {
+                    additions: 9,
+                    multiplications: 25,
+                    divisions: 1,
+                    square_roots: 0,
+                    transcendentals: 3,
+                    selections: 1,
+                },
+                correction: ::ukcore::Operations {
+                    additions: 2,
+                    multiplications: 3,
+                    divisions: 0,
+                    square_roots: 0,
+                    transcendentals: 1,
+                    selections: 1,
+                },
+                prepare: ::ukcore::Operations {
+                    additions: 1,
+                    multiplications: 19,
+                    divisions: 4,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 2,
+                },
             },
         },
         equations: ::ukcore::Equations {
@@ -243,11 +300,9 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         prepared[15] = m2;
         prepared[16] = lit(0.0009765625) * m2;
         let safe_th1 = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
             pivot_th1,
-            lit(1.0),
+            lit(1.7976931348623157e308),
+            S::select_le(lit(2.2250738585072014e-308), pivot_th1, lit(1.0), lit(0.0)),
             lit(0.0),
         );
         prepared[17] = safe_th1;

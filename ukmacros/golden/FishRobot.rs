@@ -68,6 +68,22 @@
 /// b[fin] = -sq(w)*a3*sin(w*t - phi)
 /// ```
 ///
+/// # How it is computed
+///
+/// By straight-line code: [M Aᵀ; A 0] is eliminated at compile time, which fills in 6 of its entries.
+/// Coordinate `th2` is not solved for, since `peduncle` replaces the inertia it lacks.
+/// Coordinate `th3` is not solved for, since `fin` replaces the inertia it lacks.
+///
+/// | operations | add | multiply | divide | root | function | select |
+/// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
+/// | M, Q, c, A and b | 15 | 52 | 0 | 0 | 5 | 4 |
+/// | dense LDLᵀ of [M Aᵀ; A 0] after that | 770 | 890 | 15 | 0 | 0 | 0 |
+/// | straight line, nothing hoisted | 49 | 181 | 7 | 0 | 5 | 16 |
+/// | straight line, as emitted | 47 | 111 | 2 | 0 | 5 | 6 |
+/// | correction of a projection | 25 | 53 | 2 | 0 | 3 | 2 |
+/// | once for a set of parameters | 2 | 67 | 5 | 0 | 0 | 10 |
+///
+/// `Mechanism::plan` tells the order, what is hoisted and left out, and draws the sparsity; `Mechanism::CODE` is the code.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(non_snake_case, clippy::approx_constant)]
 pub struct FishRobot {
@@ -343,7 +359,7 @@ impl ::ukcore::Mechanism for FishRobot {
             ("per_m3_per_per_m3_and_per_m2", "1/(m3*(1/m3 + 1/m2))"),
             (
                 "safe_joint2_0",
-                "(0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ 1/m3 + 1/m2 ? (0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ m2 ? (0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ i1 ? (0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ m3 ? (0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ m1 ? 1 : 0) : 0) : 0) : 0) : 0)",
+                "(1/m3 + 1/m2 ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ 1/m3 + 1/m2 ? (m2 ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ m2 ? (i1 ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ i1 ? (m3 ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ m3 ? (m1 ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ m1 ? 1 : 0) : 0) : 0) : 0) : 0) : 0) : 0) : 0) : 0) : 0)",
             ),
         ],
         coords: &["x1", "y1", "th1", "x2", "y2", "th2", "x3", "y3", "th3"],
@@ -408,7 +424,35 @@ impl ::ukcore::Mechanism for FishRobot {
         ],
         structure: ::ukcore::Structure {
             straight_line: true,
-            solve: "by straight-line elimination in the order (th2, peduncle) (th3, fin) x1 y1 x3 y3 th1 x2 y2 joint2[0] joint2[1] joint1[0] joint1[1]",
+            solve: ::ukcore::Solve {
+                refusal: "",
+                pivots: &[
+                    ::ukcore::Pivot::Massless(5, 4, "1"),
+                    ::ukcore::Pivot::Massless(8, 5, "1"),
+                    ::ukcore::Pivot::Coordinate(0),
+                    ::ukcore::Pivot::Coordinate(1),
+                    ::ukcore::Pivot::Coordinate(6),
+                    ::ukcore::Pivot::Coordinate(7),
+                    ::ukcore::Pivot::Coordinate(2),
+                    ::ukcore::Pivot::Coordinate(3),
+                    ::ukcore::Pivot::Coordinate(4),
+                    ::ukcore::Pivot::Constraint(2),
+                    ::ukcore::Pivot::Constraint(3),
+                    ::ukcore::Pivot::Constraint(0),
+                    ::ukcore::Pivot::Constraint(1),
+                ],
+                fill: &[(10, 9), (11, 9), (12, 10)],
+                checks: &[
+                    ::ukcore::Check::Positive(0),
+                    ::ukcore::Check::Positive(6),
+                    ::ukcore::Check::Positive(2),
+                    ::ukcore::Check::Positive(3),
+                    ::ukcore::Check::Positive(11),
+                    ::ukcore::Check::Share(9),
+                    ::ukcore::Check::Share(10),
+                ],
+                least_share: 0.0009765625,
+            },
             mass_pattern: &[(0, 0), (1, 1), (2, 2), (3, 3), (4, 4), (6, 6), (7, 7)],
             jacobian_pattern: &[
                 (0, 0),
@@ -444,21 +488,55 @@ impl ::ukcore::Mechanism for FishRobot {
                 "non-ideal force c (eq. 12): all constraints are ideal",
                 "4 of 9 entries of Q: identically zero",
             ],
-            operations: ::ukcore::Operations {
-                additions: 15,
-                multiplications: 52,
-                divisions: 0,
-                square_roots: 0,
-                transcendentals: 5,
-                selections: 4,
-            },
-            solve_operations: ::ukcore::Operations {
-                additions: 47,
-                multiplications: 111,
-                divisions: 2,
-                square_roots: 0,
-                transcendentals: 5,
-                selections: 6,
+            costs: ::ukcore::Costs {
+                dynamics: ::ukcore::Operations {
+                    additions: 15,
+                    multiplications: 52,
+                    divisions: 0,
+                    square_roots: 0,
+                    transcendentals: 5,
+                    selections: 4,
+                },
+                dense: ::ukcore::Operations {
+                    additions: 770,
+                    multiplications: 890,
+                    divisions: 15,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 0,
+                },
+                unprepared: ::ukcore::Operations {
+                    additions: 49,
+                    multiplications: 181,
+                    divisions: 7,
+                    square_roots: 0,
+                    transcendentals: 5,
+                    selections: 16,
+                },
+                acceleration: ::ukcore::Operations {
+                    additions: 47,
+                    multiplications: 111,
+                    divisions: 2,
+                    square_roots: 0,
+                    transcendentals: 5,
+                    selections: 6,
+                },
+                correction: ::ukcore::Operations {
+                    additions: 25,
+                    multiplications: 53,
+                    divisions: 2,
+                    square_roots: 0,
+                    transcendentals: 3,
+                    selections: 2,
+                },
+                prepare: ::ukcore::Operations {
+                    additions: 2,
+                    multiplications: 67,
+                    divisions: 5,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 10,
+                },
             },
         },
         equations: ::ukcore::Equations {
@@ -647,43 +725,38 @@ impl ::ukcore::Mechanism for FishRobot {
         prepared[56] = per_m1;
         prepared[57] = per_m3 * per_pivot_joint2_0;
         let safe_x1 = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
             m1,
-            lit(1.0),
+            lit(1.7976931348623157e308),
+            S::select_le(lit(2.2250738585072014e-308), m1, lit(1.0), lit(0.0)),
             lit(0.0),
         );
         let safe_x3 = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
             m3,
-            safe_x1,
+            lit(1.7976931348623157e308),
+            S::select_le(lit(2.2250738585072014e-308), m3, safe_x1, lit(0.0)),
             lit(0.0),
         );
         let safe_th1 = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
             i1,
-            safe_x3,
+            lit(1.7976931348623157e308),
+            S::select_le(lit(2.2250738585072014e-308), i1, safe_x3, lit(0.0)),
             lit(0.0),
         );
         let safe_x2 = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
             m2,
-            safe_th1,
+            lit(1.7976931348623157e308),
+            S::select_le(lit(2.2250738585072014e-308), m2, safe_th1, lit(0.0)),
             lit(0.0),
         );
         let safe_joint2_0 = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
             pivot_joint2_0,
-            safe_x2,
+            lit(1.7976931348623157e308),
+            S::select_le(
+                lit(2.2250738585072014e-308),
+                pivot_joint2_0,
+                safe_x2,
+                lit(0.0),
+            ),
             lit(0.0),
         );
         prepared[58] = safe_joint2_0;

@@ -43,6 +43,20 @@
 /// b[rod] = 2*(a*sq(w)*cos(w*t)*(pivot - y) - sq(dot(x)) - sq(dot(y) + a*w*sin(w*t)))
 /// ```
 ///
+/// # How it is computed
+///
+/// By straight-line code: [M Aᵀ; A 0] is eliminated at compile time, which fills in 0 of its entries.
+///
+/// | operations | add | multiply | divide | root | function | select |
+/// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
+/// | M, Q, c, A and b | 5 | 10 | 0 | 0 | 1 | 0 |
+/// | dense LDLᵀ of [M Aᵀ; A 0] after that | 10 | 16 | 3 | 0 | 0 | 0 |
+/// | straight line, nothing hoisted | 9 | 17 | 1 | 0 | 1 | 3 |
+/// | straight line, as emitted | 9 | 14 | 1 | 0 | 1 | 1 |
+/// | correction of a projection | 4 | 9 | 1 | 0 | 1 | 1 |
+/// | once for a set of parameters | 0 | 5 | 0 | 0 | 0 | 2 |
+///
+/// `Mechanism::plan` tells the order, what is hoisted and left out, and draws the sparsity; `Mechanism::CODE` is the code.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(non_snake_case, clippy::approx_constant)]
 pub struct KapitzaPendulum {
@@ -128,7 +142,7 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
             ("g", "g"),
             (
                 "safe_x",
-                "(0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ m ? 1 : 0)",
+                "(m ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ m ? 1 : 0) : 0)",
             ),
         ],
         coords: &["x", "y"],
@@ -152,7 +166,17 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         ],
         structure: ::ukcore::Structure {
             straight_line: true,
-            solve: "by straight-line elimination in the order x y rod",
+            solve: ::ukcore::Solve {
+                refusal: "",
+                pivots: &[
+                    ::ukcore::Pivot::Coordinate(0),
+                    ::ukcore::Pivot::Coordinate(1),
+                    ::ukcore::Pivot::Constraint(0),
+                ],
+                fill: &[],
+                checks: &[::ukcore::Check::Positive(0), ::ukcore::Check::Positive(2)],
+                least_share: 0.0009765625,
+            },
             mass_pattern: &[(0, 0), (1, 1)],
             jacobian_pattern: &[(0, 0), (0, 1)],
             mass_diagonal: true,
@@ -169,21 +193,55 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
                 "1 of 2 entries of Q: identically zero",
                 "Udwadia-Phohomsiri formula (eq. 19): no coordinate is massless while the parameters are positive",
             ],
-            operations: ::ukcore::Operations {
-                additions: 5,
-                multiplications: 10,
-                divisions: 0,
-                square_roots: 0,
-                transcendentals: 1,
-                selections: 0,
-            },
-            solve_operations: ::ukcore::Operations {
-                additions: 9,
-                multiplications: 14,
-                divisions: 1,
-                square_roots: 0,
-                transcendentals: 1,
-                selections: 1,
+            costs: ::ukcore::Costs {
+                dynamics: ::ukcore::Operations {
+                    additions: 5,
+                    multiplications: 10,
+                    divisions: 0,
+                    square_roots: 0,
+                    transcendentals: 1,
+                    selections: 0,
+                },
+                dense: ::ukcore::Operations {
+                    additions: 10,
+                    multiplications: 16,
+                    divisions: 3,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 0,
+                },
+                unprepared: ::ukcore::Operations {
+                    additions: 9,
+                    multiplications: 17,
+                    divisions: 1,
+                    square_roots: 0,
+                    transcendentals: 1,
+                    selections: 3,
+                },
+                acceleration: ::ukcore::Operations {
+                    additions: 9,
+                    multiplications: 14,
+                    divisions: 1,
+                    square_roots: 0,
+                    transcendentals: 1,
+                    selections: 1,
+                },
+                correction: ::ukcore::Operations {
+                    additions: 4,
+                    multiplications: 9,
+                    divisions: 1,
+                    square_roots: 0,
+                    transcendentals: 1,
+                    selections: 1,
+                },
+                prepare: ::ukcore::Operations {
+                    additions: 0,
+                    multiplications: 5,
+                    divisions: 0,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 2,
+                },
             },
         },
         equations: ::ukcore::Equations {
@@ -233,11 +291,9 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         prepared[6] = a * w * w;
         prepared[7] = g;
         let safe_x = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
             m,
-            lit(1.0),
+            lit(1.7976931348623157e308),
+            S::select_le(lit(2.2250738585072014e-308), m, lit(1.0), lit(0.0)),
             lit(0.0),
         );
         prepared[8] = safe_x;
@@ -397,9 +453,7 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         let pivot_rod = y_minus_pivot.mul_add(y_minus_pivot, x * x);
         let per_pivot_rod = pivot_rod.recip();
         let safe_rod = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
+            lit(2.2250738585072014e-308),
             pivot_rod,
             safe_x,
             lit(0.0),
@@ -440,9 +494,7 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
         let pivot_rod = y_minus_pivot.mul_add(y_minus_pivot, x * x);
         let per_pivot_rod = pivot_rod.recip();
         let safe_rod = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
+            lit(2.2250738585072014e-308),
             pivot_rod,
             safe_x,
             lit(0.0),

@@ -38,6 +38,20 @@
 /// b[edge] = -(dot(x)*cos(th)*dot(th) + sin(th)*dot(y)*dot(th))
 /// ```
 ///
+/// # How it is computed
+///
+/// By straight-line code: [M Aᵀ; A 0] is eliminated at compile time, which fills in 0 of its entries.
+///
+/// | operations | add | multiply | divide | root | function | select |
+/// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
+/// | M, Q, c, A and b | 3 | 4 | 0 | 0 | 1 | 0 |
+/// | dense LDLᵀ of [M Aᵀ; A 0] after that | 22 | 32 | 4 | 0 | 0 | 0 |
+/// | straight line, nothing hoisted | 4 | 13 | 1 | 0 | 2 | 5 |
+/// | straight line, as emitted | 4 | 11 | 1 | 0 | 1 | 1 |
+/// | correction of a projection | 2 | 6 | 1 | 0 | 1 | 1 |
+/// | once for a set of parameters | 0 | 3 | 0 | 0 | 1 | 4 |
+///
+/// `Mechanism::plan` tells the order, what is hoisted and left out, and draws the sparsity; `Mechanism::CODE` is the code.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(non_snake_case, clippy::approx_constant)]
 pub struct KnifeEdge {
@@ -113,7 +127,7 @@ impl ::ukcore::Mechanism for KnifeEdge {
             ("g_sin_slope", "g*sin(slope)"),
             (
                 "safe_x",
-                "(0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ m ? (0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ i ? 1 : 0) : 0)",
+                "(m ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ m ? (i ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ i ? 1 : 0) : 0) : 0) : 0)",
             ),
         ],
         coords: &["x", "y", "th"],
@@ -137,7 +151,22 @@ impl ::ukcore::Mechanism for KnifeEdge {
         ],
         structure: ::ukcore::Structure {
             straight_line: true,
-            solve: "by straight-line elimination in the order th x y edge",
+            solve: ::ukcore::Solve {
+                refusal: "",
+                pivots: &[
+                    ::ukcore::Pivot::Coordinate(2),
+                    ::ukcore::Pivot::Coordinate(0),
+                    ::ukcore::Pivot::Coordinate(1),
+                    ::ukcore::Pivot::Constraint(0),
+                ],
+                fill: &[],
+                checks: &[
+                    ::ukcore::Check::Positive(2),
+                    ::ukcore::Check::Positive(0),
+                    ::ukcore::Check::Positive(3),
+                ],
+                least_share: 0.0009765625,
+            },
             mass_pattern: &[(0, 0), (1, 1), (2, 2)],
             jacobian_pattern: &[(0, 0), (0, 1)],
             mass_diagonal: true,
@@ -156,21 +185,55 @@ impl ::ukcore::Mechanism for KnifeEdge {
                 "2 of 3 entries of Q: identically zero",
                 "Udwadia-Phohomsiri formula (eq. 19): no coordinate is massless while the parameters are positive",
             ],
-            operations: ::ukcore::Operations {
-                additions: 3,
-                multiplications: 4,
-                divisions: 0,
-                square_roots: 0,
-                transcendentals: 1,
-                selections: 0,
-            },
-            solve_operations: ::ukcore::Operations {
-                additions: 4,
-                multiplications: 11,
-                divisions: 1,
-                square_roots: 0,
-                transcendentals: 1,
-                selections: 1,
+            costs: ::ukcore::Costs {
+                dynamics: ::ukcore::Operations {
+                    additions: 3,
+                    multiplications: 4,
+                    divisions: 0,
+                    square_roots: 0,
+                    transcendentals: 1,
+                    selections: 0,
+                },
+                dense: ::ukcore::Operations {
+                    additions: 22,
+                    multiplications: 32,
+                    divisions: 4,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 0,
+                },
+                unprepared: ::ukcore::Operations {
+                    additions: 4,
+                    multiplications: 13,
+                    divisions: 1,
+                    square_roots: 0,
+                    transcendentals: 2,
+                    selections: 5,
+                },
+                acceleration: ::ukcore::Operations {
+                    additions: 4,
+                    multiplications: 11,
+                    divisions: 1,
+                    square_roots: 0,
+                    transcendentals: 1,
+                    selections: 1,
+                },
+                correction: ::ukcore::Operations {
+                    additions: 2,
+                    multiplications: 6,
+                    divisions: 1,
+                    square_roots: 0,
+                    transcendentals: 1,
+                    selections: 1,
+                },
+                prepare: ::ukcore::Operations {
+                    additions: 0,
+                    multiplications: 3,
+                    divisions: 0,
+                    square_roots: 0,
+                    transcendentals: 1,
+                    selections: 4,
+                },
             },
         },
         equations: ::ukcore::Equations {
@@ -211,19 +274,15 @@ impl ::ukcore::Mechanism for KnifeEdge {
         prepared[2] = i;
         prepared[3] = g * sin_slope;
         let safe_th = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
             i,
-            lit(1.0),
+            lit(1.7976931348623157e308),
+            S::select_le(lit(2.2250738585072014e-308), i, lit(1.0), lit(0.0)),
             lit(0.0),
         );
         let safe_x = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
             m,
-            safe_th,
+            lit(1.7976931348623157e308),
+            S::select_le(lit(2.2250738585072014e-308), m, safe_th, lit(0.0)),
             lit(0.0),
         );
         prepared[4] = safe_x;
@@ -354,9 +413,7 @@ impl ::ukcore::Mechanism for KnifeEdge {
         let pivot_edge = cos_th.mul_add(cos_th, sin_th * sin_th);
         let per_pivot_edge = pivot_edge.recip();
         let safe_edge = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
+            lit(2.2250738585072014e-308),
             pivot_edge,
             safe_x,
             lit(0.0),
@@ -389,9 +446,7 @@ impl ::ukcore::Mechanism for KnifeEdge {
         let pivot_edge = cos_th.mul_add(cos_th, sin_th * sin_th);
         let per_pivot_edge = pivot_edge.recip();
         let safe_edge = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
+            lit(2.2250738585072014e-308),
             pivot_edge,
             safe_x,
             lit(0.0),

@@ -32,6 +32,17 @@
 /// A[balance, x] = -k2
 /// ```
 ///
+/// # How it is computed
+///
+/// By the dense, rank-revealing solve: there is no straight line, since `joint` has no mass, and no constraint in which its coefficient is a number.
+///
+/// | operations | add | multiply | divide | root | function | select |
+/// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
+/// | M, Q, c, A and b | 4 | 2 | 0 | 0 | 0 | 0 |
+/// | dense LDLᵀ of [M Aᵀ; A 0] after that | 10 | 16 | 3 | 0 | 0 | 0 |
+/// | once for a set of parameters | 1 | 1 | 0 | 0 | 0 | 0 |
+///
+/// `Mechanism::plan` tells the order, what is hoisted and left out, and draws the sparsity; `Mechanism::CODE` is the code.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(non_snake_case, clippy::approx_constant)]
 pub struct MasslessSpring {
@@ -112,7 +123,9 @@ impl ::ukcore::Mechanism for MasslessSpring {
         ],
         structure: ::ukcore::Structure {
             straight_line: false,
-            solve: "by the rank-revealing solve, since a massless coordinate has no constraint in which its coefficient is a number",
+            solve: ::ukcore::Solve::none(
+                "`joint` has no mass, and no constraint in which its coefficient is a number",
+            ),
             mass_pattern: &[(1, 1)],
             jacobian_pattern: &[(0, 0), (0, 1)],
             mass_diagonal: true,
@@ -129,21 +142,55 @@ impl ::ukcore::Mechanism for MasslessSpring {
                 "non-ideal force c (eq. 12): all constraints are ideal",
                 "1 of 1 entries of b: identically zero",
             ],
-            operations: ::ukcore::Operations {
-                additions: 4,
-                multiplications: 2,
-                divisions: 0,
-                square_roots: 0,
-                transcendentals: 0,
-                selections: 0,
-            },
-            solve_operations: ::ukcore::Operations {
-                additions: 0,
-                multiplications: 0,
-                divisions: 0,
-                square_roots: 0,
-                transcendentals: 0,
-                selections: 0,
+            costs: ::ukcore::Costs {
+                dynamics: ::ukcore::Operations {
+                    additions: 4,
+                    multiplications: 2,
+                    divisions: 0,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 0,
+                },
+                dense: ::ukcore::Operations {
+                    additions: 10,
+                    multiplications: 16,
+                    divisions: 3,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 0,
+                },
+                unprepared: ::ukcore::Operations {
+                    additions: 0,
+                    multiplications: 0,
+                    divisions: 0,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 0,
+                },
+                acceleration: ::ukcore::Operations {
+                    additions: 0,
+                    multiplications: 0,
+                    divisions: 0,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 0,
+                },
+                correction: ::ukcore::Operations {
+                    additions: 0,
+                    multiplications: 0,
+                    divisions: 0,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 0,
+                },
+                prepare: ::ukcore::Operations {
+                    additions: 1,
+                    multiplications: 1,
+                    divisions: 0,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 0,
+                },
             },
         },
         equations: ::ukcore::Equations {

@@ -36,6 +36,20 @@
 /// b[rod] = -2*(sq(dot(x)) + sq(dot(y)))
 /// ```
 ///
+/// # How it is computed
+///
+/// By straight-line code: [M Aᵀ; A 0] is eliminated at compile time, which fills in 0 of its entries.
+///
+/// | operations | add | multiply | divide | root | function | select |
+/// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
+/// | M, Q, c, A and b | 2 | 5 | 0 | 0 | 0 | 0 |
+/// | dense LDLᵀ of [M Aᵀ; A 0] after that | 10 | 16 | 3 | 0 | 0 | 0 |
+/// | straight line, nothing hoisted | 5 | 9 | 1 | 0 | 0 | 3 |
+/// | straight line, as emitted | 6 | 9 | 1 | 0 | 0 | 1 |
+/// | correction of a projection | 3 | 7 | 1 | 0 | 0 | 1 |
+/// | once for a set of parameters | 0 | 2 | 1 | 0 | 0 | 2 |
+///
+/// `Mechanism::plan` tells the order, what is hoisted and left out, and draws the sparsity; `Mechanism::CODE` is the code.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(non_snake_case, clippy::approx_constant)]
 pub struct Pendulum {
@@ -102,7 +116,7 @@ impl ::ukcore::Mechanism for Pendulum {
             ("m", "m"),
             (
                 "safe_x",
-                "(0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ m ? 1 : 0)",
+                "(m ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ m ? 1 : 0) : 0)",
             ),
         ],
         coords: &["x", "y"],
@@ -126,7 +140,17 @@ impl ::ukcore::Mechanism for Pendulum {
         ],
         structure: ::ukcore::Structure {
             straight_line: true,
-            solve: "by straight-line elimination in the order x y rod",
+            solve: ::ukcore::Solve {
+                refusal: "",
+                pivots: &[
+                    ::ukcore::Pivot::Coordinate(0),
+                    ::ukcore::Pivot::Coordinate(1),
+                    ::ukcore::Pivot::Constraint(0),
+                ],
+                fill: &[],
+                checks: &[::ukcore::Check::Positive(0), ::ukcore::Check::Positive(2)],
+                least_share: 0.0009765625,
+            },
             mass_pattern: &[(0, 0), (1, 1)],
             jacobian_pattern: &[(0, 0), (0, 1)],
             mass_diagonal: true,
@@ -144,21 +168,55 @@ impl ::ukcore::Mechanism for Pendulum {
                 "1 of 2 entries of Q: identically zero",
                 "Udwadia-Phohomsiri formula (eq. 19): no coordinate is massless while the parameters are positive",
             ],
-            operations: ::ukcore::Operations {
-                additions: 2,
-                multiplications: 5,
-                divisions: 0,
-                square_roots: 0,
-                transcendentals: 0,
-                selections: 0,
-            },
-            solve_operations: ::ukcore::Operations {
-                additions: 6,
-                multiplications: 9,
-                divisions: 1,
-                square_roots: 0,
-                transcendentals: 0,
-                selections: 1,
+            costs: ::ukcore::Costs {
+                dynamics: ::ukcore::Operations {
+                    additions: 2,
+                    multiplications: 5,
+                    divisions: 0,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 0,
+                },
+                dense: ::ukcore::Operations {
+                    additions: 10,
+                    multiplications: 16,
+                    divisions: 3,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 0,
+                },
+                unprepared: ::ukcore::Operations {
+                    additions: 5,
+                    multiplications: 9,
+                    divisions: 1,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 3,
+                },
+                acceleration: ::ukcore::Operations {
+                    additions: 6,
+                    multiplications: 9,
+                    divisions: 1,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 1,
+                },
+                correction: ::ukcore::Operations {
+                    additions: 3,
+                    multiplications: 7,
+                    divisions: 1,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 1,
+                },
+                prepare: ::ukcore::Operations {
+                    additions: 0,
+                    multiplications: 2,
+                    divisions: 1,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 2,
+                },
             },
         },
         equations: ::ukcore::Equations {
@@ -196,11 +254,9 @@ impl ::ukcore::Mechanism for Pendulum {
         prepared[3] = m / l;
         prepared[4] = m;
         let safe_x = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
             m,
-            lit(1.0),
+            lit(1.7976931348623157e308),
+            S::select_le(lit(2.2250738585072014e-308), m, lit(1.0), lit(0.0)),
             lit(0.0),
         );
         prepared[5] = safe_x;
@@ -332,9 +388,7 @@ impl ::ukcore::Mechanism for Pendulum {
         let pivot_rod = y.mul_add(y, x * x);
         let per_pivot_rod = pivot_rod.recip();
         let safe_rod = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
+            lit(2.2250738585072014e-308),
             pivot_rod,
             safe_x,
             lit(0.0),
@@ -364,9 +418,7 @@ impl ::ukcore::Mechanism for Pendulum {
         let pivot_rod = y.mul_add(y, x * x);
         let per_pivot_rod = pivot_rod.recip();
         let safe_rod = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
+            lit(2.2250738585072014e-308),
             pivot_rod,
             safe_x,
             lit(0.0),

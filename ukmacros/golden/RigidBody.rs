@@ -58,6 +58,20 @@
 /// b[unit] = -2*(sq(dot(e0)) + sq(dot(e1)) + sq(dot(e2)) + sq(dot(e3)))
 /// ```
 ///
+/// # How it is computed
+///
+/// By straight-line code: [M Aᵀ; A 0] is eliminated at compile time, which fills in 0 of its entries.
+///
+/// | operations | add | multiply | divide | root | function | select |
+/// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
+/// | M, Q, c, A and b | 40 | 119 | 0 | 0 | 0 | 0 |
+/// | dense LDLᵀ of [M Aᵀ; A 0] after that | 40 | 55 | 5 | 0 | 0 | 0 |
+/// | straight line, nothing hoisted | 85 | 177 | 5 | 0 | 0 | 5 |
+/// | straight line, as emitted | 85 | 177 | 5 | 0 | 0 | 5 |
+/// | correction of a projection | 50 | 128 | 5 | 0 | 0 | 5 |
+/// | once for a set of parameters | 0 | 3 | 0 | 0 | 0 | 0 |
+///
+/// `Mechanism::plan` tells the order, what is hoisted and left out, and draws the sparsity; `Mechanism::CODE` is the code.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(non_snake_case, clippy::approx_constant)]
 pub struct RigidBody {
@@ -173,7 +187,25 @@ impl ::ukcore::Mechanism for RigidBody {
         ],
         structure: ::ukcore::Structure {
             straight_line: true,
-            solve: "by straight-line elimination in the order e0 e1 e2 e3 unit",
+            solve: ::ukcore::Solve {
+                refusal: "",
+                pivots: &[
+                    ::ukcore::Pivot::Coordinate(0),
+                    ::ukcore::Pivot::Coordinate(1),
+                    ::ukcore::Pivot::Coordinate(2),
+                    ::ukcore::Pivot::Coordinate(3),
+                    ::ukcore::Pivot::Constraint(0),
+                ],
+                fill: &[],
+                checks: &[
+                    ::ukcore::Check::Positive(0),
+                    ::ukcore::Check::Share(1),
+                    ::ukcore::Check::Share(2),
+                    ::ukcore::Check::Share(3),
+                    ::ukcore::Check::Positive(4),
+                ],
+                least_share: 0.0009765625,
+            },
             mass_pattern: &[
                 (0, 0),
                 (0, 1),
@@ -205,21 +237,55 @@ impl ::ukcore::Mechanism for RigidBody {
                 "∂/∂t terms: no equation contains the time",
                 "non-ideal force c (eq. 12): all constraints are ideal",
             ],
-            operations: ::ukcore::Operations {
-                additions: 40,
-                multiplications: 119,
-                divisions: 0,
-                square_roots: 0,
-                transcendentals: 0,
-                selections: 0,
-            },
-            solve_operations: ::ukcore::Operations {
-                additions: 85,
-                multiplications: 177,
-                divisions: 5,
-                square_roots: 0,
-                transcendentals: 0,
-                selections: 5,
+            costs: ::ukcore::Costs {
+                dynamics: ::ukcore::Operations {
+                    additions: 40,
+                    multiplications: 119,
+                    divisions: 0,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 0,
+                },
+                dense: ::ukcore::Operations {
+                    additions: 40,
+                    multiplications: 55,
+                    divisions: 5,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 0,
+                },
+                unprepared: ::ukcore::Operations {
+                    additions: 85,
+                    multiplications: 177,
+                    divisions: 5,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 5,
+                },
+                acceleration: ::ukcore::Operations {
+                    additions: 85,
+                    multiplications: 177,
+                    divisions: 5,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 5,
+                },
+                correction: ::ukcore::Operations {
+                    additions: 50,
+                    multiplications: 128,
+                    divisions: 5,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 5,
+                },
+                prepare: ::ukcore::Operations {
+                    additions: 0,
+                    multiplications: 3,
+                    divisions: 0,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 0,
+                },
             },
         },
         equations: ::ukcore::Equations {
@@ -586,9 +652,7 @@ impl ::ukcore::Mechanism for RigidBody {
             * (e3 * e3).mul_add(i3, (e2 * e2).mul_add(i2, e1 * e1 * i1));
         let per_pivot_e0 = pivot_e0.recip();
         let safe_e0 = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
+            lit(2.2250738585072014e-308),
             pivot_e0,
             lit(1.0),
             lit(0.0),
@@ -764,9 +828,7 @@ impl ::ukcore::Mechanism for RigidBody {
             );
         let per_pivot_unit = pivot_unit.recip();
         let safe_unit = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
+            lit(2.2250738585072014e-308),
             pivot_unit,
             safe_e3,
             lit(0.0),
@@ -851,9 +913,7 @@ impl ::ukcore::Mechanism for RigidBody {
             * (e3 * e3).mul_add(i3, (e2 * e2).mul_add(i2, e1 * e1 * i1));
         let per_pivot_e0 = pivot_e0.recip();
         let safe_e0 = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
+            lit(2.2250738585072014e-308),
             pivot_e0,
             lit(1.0),
             lit(0.0),
@@ -939,9 +999,7 @@ impl ::ukcore::Mechanism for RigidBody {
             );
         let per_pivot_unit = pivot_unit.recip();
         let safe_unit = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
+            lit(2.2250738585072014e-308),
             pivot_unit,
             safe_e3,
             lit(0.0),

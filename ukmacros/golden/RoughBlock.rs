@@ -45,6 +45,20 @@
 /// c[y] = cos(slope)*sin(slope)*mu*m*g*sign(speed_down)
 /// ```
 ///
+/// # How it is computed
+///
+/// By straight-line code: [M Aᵀ; A 0] is eliminated at compile time, which fills in 0 of its entries.
+///
+/// | operations | add | multiply | divide | root | function | select |
+/// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
+/// | M, Q, c, A and b | 3 | 4 | 0 | 0 | 0 | 1 |
+/// | dense LDLᵀ of [M Aᵀ; A 0] after that | 10 | 16 | 3 | 0 | 0 | 0 |
+/// | straight line, nothing hoisted | 8 | 17 | 1 | 0 | 1 | 5 |
+/// | straight line, as emitted | 7 | 8 | 0 | 0 | 0 | 1 |
+/// | correction of a projection | 2 | 2 | 0 | 0 | 0 | 0 |
+/// | once for a set of parameters | 1 | 22 | 1 | 0 | 1 | 4 |
+///
+/// `Mechanism::plan` tells the order, what is hoisted and left out, and draws the sparsity; `Mechanism::CODE` is the code.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(non_snake_case, clippy::approx_constant)]
 pub struct RoughBlock {
@@ -130,7 +144,7 @@ impl ::ukcore::Mechanism for RoughBlock {
             ("prepared_part_3", "cos(slope)/(sq(sin(slope)) + sq(cos(slope)))"),
             (
                 "safe_plane",
-                "(0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ sq(sin(slope)) + sq(cos(slope)) ? (0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ m ? 1 : 0) : 0)",
+                "(sq(sin(slope)) + sq(cos(slope)) ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ sq(sin(slope)) + sq(cos(slope)) ? (m ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ m ? 1 : 0) : 0) : 0) : 0)",
             ),
         ],
         coords: &["x", "y"],
@@ -158,7 +172,17 @@ impl ::ukcore::Mechanism for RoughBlock {
         ],
         structure: ::ukcore::Structure {
             straight_line: true,
-            solve: "by straight-line elimination in the order x y plane",
+            solve: ::ukcore::Solve {
+                refusal: "",
+                pivots: &[
+                    ::ukcore::Pivot::Coordinate(0),
+                    ::ukcore::Pivot::Coordinate(1),
+                    ::ukcore::Pivot::Constraint(0),
+                ],
+                fill: &[],
+                checks: &[::ukcore::Check::Positive(0), ::ukcore::Check::Positive(2)],
+                least_share: 0.0009765625,
+            },
             mass_pattern: &[(0, 0), (1, 1)],
             jacobian_pattern: &[(0, 0), (0, 1)],
             mass_diagonal: true,
@@ -176,21 +200,55 @@ impl ::ukcore::Mechanism for RoughBlock {
                 "1 of 2 entries of Q: identically zero",
                 "Udwadia-Phohomsiri formula (eq. 19): no coordinate is massless while the parameters are positive",
             ],
-            operations: ::ukcore::Operations {
-                additions: 3,
-                multiplications: 4,
-                divisions: 0,
-                square_roots: 0,
-                transcendentals: 0,
-                selections: 1,
-            },
-            solve_operations: ::ukcore::Operations {
-                additions: 7,
-                multiplications: 8,
-                divisions: 0,
-                square_roots: 0,
-                transcendentals: 0,
-                selections: 1,
+            costs: ::ukcore::Costs {
+                dynamics: ::ukcore::Operations {
+                    additions: 3,
+                    multiplications: 4,
+                    divisions: 0,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 1,
+                },
+                dense: ::ukcore::Operations {
+                    additions: 10,
+                    multiplications: 16,
+                    divisions: 3,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 0,
+                },
+                unprepared: ::ukcore::Operations {
+                    additions: 8,
+                    multiplications: 17,
+                    divisions: 1,
+                    square_roots: 0,
+                    transcendentals: 1,
+                    selections: 5,
+                },
+                acceleration: ::ukcore::Operations {
+                    additions: 7,
+                    multiplications: 8,
+                    divisions: 0,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 1,
+                },
+                correction: ::ukcore::Operations {
+                    additions: 2,
+                    multiplications: 2,
+                    divisions: 0,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 0,
+                },
+                prepare: ::ukcore::Operations {
+                    additions: 1,
+                    multiplications: 22,
+                    divisions: 1,
+                    square_roots: 0,
+                    transcendentals: 1,
+                    selections: 4,
+                },
             },
         },
         equations: ::ukcore::Equations {
@@ -245,19 +303,15 @@ impl ::ukcore::Mechanism for RoughBlock {
         prepared[12] = g * cos_slope;
         prepared[13] = cos_slope * per_pivot_plane;
         let safe_x = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
             m,
-            lit(1.0),
+            lit(1.7976931348623157e308),
+            S::select_le(lit(2.2250738585072014e-308), m, lit(1.0), lit(0.0)),
             lit(0.0),
         );
         let safe_plane = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
             pivot_plane,
-            safe_x,
+            lit(1.7976931348623157e308),
+            S::select_le(lit(2.2250738585072014e-308), pivot_plane, safe_x, lit(0.0)),
             lit(0.0),
         );
         prepared[14] = safe_plane;

@@ -69,6 +69,22 @@
 /// b[wrist_pin[1]] = 0.5*l*sin(th2)*sq(dot(th2))
 /// ```
 ///
+/// # How it is computed
+///
+/// By straight-line code: [M Aᵀ; A 0] is eliminated at compile time, which fills in 22 of its entries.
+/// Coordinate `y3` is not solved for, since `guide[0]` prescribes it alone.
+/// Coordinate `th3` is not solved for, since `guide[1]` prescribes it alone.
+///
+/// | operations | add | multiply | divide | root | function | select |
+/// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
+/// | M, Q, c, A and b | 5 | 28 | 0 | 0 | 2 | 0 |
+/// | dense LDLᵀ of [M Aᵀ; A 0] after that | 1088 | 1241 | 17 | 0 | 0 | 0 |
+/// | straight line, nothing hoisted | 86 | 221 | 11 | 0 | 2 | 16 |
+/// | straight line, as emitted | 85 | 153 | 6 | 0 | 2 | 6 |
+/// | correction of a projection | 75 | 115 | 6 | 0 | 2 | 6 |
+/// | once for a set of parameters | 2 | 29 | 5 | 0 | 0 | 10 |
+///
+/// `Mechanism::plan` tells the order, what is hoisted and left out, and draws the sparsity; `Mechanism::CODE` is the code.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(non_snake_case, clippy::approx_constant)]
 pub struct SliderCrank {
@@ -240,7 +256,7 @@ impl ::ukcore::Mechanism for SliderCrank {
             ("per_i1_r", "r/i1"),
             (
                 "safe_th2",
-                "(0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ i2 ? (0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ i1 ? (0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ m2 ? (0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ m1 ? (0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ m3 ? 1 : 0) : 0) : 0) : 0) : 0)",
+                "(i2 ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ i2 ? (i1 ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ i1 ? (m2 ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ m2 ? (m1 ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ m1 ? (m3 ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ m3 ? 1 : 0) : 0) : 0) : 0) : 0) : 0) : 0) : 0) : 0) : 0)",
             ),
         ],
         coords: &["x1", "y1", "th1", "x2", "y2", "th2", "x3", "y3", "th3"],
@@ -303,7 +319,53 @@ impl ::ukcore::Mechanism for SliderCrank {
         ],
         structure: ::ukcore::Structure {
             straight_line: true,
-            solve: "by straight-line elimination in the order (y3, guide[0]) (th3, guide[1]) x3 x1 y1 x2 y2 th1 th2 bearing[0] bearing[1] wrist_pin[0] wrist_pin[1] crank_pin[0] crank_pin[1]",
+            solve: ::ukcore::Solve {
+                refusal: "",
+                pivots: &[
+                    ::ukcore::Pivot::Prescribed(7, 6, "1"),
+                    ::ukcore::Pivot::Prescribed(8, 7, "1"),
+                    ::ukcore::Pivot::Coordinate(6),
+                    ::ukcore::Pivot::Coordinate(0),
+                    ::ukcore::Pivot::Coordinate(1),
+                    ::ukcore::Pivot::Coordinate(3),
+                    ::ukcore::Pivot::Coordinate(4),
+                    ::ukcore::Pivot::Coordinate(2),
+                    ::ukcore::Pivot::Coordinate(5),
+                    ::ukcore::Pivot::Constraint(0),
+                    ::ukcore::Pivot::Constraint(1),
+                    ::ukcore::Pivot::Constraint(4),
+                    ::ukcore::Pivot::Constraint(5),
+                    ::ukcore::Pivot::Constraint(2),
+                    ::ukcore::Pivot::Constraint(3),
+                ],
+                fill: &[
+                    (10, 9),
+                    (11, 9),
+                    (11, 10),
+                    (12, 9),
+                    (12, 10),
+                    (12, 11),
+                    (13, 11),
+                    (13, 12),
+                    (14, 11),
+                    (14, 12),
+                    (14, 13),
+                ],
+                checks: &[
+                    ::ukcore::Check::Positive(6),
+                    ::ukcore::Check::Positive(0),
+                    ::ukcore::Check::Positive(3),
+                    ::ukcore::Check::Positive(2),
+                    ::ukcore::Check::Positive(5),
+                    ::ukcore::Check::Positive(9),
+                    ::ukcore::Check::Share(10),
+                    ::ukcore::Check::Positive(13),
+                    ::ukcore::Check::Share(14),
+                    ::ukcore::Check::Share(11),
+                    ::ukcore::Check::Share(12),
+                ],
+                least_share: 0.0009765625,
+            },
             mass_pattern: &[
                 (0, 0),
                 (1, 1),
@@ -354,21 +416,55 @@ impl ::ukcore::Mechanism for SliderCrank {
                 "5 of 9 entries of Q: identically zero",
                 "Udwadia-Phohomsiri formula (eq. 19): no coordinate is massless while the parameters are positive",
             ],
-            operations: ::ukcore::Operations {
-                additions: 5,
-                multiplications: 28,
-                divisions: 0,
-                square_roots: 0,
-                transcendentals: 2,
-                selections: 0,
-            },
-            solve_operations: ::ukcore::Operations {
-                additions: 85,
-                multiplications: 153,
-                divisions: 6,
-                square_roots: 0,
-                transcendentals: 2,
-                selections: 6,
+            costs: ::ukcore::Costs {
+                dynamics: ::ukcore::Operations {
+                    additions: 5,
+                    multiplications: 28,
+                    divisions: 0,
+                    square_roots: 0,
+                    transcendentals: 2,
+                    selections: 0,
+                },
+                dense: ::ukcore::Operations {
+                    additions: 1088,
+                    multiplications: 1241,
+                    divisions: 17,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 0,
+                },
+                unprepared: ::ukcore::Operations {
+                    additions: 86,
+                    multiplications: 221,
+                    divisions: 11,
+                    square_roots: 0,
+                    transcendentals: 2,
+                    selections: 16,
+                },
+                acceleration: ::ukcore::Operations {
+                    additions: 85,
+                    multiplications: 153,
+                    divisions: 6,
+                    square_roots: 0,
+                    transcendentals: 2,
+                    selections: 6,
+                },
+                correction: ::ukcore::Operations {
+                    additions: 75,
+                    multiplications: 115,
+                    divisions: 6,
+                    square_roots: 0,
+                    transcendentals: 2,
+                    selections: 6,
+                },
+                prepare: ::ukcore::Operations {
+                    additions: 2,
+                    multiplications: 29,
+                    divisions: 5,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 10,
+                },
             },
         },
         equations: ::ukcore::Equations {
@@ -497,43 +593,33 @@ impl ::ukcore::Mechanism for SliderCrank {
         prepared[30] = per_m3;
         prepared[31] = r * per_i1;
         let safe_x3 = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
             m3,
-            lit(1.0),
+            lit(1.7976931348623157e308),
+            S::select_le(lit(2.2250738585072014e-308), m3, lit(1.0), lit(0.0)),
             lit(0.0),
         );
         let safe_x1 = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
             m1,
-            safe_x3,
+            lit(1.7976931348623157e308),
+            S::select_le(lit(2.2250738585072014e-308), m1, safe_x3, lit(0.0)),
             lit(0.0),
         );
         let safe_x2 = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
             m2,
-            safe_x1,
+            lit(1.7976931348623157e308),
+            S::select_le(lit(2.2250738585072014e-308), m2, safe_x1, lit(0.0)),
             lit(0.0),
         );
         let safe_th1 = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
             i1,
-            safe_x2,
+            lit(1.7976931348623157e308),
+            S::select_le(lit(2.2250738585072014e-308), i1, safe_x2, lit(0.0)),
             lit(0.0),
         );
         let safe_th2 = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
             i2,
-            safe_th1,
+            lit(1.7976931348623157e308),
+            S::select_le(lit(2.2250738585072014e-308), i2, safe_th1, lit(0.0)),
             lit(0.0),
         );
         prepared[32] = safe_th2;
@@ -847,9 +933,7 @@ impl ::ukcore::Mechanism for SliderCrank {
         let pivot_bearing_0 = per_m1 + acceleration_0_part_2;
         let per_pivot_bearing_0 = pivot_bearing_0.recip();
         let safe_bearing_0 = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
+            lit(2.2250738585072014e-308),
             pivot_bearing_0,
             safe_th2,
             lit(0.0),
@@ -889,9 +973,7 @@ impl ::ukcore::Mechanism for SliderCrank {
         let pivot_wrist_pin_0 = per_m3_and_per_m2 + acceleration_0_part_12;
         let per_pivot_wrist_pin_0 = pivot_wrist_pin_0.recip();
         let safe_wrist_pin_0 = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
+            lit(2.2250738585072014e-308),
             pivot_wrist_pin_0,
             safe_bearing_1,
             lit(0.0),
@@ -1172,9 +1254,7 @@ impl ::ukcore::Mechanism for SliderCrank {
         let pivot_bearing_0 = per_m1 + sq_correction_0_part_per_i1_sq_r;
         let per_pivot_bearing_0 = pivot_bearing_0.recip();
         let safe_bearing_0 = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
+            lit(2.2250738585072014e-308),
             pivot_bearing_0,
             safe_th2,
             lit(0.0),
@@ -1203,9 +1283,7 @@ impl ::ukcore::Mechanism for SliderCrank {
         let pivot_wrist_pin_0 = per_m3_and_per_m2 + correction_0_part_8;
         let per_pivot_wrist_pin_0 = pivot_wrist_pin_0.recip();
         let safe_wrist_pin_0 = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
+            lit(2.2250738585072014e-308),
             pivot_wrist_pin_0,
             safe_bearing_1,
             lit(0.0),

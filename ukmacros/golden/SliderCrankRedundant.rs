@@ -75,6 +75,17 @@
 /// b[second_rod] = 0.5*(r*cos(th1)*(2*x1 + r*cos(th1) - 2*x3)*sq(dot(th1)) + r*sin(th1)*(2*y1 + r*sin(th1) - 2*y3)*sq(dot(th1)) - sq(2*dot(x3) + r*sin(th1)*dot(th1) - 2*dot(x1)) - sq(2*dot(y1) + r*cos(th1)*dot(th1) - 2*dot(y3)))
 /// ```
 ///
+/// # How it is computed
+///
+/// By the dense, rank-revealing solve: there is no straight line, since `back_shoe` is implied by the constraints eliminated before it, whatever the state.
+///
+/// | operations | add | multiply | divide | root | function | select |
+/// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
+/// | M, Q, c, A and b | 21 | 60 | 0 | 0 | 3 | 0 |
+/// | dense LDLᵀ of [M Aᵀ; A 0] after that | 1482 | 1672 | 19 | 0 | 0 | 0 |
+/// | once for a set of parameters | 0 | 5 | 0 | 0 | 0 | 0 |
+///
+/// `Mechanism::plan` tells the order, what is hoisted and left out, and draws the sparsity; `Mechanism::CODE` is the code.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(non_snake_case, clippy::approx_constant)]
 pub struct SliderCrankRedundant {
@@ -311,7 +322,9 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         ],
         structure: ::ukcore::Structure {
             straight_line: false,
-            solve: "by the rank-revealing solve, since a pivot vanished",
+            solve: ::ukcore::Solve::none(
+                "`back_shoe` is implied by the constraints eliminated before it, whatever the state",
+            ),
             mass_pattern: &[
                 (0, 0),
                 (1, 1),
@@ -370,21 +383,55 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
                 "5 of 9 entries of Q: identically zero",
                 "Udwadia-Phohomsiri formula (eq. 19): no coordinate is massless while the parameters are positive",
             ],
-            operations: ::ukcore::Operations {
-                additions: 21,
-                multiplications: 60,
-                divisions: 0,
-                square_roots: 0,
-                transcendentals: 3,
-                selections: 0,
-            },
-            solve_operations: ::ukcore::Operations {
-                additions: 0,
-                multiplications: 0,
-                divisions: 0,
-                square_roots: 0,
-                transcendentals: 0,
-                selections: 0,
+            costs: ::ukcore::Costs {
+                dynamics: ::ukcore::Operations {
+                    additions: 21,
+                    multiplications: 60,
+                    divisions: 0,
+                    square_roots: 0,
+                    transcendentals: 3,
+                    selections: 0,
+                },
+                dense: ::ukcore::Operations {
+                    additions: 1482,
+                    multiplications: 1672,
+                    divisions: 19,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 0,
+                },
+                unprepared: ::ukcore::Operations {
+                    additions: 0,
+                    multiplications: 0,
+                    divisions: 0,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 0,
+                },
+                acceleration: ::ukcore::Operations {
+                    additions: 0,
+                    multiplications: 0,
+                    divisions: 0,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 0,
+                },
+                correction: ::ukcore::Operations {
+                    additions: 0,
+                    multiplications: 0,
+                    divisions: 0,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 0,
+                },
+                prepare: ::ukcore::Operations {
+                    additions: 0,
+                    multiplications: 5,
+                    divisions: 0,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 0,
+                },
             },
         },
         equations: ::ukcore::Equations {

@@ -96,6 +96,20 @@
 /// b[support] = -2*(sq(dot(x[16])) + sq(dot(y[16])))
 /// ```
 ///
+/// # How it is computed
+///
+/// By straight-line code: [M Aᵀ; A 0] is eliminated at compile time, which fills in 32 of its entries.
+///
+/// | operations | add | multiply | divide | root | function | select |
+/// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
+/// | M, Q, c, A and b | 81 | 117 | 0 | 0 | 0 | 0 |
+/// | dense LDLᵀ of [M Aᵀ; A 0] after that | 24650 | 25976 | 51 | 0 | 0 | 0 |
+/// | straight line, nothing hoisted | 229 | 309 | 17 | 0 | 0 | 19 |
+/// | straight line, as emitted | 229 | 309 | 17 | 0 | 0 | 17 |
+/// | correction of a projection | 172 | 291 | 17 | 0 | 0 | 17 |
+/// | once for a set of parameters | 0 | 2 | 0 | 0 | 0 | 2 |
+///
+/// `Mechanism::plan` tells the order, what is hoisted and left out, and draws the sparsity; `Mechanism::CODE` is the code.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(non_snake_case, clippy::approx_constant)]
 pub struct UChain {
@@ -167,7 +181,7 @@ impl ::ukcore::Mechanism for UChain {
             ("g", "g"),
             (
                 "safe_x_0",
-                "(0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014 ≤ m ? 1 : 0)",
+                "(m ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ m ? 1 : 0) : 0)",
             ),
         ],
         coords: &[
@@ -310,7 +324,101 @@ impl ::ukcore::Mechanism for UChain {
         ],
         structure: ::ukcore::Structure {
             straight_line: true,
-            solve: "by straight-line elimination in the order x[0] y[0] x[1] x[2] x[3] x[4] x[5] x[6] x[7] x[8] x[9] x[10] x[11] x[12] x[13] x[14] x[15] x[16] y[1] y[2] y[3] y[4] y[5] y[6] y[7] y[8] y[9] y[10] y[11] y[12] y[13] y[14] y[15] y[16] link[0] support link[1] link[15] link[2] link[14] link[3] link[13] link[4] link[12] link[5] link[11] link[6] link[10] link[7] link[9] link[8]",
+            solve: ::ukcore::Solve {
+                refusal: "",
+                pivots: &[
+                    ::ukcore::Pivot::Coordinate(0),
+                    ::ukcore::Pivot::Coordinate(17),
+                    ::ukcore::Pivot::Coordinate(1),
+                    ::ukcore::Pivot::Coordinate(2),
+                    ::ukcore::Pivot::Coordinate(3),
+                    ::ukcore::Pivot::Coordinate(4),
+                    ::ukcore::Pivot::Coordinate(5),
+                    ::ukcore::Pivot::Coordinate(6),
+                    ::ukcore::Pivot::Coordinate(7),
+                    ::ukcore::Pivot::Coordinate(8),
+                    ::ukcore::Pivot::Coordinate(9),
+                    ::ukcore::Pivot::Coordinate(10),
+                    ::ukcore::Pivot::Coordinate(11),
+                    ::ukcore::Pivot::Coordinate(12),
+                    ::ukcore::Pivot::Coordinate(13),
+                    ::ukcore::Pivot::Coordinate(14),
+                    ::ukcore::Pivot::Coordinate(15),
+                    ::ukcore::Pivot::Coordinate(16),
+                    ::ukcore::Pivot::Coordinate(18),
+                    ::ukcore::Pivot::Coordinate(19),
+                    ::ukcore::Pivot::Coordinate(20),
+                    ::ukcore::Pivot::Coordinate(21),
+                    ::ukcore::Pivot::Coordinate(22),
+                    ::ukcore::Pivot::Coordinate(23),
+                    ::ukcore::Pivot::Coordinate(24),
+                    ::ukcore::Pivot::Coordinate(25),
+                    ::ukcore::Pivot::Coordinate(26),
+                    ::ukcore::Pivot::Coordinate(27),
+                    ::ukcore::Pivot::Coordinate(28),
+                    ::ukcore::Pivot::Coordinate(29),
+                    ::ukcore::Pivot::Coordinate(30),
+                    ::ukcore::Pivot::Coordinate(31),
+                    ::ukcore::Pivot::Coordinate(32),
+                    ::ukcore::Pivot::Coordinate(33),
+                    ::ukcore::Pivot::Constraint(0),
+                    ::ukcore::Pivot::Constraint(16),
+                    ::ukcore::Pivot::Constraint(1),
+                    ::ukcore::Pivot::Constraint(15),
+                    ::ukcore::Pivot::Constraint(2),
+                    ::ukcore::Pivot::Constraint(14),
+                    ::ukcore::Pivot::Constraint(3),
+                    ::ukcore::Pivot::Constraint(13),
+                    ::ukcore::Pivot::Constraint(4),
+                    ::ukcore::Pivot::Constraint(12),
+                    ::ukcore::Pivot::Constraint(5),
+                    ::ukcore::Pivot::Constraint(11),
+                    ::ukcore::Pivot::Constraint(6),
+                    ::ukcore::Pivot::Constraint(10),
+                    ::ukcore::Pivot::Constraint(7),
+                    ::ukcore::Pivot::Constraint(9),
+                    ::ukcore::Pivot::Constraint(8),
+                ],
+                fill: &[
+                    (35, 34),
+                    (36, 35),
+                    (37, 36),
+                    (38, 37),
+                    (39, 38),
+                    (40, 39),
+                    (41, 40),
+                    (42, 41),
+                    (43, 42),
+                    (44, 43),
+                    (45, 44),
+                    (46, 45),
+                    (47, 46),
+                    (48, 47),
+                    (49, 48),
+                    (50, 49),
+                ],
+                checks: &[
+                    ::ukcore::Check::Positive(0),
+                    ::ukcore::Check::Positive(34),
+                    ::ukcore::Check::Positive(50),
+                    ::ukcore::Check::Share(35),
+                    ::ukcore::Check::Share(49),
+                    ::ukcore::Check::Share(36),
+                    ::ukcore::Check::Share(48),
+                    ::ukcore::Check::Share(37),
+                    ::ukcore::Check::Share(47),
+                    ::ukcore::Check::Share(38),
+                    ::ukcore::Check::Share(46),
+                    ::ukcore::Check::Share(39),
+                    ::ukcore::Check::Share(45),
+                    ::ukcore::Check::Share(40),
+                    ::ukcore::Check::Share(44),
+                    ::ukcore::Check::Share(41),
+                    ::ukcore::Check::Share(43),
+                    ::ukcore::Check::Share(42),
+                ],
+                least_share: 0.0009765625,
+            },
             mass_pattern: &[
                 (0, 0),
                 (1, 1),
@@ -431,21 +539,55 @@ impl ::ukcore::Mechanism for UChain {
                 "17 of 34 entries of Q: identically zero",
                 "Udwadia-Phohomsiri formula (eq. 19): no coordinate is massless while the parameters are positive",
             ],
-            operations: ::ukcore::Operations {
-                additions: 81,
-                multiplications: 117,
-                divisions: 0,
-                square_roots: 0,
-                transcendentals: 0,
-                selections: 0,
-            },
-            solve_operations: ::ukcore::Operations {
-                additions: 229,
-                multiplications: 309,
-                divisions: 17,
-                square_roots: 0,
-                transcendentals: 0,
-                selections: 17,
+            costs: ::ukcore::Costs {
+                dynamics: ::ukcore::Operations {
+                    additions: 81,
+                    multiplications: 117,
+                    divisions: 0,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 0,
+                },
+                dense: ::ukcore::Operations {
+                    additions: 24650,
+                    multiplications: 25976,
+                    divisions: 51,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 0,
+                },
+                unprepared: ::ukcore::Operations {
+                    additions: 229,
+                    multiplications: 309,
+                    divisions: 17,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 19,
+                },
+                acceleration: ::ukcore::Operations {
+                    additions: 229,
+                    multiplications: 309,
+                    divisions: 17,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 17,
+                },
+                correction: ::ukcore::Operations {
+                    additions: 172,
+                    multiplications: 291,
+                    divisions: 17,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 17,
+                },
+                prepare: ::ukcore::Operations {
+                    additions: 0,
+                    multiplications: 2,
+                    divisions: 0,
+                    square_roots: 0,
+                    transcendentals: 0,
+                    selections: 2,
+                },
             },
         },
         equations: ::ukcore::Equations {
@@ -625,11 +767,9 @@ impl ::ukcore::Mechanism for UChain {
         prepared[2] = m;
         prepared[3] = g;
         let safe_x_0 = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
             m,
-            lit(1.0),
+            lit(1.7976931348623157e308),
+            S::select_le(lit(2.2250738585072014e-308), m, lit(1.0), lit(0.0)),
             lit(0.0),
         );
         prepared[4] = safe_x_0;
@@ -1535,9 +1675,7 @@ impl ::ukcore::Mechanism for UChain {
             * y_0_minus_y_1.mul_add(y_0_minus_y_1, x_1_minus_x_0 * x_1_minus_x_0);
         let per_pivot_link_0 = pivot_link_0.recip();
         let safe_link_0 = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
+            lit(2.2250738585072014e-308),
             pivot_link_0,
             safe_x_0,
             lit(0.0),
@@ -1552,9 +1690,7 @@ impl ::ukcore::Mechanism for UChain {
         let pivot_support = y_16.mul_add(y_16, x_16 * x_16);
         let per_pivot_support = pivot_support.recip();
         let safe_support = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
+            lit(2.2250738585072014e-308),
             pivot_support,
             safe_link_0,
             lit(0.0),
@@ -2091,9 +2227,7 @@ impl ::ukcore::Mechanism for UChain {
             * y_0_minus_y_1.mul_add(y_0_minus_y_1, x_1_minus_x_0 * x_1_minus_x_0);
         let per_pivot_link_0 = pivot_link_0.recip();
         let safe_link_0 = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
+            lit(2.2250738585072014e-308),
             pivot_link_0,
             safe_x_0,
             lit(0.0),
@@ -2101,9 +2235,7 @@ impl ::ukcore::Mechanism for UChain {
         let pivot_support = y_16.mul_add(y_16, x_16 * x_16);
         let per_pivot_support = pivot_support.recip();
         let safe_support = S::select_le(
-            lit(
-                0.000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000022250738585072014,
-            ),
+            lit(2.2250738585072014e-308),
             pivot_support,
             safe_link_0,
             lit(0.0),

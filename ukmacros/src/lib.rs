@@ -138,6 +138,7 @@ fn expand(input: TokenStream) -> (TokenStream, diag::Diagnostics) {
             let names: Vec<String> = coordinates.chain(constraints).collect();
             let straight = analysis::eliminate(&dynamics, &names, &mut system.graph)
                 .map(|elimination| analysis::Straight::new(elimination, &mut system));
+            let plan = analysis::plan(structure, &dynamics, &straight, &system.graph);
             let hoisted = analysis::hoist(&mut system, &dynamics, &straight);
             if cfg!(debug_assertions)
                 && let Some(k) = analysis::verify_hoisting(&system, &dynamics, &straight, &hoisted)
@@ -150,7 +151,7 @@ fn expand(input: TokenStream) -> (TokenStream, diag::Diagnostics) {
                 );
             }
             let code = emit::emit(
-                &decl, &model, &system, &constants, &dynamics, &structure, &hoisted,
+                &decl, &model, &system, &constants, &dynamics, &plan, &hoisted,
             );
             if diag.is_empty() {
                 return (code, diag);

@@ -8,7 +8,7 @@ use super::*;
 use crate::events::Direction;
 use crate::fixture;
 use crate::mechanism::{
-    ConstraintKind, ConstraintSpec, Energy, Equations, Operations, OutputSpec, ParamSpec, Spec,
+    ConstraintKind, ConstraintSpec, Costs, Energy, Equations, OutputSpec, ParamSpec, Solve, Spec,
     Structure, Terms,
 };
 use crate::scalar::Scalar;
@@ -61,15 +61,7 @@ static SPEC: Spec = Spec {
     }],
     structure: Structure {
         straight_line: false,
-        solve_operations: crate::mechanism::Operations {
-            additions: 0,
-            multiplications: 0,
-            divisions: 0,
-            square_roots: 0,
-            transcendentals: 0,
-            selections: 0,
-        },
-        solve: "",
+        solve: Solve::none("it is written by hand"),
         mass_pattern: &[(0, 0), (1, 1)],
         jacobian_pattern: &[(0, 0), (0, 1)],
         mass_diagonal: true,
@@ -81,14 +73,7 @@ static SPEC: Spec = Spec {
         potential: true,
         conservative: true,
         left_out: &[],
-        operations: Operations {
-            additions: 0,
-            multiplications: 0,
-            divisions: 0,
-            square_roots: 0,
-            transcendentals: 0,
-            selections: 0,
-        },
+        costs: Costs::NONE,
     },
     equations: Equations {
         definitions: &[],

@@ -169,7 +169,7 @@ impl Pace {
 
 /// The terms of `spec` that contain sign, abs, min or max.
 fn switches(spec: &Spec) -> Vec<String> {
-    if spec.structure.operations.selections == 0 {
+    if spec.structure.costs.dynamics.selections == 0 {
         return Vec::new();
     }
     let e = &spec.equations;

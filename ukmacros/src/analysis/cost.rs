@@ -1,7 +1,8 @@
 //! Operation counts.
 
+use super::schedule::{Sequence, schedule};
 use crate::expr::{Func, Graph, Id, Node};
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 /// Operations of straight-line code; each node is computed once.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -51,6 +52,25 @@ pub(crate) fn count(g: &Graph, needed: &HashSet<Id>, reciprocals: &HashSet<Id>) 
         }
     }
     n
+}
+
+/// Operations of computing `values`.
+pub(crate) fn cost(g: &Graph, values: &[Id]) -> Operations {
+    let program = schedule(g, values, &HashMap::new(), Sequence::Roots);
+    count(g, &program.needed, &program.reciprocals)
+}
+
+/// Operations of solving a dense symmetric system of `size` equations by LDLᵀ without pivoting, one reciprocal a pivot.
+pub(crate) fn dense(size: usize) -> Operations {
+    let pairs = size * size.saturating_sub(1) / 2;
+    // With k rows left below a pivot: their k factors, and k (k + 1)/2 entries of the lower triangle.
+    let updates = size.saturating_sub(1) * size * (size + 1) / 6;
+    Operations {
+        additions: updates + 2 * pairs,
+        multiplications: pairs + updates + 2 * pairs + size,
+        divisions: size,
+        ..Operations::default()
+    }
 }
 
 /// Multiplications in xⁿ by repeated squaring.

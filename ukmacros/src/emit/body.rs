@@ -15,6 +15,7 @@ pub(super) struct Root {
 }
 
 /// A function's statements and their cost.
+#[derive(Default)]
 pub(super) struct Body {
     pub(super) tokens: TokenStream,
     pub(super) operations: Operations,
@@ -425,7 +426,10 @@ pub(super) fn float(x: f64) -> TokenStream {
         None if x.is_nan() => quote! { f64::NAN },
         None if x.is_infinite() => quote! { f64::INFINITY },
         None => {
-            let literal = Literal::f64_unsuffixed(x.abs());
+            let x = x.abs();
+            let plain = x == 0.0 || (1e-6..1e16).contains(&x);
+            let power = (!plain).then(|| format!("{x:e}").parse().ok()).flatten();
+            let literal: Literal = power.unwrap_or_else(|| Literal::f64_unsuffixed(x));
             quote! { #literal }
         }
     };

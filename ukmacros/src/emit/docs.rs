@@ -1,7 +1,8 @@
 //! The derived equations as text, for rustdoc and `SPEC`.
 
 use super::names::Namer;
-use crate::analysis::Dynamics;
+use super::spec::Costs;
+use crate::analysis::{Chosen, Dynamics, Plan};
 use crate::expr::{Id, Printer, Symbol, System};
 use crate::model::Model;
 use std::collections::{HashMap, HashSet};
@@ -203,4 +204,65 @@ fn prepared_names(system: &System, model: &Model, prepared: &[Id]) -> Vec<String
     let namer = Namer::new(&system.graph, model, constraints, &system.hints, prepared);
     let symbols = (0..prepared.len()).map(Symbol::Prepared);
     symbols.map(|s| namer.symbol(s).to_string()).collect()
+}
+
+/// How q̈ is computed, in short, for the emitted type's docs. `Mechanism::plan` tells the rest.
+pub(super) fn computed(plan: &Plan, costs: &Costs, system: &System, model: &Model) -> String {
+    let mut out = "# How it is computed\n\n".to_owned();
+    let coord = |i: usize| model.coord_elements[i].name.as_str();
+    let constraint = |row: usize| system.constraints[row].item.text();
+    let mut rows = vec![
+        ("M, Q, c, A and b", costs.dynamics),
+        ("dense LDLᵀ of [M Aᵀ; A 0] after that", costs.dense),
+    ];
+    match &plan.pivots {
+        Err(refusal) => {
+            let _ = writeln!(
+                out,
+                "By the dense, rank-revealing solve: there is no straight line, since {refusal}."
+            );
+        }
+        Ok(pivots) => {
+            let _ = writeln!(
+                out,
+                "By straight-line code: [M Aᵀ; A 0] is eliminated at compile time, which fills in {} of its entries.",
+                2 * plan.fill.len()
+            );
+            for pivot in pivots {
+                let (i, row, why) = match *pivot {
+                    Chosen::Prescribed(i, row, _) => (i, row, "prescribes it alone"),
+                    Chosen::Massless(i, row, _) => (i, row, "replaces the inertia it lacks"),
+                    Chosen::Coordinate(_) | Chosen::Constraint(_) => continue,
+                };
+                let _ = writeln!(
+                    out,
+                    "Coordinate `{}` is not solved for, since `{}` {why}.",
+                    coord(i),
+                    constraint(row)
+                );
+            }
+            rows.extend([
+                ("straight line, nothing hoisted", costs.unprepared),
+                ("straight line, as emitted", costs.acceleration),
+                ("correction of a projection", costs.correction),
+            ]);
+        }
+    }
+    rows.push(("once for a set of parameters", costs.prepare));
+    out += "\n| operations | add | multiply | divide | root | function | select |\n\
+            | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n";
+    for (name, o) in rows {
+        let _ = writeln!(
+            out,
+            "| {name} | {} | {} | {} | {} | {} | {} |",
+            o.additions,
+            o.multiplications,
+            o.divisions,
+            o.square_roots,
+            o.transcendentals,
+            o.selections
+        );
+    }
+    out += "\n`Mechanism::plan` tells the order, what is hoisted and left out, and draws the sparsity; `Mechanism::CODE` is the code.";
+    out
 }

@@ -1,7 +1,7 @@
 //! After an error: a type with the right names and an empty implementation, so that one mistake gives one message.
 
-use super::impls::{associated, item, operations_literal, parameters};
-use crate::analysis::{Constant, Operations};
+use super::impls::{associated, item, parameters};
+use crate::analysis::Constant;
 use crate::expr::System;
 use crate::model::Model;
 use crate::parse::Declaration;
@@ -20,7 +20,6 @@ pub(crate) fn fallback(
     let parameters = parameters(model);
     let name = &decl.name;
     let text = name.to_string();
-    let operations = operations_literal(Operations::default());
     quote! {
         #item
         #constants
@@ -38,7 +37,7 @@ pub(crate) fn fallback(
                 outputs: &[],
                 structure: ::ukcore::Structure {
                     straight_line: false,
-                    solve: "",
+                    solve: ::ukcore::Solve::none(""),
                     mass_pattern: &[],
                     jacobian_pattern: &[],
                     mass_diagonal: false,
@@ -50,8 +49,7 @@ pub(crate) fn fallback(
                     potential: false,
                     conservative: false,
                     left_out: &[],
-                    operations: #operations,
-                    solve_operations: #operations,
+                    costs: ::ukcore::Costs::NONE,
                 },
                 equations: ::ukcore::Equations {
                     definitions: &[],

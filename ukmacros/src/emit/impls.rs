@@ -1,13 +1,15 @@
 //! The emitted type and its implementation of `ukcore::Mechanism`.
 
 use super::body::{Body, Root, body, float};
-use super::docs::{Listing, listing};
+use super::docs::{Listing, computed, listing};
 use super::names::plain;
+use super::print;
+use super::spec::{Costs, Facts};
 use crate::analysis::{
-    Constant, ConstantValue, Dynamics, Hoisted, Operations, Pivoting, Positions, Sequence,
-    Structure,
+    Constant, ConstantValue, Dynamics, Elimination, Hoisted, Operations, Plan, Positions, Sequence,
+    Straight,
 };
-use crate::expr::{Id, Kind, System};
+use crate::expr::{Id, System};
 use crate::model::Model;
 use crate::parse::Declaration;
 use proc_macro2::{Literal, TokenStream};
@@ -20,22 +22,28 @@ pub(crate) fn emit(
     system: &System,
     constants: &[Constant],
     dynamics: &Dynamics,
-    structure: &Structure,
+    plan: &Plan,
     hoisted: &Hoisted,
 ) -> TokenStream {
     let listing = listing(system, dynamics, &hoisted.values, model);
-    let heading = "# Equations of motion\n\nDerived from the declaration at compile time, in the notation of Zhao, Zhen & Chen 2013: \
-                   M q̈ = Q is the unconstrained motion, A q̈ = b what the constraints demand.";
-    let equations = format!("{heading}\n\n{}", listing.markdown(system, model));
-    let item = item(decl, model, &system.defaults, &equations);
-    let constants = associated(decl, constants);
     let functions = Functions {
         system,
         model,
         dynamics: &hoisted.dynamics,
         hoisted,
     };
-    let implementation = functions.implementation(decl, structure, &listing);
+    let (implementation, costs) = functions.implementation(decl, plan, &listing);
+    let heading = "# Equations of motion\n\nDerived from the declaration at compile time, in the notation of Zhao, Zhen & Chen 2013: \
+                   M q̈ = Q is the unconstrained motion, A q̈ = b what the constraints demand.";
+    let equations = listing.markdown(system, model);
+    let computed = computed(plan, &costs, system, model);
+    let item = item(
+        decl,
+        model,
+        &system.defaults,
+        &format!("{heading}\n\n{equations}{computed}"),
+    );
+    let constants = associated(decl, constants);
     quote! {
         #item
         #constants
@@ -163,6 +171,14 @@ struct Functions<'a> {
     hoisted: &'a Hoisted,
 }
 
+/// An emitted function.
+struct Function {
+    name: &'static str,
+    signature: TokenStream,
+    body: TokenStream,
+    operations: Operations,
+}
+
 impl Functions<'_> {
     fn n(&self) -> usize {
         self.model.coord_elements.len()
@@ -183,188 +199,233 @@ impl Functions<'_> {
         )
     }
 
+    /// All emitted functions, in the order of the trait.
+    fn all(&self) -> Vec<Function> {
+        let (n, m) = (self.n(), self.m());
+        let position = quote! { prepared: &[S], t: S, q: &[S] };
+        let state = quote! { #position, v: &[S] };
+        let (phi, rate, outputs) = (
+            &self.dynamics.phi,
+            &self.dynamics.rate,
+            &self.hoisted.outputs,
+        );
+        let phi_roots = vector("phi", "phi", phi);
+        let rate_roots = vector("rate", "rate", rate);
+        let output_roots = vector("outputs", "output", outputs);
+        let mut all = vec![
+            self.prepare(),
+            self.terms(),
+            self.filling("mass_matrix", "mass", n * n, &position, self.mass_roots()),
+            self.filling("jacobian", "jacobian", n * m, &state, self.jacobian_roots()),
+            self.filling("residual", "phi", phi.len(), &position, phi_roots),
+            self.filling("residual_rate", "rate", m, &state, rate_roots),
+            self.energy(),
+            self.filling("outputs", "outputs", outputs.len(), &state, output_roots),
+        ];
+        if let Ok(straight) = &self.hoisted.straight {
+            let Elimination {
+                acceleration,
+                correction,
+                ..
+            } = &straight.elimination;
+            let (none, residual) = (quote! {}, quote! { residual: &[S], });
+            all.push(self.solve("acceleration", straight, acceleration, &none));
+            all.push(self.solve("correction", straight, correction, &residual));
+        }
+        all
+    }
+
     fn implementation(
         &self,
         decl: &Declaration,
-        structure: &Structure,
+        plan: &Plan,
         listing: &Listing,
-    ) -> TokenStream {
+    ) -> (TokenStream, Costs) {
         let name = &decl.name;
-        let dynamics = self.dynamics_body();
-        let (solve, solve_operations) = self.solve();
-        let spec = self.spec(
-            decl,
-            structure,
-            listing,
-            [dynamics.operations, solve_operations],
-        );
+        let all = self.all();
+        let of = |name: &str| {
+            let function = all.iter().find(|f| f.name == name);
+            function.map_or(Operations::default(), |f| f.operations)
+        };
+        let costs = Costs {
+            dynamics: of("dynamics"),
+            dense: plan.dense,
+            unprepared: plan.unprepared,
+            acceleration: of("acceleration"),
+            correction: of("correction"),
+            prepare: of("prepare"),
+        };
+        let facts = Facts {
+            system: self.system,
+            model: self.model,
+            dynamics: self.dynamics,
+            plan,
+            costs: &costs,
+        };
+        let spec = facts.spec(decl, listing);
         let parameters = parameters(self.model);
-        let tokens = &dynamics.tokens;
-        let counts = operations_doc(dynamics.operations);
-        let (nn, nm) = (self.n() * self.n(), self.n() * self.m());
-        let (n, m) = (self.n(), self.m());
-        let mass = self.function("mass", nn, self.mass_roots());
-        let jacobian = self.function("jacobian", nm, self.jacobian_roots());
-        let phi = self.function(
-            "phi",
-            self.dynamics.phi.len(),
-            vector("phi", "phi", &self.dynamics.phi),
-        );
-        let rate = self.function("rate", m, vector("rate", "rate", &self.dynamics.rate));
-        let outputs = &self.hoisted.outputs;
-        let outputs = self.function(
-            "outputs",
-            outputs.len(),
-            vector("outputs", "output", outputs),
-        );
-        let prepare = self.prepare();
-        let energy = self.body(&[
-            Root {
-                id: self.dynamics.kinetic,
-                place: quote! { let kinetic },
-                purpose: "kinetic".to_owned(),
-            },
-            Root {
-                id: self.dynamics.potential,
-                place: quote! { let potential },
-                purpose: "potential".to_owned(),
-            },
-        ]);
-        let energy = energy.tokens;
-        let [nn, nm, n, m] = [nn, nm, n, m].map(Literal::usize_unsuffixed);
-        quote! {
+        let texts = all.iter().map(|f| {
+            let (name, text) = (f.name, print::function(&f.signature, &f.body));
+            quote! { (#name, #text) }
+        });
+        let functions = all.iter().map(|f| {
+            let Function {
+                name,
+                signature,
+                body,
+                operations,
+            } = f;
+            let counted = ["dynamics", "acceleration"].contains(name);
+            let counts = counted.then(|| operations_doc(*operations));
+            quote! { #counts #signature { #body } }
+        });
+        let tokens = quote! {
             #[automatically_derived]
             #[allow(unused_variables, clippy::all, clippy::pedantic)]
             impl ::ukcore::Mechanism for #name {
                 #spec
+                const CODE: &'static [(&'static str, &'static str)] = &[#(#texts),*];
                 #parameters
-                fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) { #prepare }
-                #counts
-                fn dynamics<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], out: &mut ::ukcore::Terms<'_, S>) {
-                    let mass = ::ukcore::emitted::exact_mut::<S, #nn>(out.mass, "mass");
-                    let force = ::ukcore::emitted::exact_mut::<S, #n>(out.force, "force");
-                    let nonideal = ::ukcore::emitted::exact_mut::<S, #n>(out.nonideal, "nonideal");
-                    let jacobian = ::ukcore::emitted::exact_mut::<S, #nm>(out.jacobian, "jacobian");
-                    let rhs = ::ukcore::emitted::exact_mut::<S, #m>(out.rhs, "rhs");
-                    #tokens
-                }
-                fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) { #mass }
-                fn jacobian<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], jacobian: &mut [S]) { #jacobian }
-                fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) { #phi }
-                fn residual_rate<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], rate: &mut [S]) { #rate }
-                fn energy<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], v: &[S]) -> ::ukcore::Energy<S> {
-                    #energy
-                    ::ukcore::Energy { kinetic, potential }
-                }
-                fn outputs<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], outputs: &mut [S]) { #outputs }
-                #solve
-            }
-        }
-    }
-
-    /// The straight-line solves, where there are any.
-    fn solve(&self) -> (TokenStream, Operations) {
-        let Ok(straight) = &self.hoisted.straight else {
-            return (TokenStream::new(), Operations::default());
-        };
-        let n = Literal::usize_unsuffixed(self.n());
-        let function = |ids: &[Id], purpose: &str| {
-            let mut roots = vector("out", purpose, ids);
-            roots.push(Root {
-                id: straight.certificate,
-                place: quote! { let safe },
-                purpose: "safe".to_owned(),
-            });
-            body(
-                self.system,
-                self.model,
-                &self.hoisted.values,
-                &roots,
-                Sequence::Stages(&straight.stages),
-                &straight.exits,
-            )
-        };
-        let acceleration = function(&straight.elimination.acceleration, "acceleration");
-        let operations = acceleration.operations;
-        let counts = operations_doc(operations);
-        let acceleration = acceleration.tokens;
-        let correction = function(&straight.elimination.correction, "correction").tokens;
-        let tokens = quote! {
-            #counts
-            fn acceleration<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], out: &mut [S]) -> S {
-                let out = ::ukcore::emitted::exact_mut::<S, #n>(out, "out");
-                #acceleration
-                safe
-            }
-            fn correction<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], residual: &[S], out: &mut [S]) -> S {
-                let out = ::ukcore::emitted::exact_mut::<S, #n>(out, "out");
-                #correction
-                safe
+                #(#functions)*
             }
         };
-        (tokens, operations)
+        (tokens, costs)
     }
 
-    /// The prepared values, from the parameters.
-    fn prepare(&self) -> TokenStream {
-        let values = &self.hoisted.values;
-        if values.is_empty() {
-            return TokenStream::new();
-        }
-        let len = Literal::usize_unsuffixed(values.len());
-        let roots = vector("prepared", "prepared", values);
-        let body = body(self.system, self.model, &[], &roots, Sequence::Roots, &[]);
-        let tokens = body.tokens;
-        quote! {
-            let prepared = ::ukcore::emitted::exact_mut::<S, #len>(prepared, "prepared");
-            #tokens
-        }
-    }
-
-    /// How q̈ is solved for, in a sentence.
-    fn plan(&self) -> String {
-        let name = |k: usize| match k.checked_sub(self.n()) {
-            None => self.model.coord_elements[k].name.clone(),
-            Some(row) => self.system.constraints[row].item.text(),
-        };
-        match &self.hoisted.straight {
-            Err(reason) => format!("by the rank-revealing solve, since {reason}"),
-            Ok(straight) => {
-                let steps = straight.elimination.order.iter().map(|step| match *step {
-                    Pivoting::One(k) => name(k),
-                    Pivoting::Two(j, c) => format!("({}, {})", name(j), name(c)),
-                });
-                let steps: Vec<String> = steps.collect();
-                format!(
-                    "by straight-line elimination in the order {}",
-                    steps.join(" ")
-                )
-            }
-        }
-    }
-
-    /// A function that fills the slice `target`.
-    fn function(&self, target: &str, len: usize, roots: Vec<Root>) -> TokenStream {
-        let ident = format_ident!("{target}");
-        let len = Literal::usize_unsuffixed(len);
-        let tokens = if roots.is_empty() {
-            TokenStream::new()
-        } else {
-            self.body(&roots).tokens
-        };
-        quote! {
-            let #ident = ::ukcore::emitted::exact_mut::<S, #len>(#ident, #target);
-            #tokens
-        }
-    }
-
-    fn dynamics_body(&self) -> Body {
+    /// M, Q, c, A and b.
+    fn terms(&self) -> Function {
         let mut roots = self.mass_roots();
         roots.extend(vector("force", "force", &self.dynamics.force));
         roots.extend(vector("nonideal", "nonideal", &self.dynamics.nonideal));
         roots.extend(self.jacobian_roots());
         roots.extend(vector("rhs", "b", &self.dynamics.rhs));
-        self.body(&roots)
+        let Body { tokens, operations } = self.body(&roots);
+        let (n, m) = (self.n(), self.m());
+        let [nn, nm, n, m] = [n * n, n * m, n, m].map(Literal::usize_unsuffixed);
+        Function {
+            name: "dynamics",
+            signature: quote! {
+                fn dynamics<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], out: &mut ::ukcore::Terms<'_, S>)
+            },
+            body: quote! {
+                let mass = ::ukcore::emitted::exact_mut::<S, #nn>(out.mass, "mass");
+                let force = ::ukcore::emitted::exact_mut::<S, #n>(out.force, "force");
+                let nonideal = ::ukcore::emitted::exact_mut::<S, #n>(out.nonideal, "nonideal");
+                let jacobian = ::ukcore::emitted::exact_mut::<S, #nm>(out.jacobian, "jacobian");
+                let rhs = ::ukcore::emitted::exact_mut::<S, #m>(out.rhs, "rhs");
+                #tokens
+            },
+            operations,
+        }
+    }
+
+    fn energy(&self) -> Function {
+        let root = |id: Id, name: &str| {
+            let ident = format_ident!("{name}");
+            Root {
+                id,
+                place: quote! { let #ident },
+                purpose: name.to_owned(),
+            }
+        };
+        let (kinetic, potential) = (self.dynamics.kinetic, self.dynamics.potential);
+        let Body { tokens, operations } =
+            self.body(&[root(kinetic, "kinetic"), root(potential, "potential")]);
+        Function {
+            name: "energy",
+            signature: quote! {
+                fn energy<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], v: &[S]) -> ::ukcore::Energy<S>
+            },
+            body: quote! {
+                #tokens
+                ::ukcore::Energy { kinetic, potential }
+            },
+            operations,
+        }
+    }
+
+    /// A straight-line solve for `values`.
+    fn solve(
+        &self,
+        name: &'static str,
+        straight: &Straight,
+        values: &[Id],
+        residual: &TokenStream,
+    ) -> Function {
+        let n = Literal::usize_unsuffixed(self.n());
+        let mut roots = vector("out", name, values);
+        roots.push(Root {
+            id: straight.certificate,
+            place: quote! { let safe },
+            purpose: "safe".to_owned(),
+        });
+        let Body { tokens, operations } = body(
+            self.system,
+            self.model,
+            &self.hoisted.values,
+            &roots,
+            Sequence::Stages(&straight.stages),
+            &straight.exits,
+        );
+        let ident = format_ident!("{name}");
+        Function {
+            name,
+            signature: quote! {
+                fn #ident<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], #residual out: &mut [S]) -> S
+            },
+            body: quote! {
+                let out = ::ukcore::emitted::exact_mut::<S, #n>(out, "out");
+                #tokens
+                safe
+            },
+            operations,
+        }
+    }
+
+    /// The prepared values, from the parameters.
+    fn prepare(&self) -> Function {
+        let values = &self.hoisted.values;
+        let roots = vector("prepared", "prepared", values);
+        let Body { tokens, operations } = match values.is_empty() {
+            true => Body::default(),
+            false => body(self.system, self.model, &[], &roots, Sequence::Roots, &[]),
+        };
+        let len = Literal::usize_unsuffixed(values.len());
+        let target = (!values.is_empty()).then(|| {
+            quote! { let prepared = ::ukcore::emitted::exact_mut::<S, #len>(prepared, "prepared"); }
+        });
+        Function {
+            name: "prepare",
+            signature: quote! { fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) },
+            body: quote! { #target #tokens },
+            operations,
+        }
+    }
+
+    /// A function of what is `given` that fills the slice `target`.
+    fn filling(
+        &self,
+        name: &'static str,
+        target: &str,
+        len: usize,
+        given: &TokenStream,
+        roots: Vec<Root>,
+    ) -> Function {
+        let (function, slice) = (format_ident!("{name}"), format_ident!("{target}"));
+        let len = Literal::usize_unsuffixed(len);
+        let Body { tokens, operations } = match roots.is_empty() {
+            true => Body::default(),
+            false => self.body(&roots),
+        };
+        Function {
+            name,
+            signature: quote! { fn #function<S: ::ukcore::Scalar>(#given, #slice: &mut [S]) },
+            body: quote! {
+                let #slice = ::ukcore::emitted::exact_mut::<S, #len>(#slice, #target);
+                #tokens
+            },
+            operations,
+        }
     }
 
     /// Both triangles of M, column by column.
@@ -408,104 +469,6 @@ impl Functions<'_> {
             })
             .collect()
     }
-
-    fn spec(
-        &self,
-        decl: &Declaration,
-        structure: &Structure,
-        listing: &Listing,
-        operations: [Operations; 2],
-    ) -> TokenStream {
-        let name = decl.name.to_string();
-        let docs = decl.docs.join("\n");
-        let params = self.model.param_elements.iter().enumerate().map(|(i, e)| {
-            let (name, docs) = (&e.name, self.model.params[e.family].docs.join(" "));
-            let default = float(self.system.defaults[i]);
-            quote! { ::ukcore::ParamSpec { name: #name, doc: #docs, default: #default } }
-        });
-        let coords = self.model.coord_elements.iter().map(|e| &e.name);
-        let constraints = self.system.constraints.iter().zip(&listing.phi).map(|(c, equation)| {
-            let name = c.item.text();
-            let kind = match c.kind {
-                Kind::Holonomic => quote! { Holonomic },
-                Kind::Nonholonomic => quote! { Nonholonomic },
-            };
-            quote! { ::ukcore::ConstraintSpec { name: #name, kind: ::ukcore::ConstraintKind::#kind, equation: #equation } }
-        });
-        let holonomic = Literal::usize_unsuffixed(self.dynamics.phi.len());
-        let outputs = self.system.outputs.iter().map(|o| {
-            let (name, docs) = (o.item.text(), o.docs.join(" "));
-            quote! { ::ukcore::OutputSpec { name: #name, doc: #docs } }
-        });
-        let prepared = listing.prepared.iter().map(|(n, t)| quote! { (#n, #t) });
-        let structure = self.structure(structure, operations);
-        let equations = equations(listing);
-        quote! {
-            const SPEC: &'static ::ukcore::Spec = &::ukcore::Spec {
-                name: #name,
-                doc: #docs,
-                params: &[#(#params),*],
-                prepared: &[#(#prepared),*],
-                coords: &[#(#coords),*],
-                constraints: &[#(#constraints),*],
-                holonomic: #holonomic,
-                outputs: &[#(#outputs),*],
-                structure: #structure,
-                equations: #equations,
-            };
-        }
-    }
-
-    fn structure(&self, s: &Structure, operations: [Operations; 2]) -> TokenStream {
-        let pair = |i: usize, j: usize| {
-            let (i, j) = (Literal::usize_unsuffixed(i), Literal::usize_unsuffixed(j));
-            quote! { (#i, #j) }
-        };
-        let mut mass: Vec<(usize, usize)> = Vec::new();
-        for (i, j) in self.dynamics.mass.keys() {
-            mass.push((*i, *j));
-            if i != j {
-                mass.push((*j, *i));
-            }
-        }
-        mass.sort_unstable();
-        let mass = mass.into_iter().map(|(i, j)| pair(i, j));
-        let jacobian = self.dynamics.jacobian.keys().map(|(i, j)| pair(*i, *j));
-        let massless = s.massless.iter().map(|i| Literal::usize_unsuffixed(*i));
-        let left_out = &s.left_out;
-        let Structure {
-            mass_diagonal,
-            mass_constant,
-            jacobian_constant,
-            scleronomic,
-            nonideal,
-            potential,
-            conservative,
-            ..
-        } = s;
-        let [operations, solve_operations] = operations.map(operations_literal);
-        let straight_line = self.hoisted.straight.is_ok();
-        let solve = self.plan();
-        quote! {
-            ::ukcore::Structure {
-                straight_line: #straight_line,
-                solve: #solve,
-                mass_pattern: &[#(#mass),*],
-                jacobian_pattern: &[#(#jacobian),*],
-                mass_diagonal: #mass_diagonal,
-                mass_constant: #mass_constant,
-                jacobian_constant: #jacobian_constant,
-                massless: &[#(#massless),*],
-                scleronomic: #scleronomic,
-                nonideal: #nonideal,
-                potential: #potential,
-                conservative: #conservative,
-                left_out: &[#(#left_out),*],
-                operations: #operations,
-                solve_operations: #solve_operations,
-            }
-        }
-    }
 }
 
 /// Entries of a vector, all of them.
@@ -522,71 +485,6 @@ fn vector(target: &str, purpose: &str, ids: &[Id]) -> Vec<Root> {
             }
         })
         .collect()
-}
-
-fn equations(listing: &Listing) -> TokenStream {
-    let triple = |rows: &[(usize, usize, String)]| -> Vec<TokenStream> {
-        rows.iter()
-            .map(|(i, j, text)| {
-                let (i, j) = (Literal::usize_unsuffixed(*i), Literal::usize_unsuffixed(*j));
-                quote! { (#i, #j, #text) }
-            })
-            .collect()
-    };
-    let pairs = |rows: &[(usize, String)]| -> Vec<TokenStream> {
-        rows.iter()
-            .map(|(i, text)| {
-                let i = Literal::usize_unsuffixed(*i);
-                quote! { (#i, #text) }
-            })
-            .collect()
-    };
-    let definitions = listing.definitions.iter().map(|(n, t)| quote! { (#n, #t) });
-    let (mass, jacobian) = (triple(&listing.mass), triple(&listing.jacobian));
-    let (force, nonideal, rhs) = (
-        pairs(&listing.force),
-        pairs(&listing.nonideal),
-        pairs(&listing.rhs),
-    );
-    quote! {
-        ::ukcore::Equations {
-            definitions: &[#(#definitions),*],
-            mass: &[#(#mass),*],
-            force: &[#(#force),*],
-            nonideal: &[#(#nonideal),*],
-            jacobian: &[#(#jacobian),*],
-            rhs: &[#(#rhs),*],
-        }
-    }
-}
-
-pub(super) fn operations_literal(o: Operations) -> TokenStream {
-    let [
-        additions,
-        multiplications,
-        divisions,
-        square_roots,
-        transcendentals,
-        selections,
-    ] = [
-        o.additions,
-        o.multiplications,
-        o.divisions,
-        o.square_roots,
-        o.transcendentals,
-        o.selections,
-    ]
-    .map(Literal::usize_unsuffixed);
-    quote! {
-        ::ukcore::Operations {
-            additions: #additions,
-            multiplications: #multiplications,
-            divisions: #divisions,
-            square_roots: #square_roots,
-            transcendentals: #transcendentals,
-            selections: #selections,
-        }
-    }
 }
 
 fn operations_doc(o: Operations) -> TokenStream {

@@ -5,6 +5,8 @@ mod docs;
 mod fallback;
 mod impls;
 mod names;
+mod print;
+mod spec;
 
 pub(crate) use fallback::fallback;
 pub(crate) use impls::emit;

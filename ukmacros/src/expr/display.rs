@@ -27,7 +27,10 @@ fn number(x: f64) -> String {
     if x == std::f64::consts::PI {
         return "π".to_owned();
     }
-    format!("{x}")
+    match x == 0.0 || (1e-6..1e16).contains(&x.abs()) {
+        true => format!("{x}"),
+        false => format!("{x:e}"),
+    }
 }
 
 impl Printer<'_> {

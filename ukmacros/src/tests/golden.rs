@@ -1,13 +1,17 @@
-//! The emitted code of every model, as reviewed: `golden/<Type>.rs`. A change shows in the diff.
+//! The emitted code of every model, as reviewed: `golden/<Type>.rs`, and what all of it costs, on one page: `golden/operations.txt`.
+//! A change shows in the diff.
 //!
 //! `UPDATE_GOLDEN=1 cargo test -p ukmacros golden` writes the files anew.
 
+use proc_macro2::{TokenStream, TokenTree};
+use quote::ToTokens;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-/// All `multibody!` invocations of the models crate: type name → expansion, formatted.
-fn expansions(models: &Path) -> BTreeMap<String, String> {
-    let mut out = BTreeMap::new();
+/// All `multibody!` invocations of the models crate: file and tokens of the declaration.
+pub(super) fn declarations() -> Vec<(PathBuf, TokenStream)> {
+    let models = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../models/src");
+    let mut out = Vec::new();
     for entry in std::fs::read_dir(models).expect("the models crate is there") {
         let path = entry.expect("readable directory").path();
         if path.extension().is_none_or(|e| e != "rs") {
@@ -20,26 +24,153 @@ fn expansions(models: &Path) -> BTreeMap<String, String> {
                 continue;
             };
             let last = call.mac.path.segments.last();
-            if last.is_none_or(|s| s.ident != "multibody") {
-                continue;
+            if last.is_some_and(|s| s.ident == "multibody") {
+                out.push((path.clone(), call.mac.tokens));
             }
-            let (code, diagnostics) = crate::expand(call.mac.tokens.clone());
-            let errors = diagnostics.take();
-            assert!(errors.is_empty(), "{}: {errors:?}", path.display());
-            let (again, _) = crate::expand(call.mac.tokens);
-            assert_eq!(
-                code.to_string(),
-                again.to_string(),
-                "same input, same output"
-            );
-            let file = syn::parse2::<syn::File>(code).expect("emitted code is Rust");
-            let name = file.items.iter().find_map(|i| match i {
-                syn::Item::Struct(s) => Some(s.ident.to_string()),
-                _ => None,
-            });
-            out.insert(
-                name.expect("a struct is emitted"),
-                prettyplease::unparse(&file),
+        }
+    }
+    out.sort_by(|a, b| a.0.cmp(&b.0));
+    out
+}
+
+/// What one model becomes.
+struct Expansion {
+    /// The emitted code, formatted, without the text of its functions.
+    code: String,
+    /// Operations: what is counted, counts.
+    costs: Vec<(String, Vec<String>)>,
+}
+
+/// Type name → expansion.
+fn expansions() -> BTreeMap<String, Expansion> {
+    let mut out = BTreeMap::new();
+    for (path, tokens) in declarations() {
+        let (code, diagnostics) = crate::expand(tokens.clone());
+        let errors = diagnostics.take();
+        assert!(errors.is_empty(), "{}: {errors:?}", path.display());
+        let (again, _) = crate::expand(tokens);
+        assert_eq!(
+            code.to_string(),
+            again.to_string(),
+            "same input, same output"
+        );
+        let mut file = syn::parse2::<syn::File>(code).expect("emitted code is Rust");
+        let name = file.items.iter().find_map(|i| match i {
+            syn::Item::Struct(s) => Some(s.ident.to_string()),
+            _ => None,
+        });
+        let name = name.expect("a struct is emitted");
+        let implementation = file.items.iter_mut().find_map(|i| match i {
+            syn::Item::Impl(i) if i.items.iter().any(|i| constant(i, "SPEC").is_some()) => Some(i),
+            _ => None,
+        });
+        let items = &mut implementation.expect("the trait is implemented").items;
+        let costs = costs(
+            items
+                .iter()
+                .find_map(|i| constant(i, "SPEC"))
+                .expect("SPEC"),
+        );
+        let texts = items
+            .iter()
+            .find_map(|i| constant(i, "CODE"))
+            .expect("CODE");
+        check_texts(&name, texts, items);
+        items.retain(|i| constant(i, "CODE").is_none());
+        let code = prettyplease::unparse(&file);
+        out.insert(name, Expansion { code, costs });
+    }
+    out
+}
+
+/// The value of the associated constant `name`, if `item` is that.
+fn constant<'a>(item: &'a syn::ImplItem, name: &str) -> Option<&'a syn::Expr> {
+    match item {
+        syn::ImplItem::Const(c) if c.ident == name => Some(&c.expr),
+        _ => None,
+    }
+}
+
+/// All string literals of `expr`, in their order.
+fn strings(expr: &syn::Expr) -> Vec<String> {
+    let mut out = Vec::new();
+    let mut stack = vec![expr.to_token_stream().into_iter()];
+    while let Some(tokens) = stack.last_mut() {
+        match tokens.next() {
+            Some(TokenTree::Group(group)) => stack.push(group.stream().into_iter()),
+            Some(TokenTree::Literal(literal)) => {
+                out.extend(syn::parse_str::<syn::LitStr>(&literal.to_string()).map(|s| s.value()));
+            }
+            Some(_) => {}
+            None => drop(stack.pop()),
+        }
+    }
+    out
+}
+
+/// Each text of CODE is the function of its name, token by token, and its lines are short.
+fn check_texts(model: &str, texts: &syn::Expr, items: &[syn::ImplItem]) {
+    let texts = strings(texts);
+    let functions = items.iter().filter_map(|item| match item {
+        syn::ImplItem::Fn(f) if f.sig.receiver().is_none() => Some(f),
+        _ => None,
+    });
+    let functions: Vec<&syn::ImplItemFn> = functions.collect();
+    assert_eq!(texts.len(), 2 * functions.len(), "{model}: all functions");
+    for (text, function) in texts.chunks(2).zip(functions) {
+        assert_eq!(text[0], function.sig.ident.to_string(), "{model}");
+        let printed: syn::ImplItemFn = syn::parse_str(&text[1]).expect("a function");
+        let mut bare = function.clone();
+        bare.attrs.clear();
+        assert_eq!(printed, bare, "{model}, {}", text[0]);
+        let long = text[1].lines().find(|line| line.chars().count() > 120);
+        assert_eq!(long, None, "{model}, {}", text[0]);
+    }
+}
+
+/// The counts of `costs` in SPEC.
+fn costs(spec: &syn::Expr) -> Vec<(String, Vec<String>)> {
+    let field = |expr: &syn::Expr, name: &str| -> syn::Expr {
+        let expr = match expr {
+            syn::Expr::Reference(r) => &*r.expr,
+            expr => expr,
+        };
+        let syn::Expr::Struct(literal) = expr else {
+            panic!("a struct with `{name}`")
+        };
+        let mut fields = literal.fields.iter();
+        let found = fields.find(|f| matches!(&f.member, syn::Member::Named(n) if n == name));
+        found.expect("the field is there").expr.clone()
+    };
+    let syn::Expr::Struct(costs) = field(&field(spec, "structure"), "costs") else {
+        panic!("costs are emitted")
+    };
+    let rows = costs.fields.iter().map(|row| {
+        let syn::Expr::Struct(counts) = &row.expr else {
+            panic!("operations are emitted")
+        };
+        let counts = counts
+            .fields
+            .iter()
+            .map(|f| f.expr.to_token_stream().to_string());
+        (row.member.to_token_stream().to_string(), counts.collect())
+    });
+    rows.collect()
+}
+
+/// One line a model and function.
+fn table(found: &BTreeMap<String, Expansion>) -> String {
+    let mut out = format!(
+        "{:<22} {:<14} {:>7} {:>8} {:>7} {:>7} {:>8} {:>7}\n",
+        "model", "what", "add", "multiply", "divide", "root", "function", "select"
+    );
+    for (name, expansion) in found {
+        for (what, counts) in &expansion.costs {
+            let [add, multiply, divide, root, function, select] = &counts[..] else {
+                panic!("six counts")
+            };
+            out += &format!(
+                "{name:<22} {what:<14} {add:>7} {multiply:>8} {divide:>7} {root:>7} {function:>8} {select:>7}\n"
             );
         }
     }
@@ -48,21 +179,27 @@ fn expansions(models: &Path) -> BTreeMap<String, String> {
 
 #[test]
 fn emitted_code_is_as_reviewed() {
-    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
-    let golden = root.join("golden");
+    let golden = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("golden");
     let update = std::env::var_os("UPDATE_GOLDEN").is_some();
-    let found = expansions(&root.join("../models/src"));
+    let found = expansions();
     assert!(!found.is_empty(), "there are models");
     if update {
         std::fs::create_dir_all(&golden).expect("can write");
     }
+    let mut files: BTreeMap<String, String> = BTreeMap::new();
+    files.insert("operations.txt".to_owned(), table(&found));
+    files.extend(
+        found
+            .into_iter()
+            .map(|(name, e)| (format!("{name}.rs"), e.code)),
+    );
     let mut changed = Vec::new();
-    for (name, code) in &found {
-        let path = golden.join(format!("{name}.rs"));
+    for (name, text) in &files {
+        let path = golden.join(name);
         if update {
-            std::fs::write(&path, code).expect("can write");
+            std::fs::write(&path, text).expect("can write");
         }
-        if std::fs::read_to_string(&path).ok().as_deref() != Some(code) {
+        if std::fs::read_to_string(&path).ok().as_ref() != Some(text) {
             changed.push(name);
         }
     }
@@ -73,8 +210,8 @@ fn emitted_code_is_as_reviewed() {
     );
     let stale: Vec<_> = std::fs::read_dir(&golden)
         .expect("golden files are there")
-        .filter_map(|e| Some(e.ok()?.path().file_stem()?.to_string_lossy().into_owned()))
-        .filter(|name| !found.contains_key(name))
+        .filter_map(|e| Some(e.ok()?.file_name().to_string_lossy().into_owned()))
+        .filter(|name| !files.contains_key(name))
         .collect();
     assert!(
         stale.is_empty(),

@@ -7,6 +7,7 @@ mod errors;
 mod golden;
 mod limits;
 mod random;
+mod speed;
 mod verify;
 
 use crate::diag::{Diagnostic, Diagnostics};

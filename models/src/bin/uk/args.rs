@@ -30,7 +30,7 @@ pub(crate) enum Command {
     List,
     /// Integrate a model
     Run(RunArgs),
-    /// Show what is known about a model: M, Q, A, b, rank, degrees of freedom, what was left out
+    /// Show what is known about a model: M, Q, A, b, rank, degrees of freedom, how its motion is computed; or the emitted code
     Explain(ExplainArgs),
 }
 
@@ -107,6 +107,9 @@ pub(crate) struct RunArgs {
 pub(crate) struct ExplainArgs {
     #[command(flatten)]
     pub(crate) scene: Scene,
+    /// Print the code that runs instead: of FUNCTION (`dynamics`, `acceleration`, …), or of all of them
+    #[arg(long, value_name = "FUNCTION", num_args = 0..=1, default_missing_value = "")]
+    pub(crate) code: Option<String>,
 }
 
 /// Integration methods.

@@ -1,9 +1,9 @@
-//! `uk explain`: what the compiler derived and found out, and what the solver says at the start.
+//! `uk explain`: what the compiler derived and decided, what the solver says at the start, and the emitted code.
 
 use std::io::{self, Write};
 
 use models::{Model, Visitor};
-use ukcore::{ConstraintKind, Operations, ParamSpec, Solution, Solver, SolverOptions, Spec};
+use ukcore::{ConstraintKind, ParamSpec, Solution, Solver, SolverOptions, Spec};
 
 use crate::args::ExplainArgs;
 use crate::failure::Failure;
@@ -19,7 +19,38 @@ const DIGITS: usize = 8;
 /// # Errors
 /// [`Failure::Usage`] for what is wrong with the command line, [`Failure::Failed`] if the equations cannot be solved at the start.
 pub(crate) fn explain(args: &ExplainArgs) -> Result<(), Failure> {
-    models::visit(&args.scene.model, Explain { args })?
+    match &args.code {
+        None => models::visit(&args.scene.model, Explain { args })?,
+        Some(function) => models::visit(&args.scene.model, Code { function })?,
+    }
+}
+
+/// Prints emitted functions.
+struct Code<'a> {
+    /// Its name; all if empty.
+    function: &'a str,
+}
+
+impl Visitor for Code<'_> {
+    type Output = Result<(), Failure>;
+
+    fn visit<M: Model>(self) -> Self::Output {
+        let wanted = |name: &str| self.function.is_empty() || name == self.function;
+        let texts: Vec<&str> = M::CODE
+            .iter()
+            .filter_map(|(name, text)| wanted(name).then_some(*text))
+            .collect();
+        if texts.is_empty() {
+            let names: Vec<&str> = M::CODE.iter().map(|(name, _)| *name).collect();
+            return Err(Failure::Usage(format!(
+                "`{}` has no function `{}`; it has {}",
+                M::ID,
+                self.function,
+                names.join(", ")
+            )));
+        }
+        output::to_stdout(|out| write!(out, "{}", texts.join("\n")))
+    }
 }
 
 struct Explain<'a> {
@@ -56,6 +87,7 @@ impl Visitor for Explain<'_> {
                 }
             }
             structure(out, spec)?;
+            write!(out, "\n{}", M::plan())?;
             if let Ok(solution) = &solution {
                 at_start(out, &ready, solution)?;
             }
@@ -170,18 +202,6 @@ fn constraints(out: &mut dyn Write, spec: &Spec) -> io::Result<()> {
     Ok(())
 }
 
-fn counts(o: &Operations) -> String {
-    format!(
-        "{} additions, {} multiplications, {} divisions, {} square roots, {} transcendental functions, {} selections",
-        o.additions,
-        o.multiplications,
-        o.divisions,
-        o.square_roots,
-        o.transcendentals,
-        o.selections
-    )
-}
-
 fn structure(out: &mut dyn Write, spec: &Spec) -> io::Result<()> {
     let s = &spec.structure;
     let (n, m) = (spec.n(), spec.m());
@@ -208,25 +228,6 @@ fn structure(out: &mut dyn Write, spec: &Spec) -> io::Result<()> {
     if !s.massless.is_empty() {
         let names: Vec<&str> = s.massless.iter().map(|&i| spec.coords[i]).collect();
         writeln!(out, "  without mass: {}", names.join(", "))?;
-    }
-    writeln!(
-        out,
-        "  one evaluation of M, Q, A and b: {}",
-        counts(&s.operations)
-    )?;
-    writeln!(out, "  q̈ {}", s.solve)?;
-    if s.straight_line {
-        writeln!(
-            out,
-            "  one acceleration, solve included: {}",
-            counts(&s.solve_operations)
-        )?;
-    }
-    if !s.left_out.is_empty() {
-        heading(out, "Left out")?;
-        for reason in s.left_out {
-            writeln!(out, "  - {reason}")?;
-        }
     }
     Ok(())
 }

@@ -1,0 +1,319 @@
+//! The certificate of the straight line against the true distance to rank loss, and the accuracy of what it lets pass.
+//!
+//! Distance σ: the smallest singular value of A M^−½, its rows scaled to length 1. The bounds are those of `ukmacros`' elimination:
+//! σ ≥ 1/32 is accepted, and q̈ that is accepted is within (n + m) ε · 1024 of the larger of q̈ and M⁻¹ Q in the mass metric.
+
+use models::{Model, SliderCrank, UChain};
+use nalgebra::{DMatrix, DVector};
+use tests::{Dense, Random, pseudo_inverse, singular_values};
+use ukcore::{Mechanism, Pivot, Solver, SolverOptions, State};
+
+/// Largest distance that may be refused.
+const MARGIN: f64 = 1.0 / 32.0;
+
+ukcore::multibody! {
+    /// Two links hanging from a support, and the second one declared again, but for a part `delta` in a direction of its own.
+    Copied {
+        params { m = 0.7, big = 2.0, g = 9.81, delta = 0.1, e1 = 0.3, e2 = -0.5, e3 = 0.2, e4 = 0.4 }
+        coords { x1, y1, x2, y2, x3, y3 }
+        mass { x1: m, y1: m, x2: big, y2: big, x3: m, y3: big }
+        potential { m * g * y1, big * g * y2, big * g * y3 }
+        holonomic {
+            upper: sq(x1) + sq(y1) = 1.0
+            lower: sq(x2 - x1) + sq(y2 - y1) = 1.0
+            again: sq(x2 - x1) + sq(y2 - y1) + delta * (e1 * x1 + e2 * y1 + e3 * x3 + e4 * y3) = 1.0
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// Crank, coupler and rocker between two bearings, as point masses at their joints.
+    FourBar {
+        params { m1 = 0.4, m2 = 1.3, g = 9.81, base = 3.0 }
+        coords { x1, y1, x2, y2 }
+        mass { x1: m1, y1: m1, x2: m2, y2: m2 }
+        potential { m1 * g * y1, m2 * g * y2 }
+        holonomic {
+            crank: sq(x1) + sq(y1) = 1.0
+            coupler: sq(x2 - x1) + sq(y2 - y1) = 1.0
+            rocker: sq(base - x2) + sq(y2) = 1.0
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// Eight links between two supports.
+    Bridge {
+        const N: usize = 7;
+        params { m = 0.9, g = 9.81 }
+        coords { x[N], y[N] }
+        mass { for i in 0..N { x[i]: m, y[i]: m } }
+        potential { for i in 0..N { m * g * y[i] } }
+        holonomic {
+            left: sq(x[0]) + sq(y[0]) = 1.0
+            for i in 0..N - 1 { link[i]: sq(x[i + 1] - x[i]) + sq(y[i + 1] - y[i]) = 1.0 }
+            right: sq(8.0 - x[N - 1]) + sq(y[N - 1]) = 1.0
+        }
+    }
+}
+
+/// How many states were accepted, how many refused.
+#[derive(Default)]
+struct Seen {
+    accepted: usize,
+    refused: usize,
+}
+
+impl Seen {
+    /// One state, of a mechanism with diagonal M: whether it is accepted.
+    fn check<M: Mechanism>(&mut self, mechanism: &M, state: &State) -> bool {
+        let dense = Dense::of(mechanism, state);
+        let distance = distance::<M>(&dense);
+        let mut found = vec![f64::NAN; M::SPEC.n()];
+        let prepared = mechanism.prepared::<f64>();
+        let accepted = prepared.acceleration(state.t, &state.q, &state.v, &mut found) > 0.5;
+        let name = M::SPEC.name;
+        if !accepted {
+            self.refused += 1;
+            assert!(
+                distance < MARGIN,
+                "{name}: refused {distance:e} from rank loss"
+            );
+            return false;
+        }
+        self.accepted += 1;
+        // The oracle: q̈ = a + M^−½ B⁺ (b − A a), eq. 13.
+        let root = dense.mass.map_diagonal(f64::sqrt);
+        let free = (&dense.force + &dense.nonideal).component_div(&dense.mass.diagonal());
+        let scaled = &dense.jacobian * DMatrix::from_diagonal(&root.map(f64::recip));
+        let change = pseudo_inverse(&scaled, 0.0) * (&dense.rhs - &dense.jacobian * &free);
+        let (free, found) = (
+            free.component_mul(&root),
+            DVector::from_vec(found).component_mul(&root),
+        );
+        let expected = &free + change;
+        let size = (M::SPEC.n() + M::SPEC.m()) as f64;
+        let bound = size * f64::EPSILON / M::SPEC.structure.solve.least_share
+            * free.norm().max(expected.norm());
+        let error = (found - expected).norm();
+        assert!(
+            error <= bound,
+            "{name}: off by {error:e} > {bound:e}, {distance:e} from rank loss"
+        );
+        true
+    }
+}
+
+/// σ of what is left once coordinates that a constraint prescribes alone are gone.
+fn distance<M: Mechanism>(dense: &Dense) -> f64 {
+    let solve = &M::SPEC.structure.solve;
+    let prescribed = |wanted: (Option<usize>, Option<usize>)| {
+        solve.pivots.iter().any(|p| match *p {
+            Pivot::Prescribed(i, row, _) => wanted.0 == Some(i) || wanted.1 == Some(row),
+            _ => false,
+        })
+    };
+    let rows: Vec<usize> = (0..M::SPEC.m())
+        .filter(|i| !prescribed((None, Some(*i))))
+        .collect();
+    let columns: Vec<usize> = (0..M::SPEC.n())
+        .filter(|i| !prescribed((Some(*i), None)))
+        .collect();
+    let mut scaled = DMatrix::from_fn(rows.len(), columns.len(), |i, j| {
+        dense.jacobian[(rows[i], columns[j])] / dense.mass[(columns[j], columns[j])].sqrt()
+    });
+    for mut row in scaled.row_iter_mut() {
+        let length = row.norm();
+        row /= length;
+    }
+    singular_values(&scaled)
+        .into_iter()
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// 1, 1/√10, … down to 1e-12.
+fn approach() -> impl Iterator<Item = f64> {
+    (0..=24).map(|k| 10.0_f64.powf(-0.5 * f64::from(k)))
+}
+
+fn at<M: Mechanism>(q: Vec<f64>, random: &mut Random) -> State {
+    let v = random.vector(q.len());
+    assert_eq!(q.len(), M::SPEC.n());
+    State { t: 0.0, q, v }
+}
+
+#[test]
+fn copies_of_a_constraint() {
+    let mut random = Random::new(11);
+    let mut seen = Seen::default();
+    for delta in approach() {
+        for _ in 0..40 {
+            let mut mechanism = Copied::default();
+            mechanism.delta = delta;
+            for name in ["e1", "e2", "e3", "e4"] {
+                mechanism.set(name, random.signed()).expect("a parameter");
+            }
+            let (a, b) = (3.0 * random.signed(), 3.0 * random.signed());
+            let [x, y] = [a.sin(), -a.cos()];
+            let q = vec![
+                x,
+                y,
+                x + b.sin(),
+                y - b.cos(),
+                random.signed(),
+                random.signed(),
+            ];
+            let accepted = seen.check(&mechanism, &at::<Copied>(q, &mut random));
+            // The copy's row is 2 or longer, and δ e/√m at most 1.7 δ.
+            assert!(!(accepted && delta < 0.03), "a copy at {delta:e} passed");
+        }
+    }
+    assert!(
+        seen.accepted > 50 && seen.refused > 500,
+        "{} and {}",
+        seen.accepted,
+        seen.refused
+    );
+}
+
+#[test]
+fn crank_and_rod_of_one_length_near_their_dead_centre() {
+    let mut random = Random::new(12);
+    let mut seen = Seen::default();
+    let mut mechanism = SliderCrank::default();
+    mechanism.l = mechanism.r;
+    for away in approach() {
+        for sign in [-1.0, 1.0] {
+            let angle = std::f64::consts::FRAC_PI_2 + sign * away;
+            let (sin, cos) = angle.sin_cos();
+            let r = mechanism.r;
+            let mut q = vec![0.0; 9];
+            let places = [
+                (SliderCrank::X1, 0.5 * r * cos),
+                (SliderCrank::Y1, 0.5 * r * sin),
+                (SliderCrank::TH1, angle),
+                (SliderCrank::X2, 1.5 * r * cos),
+                (SliderCrank::Y2, 0.5 * r * sin),
+                (SliderCrank::TH2, -angle),
+                (SliderCrank::X3, 2.0 * r * cos),
+            ];
+            for (place, value) in places {
+                q[place] = value;
+            }
+            seen.check(&mechanism, &at::<SliderCrank>(q, &mut random));
+        }
+    }
+    assert!(
+        seen.accepted > 1 && seen.refused > 30,
+        "{} and {}",
+        seen.accepted,
+        seen.refused
+    );
+}
+
+#[test]
+fn a_four_bar_nearly_in_line() {
+    let mut random = Random::new(13);
+    let mut seen = Seen::default();
+    for away in approach() {
+        for _ in 0..20 {
+            let mut q = vec![1.0, 0.0, 2.0, 0.0];
+            q.iter_mut()
+                .for_each(|q| *q += 0.7 * away * random.signed());
+            seen.check(&FourBar::default(), &at::<FourBar>(q, &mut random));
+        }
+    }
+    assert!(
+        seen.accepted > 20 && seen.refused > 300,
+        "{} and {}",
+        seen.accepted,
+        seen.refused
+    );
+}
+
+#[test]
+fn a_chain_between_supports_nearly_in_line() {
+    let mut random = Random::new(14);
+    let mut seen = Seen::default();
+    for away in approach() {
+        for _ in 0..20 {
+            let mut q: Vec<f64> = (1..=7).map(f64::from).collect();
+            q.extend([0.0; 7]);
+            q.iter_mut()
+                .for_each(|q| *q += 0.7 * away * random.signed());
+            seen.check(&Bridge::default(), &at::<Bridge>(q, &mut random));
+        }
+    }
+    assert!(
+        seen.accepted > 20 && seen.refused > 300,
+        "{} and {}",
+        seen.accepted,
+        seen.refused
+    );
+}
+
+/// Links of the U-chain in any direction, parallel and folded onto each other included: its constraints are independent at all of them.
+#[test]
+fn folded_chains() {
+    let mut random = Random::new(15);
+    let mut seen = Seen::default();
+    for away in approach() {
+        for folded in [false, true] {
+            let mut q = vec![0.0; 34];
+            let (mut x, mut y) = (0.0, 0.0);
+            for i in (0..17).rev() {
+                let angle: f64 = if folded && i % 2 == 0 {
+                    0.0
+                } else {
+                    std::f64::consts::PI
+                };
+                let (sin, cos) = (angle + away * random.signed()).sin_cos();
+                (x, y) = (x + sin, y + cos);
+                (q[i], q[17 + i]) = (x, y);
+            }
+            seen.check(&UChain::default(), &at::<UChain>(q, &mut random));
+        }
+    }
+    assert!(seen.accepted > 40, "{} and {}", seen.accepted, seen.refused);
+}
+
+/// A mass that is none never passes, and what the solver makes of it is an error or finite.
+#[test]
+fn wrong_masses() {
+    struct Wrong;
+    impl tests::Check for Wrong {
+        fn check<M: Model>(&self) {
+            let solve = &M::SPEC.structure.solve;
+            let masses = M::SPEC.params.iter().enumerate().filter(|(_, p)| {
+                let diagonal = M::SPEC.equations.mass.iter().filter(|(i, j, _)| i == j);
+                let solved = diagonal.filter(|(i, ..)| {
+                    !solve
+                        .pivots
+                        .iter()
+                        .any(|s| matches!(s, Pivot::Prescribed(j, ..) if j == i))
+                });
+                solved.into_iter().any(|(.., text)| *text == p.name)
+            });
+            for (index, p) in masses {
+                for wrong in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 0.0, -0.0, -1.0] {
+                    let mut mechanism = M::default();
+                    let state = mechanism.default_start().expect("a start");
+                    mechanism.set_parameter(index, wrong);
+                    let mut out = vec![0.0; M::SPEC.n()];
+                    let prepared = mechanism.prepared::<f64>();
+                    let safe = prepared.acceleration(state.t, &state.q, &state.v, &mut out);
+                    assert!(!(safe > 0.5), "{}: {} = {wrong} passed", M::ID, p.name);
+                    let mut solver = Solver::new::<M>(SolverOptions::default());
+                    let solved =
+                        solver.acceleration(&prepared, state.t, &state.q, &state.v, &mut out);
+                    assert!(
+                        solved.is_err() || out.iter().all(|x| x.is_finite()),
+                        "{}",
+                        M::ID
+                    );
+                }
+            }
+        }
+    }
+    tests::every_model(&Wrong);
+}

@@ -1,0 +1,320 @@
+//! What the compiler knows about a mechanism, as constants of its type.
+
+use crate::error::Error;
+
+/// Everything known about a mechanism at compile time.
+#[derive(Debug)]
+pub struct Spec {
+    /// Type name.
+    pub name: &'static str,
+    /// Doc comment of the declaration.
+    pub doc: &'static str,
+    /// Parameters, families flattened (`m[0]`, `m[1]`, …).
+    pub params: &'static [ParamSpec],
+    /// What depends on parameters only and is computed once for a set of them: name and expression.
+    pub prepared: &'static [(&'static str, &'static str)],
+    /// Coordinate names (`x[0]`, `th1`), the order of q.
+    pub coords: &'static [&'static str],
+    /// Constraints, holonomic ones first, the order of the rows of A.
+    pub constraints: &'static [ConstraintSpec],
+    /// Number h of holonomic constraints.
+    pub holonomic: usize,
+    /// Outputs, in declared order.
+    pub outputs: &'static [OutputSpec],
+    /// What the compiler found out.
+    pub structure: Structure,
+    /// The derived equations, readable.
+    pub equations: Equations,
+}
+
+/// A parameter.
+#[derive(Debug)]
+pub struct ParamSpec {
+    /// Name as declared.
+    pub name: &'static str,
+    /// Doc comment; empty if none.
+    pub doc: &'static str,
+    /// Default value.
+    pub default: f64,
+}
+
+/// An output.
+#[derive(Debug)]
+pub struct OutputSpec {
+    /// Name as declared.
+    pub name: &'static str,
+    /// Doc comment; empty if none.
+    pub doc: &'static str,
+}
+
+/// A constraint.
+#[derive(Debug)]
+pub struct ConstraintSpec {
+    /// Name as declared, with indices (`link[3]`; components of vector equations `joint[0]`, `joint[1]`).
+    pub name: &'static str,
+    /// Holonomic or nonholonomic.
+    pub kind: ConstraintKind,
+    /// φ = 0, readable.
+    pub equation: &'static str,
+}
+
+/// Kind of a constraint (eqs. 3 and 4).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ConstraintKind {
+    /// φ(q, t) = 0, differentiated twice.
+    Holonomic,
+    /// φ(q, q̇, t) = 0, differentiated once.
+    Nonholonomic,
+}
+
+/// What the compiler found out about a mechanism.
+#[derive(Debug)]
+pub struct Structure {
+    /// `Mechanism::acceleration` and `Mechanism::correction` exist.
+    pub straight_line: bool,
+    /// How q̈ is solved for.
+    pub solve: Solve,
+    /// Structural non-zeros (row, column) of M, both triangles.
+    pub mass_pattern: &'static [(usize, usize)],
+    /// Structural non-zeros (row, column) of A.
+    pub jacobian_pattern: &'static [(usize, usize)],
+    /// M has no off-diagonal entry.
+    pub mass_diagonal: bool,
+    /// M depends on neither q nor t.
+    pub mass_constant: bool,
+    /// A depends on neither q, q̇ nor t.
+    pub jacobian_constant: bool,
+    /// Coordinates whose row of M is zero: they need the Udwadia-Phohomsiri equation (eq. 19).
+    pub massless: &'static [usize],
+    /// No explicit time anywhere.
+    pub scleronomic: bool,
+    /// A `nonideal` section exists (c of eq. 8).
+    pub nonideal: bool,
+    /// A `potential` section exists.
+    pub potential: bool,
+    /// T + V is conserved: scleronomic, no `force` and no `nonideal`, nonholonomic constraints homogeneous in q̇, and M either constant or from `kinetic`.
+    pub conservative: bool,
+    /// Sentences: what was left out of the code for this mechanism, and why.
+    pub left_out: &'static [&'static str],
+    /// What the emitted code costs, and what it would cost otherwise.
+    pub costs: Costs,
+}
+
+/// How q̈ is solved for: the elimination of K = [M Aᵀ; A 0] that the compiler chose. Positions in K: coordinate i is i, constraint i is n + i.
+#[derive(Debug)]
+pub struct Solve {
+    /// Why there is no straight line, naming what stands against it; empty where there is one.
+    pub refusal: &'static str,
+    /// The pivots in their order; none without a straight line.
+    pub pivots: &'static [Pivot],
+    /// Positions (row > column) that are zero in K and filled by the elimination.
+    pub fill: &'static [(usize, usize)],
+    /// What the certificate compares, in its order.
+    pub checks: &'static [Check],
+    /// The least share d/G of a checked pivot d in the diagonal G that it started from.
+    pub least_share: f64,
+}
+
+/// One pivot of the elimination.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Pivot {
+    /// A coordinate with inertia that one constraint prescribes alone, taken together with it: safe at any state, since its
+    /// coefficient in the constraint is this number.
+    Prescribed(usize, usize, &'static str),
+    /// A coordinate without inertia, taken together with a constraint in which its coefficient is this number.
+    Massless(usize, usize, &'static str),
+    /// A coordinate with inertia.
+    Coordinate(usize),
+    /// A constraint all of whose coordinates are eliminated.
+    Constraint(usize),
+}
+
+/// One comparison of the certificate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Check {
+    /// The pivot at this position is positive; nothing was taken off it.
+    Positive(usize),
+    /// The pivot at this position keeps [`Solve::least_share`] of its diagonal.
+    Share(usize),
+}
+
+/// Operations of one call, each.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Costs {
+    /// `Mechanism::dynamics`: M, Q, c, A and b.
+    pub dynamics: Operations,
+    /// A dense LDLᵀ of K after that, with one right-hand side: no zero is used, symmetry is, and there is no pivoting.
+    pub dense: Operations,
+    /// The straight line if what depends on parameters only were computed each time. Zero, like the ones that follow, where there is none.
+    pub unprepared: Operations,
+    /// `Mechanism::acceleration`.
+    pub acceleration: Operations,
+    /// `Mechanism::correction`.
+    pub correction: Operations,
+    /// `Mechanism::prepare`, once for a set of parameters.
+    pub prepare: Operations,
+}
+
+/// Operation counts of emitted code.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Operations {
+    /// Additions, subtractions and negations.
+    pub additions: usize,
+    /// Multiplications.
+    pub multiplications: usize,
+    /// Divisions and reciprocals.
+    pub divisions: usize,
+    /// Square roots.
+    pub square_roots: usize,
+    /// Sines, exponentials, powers and the like; sine and cosine of one argument count as one.
+    pub transcendentals: usize,
+    /// Comparisons and selections (abs, sign, min, max).
+    pub selections: usize,
+}
+
+impl Operations {
+    /// No operation.
+    pub const NONE: Operations = Operations {
+        additions: 0,
+        multiplications: 0,
+        divisions: 0,
+        square_roots: 0,
+        transcendentals: 0,
+        selections: 0,
+    };
+
+    /// The counts, in the order of the fields.
+    #[must_use]
+    pub const fn counts(&self) -> [usize; 6] {
+        [
+            self.additions,
+            self.multiplications,
+            self.divisions,
+            self.square_roots,
+            self.transcendentals,
+            self.selections,
+        ]
+    }
+
+    /// Both one after the other.
+    #[must_use]
+    pub const fn then(self, other: Operations) -> Operations {
+        Operations {
+            additions: self.additions + other.additions,
+            multiplications: self.multiplications + other.multiplications,
+            divisions: self.divisions + other.divisions,
+            square_roots: self.square_roots + other.square_roots,
+            transcendentals: self.transcendentals + other.transcendentals,
+            selections: self.selections + other.selections,
+        }
+    }
+}
+
+impl Solve {
+    /// Without a straight line.
+    #[must_use]
+    pub const fn none(refusal: &'static str) -> Self {
+        Solve {
+            refusal,
+            pivots: &[],
+            fill: &[],
+            checks: &[],
+            least_share: 0.0,
+        }
+    }
+}
+
+impl Costs {
+    /// No cost is known.
+    pub const NONE: Costs = Costs {
+        dynamics: Operations::NONE,
+        dense: Operations::NONE,
+        unprepared: Operations::NONE,
+        acceleration: Operations::NONE,
+        correction: Operations::NONE,
+        prepare: Operations::NONE,
+    };
+}
+
+/// The derived equations as text; entries that are zero are absent.
+#[derive(Debug)]
+pub struct Equations {
+    /// Abbreviations (name, text) that the others use.
+    pub definitions: &'static [(&'static str, &'static str)],
+    /// Entries (row, column, text) of the lower triangle of M.
+    pub mass: &'static [(usize, usize, &'static str)],
+    /// Entries (coordinate, text) of Q.
+    pub force: &'static [(usize, &'static str)],
+    /// Entries (coordinate, text) of c.
+    pub nonideal: &'static [(usize, &'static str)],
+    /// Entries (row, column, text) of A.
+    pub jacobian: &'static [(usize, usize, &'static str)],
+    /// Entries (constraint, text) of b.
+    pub rhs: &'static [(usize, &'static str)],
+}
+
+impl Spec {
+    /// Number n of coordinates.
+    #[must_use]
+    pub const fn n(&self) -> usize {
+        self.coords.len()
+    }
+
+    /// Number m of constraints.
+    #[must_use]
+    pub const fn m(&self) -> usize {
+        self.constraints.len()
+    }
+
+    /// Name of what stands at `position` of K = [M Aᵀ; A 0]: a coordinate, or a constraint after all coordinates.
+    #[must_use]
+    pub fn name_at(&self, position: usize) -> &'static str {
+        match position.checked_sub(self.n()) {
+            None => self.coords[position],
+            Some(row) => self.constraints[row].name,
+        }
+    }
+
+    /// Index of the parameter called `name`.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name.
+    pub fn parameter_index(&self, name: &str) -> Result<usize, Error> {
+        find("parameter", name, self.params.iter().map(|p| p.name))
+    }
+
+    /// Index of the coordinate called `name`.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name.
+    pub fn coordinate_index(&self, name: &str) -> Result<usize, Error> {
+        find("coordinate", name, self.coords.iter().copied())
+    }
+
+    /// Index of the output called `name`.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name.
+    pub fn output_index(&self, name: &str) -> Result<usize, Error> {
+        find("output", name, self.outputs.iter().map(|o| o.name))
+    }
+
+    /// Index of the constraint called `name`.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name.
+    pub fn constraint_index(&self, name: &str) -> Result<usize, Error> {
+        find("constraint", name, self.constraints.iter().map(|c| c.name))
+    }
+}
+
+fn find<'a>(
+    kind: &'static str,
+    name: &str,
+    mut names: impl Iterator<Item = &'a str> + Clone,
+) -> Result<usize, Error> {
+    names
+        .clone()
+        .position(|n| n == name)
+        .ok_or_else(|| Error::unknown_name(kind, name, &mut names))
+}
