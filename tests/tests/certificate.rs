@@ -148,8 +148,10 @@ fn copies_of_a_constraint() {
     let mut seen = Seen::default();
     for delta in approach() {
         for _ in 0..40 {
-            let mut mechanism = Copied::default();
-            mechanism.delta = delta;
+            let mut mechanism = Copied {
+                delta,
+                ..Copied::default()
+            };
             for name in ["e1", "e2", "e3", "e4"] {
                 mechanism.set(name, random.signed()).expect("a parameter");
             }
@@ -302,7 +304,12 @@ fn wrong_masses() {
                     let mut out = vec![0.0; M::SPEC.n()];
                     let prepared = mechanism.prepared::<f64>();
                     let safe = prepared.acceleration(state.t, &state.q, &state.v, &mut out);
-                    assert!(!(safe > 0.5), "{}: {} = {wrong} passed", M::ID, p.name);
+                    assert!(
+                        safe.is_nan() || safe <= 0.5,
+                        "{}: {} = {wrong} passed",
+                        M::ID,
+                        p.name
+                    );
                     let mut solver = Solver::new::<M>(SolverOptions::default());
                     let solved =
                         solver.acceleration(&prepared, state.t, &state.q, &state.v, &mut out);
