@@ -151,7 +151,7 @@ impl ::ukcore::Mechanism for DoublePendulum {
             ("g", "g"),
             (
                 "safe_x1",
-                "(m1 ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ m1 ? (m2 ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ m2 ? 1 : 0) : 0) : 0) : 0)",
+                "1 if the pivots that depend on m1, m2 alone are positive and finite, else 0",
             ),
         ],
         coords: &["x1", "y1", "x2", "y2"],

@@ -129,7 +129,7 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
             ("times_m2", "0.0009765625*m2"),
             (
                 "safe_th1",
-                "((m1 + m2)*sq(l1) ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ (m1 + m2)*sq(l1) ? 1 : 0) : 0)",
+                "1 if the pivots that depend on m1, m2, l1 alone are positive and finite, else 0",
             ),
         ],
         coords: &["th1", "th2"],

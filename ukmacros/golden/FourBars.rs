@@ -167,7 +167,7 @@ impl ::ukcore::Mechanism for FourBars {
             ("times_g_3", "6*g"),
             (
                 "safe_x_0",
-                "(m ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ m ? 1 : 0) : 0)",
+                "1 if the pivots that depend on m alone are positive and finite, else 0",
             ),
             ("times_m", "0.6666666666666666*m"),
             ("times_m_2", "0.16666666666666666*m"),

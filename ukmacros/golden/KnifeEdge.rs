@@ -127,7 +127,7 @@ impl ::ukcore::Mechanism for KnifeEdge {
             ("g_sin_slope", "g*sin(slope)"),
             (
                 "safe_x",
-                "(m ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ m ? (i ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ i ? 1 : 0) : 0) : 0) : 0)",
+                "1 if the pivots that depend on m, i alone are positive and finite, else 0",
             ),
         ],
         coords: &["x", "y", "th"],

@@ -116,7 +116,7 @@ impl ::ukcore::Mechanism for Pendulum {
             ("m", "m"),
             (
                 "safe_x",
-                "(m ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ m ? 1 : 0) : 0)",
+                "1 if the pivots that depend on m alone are positive and finite, else 0",
             ),
         ],
         coords: &["x", "y"],

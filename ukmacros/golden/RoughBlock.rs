@@ -144,7 +144,7 @@ impl ::ukcore::Mechanism for RoughBlock {
             ("prepared_part_3", "cos(slope)/(sq(sin(slope)) + sq(cos(slope)))"),
             (
                 "safe_plane",
-                "(sq(sin(slope)) + sq(cos(slope)) ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ sq(sin(slope)) + sq(cos(slope)) ? (m ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ m ? 1 : 0) : 0) : 0) : 0)",
+                "1 if the pivots that depend on m, slope alone are positive and finite, else 0",
             ),
         ],
         coords: &["x", "y"],

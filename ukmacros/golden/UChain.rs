@@ -5,12 +5,6 @@
 ///
 /// Derived from the declaration at compile time, in the notation of Zhao, Zhen & Chen 2013: M q̈ = Q is the unconstrained motion, A q̈ = b what the constraints demand.
 ///
-/// Abbreviations:
-///
-/// ```text
-/// right_link[0] = sq(dot(x[0]) - dot(x[1])) + sq(dot(y[0]) - dot(y[1]))
-/// ```
-///
 /// Mass matrix M (lower triangle), eq. 1:
 ///
 /// ```text
@@ -82,7 +76,7 @@
 /// Right-hand side b, eq. 5:
 ///
 /// ```text
-/// b[link[0]] = -2*right_link[0]
+/// b[link[0]] = -2*(sq(dot(x[0]) - dot(x[1])) + sq(dot(y[0]) - dot(y[1])))
 /// b[link[1]] = -2*(sq(dot(x[1]) - dot(x[2])) + sq(dot(y[1]) - dot(y[2])))
 /// b[link[2]] = -2*(sq(dot(x[2]) - dot(x[3])) + sq(dot(y[2]) - dot(y[3])))
 /// b[link[3]] = -2*(sq(dot(x[3]) - dot(x[4])) + sq(dot(y[3]) - dot(y[4])))
@@ -181,7 +175,7 @@ impl ::ukcore::Mechanism for UChain {
             ("g", "g"),
             (
                 "safe_x_0",
-                "(m ≤ 1.7976931348623157e308 ? (2.2250738585072014e-308 ≤ m ? 1 : 0) : 0)",
+                "1 if the pivots that depend on m alone are positive and finite, else 0",
             ),
         ],
         coords: &[
@@ -591,12 +585,7 @@ impl ::ukcore::Mechanism for UChain {
             },
         },
         equations: ::ukcore::Equations {
-            definitions: &[
-                (
-                    "right_link[0]",
-                    "sq(dot(x[0]) - dot(x[1])) + sq(dot(y[0]) - dot(y[1]))",
-                ),
-            ],
+            definitions: &[],
             mass: &[
                 (0, 0, "m"),
                 (1, 1, "m"),
@@ -722,7 +711,7 @@ impl ::ukcore::Mechanism for UChain {
                 (16, 33, "2*y[16]"),
             ],
             rhs: &[
-                (0, "-2*right_link[0]"),
+                (0, "-2*(sq(dot(x[0]) - dot(x[1])) + sq(dot(y[0]) - dot(y[1])))"),
                 (1, "-2*(sq(dot(x[1]) - dot(x[2])) + sq(dot(y[1]) - dot(y[2])))"),
                 (2, "-2*(sq(dot(x[2]) - dot(x[3])) + sq(dot(y[2]) - dot(y[3])))"),
                 (3, "-2*(sq(dot(x[3]) - dot(x[4])) + sq(dot(y[3]) - dot(y[4])))"),

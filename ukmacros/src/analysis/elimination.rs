@@ -246,7 +246,7 @@ impl Straight {
             .collect();
         for (of, link) in chain {
             let name = &elimination.pivots[of].name;
-            system.hints.insert(link, format!("safe_{name}"));
+            system.inner_hints.insert(link, format!("safe_{name}"));
         }
         for (id, name) in std::mem::take(&mut elimination.hints) {
             let (_, mut inner) = g.unscaled(id);
@@ -258,7 +258,7 @@ impl Straight {
                 }
             }
             if !g.operands(inner).is_empty() {
-                system.hints.entry(inner).or_insert(name);
+                system.inner_hints.entry(inner).or_insert(name);
             }
         }
         Straight {

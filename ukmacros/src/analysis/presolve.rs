@@ -50,14 +50,15 @@ pub(crate) fn hoist(
         straight.exits = exits.copied().collect();
     }
     // Names go with the values.
+    let names = system.all_hints();
     let mut known: Vec<(Id, Id)> = known.into_iter().collect();
     known.sort_unstable();
     for (old, new) in known {
         let (_, inner) = system.graph.unscaled(new);
-        if let Some(name) = system.hints.get(&old).cloned()
+        if let Some(name) = names.get(&old).cloned()
             && !system.graph.operands(inner).is_empty()
         {
-            system.hints.entry(inner).or_insert(name);
+            system.inner_hints.entry(inner).or_insert(name);
         }
     }
     Hoisted {

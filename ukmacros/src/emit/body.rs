@@ -33,10 +33,11 @@ pub(super) fn body(
 ) -> Body {
     let g = &system.graph;
     let ids: Vec<Id> = roots.iter().map(|r| r.id).collect();
-    let program = schedule(g, &ids, &system.hints, sequence);
+    let hints = system.all_hints();
+    let program = schedule(g, &ids, &hints, sequence);
     let mut writer = Writer {
         graph: g,
-        namer: Namer::new(g, model, system.constraints.len(), &system.hints, prepared),
+        namer: Namer::new(g, model, system.constraints.len(), &hints, prepared),
     };
     let inputs = writer.inputs(model, system.constraints.len(), prepared.len(), &program);
     let mut statements = TokenStream::new();

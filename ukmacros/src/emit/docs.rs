@@ -3,7 +3,7 @@
 use super::names::Namer;
 use super::spec::Costs;
 use crate::analysis::{Chosen, Dynamics, Plan};
-use crate::expr::{Id, Printer, Symbol, System};
+use crate::expr::{Id, Node, Printer, Symbol, System};
 use crate::model::Model;
 use std::collections::{HashMap, HashSet};
 use std::fmt::Write as _;
@@ -76,7 +76,14 @@ pub(super) fn listing(
             .collect()
     };
     let names = prepared_names(system, model, prepared);
-    let texts = prepared.iter().map(|id| printer.text(*id));
+    let texts = prepared.iter().map(|id| match g.node(*id) {
+        // The part of the certificate that parameters decide.
+        Node::Select { .. } => format!(
+            "1 if the pivots that depend on {} alone are positive and finite, else 0",
+            parameters_of(*id, system, &params)
+        ),
+        _ => printer.text(*id),
+    });
     Listing {
         prepared: names.into_iter().zip(texts).collect(),
         mass: matrix(&dynamics.mass),
@@ -201,7 +208,8 @@ impl Listing {
 /// Names of the prepared values, as in the emitted code.
 fn prepared_names(system: &System, model: &Model, prepared: &[Id]) -> Vec<String> {
     let constraints = system.constraints.len();
-    let namer = Namer::new(&system.graph, model, constraints, &system.hints, prepared);
+    let hints = system.all_hints();
+    let namer = Namer::new(&system.graph, model, constraints, &hints, prepared);
     let symbols = (0..prepared.len()).map(Symbol::Prepared);
     symbols.map(|s| namer.symbol(s).to_string()).collect()
 }
@@ -265,4 +273,20 @@ pub(super) fn computed(plan: &Plan, costs: &Costs, system: &System, model: &Mode
     }
     out += "\n`Mechanism::plan` tells the order, what is hoisted and left out, and draws the sparsity; `Mechanism::CODE` is the code.";
     out
+}
+
+/// Names of the parameters that `id` depends on.
+fn parameters_of(id: Id, system: &System, names: &[String]) -> String {
+    let mut found = std::collections::BTreeSet::new();
+    let (mut seen, mut stack) = (std::collections::HashSet::new(), vec![id]);
+    while let Some(id) = stack.pop() {
+        if let Node::Symbol(Symbol::Param(i)) = system.graph.node(id) {
+            found.insert(*i);
+        }
+        if seen.insert(id) {
+            stack.extend(system.graph.operands(id));
+        }
+    }
+    let found: Vec<&str> = found.iter().map(|i| names[*i].as_str()).collect();
+    found.join(", ")
 }

@@ -31,6 +31,17 @@ pub(crate) struct System {
     pub(crate) outputs: Vec<OutputValue>,
     /// Names that the modeller gave to values.
     pub(crate) hints: HashMap<Id, String>,
+    /// Names for what the compiler adds: pivots, multipliers. They serve the emitted code alone, not the printed equations.
+    pub(crate) inner_hints: HashMap<Id, String>,
+}
+
+impl System {
+    /// All names, the modeller's before the compiler's.
+    pub(crate) fn all_hints(&self) -> HashMap<Id, String> {
+        let mut all = self.inner_hints.clone();
+        all.extend(self.hints.clone());
+        all
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -263,6 +274,7 @@ impl<'m> Lowering<'m> {
             constraints,
             outputs,
             hints: std::mem::take(&mut self.hints),
+            inner_hints: HashMap::new(),
         }
     }
 
