@@ -548,10 +548,10 @@ fn an_interrupted_run_keeps_what_was_computed() {
         let csv = fs::read_to_string(&path).expect("file");
         let rows: Vec<&str> = csv.lines().skip(1).collect();
         assert_eq!(summary["samples"], rows.len());
-        assert!(
-            rows.last()
-                .is_some_and(|row| row.starts_with(&format!("{t:?},")))
-        );
+        let last = rows.last().and_then(|row| row.split(',').next());
+        let last: f64 = last.expect("a row").parse().expect("a number");
+        // The JSON reader of this test may miss the last digit.
+        assert!((last - t).abs() <= 1e-12 * t, "{last} is not {t}");
         assert_eq!(scratch.names(), ["run.csv"]);
         return;
     }

@@ -30,7 +30,7 @@
 /// | straight line, nothing hoisted | 10 | 40 | 5 | 0 | 3 | 3 |
 /// | straight line, as emitted | 9 | 25 | 1 | 0 | 3 | 1 |
 /// | correction of a projection | 2 | 3 | 0 | 0 | 1 | 1 |
-/// | once for a set of parameters | 1 | 19 | 4 | 0 | 0 | 2 |
+/// | once for a set of parameters | 1 | 20 | 4 | 0 | 0 | 2 |
 ///
 /// `Mechanism::plan` tells the order, what is hoisted and left out, and draws the sparsity; `Mechanism::CODE` is the code.
 #[derive(Clone, Debug, PartialEq)]
@@ -113,7 +113,8 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
             ("pivot_th1", "(m1 + m2)*sq(l1)"),
             ("diagonal_th2", "m2*sq(l2)"),
             ("m2_l1_l2", "m2*l1*l2"),
-            ("twice_m2_l1_l2", "2*m2*l1*l2"),
+            ("half_m1_and_m2_sq_l1", "0.5*(m1 + m2)*sq(l1)"),
+            ("half_m2_sq_l2", "0.5*m2*sq(l2)"),
             ("m1_and_m2_l1_g", "(m1 + m2)*l1*g"),
             ("m2_l2_g", "m2*l2*g"),
             ("l1", "l1"),
@@ -223,7 +224,7 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
                 },
                 prepare: ::ukcore::Operations {
                     additions: 1,
-                    multiplications: 19,
+                    multiplications: 20,
                     divisions: 4,
                     square_roots: 0,
                     transcendentals: 0,
@@ -274,7 +275,7 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         }
     }
     fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
-        let prepared = ::ukcore::emitted::exact_mut::<S, 18>(prepared, "prepared");
+        let prepared = ::ukcore::emitted::exact_mut::<S, 19>(prepared, "prepared");
         let [m1, m2, l1, l2, g] = *::ukcore::emitted::exact::<S, 5>(given, "given");
         let lit = S::from_f64;
         let m1_plus_m2 = m1 + m2;
@@ -283,29 +284,29 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         prepared[0] = pivot_th1;
         let diagonal_th2 = m2 * l2 * l2;
         prepared[1] = diagonal_th2;
-        let m2_l1_l2 = m2 * l1 * l2;
-        prepared[2] = m2_l1_l2;
-        prepared[3] = lit(2.0) * m2_l1_l2;
-        prepared[4] = l1 * g * m1_plus_m2;
-        prepared[5] = m2 * l2 * g;
-        prepared[6] = l1;
-        prepared[7] = l2;
-        prepared[8] = m2 * l2;
-        prepared[9] = g * m1_plus_m2;
-        prepared[10] = m2 * l2 * per_m1_plus_m2;
-        prepared[11] = m2 * per_m1_plus_m2;
-        prepared[12] = (m2 * l2 * l2).recip();
-        prepared[13] = l2.recip();
-        prepared[14] = per_m1_plus_m2 / l1;
-        prepared[15] = m2;
-        prepared[16] = lit(0.0009765625) * m2;
+        prepared[2] = m2 * l1 * l2;
+        prepared[3] = lit(0.5) * pivot_th1;
+        prepared[4] = lit(0.5) * diagonal_th2;
+        prepared[5] = l1 * g * m1_plus_m2;
+        prepared[6] = m2 * l2 * g;
+        prepared[7] = l1;
+        prepared[8] = l2;
+        prepared[9] = m2 * l2;
+        prepared[10] = g * m1_plus_m2;
+        prepared[11] = m2 * l2 * per_m1_plus_m2;
+        prepared[12] = m2 * per_m1_plus_m2;
+        prepared[13] = (m2 * l2 * l2).recip();
+        prepared[14] = l2.recip();
+        prepared[15] = per_m1_plus_m2 / l1;
+        prepared[16] = m2;
+        prepared[17] = lit(0.0009765625) * m2;
         let safe_th1 = S::select_le(
             pivot_th1,
             lit(1.7976931348623157e308),
             S::select_le(lit(2.2250738585072014e-308), pivot_th1, lit(1.0), lit(0.0)),
             lit(0.0),
         );
-        prepared[17] = safe_th1;
+        prepared[18] = safe_th1;
     }
     /// 6 additions, 12 multiplications, 0 divisions, 0 square roots, 3 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
@@ -320,10 +321,10 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 0>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 0>(out.rhs, "rhs");
-        let [pivot_th1, diagonal_th2, m2_l1_l2, _, m1_and_m2_l1_g, m2_l2_g, _, _, _, _,
-        _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [pivot_th1, diagonal_th2, m2_l1_l2, _, _, m1_and_m2_l1_g, m2_l2_g, _, _, _,
+        _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            18,
+            19,
         >(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_th1, dot_th2] = *::ukcore::emitted::exact::<S, 2>(v, "v");
@@ -350,7 +351,7 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
     fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 4>(mass, "mass");
         let [pivot_th1, diagonal_th2, m2_l1_l2, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _] = *::ukcore::emitted::exact::<S, 18>(prepared, "prepared");
+        _, _] = *::ukcore::emitted::exact::<S, 19>(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         mass[0] = pivot_th1;
         let th2_by_th1 = (th1 - th2).cos();
@@ -386,22 +387,20 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
-        let [pivot_th1, diagonal_th2, _, twice_m2_l1_l2, m1_and_m2_l1_g, m2_l2_g, _, _,
-        _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [_, _, m2_l1_l2, half_m1_and_m2_sq_l1, half_m2_sq_l2, m1_and_m2_l1_g,
+        m2_l2_g, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            18,
+            19,
         >(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_th1, dot_th2] = *::ukcore::emitted::exact::<S, 2>(v, "v");
-        let lit = S::from_f64;
         let th2_by_th1 = (th1 - th2).cos();
-        let kinetic = lit(0.5)
-            * (dot_th1 * dot_th2 * twice_m2_l1_l2)
-                .mul_add(
-                    th2_by_th1,
-                    (dot_th2 * dot_th2)
-                        .mul_add(diagonal_th2, dot_th1 * dot_th1 * pivot_th1),
-                );
+        let kinetic = (dot_th1 * dot_th2 * m2_l1_l2)
+            .mul_add(
+                th2_by_th1,
+                (dot_th2 * dot_th2)
+                    .mul_add(half_m2_sq_l2, dot_th1 * dot_th1 * half_m1_and_m2_sq_l1),
+            );
         let potential = m2_l2_g.neg_mul_add(th2.cos(), -(m1_and_m2_l1_g * th1.cos()));
         ::ukcore::Energy {
             kinetic,
@@ -416,9 +415,9 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         outputs: &mut [S],
     ) {
         let outputs = ::ukcore::emitted::exact_mut::<S, 4>(outputs, "outputs");
-        let [_, _, _, _, _, _, l1, l2, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [_, _, _, _, _, _, _, l1, l2, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            18,
+            19,
         >(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let (sin_th1, cos_th1) = th1.sin_cos();
@@ -439,11 +438,11 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
-        let [_, _, m2_l1_l2, _, _, m2_l2_g, _, _, m2_l2, m1_and_m2_g,
+        let [_, _, m2_l1_l2, _, _, _, m2_l2_g, _, _, m2_l2, m1_and_m2_g,
         m2_per_m1_and_m2_l2, m2_per_m1_and_m2, prepared_part, per_l2,
         per_m1_and_m2_per_l1, m2, times_m2, safe_th1] = *::ukcore::emitted::exact::<
             S,
-            18,
+            19,
         >(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_th1, dot_th2] = *::ukcore::emitted::exact::<S, 2>(v, "v");
@@ -492,8 +491,8 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
-        let [_, _, _, _, _, _, _, _, _, _, _, m2_per_m1_and_m2, _, _, _, m2, times_m2,
-        safe_th1] = *::ukcore::emitted::exact::<S, 18>(prepared, "prepared");
+        let [_, _, _, _, _, _, _, _, _, _, _, _, m2_per_m1_and_m2, _, _, _, m2, times_m2,
+        safe_th1] = *::ukcore::emitted::exact::<S, 19>(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let lit = S::from_f64;
         let th2_by_th1 = (th1 - th2).cos();

@@ -32,10 +32,10 @@
 /// Constraints φ, eqs. 3 and 4:
 ///
 /// ```text
-/// joint1[0]: 0.5*(2*x1 + 2*a*cos(th1) + l2*cos(th2) - 2*x2) = 0
-/// joint1[1]: 0.5*(2*y1 + 2*a*sin(th1) + l2*sin(th2) - 2*y2) = 0
-/// joint2[0]: 0.5*(2*x2 + l2*cos(th2) + 2*cos(th3)*b - 2*x3) = 0
-/// joint2[1]: 0.5*(2*y2 + l2*sin(th2) + 2*sin(th3)*b - 2*y3) = 0
+/// joint1[0]: x1 + a*cos(th1) + 0.5*l2*cos(th2) - x2 = 0
+/// joint1[1]: y1 + a*sin(th1) + 0.5*l2*sin(th2) - y2 = 0
+/// joint2[0]: x2 + 0.5*l2*cos(th2) + cos(th3)*b - x3 = 0
+/// joint2[1]: y2 + 0.5*l2*sin(th2) + sin(th3)*b - y3 = 0
 /// peduncle: th2 - a2*sin(w*t) = 0
 /// fin: th3 - a3*sin(w*t - phi) = 0
 /// ```
@@ -60,10 +60,10 @@
 /// Right-hand side b, eq. 5:
 ///
 /// ```text
-/// b[joint1[0]] = 0.5*(2*a*cos(th1)*sq(dot(th1)) + l2*cos(th2)*sq(dot(th2)))
-/// b[joint1[1]] = 0.5*(2*a*sin(th1)*sq(dot(th1)) + l2*sin(th2)*sq(dot(th2)))
-/// b[joint2[0]] = 0.5*(l2*cos(th2)*sq(dot(th2)) + 2*cos(th3)*b*sq(dot(th3)))
-/// b[joint2[1]] = 0.5*(l2*sin(th2)*sq(dot(th2)) + 2*sin(th3)*b*sq(dot(th3)))
+/// b[joint1[0]] = a*cos(th1)*sq(dot(th1)) + 0.5*l2*cos(th2)*sq(dot(th2))
+/// b[joint1[1]] = a*sin(th1)*sq(dot(th1)) + 0.5*l2*sin(th2)*sq(dot(th2))
+/// b[joint2[0]] = 0.5*l2*cos(th2)*sq(dot(th2)) + cos(th3)*b*sq(dot(th3))
+/// b[joint2[1]] = 0.5*l2*sin(th2)*sq(dot(th2)) + sin(th3)*b*sq(dot(th3))
 /// b[peduncle] = -a2*sq(w)*sin(w*t)
 /// b[fin] = -sq(w)*a3*sin(w*t - phi)
 /// ```
@@ -78,10 +78,10 @@
 /// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
 /// | M, Q, c, A and b | 15 | 52 | 0 | 0 | 5 | 4 |
 /// | dense LDLᵀ of [M Aᵀ; A 0] after that | 770 | 890 | 15 | 0 | 0 | 0 |
-/// | straight line, nothing hoisted | 49 | 181 | 7 | 0 | 5 | 16 |
-/// | straight line, as emitted | 47 | 111 | 2 | 0 | 5 | 6 |
+/// | straight line, nothing hoisted | 49 | 165 | 7 | 0 | 5 | 16 |
+/// | straight line, as emitted | 47 | 105 | 2 | 0 | 5 | 6 |
 /// | correction of a projection | 25 | 53 | 2 | 0 | 3 | 2 |
-/// | once for a set of parameters | 2 | 67 | 5 | 0 | 0 | 10 |
+/// | once for a set of parameters | 2 | 60 | 5 | 0 | 0 | 10 |
 ///
 /// `Mechanism::plan` tells the order, what is hoisted and left out, and draws the sparsity; `Mechanism::CODE` is the code.
 #[derive(Clone, Debug, PartialEq)]
@@ -320,8 +320,6 @@ impl ::ukcore::Mechanism for FishRobot {
             ("i1", "i1"),
             ("m2", "m2"),
             ("m3", "m3"),
-            ("twice_a", "2*a"),
-            ("twice_b", "2*b"),
             ("a2_w", "a2*w"),
             ("a2_sq_w", "a2*sq(w)"),
             ("w_a3", "w*a3"),
@@ -339,18 +337,13 @@ impl ::ukcore::Mechanism for FishRobot {
             ("rho_per_m3", "rho/m3"),
             ("per_i1_sq_a", "sq(a)/i1"),
             ("rho_per_m2_cd_s2", "rho*cd*s2/m2"),
-            ("twice_b_sq_w_a3", "2*b*sq(w)*a3"),
-            ("twice_rho_span_half_chord_per_m3", "2*rho*span*half_chord/m3"),
             ("joint1_0_with_joint2_0", "1/m2"),
-            ("twice_rho_per_m3", "2*rho/m3"),
             ("joint1_1_by_joint2_1", "1/(m2*(1/m3 + 1/m2))"),
             ("per_m1_and_per_m2", "1/m1 + 1/m2"),
-            ("twice_rho_per_m1_s_cd", "2*rho*s*cd/m1"),
             ("pivot_joint2_0", "1/m3 + 1/m2"),
             ("prepared_part", "1/sq(m2)"),
             ("prepared_part_2", "a^4*(1/m3 + 1/m2)/sq(i1)"),
             ("prepared_part_3", "1/(sq(m2)*(1/m3 + 1/m2))"),
-            ("twice_rho_per_m1_cd_s1", "2*rho*cd*s1/m1"),
             ("per_i1_sq_a_per_m3_and_per_m2", "sq(a)*(1/m3 + 1/m2)/i1"),
             ("per_per_m3_and_per_m2", "1/(1/m3 + 1/m2)"),
             ("per_i1_a", "a/i1"),
@@ -367,22 +360,22 @@ impl ::ukcore::Mechanism for FishRobot {
             ::ukcore::ConstraintSpec {
                 name: "joint1[0]",
                 kind: ::ukcore::ConstraintKind::Holonomic,
-                equation: "0.5*(2*x1 + 2*a*cos(th1) + l2*cos(th2) - 2*x2) = 0",
+                equation: "x1 + a*cos(th1) + 0.5*l2*cos(th2) - x2 = 0",
             },
             ::ukcore::ConstraintSpec {
                 name: "joint1[1]",
                 kind: ::ukcore::ConstraintKind::Holonomic,
-                equation: "0.5*(2*y1 + 2*a*sin(th1) + l2*sin(th2) - 2*y2) = 0",
+                equation: "y1 + a*sin(th1) + 0.5*l2*sin(th2) - y2 = 0",
             },
             ::ukcore::ConstraintSpec {
                 name: "joint2[0]",
                 kind: ::ukcore::ConstraintKind::Holonomic,
-                equation: "0.5*(2*x2 + l2*cos(th2) + 2*cos(th3)*b - 2*x3) = 0",
+                equation: "x2 + 0.5*l2*cos(th2) + cos(th3)*b - x3 = 0",
             },
             ::ukcore::ConstraintSpec {
                 name: "joint2[1]",
                 kind: ::ukcore::ConstraintKind::Holonomic,
-                equation: "0.5*(2*y2 + l2*sin(th2) + 2*sin(th3)*b - 2*y3) = 0",
+                equation: "y2 + 0.5*l2*sin(th2) + sin(th3)*b - y3 = 0",
             },
             ::ukcore::ConstraintSpec {
                 name: "peduncle",
@@ -507,7 +500,7 @@ impl ::ukcore::Mechanism for FishRobot {
                 },
                 unprepared: ::ukcore::Operations {
                     additions: 49,
-                    multiplications: 181,
+                    multiplications: 165,
                     divisions: 7,
                     square_roots: 0,
                     transcendentals: 5,
@@ -515,7 +508,7 @@ impl ::ukcore::Mechanism for FishRobot {
                 },
                 acceleration: ::ukcore::Operations {
                     additions: 47,
-                    multiplications: 111,
+                    multiplications: 105,
                     divisions: 2,
                     square_roots: 0,
                     transcendentals: 5,
@@ -531,7 +524,7 @@ impl ::ukcore::Mechanism for FishRobot {
                 },
                 prepare: ::ukcore::Operations {
                     additions: 2,
-                    multiplications: 67,
+                    multiplications: 60,
                     divisions: 5,
                     square_roots: 0,
                     transcendentals: 0,
@@ -585,10 +578,10 @@ impl ::ukcore::Mechanism for FishRobot {
                 (5, 8, "1"),
             ],
             rhs: &[
-                (0, "0.5*(2*a*cos(th1)*sq(dot(th1)) + l2*cos(th2)*sq(dot(th2)))"),
-                (1, "0.5*(2*a*sin(th1)*sq(dot(th1)) + l2*sin(th2)*sq(dot(th2)))"),
-                (2, "0.5*(l2*cos(th2)*sq(dot(th2)) + 2*cos(th3)*b*sq(dot(th3)))"),
-                (3, "0.5*(l2*sin(th2)*sq(dot(th2)) + 2*sin(th3)*b*sq(dot(th3)))"),
+                (0, "a*cos(th1)*sq(dot(th1)) + 0.5*l2*cos(th2)*sq(dot(th2))"),
+                (1, "a*sin(th1)*sq(dot(th1)) + 0.5*l2*sin(th2)*sq(dot(th2))"),
+                (2, "0.5*l2*cos(th2)*sq(dot(th2)) + cos(th3)*b*sq(dot(th3))"),
+                (3, "0.5*l2*sin(th2)*sq(dot(th2)) + sin(th3)*b*sq(dot(th3))"),
                 (4, "-a2*sq(w)*sin(w*t)"),
                 (5, "-sq(w)*a3*sin(w*t - phi)"),
             ],
@@ -643,7 +636,7 @@ impl ::ukcore::Mechanism for FishRobot {
         }
     }
     fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
-        let prepared = ::ukcore::emitted::exact_mut::<S, 59>(prepared, "prepared");
+        let prepared = ::ukcore::emitted::exact_mut::<S, 52>(prepared, "prepared");
         let [m1, i1, a, s, s1, m2, l2, s2, m3, b, s3, rho, cd, span, half_chord, a2, a3,
         w, phi_2] = *::ukcore::emitted::exact::<S, 19>(given, "given");
         let lit = S::from_f64;
@@ -677,53 +670,41 @@ impl ::ukcore::Mechanism for FishRobot {
         prepared[19] = m2;
         let per_m3 = m3.recip();
         prepared[20] = m3;
-        prepared[21] = lit(2.0) * a;
-        prepared[22] = lit(2.0) * b;
-        prepared[23] = a2 * w;
-        prepared[24] = a2 * w * w;
-        prepared[25] = w * a3;
-        prepared[26] = w * w * a3;
-        prepared[27] = l2 * a2 * w * w;
-        let b_sq_w_a3 = b * w * w * a3;
-        prepared[28] = b_sq_w_a3;
-        let rho_per_m1_s_cd = rho * s * cd * per_m1;
-        prepared[29] = rho_per_m1_s_cd;
-        let rho_per_m1_cd_s1 = rho * cd * s1 * per_m1;
-        prepared[30] = rho_per_m1_cd_s1;
-        let rho_span_half_chord_per_m3 = rho * span * half_chord * per_m3;
-        prepared[31] = rho_span_half_chord_per_m3;
+        prepared[21] = a2 * w;
+        prepared[22] = a2 * w * w;
+        prepared[23] = w * a3;
+        prepared[24] = w * w * a3;
+        prepared[25] = l2 * a2 * w * w;
+        prepared[26] = b * w * w * a3;
+        prepared[27] = rho * s * cd * per_m1;
+        prepared[28] = rho * cd * s1 * per_m1;
+        prepared[29] = rho * span * half_chord * per_m3;
         let span_half_chord = span * half_chord;
-        prepared[32] = span_half_chord;
+        prepared[30] = span_half_chord;
         let cd_s3 = cd * s3;
-        prepared[33] = cd_s3;
-        prepared[34] = lit(::core::f64::consts::TAU) * span_half_chord;
-        prepared[35] = lit(0.5) * cd_s3;
-        prepared[36] = rho;
-        let rho_per_m3 = rho * per_m3;
-        prepared[37] = rho_per_m3;
-        prepared[38] = a * a * per_i1;
-        prepared[39] = rho * cd * s2 * per_m2;
-        prepared[40] = lit(2.0) * b_sq_w_a3;
-        prepared[41] = lit(2.0) * rho_span_half_chord_per_m3;
-        prepared[42] = per_m2;
-        prepared[43] = lit(2.0) * rho_per_m3;
+        prepared[31] = cd_s3;
+        prepared[32] = lit(::core::f64::consts::TAU) * span_half_chord;
+        prepared[33] = lit(0.5) * cd_s3;
+        prepared[34] = rho;
+        prepared[35] = rho * per_m3;
+        prepared[36] = a * a * per_i1;
+        prepared[37] = rho * cd * s2 * per_m2;
+        prepared[38] = per_m2;
         let pivot_joint2_0 = per_m3 + per_m2;
         let per_pivot_joint2_0 = pivot_joint2_0.recip();
         let joint1_1_by_joint2_1 = per_m2 * per_pivot_joint2_0;
-        prepared[44] = joint1_1_by_joint2_1;
-        prepared[45] = per_m1 + per_m2;
-        prepared[46] = lit(2.0) * rho_per_m1_s_cd;
-        prepared[47] = pivot_joint2_0;
-        prepared[48] = (m2 * m2).recip();
-        prepared[49] = a.powi(4) * pivot_joint2_0 / (i1 * i1);
-        prepared[50] = per_pivot_joint2_0 / (m2 * m2);
-        prepared[51] = lit(2.0) * rho_per_m1_cd_s1;
-        prepared[52] = a * a * per_i1 * pivot_joint2_0;
-        prepared[53] = per_pivot_joint2_0;
-        prepared[54] = a * per_i1;
-        prepared[55] = per_m3;
-        prepared[56] = per_m1;
-        prepared[57] = per_m3 * per_pivot_joint2_0;
+        prepared[39] = joint1_1_by_joint2_1;
+        prepared[40] = per_m1 + per_m2;
+        prepared[41] = pivot_joint2_0;
+        prepared[42] = (m2 * m2).recip();
+        prepared[43] = a.powi(4) * pivot_joint2_0 / (i1 * i1);
+        prepared[44] = per_pivot_joint2_0 / (m2 * m2);
+        prepared[45] = a * a * per_i1 * pivot_joint2_0;
+        prepared[46] = per_pivot_joint2_0;
+        prepared[47] = a * per_i1;
+        prepared[48] = per_m3;
+        prepared[49] = per_m1;
+        prepared[50] = per_m3 * per_pivot_joint2_0;
         let safe_x1 = S::select_le(
             m1,
             lit(1.7976931348623157e308),
@@ -759,7 +740,7 @@ impl ::ukcore::Mechanism for FishRobot {
             ),
             lit(0.0),
         );
-        prepared[58] = safe_joint2_0;
+        prepared[51] = safe_joint2_0;
     }
     /// 15 additions, 52 multiplications, 0 divisions, 0 square roots, 5 transcendentals, 4 selections.
     fn dynamics<S: ::ukcore::Scalar>(
@@ -776,10 +757,10 @@ impl ::ukcore::Mechanism for FishRobot {
         let rhs = ::ukcore::emitted::exact_mut::<S, 6>(out.rhs, "rhs");
         let [rho_span_half_chord, times_rho_span_half_chord, _, half_rho_s_cd, _,
         half_rho_cd_s1, _, half_rho_cd_s2, _, half_rho_cd_s3, a, l2, b, w, _, phi_2, _,
-        m1, i1, m2, m3, twice_a, twice_b, _, a2_sq_w, _, sq_w_a3, _, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        m1, i1, m2, m3, _, a2_sq_w, _, sq_w_a3, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+        _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            59,
+            52,
         >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
             S,
@@ -846,14 +827,14 @@ impl ::ukcore::Mechanism for FishRobot {
         jacobian[53] = lit(1.0);
         let cos_th2_sq_dot_th2_l2 = dot_th2 * dot_th2 * l2 * cos_th2;
         rhs[0] = lit(0.5)
-            * (dot_th1 * dot_th1 * twice_a).mul_add(cos_th1, cos_th2_sq_dot_th2_l2);
+            .mul_add(cos_th2_sq_dot_th2_l2, dot_th1 * dot_th1 * a * cos_th1);
         let sin_th2_sq_dot_th2_l2 = dot_th2 * dot_th2 * l2 * sin_th2;
         rhs[1] = lit(0.5)
-            * (dot_th1 * dot_th1 * twice_a).mul_add(sin_th1, sin_th2_sq_dot_th2_l2);
-        rhs[2] = lit(0.5)
-            * (dot_th3 * dot_th3 * twice_b).mul_add(cos_th3, cos_th2_sq_dot_th2_l2);
-        rhs[3] = lit(0.5)
-            * (dot_th3 * dot_th3 * twice_b).mul_add(sin_th3, sin_th2_sq_dot_th2_l2);
+            .mul_add(sin_th2_sq_dot_th2_l2, dot_th1 * dot_th1 * a * sin_th1);
+        rhs[2] = (dot_th3 * dot_th3 * b)
+            .mul_add(cos_th3, lit(0.5) * cos_th2_sq_dot_th2_l2);
+        rhs[3] = (dot_th3 * dot_th3 * b)
+            .mul_add(sin_th3, lit(0.5) * sin_th2_sq_dot_th2_l2);
         let t_w = t * w;
         rhs[4] = -(a2_sq_w * t_w.sin());
         rhs[5] = -(sq_w_a3 * (t_w - phi_2).sin());
@@ -862,10 +843,7 @@ impl ::ukcore::Mechanism for FishRobot {
         let mass = ::ukcore::emitted::exact_mut::<S, 81>(mass, "mass");
         let [_, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, m1, i1, m2, m3, _, _, _,
         _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            59,
-        >(prepared, "prepared");
+        _] = *::ukcore::emitted::exact::<S, 52>(prepared, "prepared");
         mass[0] = m1;
         mass[10] = m1;
         mass[20] = i1;
@@ -884,7 +862,7 @@ impl ::ukcore::Mechanism for FishRobot {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 54>(jacobian, "jacobian");
         let [_, _, _, _, _, _, _, _, _, _, a, l2, b, _, _, _, _, _, _, _, _, _, _, _, _,
         _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<S, 59>(prepared, "prepared");
+        ] = *::ukcore::emitted::exact::<S, 52>(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -918,10 +896,7 @@ impl ::ukcore::Mechanism for FishRobot {
         let phi = ::ukcore::emitted::exact_mut::<S, 6>(phi, "phi");
         let [_, _, _, _, _, _, _, _, _, _, a, l2, b, w, a2, phi_2, a3, _, _, _, _, _, _,
         _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            59,
-        >(prepared, "prepared");
+        _, _] = *::ukcore::emitted::exact::<S, 52>(prepared, "prepared");
         let [x1, y1, th1, x2, y2, th2, x3, y3, th3] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -930,26 +905,12 @@ impl ::ukcore::Mechanism for FishRobot {
         let (sin_th1, cos_th1) = th1.sin_cos();
         let (sin_th2, cos_th2) = th2.sin_cos();
         let cos_th2_l2 = l2 * cos_th2;
-        phi[0] = lit(0.5)
-            * ((lit(2.0) * a).mul_add(cos_th1, lit(2.0).neg_mul_add(x2, lit(2.0) * x1))
-                + cos_th2_l2);
+        phi[0] = lit(0.5).mul_add(cos_th2_l2, a.mul_add(cos_th1, x1 - x2));
         let sin_th2_l2 = l2 * sin_th2;
-        phi[1] = lit(0.5)
-            * ((lit(2.0) * a).mul_add(sin_th1, lit(2.0).neg_mul_add(y2, lit(2.0) * y1))
-                + sin_th2_l2);
+        phi[1] = lit(0.5).mul_add(sin_th2_l2, a.mul_add(sin_th1, y1 - y2));
         let (sin_th3, cos_th3) = th3.sin_cos();
-        phi[2] = lit(-0.5)
-            * (lit(2.0) * b)
-                .neg_mul_add(
-                    cos_th3,
-                    lit(2.0).neg_mul_add(x2, lit(2.0) * x3) - cos_th2_l2,
-                );
-        phi[3] = lit(-0.5)
-            * (lit(2.0) * b)
-                .neg_mul_add(
-                    sin_th3,
-                    lit(2.0).neg_mul_add(y2, lit(2.0) * y3) - sin_th2_l2,
-                );
+        phi[2] = b.mul_add(cos_th3, lit(0.5).mul_add(cos_th2_l2, x2 - x3));
+        phi[3] = b.mul_add(sin_th3, lit(0.5).mul_add(sin_th2_l2, y2 - y3));
         let t_w = t * w;
         phi[4] = a2.neg_mul_add(t_w.sin(), th2);
         phi[5] = a3.neg_mul_add((t_w - phi_2).sin(), th3);
@@ -962,12 +923,9 @@ impl ::ukcore::Mechanism for FishRobot {
         rate: &mut [S],
     ) {
         let rate = ::ukcore::emitted::exact_mut::<S, 6>(rate, "rate");
-        let [_, _, _, _, _, _, _, _, _, _, _, l2, _, w, _, phi_2, _, _, _, _, _, twice_a,
-        twice_b, a2_w, _, w_a3, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            59,
-        >(prepared, "prepared");
+        let [_, _, _, _, _, _, _, _, _, _, a, l2, b, w, _, phi_2, _, _, _, _, _, a2_w, _,
+        w_a3, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+        _, _, _] = *::ukcore::emitted::exact::<S, 52>(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -975,35 +933,28 @@ impl ::ukcore::Mechanism for FishRobot {
         let [dot_x1, dot_y1, dot_th1, dot_x2, dot_y2, dot_th2, dot_x3, dot_y3, dot_th3,
         ] = *::ukcore::emitted::exact::<S, 9>(v, "v");
         let lit = S::from_f64;
+        let (sin_th1, cos_th1) = th1.sin_cos();
         let (sin_th2, cos_th2) = th2.sin_cos();
         let sin_th2_dot_th2_l2 = dot_th2 * l2 * sin_th2;
-        let (sin_th1, cos_th1) = th1.sin_cos();
         rate[0] = lit(0.5)
-            * (dot_th1 * twice_a)
-                .neg_mul_add(
-                    sin_th1,
-                    lit(2.0).neg_mul_add(dot_x2, lit(2.0) * dot_x1) - sin_th2_dot_th2_l2,
-                );
+            .neg_mul_add(
+                sin_th2_dot_th2_l2,
+                (dot_th1 * a).neg_mul_add(sin_th1, dot_x1 - dot_x2),
+            );
         let cos_th2_dot_th2_l2 = dot_th2 * l2 * cos_th2;
         rate[1] = lit(0.5)
-            * (dot_th1 * twice_a)
-                .mul_add(
-                    cos_th1,
-                    lit(2.0).neg_mul_add(dot_y2, lit(2.0) * dot_y1) + cos_th2_dot_th2_l2,
-                );
+            .mul_add(
+                cos_th2_dot_th2_l2,
+                (dot_th1 * a).mul_add(cos_th1, dot_y1 - dot_y2),
+            );
         let (sin_th3, cos_th3) = th3.sin_cos();
-        rate[2] = lit(-0.5)
-            * (dot_th3 * twice_b)
-                .mul_add(
-                    sin_th3,
-                    lit(2.0).neg_mul_add(dot_x2, lit(2.0) * dot_x3) + sin_th2_dot_th2_l2,
-                );
-        rate[3] = lit(-0.5)
-            * (dot_th3 * twice_b)
-                .neg_mul_add(
-                    cos_th3,
-                    lit(2.0).neg_mul_add(dot_y2, lit(2.0) * dot_y3) - cos_th2_dot_th2_l2,
-                );
+        rate[2] = (dot_th3 * b)
+            .neg_mul_add(
+                sin_th3,
+                lit(0.5).neg_mul_add(sin_th2_dot_th2_l2, dot_x2 - dot_x3),
+            );
+        rate[3] = (dot_th3 * b)
+            .mul_add(cos_th3, lit(0.5).mul_add(cos_th2_dot_th2_l2, dot_y2 - dot_y3));
         let t_w = t * w;
         rate[4] = a2_w.neg_mul_add(t_w.cos(), dot_th2);
         rate[5] = w_a3.neg_mul_add((t_w - phi_2).cos(), dot_th3);
@@ -1016,10 +967,7 @@ impl ::ukcore::Mechanism for FishRobot {
     ) -> ::ukcore::Energy<S> {
         let [_, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, m1, i1, m2, m3, _, _, _,
         _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            59,
-        >(prepared, "prepared");
+        _] = *::ukcore::emitted::exact::<S, 52>(prepared, "prepared");
         let [dot_x1, dot_y1, dot_th1, dot_x2, dot_y2, _, dot_x3, dot_y3, _] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -1063,9 +1011,9 @@ impl ::ukcore::Mechanism for FishRobot {
         let outputs = ::ukcore::emitted::exact_mut::<S, 6>(outputs, "outputs");
         let [rho_span_half_chord, times_rho_span_half_chord, _, _, _, _, _, _, _, _, _,
         _, b, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            59,
+            52,
         >(prepared, "prepared");
         let [_, _, th1, _, _, _, x3, y3, th3] = *::ukcore::emitted::exact::<
             S,
@@ -1087,7 +1035,7 @@ impl ::ukcore::Mechanism for FishRobot {
         outputs[4] = b.mul_add(cos_th3, x3);
         outputs[5] = b.mul_add(sin_th3, y3);
     }
-    /// 47 additions, 111 multiplications, 2 divisions, 0 square roots, 5 transcendentals, 6 selections.
+    /// 47 additions, 105 multiplications, 2 divisions, 0 square roots, 5 transcendentals, 6 selections.
     fn acceleration<S: ::ukcore::Scalar>(
         prepared: &[S],
         t: S,
@@ -1096,15 +1044,17 @@ impl ::ukcore::Mechanism for FishRobot {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 9>(out, "out");
-        let [rho_span_half_chord, _, rho_s_cd, _, rho_cd_s1, _, rho_cd_s2, _, _, _, _,
-        l2, _, w, _, phi_2, _, _, _, _, _, twice_a, twice_b, _, a2_sq_w, _, sq_w_a3,
-        l2_a2_sq_w, _, _, _, _, _, _, times_span_half_chord, half_cd_s3, rho, _,
-        per_i1_sq_a, rho_per_m2_cd_s2, twice_b_sq_w_a3, twice_rho_span_half_chord_per_m3,
-        joint1_0_with_joint2_0, twice_rho_per_m3, joint1_1_by_joint2_1,
-        per_m1_and_per_m2, twice_rho_per_m1_s_cd, pivot_joint2_0, prepared_part,
-        prepared_part_2, prepared_part_3, twice_rho_per_m1_cd_s1,
-        per_i1_sq_a_per_m3_and_per_m2, per_per_m3_and_per_m2, per_i1_a, per_m3, per_m1,
-        _, safe_joint2_0] = *::ukcore::emitted::exact::<S, 59>(prepared, "prepared");
+        let [rho_span_half_chord, _, rho_s_cd, _, rho_cd_s1, _, rho_cd_s2, _, _, _, a,
+        l2, b, w, _, phi_2, _, _, _, _, _, _, a2_sq_w, _, sq_w_a3, l2_a2_sq_w, b_sq_w_a3,
+        rho_per_m1_s_cd, rho_per_m1_cd_s1, rho_span_half_chord_per_m3, _, _,
+        times_span_half_chord, half_cd_s3, rho, rho_per_m3, per_i1_sq_a,
+        rho_per_m2_cd_s2, joint1_0_with_joint2_0, joint1_1_by_joint2_1,
+        per_m1_and_per_m2, pivot_joint2_0, prepared_part, prepared_part_2,
+        prepared_part_3, per_i1_sq_a_per_m3_and_per_m2, per_per_m3_and_per_m2, per_i1_a,
+        per_m3, per_m1, _, safe_joint2_0] = *::ukcore::emitted::exact::<
+            S,
+            52,
+        >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -1133,41 +1083,33 @@ impl ::ukcore::Mechanism for FishRobot {
         let sin_t_w = t_w.sin();
         let acceleration_0_part_2 = l2_a2_sq_w * acceleration_0_part * sin_t_w;
         let acceleration_0_part_3 = (t_w - phi_2).sin();
-        let right_joint2_0 = lit(0.5)
-            * twice_rho_span_half_chord_per_m3
-                .mul_add(
-                    right_x3,
-                    (twice_b_sq_w_a3 * sin_th3)
-                        .neg_mul_add(
-                            acceleration_0_part_3,
-                            lit(2.0)
-                                .neg_mul_add(
-                                    acceleration_0_part_2,
-                                    (dot_th3 * dot_th3 * twice_b)
-                                        .mul_add(cos_th3, cos_th2_sq_dot_th2_l2),
-                                ),
-                        ),
-                );
+        let right_joint2_0 = rho_span_half_chord_per_m3
+            .mul_add(
+                right_x3,
+                (b_sq_w_a3 * sin_th3)
+                    .neg_mul_add(
+                        acceleration_0_part_3,
+                        (dot_th3 * dot_th3 * b)
+                            .mul_add(cos_th3, lit(0.5) * cos_th2_sq_dot_th2_l2)
+                            - acceleration_0_part_2,
+                    ),
+            );
         let sin_th2_sq_dot_th2_l2 = dot_th2 * dot_th2 * l2 * sin_th2;
         let acceleration_0_part_4 = lit(0.5) * cos_th2;
         let acceleration_0_part_5 = l2_a2_sq_w * acceleration_0_part_4 * sin_t_w;
         let right_y2_rho_per_m2_cd_s2 = rho_per_m2_cd_s2 * right_y2;
-        let right_joint2_1 = lit(0.5)
-            * twice_rho_per_m3
-                .mul_add(
-                    right_y3,
-                    (twice_b_sq_w_a3 * cos_th3)
-                        .mul_add(
-                            acceleration_0_part_3,
-                            lit(2.0)
-                                .mul_add(
-                                    acceleration_0_part_5,
-                                    lit(2.0) * right_y2_rho_per_m2_cd_s2
-                                        + (dot_th3 * dot_th3 * twice_b)
-                                            .mul_add(sin_th3, sin_th2_sq_dot_th2_l2),
-                                ),
-                        ),
-                );
+        let right_joint2_1 = rho_per_m3
+            .mul_add(
+                right_y3,
+                (b_sq_w_a3 * cos_th3)
+                    .mul_add(
+                        acceleration_0_part_3,
+                        right_y2_rho_per_m2_cd_s2
+                            + (dot_th3 * dot_th3 * b)
+                                .mul_add(sin_th3, lit(0.5) * sin_th2_sq_dot_th2_l2)
+                            + acceleration_0_part_5,
+                    ),
+            );
         let (sin_th1, cos_th1) = th1.sin_cos();
         let diagonal_joint1_0 = (per_i1_sq_a * sin_th1)
             .mul_add(sin_th1, per_m1_and_per_m2);
@@ -1180,46 +1122,44 @@ impl ::ukcore::Mechanism for FishRobot {
             safe_joint2_0,
             lit(0.0),
         );
-        let acceleration_0_part_6 = lit(0.5)
-            * lit(2.0)
-                .neg_mul_add(
-                    acceleration_0_part_2,
-                    twice_rho_per_m1_s_cd * right_x1
-                        + (dot_th1 * dot_th1 * twice_a)
-                            .mul_add(cos_th1, cos_th2_sq_dot_th2_l2),
-                );
         let right_joint1_0 = joint1_0_with_joint2_0
-            .mul_add(right_joint2_0, pivot_joint2_0 * acceleration_0_part_6);
-        let acceleration_0_part_7 = (per_i1_sq_a * cos_th1)
+            .mul_add(
+                right_joint2_0,
+                pivot_joint2_0
+                    * (rho_per_m1_s_cd * right_x1
+                        + lit(0.5)
+                            .mul_add(
+                                cos_th2_sq_dot_th2_l2,
+                                dot_th1 * dot_th1 * a * cos_th1,
+                            ) - acceleration_0_part_2),
+            );
+        let acceleration_0_part_6 = (per_i1_sq_a * cos_th1)
             .mul_add(cos_th1, per_m1_and_per_m2);
-        let pivot_joint1_1 = (acceleration_0_part_7 - prepared_part_3)
+        let pivot_joint1_1 = (acceleration_0_part_6 - prepared_part_3)
             .neg_mul_add(
                 pivot_joint1_0,
                 prepared_part_2 * cos_th1 * cos_th1 * sin_th1 * sin_th1,
             );
         let per_pivot_joint1_1 = pivot_joint1_1.recip();
-        let diagonal_joint1_1 = acceleration_0_part_7 * pivot_joint1_0;
+        let diagonal_joint1_1 = acceleration_0_part_6 * pivot_joint1_0;
         let safe_joint1_1 = S::select_le(
             lit(0.0009765625) * diagonal_joint1_1,
             -pivot_joint1_1,
             safe_joint1_0,
             lit(0.0),
         );
-        let acceleration_0_part_8 = lit(0.5)
-            * lit(2.0)
-                .mul_add(
-                    acceleration_0_part_5,
-                    lit(2.0)
-                        .neg_mul_add(
-                            right_y2_rho_per_m2_cd_s2,
-                            twice_rho_per_m1_cd_s1 * right_y1,
-                        )
-                        + (dot_th1 * dot_th1 * twice_a)
-                            .mul_add(sin_th1, sin_th2_sq_dot_th2_l2),
-                );
         let right_joint1_1 = pivot_joint1_0
             .mul_add(
-                joint1_1_by_joint2_1.mul_add(right_joint2_1, acceleration_0_part_8),
+                joint1_1_by_joint2_1
+                    .mul_add(
+                        right_joint2_1,
+                        (rho_per_m1_cd_s1 * right_y1 - right_y2_rho_per_m2_cd_s2
+                            + lit(0.5)
+                                .mul_add(
+                                    sin_th2_sq_dot_th2_l2,
+                                    dot_th1 * dot_th1 * a * sin_th1,
+                                ) + acceleration_0_part_5),
+                    ),
                 per_i1_sq_a * cos_th1 * sin_th1 * right_joint1_0,
             );
         out[5] = -(a2_sq_w * sin_t_w);
@@ -1229,7 +1169,7 @@ impl ::ukcore::Mechanism for FishRobot {
         out[1] = -(per_m1 * (rho_cd_s1 * right_y1 + lambda_joint1_1));
         let lambda_joint1_0 = (per_i1_sq_a_per_m3_and_per_m2 * cos_th1 * sin_th1
             * per_pivot_joint1_0 * per_pivot_joint1_1)
-            .neg_mul_add(right_joint1_1, per_pivot_joint1_0 * right_joint1_0);
+            .neg_mul_add(right_joint1_1, right_joint1_0 * per_pivot_joint1_0);
         out[0] = -(per_m1 * (rho_s_cd * right_x1 - lambda_joint1_0));
         let lambda_joint2_1 = (joint1_0_with_joint2_0 * per_pivot_joint1_1)
             .neg_mul_add(right_joint1_1, right_joint2_1);
@@ -1260,14 +1200,11 @@ impl ::ukcore::Mechanism for FishRobot {
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 9>(out, "out");
         let [_, _, _, _, _, _, _, _, _, _, _, l2, b, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, _, _, _, _, _, _, per_i1_sq_a, _, _, _,
-        joint1_0_with_joint2_0, _, joint1_1_by_joint2_1, per_m1_and_per_m2, _,
-        pivot_joint2_0, prepared_part, prepared_part_2, prepared_part_3, _,
-        per_i1_sq_a_per_m3_and_per_m2, per_per_m3_and_per_m2, per_i1_a, _, per_m1,
-        per_m3_per_per_m3_and_per_m2, safe_joint2_0] = *::ukcore::emitted::exact::<
-            S,
-            59,
-        >(prepared, "prepared");
+        _, _, _, _, _, _, _, _, _, _, _, per_i1_sq_a, _, joint1_0_with_joint2_0,
+        joint1_1_by_joint2_1, per_m1_and_per_m2, pivot_joint2_0, prepared_part,
+        prepared_part_2, prepared_part_3, per_i1_sq_a_per_m3_and_per_m2,
+        per_per_m3_and_per_m2, per_i1_a, _, per_m1, per_m3_per_per_m3_and_per_m2,
+        safe_joint2_0] = *::ukcore::emitted::exact::<S, 52>(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
             S,
             9,

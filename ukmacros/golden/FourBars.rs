@@ -87,10 +87,10 @@
 /// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
 /// | M, Q, c, A and b | 30 | 53 | 0 | 0 | 0 | 0 |
 /// | dense LDLᵀ of [M Aᵀ; A 0] after that | 1482 | 1672 | 19 | 0 | 0 | 0 |
-/// | straight line, nothing hoisted | 251 | 392 | 15 | 0 | 0 | 17 |
-/// | straight line, as emitted | 256 | 384 | 15 | 0 | 0 | 15 |
-/// | correction of a projection | 230 | 389 | 15 | 0 | 0 | 15 |
-/// | once for a set of parameters | 0 | 11 | 0 | 0 | 0 | 2 |
+/// | straight line, nothing hoisted | 255 | 384 | 15 | 0 | 0 | 17 |
+/// | straight line, as emitted | 260 | 376 | 15 | 0 | 0 | 15 |
+/// | correction of a projection | 234 | 363 | 15 | 0 | 0 | 15 |
+/// | once for a set of parameters | 0 | 10 | 0 | 0 | 0 | 2 |
 ///
 /// `Mechanism::plan` tells the order, what is hoisted and left out, and draws the sparsity; `Mechanism::CODE` is the code.
 #[derive(Clone, Debug, PartialEq)]
@@ -164,7 +164,6 @@ impl ::ukcore::Mechanism for FourBars {
             ("g", "g"),
             ("times_g", "1.25*g"),
             ("times_g_2", "1.5*g"),
-            ("times_g_3", "6*g"),
             (
                 "safe_x_0",
                 "1 if the pivots that depend on m alone are positive and finite, else 0",
@@ -403,24 +402,24 @@ impl ::ukcore::Mechanism for FourBars {
                     selections: 0,
                 },
                 unprepared: ::ukcore::Operations {
-                    additions: 251,
-                    multiplications: 392,
+                    additions: 255,
+                    multiplications: 384,
                     divisions: 15,
                     square_roots: 0,
                     transcendentals: 0,
                     selections: 17,
                 },
                 acceleration: ::ukcore::Operations {
-                    additions: 256,
-                    multiplications: 384,
+                    additions: 260,
+                    multiplications: 376,
                     divisions: 15,
                     square_roots: 0,
                     transcendentals: 0,
                     selections: 15,
                 },
                 correction: ::ukcore::Operations {
-                    additions: 230,
-                    multiplications: 389,
+                    additions: 234,
+                    multiplications: 363,
                     divisions: 15,
                     square_roots: 0,
                     transcendentals: 0,
@@ -428,7 +427,7 @@ impl ::ukcore::Mechanism for FourBars {
                 },
                 prepare: ::ukcore::Operations {
                     additions: 0,
-                    multiplications: 11,
+                    multiplications: 10,
                     divisions: 0,
                     square_roots: 0,
                     transcendentals: 0,
@@ -524,7 +523,7 @@ impl ::ukcore::Mechanism for FourBars {
         }
     }
     fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
-        let prepared = ::ukcore::emitted::exact_mut::<S, 15>(prepared, "prepared");
+        let prepared = ::ukcore::emitted::exact_mut::<S, 14>(prepared, "prepared");
         let [m, l, g] = *::ukcore::emitted::exact::<S, 3>(given, "given");
         let lit = S::from_f64;
         prepared[0] = m;
@@ -538,17 +537,16 @@ impl ::ukcore::Mechanism for FourBars {
         prepared[7] = g;
         prepared[8] = lit(1.25) * g;
         prepared[9] = lit(1.5) * g;
-        prepared[10] = lit(6.0) * g;
         let safe_x_0 = S::select_le(
             m,
             lit(1.7976931348623157e308),
             S::select_le(lit(2.2250738585072014e-308), m, lit(1.0), lit(0.0)),
             lit(0.0),
         );
-        prepared[11] = safe_x_0;
-        prepared[12] = lit(0.6666666666666666) * m;
-        prepared[13] = lit(0.16666666666666666) * m;
-        prepared[14] = lit(-1.5) * m_g;
+        prepared[10] = safe_x_0;
+        prepared[11] = lit(0.6666666666666666) * m;
+        prepared[12] = lit(0.16666666666666666) * m;
+        prepared[13] = lit(-1.5) * m_g;
     }
     /// 30 additions, 53 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
@@ -563,8 +561,8 @@ impl ::ukcore::Mechanism for FourBars {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 10>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 90>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 9>(out.rhs, "rhs");
-        let [m, m_g, _, l, times_l, times_l_2, times_l_3, _, _, _, _, _, times_m,
-        times_m_2, times_m_g] = *::ukcore::emitted::exact::<S, 15>(prepared, "prepared");
+        let [m, m_g, _, l, times_l, times_l_2, times_l_3, _, _, _, _, times_m, times_m_2,
+        times_m_g] = *::ukcore::emitted::exact::<S, 14>(prepared, "prepared");
         let [x_0, x_1, x_2, x_3, x_4, y_0, y_1, y_2, y_3, y_4] = *::ukcore::emitted::exact::<
             S,
             10,
@@ -692,9 +690,9 @@ impl ::ukcore::Mechanism for FourBars {
     }
     fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 100>(mass, "mass");
-        let [m, _, _, _, _, _, _, _, _, _, _, _, times_m, times_m_2, _] = *::ukcore::emitted::exact::<
+        let [m, _, _, _, _, _, _, _, _, _, _, times_m, times_m_2, _] = *::ukcore::emitted::exact::<
             S,
-            15,
+            14,
         >(prepared, "prepared");
         mass[0] = times_m;
         mass[1] = times_m_2;
@@ -731,9 +729,9 @@ impl ::ukcore::Mechanism for FourBars {
         jacobian: &mut [S],
     ) {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 90>(jacobian, "jacobian");
-        let [_, _, _, l, times_l, times_l_2, times_l_3, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [_, _, _, l, times_l, times_l_2, times_l_3, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            15,
+            14,
         >(prepared, "prepared");
         let [x_0, x_1, x_2, x_3, x_4, y_0, y_1, y_2, y_3, y_4] = *::ukcore::emitted::exact::<
             S,
@@ -777,9 +775,9 @@ impl ::ukcore::Mechanism for FourBars {
     }
     fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
         let phi = ::ukcore::emitted::exact_mut::<S, 9>(phi, "phi");
-        let [_, _, sq_l, l, times_l, times_l_2, times_l_3, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [_, _, sq_l, l, times_l, times_l_2, times_l_3, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            15,
+            14,
         >(prepared, "prepared");
         let [x_0, x_1, x_2, x_3, x_4, y_0, y_1, y_2, y_3, y_4] = *::ukcore::emitted::exact::<
             S,
@@ -819,9 +817,9 @@ impl ::ukcore::Mechanism for FourBars {
         rate: &mut [S],
     ) {
         let rate = ::ukcore::emitted::exact_mut::<S, 9>(rate, "rate");
-        let [_, _, _, l, times_l, times_l_2, times_l_3, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [_, _, _, l, times_l, times_l_2, times_l_3, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            15,
+            14,
         >(prepared, "prepared");
         let [x_0, x_1, x_2, x_3, x_4, y_0, y_1, y_2, y_3, y_4] = *::ukcore::emitted::exact::<
             S,
@@ -854,9 +852,9 @@ impl ::ukcore::Mechanism for FourBars {
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
-        let [m, m_g, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [m, m_g, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            15,
+            14,
         >(prepared, "prepared");
         let [_, _, _, _, _, y_0, y_1, y_2, y_3, y_4] = *::ukcore::emitted::exact::<
             S,
@@ -967,7 +965,7 @@ impl ::ukcore::Mechanism for FourBars {
         >(q, "q");
         outputs[0] = x_0.atan2(y_0);
     }
-    /// 256 additions, 384 multiplications, 15 divisions, 0 square roots, 0 transcendentals, 15 selections.
+    /// 260 additions, 376 multiplications, 15 divisions, 0 square roots, 0 transcendentals, 15 selections.
     fn acceleration<S: ::ukcore::Scalar>(
         prepared: &[S],
         t: S,
@@ -976,8 +974,8 @@ impl ::ukcore::Mechanism for FourBars {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 10>(out, "out");
-        let [_, _, _, l, times_l, times_l_2, times_l_3, g, times_g, times_g_2, times_g_3,
-        safe_x_0, _, _, _] = *::ukcore::emitted::exact::<S, 15>(prepared, "prepared");
+        let [_, _, _, l, times_l, times_l_2, times_l_3, g, times_g, times_g_2, safe_x_0,
+        _, _, _] = *::ukcore::emitted::exact::<S, 14>(prepared, "prepared");
         let [x_0, x_1, x_2, x_3, x_4, y_0, y_1, y_2, y_3, y_4] = *::ukcore::emitted::exact::<
             S,
             10,
@@ -1825,12 +1823,15 @@ impl ::ukcore::Mechanism for FourBars {
                             ),
                     ),
             );
-        out[0] = lit(-0.25)
-            * (lit(4.0) * crank_0_by_x_0)
-                .mul_add(
-                    lambda_crank_0,
-                    lit(4.0) * coupler_0_by_x_0 * lambda_coupler_0 + acceleration_9_part,
-                );
+        out[0] = crank_0_by_x_0
+            .neg_mul_add(
+                lambda_crank_0,
+                lit(0.25)
+                    .neg_mul_add(
+                        acceleration_9_part,
+                        -(coupler_0_by_x_0 * lambda_coupler_0),
+                    ),
+            );
         let lambda_crank_4 = x_3_by_crank_4
             .neg_mul_add(
                 acceleration_2_part,
@@ -1844,26 +1845,33 @@ impl ::ukcore::Mechanism for FourBars {
                             ),
                     ),
             );
-        out[4] = lit(-0.25)
-            * (lit(4.0) * crank_4_by_x_4)
-                .mul_add(
-                    lambda_crank_4,
-                    lit(4.0) * coupler_3_by_x_4 * lambda_coupler_3 + acceleration_2_part,
-                );
-        out[5] = lit(-0.25)
-            * (lit(4.0) * crank_0_by_y_0)
-                .mul_add(
-                    lambda_crank_0,
-                    (lit(4.0) * coupler_0_by_y_0).mul_add(lambda_coupler_0, times_g_3)
-                        + acceleration_3_part,
-                );
-        out[9] = lit(-0.25)
-            * (lit(4.0) * crank_4_by_y_4)
-                .mul_add(
-                    lambda_crank_4,
-                    (lit(4.0) * coupler_3_by_y_4).mul_add(lambda_coupler_3, times_g_3)
-                        + acceleration_7_part,
-                );
+        out[4] = crank_4_by_x_4
+            .neg_mul_add(
+                lambda_crank_4,
+                lit(0.25)
+                    .neg_mul_add(
+                        acceleration_2_part,
+                        -(coupler_3_by_x_4 * lambda_coupler_3),
+                    ),
+            );
+        out[5] = crank_0_by_y_0
+            .neg_mul_add(
+                lambda_crank_0,
+                lit(0.25)
+                    .neg_mul_add(
+                        acceleration_3_part,
+                        coupler_0_by_y_0.neg_mul_add(lambda_coupler_0, -times_g_2),
+                    ),
+            );
+        out[9] = crank_4_by_y_4
+            .neg_mul_add(
+                lambda_crank_4,
+                lit(0.25)
+                    .neg_mul_add(
+                        acceleration_7_part,
+                        coupler_3_by_y_4.neg_mul_add(lambda_coupler_3, -times_g_2),
+                    ),
+            );
         safe
     }
     fn correction<S: ::ukcore::Scalar>(
@@ -1875,9 +1883,9 @@ impl ::ukcore::Mechanism for FourBars {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 10>(out, "out");
-        let [_, _, _, l, times_l, times_l_2, times_l_3, _, _, _, _, safe_x_0, _, _, _] = *::ukcore::emitted::exact::<
+        let [_, _, _, l, times_l, times_l_2, times_l_3, _, _, _, safe_x_0, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            15,
+            14,
         >(prepared, "prepared");
         let [x_0, x_1, x_2, x_3, x_4, y_0, y_1, y_2, y_3, y_4] = *::ukcore::emitted::exact::<
             S,
@@ -2354,44 +2362,40 @@ impl ::ukcore::Mechanism for FourBars {
         let correction_0_part_34 = right_x_1;
         let right_y_1 = correction_0_part_34
             .neg_mul_add(y_1_by_x_1, right_crank_0 * y_1_by_crank_0);
-        let right_crank_1 = lit(0.5)
-            * (lit(2.0) * right_y_1)
-                .mul_add(
-                    crank_1_by_y_1,
-                    (lit(2.0) * correction_0_part_34).mul_add(crank_1_by_x_1, residual_1),
-                );
-        let correction_0_part_35 = lit(0.5)
-            * (lit(2.0) * right_y_1)
-                .mul_add(
-                    coupler_0_by_y_1,
-                    (lit(2.0) * correction_0_part_34)
-                        .mul_add(coupler_0_by_x_1, residual_5),
-                );
+        let right_crank_1 = right_y_1
+            .mul_add(
+                crank_1_by_y_1,
+                correction_0_part_34.mul_add(crank_1_by_x_1, lit(0.5) * residual_1),
+            );
         let right_coupler_0 = right_crank_1
             .mul_add(
                 coupler_0_by_crank_1,
-                right_crank_0 * coupler_0_by_crank_0 - correction_0_part_35,
+                right_crank_0 * coupler_0_by_crank_0
+                    - right_y_1
+                        .mul_add(
+                            coupler_0_by_y_1,
+                            correction_0_part_34
+                                .mul_add(coupler_0_by_x_1, lit(0.5) * residual_5),
+                        ),
             );
-        let correction_0_part_36 = right_x_3;
-        let right_y_3 = correction_0_part_36
+        let correction_0_part_35 = right_x_3;
+        let right_y_3 = correction_0_part_35
             .neg_mul_add(y_3_by_x_3, right_crank_4 * y_3_by_crank_4);
-        let right_crank_3 = lit(0.5)
-            * (lit(2.0) * right_y_3)
-                .mul_add(
-                    crank_3_by_y_3,
-                    (lit(2.0) * correction_0_part_36).mul_add(crank_3_by_x_3, residual_3),
-                );
-        let correction_0_part_37 = lit(0.5)
-            * (lit(2.0) * right_y_3)
-                .neg_mul_add(
-                    coupler_3_by_y_3,
-                    (lit(2.0) * correction_0_part_36)
-                        .neg_mul_add(coupler_3_by_x_3, residual_8),
-                );
+        let right_crank_3 = right_y_3
+            .mul_add(
+                crank_3_by_y_3,
+                correction_0_part_35.mul_add(crank_3_by_x_3, lit(0.5) * residual_3),
+            );
         let right_coupler_3 = right_crank_3
             .mul_add(
                 coupler_3_by_crank_3,
-                right_crank_4 * coupler_3_by_crank_4 + correction_0_part_37,
+                right_crank_4 * coupler_3_by_crank_4
+                    + right_y_3
+                        .neg_mul_add(
+                            coupler_3_by_y_3,
+                            correction_0_part_35
+                                .neg_mul_add(coupler_3_by_x_3, lit(0.5) * residual_8),
+                        ),
             );
         let right_x_2 = right_coupler_3
             .neg_mul_add(
@@ -2409,7 +2413,7 @@ impl ::ukcore::Mechanism for FourBars {
                                             right_y_1
                                                 .neg_mul_add(
                                                     x_2_by_y_1,
-                                                    correction_0_part_36
+                                                    correction_0_part_35
                                                         .mul_add(x_2_by_x_3, correction_0_part_34 * x_2_by_x_1),
                                                 ),
                                         ),
@@ -2431,27 +2435,11 @@ impl ::ukcore::Mechanism for FourBars {
                     y_2_by_x_2,
                     right_y_3.mul_add(y_2_by_y_3, right_y_1 * y_2_by_y_1),
                 );
-        let right_crank_2 = lit(0.5)
-            * (lit(2.0) * correction_0_part_26 * right_y_2)
-                .mul_add(
-                    per_pivot_y_2,
-                    (lit(2.0) * right_x_2).mul_add(crank_2_by_x_2, residual_2),
-                );
-        let correction_0_part_38 = lit(0.5)
-            * (lit(2.0) * right_y_2 * correction_0_part_29)
-                .mul_add(
-                    per_pivot_y_2,
-                    (lit(2.0) * right_x_2)
-                        .mul_add(
-                            coupler_1_by_x_2,
-                            (lit(2.0) * right_y_1)
-                                .mul_add(
-                                    coupler_1_by_y_1,
-                                    (lit(2.0) * correction_0_part_34)
-                                        .mul_add(coupler_1_by_x_1, residual_6),
-                                ),
-                        ),
-                );
+        let right_crank_2 = (correction_0_part_26 * right_y_2)
+            .mul_add(
+                per_pivot_y_2,
+                right_x_2.mul_add(crank_2_by_x_2, lit(0.5) * residual_2),
+            );
         let right_coupler_1 = right_crank_2
             .mul_add(
                 coupler_1_by_crank_2,
@@ -2459,23 +2447,22 @@ impl ::ukcore::Mechanism for FourBars {
                     .neg_mul_add(
                         coupler_1_by_coupler_0,
                         right_crank_1 * coupler_1_by_crank_1,
-                    ) - correction_0_part_38,
-            );
-        let correction_0_part_39 = lit(0.5)
-            * (lit(2.0) * correction_0_part_32 * right_y_2)
-                .neg_mul_add(
-                    per_pivot_y_2,
-                    (lit(2.0) * right_x_2)
-                        .neg_mul_add(
-                            coupler_2_by_x_2,
-                            (lit(2.0) * right_y_3)
-                                .neg_mul_add(
-                                    coupler_2_by_y_3,
-                                    (lit(2.0) * correction_0_part_36)
-                                        .neg_mul_add(coupler_2_by_x_3, residual_7),
+                    )
+                    - (right_y_2 * correction_0_part_29)
+                        .mul_add(
+                            per_pivot_y_2,
+                            right_x_2
+                                .mul_add(
+                                    coupler_1_by_x_2,
+                                    right_y_1
+                                        .mul_add(
+                                            coupler_1_by_y_1,
+                                            correction_0_part_34
+                                                .mul_add(coupler_1_by_x_1, lit(0.5) * residual_6),
+                                        ),
                                 ),
                         ),
-                );
+            );
         let right_coupler_2 = right_crank_2
             .mul_add(
                 coupler_2_by_crank_2,
@@ -2483,7 +2470,21 @@ impl ::ukcore::Mechanism for FourBars {
                     .neg_mul_add(
                         coupler_2_by_coupler_3,
                         right_crank_3 * coupler_2_by_crank_3,
-                    ) + correction_0_part_39,
+                    )
+                    + (correction_0_part_32 * right_y_2)
+                        .neg_mul_add(
+                            per_pivot_y_2,
+                            right_x_2
+                                .neg_mul_add(
+                                    coupler_2_by_x_2,
+                                    right_y_3
+                                        .neg_mul_add(
+                                            coupler_2_by_y_3,
+                                            correction_0_part_35
+                                                .neg_mul_add(coupler_2_by_x_3, lit(0.5) * residual_7),
+                                        ),
+                                ),
+                        ),
             )
             .neg_mul_add(pivot_coupler_1, coupler_2_with_coupler_1 * right_coupler_1);
         let safe = safe_coupler_2;
@@ -2677,12 +2678,15 @@ impl ::ukcore::Mechanism for FourBars {
                             ),
                     ),
             );
-        out[0] = lit(-0.25)
-            * (lit(4.0) * crank_0_by_x_0)
-                .mul_add(
-                    lambda_crank_0,
-                    lit(4.0) * coupler_0_by_x_0 * lambda_coupler_0 + correction_9_part,
-                );
+        out[0] = crank_0_by_x_0
+            .neg_mul_add(
+                lambda_crank_0,
+                lit(0.25)
+                    .neg_mul_add(
+                        correction_9_part,
+                        -(coupler_0_by_x_0 * lambda_coupler_0),
+                    ),
+            );
         let lambda_crank_4 = x_3_by_crank_4
             .neg_mul_add(
                 correction_2_part,
@@ -2696,24 +2700,33 @@ impl ::ukcore::Mechanism for FourBars {
                             ),
                     ),
             );
-        out[4] = lit(-0.25)
-            * (lit(4.0) * crank_4_by_x_4)
-                .mul_add(
-                    lambda_crank_4,
-                    lit(4.0) * coupler_3_by_x_4 * lambda_coupler_3 + correction_2_part,
-                );
-        out[5] = lit(-0.25)
-            * (lit(4.0) * crank_0_by_y_0)
-                .mul_add(
-                    lambda_crank_0,
-                    lit(4.0) * coupler_0_by_y_0 * lambda_coupler_0 + correction_3_part,
-                );
-        out[9] = lit(-0.25)
-            * (lit(4.0) * crank_4_by_y_4)
-                .mul_add(
-                    lambda_crank_4,
-                    lit(4.0) * coupler_3_by_y_4 * lambda_coupler_3 + correction_7_part,
-                );
+        out[4] = crank_4_by_x_4
+            .neg_mul_add(
+                lambda_crank_4,
+                lit(0.25)
+                    .neg_mul_add(
+                        correction_2_part,
+                        -(coupler_3_by_x_4 * lambda_coupler_3),
+                    ),
+            );
+        out[5] = crank_0_by_y_0
+            .neg_mul_add(
+                lambda_crank_0,
+                lit(0.25)
+                    .neg_mul_add(
+                        correction_3_part,
+                        -(coupler_0_by_y_0 * lambda_coupler_0),
+                    ),
+            );
+        out[9] = crank_4_by_y_4
+            .neg_mul_add(
+                lambda_crank_4,
+                lit(0.25)
+                    .neg_mul_add(
+                        correction_7_part,
+                        -(coupler_3_by_y_4 * lambda_coupler_3),
+                    ),
+            );
         safe
     }
 }

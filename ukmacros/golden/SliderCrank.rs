@@ -31,12 +31,12 @@
 /// Constraints φ, eqs. 3 and 4:
 ///
 /// ```text
-/// bearing[0]: 0.5*(2*x1 - r*cos(th1)) = 0
-/// bearing[1]: 0.5*(2*y1 - r*sin(th1)) = 0
-/// crank_pin[0]: 0.5*(2*x1 + r*cos(th1) + l*cos(th2) - 2*x2) = 0
-/// crank_pin[1]: 0.5*(2*y1 + r*sin(th1) + l*sin(th2) - 2*y2) = 0
-/// wrist_pin[0]: 0.5*(2*x2 + l*cos(th2) - 2*x3) = 0
-/// wrist_pin[1]: 0.5*(2*y2 + l*sin(th2) - 2*y3) = 0
+/// bearing[0]: x1 - 0.5*r*cos(th1) = 0
+/// bearing[1]: y1 - 0.5*r*sin(th1) = 0
+/// crank_pin[0]: x1 + 0.5*r*cos(th1) + 0.5*l*cos(th2) - x2 = 0
+/// crank_pin[1]: y1 + 0.5*r*sin(th1) + 0.5*l*sin(th2) - y2 = 0
+/// wrist_pin[0]: x2 + 0.5*l*cos(th2) - x3 = 0
+/// wrist_pin[1]: y2 + 0.5*l*sin(th2) - y3 = 0
 /// guide[0]: y3 = 0
 /// guide[1]: th3 = 0
 /// ```
@@ -79,10 +79,10 @@
 /// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
 /// | M, Q, c, A and b | 5 | 28 | 0 | 0 | 2 | 0 |
 /// | dense LDLᵀ of [M Aᵀ; A 0] after that | 1088 | 1241 | 17 | 0 | 0 | 0 |
-/// | straight line, nothing hoisted | 86 | 221 | 11 | 0 | 2 | 16 |
-/// | straight line, as emitted | 85 | 153 | 6 | 0 | 2 | 6 |
+/// | straight line, nothing hoisted | 86 | 215 | 11 | 0 | 2 | 16 |
+/// | straight line, as emitted | 85 | 151 | 6 | 0 | 2 | 6 |
 /// | correction of a projection | 75 | 115 | 6 | 0 | 2 | 6 |
-/// | once for a set of parameters | 2 | 29 | 5 | 0 | 0 | 10 |
+/// | once for a set of parameters | 2 | 26 | 5 | 0 | 0 | 10 |
 ///
 /// `Mechanism::plan` tells the order, what is hoisted and left out, and draws the sparsity; `Mechanism::CODE` is the code.
 #[derive(Clone, Debug, PartialEq)]
@@ -239,19 +239,16 @@ impl ::ukcore::Mechanism for SliderCrank {
             ("per_i2_sq_l", "sq(l)/i2"),
             ("per_m1", "1/m1"),
             ("per_i1_torque", "torque/i1"),
-            ("twice_per_i1_torque", "2*torque/i1"),
             ("prepared_part", "r^4/sq(i1)"),
             ("prepared_part_2", "r^3/i1"),
-            ("twice_g", "2*g"),
+            ("g", "g"),
             ("per_m3_and_per_m2", "1/m3 + 1/m2"),
             ("per_m2", "1/m2"),
             ("prepared_part_3", "l^4/sq(i2)"),
             ("prepared_part_4", "l^3/i2"),
             ("per_m1_and_per_m2", "1/m1 + 1/m2"),
-            ("twice_per_i1_torque_r", "2*torque*r/i1"),
             ("per_i2_l", "l/i2"),
             ("per_i1", "1/i1"),
-            ("g", "g"),
             ("per_m3", "1/m3"),
             ("per_i1_r", "r/i1"),
             (
@@ -264,32 +261,32 @@ impl ::ukcore::Mechanism for SliderCrank {
             ::ukcore::ConstraintSpec {
                 name: "bearing[0]",
                 kind: ::ukcore::ConstraintKind::Holonomic,
-                equation: "0.5*(2*x1 - r*cos(th1)) = 0",
+                equation: "x1 - 0.5*r*cos(th1) = 0",
             },
             ::ukcore::ConstraintSpec {
                 name: "bearing[1]",
                 kind: ::ukcore::ConstraintKind::Holonomic,
-                equation: "0.5*(2*y1 - r*sin(th1)) = 0",
+                equation: "y1 - 0.5*r*sin(th1) = 0",
             },
             ::ukcore::ConstraintSpec {
                 name: "crank_pin[0]",
                 kind: ::ukcore::ConstraintKind::Holonomic,
-                equation: "0.5*(2*x1 + r*cos(th1) + l*cos(th2) - 2*x2) = 0",
+                equation: "x1 + 0.5*r*cos(th1) + 0.5*l*cos(th2) - x2 = 0",
             },
             ::ukcore::ConstraintSpec {
                 name: "crank_pin[1]",
                 kind: ::ukcore::ConstraintKind::Holonomic,
-                equation: "0.5*(2*y1 + r*sin(th1) + l*sin(th2) - 2*y2) = 0",
+                equation: "y1 + 0.5*r*sin(th1) + 0.5*l*sin(th2) - y2 = 0",
             },
             ::ukcore::ConstraintSpec {
                 name: "wrist_pin[0]",
                 kind: ::ukcore::ConstraintKind::Holonomic,
-                equation: "0.5*(2*x2 + l*cos(th2) - 2*x3) = 0",
+                equation: "x2 + 0.5*l*cos(th2) - x3 = 0",
             },
             ::ukcore::ConstraintSpec {
                 name: "wrist_pin[1]",
                 kind: ::ukcore::ConstraintKind::Holonomic,
-                equation: "0.5*(2*y2 + l*sin(th2) - 2*y3) = 0",
+                equation: "y2 + 0.5*l*sin(th2) - y3 = 0",
             },
             ::ukcore::ConstraintSpec {
                 name: "guide[0]",
@@ -435,7 +432,7 @@ impl ::ukcore::Mechanism for SliderCrank {
                 },
                 unprepared: ::ukcore::Operations {
                     additions: 86,
-                    multiplications: 221,
+                    multiplications: 215,
                     divisions: 11,
                     square_roots: 0,
                     transcendentals: 2,
@@ -443,7 +440,7 @@ impl ::ukcore::Mechanism for SliderCrank {
                 },
                 acceleration: ::ukcore::Operations {
                     additions: 85,
-                    multiplications: 153,
+                    multiplications: 151,
                     divisions: 6,
                     square_roots: 0,
                     transcendentals: 2,
@@ -459,7 +456,7 @@ impl ::ukcore::Mechanism for SliderCrank {
                 },
                 prepare: ::ukcore::Operations {
                     additions: 2,
-                    multiplications: 29,
+                    multiplications: 26,
                     divisions: 5,
                     square_roots: 0,
                     transcendentals: 0,
@@ -545,7 +542,7 @@ impl ::ukcore::Mechanism for SliderCrank {
         }
     }
     fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
-        let prepared = ::ukcore::emitted::exact_mut::<S, 33>(prepared, "prepared");
+        let prepared = ::ukcore::emitted::exact_mut::<S, 30>(prepared, "prepared");
         let [r, l, m1, m2, m3, i1, i2, i3, g, torque] = *::ukcore::emitted::exact::<
             S,
             10,
@@ -568,30 +565,25 @@ impl ::ukcore::Mechanism for SliderCrank {
         prepared[10] = m3;
         prepared[11] = i3;
         prepared[12] = r * r * per_i1;
-        let per_i1_torque_r = torque * r * per_i1;
-        prepared[13] = per_i1_torque_r;
+        prepared[13] = torque * r * per_i1;
         prepared[14] = l * l * per_i2;
         let per_m1 = m1.recip();
         prepared[15] = per_m1;
-        let per_i1_torque = torque * per_i1;
-        prepared[16] = per_i1_torque;
-        prepared[17] = lit(2.0) * per_i1_torque;
-        prepared[18] = r.powi(4) / (i1 * i1);
-        prepared[19] = r * r * r * per_i1;
-        prepared[20] = lit(2.0) * g;
+        prepared[16] = torque * per_i1;
+        prepared[17] = r.powi(4) / (i1 * i1);
+        prepared[18] = r * r * r * per_i1;
+        prepared[19] = g;
         let per_m3 = m3.recip();
         let per_m2 = m2.recip();
-        prepared[21] = per_m3 + per_m2;
-        prepared[22] = per_m2;
-        prepared[23] = l.powi(4) / (i2 * i2);
-        prepared[24] = l * l * l * per_i2;
-        prepared[25] = per_m1 + per_m2;
-        prepared[26] = lit(2.0) * per_i1_torque_r;
-        prepared[27] = l * per_i2;
-        prepared[28] = per_i1;
-        prepared[29] = g;
-        prepared[30] = per_m3;
-        prepared[31] = r * per_i1;
+        prepared[20] = per_m3 + per_m2;
+        prepared[21] = per_m2;
+        prepared[22] = l.powi(4) / (i2 * i2);
+        prepared[23] = l * l * l * per_i2;
+        prepared[24] = per_m1 + per_m2;
+        prepared[25] = l * per_i2;
+        prepared[26] = per_i1;
+        prepared[27] = per_m3;
+        prepared[28] = r * per_i1;
         let safe_x3 = S::select_le(
             m3,
             lit(1.7976931348623157e308),
@@ -622,7 +614,7 @@ impl ::ukcore::Mechanism for SliderCrank {
             S::select_le(lit(2.2250738585072014e-308), i2, safe_th1, lit(0.0)),
             lit(0.0),
         );
-        prepared[32] = safe_th2;
+        prepared[29] = safe_th2;
     }
     /// 5 additions, 28 multiplications, 0 divisions, 0 square roots, 2 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
@@ -638,9 +630,9 @@ impl ::ukcore::Mechanism for SliderCrank {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 72>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 8>(out.rhs, "rhs");
         let [right_y1, right_y2, m3_g, torque, r, l, m1, i1, m2, i2, m3, i3, _, _, _, _,
-        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            33,
+            30,
         >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [_, _, dot_th1, _, _, dot_th2, _, _, _] = *::ukcore::emitted::exact::<
@@ -717,10 +709,7 @@ impl ::ukcore::Mechanism for SliderCrank {
     fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 81>(mass, "mass");
         let [_, _, _, _, _, _, m1, i1, m2, i2, m3, i3, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            33,
-        >(prepared, "prepared");
+        _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<S, 30>(prepared, "prepared");
         mass[0] = m1;
         mass[10] = m1;
         mass[20] = i1;
@@ -740,10 +729,7 @@ impl ::ukcore::Mechanism for SliderCrank {
     ) {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 72>(jacobian, "jacobian");
         let [_, _, _, _, r, l, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            33,
-        >(prepared, "prepared");
+        _, _, _, _, _] = *::ukcore::emitted::exact::<S, 30>(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let lit = S::from_f64;
         jacobian[0] = lit(1.0);
@@ -776,10 +762,7 @@ impl ::ukcore::Mechanism for SliderCrank {
     fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
         let phi = ::ukcore::emitted::exact_mut::<S, 8>(phi, "phi");
         let [_, _, _, _, r, l, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            33,
-        >(prepared, "prepared");
+        _, _, _, _, _] = *::ukcore::emitted::exact::<S, 30>(prepared, "prepared");
         let [x1, y1, th1, x2, y2, th2, x3, y3, th3] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -787,18 +770,16 @@ impl ::ukcore::Mechanism for SliderCrank {
         let lit = S::from_f64;
         let (sin_th1, cos_th1) = th1.sin_cos();
         let cos_th1_r = r * cos_th1;
-        phi[0] = lit(0.5) * (lit(2.0) * x1 - cos_th1_r);
+        phi[0] = lit(0.5).neg_mul_add(cos_th1_r, x1);
         let sin_th1_r = r * sin_th1;
-        phi[1] = lit(0.5) * (lit(2.0) * y1 - sin_th1_r);
+        phi[1] = lit(0.5).neg_mul_add(sin_th1_r, y1);
         let (sin_th2, cos_th2) = th2.sin_cos();
         let cos_th2_l = l * cos_th2;
-        phi[2] = lit(0.5)
-            * (lit(2.0).neg_mul_add(x2, lit(2.0) * x1) + cos_th1_r + cos_th2_l);
+        phi[2] = lit(0.5).mul_add(cos_th2_l, lit(0.5).mul_add(cos_th1_r, x1 - x2));
         let sin_th2_l = l * sin_th2;
-        phi[3] = lit(0.5)
-            * (lit(2.0).neg_mul_add(y2, lit(2.0) * y1) + sin_th1_r + sin_th2_l);
-        phi[4] = lit(0.5) * (lit(2.0).neg_mul_add(x3, lit(2.0) * x2) + cos_th2_l);
-        phi[5] = lit(0.5) * (lit(2.0).neg_mul_add(y3, lit(2.0) * y2) + sin_th2_l);
+        phi[3] = lit(0.5).mul_add(sin_th2_l, lit(0.5).mul_add(sin_th1_r, y1 - y2));
+        phi[4] = lit(0.5).mul_add(cos_th2_l, x2 - x3);
+        phi[5] = lit(0.5).mul_add(sin_th2_l, y2 - y3);
         phi[6] = y3;
         phi[7] = th3;
     }
@@ -811,32 +792,31 @@ impl ::ukcore::Mechanism for SliderCrank {
     ) {
         let rate = ::ukcore::emitted::exact_mut::<S, 8>(rate, "rate");
         let [_, _, _, _, r, l, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            33,
-        >(prepared, "prepared");
+        _, _, _, _, _] = *::ukcore::emitted::exact::<S, 30>(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [dot_x1, dot_y1, dot_th1, dot_x2, dot_y2, dot_th2, dot_x3, dot_y3, dot_th3,
         ] = *::ukcore::emitted::exact::<S, 9>(v, "v");
         let lit = S::from_f64;
         let (sin_th1, cos_th1) = th1.sin_cos();
         let sin_th1_dot_th1_r = dot_th1 * r * sin_th1;
-        rate[0] = lit(0.5) * (lit(2.0) * dot_x1 + sin_th1_dot_th1_r);
+        rate[0] = lit(0.5).mul_add(sin_th1_dot_th1_r, dot_x1);
         let cos_th1_dot_th1_r = dot_th1 * r * cos_th1;
-        rate[1] = lit(0.5) * (lit(2.0) * dot_y1 - cos_th1_dot_th1_r);
+        rate[1] = lit(0.5).neg_mul_add(cos_th1_dot_th1_r, dot_y1);
         let (sin_th2, cos_th2) = th2.sin_cos();
         let sin_th2_dot_th2_l = dot_th2 * l * sin_th2;
         rate[2] = lit(0.5)
-            * (lit(2.0).neg_mul_add(dot_x2, lit(2.0) * dot_x1) - sin_th1_dot_th1_r
-                - sin_th2_dot_th2_l);
+            .neg_mul_add(
+                sin_th2_dot_th2_l,
+                lit(0.5).neg_mul_add(sin_th1_dot_th1_r, dot_x1 - dot_x2),
+            );
         let cos_th2_dot_th2_l = dot_th2 * l * cos_th2;
         rate[3] = lit(0.5)
-            * (lit(2.0).neg_mul_add(dot_y2, lit(2.0) * dot_y1) + cos_th1_dot_th1_r
-                + cos_th2_dot_th2_l);
-        rate[4] = lit(-0.5)
-            * (lit(2.0).neg_mul_add(dot_x2, lit(2.0) * dot_x3) + sin_th2_dot_th2_l);
-        rate[5] = lit(0.5)
-            * (lit(2.0).neg_mul_add(dot_y3, lit(2.0) * dot_y2) + cos_th2_dot_th2_l);
+            .mul_add(
+                cos_th2_dot_th2_l,
+                lit(0.5).mul_add(cos_th1_dot_th1_r, dot_y1 - dot_y2),
+            );
+        rate[4] = lit(0.5).neg_mul_add(sin_th2_dot_th2_l, dot_x2 - dot_x3);
+        rate[5] = lit(0.5).mul_add(cos_th2_dot_th2_l, dot_y2 - dot_y3);
         rate[6] = dot_y3;
         rate[7] = dot_th3;
     }
@@ -847,9 +827,9 @@ impl ::ukcore::Mechanism for SliderCrank {
         v: &[S],
     ) -> ::ukcore::Energy<S> {
         let [right_y1, right_y2, m3_g, torque, _, _, m1, i1, m2, i2, m3, i3, _, _, _, _,
-        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            33,
+            30,
         >(prepared, "prepared");
         let [_, y1, th1, _, y2, _, _, y3, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [dot_x1, dot_y1, dot_th1, dot_x2, dot_y2, dot_th2, dot_x3, dot_y3, dot_th3,
@@ -906,7 +886,7 @@ impl ::ukcore::Mechanism for SliderCrank {
         outputs[1] = x3;
         outputs[2] = dot_x3;
     }
-    /// 85 additions, 153 multiplications, 6 divisions, 0 square roots, 2 transcendentals, 6 selections.
+    /// 85 additions, 151 multiplications, 6 divisions, 0 square roots, 2 transcendentals, 6 selections.
     fn acceleration<S: ::ukcore::Scalar>(
         prepared: &[S],
         t: S,
@@ -916,10 +896,12 @@ impl ::ukcore::Mechanism for SliderCrank {
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 9>(out, "out");
         let [_, _, _, torque, r, l, _, _, _, _, _, _, per_i1_sq_r, per_i1_torque_r,
-        per_i2_sq_l, per_m1, _, twice_per_i1_torque, prepared_part, prepared_part_2,
-        twice_g, per_m3_and_per_m2, per_m2, prepared_part_3, prepared_part_4,
-        per_m1_and_per_m2, twice_per_i1_torque_r, per_i2_l, per_i1, g, per_m3, _,
-        safe_th2] = *::ukcore::emitted::exact::<S, 33>(prepared, "prepared");
+        per_i2_sq_l, per_m1, per_i1_torque, prepared_part, prepared_part_2, g,
+        per_m3_and_per_m2, per_m2, prepared_part_3, prepared_part_4, per_m1_and_per_m2,
+        per_i2_l, per_i1, per_m3, _, safe_th2] = *::ukcore::emitted::exact::<
+            S,
+            30,
+        >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [_, _, dot_th1, _, _, dot_th2, _, _, _] = *::ukcore::emitted::exact::<
             S,
@@ -938,9 +920,8 @@ impl ::ukcore::Mechanism for SliderCrank {
             safe_th2,
             lit(0.0),
         );
-        let right_bearing_0 = lit(0.5)
-            * twice_per_i1_torque
-                .mul_add(acceleration_0_part, dot_th1 * dot_th1 * cos_th1);
+        let right_bearing_0 = per_i1_torque
+            .mul_add(acceleration_0_part, lit(0.5) * dot_th1 * dot_th1 * cos_th1);
         let acceleration_0_part_3 = lit(0.5) * cos_th1;
         let acceleration_0_part_4 = acceleration_0_part * acceleration_0_part_3;
         let acceleration_0_part_5 = acceleration_0_part_4;
@@ -962,15 +943,13 @@ impl ::ukcore::Mechanism for SliderCrank {
             * bearing_1_by_bearing_0;
         let sin_th1_sq_dot_th1_r = dot_th1 * dot_th1 * r * sin_th1;
         let acceleration_0_part_9 = per_i1_torque_r * acceleration_0_part_3;
-        let acceleration_0_part_10 = lit(-0.5)
-            * lit(2.0)
-                .neg_mul_add(acceleration_0_part_9, sin_th1_sq_dot_th1_r - twice_g);
-        let right_bearing_1 = acceleration_0_part_8 - acceleration_0_part_10;
+        let right_bearing_1 = (lit(0.5) * sin_th1_sq_dot_th1_r - g
+            - acceleration_0_part_9) + acceleration_0_part_8;
         let (sin_th2, cos_th2) = th2.sin_cos();
-        let acceleration_0_part_11 = lit(0.5) * sin_th2;
-        let acceleration_0_part_12 = per_i2_sq_l * acceleration_0_part_11
-            * acceleration_0_part_11;
-        let pivot_wrist_pin_0 = per_m3_and_per_m2 + acceleration_0_part_12;
+        let acceleration_0_part_10 = lit(0.5) * sin_th2;
+        let acceleration_0_part_11 = per_i2_sq_l * acceleration_0_part_10
+            * acceleration_0_part_10;
+        let pivot_wrist_pin_0 = per_m3_and_per_m2 + acceleration_0_part_11;
         let per_pivot_wrist_pin_0 = pivot_wrist_pin_0.recip();
         let safe_wrist_pin_0 = S::select_le(
             lit(2.2250738585072014e-308),
@@ -979,16 +958,16 @@ impl ::ukcore::Mechanism for SliderCrank {
             lit(0.0),
         );
         let right_wrist_pin_0 = lit(0.5) * (dot_th2 * dot_th2 * cos_th2);
-        let acceleration_0_part_13 = lit(0.5) * cos_th2;
-        let acceleration_0_part_14 = acceleration_0_part_11 * acceleration_0_part_13;
-        let acceleration_0_part_15 = acceleration_0_part_14;
-        let crank_pin_1_by_wrist_pin_0 = acceleration_0_part_15 * per_pivot_wrist_pin_0;
-        let acceleration_0_part_16 = prepared_part_3 * acceleration_0_part_15
+        let acceleration_0_part_12 = lit(0.5) * cos_th2;
+        let acceleration_0_part_13 = acceleration_0_part_10 * acceleration_0_part_12;
+        let acceleration_0_part_14 = acceleration_0_part_13;
+        let crank_pin_1_by_wrist_pin_0 = acceleration_0_part_14 * per_pivot_wrist_pin_0;
+        let acceleration_0_part_15 = prepared_part_3 * acceleration_0_part_14
             * crank_pin_1_by_wrist_pin_0;
-        let acceleration_0_part_17 = per_i2_sq_l * acceleration_0_part_13
-            * acceleration_0_part_13;
-        let diagonal_wrist_pin_1 = per_m2 + acceleration_0_part_17;
-        let pivot_wrist_pin_1 = acceleration_0_part_16 - diagonal_wrist_pin_1;
+        let acceleration_0_part_16 = per_i2_sq_l * acceleration_0_part_12
+            * acceleration_0_part_12;
+        let diagonal_wrist_pin_1 = per_m2 + acceleration_0_part_16;
+        let pivot_wrist_pin_1 = acceleration_0_part_15 - diagonal_wrist_pin_1;
         let per_pivot_wrist_pin_1 = pivot_wrist_pin_1.recip();
         let safe_wrist_pin_1 = S::select_le(
             lit(0.0009765625) * diagonal_wrist_pin_1,
@@ -996,26 +975,26 @@ impl ::ukcore::Mechanism for SliderCrank {
             safe_wrist_pin_0,
             lit(0.0),
         );
-        let acceleration_0_part_18 = prepared_part_4 * right_wrist_pin_0
+        let acceleration_0_part_17 = prepared_part_4 * right_wrist_pin_0
             * crank_pin_1_by_wrist_pin_0;
         let sin_th2_sq_dot_th2_l = dot_th2 * dot_th2 * l * sin_th2;
-        let acceleration_0_part_19 = lit(0.5) * (twice_g + sin_th2_sq_dot_th2_l);
-        let right_wrist_pin_1 = acceleration_0_part_19 + acceleration_0_part_18;
+        let right_wrist_pin_1 = lit(0.5).mul_add(sin_th2_sq_dot_th2_l, g)
+            + acceleration_0_part_17;
         let crank_pin_0_with_bearing_0 = acceleration_0_part_2 - per_m1;
         let crank_pin_0_by_bearing_0 = -(crank_pin_0_with_bearing_0
             * per_pivot_bearing_0);
         let crank_pin_0_with_bearing_1 = acceleration_0_part_5
             .mul_add(crank_pin_0_by_bearing_0, acceleration_0_part_4);
         let crank_pin_0_by_bearing_1 = crank_pin_0_with_bearing_1 * per_pivot_bearing_1;
-        let crank_pin_0_with_wrist_pin_0 = acceleration_0_part_12 - per_m2;
+        let crank_pin_0_with_wrist_pin_0 = acceleration_0_part_11 - per_m2;
         let crank_pin_0_by_wrist_pin_0 = -(crank_pin_0_with_wrist_pin_0
             * per_pivot_wrist_pin_0);
         let crank_pin_0_with_wrist_pin_1 = crank_pin_0_with_wrist_pin_0
-            .neg_mul_add(crank_pin_1_by_wrist_pin_0, acceleration_0_part_14);
+            .neg_mul_add(crank_pin_1_by_wrist_pin_0, acceleration_0_part_13);
         let crank_pin_0_by_wrist_pin_1 = crank_pin_0_with_wrist_pin_1
             * per_pivot_wrist_pin_1;
         let diagonal_crank_pin_0 = per_m1_and_per_m2 + acceleration_0_part_2
-            + acceleration_0_part_12;
+            + acceleration_0_part_11;
         let pivot_crank_pin_0 = (prepared_part * crank_pin_0_with_bearing_1)
             .mul_add(
                 crank_pin_0_by_bearing_1,
@@ -1037,13 +1016,6 @@ impl ::ukcore::Mechanism for SliderCrank {
             safe_wrist_pin_1,
             lit(0.0),
         );
-        let acceleration_0_part_20 = lit(0.5)
-            * twice_per_i1_torque_r
-                .mul_add(
-                    acceleration_0_part,
-                    (dot_th2 * dot_th2 * l)
-                        .mul_add(cos_th2, dot_th1 * dot_th1 * r * cos_th1),
-                );
         let right_crank_pin_0 = (per_i1_sq_r * right_bearing_1)
             .neg_mul_add(
                 crank_pin_0_by_bearing_1,
@@ -1054,21 +1026,30 @@ impl ::ukcore::Mechanism for SliderCrank {
                             .mul_add(
                                 crank_pin_0_by_wrist_pin_0,
                                 (r * right_bearing_0)
-                                    .mul_add(crank_pin_0_by_bearing_0, acceleration_0_part_20),
+                                    .mul_add(
+                                        crank_pin_0_by_bearing_0,
+                                        per_i1_torque_r
+                                            .mul_add(
+                                                acceleration_0_part,
+                                                lit(0.5)
+                                                    * (dot_th2 * dot_th2 * l)
+                                                        .mul_add(cos_th2, dot_th1 * dot_th1 * r * cos_th1),
+                                            ),
+                                    ),
                             ),
                     ),
             );
         let crank_pin_1_with_bearing_1 = acceleration_0_part_6
             - (acceleration_0_part_7 - per_m1);
         let crank_pin_1_by_bearing_1 = crank_pin_1_with_bearing_1 * per_pivot_bearing_1;
-        let crank_pin_1_with_wrist_pin_1 = acceleration_0_part_16
-            - (acceleration_0_part_17 - per_m2);
+        let crank_pin_1_with_wrist_pin_1 = acceleration_0_part_15
+            - (acceleration_0_part_16 - per_m2);
         let crank_pin_1_by_wrist_pin_1 = crank_pin_1_with_wrist_pin_1
             * per_pivot_wrist_pin_1;
         let bearing_1_with_bearing_0 = per_i1_sq_r * acceleration_0_part
             * acceleration_0_part_3;
-        let crank_pin_1_with_wrist_pin_0 = per_i2_sq_l * acceleration_0_part_11
-            * acceleration_0_part_13;
+        let crank_pin_1_with_wrist_pin_0 = per_i2_sq_l * acceleration_0_part_10
+            * acceleration_0_part_12;
         let crank_pin_1_with_crank_pin_0 = (per_i2_sq_l * crank_pin_0_with_wrist_pin_1)
             .mul_add(
                 crank_pin_1_by_wrist_pin_1,
@@ -1084,16 +1065,16 @@ impl ::ukcore::Mechanism for SliderCrank {
                             ),
                     ),
             );
-        let acceleration_0_part_21 = per_m1_and_per_m2 + acceleration_0_part_7
-            + acceleration_0_part_17;
+        let acceleration_0_part_18 = per_m1_and_per_m2 + acceleration_0_part_7
+            + acceleration_0_part_16;
         let pivot_crank_pin_1 = crank_pin_1_with_wrist_pin_1
             .neg_mul_add(
                 crank_pin_1_by_wrist_pin_1,
                 crank_pin_1_with_bearing_1
                     .neg_mul_add(
                         crank_pin_1_by_bearing_1,
-                        acceleration_0_part_6 - acceleration_0_part_21
-                            + acceleration_0_part_16,
+                        acceleration_0_part_6 - acceleration_0_part_18
+                            + acceleration_0_part_15,
                     ),
             )
             .mul_add(
@@ -1101,27 +1082,22 @@ impl ::ukcore::Mechanism for SliderCrank {
                 crank_pin_1_with_crank_pin_0 * crank_pin_1_with_crank_pin_0,
             );
         let per_pivot_crank_pin_1 = pivot_crank_pin_1.recip();
-        let diagonal_crank_pin_1 = acceleration_0_part_21 * pivot_crank_pin_0;
+        let diagonal_crank_pin_1 = acceleration_0_part_18 * pivot_crank_pin_0;
         let safe_crank_pin_1 = S::select_le(
             lit(0.0009765625) * diagonal_crank_pin_1,
             -pivot_crank_pin_1,
             safe_crank_pin_0,
             lit(0.0),
         );
-        let acceleration_0_part_22 = lit(0.5)
-            * lit(2.0)
-                .neg_mul_add(
-                    acceleration_0_part_9,
-                    (sin_th1_sq_dot_th1_r + sin_th2_sq_dot_th2_l),
-                );
         let right_crank_pin_1 = right_wrist_pin_1
             .neg_mul_add(
                 crank_pin_1_by_wrist_pin_1,
                 right_bearing_1
                     .neg_mul_add(
                         crank_pin_1_by_bearing_1,
-                        acceleration_0_part_22 + acceleration_0_part_8
-                            + acceleration_0_part_18,
+                        (lit(0.5) * (sin_th1_sq_dot_th1_r + sin_th2_sq_dot_th2_l)
+                            - acceleration_0_part_9) + acceleration_0_part_8
+                            + acceleration_0_part_17,
                     ),
             )
             .neg_mul_add(
@@ -1210,16 +1186,16 @@ impl ::ukcore::Mechanism for SliderCrank {
                 );
         out[3] = -(per_m2 * (lambda_crank_pin_0 - lambda_wrist_pin_0));
         out[5] = -(per_i2_l
-            * acceleration_0_part_11
+            * acceleration_0_part_10
                 .mul_add(
                     lambda_wrist_pin_0,
-                    acceleration_0_part_13
+                    acceleration_0_part_12
                         .mul_add(
                             lambda_wrist_pin_1,
-                            (acceleration_0_part_13 * right_crank_pin_1)
+                            (acceleration_0_part_12 * right_crank_pin_1)
                                 .neg_mul_add(
                                     per_pivot_crank_pin_1,
-                                    acceleration_0_part_11 * lambda_crank_pin_0,
+                                    acceleration_0_part_10 * lambda_crank_pin_0,
                                 ),
                         ),
                 ));
@@ -1235,10 +1211,10 @@ impl ::ukcore::Mechanism for SliderCrank {
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 9>(out, "out");
         let [_, _, _, _, _, _, _, _, _, _, _, _, per_i1_sq_r, _, per_i2_sq_l, per_m1, _,
-        _, prepared_part, _, _, per_m3_and_per_m2, per_m2, prepared_part_3, _,
-        per_m1_and_per_m2, _, per_i2_l, _, _, per_m3, per_i1_r, safe_th2] = *::ukcore::emitted::exact::<
+        prepared_part, _, _, per_m3_and_per_m2, per_m2, prepared_part_3, _,
+        per_m1_and_per_m2, per_i2_l, _, per_m3, per_i1_r, safe_th2] = *::ukcore::emitted::exact::<
             S,
-            33,
+            30,
         >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [residual_0, residual_1, residual_2, residual_3, residual_4, residual_5,

@@ -32,16 +32,16 @@
 /// Constraints φ, eqs. 3 and 4:
 ///
 /// ```text
-/// bearing[0]: 0.5*(2*x1 - r*cos(th1)) = 0
-/// bearing[1]: 0.5*(2*y1 - r*sin(th1)) = 0
-/// crank_pin[0]: 0.5*(2*x1 + r*cos(th1) + l*cos(th2) - 2*x2) = 0
-/// crank_pin[1]: 0.5*(2*y1 + r*sin(th1) + l*sin(th2) - 2*y2) = 0
-/// wrist_pin[0]: 0.5*(2*x2 + l*cos(th2) - 2*x3) = 0
-/// wrist_pin[1]: 0.5*(2*y2 + l*sin(th2) - 2*y3) = 0
+/// bearing[0]: x1 - 0.5*r*cos(th1) = 0
+/// bearing[1]: y1 - 0.5*r*sin(th1) = 0
+/// crank_pin[0]: x1 + 0.5*r*cos(th1) + 0.5*l*cos(th2) - x2 = 0
+/// crank_pin[1]: y1 + 0.5*r*sin(th1) + 0.5*l*sin(th2) - y2 = 0
+/// wrist_pin[0]: x2 + 0.5*l*cos(th2) - x3 = 0
+/// wrist_pin[1]: y2 + 0.5*l*sin(th2) - y3 = 0
 /// level: th3 = 0
 /// front_shoe: y3 + c*sin(th3) = 0
 /// back_shoe: y3 - c*sin(th3) = 0
-/// second_rod: 0.25*(sq(2*x1 + r*cos(th1) - 2*x3) + sq(2*y1 + r*sin(th1) - 2*y3) - 4*sq(l)) = 0
+/// second_rod: sq(x1 + 0.5*r*cos(th1) - x3) + sq(y1 + 0.5*r*sin(th1) - y3) - sq(l) = 0
 /// ```
 ///
 /// Constraint Jacobian A, eq. 5:
@@ -72,7 +72,7 @@
 /// b[wrist_pin[1]] = 0.5*l*sin(th2)*sq(dot(th2))
 /// b[front_shoe] = c*sin(th3)*sq(dot(th3))
 /// b[back_shoe] = -c*sin(th3)*sq(dot(th3))
-/// b[second_rod] = 0.5*(r*cos(th1)*(2*x1 + r*cos(th1) - 2*x3)*sq(dot(th1)) + r*sin(th1)*(2*y1 + r*sin(th1) - 2*y3)*sq(dot(th1)) - sq(2*dot(x3) + r*sin(th1)*dot(th1) - 2*dot(x1)) - sq(2*dot(y1) + r*cos(th1)*dot(th1) - 2*dot(y3)))
+/// b[second_rod] = 2*(0.5*r*cos(th1)*(x1 + 0.5*r*cos(th1) - x3)*sq(dot(th1)) + 0.5*r*sin(th1)*(y1 + 0.5*r*sin(th1) - y3)*sq(dot(th1)) - sq(dot(x3) + 0.5*r*sin(th1)*dot(th1) - dot(x1)) - sq(dot(y1) + 0.5*r*cos(th1)*dot(th1) - dot(y3)))
 /// ```
 ///
 /// # How it is computed
@@ -81,7 +81,7 @@
 ///
 /// | operations | add | multiply | divide | root | function | select |
 /// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
-/// | M, Q, c, A and b | 21 | 60 | 0 | 0 | 3 | 0 |
+/// | M, Q, c, A and b | 26 | 59 | 0 | 0 | 3 | 0 |
 /// | dense LDLᵀ of [M Aᵀ; A 0] after that | 1482 | 1672 | 19 | 0 | 0 | 0 |
 /// | once for a set of parameters | 0 | 5 | 0 | 0 | 0 | 0 |
 ///
@@ -244,45 +244,46 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
             ("r", "r"),
             ("l", "l"),
             ("c", "c"),
-            ("times_sq_l", "-4*sq(l)"),
+            ("sq_l", "sq(l)"),
             ("m1", "m1"),
             ("i1", "i1"),
             ("m2", "m2"),
             ("i2", "i2"),
             ("m3", "m3"),
             ("i3", "i3"),
+            ("half_r", "0.5*r"),
         ],
         coords: &["x1", "y1", "th1", "x2", "y2", "th2", "x3", "y3", "th3"],
         constraints: &[
             ::ukcore::ConstraintSpec {
                 name: "bearing[0]",
                 kind: ::ukcore::ConstraintKind::Holonomic,
-                equation: "0.5*(2*x1 - r*cos(th1)) = 0",
+                equation: "x1 - 0.5*r*cos(th1) = 0",
             },
             ::ukcore::ConstraintSpec {
                 name: "bearing[1]",
                 kind: ::ukcore::ConstraintKind::Holonomic,
-                equation: "0.5*(2*y1 - r*sin(th1)) = 0",
+                equation: "y1 - 0.5*r*sin(th1) = 0",
             },
             ::ukcore::ConstraintSpec {
                 name: "crank_pin[0]",
                 kind: ::ukcore::ConstraintKind::Holonomic,
-                equation: "0.5*(2*x1 + r*cos(th1) + l*cos(th2) - 2*x2) = 0",
+                equation: "x1 + 0.5*r*cos(th1) + 0.5*l*cos(th2) - x2 = 0",
             },
             ::ukcore::ConstraintSpec {
                 name: "crank_pin[1]",
                 kind: ::ukcore::ConstraintKind::Holonomic,
-                equation: "0.5*(2*y1 + r*sin(th1) + l*sin(th2) - 2*y2) = 0",
+                equation: "y1 + 0.5*r*sin(th1) + 0.5*l*sin(th2) - y2 = 0",
             },
             ::ukcore::ConstraintSpec {
                 name: "wrist_pin[0]",
                 kind: ::ukcore::ConstraintKind::Holonomic,
-                equation: "0.5*(2*x2 + l*cos(th2) - 2*x3) = 0",
+                equation: "x2 + 0.5*l*cos(th2) - x3 = 0",
             },
             ::ukcore::ConstraintSpec {
                 name: "wrist_pin[1]",
                 kind: ::ukcore::ConstraintKind::Holonomic,
-                equation: "0.5*(2*y2 + l*sin(th2) - 2*y3) = 0",
+                equation: "y2 + 0.5*l*sin(th2) - y3 = 0",
             },
             ::ukcore::ConstraintSpec {
                 name: "level",
@@ -302,7 +303,7 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
             ::ukcore::ConstraintSpec {
                 name: "second_rod",
                 kind: ::ukcore::ConstraintKind::Holonomic,
-                equation: "0.25*(sq(2*x1 + r*cos(th1) - 2*x3) + sq(2*y1 + r*sin(th1) - 2*y3) - 4*sq(l)) = 0",
+                equation: "sq(x1 + 0.5*r*cos(th1) - x3) + sq(y1 + 0.5*r*sin(th1) - y3) - sq(l) = 0",
             },
         ],
         holonomic: 10,
@@ -385,8 +386,8 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
             ],
             costs: ::ukcore::Costs {
                 dynamics: ::ukcore::Operations {
-                    additions: 21,
-                    multiplications: 60,
+                    additions: 26,
+                    multiplications: 59,
                     divisions: 0,
                     square_roots: 0,
                     transcendentals: 3,
@@ -478,7 +479,7 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
                 (
                     9,
                     2,
-                    "0.5*(r*cos(th1)*(2*y1 + r*sin(th1) - 2*y3) - r*sin(th1)*(2*x1 + r*cos(th1) - 2*x3))",
+                    "r*cos(th1)*(y1 + 0.5*r*sin(th1) - y3) - r*sin(th1)*(x1 + 0.5*r*cos(th1) - x3)",
                 ),
                 (9, 6, "2*x3 - 2*x1 - r*cos(th1)"),
                 (9, 7, "2*y3 - 2*y1 - r*sin(th1)"),
@@ -494,7 +495,7 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
                 (8, "-c*sin(th3)*sq(dot(th3))"),
                 (
                     9,
-                    "0.5*(r*cos(th1)*(2*x1 + r*cos(th1) - 2*x3)*sq(dot(th1)) + r*sin(th1)*(2*y1 + r*sin(th1) - 2*y3)*sq(dot(th1)) - sq(2*dot(x3) + r*sin(th1)*dot(th1) - 2*dot(x1)) - sq(2*dot(y1) + r*cos(th1)*dot(th1) - 2*dot(y3)))",
+                    "2*(0.5*r*cos(th1)*(x1 + 0.5*r*cos(th1) - x3)*sq(dot(th1)) + 0.5*r*sin(th1)*(y1 + 0.5*r*sin(th1) - y3)*sq(dot(th1)) - sq(dot(x3) + 0.5*r*sin(th1)*dot(th1) - dot(x1)) - sq(dot(y1) + 0.5*r*cos(th1)*dot(th1) - dot(y3)))",
                 ),
             ],
         },
@@ -532,7 +533,7 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         }
     }
     fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
-        let prepared = ::ukcore::emitted::exact_mut::<S, 14>(prepared, "prepared");
+        let prepared = ::ukcore::emitted::exact_mut::<S, 15>(prepared, "prepared");
         let [r, l, m1, m2, m3, i1, i2, i3, c, g, torque] = *::ukcore::emitted::exact::<
             S,
             11,
@@ -545,15 +546,16 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         prepared[4] = r;
         prepared[5] = l;
         prepared[6] = c;
-        prepared[7] = lit(-4.0) * (l * l);
+        prepared[7] = l * l;
         prepared[8] = m1;
         prepared[9] = i1;
         prepared[10] = m2;
         prepared[11] = i2;
         prepared[12] = m3;
         prepared[13] = i3;
+        prepared[14] = lit(0.5) * r;
     }
-    /// 21 additions, 60 multiplications, 0 divisions, 0 square roots, 3 transcendentals, 0 selections.
+    /// 26 additions, 59 multiplications, 0 divisions, 0 square roots, 3 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
         prepared: &[S],
         t: S,
@@ -566,9 +568,9 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 9>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 90>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 10>(out.rhs, "rhs");
-        let [m1_g, m2_g, m3_g, torque, r, l, c, _, m1, i1, m2, i2, m3, i3] = *::ukcore::emitted::exact::<
+        let [m1_g, m2_g, m3_g, torque, r, l, c, _, m1, i1, m2, i2, m3, i3, half_r] = *::ukcore::emitted::exact::<
             S,
-            14,
+            15,
         >(prepared, "prepared");
         let [x1, y1, th1, _, _, th2, x3, y3, th3] = *::ukcore::emitted::exact::<
             S,
@@ -641,8 +643,10 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         jacobian[9] = a_second_rod;
         let a_second_rod_2 = lit(2.0).neg_mul_add(y3, lit(2.0) * y1) + sin_th1_r;
         jacobian[19] = a_second_rod_2;
-        jacobian[29] = lit(-0.5)
-            * (r * cos_th1).neg_mul_add(a_second_rod_2, r * sin_th1 * a_second_rod);
+        let a_second_rod_part = lit(0.5).mul_add(cos_th1_r, x1 - x3);
+        let a_second_rod_part_2 = lit(0.5).mul_add(sin_th1_r, y1 - y3);
+        jacobian[29] = (r * sin_th1)
+            .neg_mul_add(a_second_rod_part, r * cos_th1 * a_second_rod_part_2);
         jacobian[69] = -a_second_rod;
         jacobian[79] = -a_second_rod_2;
         let cos_th1_sq_dot_th1_r = dot_th1 * dot_th1 * r * cos_th1;
@@ -659,27 +663,24 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         let sin_th3_sq_dot_th3_c = dot_th3 * dot_th3 * c * sin_th3;
         rhs[7] = sin_th3_sq_dot_th3_c;
         rhs[8] = -sin_th3_sq_dot_th3_c;
-        let b_9_part = (dot_th1 * r)
-            .mul_add(sin_th1, lit(2.0).neg_mul_add(dot_x1, lit(2.0) * dot_x3));
-        let b_9_part_2 = (dot_th1 * r)
-            .mul_add(cos_th1, lit(2.0).neg_mul_add(dot_y3, lit(2.0) * dot_y1));
-        rhs[9] = lit(-0.5)
-            * (dot_th1 * dot_th1 * r * sin_th1)
+        let b_9_part = (lit(0.5) * dot_th1 * r).mul_add(sin_th1, dot_x3 - dot_x1);
+        let b_9_part_2 = (lit(0.5) * dot_th1 * r).mul_add(cos_th1, dot_y1 - dot_y3);
+        rhs[9] = lit(-2.0)
+            * (dot_th1 * dot_th1 * half_r * sin_th1)
                 .neg_mul_add(
-                    a_second_rod_2,
-                    b_9_part_2
-                        .mul_add(
-                            b_9_part_2,
-                            (dot_th1 * dot_th1 * r * cos_th1)
-                                .neg_mul_add(a_second_rod, b_9_part * b_9_part),
+                    a_second_rod_part_2,
+                    (dot_th1 * dot_th1 * half_r * cos_th1)
+                        .neg_mul_add(
+                            a_second_rod_part,
+                            b_9_part_2.mul_add(b_9_part_2, b_9_part * b_9_part),
                         ),
                 );
     }
     fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 81>(mass, "mass");
-        let [_, _, _, _, _, _, _, _, m1, i1, m2, i2, m3, i3] = *::ukcore::emitted::exact::<
+        let [_, _, _, _, _, _, _, _, m1, i1, m2, i2, m3, i3, _] = *::ukcore::emitted::exact::<
             S,
-            14,
+            15,
         >(prepared, "prepared");
         mass[0] = m1;
         mass[10] = m1;
@@ -699,9 +700,9 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         jacobian: &mut [S],
     ) {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 90>(jacobian, "jacobian");
-        let [_, _, _, _, r, l, c, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [_, _, _, _, r, l, c, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            14,
+            15,
         >(prepared, "prepared");
         let [x1, y1, th1, _, _, th2, x3, y3, th3] = *::ukcore::emitted::exact::<
             S,
@@ -742,16 +743,19 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         jacobian[9] = a_second_rod;
         let a_second_rod_2 = lit(2.0).neg_mul_add(y3, lit(2.0) * y1) + sin_th1_r;
         jacobian[19] = a_second_rod_2;
-        jacobian[29] = lit(-0.5)
-            * (r * cos_th1).neg_mul_add(a_second_rod_2, r * sin_th1 * a_second_rod);
+        jacobian[29] = (r * sin_th1)
+            .neg_mul_add(
+                lit(0.5).mul_add(cos_th1_r, x1 - x3),
+                r * cos_th1 * lit(0.5).mul_add(sin_th1_r, y1 - y3),
+            );
         jacobian[69] = -a_second_rod;
         jacobian[79] = -a_second_rod_2;
     }
     fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
         let phi = ::ukcore::emitted::exact_mut::<S, 10>(phi, "phi");
-        let [_, _, _, _, r, l, c, times_sq_l, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [_, _, _, _, r, l, c, sq_l, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            14,
+            15,
         >(prepared, "prepared");
         let [x1, y1, th1, x2, y2, th2, x3, y3, th3] = *::ukcore::emitted::exact::<
             S,
@@ -760,27 +764,23 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         let lit = S::from_f64;
         let (sin_th1, cos_th1) = th1.sin_cos();
         let cos_th1_r = r * cos_th1;
-        phi[0] = lit(0.5) * (lit(2.0) * x1 - cos_th1_r);
+        phi[0] = lit(0.5).neg_mul_add(cos_th1_r, x1);
         let sin_th1_r = r * sin_th1;
-        phi[1] = lit(0.5) * (lit(2.0) * y1 - sin_th1_r);
+        phi[1] = lit(0.5).neg_mul_add(sin_th1_r, y1);
         let (sin_th2, cos_th2) = th2.sin_cos();
         let cos_th2_l = l * cos_th2;
-        phi[2] = lit(0.5)
-            * (lit(2.0).neg_mul_add(x2, lit(2.0) * x1) + cos_th1_r + cos_th2_l);
+        phi[2] = lit(0.5).mul_add(cos_th2_l, lit(0.5).mul_add(cos_th1_r, x1 - x2));
         let sin_th2_l = l * sin_th2;
-        phi[3] = lit(0.5)
-            * (lit(2.0).neg_mul_add(y2, lit(2.0) * y1) + sin_th1_r + sin_th2_l);
-        phi[4] = lit(0.5) * (lit(2.0).neg_mul_add(x3, lit(2.0) * x2) + cos_th2_l);
-        phi[5] = lit(0.5) * (lit(2.0).neg_mul_add(y3, lit(2.0) * y2) + sin_th2_l);
+        phi[3] = lit(0.5).mul_add(sin_th2_l, lit(0.5).mul_add(sin_th1_r, y1 - y2));
+        phi[4] = lit(0.5).mul_add(cos_th2_l, x2 - x3);
+        phi[5] = lit(0.5).mul_add(sin_th2_l, y2 - y3);
         phi[6] = th3;
         let phi_7_part = c * th3.sin();
         phi[7] = y3 + phi_7_part;
         phi[8] = y3 - phi_7_part;
-        let phi_9_part = lit(2.0).neg_mul_add(x3, lit(2.0) * x1) + cos_th1_r;
-        let phi_9_part_2 = lit(2.0).neg_mul_add(y3, lit(2.0) * y1) + sin_th1_r;
-        phi[9] = lit(0.25)
-            * phi_9_part_2
-                .mul_add(phi_9_part_2, phi_9_part.mul_add(phi_9_part, times_sq_l));
+        let phi_9_part = lit(0.5).mul_add(cos_th1_r, x1 - x3);
+        let phi_9_part_2 = lit(0.5).mul_add(sin_th1_r, y1 - y3);
+        phi[9] = phi_9_part_2.mul_add(phi_9_part_2, phi_9_part * phi_9_part - sq_l);
     }
     fn residual_rate<S: ::ukcore::Scalar>(
         prepared: &[S],
@@ -790,9 +790,9 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         rate: &mut [S],
     ) {
         let rate = ::ukcore::emitted::exact_mut::<S, 10>(rate, "rate");
-        let [_, _, _, _, r, l, c, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [_, _, _, _, r, l, c, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            14,
+            15,
         >(prepared, "prepared");
         let [x1, y1, th1, _, _, th2, x3, y3, th3] = *::ukcore::emitted::exact::<
             S,
@@ -803,35 +803,35 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         let lit = S::from_f64;
         let (sin_th1, cos_th1) = th1.sin_cos();
         let sin_th1_dot_th1_r = dot_th1 * r * sin_th1;
-        rate[0] = lit(0.5) * (lit(2.0) * dot_x1 + sin_th1_dot_th1_r);
+        rate[0] = lit(0.5).mul_add(sin_th1_dot_th1_r, dot_x1);
         let cos_th1_dot_th1_r = dot_th1 * r * cos_th1;
-        rate[1] = lit(0.5) * (lit(2.0) * dot_y1 - cos_th1_dot_th1_r);
+        rate[1] = lit(0.5).neg_mul_add(cos_th1_dot_th1_r, dot_y1);
         let (sin_th2, cos_th2) = th2.sin_cos();
         let sin_th2_dot_th2_l = dot_th2 * l * sin_th2;
         rate[2] = lit(0.5)
-            * (lit(2.0).neg_mul_add(dot_x2, lit(2.0) * dot_x1) - sin_th1_dot_th1_r
-                - sin_th2_dot_th2_l);
+            .neg_mul_add(
+                sin_th2_dot_th2_l,
+                lit(0.5).neg_mul_add(sin_th1_dot_th1_r, dot_x1 - dot_x2),
+            );
         let cos_th2_dot_th2_l = dot_th2 * l * cos_th2;
         rate[3] = lit(0.5)
-            * (lit(2.0).neg_mul_add(dot_y2, lit(2.0) * dot_y1) + cos_th1_dot_th1_r
-                + cos_th2_dot_th2_l);
-        rate[4] = lit(-0.5)
-            * (lit(2.0).neg_mul_add(dot_x2, lit(2.0) * dot_x3) + sin_th2_dot_th2_l);
-        rate[5] = lit(0.5)
-            * (lit(2.0).neg_mul_add(dot_y3, lit(2.0) * dot_y2) + cos_th2_dot_th2_l);
+            .mul_add(
+                cos_th2_dot_th2_l,
+                lit(0.5).mul_add(cos_th1_dot_th1_r, dot_y1 - dot_y2),
+            );
+        rate[4] = lit(0.5).neg_mul_add(sin_th2_dot_th2_l, dot_x2 - dot_x3);
+        rate[5] = lit(0.5).mul_add(cos_th2_dot_th2_l, dot_y2 - dot_y3);
         rate[6] = dot_th3;
         let rate_7_part = dot_th3 * c * th3.cos();
         rate[7] = dot_y3 + rate_7_part;
         rate[8] = dot_y3 - rate_7_part;
-        rate[9] = lit(-0.5)
-            * r
-                .mul_add(sin_th1, lit(2.0).neg_mul_add(y3, lit(2.0) * y1))
+        rate[9] = lit(-2.0)
+            * (lit(0.5) * r)
+                .mul_add(sin_th1, y1 - y3)
                 .neg_mul_add(
-                    (lit(2.0).neg_mul_add(dot_y3, lit(2.0) * dot_y1)
-                        + cos_th1_dot_th1_r),
-                    r.mul_add(cos_th1, lit(2.0).neg_mul_add(x3, lit(2.0) * x1))
-                        * (lit(2.0).neg_mul_add(dot_x1, lit(2.0) * dot_x3)
-                            + sin_th1_dot_th1_r),
+                    lit(0.5).mul_add(cos_th1_dot_th1_r, dot_y1 - dot_y3),
+                    (lit(0.5) * r).mul_add(cos_th1, x1 - x3)
+                        * lit(0.5).mul_add(sin_th1_dot_th1_r, dot_x3 - dot_x1),
                 );
     }
     fn energy<S: ::ukcore::Scalar>(
@@ -840,9 +840,9 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
-        let [m1_g, m2_g, m3_g, torque, _, _, _, _, m1, i1, m2, i2, m3, i3] = *::ukcore::emitted::exact::<
+        let [m1_g, m2_g, m3_g, torque, _, _, _, _, m1, i1, m2, i2, m3, i3, _] = *::ukcore::emitted::exact::<
             S,
-            14,
+            15,
         >(prepared, "prepared");
         let [_, y1, th1, _, y2, _, _, y3, _] = *::ukcore::emitted::exact::<S, 9>(q, "q");
         let [dot_x1, dot_y1, dot_th1, dot_x2, dot_y2, dot_th2, dot_x3, dot_y3, dot_th3,

@@ -117,7 +117,7 @@ impl Graph {
                 .iter()
                 .fold(f64::INFINITY, |s, (c, _)| s.min(c.abs()));
             // 2 x − 8 y is 2 (x − 4 y): exact for powers of two.
-            let power = least.is_normal() && least.to_bits().trailing_zeros() >= 52;
+            let power = least > 1.0 && least.to_bits().trailing_zeros() >= 52;
             let multiples = collected.iter().all(|(c, _)| (c / least).fract() == 0.0);
             factor = if alike {
                 first
