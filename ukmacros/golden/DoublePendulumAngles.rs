@@ -27,7 +27,7 @@
 /// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
 /// | M, Q, c, A and b | 6 | 12 | 0 | 0 | 3 | 0 |
 /// | dense LDLᵀ of [M Aᵀ; A 0] after that | 3 | 6 | 2 | 0 | 0 | 0 |
-/// | straight line, nothing hoisted | 10 | 40 | 5 | 0 | 3 | 3 |
+/// | straight line, nothing hoisted | 10 | 44 | 5 | 0 | 3 | 3 |
 /// | straight line, as emitted | 9 | 25 | 1 | 0 | 3 | 1 |
 /// | correction of a projection | 2 | 3 | 0 | 0 | 1 | 1 |
 /// | once for a set of parameters | 1 | 20 | 4 | 0 | 0 | 2 |
@@ -126,8 +126,7 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
             ("prepared_part", "1/(m2*sq(l2))"),
             ("per_l2", "1/l2"),
             ("per_m1_and_m2_per_l1", "1/((m1 + m2)*l1)"),
-            ("m2", "m2"),
-            ("times_m2", "0.0009765625*m2"),
+            ("times_m2_sq_l2", "0.0009765625*m2*sq(l2)"),
             (
                 "safe_th1",
                 "1 if the pivots that depend on m1, m2, l1 alone are positive and finite, else 0",
@@ -200,7 +199,7 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
                 },
                 unprepared: ::ukcore::Operations {
                     additions: 10,
-                    multiplications: 40,
+                    multiplications: 44,
                     divisions: 5,
                     square_roots: 0,
                     transcendentals: 3,
@@ -275,7 +274,7 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         }
     }
     fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
-        let prepared = ::ukcore::emitted::exact_mut::<S, 19>(prepared, "prepared");
+        let prepared = ::ukcore::emitted::exact_mut::<S, 18>(prepared, "prepared");
         let [m1, m2, l1, l2, g] = *::ukcore::emitted::exact::<S, 5>(given, "given");
         let lit = S::from_f64;
         let m1_plus_m2 = m1 + m2;
@@ -298,15 +297,14 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         prepared[13] = (m2 * l2 * l2).recip();
         prepared[14] = l2.recip();
         prepared[15] = per_m1_plus_m2 / l1;
-        prepared[16] = m2;
-        prepared[17] = lit(0.0009765625) * m2;
+        prepared[16] = lit(0.0009765625) * diagonal_th2;
         let safe_th1 = S::select_le(
             pivot_th1,
             lit(1.7976931348623157e308),
             S::select_le(lit(2.2250738585072014e-308), pivot_th1, lit(1.0), lit(0.0)),
             lit(0.0),
         );
-        prepared[18] = safe_th1;
+        prepared[17] = safe_th1;
     }
     /// 6 additions, 12 multiplications, 0 divisions, 0 square roots, 3 transcendentals, 0 selections.
     fn dynamics<S: ::ukcore::Scalar>(
@@ -322,9 +320,9 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 0>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 0>(out.rhs, "rhs");
         let [pivot_th1, diagonal_th2, m2_l1_l2, _, _, m1_and_m2_l1_g, m2_l2_g, _, _, _,
-        _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            19,
+            18,
         >(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_th1, dot_th2] = *::ukcore::emitted::exact::<S, 2>(v, "v");
@@ -351,7 +349,7 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
     fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 4>(mass, "mass");
         let [pivot_th1, diagonal_th2, m2_l1_l2, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _] = *::ukcore::emitted::exact::<S, 19>(prepared, "prepared");
+        _] = *::ukcore::emitted::exact::<S, 18>(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         mass[0] = pivot_th1;
         let th2_by_th1 = (th1 - th2).cos();
@@ -388,9 +386,9 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         v: &[S],
     ) -> ::ukcore::Energy<S> {
         let [_, _, m2_l1_l2, half_m1_and_m2_sq_l1, half_m2_sq_l2, m1_and_m2_l1_g,
-        m2_l2_g, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        m2_l2_g, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            19,
+            18,
         >(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_th1, dot_th2] = *::ukcore::emitted::exact::<S, 2>(v, "v");
@@ -415,9 +413,9 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         outputs: &mut [S],
     ) {
         let outputs = ::ukcore::emitted::exact_mut::<S, 4>(outputs, "outputs");
-        let [_, _, _, _, _, _, _, l1, l2, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [_, _, _, _, _, _, _, l1, l2, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            19,
+            18,
         >(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let (sin_th1, cos_th1) = th1.sin_cos();
@@ -438,11 +436,11 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
-        let [_, _, m2_l1_l2, _, _, _, m2_l2_g, _, _, m2_l2, m1_and_m2_g,
+        let [_, diagonal_th2, m2_l1_l2, _, _, _, m2_l2_g, _, _, m2_l2, m1_and_m2_g,
         m2_per_m1_and_m2_l2, m2_per_m1_and_m2, prepared_part, per_l2,
-        per_m1_and_m2_per_l1, m2, times_m2, safe_th1] = *::ukcore::emitted::exact::<
+        per_m1_and_m2_per_l1, times_m2_sq_l2, safe_th1] = *::ukcore::emitted::exact::<
             S,
-            19,
+            18,
         >(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_th1, dot_th2] = *::ukcore::emitted::exact::<S, 2>(v, "v");
@@ -462,7 +460,12 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         let pivot_th2 = (m2_per_m1_and_m2 * th2_by_th1)
             .neg_mul_add(th2_by_th1, lit(1.0));
         let per_pivot_th2 = pivot_th2.recip();
-        let safe_th2 = S::select_le(times_m2, m2 * pivot_th2, safe_th1, lit(0.0));
+        let safe_th2 = S::select_le(
+            times_m2_sq_l2,
+            diagonal_th2 * pivot_th2,
+            safe_th1,
+            lit(0.0),
+        );
         let right_th2 = (m2_per_m1_and_m2_l2 * th2_by_th1)
             .neg_mul_add(
                 right_th1,
@@ -491,14 +494,22 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
-        let [_, _, _, _, _, _, _, _, _, _, _, _, m2_per_m1_and_m2, _, _, _, m2, times_m2,
-        safe_th1] = *::ukcore::emitted::exact::<S, 19>(prepared, "prepared");
+        let [_, diagonal_th2, _, _, _, _, _, _, _, _, _, _, m2_per_m1_and_m2, _, _, _,
+        times_m2_sq_l2, safe_th1] = *::ukcore::emitted::exact::<
+            S,
+            18,
+        >(prepared, "prepared");
         let [th1, th2] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let lit = S::from_f64;
         let th2_by_th1 = (th1 - th2).cos();
         let pivot_th2 = (m2_per_m1_and_m2 * th2_by_th1)
             .neg_mul_add(th2_by_th1, lit(1.0));
-        let safe_th2 = S::select_le(times_m2, m2 * pivot_th2, safe_th1, lit(0.0));
+        let safe_th2 = S::select_le(
+            times_m2_sq_l2,
+            diagonal_th2 * pivot_th2,
+            safe_th1,
+            lit(0.0),
+        );
         out[0] = lit(0.0);
         out[1] = lit(0.0);
         let safe = safe_th2;

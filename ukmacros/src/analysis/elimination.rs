@@ -361,14 +361,8 @@ fn reduced(a: Id, b: Id, positive: &BTreeSet<Id>, g: &mut Graph) -> (Id, Id) {
         };
         if (e > 0) == (*other > 0) {
             let least = if e > 0 { e.min(*other) } else { e.max(*other) };
-            let even = least - least % 2;
-            let power = if positive.contains(&base) {
-                least
-            } else {
-                even
-            };
-            if power != 0 {
-                common.push((base, -power));
+            if positive.contains(&base) {
+                common.push((base, -least));
             }
         }
     }
