@@ -15,6 +15,20 @@ pub(crate) struct Operations {
     pub(crate) selections: usize,
 }
 
+impl Operations {
+    /// The counts, in the order of the fields.
+    pub(crate) fn counts(self) -> [usize; 6] {
+        [
+            self.additions,
+            self.multiplications,
+            self.divisions,
+            self.square_roots,
+            self.transcendentals,
+            self.selections,
+        ]
+    }
+}
+
 /// Counts the operations of the nodes `needed`, where each of `reciprocals` is taken once.
 pub(crate) fn count(g: &Graph, needed: &HashSet<Id>, reciprocals: &HashSet<Id>) -> Operations {
     let mut n = Operations {

@@ -26,7 +26,7 @@
 //! parameters only also has to be finite: an infinite mass would vanish by its reciprocal.
 
 use super::dynamics::Dynamics;
-use crate::expr::{Graph, Id, Node, Symbol, System};
+use crate::expr::{Graph, Id, Node, Symbol, System, is_power_of_two};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A 1 × 1 pivot d and the diagonal G it started from, both times a positive number: rank is lost where d/G falls to rounding.
@@ -38,6 +38,8 @@ pub(crate) struct Pivot {
     pub(crate) position: usize,
     pub(crate) value: Id,
     pub(crate) reference: Id,
+    /// Its right-hand side, times the same number.
+    right: Option<Id>,
 }
 
 /// Longest chain of pivots whose divisions are put off. Their numerators are products of as many pivots, and must stay in the range of
@@ -52,8 +54,8 @@ pub(crate) struct Elimination {
     /// Δ of least M-norm with A Δ = −residual (residuals are [`Symbol::Residual`]).
     pub(crate) correction: Vec<Id>,
     pub(crate) pivots: Vec<Pivot>,
-    /// Pivots with their right-hand sides, in the order of elimination: the order in which they are best computed.
-    pub(crate) stages: Vec<[Id; 2]>,
+    /// Right-hand sides of the pivots in the solution for the correction.
+    correction_rights: Vec<Id>,
     /// The order: names of coordinates (positions below n) and constraints (n + row); pairs for 2 × 2 pivots.
     pub(crate) order: Vec<Pivoting>,
     /// Names of pivots, factors and multipliers.
@@ -93,7 +95,7 @@ pub(crate) fn eliminate(
     let zero = g.zero();
     // A factor that all of M shares, as the one mass of all parts, only scales the multipliers: it is taken out of M and Q.
     let (factor, d) = &without_common_factor(d, g);
-    let (mut pivots, mut stages) = (Vec::new(), Vec::new());
+    let mut pivots = Vec::new();
     let first = d.mass.keys().next().map_or(0, |(i, _)| *i);
     let unit = g.one();
     if *factor != unit {
@@ -102,8 +104,8 @@ pub(crate) fn eliminate(
             position: first,
             value: *factor,
             reference: *factor,
+            right: None,
         });
-        stages.push([*factor; 2]);
     }
     let force: Vec<Id> = (0..n).map(|i| g.add(d.force[i], d.nonideal[i])).collect();
     // A constraint may be divided by a number: one that all its coefficients share would be multiplied through everything.
@@ -120,8 +122,8 @@ pub(crate) fn eliminate(
     let mut system = Matrix::new(d, &jacobian, g);
     system.load(&force, &rhs);
     let mut hints = Vec::new();
-    let acceleration =
-        system.solve(&order, names, g, &mut hints, Some(&mut pivots), &mut stages)?;
+    let (acceleration, own) = system.solve(&order, names, g, &mut hints)?;
+    pivots.extend(own);
     let residuals: Vec<Id> = (0..d.rhs.len())
         .map(|i| {
             let r = g.symbol(Symbol::Residual(i));
@@ -131,12 +133,13 @@ pub(crate) fn eliminate(
     let residuals = scaled(&residuals, g);
     let mut system = Matrix::new(d, &jacobian, g);
     system.load(&vec![zero; n], &residuals);
-    let correction = system.solve(&order, names, g, &mut hints, None, &mut stages)?;
+    // The same pivots, with other right-hand sides.
+    let (correction, again) = system.solve(&order, names, g, &mut hints)?;
     Ok(Elimination {
         acceleration,
         correction,
         pivots,
-        stages,
+        correction_rights: again.iter().filter_map(|p| p.right).collect(),
         order,
         hints,
     })
@@ -144,15 +147,11 @@ pub(crate) fn eliminate(
 
 /// The product of parameters that all entries of M have in front, and the equations with M, Q and c divided by it.
 fn without_common_factor(d: &Dynamics, g: &mut Graph) -> (Id, Dynamics) {
-    let factors_of = |id: Id, g: &Graph| match g.node(g.unscaled(id).1) {
-        Node::Product(factors) => factors.clone(),
-        _ => vec![(g.unscaled(id).1, 1)],
-    };
     let mut entries = d.mass.values();
-    let mut common = entries.next().map_or(Vec::new(), |m| factors_of(*m, g));
+    let mut common = entries.next().map_or(Vec::new(), |m| g.factors(*m));
     common.retain(|(base, _)| g.uses(*base).constant() && g.as_const(*base).is_none());
     for entry in entries {
-        let factors = factors_of(*entry, g);
+        let factors = g.factors(*entry);
         common.retain(|factor| factors.contains(factor));
     }
     let factor = g.product(&common);
@@ -184,8 +183,7 @@ fn share(d: &Dynamics, row: usize, g: &Graph) -> f64 {
     let Some(first) = sizes.next() else {
         return 1.0;
     };
-    let power = first.is_normal() && first.to_bits().trailing_zeros() >= 52;
-    if power && sizes.all(|s| s == first) {
+    if is_power_of_two(first) && sizes.all(|s| s == first) {
         first
     } else {
         1.0
@@ -223,13 +221,13 @@ impl Straight {
         let g = &mut system.graph;
         let (certificate, chain) = elimination.certificate(g);
         let mut stages = Vec::new();
-        let count = elimination.pivots.len();
-        for (k, [pivot, right]) in elimination.stages.iter().enumerate() {
-            stages.push(*pivot);
-            let links = chain.iter().filter(|(of, _)| *of == k % count);
+        for (k, pivot) in elimination.pivots.iter().enumerate() {
+            stages.push(pivot.value);
+            let links = chain.iter().filter(|(of, _)| *of == k);
             stages.extend(links.map(|(_, link)| *link));
-            stages.push(*right);
+            stages.extend(pivot.right);
         }
+        stages.extend(&elimination.correction_rights);
         let varying = chain.iter().filter(|(_, link)| !g.uses(*link).constant());
         let exits: Vec<Id> = match varying.clone().count() {
             0..=UNBROKEN => Vec::new(),
@@ -335,27 +333,20 @@ fn vanished(k: usize, n: usize, names: &[String]) -> String {
 /// `id` without its positive factors, if anything else is left.
 fn sign_of(id: Id, positive: &BTreeSet<Id>, g: &mut Graph) -> Id {
     let (c, inner) = g.unscaled(id);
-    let Node::Product(factors) = g.node(inner).clone() else {
-        return g.scale(c.signum(), inner);
+    let mut open = g.factors(id);
+    open.retain(|(base, _)| !positive.contains(base));
+    let rest = match open.as_slice() {
+        [] => inner,
+        open => g.product(open),
     };
-    let known = |(base, _): &(Id, i32)| positive.contains(base);
-    let open: Vec<(Id, i32)> = factors.into_iter().filter(|f| !known(f)).collect();
-    if open.is_empty() {
-        return id;
-    }
-    let product = g.product(&open);
-    g.scale(c.signum(), product)
+    g.scale(c.signum(), rest)
 }
 
 /// Both without the `positive` factors that they share.
 fn reduced(a: Id, b: Id, positive: &BTreeSet<Id>, g: &mut Graph) -> (Id, Id) {
-    let factors = |id: Id, g: &Graph| match g.node(g.unscaled(id).1) {
-        Node::Product(factors) => factors.clone(),
-        _ => vec![(g.unscaled(id).1, 1)],
-    };
-    let others = factors(b, g);
+    let others = g.factors(b);
     let mut common = Vec::new();
-    for (base, e) in factors(a, g) {
+    for (base, e) in g.factors(a) {
         let Some((_, other)) = others.iter().find(|(b, _)| *b == base) else {
             continue;
         };
@@ -698,17 +689,16 @@ impl Matrix {
         !another && self.deferred[a].is_none() && self.depth[k] < CHAIN
     }
 
-    /// Forward elimination and back substitution; the coordinates' part of the solution.
+    /// Forward elimination and back substitution; the coordinates' part of the solution, and the 1 × 1 pivots.
     fn solve(
         mut self,
         order: &[Pivoting],
         names: &[String],
         g: &mut Graph,
         hints: &mut Vec<(Id, String)>,
-        mut pivots: Option<&mut Vec<Pivot>>,
-        stages: &mut Vec<[Id; 2]>,
-    ) -> Result<Vec<Id>, String> {
+    ) -> Result<(Vec<Id>, Vec<Pivot>), String> {
         let size = self.rows.len();
+        let mut pivots = Vec::new();
         let mut position = vec![0; size];
         for (at, step) in order.iter().enumerate() {
             if let Pivoting::One(k) = *step {
@@ -733,19 +723,17 @@ impl Matrix {
                     if g.is_zero(pivot.numerator) {
                         return Err(vanished(k, self.n, names));
                     }
-                    if let Some(pivots) = pivots.as_deref_mut() {
-                        pivots.push(Pivot {
-                            name: names[k].clone(),
-                            position: k,
-                            value: pivot.numerator,
-                            reference: g.mul(reference, pivot.denominator),
-                        });
-                    }
-                    stages.push([pivot.numerator, pivot.right]);
+                    let reference = g.mul(reference, pivot.denominator);
+                    pivots.push(Pivot {
+                        name: names[k].clone(),
+                        position: k,
+                        value: pivot.numerator,
+                        reference,
+                        right: Some(pivot.right),
+                    });
                     hints.push((pivot.numerator, format!("pivot_{}", names[k])));
                     hints.push((pivot.right, format!("right_{}", names[k])));
-                    let scaled = g.mul(reference, pivot.denominator);
-                    hints.push((scaled, format!("diagonal_{}", names[k])));
+                    hints.push((reference, format!("diagonal_{}", names[k])));
                     // x_k = solved − Σ row · x / value
                     let value = g.div(pivot.numerator, pivot.denominator);
                     let value = g.scale(sign, value);
@@ -879,6 +867,7 @@ impl Matrix {
         }
         let n = self.n;
         let coordinates: Option<Vec<Id>> = solution[..n].iter().copied().collect();
-        coordinates.ok_or_else(|| "a coordinate was left over".to_owned())
+        let coordinates = coordinates.ok_or_else(|| "a coordinate was left over".to_owned())?;
+        Ok((coordinates, pivots))
     }
 }

@@ -7,7 +7,7 @@
 use super::dynamics::Dynamics;
 use super::elimination::Straight;
 use crate::expr::{Graph, Id, Node, Point, Symbol, System, eval};
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 /// The equations as they are emitted.
 pub(crate) struct Hoisted {
@@ -81,19 +81,11 @@ struct Pass<'g> {
 
 impl<'g> Pass<'g> {
     fn new(g: &'g mut Graph, roots: &[Id]) -> Self {
+        let order = g.reachable(roots);
         let mut readers: HashMap<Id, usize> = HashMap::new();
-        let mut reached: HashSet<Id> = HashSet::new();
-        let mut stack = roots.to_vec();
-        while let Some(id) = stack.pop() {
-            if reached.insert(id) {
-                for operand in g.operands(id) {
-                    *readers.entry(operand).or_insert(0) += 1;
-                    stack.push(operand);
-                }
-            }
-        }
-        for root in roots {
-            *readers.entry(*root).or_insert(0) += 1;
+        let read = order.iter().flat_map(|id| g.operands(*id));
+        for id in read.chain(roots.iter().copied()) {
+            *readers.entry(id).or_insert(0) += 1;
         }
         let mut pass = Pass {
             g,
@@ -102,8 +94,6 @@ impl<'g> Pass<'g> {
             values: Vec::new(),
             places: HashMap::new(),
         };
-        let mut order: Vec<Id> = reached.into_iter().collect();
-        order.sort_unstable();
         for id in order {
             if !pass.g.uses(id).constant() {
                 let new = pass.rewrite(id);

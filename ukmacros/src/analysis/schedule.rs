@@ -43,9 +43,8 @@ pub(crate) fn schedule(
     named: &HashMap<Id, String>,
     sequence: Sequence<'_>,
 ) -> Program {
-    let needed = reachable(g, roots);
-    let mut order: Vec<Id> = needed.iter().copied().collect();
-    order.sort_unstable();
+    let order = g.reachable(roots);
+    let needed: HashSet<Id> = order.iter().copied().collect();
     let uses = count_uses(g, roots, &order);
     let reciprocals = reciprocals(g, &order);
     let pair = |id: Id| -> Option<(Id, Id)> {
@@ -138,17 +137,6 @@ fn reciprocals(g: &Graph, needed: &[Id]) -> HashSet<Id> {
     }
     divided.retain(|_, n| *n > 1);
     divided.into_keys().collect()
-}
-
-fn reachable(g: &Graph, roots: &[Id]) -> HashSet<Id> {
-    let mut needed = HashSet::new();
-    let mut stack = roots.to_vec();
-    while let Some(id) = stack.pop() {
-        if needed.insert(id) {
-            stack.extend(g.operands(id));
-        }
-    }
-    needed
 }
 
 /// How often each node is read; a square reads its base twice, an inlined sign passes its readers on.

@@ -71,16 +71,20 @@ struct Motion<'a> {
 }
 
 impl Motion<'_> {
-    fn disagreements(&self, system: &System, dynamics: &Dynamics) -> HashSet<String> {
-        let g = &system.graph;
-        let point = Point {
+    fn point(&self) -> Point<'_> {
+        Point {
             params: self.params,
             q: &self.q,
             v: &self.v,
             t: self.t,
             residual: &[],
             prepared: &[],
-        };
+        }
+    }
+
+    fn disagreements(&self, system: &System, dynamics: &Dynamics) -> HashSet<String> {
+        let g = &system.graph;
+        let point = self.point();
         let places = dynamics.jacobian.keys();
         let entries: Vec<Id> = dynamics.jacobian.values().copied().collect();
         let entries = eval(g, &entries, &point);
@@ -144,14 +148,7 @@ impl Motion<'_> {
         let g = &system.graph;
         let n = self.q.len();
         let still = vec![0.0; n];
-        let point = Point {
-            params: self.params,
-            q: &self.q,
-            v: &self.v,
-            t: self.t,
-            residual: &[],
-            prepared: &[],
-        };
+        let point = self.point();
         let along = |x: &[f64]| -> f64 { x.iter().zip(direction).map(|(x, d)| x * d).sum() };
         let declared: Vec<Id> = system.force.values().copied().collect();
         let mut given = vec![0.0; n];

@@ -260,16 +260,8 @@ pub(super) fn computed(plan: &Plan, costs: &Costs, system: &System, model: &Mode
     out += "\n| operations | add | multiply | divide | root | function | select |\n\
             | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n";
     for (name, o) in rows {
-        let _ = writeln!(
-            out,
-            "| {name} | {} | {} | {} | {} | {} | {} |",
-            o.additions,
-            o.multiplications,
-            o.divisions,
-            o.square_roots,
-            o.transcendentals,
-            o.selections
-        );
+        let counts = o.counts().map(|count| count.to_string()).join(" | ");
+        let _ = writeln!(out, "| {name} | {counts} |");
     }
     out += "\n`Mechanism::plan` tells the order, what is hoisted and left out, and draws the sparsity; `Mechanism::CODE` is the code.";
     out
@@ -277,16 +269,12 @@ pub(super) fn computed(plan: &Plan, costs: &Costs, system: &System, model: &Mode
 
 /// Names of the parameters that `id` depends on.
 fn parameters_of(id: Id, system: &System, names: &[String]) -> String {
-    let mut found = std::collections::BTreeSet::new();
-    let (mut seen, mut stack) = (std::collections::HashSet::new(), vec![id]);
-    while let Some(id) = stack.pop() {
-        if let Node::Symbol(Symbol::Param(i)) = system.graph.node(id) {
-            found.insert(*i);
-        }
-        if seen.insert(id) {
-            stack.extend(system.graph.operands(id));
-        }
-    }
+    let below = system.graph.reachable(&[id]);
+    let parameter = |id: &Id| match system.graph.node(*id) {
+        Node::Symbol(Symbol::Param(i)) => Some(*i),
+        _ => None,
+    };
+    let found: std::collections::BTreeSet<usize> = below.iter().filter_map(parameter).collect();
     let found: Vec<&str> = found.iter().map(|i| names[*i].as_str()).collect();
     found.join(", ")
 }

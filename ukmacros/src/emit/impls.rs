@@ -488,16 +488,10 @@ fn vector(target: &str, purpose: &str, ids: &[Id]) -> Vec<Root> {
 }
 
 fn operations_doc(o: Operations) -> TokenStream {
-    let text = format!(
-        "{} additions, {} multiplications, {} divisions, {} square roots, {} transcendentals, {} selections.",
-        o.additions,
-        o.multiplications,
-        o.divisions,
-        o.square_roots,
-        o.transcendentals,
-        o.selections
-    );
-    doc(&text)
+    let [add, multiply, divide, root, function, select] = o.counts();
+    doc(&format!(
+        "{add} additions, {multiply} multiplications, {divide} divisions, {root} square roots, {function} transcendentals, {select} selections."
+    ))
 }
 
 /// Access to parameters by position.

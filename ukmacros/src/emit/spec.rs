@@ -245,15 +245,7 @@ fn operations_literal(o: Operations) -> TokenStream {
         square_roots,
         transcendentals,
         selections,
-    ] = [
-        o.additions,
-        o.multiplications,
-        o.divisions,
-        o.square_roots,
-        o.transcendentals,
-        o.selections,
-    ]
-    .map(Literal::usize_unsuffixed);
+    ] = o.counts().map(Literal::usize_unsuffixed);
     quote! {
         ::ukcore::Operations {
             additions: #additions,

@@ -22,6 +22,11 @@ fn times(c: f64, k: f64) -> Option<f64> {
     (product.is_normal() || at_fault || c.is_subnormal() || k.is_subnormal()).then_some(product)
 }
 
+/// Whether x is a power of two, in the normal range: multiplying by it is exact.
+pub(crate) fn is_power_of_two(x: f64) -> bool {
+    x.is_normal() && x.to_bits().trailing_zeros() >= 52 && x > 0.0
+}
+
 impl Graph {
     pub(crate) fn constant(&mut self, x: f64) -> Id {
         self.intern(Node::Const(Num::new(x)))
@@ -117,7 +122,7 @@ impl Graph {
                 .iter()
                 .fold(f64::INFINITY, |s, (c, _)| s.min(c.abs()));
             // 2 x − 8 y is 2 (x − 4 y): exact for powers of two.
-            let power = least > 1.0 && least.to_bits().trailing_zeros() >= 52;
+            let power = least > 1.0 && is_power_of_two(least);
             let multiples = collected.iter().all(|(c, _)| (c / least).fract() == 0.0);
             factor = if alike {
                 first
@@ -414,11 +419,8 @@ impl Graph {
     /// `id` with its coefficient as one value, which is not carried on into what is computed from it. Factors of parameters stay outside, where
     /// they may cancel.
     pub(crate) fn hold_whole(&mut self, id: Id) -> Id {
-        let (c, inner) = self.unscaled(id);
-        let factors = match self.node(inner) {
-            Node::Product(factors) => factors.clone(),
-            _ => vec![(inner, 1)],
-        };
+        let (c, _) = self.unscaled(id);
+        let factors = self.factors(id);
         let fixed = |(base, _): &(Id, i32)| self.uses(*base).constant();
         let (mut outside, inside): (Vec<_>, Vec<_>) = factors.into_iter().partition(fixed);
         if inside.is_empty() || (c.abs() == 1.0 && inside.len() == 1) {

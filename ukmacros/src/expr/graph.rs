@@ -9,7 +9,7 @@
 //! - a product has no product or scale among its factors. A sum may have a sum among its terms: parentheses are kept,
 //!   since regrouping a sum changes its rounding.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// A node's place in the arena.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -289,6 +289,29 @@ impl Graph {
     /// The node `func(arg)`, if there is one.
     pub(crate) fn find_call(&self, func: Func, arg: Id) -> Option<Id> {
         self.known.get(&Node::Call(func, vec![arg])).copied()
+    }
+
+    /// Factors of `id` without its coefficient: itself where it is no product.
+    pub(crate) fn factors(&self, id: Id) -> Vec<(Id, i32)> {
+        let (_, inner) = self.unscaled(id);
+        match self.node(inner) {
+            Node::Product(factors) => factors.clone(),
+            _ => vec![(inner, 1)],
+        }
+    }
+
+    /// The nodes that `roots` are made of, themselves included, operands before users.
+    pub(crate) fn reachable(&self, roots: &[Id]) -> Vec<Id> {
+        let mut found = HashSet::new();
+        let mut stack = roots.to_vec();
+        while let Some(id) = stack.pop() {
+            if found.insert(id) {
+                stack.extend(self.operands(id));
+            }
+        }
+        let mut found: Vec<Id> = found.into_iter().collect();
+        found.sort_unstable();
+        found
     }
 
     /// `id` if it is `known`, else its known factors: a product of it with others has been taken apart.
