@@ -1,0 +1,196 @@
+//! Whether the straight line can be trusted at a state.
+//!
+//! Every 1 × 1 pivot d is compared at run time with the diagonal G it started from. Let B be the rows of A M^−½ (of what is left of them
+//! once the 2 × 2 pivots are gone), each scaled to length 1, and σ its smallest singular value: the distance to rank loss.
+//! The share d/G of a constraint is the squared distance of its row of B from the span of the rows eliminated before it. Hence
+//!
+//! - d/G ≥ σ² for every constraint: a state with σ ≥ 1/32 is never refused.
+//! - One row within δ of the span of those before has d/G ≤ δ², and is refused for δ < 1/32, wherever else it stands.
+//! - What is accepted is accurate. The LDLᵀ of a definite matrix is stable whatever its scaling (Higham 2002, theorem 10.6 with
+//!   van der Sluis's scaling): λ is off by (n + m) ε κ(B Bᵀ), and q̈ by that part of it which B does not damp. While one row at a time comes near
+//!   the others κ(B Bᵀ) is 1/σ² and about G/d, so that the error of q̈ is below (n + m) ε · 1024 of the larger of q̈ and M⁻¹ Q, in the mass
+//!   metric. (Shares of rows that are dependent in steps, each near those before, could multiply in the worst case; chains of
+//!   links nearly in line do not. Measured over approaches to rank loss, errors reach a tenth of the bound: tests/tests/certificate.rs.)
+//!
+//! 1/1024 is `RANK_CEILING`² of the rank-revealing solve: above it that would not doubt the rank either, at states off the constraints included. Where a
+//! share is less it takes over; it works on A itself, whose condition is the root of G's, and keeps twice the digits. What depends on
+//! parameters only also has to be finite: an infinite mass would vanish by its reciprocal.
+
+use super::{Elimination, Pivot};
+use crate::expr::{Graph, Id, Node, System};
+use std::collections::BTreeSet;
+
+/// The least share d/G of a pivot that the straight line accepts: the square of `ukcore::solver::RANK_CEILING`; see the
+/// module.
+pub(crate) const SAFE_SHARE: f64 = 1.0 / 1024.0;
+
+/// A program with more pivots leaves early, after each [`STRETCH`] of them, if the certificate does not hold. That is seldom; what it is for is
+/// the compiler of the emitted code: it packs scalars of one stretch without branches into vectors, and in long stretches finds pairs that are far
+/// apart and have to be kept for each other. The U-chain with 65 links takes 280 ns with exits and 450 without, that with 17 links 79 and 67.
+const UNBROKEN: usize = 24;
+/// See [`UNBROKEN`].
+const STRETCH: usize = 12;
+
+/// An elimination with its certificate.
+#[derive(Clone)]
+pub(crate) struct Straight {
+    pub(crate) elimination: Elimination,
+    /// 1 where every pivot is safe, 0 where one is not.
+    pub(crate) certificate: Id,
+    /// What is computed first, in this order: pivots, their right-hand sides, links of the certificate.
+    pub(crate) stages: Vec<Id>,
+    /// Links of the certificate after which the code leaves if it does not hold.
+    pub(crate) exits: Vec<Id>,
+    /// What the certificate compares: positions, and whether against the diagonal that the pivot started from (else against zero).
+    pub(crate) checks: Vec<(usize, bool)>,
+}
+
+impl Straight {
+    /// All values, in a fixed order.
+    pub(crate) fn values_mut(&mut self) -> impl Iterator<Item = &mut Id> {
+        let Elimination {
+            acceleration,
+            correction,
+            ..
+        } = &mut self.elimination;
+        let solutions = acceleration.iter_mut().chain(correction);
+        solutions.chain([&mut self.certificate])
+    }
+
+    /// Adds the certificate, and enters the names.
+    pub(crate) fn new(mut elimination: Elimination, system: &mut System) -> Self {
+        let g = &mut system.graph;
+        let (certificate, chain) = elimination.certificate(g);
+        let mut stages = Vec::new();
+        for (k, pivot) in elimination.pivots.iter().enumerate() {
+            stages.push(pivot.value);
+            let links = chain.iter().filter(|(of, _)| *of == k);
+            stages.extend(links.map(|(_, link)| *link));
+            stages.extend(pivot.right);
+        }
+        stages.extend(&elimination.correction_rights);
+        let varying = chain.iter().filter(|(_, link)| !g.uses(*link).constant());
+        let exits: Vec<Id> = match varying.clone().count() {
+            0..=UNBROKEN => Vec::new(),
+            _ => varying
+                .skip(STRETCH - 1)
+                .step_by(STRETCH)
+                .map(|(_, link)| *link)
+                .collect(),
+        };
+        let pivots = &elimination.pivots;
+        let checked = chain.iter().map(|(of, _)| &pivots[*of]);
+        let checks = checked
+            .map(|p| (p.position, p.value != p.reference))
+            .collect();
+        for (of, link) in chain {
+            let name = &elimination.pivots[of].name;
+            system.inner_hints.insert(link, format!("safe_{name}"));
+        }
+        for (id, name) in std::mem::take(&mut elimination.hints) {
+            let (_, mut inner) = g.unscaled(id);
+            // Of a product with parameters, the part that varies.
+            if let Node::Product(factors) = g.node(inner) {
+                let mut varying = factors.iter().filter(|(f, _)| !g.uses(*f).constant());
+                if let (Some((factor, 1)), None) = (varying.next(), varying.next()) {
+                    inner = *factor;
+                }
+            }
+            if !g.operands(inner).is_empty() {
+                system.inner_hints.entry(inner).or_insert(name);
+            }
+        }
+        Straight {
+            elimination,
+            certificate,
+            stages,
+            exits,
+            checks,
+        }
+    }
+}
+
+impl Elimination {
+    /// 1 where every pivot is safe, 0 where one is not, as a chain of selections, and its links with the
+    /// pivots they check: what depends on parameters only first, then
+    /// in the order of the elimination, so that no pivot has to be kept for it.
+    fn certificate(&self, g: &mut Graph) -> (Id, Vec<(usize, Id)>) {
+        let (zero, tiny) = (g.zero(), g.constant(f64::MIN_POSITIVE));
+        let largest = g.constant(f64::MAX);
+        let positive: BTreeSet<Id> = self
+            .pivots
+            .iter()
+            .filter(|p| p.value == p.reference && g.unscaled(p.value).0 > 0.0)
+            .map(|p| g.unscaled(p.value).1)
+            .collect();
+        let mut conditions: Vec<(usize, Id, Id)> = Vec::new();
+        for (
+            k,
+            Pivot {
+                value, reference, ..
+            },
+        ) in self.pivots.iter().enumerate()
+        {
+            let (value, least) = if value == reference {
+                // Nothing was taken off the diagonal: it has to be positive.
+                (sign_of(*value, &positive, g), tiny)
+            } else {
+                let (value, reference) = reduced(*value, *reference, &positive, g);
+                (value, g.scale(SAFE_SHARE, reference))
+            };
+            let holds = g.as_const(value).is_some_and(|x| x > 0.0) && least == tiny;
+            let known = conditions.iter().any(|c| (c.1, c.2) == (value, least));
+            if !holds && !known {
+                conditions.push((k, value, least));
+            }
+        }
+        conditions.sort_by_key(|(_, a, b)| !(g.uses(*a).constant() && g.uses(*b).constant()));
+        let mut safe = g.one();
+        let mut chain = Vec::new();
+        for (k, value, least) in conditions {
+            // In this order a pivot that is not a number is not safe.
+            safe = g.select(least, value, safe, zero);
+            if g.uses(value).constant() {
+                // Computed once, so that it costs nothing: an infinite mass would vanish by its reciprocal.
+                safe = g.select(value, largest, safe, zero);
+            }
+            chain.push((k, safe));
+        }
+        (safe, chain)
+    }
+}
+
+/// `id` without its positive factors, if anything else is left.
+fn sign_of(id: Id, positive: &BTreeSet<Id>, g: &mut Graph) -> Id {
+    let (c, inner) = g.unscaled(id);
+    let mut open = g.factors(id);
+    open.retain(|(base, _)| !positive.contains(base));
+    let rest = match open.as_slice() {
+        [] => inner,
+        open => g.product(open),
+    };
+    g.scale(c.signum(), rest)
+}
+
+/// Both without the `positive` factors that they share.
+fn reduced(a: Id, b: Id, positive: &BTreeSet<Id>, g: &mut Graph) -> (Id, Id) {
+    let others = g.factors(b);
+    let mut common = Vec::new();
+    for (base, e) in g.factors(a) {
+        let Some((_, other)) = others.iter().find(|(b, _)| *b == base) else {
+            continue;
+        };
+        if (e > 0) == (*other > 0) {
+            let least = if e > 0 { e.min(*other) } else { e.max(*other) };
+            if positive.contains(&base) {
+                common.push((base, -least));
+            }
+        }
+    }
+    let mut divide = |id: Id| {
+        let mut all = common.clone();
+        all.push((id, 1));
+        g.product(&all)
+    };
+    (divide(a), divide(b))
+}
