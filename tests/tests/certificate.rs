@@ -65,6 +65,12 @@ struct Seen {
 }
 
 impl Seen {
+    /// Enough states on both sides for the comparison to say something.
+    fn more_than(&self, accepted: usize, refused: usize) {
+        let enough = self.accepted > accepted && self.refused > refused;
+        assert!(enough, "{} and {}", self.accepted, self.refused);
+    }
+
     /// One state, of a mechanism with diagonal M: whether it is accepted.
     fn check<M: Mechanism>(&mut self, mechanism: &M, state: &State) -> bool {
         let dense = Dense::of(mechanism, state);
@@ -170,12 +176,7 @@ fn copies_of_a_constraint() {
             assert!(!(accepted && delta < 0.03), "a copy at {delta:e} passed");
         }
     }
-    assert!(
-        seen.accepted > 50 && seen.refused > 500,
-        "{} and {}",
-        seen.accepted,
-        seen.refused
-    );
+    seen.more_than(50, 500);
 }
 
 #[test]
@@ -205,12 +206,7 @@ fn crank_and_rod_of_one_length_near_their_dead_centre() {
             seen.check(&mechanism, &at::<SliderCrank>(q, &mut random));
         }
     }
-    assert!(
-        seen.accepted > 1 && seen.refused > 30,
-        "{} and {}",
-        seen.accepted,
-        seen.refused
-    );
+    seen.more_than(1, 30);
 }
 
 #[test]
@@ -225,12 +221,7 @@ fn a_four_bar_nearly_in_line() {
             seen.check(&FourBar::default(), &at::<FourBar>(q, &mut random));
         }
     }
-    assert!(
-        seen.accepted > 20 && seen.refused > 300,
-        "{} and {}",
-        seen.accepted,
-        seen.refused
-    );
+    seen.more_than(20, 300);
 }
 
 #[test]
@@ -246,12 +237,7 @@ fn a_chain_between_supports_nearly_in_line() {
             seen.check(&Bridge::default(), &at::<Bridge>(q, &mut random));
         }
     }
-    assert!(
-        seen.accepted > 20 && seen.refused > 300,
-        "{} and {}",
-        seen.accepted,
-        seen.refused
-    );
+    seen.more_than(20, 300);
 }
 
 /// Links of the U-chain in any direction, parallel and folded onto each other included: its constraints are independent at all of them.

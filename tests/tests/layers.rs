@@ -130,8 +130,8 @@ fn ukcore() {
         "ukcore",
         &[
             "error",
-            "scan",
             "scalar",
+            "scan",
             "rounding",
             "spec",
             "plan",

@@ -1,12 +1,19 @@
 //! Passes over vectors that become vector instructions: sums and maxima in several parts, so that not every operation waits for the one before.
 
+use crate::scalar::Scalar;
+
 const PARTS: usize = 8;
 
 /// Whether all numbers are finite. A sum is finite only if all its terms are; where it is not, it may have overflowed, and each is looked at.
 #[inline]
 pub(crate) fn all_finite(x: &[f64]) -> bool {
-    let sum = reduce(x, x, |x, _| x, |s, x| s + x);
-    sum.is_finite() || x.iter().all(|x| x.is_finite())
+    sum(x).is_finite() || x.iter().all(|x| x.is_finite())
+}
+
+/// Σ x.
+#[inline]
+pub(crate) fn sum<S: Scalar>(x: &[S]) -> S {
+    reduce(x, x, |x, _| x, |s, x| s + x)
 }
 
 /// max|x|, 0 of none. Passes over NaN.
@@ -28,20 +35,15 @@ fn larger(s: f64, x: f64) -> f64 {
 
 /// Joins what `f` makes of each pair of numbers, starting from 0.
 #[inline(always)]
-fn reduce(
-    x: &[f64],
-    y: &[f64],
-    f: impl Fn(f64, f64) -> f64,
-    join: impl Fn(f64, f64) -> f64,
-) -> f64 {
-    let mut s = [0.0; PARTS];
+fn reduce<S: Scalar>(x: &[S], y: &[S], f: impl Fn(S, S) -> S, join: impl Fn(S, S) -> S) -> S {
+    let mut s = [S::from_f64(0.0); PARTS];
     let ((x, x_rest), (y, y_rest)) = (x.as_chunks::<PARTS>(), y.as_chunks::<PARTS>());
     for (x, y) in x.iter().zip(y) {
         for part in 0..PARTS {
             s[part] = join(s[part], f(x[part], y[part]));
         }
     }
-    let mut rest = 0.0;
+    let mut rest = S::from_f64(0.0);
     for (x, y) in x_rest.iter().zip(y_rest) {
         rest = join(rest, f(*x, *y));
     }

@@ -593,7 +593,7 @@ impl Solver {
         acceleration: &[f64],
     ) -> Result<(), Error> {
         let spec = M::SPEC;
-        if !acceleration.iter().all(|x| x.is_finite()) {
+        if !all_finite(acceleration) {
             let names = spec
                 .coords
                 .iter()
@@ -618,15 +618,8 @@ impl Solver {
         let residual: Vec<f64> = (0..self.m)
             .map(|c| a.product(c, acceleration) - self.rhs[c])
             .collect();
-        // A row of zeros has no scale: 0 = b.
-        let scale: Vec<f64> = self
-            .dense
-            .row_scale
-            .iter()
-            .map(|&s| if s > 0.0 { s } else { 1.0 })
-            .collect();
         Err(Error::Inconsistent {
-            constraints: diagnose::offending(spec, &residual, &scale),
+            constraints: diagnose::offending(spec, &residual, &self.dense.residual_scale()),
         })
     }
 

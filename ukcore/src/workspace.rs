@@ -160,6 +160,12 @@ pub(crate) struct Dense {
 }
 
 impl Dense {
+    /// What makes the residuals of the rows comparable. A row of zeros has no scale: 0 = b.
+    pub(crate) fn residual_scale(&self) -> Vec<f64> {
+        let scales = self.row_scale.iter();
+        scales.map(|&s| if s > 0.0 { s } else { 1.0 }).collect()
+    }
+
     /// Buffers for n coordinates and up to m constraints.
     pub(crate) fn new(n: usize, m: usize, diagonal: bool) -> Self {
         Dense {

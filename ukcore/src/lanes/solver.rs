@@ -3,6 +3,7 @@
 use super::Lanes;
 use crate::error::Error;
 use crate::mechanism::{Mechanism, Prepared};
+use crate::scan::sum;
 use crate::solver::{Solver, SolverOptions, SolverWork};
 
 /// Solves for q̈ of several mechanisms at once, one in each lane.
@@ -28,24 +29,8 @@ struct Own<M> {
 }
 
 /// 0 in the lanes where all numbers are finite, NaN where one is not, or where their sum overflows.
-fn zero_if_finite<L: Lanes>(t: L, all: [&[L]; 3]) -> L {
-    /// Parts of the sum, so that not every addition waits for the one before.
-    const PARTS: usize = 4;
-    let mut sums = [L::from_f64(0.0); PARTS];
-    sums[0] = t;
-    for x in all {
-        let (chunks, rest) = x.as_chunks::<PARTS>();
-        for chunk in chunks {
-            for (sum, x) in sums.iter_mut().zip(chunk) {
-                *sum = *sum + *x;
-            }
-        }
-        for (sum, x) in sums.iter_mut().zip(rest) {
-            *sum = *sum + *x;
-        }
-    }
-    let sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
-    sum * L::from_f64(0.0)
+fn zero_if_finite<L: Lanes>(t: L, [q, v, out]: [&[L]; 3]) -> L {
+    (t + sum(q) + sum(v) + sum(out)) * L::from_f64(0.0)
 }
 
 impl<M: Mechanism, L: Lanes> LaneSolver<M, L> {

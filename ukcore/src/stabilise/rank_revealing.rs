@@ -224,18 +224,12 @@ impl Projector {
                 *r = 0.0;
             }
         }
-        let scale: Vec<f64> = self
-            .dense
-            .row_scale
-            .iter()
-            .map(|&s| if s > 0.0 { s } else { 1.0 })
-            .collect();
         Error::OffConstraint {
             level: match level {
                 Level::Position => "position",
                 Level::Velocity => "velocity",
             },
-            constraints: diagnose::offending(M::SPEC, &residual, &scale),
+            constraints: diagnose::offending(M::SPEC, &residual, &self.dense.residual_scale()),
         }
     }
 }

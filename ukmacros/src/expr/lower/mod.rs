@@ -1,7 +1,10 @@
 //! Model to graph: loops unrolled, functions applied, vectors taken apart. This file walks the sections.
 
 mod names;
+mod system;
 mod value;
+
+pub(crate) use system::{Constraint, ConstraintRef, Kind, OutputValue, System};
 
 use super::eval::{Point, eval};
 use super::graph::{Graph, Id};
@@ -10,81 +13,6 @@ use crate::model::{Model, Name, Scope};
 use crate::parse::{Block, Declaration, Equation, Expr, Function, Key, LetValue};
 use proc_macro2::Ident;
 use std::collections::{BTreeMap, HashMap, HashSet};
-
-/// The equations of a declaration as a graph.
-pub(crate) struct System {
-    pub(crate) graph: Graph,
-    /// Value of each `f64` constant.
-    pub(crate) constants: Vec<f64>,
-    /// Default of each parameter.
-    pub(crate) defaults: Vec<f64>,
-    /// Lower triangle (row ≥ column) of the declared M, with where it was declared first.
-    pub(crate) mass: BTreeMap<(usize, usize), (Id, Loc)>,
-    pub(crate) kinetic: Option<(Id, Loc)>,
-    /// Declared generalised forces, by coordinate.
-    pub(crate) force: BTreeMap<usize, Id>,
-    pub(crate) potential: Option<Id>,
-    /// The paper's c, by coordinate.
-    pub(crate) nonideal: Option<BTreeMap<usize, Id>>,
-    /// Holonomic ones first.
-    pub(crate) constraints: Vec<Constraint>,
-    pub(crate) outputs: Vec<OutputValue>,
-    /// Names that the modeller gave to values.
-    pub(crate) hints: HashMap<Id, String>,
-    /// Names for what the compiler adds: pivots, multipliers. They serve the emitted code alone, not the printed equations.
-    pub(crate) inner_hints: HashMap<Id, String>,
-}
-
-impl System {
-    /// All names, the modeller's before the compiler's.
-    pub(crate) fn all_hints(&self) -> HashMap<Id, String> {
-        let mut all = self.inner_hints.clone();
-        all.extend(self.hints.clone());
-        all
-    }
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Kind {
-    Holonomic,
-    Nonholonomic,
-}
-
-/// φ = 0.
-pub(crate) struct Constraint {
-    pub(crate) item: ConstraintRef,
-    pub(crate) kind: Kind,
-    pub(crate) phi: Id,
-    pub(crate) loc: Loc,
-}
-
-/// Name of a constraint or output: family, index, component of a vector equation.
-#[derive(Clone)]
-pub(crate) struct ConstraintRef {
-    pub(crate) base: Ident,
-    pub(crate) index: Option<i64>,
-    pub(crate) component: Option<usize>,
-}
-
-impl ConstraintRef {
-    /// As shown: `link[3]`, `joint[0]`, `joint[2][1]`.
-    pub(crate) fn text(&self) -> String {
-        let mut text = self.base.to_string();
-        if let Some(i) = self.index {
-            text += &format!("[{i}]");
-        }
-        if let Some(c) = self.component {
-            text += &format!("[{c}]");
-        }
-        text
-    }
-}
-
-pub(crate) struct OutputValue {
-    pub(crate) item: ConstraintRef,
-    pub(crate) docs: Vec<String>,
-    pub(crate) value: Id,
-}
 
 /// Where an expression stands, which decides what it may use.
 #[derive(Clone, Copy, PartialEq)]
