@@ -22,6 +22,11 @@ pub(crate) struct Stepper<S> {
     argument: Vec<S>,
     /// State at the end of the step.
     new: Vec<S>,
+    /// What rounding took from the state at the start of the step, to be added to the change that the step makes (Kahan's summation; Hairer,
+    /// Lubich & Wanner, *Geometric Numerical Integration*, §VIII.5).
+    lost: Vec<S>,
+    /// The same at the end of the attempted step.
+    losing: Vec<S>,
     /// Estimates of the error, row by row.
     errors: Vec<S>,
     /// Rows of coefficients of the interpolant.
@@ -43,6 +48,8 @@ impl<S: Scalar> Stepper<S> {
             rates: zeros(1 + tableau.stages.len()),
             argument: zeros(1),
             new: zeros(1),
+            lost: zeros(1),
+            losing: zeros(1),
             errors: zeros(tableau.errors.len()),
             dense: zeros(4 + tableau.dense.len()),
         }
@@ -56,6 +63,14 @@ impl<S: Scalar> Stepper<S> {
         y: &[S],
     ) -> Result<(), E> {
         f(t, y, &mut self.rates[..self.n])
+    }
+
+    /// Forgets what rounding took from earlier states, where `choose(new, old)` is the new value: another motion begins there.
+    #[cfg(feature = "ensemble")]
+    pub(crate) fn forget(&mut self, choose: impl Fn(S, S) -> S) {
+        for lost in &mut self.lost {
+            *lost = choose(S::from_f64(0.0), *lost);
+        }
     }
 
     /// The method.
@@ -92,7 +107,13 @@ impl<S: Scalar> Stepper<S> {
     ) -> Result<(), E> {
         let closing = self.tableau.closing;
         self.evaluate(&mut f, t, h, y, 1..closing)?;
-        (self.sums.argument)(closing, &mut self.new, y, h, &self.rates);
+        // The stage's sum on top of what was lost so far, then both onto y: the larger of two terms first, so that what is lost is exact.
+        (self.sums.argument)(closing, &mut self.new, &self.lost, h, &self.rates);
+        for ((new, y), lost) in self.new.iter_mut().zip(y).zip(&mut self.losing) {
+            let change = *new;
+            *new = *y + change;
+            *lost = change - (*new - *y);
+        }
         Ok(())
     }
 
@@ -195,6 +216,9 @@ impl<S: Scalar> Stepper<S> {
         }
         for (y, new) in y.iter_mut().zip(&self.new) {
             *y = choose(*new, *y);
+        }
+        for (lost, losing) in self.lost.iter_mut().zip(&self.losing) {
+            *lost = choose(*losing, *lost);
         }
     }
 }

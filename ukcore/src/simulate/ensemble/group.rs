@@ -259,6 +259,8 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
         equations.alive = fresh;
         let (y, raw) = (&self.y, &mut self.raw);
         let s = equations.each(|r| r.clock.sign * r.now.0);
+        self.stepper
+            .forget(|fresh, old| L::select_le(half, new, fresh, old));
         // The others have theirs already.
         let Ok(()) = self.stepper.begin(
             |s, y, rate| {
