@@ -36,7 +36,7 @@ pub const SMALLEST_TOLERANCE: f64 = 10.0 * f64::EPSILON;
 /// A simulation: settings, then [`until`](Simulation::until).
 ///
 /// Each accepted step is projected back onto the constraints, at position and velocity level, unless
-/// [`stabilise`](Simulation::stabilise) says otherwise; so are samples and events within steps.
+/// [`stabilise`](Simulation::stabilise) says otherwise; so are samples and events within steps. (RATTLE needs no projection of its steps.)
 ///
 /// A projection does not make a bad step a good one: where it moves the state by more than
 /// [`PROJECTION_LIMIT`](crate::integrate::PROJECTION_LIMIT) in the norm of error control, the step is rejected and
@@ -102,7 +102,7 @@ impl<M: Mechanism> Simulation<M> {
         self
     }
 
-    /// Relative and absolute tolerance of each step, per coordinate and velocity; from [`SMALLEST_TOLERANCE`] to below 1.
+    /// Relative and absolute tolerance of each step, per coordinate and velocity; from [`SMALLEST_TOLERANCE`] to below 1. RATTLE does not look at it.
     #[must_use]
     pub fn tolerance(mut self, tolerance: f64) -> Self {
         self.tolerance = tolerance;
@@ -305,6 +305,9 @@ impl<M: Mechanism> Simulation<M> {
                 return invalid(what, reason);
             }
         }
+        if let Method::Rattle { step } = self.method {
+            self.check_rattle(step)?;
+        }
         if self.max_steps == 0 {
             return invalid("max_steps", "is 0, but must be at least 1".to_owned());
         }
@@ -352,6 +355,45 @@ impl<M: Mechanism> Simulation<M> {
                 let reason = "are not in the order in which the run passes them, each once";
                 return invalid("times", reason.to_owned());
             }
+        }
+        Ok(())
+    }
+
+    /// Whether RATTLE with steps of `step` fits the mechanism and the other settings.
+    fn check_rattle(&self, step: f64) -> Result<(), Error> {
+        let spec = M::SPEC;
+        let invalid = |what, reason: String| Err(Error::InvalidSetting { what, reason });
+        if !(step.is_finite() && step > 0.0) {
+            let reason = format!("is {step:?}, but must be positive and finite");
+            return invalid("step", reason);
+        }
+        let structure = &spec.structure;
+        let obstacle = if let Some(i) = structure.massless.first() {
+            format!("`{}` has no mass", spec.coords[*i])
+        } else if let Some(c) = spec.constraints.get(spec.holonomic) {
+            format!("`{}` is a nonholonomic constraint", c.name)
+        } else if !structure.mass_constant {
+            "the mass matrix is not constant".to_owned()
+        } else if !structure.conservative {
+            "there are other forces than those from a potential, or explicit time".to_owned()
+        } else {
+            String::new()
+        };
+        if !obstacle.is_empty() {
+            let reason = format!(
+                "is RATTLE, which `{}` does not admit, because {obstacle}; take `Method::Dop853`",
+                spec.name
+            );
+            return invalid("method", reason);
+        }
+        if let Stabilisation::Baumgarte(_) = self.stabilisation {
+            let reason = "is Baumgarte's, but RATTLE keeps the constraints by itself; leave it out";
+            return invalid("stabilise", reason.to_owned());
+        }
+        let sizes = [("first_step", self.first_step), ("max_step", self.max_step)];
+        if let Some((what, _)) = sizes.into_iter().find(|(_, size)| size.is_some()) {
+            let reason = "is given, but RATTLE has its own step; leave it out";
+            return invalid(what, reason.to_owned());
         }
         Ok(())
     }

@@ -13,6 +13,8 @@ use crate::scan::largest;
 use crate::solver::Baumgarte;
 use crate::workspace::{Dense, Owner, Rows};
 
+#[cfg(feature = "simulate")]
+mod along;
 mod rank_revealing;
 mod straight_line;
 

@@ -1,5 +1,7 @@
 //! The states within a step.
 
+use crate::scalar::Scalar;
+
 /// A sample counts as within a step that ends so many units of rounding before it.
 const END_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
@@ -85,6 +87,25 @@ impl Segment {
             coefficients: &self.coefficients,
         };
         interpolant.state(t, y);
+    }
+}
+
+/// The first four rows of [`interpolate`], from states and rates at both ends of a step of signed size `h`.
+pub(super) fn cubic<S: Scalar>(rows: &mut [S], h: S, y: &[S], new: &[S], start: &[S], end: &[S]) {
+    let n = y.len();
+    let (c0, rows) = rows.split_at_mut(n);
+    let (c1, rows) = rows.split_at_mut(n);
+    let (c2, c3) = rows.split_at_mut(n);
+    c0.copy_from_slice(y);
+    // A loop for each row: several at once do not become vector instructions.
+    for (c1, (y, new)) in c1.iter_mut().zip(y.iter().zip(new)) {
+        *c1 = *new - *y;
+    }
+    for (c2, (c1, start)) in c2.iter_mut().zip(c1.iter().zip(start)) {
+        *c2 = h * *start - *c1;
+    }
+    for (c3, ((c1, c2), end)) in c3.iter_mut().zip(c1.iter().zip(&*c2).zip(end)) {
+        *c3 = *c1 - h * *end - *c2;
     }
 }
 

@@ -3,6 +3,7 @@
 use super::control::Plan;
 use super::dense::{Clock, Interpolant};
 use super::explicit::Explicit;
+use super::rattle::Rattle;
 use super::scheme::{Attempt, Equations, NoRate, Scheme, Trouble};
 use super::stepper::Stepper;
 use super::sums::error_norm;
@@ -50,8 +51,16 @@ pub(super) fn run<P: Problem>(
     settings: &Settings,
 ) -> Report {
     match method {
-        Method::Dop853 | Method::Dopri5 => {
-            let scheme = Explicit::new(Stepper::new(method, y0.len()));
+        Method::Dop853 => {
+            let scheme = Explicit::new(Stepper::dop853(y0.len()));
+            drive(scheme, problem, t0, y0, t_end, settings)
+        }
+        Method::Dopri5 => {
+            let scheme = Explicit::new(Stepper::dopri5(y0.len()));
+            drive(scheme, problem, t0, y0, t_end, settings)
+        }
+        Method::Rattle { step } => {
+            let scheme = Rattle::new(y0.len(), step, (t_end - t0).abs());
             drive(scheme, problem, t0, y0, t_end, settings)
         }
     }
@@ -180,6 +189,10 @@ impl<P: Problem, X: Scheme> Driver<'_, P, X> {
         if !all_finite(new) {
             return Err(Refusal::End(None));
         }
+        if self.scheme.keeps_constraints() {
+            return Ok(());
+        }
+        let new = self.scheme.state_mut();
         self.raw.copy_from_slice(new);
         if let Err(error) = self.equations.problem.project(t, new) {
             let y = self.raw.clone();

@@ -21,12 +21,15 @@ mod control;
 mod dense;
 mod driver;
 mod explicit;
+mod rattle;
 mod scheme;
 mod stepper;
 mod sums;
 mod tableau;
 #[cfg(test)]
 mod tests;
+
+use std::fmt;
 
 use crate::error::Error;
 #[cfg(feature = "ensemble")]
@@ -38,14 +41,31 @@ pub(crate) use dense::{Interpolant, Segment};
 pub(crate) use stepper::Stepper;
 pub(crate) use sums::error_norm;
 
-/// The explicit Runge-Kutta methods on offer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+/// The methods on offer.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Method {
     /// Dormand and Prince's 8(5,3), interpolant of order 7. The better choice at tolerances below about 1e-5.
     #[default]
     Dop853,
     /// Dormand and Prince's 5(4), interpolant of order 4.
     Dopri5,
+    /// RATTLE, composed to order 4: symplectic, with equal steps. The energy of a conservative motion stays within a bound over any number of steps, without a
+    /// trend. For holonomic constraints, a constant and regular M, and forces from a potential; it keeps the constraints by itself, without projection. Its
+    /// interpolant is a cubic.
+    Rattle {
+        /// Largest size of a step, in units of time; the run is divided into equal ones. It is the accuracy: no tolerance is looked at.
+        step: f64,
+    },
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Method::Dop853 => f.write_str("dop853"),
+            Method::Dopri5 => f.write_str("dopri5"),
+            Method::Rattle { step } => write!(f, "rattle={step}"),
+        }
+    }
 }
 
 /// Largest size of a projection, in the [error norm](self), after which a step still counts as good.
@@ -62,6 +82,16 @@ pub(crate) trait Problem {
     fn derivative(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Error>;
     /// Moves an accepted y to the nearest consistent state.
     fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), Error>;
+    /// Moves the coordinates `q` onto the constraints at t along M⁻¹A(`base`)ᵀ, by `shift`.
+    fn reach(
+        &mut self,
+        t: f64,
+        base: &[f64],
+        q: &mut [f64],
+        shift: &mut [f64],
+    ) -> Result<(), Error>;
+    /// Moves the velocities `v` onto the constraints at (t, `q`), as [`project`](Problem::project) does.
+    fn settle(&mut self, t: f64, q: &[f64], v: &mut [f64]) -> Result<(), Error>;
     /// The next time at which an interpolant is wanted, if any; may change in [`Problem::step`].
     fn next_sample(&self) -> Option<f64>;
     /// Called after each accepted step. After an error nothing of this call may be kept: the step is tried again, shorter.

@@ -33,7 +33,7 @@ impl<P: Problem> Equations<'_, P> {
 }
 
 /// `error` at (t, y), which says nothing where y is not finite.
-fn no_rate(t: f64, y: &[f64], error: Error) -> NoRate {
+pub(super) fn no_rate(t: f64, y: &[f64], error: Error) -> NoRate {
     let y = y.to_vec();
     all_finite(&y).then_some(Trouble { t, y, error })
 }
@@ -86,6 +86,11 @@ pub(super) trait Scheme {
 
     /// The same, to be projected before the step is closed.
     fn state_mut(&mut self) -> &mut [f64];
+
+    /// Whether that state is on the constraints by the method's own doing, and not to be projected.
+    fn keeps_constraints(&self) -> bool {
+        false
+    }
 
     /// Evaluates f at the end of the attempted step. Returns its error if that is known only now, else 0.
     fn close<P: Problem>(

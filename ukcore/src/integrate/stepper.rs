@@ -3,7 +3,7 @@
 //! A scalar may carry many lanes, each with a mechanism, a time and a step size of its own; so times and sizes are scalars too, and nothing
 //! here branches on a value. What is accepted, and how large the next step is, is decided outside.
 
-use super::Method;
+use super::dense::cubic;
 use super::sums::{sum, sum_of_squares, weights};
 use super::tableau::{self, Sums, Tableau};
 use crate::scalar::Scalar;
@@ -34,12 +34,17 @@ pub(crate) struct Stepper<S> {
 }
 
 impl<S: Scalar> Stepper<S> {
-    /// For states of length n.
-    pub(crate) fn new(method: Method, n: usize) -> Self {
-        let (tableau, sums) = match method {
-            Method::Dop853 => (&tableau::DOP853, tableau::dop853()),
-            Method::Dopri5 => (&tableau::DOPRI5, tableau::dopri5()),
-        };
+    /// [DOP853](tableau::DOP853) for states of length n.
+    pub(crate) fn dop853(n: usize) -> Self {
+        Stepper::new(&tableau::DOP853, tableau::dop853(), n)
+    }
+
+    /// [DOPRI5](tableau::DOPRI5) for states of length n.
+    pub(crate) fn dopri5(n: usize) -> Self {
+        Stepper::new(&tableau::DOPRI5, tableau::dopri5(), n)
+    }
+
+    fn new(tableau: &'static Tableau, sums: Sums<S>, n: usize) -> Self {
         let zeros = |rows: usize| vec![S::from_f64(0.0); rows * n];
         Stepper {
             tableau,
@@ -182,23 +187,10 @@ impl<S: Scalar> Stepper<S> {
         let n = self.n;
         let closing = self.tableau.closing;
         self.evaluate(&mut f, t, h, y, closing + 1..self.tableau.stages.len() + 1)?;
-        let (cubic, more) = self.dense.split_at_mut(4 * n);
+        let (rows, more) = self.dense.split_at_mut(4 * n);
         (self.sums.dense)(more, h, &self.rates);
-        let (c0, cubic) = cubic.split_at_mut(n);
-        let (c1, cubic) = cubic.split_at_mut(n);
-        let (c2, c3) = cubic.split_at_mut(n);
         let (start, end) = (&self.rates[..n], &self.rates[closing * n..][..n]);
-        c0.copy_from_slice(y);
-        // A loop for each row: several at once do not become vector instructions.
-        for (c1, (y, new)) in c1.iter_mut().zip(y.iter().zip(&self.new)) {
-            *c1 = *new - *y;
-        }
-        for (c2, (c1, start)) in c2.iter_mut().zip(c1.iter().zip(start)) {
-            *c2 = h * *start - *c1;
-        }
-        for (c3, ((c1, c2), end)) in c3.iter_mut().zip(c1.iter().zip(&*c2).zip(end)) {
-            *c3 = *c1 - h * *end - *c2;
-        }
+        cubic(rows, h, y, &self.new, start, end);
         Ok(())
     }
 

@@ -208,6 +208,27 @@ impl<M: Mechanism> Problem for Run<'_, M> {
         Ok(())
     }
 
+    fn reach(
+        &mut self,
+        t: f64,
+        base: &[f64],
+        q: &mut [f64],
+        shift: &mut [f64],
+    ) -> Result<(), Error> {
+        let work = &mut self.trajectory.work;
+        work.projections += 1;
+        let projector = &mut self.projector;
+        let correction = projector.position_along(self.mechanism, t, base, q, shift)?;
+        work.projection_iterations += correction.iterations;
+        Ok(())
+    }
+
+    fn settle(&mut self, t: f64, q: &[f64], v: &mut [f64]) -> Result<(), Error> {
+        let correction = self.projector.velocity(self.mechanism, t, q, v)?;
+        self.trajectory.work.projection_iterations += correction.iterations;
+        Ok(())
+    }
+
     fn next_sample(&self) -> Option<f64> {
         self.agenda.next()
     }

@@ -116,7 +116,7 @@ impl Projector {
 
     /// Factors M and the first `rows` rows of A. While `cautious`, rows of a significance below the ceiling are left out: off the
     /// manifold nobody can tell whether they are implied; if they are not, the residual will not fall, and they are taken in.
-    fn factor<M: Mechanism>(
+    pub(super) fn factor<M: Mechanism>(
         &mut self,
         mech: &Prepared<M>,
         t: f64,
@@ -168,13 +168,18 @@ impl Projector {
 
     /// x ← x + Δ with A Δ = −residual, Δ minimal.
     fn advance(&mut self, x: &mut [f64], rows: usize) {
+        self.minimal_step(rows);
+        x.iter_mut().zip(&self.step).for_each(|(x, d)| *x += d);
+    }
+
+    /// The minimal Δ with A Δ = −residual into `step`.
+    pub(super) fn minimal_step(&mut self, rows: usize) {
         let rhs = &mut self.rhs[..rows];
         rhs.iter_mut()
             .zip(&self.residual)
             .for_each(|(b, r)| *b = -r);
         let a = rows_of(&self.jacobian, self.m, rows);
         self.dense.solve(&self.mass, a, None, rhs, &mut self.step);
-        x.iter_mut().zip(&self.step).for_each(|(x, d)| *x += d);
     }
 
     /// How far off: |φ_c| / max|A_cj|, the largest over the rows that are not at rounding level yet.
@@ -197,7 +202,7 @@ impl Projector {
             })
     }
 
-    fn non_finite<M: Mechanism>(
+    pub(super) fn non_finite<M: Mechanism>(
         &self,
         mech: &Prepared<M>,
         t: f64,
@@ -215,7 +220,7 @@ impl Projector {
             .unwrap_or_else(|| diagnose::non_finite_residual(M::SPEC, &self.residual[..rows]))
     }
 
-    fn off_constraint<M: Mechanism>(&self, x: &[f64], level: Level) -> Error {
+    pub(super) fn off_constraint<M: Mechanism>(&self, x: &[f64], level: Level) -> Error {
         let rows = self.rows(level);
         // Rows at rounding level are met.
         let mut residual = self.residual[..rows].to_vec();

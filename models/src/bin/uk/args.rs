@@ -3,7 +3,8 @@
 use std::fmt;
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand};
+use ukcore::Method;
 use ukcore::simulate::SMALLEST_TOLERANCE;
 
 use crate::units::{self, Quantity};
@@ -81,9 +82,10 @@ pub(crate) struct RunArgs {
     /// Sample at this interval; each accepted step if absent
     #[arg(long, value_name = "TIME", value_parser = interval, allow_hyphen_values = true)]
     pub(crate) every: Option<f64>,
-    /// Integration method
-    #[arg(long, value_enum, default_value_t = MethodArg::Dop853)]
-    pub(crate) method: MethodArg,
+    /// Integration method: `dop853` or `dopri5`, Dormand and Prince's of order 8 and 5; `rattle=STEP`, symplectic of order 4 with steps of that time, which looks at no
+    /// tolerance: the energy of a conservative motion has no trend, however long the run
+    #[arg(long, value_name = "METHOD", default_value = "dop853", value_parser = method)]
+    pub(crate) method: Method,
     /// How the constraints are kept from drifting: `projection` of positions and velocities after each step; `baumgarte` or
     /// `baumgarte=ALPHA,BETA`, feedback terms 2 ALPHA φ̇ + BETA² φ with ALPHA and BETA in 1/s, 20 each if absent; `none`
     #[arg(
@@ -110,15 +112,6 @@ pub(crate) struct ExplainArgs {
     /// Print the code that runs instead: of FUNCTION (`dynamics`, `acceleration`, …), or of all of them
     #[arg(long, value_name = "FUNCTION", num_args = 0..=1, default_missing_value = "")]
     pub(crate) code: Option<String>,
-}
-
-/// Integration methods.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum MethodArg {
-    /// Dormand & Prince, order 8
-    Dop853,
-    /// Dormand & Prince, order 5
-    Dopri5,
 }
 
 /// Ways to stabilise.
@@ -192,6 +185,16 @@ impl fmt::Display for StabiliseArg {
     }
 }
 
+fn method(text: &str) -> Result<Method, String> {
+    match text.split_once('=') {
+        None if text == "dop853" => Ok(Method::Dop853),
+        None if text == "dopri5" => Ok(Method::Dopri5),
+        None if text == "rattle" => Err("it needs its step: rattle=1ms".to_owned()),
+        Some(("rattle", step)) => interval(step).map(|step| Method::Rattle { step }),
+        _ => Err("it is `dop853`, `dopri5` or `rattle=STEP`".to_owned()),
+    }
+}
+
 fn tolerance(text: &str) -> Result<f64, String> {
     let range = SMALLEST_TOLERANCE..1.0;
     let number = text.trim().parse().ok().filter(|x| range.contains(x));
@@ -248,6 +251,24 @@ mod tests {
         assert_eq!(run.until, Some(120.0));
         assert_eq!(run.every, Some(0.01));
         assert_eq!(run.stabilise, StabiliseArg::None);
+    }
+
+    #[test]
+    fn methods_are_read_as_they_are_written() {
+        for text in ["dop853", "dopri5", "rattle=0.001"] {
+            assert_eq!(method(text).map(|m| m.to_string()), Ok(text.to_owned()));
+        }
+        assert_eq!(method("rattle=2ms"), Ok(Method::Rattle { step: 0.002 }));
+        for text in [
+            "euler",
+            "rattle",
+            "rattle=",
+            "rattle=0",
+            "rattle=1kg",
+            "dop853=1",
+        ] {
+            assert!(method(text).is_err(), "{text}");
+        }
     }
 
     #[test]

@@ -8,9 +8,9 @@ use std::rc::Rc;
 use std::time::Instant;
 
 use models::{Model, Visitor};
-use ukcore::{Baumgarte, Ending, Error, Method, Simulation, Stabilisation, Trajectory};
+use ukcore::{Baumgarte, Ending, Error, Simulation, Stabilisation, Trajectory};
 
-use crate::args::{MethodArg, RunArgs, StabiliseArg};
+use crate::args::{RunArgs, StabiliseArg};
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::output;
@@ -160,7 +160,7 @@ fn integrate<M: Model>(
     let bar = progress.clone();
     let mut simulation = Simulation::new(ready.mechanism.clone())
         .start(ready.state.clone())
-        .method(method(args.method))
+        .method(args.method)
         .tolerance(args.tol)
         .stabilise(stabilisation(args.stabilise))
         .progress(move |run| {
@@ -186,13 +186,6 @@ fn integrate<M: Model>(
     match result {
         Ok(trajectory) => (trajectory, None),
         Err(failure) => (*failure.trajectory, Some(failure.error)),
-    }
-}
-
-fn method(arg: MethodArg) -> Method {
-    match arg {
-        MethodArg::Dop853 => Method::Dop853,
-        MethodArg::Dopri5 => Method::Dopri5,
     }
 }
 

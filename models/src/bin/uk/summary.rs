@@ -2,11 +2,10 @@
 
 use std::io::{self, Write};
 
-use clap::ValueEnum;
 use models::Model;
 use serde::Serialize;
 use serde_json::{Map, Value};
-use ukcore::{Ending, Trajectory};
+use ukcore::{Ending, Method, Trajectory};
 
 use crate::args::RunArgs;
 use crate::drift::Drift;
@@ -21,7 +20,8 @@ pub(crate) struct Summary {
     parameters: Map<String, Value>,
     method: String,
     stabilise: String,
-    tolerance: f64,
+    /// `null` where the method looks at none.
+    tolerance: Option<f64>,
     /// `"completed"`, `"interrupted"`, or `"failed"` with `error` saying why.
     ending: &'static str,
     error: Option<String>,
@@ -75,12 +75,6 @@ fn named<'a>(
         .collect()
 }
 
-fn word(arg: &impl ValueEnum) -> String {
-    arg.to_possible_value()
-        .map(|v| v.get_name().to_owned())
-        .unwrap_or_default()
-}
-
 impl Summary {
     /// The summary of `trajectory`, which took `seconds`; `error` says why it ended early, if it did.
     pub(crate) fn new<M: Model>(
@@ -115,9 +109,9 @@ impl Summary {
             model: M::ID,
             start: ready.start,
             parameters: named(spec.params.iter().map(|p| p.name), values),
-            method: word(&args.method),
+            method: args.method.to_string(),
             stabilise: args.stabilise.to_string(),
-            tolerance: args.tol,
+            tolerance: (!matches!(args.method, Method::Rattle { .. })).then_some(args.tol),
             ending: match trajectory.ending() {
                 Ending::Completed => "completed",
                 Ending::Event => "event",
@@ -147,8 +141,13 @@ impl Summary {
     pub(crate) fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         writeln!(
             out,
-            "{} from `{}`, {} at tolerance {:e}, {}",
-            self.model, self.start, self.method, self.tolerance, self.ending
+            "{} from `{}`, {}{}, {}",
+            self.model,
+            self.start,
+            self.method,
+            self.tolerance
+                .map_or(String::new(), |tol| format!(" at tolerance {tol:e}")),
+            self.ending
         )?;
         if let Some(last) = &self.last {
             let wide = width(last.q.keys().chain(last.outputs.keys()).map(String::as_str));

@@ -87,7 +87,7 @@ fn run_ivp(
             tolerance(),
             Some(&mut steps),
         ),
-        Method::Dopri5 => DOPRI5 {
+        _ => DOPRI5 {
             first_step,
             stiff_test,
             dense_output,

@@ -1,0 +1,204 @@
+//! RATTLE, composed to order 4: a symplectic method with a fixed step for conservative motion under holonomic constraints.
+//!
+//! One stage of size h from (q₀, v₀) to (q₁, v₁) (Hairer, Lubich & Wanner, *Geometric Numerical Integration*, §VII.1.4):
+//!
+//! v½ = v₀ + h/2 (M⁻¹Q(q₀) + M⁻¹A(q₀)ᵀλ),  q₁ = q₀ + h v½ with φ(q₁) = 0,
+//! v₁ = v½ + h/2 (M⁻¹Q(q₁) + M⁻¹A(q₁)ᵀμ) with A(q₁) v₁ = 0.
+//!
+//! As λ and μ are whatever meets the constraints, q̈ may stand for M⁻¹Q: the two differ by M⁻¹Aᵀ times something. q̈ includes a good guess of λ, which leaves
+//! little to Newton's method; and one evaluation, at q₁ and the projected v½, serves the end of a stage and the start of the next one.
+//!
+//! A stage is symmetric and of order 2. Five of them with sizes γh, γh, (1 − 4γ)h, γh, γh make order 4 (Suzuki's composition, §II.4).
+
+use super::Problem;
+use super::dense::cubic;
+use super::scheme::{Attempt, Equations, NoRate, Scheme, no_rate};
+use crate::error::Error;
+
+/// γ = 1/(4 − ∛4).
+const GAMMA: f64 = 0.414_490_771_794_375_7;
+
+/// Sizes of the stages, as shares of the step.
+const SHARES: [f64; 5] = [GAMMA, GAMMA, 1.0 - 4.0 * GAMMA, GAMMA, GAMMA];
+
+/// Buffers for steps with n coordinates.
+pub(super) struct Rattle {
+    n: usize,
+    /// Size of all steps, positive.
+    step: f64,
+    /// q̇ and q̈ at the start of the step, where q̈ may be off by M⁻¹Aᵀ times something.
+    rate: Vec<f64>,
+    /// The same in the course of the attempted step.
+    stage_rate: Vec<f64>,
+    new: Vec<f64>,
+    /// What rounding took from the state at the start of the step, and in the course of the attempted one.
+    lost: Vec<f64>,
+    losing: Vec<f64>,
+    /// q at the start of a stage.
+    base: Vec<f64>,
+    /// What the constraints add to q in a stage.
+    shift: Vec<f64>,
+    dense: Vec<f64>,
+}
+
+impl Rattle {
+    /// For states of length 2n and a run of length `span`, in equal steps of at most `step`.
+    pub(super) fn new(length: usize, step: f64, span: f64) -> Self {
+        let n = length / 2;
+        let zeros = |rows: usize| vec![0.0; rows * n];
+        Rattle {
+            n,
+            step: span / (span / step).ceil().max(1.0),
+            rate: zeros(2),
+            stage_rate: zeros(2),
+            new: zeros(2),
+            lost: zeros(2),
+            losing: zeros(2),
+            base: zeros(1),
+            shift: zeros(1),
+            dense: zeros(8),
+        }
+    }
+
+    /// A stage of signed size `h` that ends at `s`.
+    fn stage<P: Problem>(
+        &mut self,
+        equations: &mut Equations<'_, P>,
+        s: f64,
+        h: f64,
+    ) -> Result<(), NoRate> {
+        let n = self.n;
+        let t = equations.t0 + s;
+        let (q, v) = self.new.split_at_mut(n);
+        let (q_lost, v_lost) = self.losing.split_at_mut(n);
+        self.base.copy_from_slice(q);
+        add(v, v_lost, 0.5 * h, &self.stage_rate[n..]);
+        add(q, q_lost, h, v);
+        let result = equations.problem.reach(t, &self.base, q, &mut self.shift);
+        if let Err(error) = result {
+            let reason = format!("is {}, which is too long here: {error}", self.step);
+            let what = "step";
+            return Err(no_rate(
+                t,
+                &self.new,
+                Error::InvalidSetting { what, reason },
+            ));
+        }
+        add(v, v_lost, h.recip(), &self.shift);
+        // v½ as it is does not satisfy the constraints, and redundant ones would contradict each other there.
+        let result = equations.problem.settle(t, q, v);
+        result.map_err(|error| no_rate(t, &self.new, error))?;
+        equations.rate(s, &self.new, &mut self.stage_rate)?;
+        let (q, v) = self.new.split_at_mut(n);
+        add(v, v_lost, 0.5 * h, &self.stage_rate[n..]);
+        let result = equations.problem.settle(t, q, v);
+        result.map_err(|error| no_rate(t, &self.new, error))
+    }
+}
+
+/// x ← x + c d, with what rounding takes from it in `lost`.
+fn add(x: &mut [f64], lost: &mut [f64], c: f64, d: &[f64]) {
+    for ((x, lost), d) in x.iter_mut().zip(lost).zip(d) {
+        let change = c * d + *lost;
+        let new = *x + change;
+        *lost = change - (new - *x);
+        *x = new;
+    }
+}
+
+impl Scheme for Rattle {
+    fn begin<P: Problem>(
+        &mut self,
+        equations: &mut Equations<'_, P>,
+        y: &[f64],
+    ) -> Result<(), NoRate> {
+        equations.rate(0.0, y, &mut self.rate)
+    }
+
+    fn first_size<P: Problem>(
+        &mut self,
+        _: &mut Equations<'_, P>,
+        _: &[f64],
+        _: f64,
+        _: f64,
+        _: f64,
+    ) -> f64 {
+        self.step
+    }
+
+    fn attempt<P: Problem>(
+        &mut self,
+        equations: &mut Equations<'_, P>,
+        step: Attempt,
+        y: &[f64],
+    ) -> Result<f64, NoRate> {
+        self.new.copy_from_slice(y);
+        self.losing.copy_from_slice(&self.lost);
+        self.stage_rate.copy_from_slice(&self.rate);
+        let mut s = step.s;
+        for share in SHARES {
+            s += share * step.h;
+            self.stage(equations, s, share * step.h)?;
+        }
+        Ok(0.0)
+    }
+
+    fn state(&self) -> &[f64] {
+        &self.new
+    }
+
+    fn state_mut(&mut self) -> &mut [f64] {
+        &mut self.new
+    }
+
+    fn keeps_constraints(&self) -> bool {
+        true
+    }
+
+    fn close<P: Problem>(
+        &mut self,
+        _: &mut Equations<'_, P>,
+        _: Attempt,
+        _: &[f64],
+    ) -> Result<f64, NoRate> {
+        Ok(0.0)
+    }
+
+    /// The cubic through states and rates at both ends: of the order of the method.
+    fn interpolate<P: Problem>(
+        &mut self,
+        equations: &mut Equations<'_, P>,
+        step: Attempt,
+        y: &[f64],
+    ) -> Result<(), NoRate> {
+        // A stage leaves q̈ at its v½; the interpolant needs those of the ends.
+        let (mut start, mut end) = (self.rate.clone(), self.rate.clone());
+        equations.rate(step.s, y, &mut start)?;
+        equations.rate(step.s_end, &self.new, &mut end)?;
+        cubic(&mut self.dense, step.h, y, &self.new, &start, &end);
+        Ok(())
+    }
+
+    fn dense(&self) -> &[f64] {
+        &self.dense
+    }
+
+    fn advance(&mut self, y: &mut [f64]) {
+        y.copy_from_slice(&self.new);
+        self.lost.copy_from_slice(&self.losing);
+        self.rate.copy_from_slice(&self.stage_rate);
+    }
+
+    fn accepted(&mut self, _: f64, _: f64) -> f64 {
+        self.step
+    }
+
+    /// A shorter step would be another method: there is none.
+    fn inaccurate(&mut self, _: f64, _: f64) -> f64 {
+        0.0
+    }
+
+    fn unfit(&mut self, _: f64) -> f64 {
+        0.0
+    }
+}
