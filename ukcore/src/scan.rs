@@ -57,6 +57,12 @@ fn reduce<S: Scalar>(x: &[S], y: &[S], f: impl Fn(S, S) -> S, join: impl Fn(S, S
     join(s[0], rest)
 }
 
+/// Whether each |d_j| is at most `share` (|x_j| + `least`). Passes over NaN.
+#[inline]
+pub(crate) fn is_within(d: &[f64], x: &[f64], share: f64, least: f64) -> bool {
+    reduce(d, x, |d, x| d.abs() - share * (x.abs() + least), larger) <= 0.0
+}
+
 /// Whether `holds` of each pair. Looks at all, which is faster than to stop at the first of which it does not.
 #[inline]
 pub(crate) fn all_pairs(x: &[f64], y: &[f64], holds: impl Fn(f64, f64) -> bool) -> bool {
@@ -84,6 +90,19 @@ mod tests {
         }
         assert!(all_finite(&[]) && largest(&[]) == 0.0);
         assert_eq!(largest_difference(&[1.0, -2.0, 3.0], &[1.0, 3.0, 4.0]), 5.0);
+    }
+
+    #[test]
+    fn steps_are_compared_with_their_own_coordinate() {
+        for len in 1..20 {
+            for place in 0..len {
+                let (mut d, x) = (vec![1e-6; len], vec![1.0; len]);
+                d[place] = -3e-6;
+                assert!(is_within(&d, &x, 2e-6, 0.6), "{place} of {len}");
+                assert!(!is_within(&d, &x, 2e-6, 0.4), "{place} of {len}");
+            }
+        }
+        assert!(is_within(&[0.0], &[0.0], 1.0, 0.0));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::{Correction, Level, NEIGHBOUR, PROGRESS, Projector, ROUNDING};
 use crate::mechanism::{Mechanism, Prepared};
-use crate::scan::{all_finite, all_pairs, largest, largest_difference};
+use crate::scan::{all_finite, is_within, largest, largest_difference};
 
 /// Steps before the rank-revealing solve takes over.
 const MAX_STEPS: usize = 8;
@@ -42,10 +42,12 @@ impl Projector {
                 return None;
             }
             let change = largest(&self.step);
+            let least = NEIGHBOUR * self.size;
             if change <= ROUNDING * f64::EPSILON * self.size {
                 // Where rounding alone is left. As |φ_c| ≤ Σ|A_cj Δ_j|, Δ at the rounding of x has φ at rounding level; the rows say
                 // it more exactly, but cost more than a step.
-                if self.step_within(x, ROUNDING * f64::EPSILON) {
+                let rounding = ROUNDING * f64::EPSILON;
+                if is_within(&self.step, x, rounding, least) {
                     break;
                 }
                 self.jacobian(mech, t, x, other, level);
@@ -66,26 +68,22 @@ impl Projector {
             if correction.iterations == MAX_STEPS {
                 return None;
             }
-            let last = self.step_within(x, trusted);
+            let last = is_within(&self.step, x, trusted, least);
             x.iter_mut().zip(&self.step).for_each(|(x, d)| *x += d);
             correction.iterations += 1;
+            previous = change;
             self.evaluate(mech, t, x, other, level);
             let before = correction.residual;
             correction.residual = largest(&self.residual);
             if last && correction.residual <= before {
                 break;
             }
-            previous = change;
         }
-        if correction.iterations > 0 {
-            correction.norm = largest_difference(x, &self.start);
-        }
+        correction.norm = match correction.iterations {
+            0 => 0.0,
+            1 => previous,
+            _ => largest_difference(x, &self.start),
+        };
         Some(correction)
-    }
-
-    /// Whether the step changes each coordinate of `x` by at most `share` of it.
-    fn step_within(&self, x: &[f64], share: f64) -> bool {
-        let least = NEIGHBOUR * self.size;
-        all_pairs(&self.step, x, |d, x| d.abs() <= share * (x.abs() + least))
     }
 }
