@@ -1,8 +1,8 @@
 //! Adaptive integration of y' = f(t, y) with a projection after each step.
 //!
 //! This is the seam between the mechanics and the integrator. [`Simulation`](crate::Simulation) is the problem; a
-//! [`Method`] advances it. The rest of the crate sees no tableaus, so a method can be replaced, or others (implicit, symplectic) put
-//! beside it, without a change elsewhere.
+//! [`Method`] advances it. The rest of the crate sees no tableaus, so a method can be replaced, or others put beside it, without a change
+//! elsewhere: a method is a `Scheme`, which makes single steps, and the driver does for all of them what a run needs besides.
 //!
 //! The order of events in one step, which each method keeps:
 //!
@@ -20,6 +20,8 @@
 mod control;
 mod dense;
 mod driver;
+mod explicit;
+mod scheme;
 mod stepper;
 mod sums;
 mod tableau;

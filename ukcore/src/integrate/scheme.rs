@@ -1,0 +1,120 @@
+//! What a run asks of a method.
+//!
+//! The loop over steps, their ends, projections, failures and samples is [`driver`](super::driver)'s and the same for all methods. A [`Scheme`] makes
+//! one step at a time and says how long the next one should be.
+
+use super::Problem;
+use crate::error::Error;
+use crate::scan::all_finite;
+
+/// An error and where it arose.
+pub(super) struct Trouble {
+    pub(super) t: f64,
+    pub(super) y: Vec<f64>,
+    pub(super) error: Error,
+}
+
+/// Why f has no value: an error of the problem, or none where y is not finite, as happens after far too long a step.
+pub(super) type NoRate = Option<Trouble>;
+
+/// The problem's functions over s, the signed time since the start of the run.
+pub(super) struct Equations<'p, P> {
+    pub(super) problem: &'p mut P,
+    pub(super) t0: f64,
+}
+
+impl<P: Problem> Equations<'_, P> {
+    /// y' at (s, y) into `rate`.
+    pub(super) fn rate(&mut self, s: f64, y: &[f64], rate: &mut [f64]) -> Result<(), NoRate> {
+        let t = self.t0 + s;
+        let result = self.problem.derivative(t, y, rate);
+        result.map_err(|error| no_rate(t, y, error))
+    }
+}
+
+/// `error` at (t, y), which says nothing where y is not finite.
+fn no_rate(t: f64, y: &[f64], error: Error) -> NoRate {
+    let y = y.to_vec();
+    all_finite(&y).then_some(Trouble { t, y, error })
+}
+
+/// A step to be tried.
+#[derive(Clone, Copy)]
+pub(super) struct Attempt {
+    /// Where it starts and where it ends.
+    pub(super) s: f64,
+    pub(super) s_end: f64,
+    /// Its signed size.
+    pub(super) h: f64,
+    /// Of the run.
+    pub(super) tolerance: f64,
+}
+
+/// A one-step method: buffers, what the last attempt left in them, and the choice of the step size.
+///
+/// For each step come [`attempt`](Scheme::attempt), a projection of [`state_mut`](Scheme::state_mut), [`close`](Scheme::close),
+/// [`interpolate`](Scheme::interpolate) if wanted, [`advance`](Scheme::advance), [`accepted`](Scheme::accepted). Where one of them fails, what follows is left out,
+/// [`inaccurate`](Scheme::inaccurate) or [`unfit`](Scheme::unfit) shortens the step, and it is tried again.
+pub(super) trait Scheme {
+    /// Evaluates f at the start of the run, (0, y).
+    fn begin<P: Problem>(
+        &mut self,
+        equations: &mut Equations<'_, P>,
+        y: &[f64],
+    ) -> Result<(), NoRate>;
+
+    /// Size of the first step, at most `largest`, going in the direction `sign`. Comes after [`begin`](Scheme::begin).
+    fn first_size<P: Problem>(
+        &mut self,
+        equations: &mut Equations<'_, P>,
+        y: &[f64],
+        sign: f64,
+        tolerance: f64,
+        largest: f64,
+    ) -> f64;
+
+    /// Makes the step from `y` up to its unprojected end. Returns its error in the [error norm](super); 0 if that is known only when the step is closed.
+    fn attempt<P: Problem>(
+        &mut self,
+        equations: &mut Equations<'_, P>,
+        step: Attempt,
+        y: &[f64],
+    ) -> Result<f64, NoRate>;
+
+    /// State at the end of the attempted step.
+    fn state(&self) -> &[f64];
+
+    /// The same, to be projected before the step is closed.
+    fn state_mut(&mut self) -> &mut [f64];
+
+    /// Evaluates f at the end of the attempted step. Returns its error if that is known only now, else 0.
+    fn close<P: Problem>(
+        &mut self,
+        equations: &mut Equations<'_, P>,
+        step: Attempt,
+        y: &[f64],
+    ) -> Result<f64, NoRate>;
+
+    /// Makes the [coefficients](Scheme::dense) of the interpolant of the closed step.
+    fn interpolate<P: Problem>(
+        &mut self,
+        equations: &mut Equations<'_, P>,
+        step: Attempt,
+        y: &[f64],
+    ) -> Result<(), NoRate>;
+
+    /// Coefficients of the interpolant, rows as [`Interpolant`](super::dense::Interpolant) wants them.
+    fn dense(&self) -> &[f64];
+
+    /// Moves `y`, and itself, on to the end of the closed step.
+    fn advance(&mut self, y: &mut [f64]);
+
+    /// Size of the step after one of size `h` > 0 that was accepted with the error `error`.
+    fn accepted(&mut self, h: f64, error: f64) -> f64;
+
+    /// Size of the next attempt after one of size `h` with an error above 1; NaN where the step could not be made.
+    fn inaccurate(&mut self, h: f64, error: f64) -> f64;
+
+    /// Size of the next attempt after one of size `h` whose end did not do.
+    fn unfit(&mut self, h: f64) -> f64;
+}
