@@ -21,6 +21,7 @@ mod control;
 mod dense;
 mod driver;
 mod explicit;
+mod radau;
 mod scheme;
 mod stepper;
 mod sums;
@@ -38,7 +39,7 @@ pub(crate) use dense::{Interpolant, Segment};
 pub(crate) use stepper::Stepper;
 pub(crate) use sums::error_norm;
 
-/// The explicit Runge-Kutta methods on offer.
+/// The methods on offer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Method {
     /// Dormand and Prince's 8(5,3), interpolant of order 7. The better choice at tolerances below about 1e-5.
@@ -46,6 +47,11 @@ pub enum Method {
     Dop853,
     /// Dormand and Prince's 5(4), interpolant of order 4.
     Dopri5,
+    /// Radau IIA of order 5, implicit, with the exact Jacobian of the accelerations; interpolant of order 3. For stiff mechanisms: hard springs, strong drag or damping,
+    /// whose fast motion has died down or is not of interest. There the explicit methods need steps as short as the fast motion, this one only such as the slow motion asks for.
+    /// It damps fast oscillations that its steps do not resolve (it is L-stable), and takes their energy out; where they matter, or nothing is stiff,
+    /// take [`Dop853`](Method::Dop853).
+    Radau5,
 }
 
 /// Largest size of a projection, in the [error norm](self), after which a step still counts as good.
@@ -60,6 +66,8 @@ pub const PROJECTION_LIMIT: f64 = 10.0;
 pub(crate) trait Problem {
     /// y' at (t, y) into `rate`. After far too long a step y may not be finite; an error there only shortens the step.
     fn derivative(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Error>;
+    /// For y = (q, q̇), y' = (q̇, a): ∂a/∂q and ∂a/∂q̇ at (t, y) into `out`, n × 2n, column-major. Asked for by implicit methods alone.
+    fn jacobian(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), Error>;
     /// Moves an accepted y to the nearest consistent state.
     fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), Error>;
     /// The next time at which an interpolant is wanted, if any; may change in [`Problem::step`].
@@ -123,6 +131,8 @@ pub(crate) struct Report {
     pub(crate) steps: usize,
     /// Attempted steps that were not accepted.
     pub(crate) rejected: usize,
+    /// Factorisations of the matrices of an implicit method.
+    pub(crate) factorisations: usize,
 }
 
 impl Method {

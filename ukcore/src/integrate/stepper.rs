@@ -3,7 +3,6 @@
 //! A scalar may carry many lanes, each with a mechanism, a time and a step size of its own; so times and sizes are scalars too, and nothing
 //! here branches on a value. What is accepted, and how large the next step is, is decided outside.
 
-use super::Method;
 use super::sums::{sum, sum_of_squares, weights};
 use super::tableau::{self, Sums, Tableau};
 use crate::scalar::Scalar;
@@ -29,12 +28,17 @@ pub(crate) struct Stepper<S> {
 }
 
 impl<S: Scalar> Stepper<S> {
-    /// For states of length n.
-    pub(crate) fn new(method: Method, n: usize) -> Self {
-        let (tableau, sums) = match method {
-            Method::Dop853 => (&tableau::DOP853, tableau::dop853()),
-            Method::Dopri5 => (&tableau::DOPRI5, tableau::dopri5()),
-        };
+    /// Dormand and Prince's 8(5,3), for states of length n.
+    pub(crate) fn dop853(n: usize) -> Self {
+        Stepper::new(&tableau::DOP853, tableau::dop853(), n)
+    }
+
+    /// Dormand and Prince's 5(4), for states of length n.
+    pub(crate) fn dopri5(n: usize) -> Self {
+        Stepper::new(&tableau::DOPRI5, tableau::dopri5(), n)
+    }
+
+    fn new(tableau: &'static Tableau, sums: Sums<S>, n: usize) -> Self {
         let zeros = |rows: usize| vec![S::from_f64(0.0); rows * n];
         Stepper {
             tableau,

@@ -17,6 +17,7 @@ struct Plain {
     fail_after: f64,
     evaluations: Vec<(f64, Vec<f64>)>,
     steps: Vec<(f64, f64, Vec<f64>)>,
+    jacobians: usize,
     interpolants: usize,
     segments: Vec<Segment>,
 }
@@ -30,6 +31,7 @@ impl Plain {
             fail_after: f64::INFINITY,
             evaluations: Vec::new(),
             steps: Vec::new(),
+            jacobians: 0,
             interpolants: 0,
             segments: Vec::new(),
         }
@@ -45,6 +47,24 @@ impl Problem for Plain {
     fn derivative(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Error> {
         self.evaluations.push((t, y.to_vec()));
         (self.f)(t, y, rate)
+    }
+    /// By differences.
+    fn jacobian(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), Error> {
+        let n = y.len() / 2;
+        for (j, column) in out.chunks_exact_mut(n).enumerate() {
+            let h = 1e-6 * y[j].abs().max(1.0);
+            let [after, before] = [h, -h].map(|h| {
+                let (mut moved, mut rate) = (y.to_vec(), vec![0.0; 2 * n]);
+                moved[j] += h;
+                (self.f)(t, &moved, &mut rate).map(|()| rate)
+            });
+            let (after, before) = (after?, before?);
+            for i in 0..n {
+                column[i] = (after[n + i] - before[n + i]) / (2.0 * h);
+            }
+        }
+        self.jacobians += 1;
+        Ok(())
     }
     fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), Error> {
         (self.project)(t, y)

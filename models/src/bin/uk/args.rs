@@ -119,6 +119,8 @@ pub(crate) enum MethodArg {
     Dop853,
     /// Dormand & Prince, order 5
     Dopri5,
+    /// Radau IIA, order 5, implicit: for stiff mechanisms
+    Radau5,
 }
 
 /// Ways to stabilise.

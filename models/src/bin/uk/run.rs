@@ -193,6 +193,7 @@ fn method(arg: MethodArg) -> Method {
     match arg {
         MethodArg::Dop853 => Method::Dop853,
         MethodArg::Dopri5 => Method::Dopri5,
+        MethodArg::Radau5 => Method::Radau5,
     }
 }
 

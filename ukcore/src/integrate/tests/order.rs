@@ -21,7 +21,7 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 
 /// `steps` steps of size h from (t, y).
 fn march<S: Scalar>(method: Method, t: S, h: S, y: &mut [S], steps: usize) {
-    let mut stepper = Stepper::new(method, y.len());
+    let mut stepper = stepper(method, y.len());
     stepper.begin(f, t, y).unwrap();
     let mut t = t;
     for _ in 0..steps {
@@ -54,7 +54,7 @@ fn interpolants_and_estimates_converge_with_their_order() {
         for direction in [1.0, -1.0] {
             let run = |h: f64| {
                 let (t, y) = (0.4, exact(0.4));
-                let mut stepper = Stepper::new(method, 2);
+                let mut stepper = stepper(method, 2);
                 stepper.begin(f, t, &y).unwrap();
                 stepper.attempt(f, t, h, &y).unwrap();
                 stepper.close(f, t + h).unwrap();

@@ -7,7 +7,7 @@ use super::{Ensemble, Member};
 use crate::assemble::State;
 use crate::error::Error;
 use crate::integrate::{
-    Clock, Guess, Interpolant, Method, PROJECTION_LIMIT, Plan, StepSize, Stepper, error_norm,
+    Clock, Guess, Interpolant, PROJECTION_LIMIT, Plan, StepSize, Stepper, error_norm,
 };
 use crate::lanes::{LaneProjector, LaneSolver, Lanes};
 use crate::mechanism::{Mechanism, Prepared};
@@ -149,7 +149,7 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
             t_end,
             next,
             capacity: capacity.min(L::WIDTH),
-            stepper: Stepper::new(Method::Dop853, 2 * n),
+            stepper: Stepper::dop853(2 * n),
             projector: LaneProjector::new::<M>(),
             alone: Projector::new::<M>(),
             equations,
@@ -299,7 +299,7 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
             if let (Some(guess), true) = (guesses[k], still[k]) {
                 let triples = y.iter().zip(&*rate).zip(after);
                 let triples = triples.map(|((y, f), g)| (y.lane(k), f.lane(k), g.lane(k)));
-                running.h = guess.refine(triples, control, tolerance, running.end.0);
+                running.h = guess.refine(triples, control.order, tolerance, running.end.0);
             }
         }
     }
