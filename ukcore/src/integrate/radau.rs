@@ -10,7 +10,7 @@
 //!
 //! once for the real eigenvalue, once for the complex pair.
 
-mod newton;
+pub(super) mod newton;
 
 use super::Problem;
 use super::control::Guess;
@@ -19,10 +19,10 @@ use super::sums::{sum_of_squares, weights};
 use newton::{Matrices, Newton, Solved};
 
 /// (4 ∓ √6)/10 and 1: the stages, §IV.5 (table 5.6).
-const C: [f64; 3] = [0.155_051_025_721_682_2, 0.644_948_974_278_317_8, 1.0];
+pub(super) const C: [f64; 3] = [0.155_051_025_721_682_2, 0.644_948_974_278_317_8, 1.0];
 
 /// Weights of the stages in the estimate of the error, eq. (8.19) with γ₀⁻¹ taken out: (−13 ∓ 7√6)/3, −1/3.
-const ERROR: [f64; 3] = [-10.048_809_399_827_414, 1.382_142_733_160_748_3, -1.0 / 3.0];
+const ERROR: [f64; 3] = [-10.048_809_399_827_416, 1.382_142_733_160_749, -1.0 / 3.0];
 
 /// Part of the step size that should just meet the tolerance which is taken.
 const SAFETY: f64 = 0.9;

@@ -19,6 +19,14 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).fold(0.0, |d, (a, b)| d.max((a - b).abs()))
 }
 
+fn stepper<S: Scalar>(method: Method, n: usize) -> Stepper<S> {
+    match method {
+        Method::Dop853 => Stepper::dop853(n),
+        Method::Dopri5 => Stepper::dopri5(n),
+        Method::Radau5 => panic!("an explicit method"),
+    }
+}
+
 /// `steps` steps of size h from (t, y).
 fn march<S: Scalar>(method: Method, t: S, h: S, y: &mut [S], steps: usize) {
     let mut stepper = stepper(method, y.len());
@@ -83,7 +91,7 @@ fn interpolants_and_estimates_converge_with_their_order() {
 
 #[test]
 fn a_step_of_other_scalars_is_the_same_step_in_each_of_their_parts() {
-    for method in METHODS {
+    for method in EXPLICIT {
         let (t, h) = (0.1, 0.07);
         let mut y = exact(t);
         march(method, t, h, &mut y, 20);
