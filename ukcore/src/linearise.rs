@@ -326,3 +326,44 @@ impl<L: Lanes> Implicit<L> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixture::Pendulum;
+
+    #[test]
+    fn feedback_terms_are_differentiated_too() {
+        let baumgarte = Some(Baumgarte {
+            alpha: 7.0,
+            beta: 11.0,
+        });
+        let options = SolverOptions {
+            baumgarte,
+            ..SolverOptions::default()
+        };
+        let mech = Pendulum::default().prepared();
+        let mut solver = Solver::new::<Pendulum>(options);
+        // Off the rod by a tenth, and moving off.
+        let (q, v) = ([0.7, -0.6], [0.4, -0.3]);
+        let mut columns = [0.0; 8];
+        let mut slopes = Slopes::<Pendulum>::new(&mech);
+        let found = slopes.columns(&mut solver, &mech, 0.0, &q, &v, &mut columns);
+        assert_eq!(found, Ok(()));
+        for (j, column) in columns.chunks_exact(2).enumerate() {
+            let h = 1e-5;
+            let [after, before] = [h, -h].map(|h| {
+                let mut moved = [q, v].concat();
+                moved[j] += h;
+                let (q, v) = moved.split_at(2);
+                let mut out = [0.0; 2];
+                solver.acceleration(&mech, 0.0, q, v, &mut out).unwrap();
+                out
+            });
+            for i in 0..2 {
+                let slope = (after[i] - before[i]) / (2.0 * h);
+                assert!((column[i] - slope).abs() < 1e-6, "{j}: {column:?}, {slope}");
+            }
+        }
+    }
+}
