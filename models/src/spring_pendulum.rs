@@ -16,8 +16,6 @@ ukcore::multibody! {
             l = 1.0,
             /// Stiffness of the spring, N/m
             k = 1e4,
-            /// Damping along the spring, N s/m
-            c = 0.0,
             /// Acceleration of gravity, m/s^2
             g = 9.81,
         }
@@ -28,11 +26,8 @@ ukcore::multibody! {
             y,
         }
         let r = sqrt(sq(x) + sq(y));
-        // Along the spring over its length: the damper's force over r.
-        let damper = c * (x * dot(x) + y * dot(y)) / sq(r);
         mass { x: m, y: m }
         potential { 0.5 * k * sq(r - l), m * g * y }
-        force { x: -damper * x, y: -damper * y }
         output {
             /// Angle from the downward vertical, counter-clockwise, rad
             angle = atan2(x, -y),
