@@ -21,6 +21,7 @@ pub mod rigid_body;
 pub mod rough_block;
 pub mod slider_crank;
 pub mod slider_crank_redundant;
+pub mod spring_pendulum;
 pub mod uchain;
 
 pub use double_pendulum::DoublePendulum;
@@ -37,4 +38,5 @@ pub use rigid_body::RigidBody;
 pub use rough_block::RoughBlock;
 pub use slider_crank::SliderCrank;
 pub use slider_crank_redundant::SliderCrankRedundant;
+pub use spring_pendulum::SpringPendulum;
 pub use uchain::UChain;

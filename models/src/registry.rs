@@ -3,7 +3,7 @@
 use crate::{
     DoublePendulum, DoublePendulumAngles, FishRobot, FourBars, KapitzaPendulum, KnifeEdge,
     MasslessSpring, Model, Pendulum, RigidBody, RoughBlock, SliderCrank, SliderCrankRedundant,
-    UChain,
+    SpringPendulum, UChain,
 };
 use ukcore::Error;
 
@@ -50,6 +50,7 @@ registry![
     KnifeEdge,
     RoughBlock,
     MasslessSpring,
+    SpringPendulum,
     RigidBody,
     FourBars,
 ];

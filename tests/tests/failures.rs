@@ -66,7 +66,7 @@ fn contradiction(error: &Error) -> ([&str; 2], f64) {
 
 #[test]
 fn constraints_that_come_apart_in_time_are_both_named_there() {
-    for method in [Method::Dop853, Method::Dopri5] {
+    for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
         let start = State {
             t: 0.0,
             q: vec![0.0; 3],

@@ -137,6 +137,7 @@ fn ukcore() {
             "plan",
             "mechanism",
             "pinv",
+            "lu",
             "equations",
             "metric",
             "workspace",

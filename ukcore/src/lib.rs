@@ -32,6 +32,7 @@ mod fixture;
 pub mod integrate;
 pub mod lanes;
 pub mod linearise;
+mod lu;
 pub mod mechanism;
 mod metric;
 pub mod pinv;

@@ -18,7 +18,8 @@ use crate::error::Error;
 use crate::lanes::Lanes;
 use crate::mechanism::{Mechanism, Prepared, Terms};
 use crate::scalar::{Dual, Scalar};
-use crate::solver::{Formula, Solver, SolverOptions};
+use crate::scan::all_finite;
+use crate::solver::{Baumgarte, Solver, SolverOptions};
 
 /// Numbers that carry the directions of a sweep.
 #[cfg(feature = "lanes")]
@@ -56,19 +57,8 @@ impl<M: Mechanism> Linearisation<M> {
         let mech = mechanism.prepared();
         // Also checks the state.
         solver.acceleration(&mech, *t, q, v, &mut acceleration)?;
-        let columns = match straight_line::<M, Wide>(mechanism, state) {
-            Some(columns) => columns,
-            None => implicit::<M, Wide>(mechanism, state, &mut solver, &mut acceleration)?,
-        };
-        let names = names::<M>();
-        let broken = names.iter().zip(columns.chunks_exact(n));
-        let broken = broken.filter(|(_, column)| !column.iter().all(|x| x.is_finite()));
-        let what: Vec<String> = broken
-            .map(|(name, _)| format!("derivative of the accelerations by {name}"))
-            .collect();
-        if !what.is_empty() {
-            return Err(Error::NonFinite { what });
-        }
+        let mut columns = vec![0.0; n * directions::<M>()];
+        Slopes::<M>::new(&mech).columns(&mut solver, &mech, *t, q, v, &mut columns)?;
         let (by_position, rest) = columns.split_at(n * n);
         let (by_velocity, rest) = rest.split_at(n * n);
         let (by_parameter, by_time) = rest.split_at(n * M::SPEC.params.len());
@@ -119,118 +109,261 @@ fn directions<M: Mechanism>() -> usize {
     2 * M::SPEC.n() + M::SPEC.params.len() + 1
 }
 
+/// Columns of ∂q̈/∂(q, q̇, parameters, t), in buffers allocated once.
+pub(crate) struct Slopes<M> {
+    sweep: Sweep<M, Wide>,
+    straight: Vec<Dual<Wide>>,
+    implicit: Option<Implicit<Wide>>,
+}
+
+impl<M: Mechanism> Slopes<M> {
+    /// With the parameters of `mech`.
+    pub(crate) fn new(mech: &Prepared<M>) -> Self {
+        Slopes {
+            sweep: Sweep::new(mech),
+            straight: vec![Dual::from_f64(0.0); M::SPEC.n()],
+            implicit: None,
+        }
+    }
+
+    /// Fills `columns`, the first ones in the order of [`names`], each of length n, for q̈ as `solver` has it.
+    ///
+    /// # Errors
+    /// Those of [`Solver::acceleration`]; [`Error::NonFinite`] with the names of those derivatives that do not exist.
+    pub(crate) fn columns(
+        &mut self,
+        solver: &mut Solver,
+        mech: &Prepared<M>,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        columns: &mut [f64],
+    ) -> Result<(), Error> {
+        let n = M::SPEC.n();
+        let straight = M::SPEC.structure.straight_line && solver.baumgarte().is_none();
+        if !(straight && self.straight_line(t, q, v, columns)) {
+            let implicit = self.implicit.get_or_insert_with(Implicit::new::<M>);
+            implicit.columns(&mut self.sweep, solver, mech, (t, q, v), columns)?;
+        }
+        if all_finite(columns) {
+            return Ok(());
+        }
+        let names = names::<M>();
+        let broken = names.iter().zip(columns.chunks_exact(n));
+        let broken = broken.filter(|(_, column)| !all_finite(column));
+        let what = broken
+            .map(|(name, _)| format!("derivative of the accelerations by {name}"))
+            .collect();
+        Err(Error::NonFinite { what })
+    }
+
+    /// By differentiating the emitted elimination; `false` where it is not safe.
+    fn straight_line(&mut self, t: f64, q: &[f64], v: &[f64], columns: &mut [f64]) -> bool {
+        let n = M::SPEC.n();
+        let out = &mut self.straight;
+        for (k, columns) in columns.chunks_mut(n * Wide::WIDTH).enumerate() {
+            self.sweep.aim(t, q, v, k * Wide::WIDTH);
+            let Sweep { mech, t, q, v, .. } = &self.sweep;
+            let safe = mech.acceleration(*t, q, v, out);
+            let finite = out.iter().all(|x| x.re.lane(0).is_finite());
+            if !(finite && safe.re.lane(0) > 0.5) {
+                return false;
+            }
+            for (k, column) in columns.chunks_exact_mut(n).enumerate() {
+                let lane = out.iter().map(|x| x.eps.lane(k));
+                column.iter_mut().zip(lane).for_each(|(x, d)| *x = d);
+            }
+        }
+        true
+    }
+}
+
 /// Mechanism and state, moving in as many directions as there are lanes.
 struct Sweep<M, L> {
     mech: Prepared<M, Dual<L>>,
+    /// Some parameter moves.
+    moving: bool,
     t: Dual<L>,
     q: Vec<Dual<L>>,
     v: Vec<Dual<L>>,
 }
 
 impl<M: Mechanism, L: Lanes> Sweep<M, L> {
-    /// Lane k moves in direction `first` + k.
-    fn new(mechanism: &M, state: &State, first: usize) -> Self {
-        let seed = |x: f64, direction: usize| {
+    /// With the parameters of `mech`.
+    fn new(mech: &Prepared<M>) -> Self {
+        let given = mech.parameters().iter().map(|p| Dual::from_f64(*p));
+        let zeros = || vec![Dual::from_f64(0.0); M::SPEC.n()];
+        Sweep {
+            mech: Prepared::new(given.collect()),
+            moving: false,
+            t: Dual::from_f64(0.0),
+            q: zeros(),
+            v: zeros(),
+        }
+    }
+
+    /// At (t, q, q̇), lane k moves in direction `first` + k.
+    fn aim(&mut self, t: f64, q: &[f64], v: &[f64], first: usize) {
+        let seed = |x: L, direction: usize| {
             let unit = |k| f64::from(u8::from(first + k == direction));
-            Dual::new(L::from_f64(x), L::from_lanes(unit))
+            Dual::new(x, L::from_lanes(unit))
         };
+        let (n, p) = (M::SPEC.n(), M::SPEC.params.len());
+        for i in 0..n {
+            self.q[i] = seed(L::from_f64(q[i]), i);
+            self.v[i] = seed(L::from_f64(v[i]), n + i);
+        }
+        let moves = first < 2 * n + p && first + L::WIDTH > 2 * n;
+        if moves || self.moving {
+            let given = self.mech.parameters().iter().enumerate();
+            let given = given.map(|(i, x)| seed(x.re, 2 * n + i));
+            self.mech = Prepared::new(given.collect());
+            self.moving = moves;
+        }
+        self.t = seed(L::from_f64(t), 2 * n + p);
+    }
+}
+
+/// Buffers for columns by differentiating the equations.
+struct Implicit<L> {
+    acceleration: Vec<f64>,
+    multipliers: Vec<f64>,
+    mass: Vec<Dual<L>>,
+    force: Vec<Dual<L>>,
+    nonideal: Vec<Dual<L>>,
+    jacobian: Vec<Dual<L>>,
+    rhs: Vec<Dual<L>>,
+    /// φ and φ̇, for Baumgarte's terms.
+    position: Vec<Dual<L>>,
+    rate: Vec<Dual<L>>,
+    /// Right-hand sides of the differentiated equations, and one lane of them.
+    change: Vec<L>,
+    demand: Vec<L>,
+    lane: (Vec<f64>, Vec<f64>),
+}
+
+impl<L: Lanes> Implicit<L> {
+    fn new<M: Mechanism>() -> Self {
+        let (n, m) = (M::SPEC.n(), M::SPEC.m());
+        let zeros = |len: usize| vec![Dual::from_f64(0.0); len];
+        Implicit {
+            acceleration: vec![0.0; n],
+            multipliers: vec![0.0; m],
+            mass: zeros(n * n),
+            force: zeros(n),
+            nonideal: zeros(n),
+            jacobian: zeros(m * n),
+            rhs: zeros(m),
+            position: zeros(M::SPEC.holonomic),
+            rate: zeros(m),
+            change: vec![L::from_f64(0.0); n],
+            demand: vec![L::from_f64(0.0); m],
+            lane: (vec![0.0; n], vec![0.0; m]),
+        }
+    }
+
+    fn columns<M: Mechanism>(
+        &mut self,
+        sweep: &mut Sweep<M, L>,
+        solver: &mut Solver,
+        mech: &Prepared<M>,
+        (t, q, v): (f64, &[f64], &[f64]),
+        columns: &mut [f64],
+    ) -> Result<(), Error> {
         let n = M::SPEC.n();
-        let q = state.q.iter().enumerate().map(|(i, x)| seed(*x, i));
-        let q = q.collect();
-        let v = state.v.iter().enumerate().map(|(i, x)| seed(*x, n + i));
-        let v = v.collect();
-        let p = M::SPEC.params.len();
-        let given = (0..p).map(|i| seed(mechanism.parameter(i), 2 * n + i));
-        let mech = Prepared::new(given.collect());
-        let t = seed(state.t, 2 * n + p);
-        Sweep { mech, t, q, v }
-    }
-}
-
-/// Columns by differentiating the emitted elimination; `None` where there is none, or it is not safe.
-fn straight_line<M: Mechanism, L: Lanes>(mechanism: &M, state: &State) -> Option<Vec<f64>> {
-    if !M::SPEC.structure.straight_line {
-        return None;
-    }
-    let (n, all) = (M::SPEC.n(), directions::<M>());
-    let mut columns = vec![0.0; n * all];
-    let mut out = vec![Dual::from_f64(0.0); n];
-    for first in (0..all).step_by(L::WIDTH) {
-        let sweep = Sweep::<M, L>::new(mechanism, state, first);
-        let safe = sweep
-            .mech
-            .acceleration(sweep.t, &sweep.q, &sweep.v, &mut out);
-        let finite = out.iter().all(|x| x.re.lane(0).is_finite());
-        if !(finite && safe.re.lane(0) > 0.5) {
-            return None;
+        let (acceleration, multipliers) = (&mut self.acceleration, &mut self.multipliers);
+        let formula = solver.balance(mech, t, q, v, acceleration, multipliers)?;
+        for (k, columns) in columns.chunks_mut(n * L::WIDTH).enumerate() {
+            sweep.aim(t, q, v, k * L::WIDTH);
+            self.differentiate(sweep, solver.baumgarte());
+            for (k, column) in columns.chunks_exact_mut(n).enumerate() {
+                let (change, demand) = &mut self.lane;
+                let lane = |to: &mut [f64], all: &[L]| {
+                    to.iter_mut().zip(all).for_each(|(x, l)| *x = l.lane(k));
+                };
+                lane(change, &self.change);
+                lane(demand, &self.demand);
+                solver.respond(formula, change, demand, column);
+            }
         }
-        for (k, column) in columns[n * first..]
-            .chunks_exact_mut(n)
-            .take(L::WIDTH)
-            .enumerate()
-        {
-            column
-                .iter_mut()
-                .zip(&out)
-                .for_each(|(x, d)| *x = d.eps.lane(k));
-        }
+        Ok(())
     }
-    Some(columns)
-}
 
-/// Columns by differentiating the equations; q̈ into `acceleration`.
-fn implicit<M: Mechanism, L: Lanes>(
-    mechanism: &M,
-    state: &State,
-    solver: &mut Solver,
-    acceleration: &mut [f64],
-) -> Result<Vec<f64>, Error> {
-    let (n, m, all) = (M::SPEC.n(), M::SPEC.m(), directions::<M>());
-    let mut multipliers = vec![0.0; m];
-    let mech = mechanism.prepared();
-    let State { t, q, v } = state;
-    let formula: Formula = solver.balance(&mech, *t, q, v, acceleration, &mut multipliers)?;
-    let zeros = |len: usize| vec![Dual::from_f64(0.0); len];
-    let mut mass = zeros(n * n);
-    let mut jacobian = zeros(m * n);
-    let (mut force, mut nonideal, mut rhs) = (zeros(n), zeros(n), zeros(m));
-    let mut columns = vec![0.0; n * all];
-    let (mut change, mut demand) = (vec![L::from_f64(0.0); n], vec![L::from_f64(0.0); m]);
-    for first in (0..all).step_by(L::WIDTH) {
-        let sweep = Sweep::<M, L>::new(mechanism, state, first);
+    /// dQ + dc − dM q̈ + dAᵀλ and db − dA q̈ along the directions of `sweep`.
+    fn differentiate<M: Mechanism>(&mut self, sweep: &Sweep<M, L>, baumgarte: Option<Baumgarte>) {
+        let (n, m) = (M::SPEC.n(), M::SPEC.m());
+        let Sweep { mech, t, q, v, .. } = sweep;
         let mut terms = Terms {
-            mass: &mut mass,
-            force: &mut force,
-            nonideal: &mut nonideal,
-            jacobian: &mut jacobian,
-            rhs: &mut rhs,
+            mass: &mut self.mass,
+            force: &mut self.force,
+            nonideal: &mut self.nonideal,
+            jacobian: &mut self.jacobian,
+            rhs: &mut self.rhs,
         };
-        sweep.mech.dynamics(sweep.t, &sweep.q, &sweep.v, &mut terms);
-        for (i, change) in change.iter_mut().enumerate() {
-            *change = force[i].eps + nonideal[i].eps;
+        mech.dynamics(*t, q, v, &mut terms);
+        if let Some(baumgarte) = baumgarte {
+            mech.residual(*t, q, &mut self.position);
+            mech.residual_rate(*t, q, v, &mut self.rate);
+            baumgarte.apply(&self.position, &self.rate, &mut self.rhs);
         }
-        for (c, demand) in demand.iter_mut().enumerate() {
-            *demand = rhs[c].eps;
+        let (change, demand) = (&mut self.change, &mut self.demand);
+        for (i, change) in change.iter_mut().enumerate() {
+            *change = self.force[i].eps + self.nonideal[i].eps;
+        }
+        for (demand, rhs) in demand.iter_mut().zip(&self.rhs) {
+            *demand = rhs.eps;
         }
         for j in 0..n {
-            let a = L::from_f64(acceleration[j]);
-            for i in 0..n {
-                change[i] = change[i] - mass[j * n + i].eps * a;
+            let a = L::from_f64(self.acceleration[j]);
+            for (change, mass) in change.iter_mut().zip(&self.mass[j * n..]) {
+                *change = *change - mass.eps * a;
             }
-            for c in 0..m {
-                let entry = jacobian[j * m + c].eps;
-                demand[c] = demand[c] - entry * a;
-                change[j] = change[j] + entry * L::from_f64(multipliers[c]);
+            let column = self.jacobian[j * m..].iter().zip(&self.multipliers);
+            for (demand, (entry, multiplier)) in demand.iter_mut().zip(column) {
+                *demand = *demand - entry.eps * a;
+                change[j] = change[j] + entry.eps * L::from_f64(*multiplier);
             }
-        }
-        for (k, column) in columns[n * first..]
-            .chunks_exact_mut(n)
-            .take(L::WIDTH)
-            .enumerate()
-        {
-            let lane = |all: &[L]| all.iter().map(|x| x.lane(k)).collect::<Vec<f64>>();
-            solver.respond(formula, &lane(&change), &lane(&demand), column);
         }
     }
-    Ok(columns)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixture::Pendulum;
+
+    #[test]
+    fn feedback_terms_are_differentiated_too() {
+        let baumgarte = Some(Baumgarte {
+            alpha: 7.0,
+            beta: 11.0,
+        });
+        let options = SolverOptions {
+            baumgarte,
+            ..SolverOptions::default()
+        };
+        let mech = Pendulum::default().prepared();
+        let mut solver = Solver::new::<Pendulum>(options);
+        // Off the rod by a tenth, and moving off.
+        let (q, v) = ([0.7, -0.6], [0.4, -0.3]);
+        let mut columns = [0.0; 8];
+        let mut slopes = Slopes::<Pendulum>::new(&mech);
+        let found = slopes.columns(&mut solver, &mech, 0.0, &q, &v, &mut columns);
+        assert_eq!(found, Ok(()));
+        for (j, column) in columns.chunks_exact(2).enumerate() {
+            let h = 1e-5;
+            let [after, before] = [h, -h].map(|h| {
+                let mut moved = [q, v].concat();
+                moved[j] += h;
+                let (q, v) = moved.split_at(2);
+                let mut out = [0.0; 2];
+                solver.acceleration(&mech, 0.0, q, v, &mut out).unwrap();
+                out
+            });
+            for i in 0..2 {
+                let slope = (after[i] - before[i]) / (2.0 * h);
+                assert!((column[i] - slope).abs() < 1e-6, "{j}: {column:?}, {slope}");
+            }
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! Gaussian elimination of the saddle-point system, in buffers allocated once.
 
-use crate::pinv::axpy;
+use crate::lu::Lu;
 use crate::workspace::Rows;
 
 /// A pivot of the scaled system (entries of order 1) below this is none: with n + m unknowns elimination loses a few digits, and
@@ -12,8 +12,7 @@ const PIVOT: f64 = 1.5e-8;
 pub(crate) struct Saddle {
     n: usize,
     m: usize,
-    lu: Vec<f64>,
-    order: Vec<usize>,
+    lu: Lu<f64>,
     x: Vec<f64>,
 }
 
@@ -23,8 +22,7 @@ impl Saddle {
         Saddle {
             n,
             m,
-            lu: vec![0.0; size * size],
-            order: vec![0; size],
+            lu: Lu::new(size),
             x: vec![0.0; size],
         }
     }
@@ -39,47 +37,19 @@ impl Saddle {
     ) -> bool {
         let (n, m) = (self.n, self.m);
         let size = n + m;
-        self.lu.fill(0.0);
+        let entries = self.lu.entries_mut();
+        entries.fill(0.0);
         for j in 0..n {
             for i in 0..n {
-                self.lu[j * size + i] = mass[j * n + i] / (root[i] * root[j]);
+                entries[j * size + i] = mass[j * n + i] / (root[i] * root[j]);
             }
             for (c, scale) in row_scale[..m].iter().enumerate() {
                 let entry = scale * a.jacobian[j * a.stride + c] / root[j];
-                self.lu[j * size + n + c] = entry;
-                self.lu[(n + c) * size + j] = entry;
+                entries[j * size + n + c] = entry;
+                entries[(n + c) * size + j] = entry;
             }
         }
-        for k in 0..size {
-            let column = &self.lu[k * size..(k + 1) * size];
-            let pivot = (k..size).fold(k, |b, i| {
-                if column[i].abs() > column[b].abs() {
-                    i
-                } else {
-                    b
-                }
-            });
-            if column[pivot].abs() <= PIVOT {
-                return false;
-            }
-            self.order[k] = pivot;
-            if pivot != k {
-                for j in 0..size {
-                    self.lu.swap(j * size + k, j * size + pivot);
-                }
-            }
-            let (done, rest) = self.lu.split_at_mut((k + 1) * size);
-            let column = &mut done[k * size..];
-            let inverse = column[k].recip();
-            column[k + 1..].iter_mut().for_each(|x| *x *= inverse);
-            for target in rest.chunks_exact_mut(size) {
-                let s = target[k];
-                if s != 0.0 {
-                    axpy(-s, &column[k + 1..], &mut target[k + 1..]);
-                }
-            }
-        }
-        true
+        self.lu.factor(PIVOT)
     }
 
     /// q̈ into `out`.
@@ -91,7 +61,7 @@ impl Saddle {
         row_scale: &[f64],
         out: &mut [f64],
     ) {
-        let (n, size) = (self.n, self.n + self.m);
+        let n = self.n;
         let x = &mut self.x;
         for i in 0..n {
             x[i] = force[i] / root[i];
@@ -99,23 +69,7 @@ impl Saddle {
         for (c, b) in rhs.iter().enumerate() {
             x[n + c] = row_scale[c] * b;
         }
-        self.order
-            .iter()
-            .enumerate()
-            .for_each(|(k, &pivot)| x.swap(k, pivot));
-        for k in 0..size {
-            let s = x[k];
-            axpy(
-                -s,
-                &self.lu[k * size + k + 1..(k + 1) * size],
-                &mut x[k + 1..],
-            );
-        }
-        for k in (0..size).rev() {
-            x[k] /= self.lu[k * size + k];
-            let s = x[k];
-            axpy(-s, &self.lu[k * size..k * size + k], &mut x[..k]);
-        }
+        self.lu.solve(x);
         for i in 0..n {
             out[i] = x[i] / root[i];
         }

@@ -245,6 +245,7 @@ impl<M: Mechanism> Simulation<M> {
             t: t0,
             y: y.clone(),
             between: vec![0.0; 2 * n],
+            slopes: None,
             conflict: Conflict::default(),
             pace: Pace::new(M::SPEC, self.tolerance, self.max_steps),
             trajectory: &mut trajectory,
@@ -257,6 +258,7 @@ impl<M: Mechanism> Simulation<M> {
             let report = self.method.run(&mut run, t0, &y, t_end, &settings);
             run.trajectory.work.steps = report.steps;
             run.trajectory.work.rejected = report.rejected;
+            run.trajectory.work.factorisations = report.factorisations;
             match report.outcome {
                 Outcome::Reached => run.trajectory.ending = Ending::Completed,
                 // Given up: the steps allowed would be used up without getting on.

@@ -21,6 +21,7 @@ use crate::error::Error;
 use crate::mechanism::{Mechanism, Prepared};
 use crate::metric::MassFault;
 use crate::saddle::Saddle;
+use crate::scalar::Scalar;
 use crate::scan::all_finite;
 use crate::workspace::{Dense, Evaluated, Owner, Route, Rows};
 
@@ -61,6 +62,21 @@ pub struct Baumgarte {
     pub alpha: f64,
     /// β in 1/s; β = α is critical damping.
     pub beta: f64,
+}
+
+impl Baumgarte {
+    /// Takes the terms off b, from φ of the holonomic constraints and the rates of all.
+    pub(crate) fn apply<S: Scalar>(self, position: &[S], rate: &[S], rhs: &mut [S]) {
+        let [alpha, twice, square] =
+            [self.alpha, 2.0 * self.alpha, self.beta * self.beta].map(S::from_f64);
+        for (i, (b, rate)) in rhs.iter_mut().zip(rate).enumerate() {
+            *b = *b
+                - match position.get(i) {
+                    Some(phi) => twice * *rate + square * *phi,
+                    None => alpha * *rate,
+                };
+        }
+    }
 }
 
 /// Settings of a [`Solver`].
@@ -383,6 +399,11 @@ impl Solver {
         self.solve_for_force(formula, out);
     }
 
+    /// Baumgarte's stabilisation, if it is in use.
+    pub(crate) fn baumgarte(&self) -> Option<Baumgarte> {
+        self.options.baumgarte
+    }
+
     /// What has been done so far.
     #[must_use]
     pub fn work(&self) -> SolverWork {
@@ -416,15 +437,10 @@ impl Solver {
         self.work.evaluations += 1;
         self.drift.known = false;
         self.rhs.copy_from_slice(&self.here.rhs);
-        if let Some(Baumgarte { alpha, beta }) = self.options.baumgarte {
+        if let Some(baumgarte) = self.options.baumgarte {
             mech.residual(t, q, &mut self.position);
             mech.residual_rate(t, q, v, &mut self.rate);
-            for (i, b) in self.rhs.iter_mut().enumerate() {
-                *b -= match self.position.get(i) {
-                    Some(phi) => 2.0 * alpha * self.rate[i] + beta * beta * phi,
-                    None => alpha * self.rate[i],
-                };
-            }
+            baumgarte.apply(&self.position, &self.rate, &mut self.rhs);
         }
         let terms = &self.here;
         let evaluated = [

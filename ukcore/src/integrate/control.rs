@@ -158,7 +158,7 @@ impl Guess {
     pub(crate) fn refine(
         self,
         start: impl Iterator<Item = (f64, f64, f64)>,
-        control: &Control,
+        order: f64,
         tolerance: f64,
         largest: f64,
     ) -> f64 {
@@ -175,7 +175,7 @@ impl Guess {
         let h = if steepest <= 1e-15 {
             f64::max(1e-6, 1e-3 * self.h)
         } else {
-            f64::powf(0.01 / steepest, 1.0 / control.order)
+            f64::powf(0.01 / steepest, 1.0 / order)
         };
         h.min(100.0 * self.h).min(largest)
     }

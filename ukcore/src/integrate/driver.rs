@@ -3,6 +3,7 @@
 use super::control::Plan;
 use super::dense::{Clock, Interpolant};
 use super::explicit::Explicit;
+use super::radau::Radau;
 use super::rattle::Rattle;
 use super::scheme::{Attempt, Equations, NoRate, Scheme, Trouble};
 use super::stepper::Stepper;
@@ -50,17 +51,19 @@ pub(super) fn run<P: Problem>(
     t_end: f64,
     settings: &Settings,
 ) -> Report {
+    let n = y0.len();
     match method {
         Method::Dop853 => {
-            let scheme = Explicit::new(Stepper::dop853(y0.len()));
+            let scheme = Explicit::new(Stepper::dop853(n));
             drive(scheme, problem, t0, y0, t_end, settings)
         }
         Method::Dopri5 => {
-            let scheme = Explicit::new(Stepper::dopri5(y0.len()));
+            let scheme = Explicit::new(Stepper::dopri5(n));
             drive(scheme, problem, t0, y0, t_end, settings)
         }
+        Method::Radau5 => drive(Radau::new(n), problem, t0, y0, t_end, settings),
         Method::Rattle { step } => {
-            let scheme = Rattle::new(y0.len(), step, (t_end - t0).abs());
+            let scheme = Rattle::new(n, step, (t_end - t0).abs());
             drive(scheme, problem, t0, y0, t_end, settings)
         }
     }
@@ -103,6 +106,7 @@ fn drive<P: Problem, X: Scheme>(
         outcome,
         steps: driver.steps,
         rejected: driver.attempts - driver.steps,
+        factorisations: driver.scheme.factorisations(),
     }
 }
 

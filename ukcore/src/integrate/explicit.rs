@@ -54,7 +54,7 @@ impl Scheme for Explicit {
             return guess.h;
         };
         let start = start.zip(after).map(|((y, rate), after)| (y, rate, *after));
-        guess.refine(start, &self.tableau.control, tolerance, largest)
+        guess.refine(start, self.tableau.control.order, tolerance, largest)
     }
 
     fn attempt<P: Problem>(

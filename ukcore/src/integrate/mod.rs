@@ -21,6 +21,7 @@ mod control;
 mod dense;
 mod driver;
 mod explicit;
+mod radau;
 mod rattle;
 mod scheme;
 mod stepper;
@@ -49,6 +50,11 @@ pub enum Method {
     Dop853,
     /// Dormand and Prince's 5(4), interpolant of order 4.
     Dopri5,
+    /// Radau IIA of order 5, implicit, with the exact Jacobian of the accelerations; interpolant of order 3. For stiff mechanisms: hard springs, strong drag or damping,
+    /// whose fast motion has died down or is not of interest. There the explicit methods need steps as short as the fast motion, this one only such as the slow motion asks for.
+    /// It damps fast oscillations that its steps do not resolve (it is L-stable), and takes their energy out; where they matter, or nothing is stiff,
+    /// take [`Dop853`](Method::Dop853).
+    Radau5,
     /// RATTLE, composed to order 4: symplectic, with equal steps. The energy of a conservative motion stays within a bound over any number of steps, without a
     /// trend. For holonomic constraints, a constant and regular M, and forces from a potential; it keeps the constraints by itself, without projection. Its
     /// interpolant is a cubic.
@@ -63,6 +69,7 @@ impl fmt::Display for Method {
         match self {
             Method::Dop853 => f.write_str("dop853"),
             Method::Dopri5 => f.write_str("dopri5"),
+            Method::Radau5 => f.write_str("radau5"),
             Method::Rattle { step } => write!(f, "rattle={step}"),
         }
     }
@@ -80,6 +87,8 @@ pub const PROJECTION_LIMIT: f64 = 10.0;
 pub(crate) trait Problem {
     /// y' at (t, y) into `rate`. After far too long a step y may not be finite; an error there only shortens the step.
     fn derivative(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Error>;
+    /// For y = (q, q̇), y' = (q̇, a): ∂a/∂q and ∂a/∂q̇ at (t, y) into `out`, n × 2n, column-major. Asked for by implicit methods alone.
+    fn jacobian(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), Error>;
     /// Moves an accepted y to the nearest consistent state.
     fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), Error>;
     /// Moves the coordinates `q` onto the constraints at t along M⁻¹A(`base`)ᵀ, by `shift`.
@@ -153,6 +162,8 @@ pub(crate) struct Report {
     pub(crate) steps: usize,
     /// Attempted steps that were not accepted.
     pub(crate) rejected: usize,
+    /// Factorisations of the matrices of an implicit method.
+    pub(crate) factorisations: usize,
 }
 
 impl Method {

@@ -30,6 +30,13 @@ impl<P: Problem> Equations<'_, P> {
         let result = self.problem.derivative(t, y, rate);
         result.map_err(|error| no_rate(t, y, error))
     }
+
+    /// [`Problem::jacobian`] at (s, y).
+    pub(super) fn jacobian(&mut self, s: f64, y: &[f64], out: &mut [f64]) -> Result<(), NoRate> {
+        let t = self.t0 + s;
+        let result = self.problem.jacobian(t, y, out);
+        result.map_err(|error| no_rate(t, y, error))
+    }
 }
 
 /// `error` at (t, y), which says nothing where y is not finite.
@@ -122,4 +129,9 @@ pub(super) trait Scheme {
 
     /// Size of the next attempt after one of size `h` whose end did not do.
     fn unfit(&mut self, h: f64) -> f64;
+
+    /// Factorisations so far.
+    fn factorisations(&self) -> usize {
+        0
+    }
 }

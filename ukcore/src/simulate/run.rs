@@ -6,6 +6,7 @@ use super::trouble::{Conflict, Pace};
 use crate::error::Error;
 use crate::events::{EventHit, States, Watch};
 use crate::integrate::{Next, Problem, Step};
+use crate::linearise::Slopes;
 use crate::mechanism::{Mechanism, Prepared};
 use crate::solver::Solver;
 use crate::stabilise::Projector;
@@ -94,6 +95,8 @@ pub(super) struct Run<'a, M> {
     pub(super) y: Vec<f64>,
     /// A state within a step.
     pub(super) between: Vec<f64>,
+    /// Made when a method asks for the first Jacobian.
+    pub(super) slopes: Option<Slopes<M>>,
     pub(super) conflict: Conflict,
     pub(super) pace: Pace,
     pub(super) trajectory: &'a mut Trajectory<M>,
@@ -196,6 +199,15 @@ impl<M: Mechanism> Problem for Run<'_, M> {
         q_rate.copy_from_slice(v);
         let solver = &mut self.solver;
         let result = solver.acceleration_in_run(self.mechanism, t, q, v, v_rate);
+        result.inspect_err(|error| self.conflict.note(t, y, error))
+    }
+
+    fn jacobian(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), Error> {
+        let (q, v) = y.split_at(self.n);
+        let (mechanism, solver) = (self.mechanism, &mut self.solver);
+        let slopes = self.slopes.get_or_insert_with(|| Slopes::new(mechanism));
+        self.trajectory.work.jacobians += 1;
+        let result = slopes.columns(solver, mechanism, t, q, v, out);
         result.inspect_err(|error| self.conflict.note(t, y, error))
     }
 

@@ -82,7 +82,7 @@ pub(crate) struct RunArgs {
     /// Sample at this interval; each accepted step if absent
     #[arg(long, value_name = "TIME", value_parser = interval, allow_hyphen_values = true)]
     pub(crate) every: Option<f64>,
-    /// Integration method: `dop853` or `dopri5`, Dormand and Prince's of order 8 and 5; `rattle=STEP`, symplectic of order 4 with steps of that time, which looks at no
+    /// Integration method: `dop853` or `dopri5`, Dormand and Prince's of order 8 and 5; `radau5`, implicit of order 5, for stiff mechanisms; `rattle=STEP`, symplectic of order 4 with steps of that time, which looks at no
     /// tolerance: the energy of a conservative motion has no trend, however long the run
     #[arg(long, value_name = "METHOD", default_value = "dop853", value_parser = method)]
     pub(crate) method: Method,
@@ -189,9 +189,10 @@ fn method(text: &str) -> Result<Method, String> {
     match text.split_once('=') {
         None if text == "dop853" => Ok(Method::Dop853),
         None if text == "dopri5" => Ok(Method::Dopri5),
+        None if text == "radau5" => Ok(Method::Radau5),
         None if text == "rattle" => Err("it needs its step: rattle=1ms".to_owned()),
         Some(("rattle", step)) => interval(step).map(|step| Method::Rattle { step }),
-        _ => Err("it is `dop853`, `dopri5` or `rattle=STEP`".to_owned()),
+        _ => Err("it is `dop853`, `dopri5`, `radau5` or `rattle=STEP`".to_owned()),
     }
 }
 
@@ -255,7 +256,7 @@ mod tests {
 
     #[test]
     fn methods_are_read_as_they_are_written() {
-        for text in ["dop853", "dopri5", "rattle=0.001"] {
+        for text in ["dop853", "dopri5", "radau5", "rattle=0.001"] {
             assert_eq!(method(text).map(|m| m.to_string()), Ok(text.to_owned()));
         }
         assert_eq!(method("rattle=2ms"), Ok(Method::Rattle { step: 0.002 }));

@@ -301,7 +301,7 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
             if let (Some(guess), true) = (guesses[k], still[k]) {
                 let triples = y.iter().zip(&*rate).zip(after);
                 let triples = triples.map(|((y, f), g)| (y.lane(k), f.lane(k), g.lane(k)));
-                running.h = guess.refine(triples, control, tolerance, running.end.0);
+                running.h = guess.refine(triples, control.order, tolerance, running.end.0);
             }
         }
     }

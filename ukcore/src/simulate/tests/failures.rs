@@ -4,7 +4,7 @@ use super::*;
 
 #[test]
 fn a_failing_force_is_reported_with_its_time_and_the_motion_kept() {
-    for method in [Method::Dop853, Method::Dopri5] {
+    for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
         let mechanism = Pendulum {
             limit: 1.5,
             ..Pendulum::default()

@@ -4,7 +4,7 @@ use super::*;
 
 #[test]
 fn a_pendulum_returns_after_its_period() {
-    for method in [Method::Dop853, Method::Dopri5] {
+    for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
         for angle in [0.1, FRAC_PI_2, 3.0] {
             let time = period(angle);
             let run = swing(angle, 1e-12).method(method).until(time).unwrap();
@@ -25,7 +25,11 @@ fn error_falls_with_the_order_of_the_method_under_projection() {
     let time = 5.25 * period(1.0);
     let speed = f64::sqrt(2.0 * 9.8 * (1.0 - f64::cos(1.0)));
     let (q, v) = (&[0.0, -1.0], &[-speed, 0.0]);
-    for (method, order) in [(Method::Dop853, 8.0), (Method::Dopri5, 5.0)] {
+    for (method, order) in [
+        (Method::Dop853, 8.0),
+        (Method::Dopri5, 5.0),
+        (Method::Radau5, 5.0),
+    ] {
         let run = |tolerance| {
             let run = swing(1.0, tolerance).method(method).until(time).unwrap();
             let off = distance(Sample { t: time, q, v }, run.last().unwrap());
@@ -42,7 +46,7 @@ fn error_falls_with_the_order_of_the_method_under_projection() {
 
 #[test]
 fn energy_and_constraints_hold_at_all_samples() {
-    for method in [Method::Dop853, Method::Dopri5] {
+    for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
         let run = swing(2.0, 1e-12).method(method).every(0.013).until(20.0);
         let run = run.unwrap();
         assert!(run.energy_drift() < 1e-9, "{}", run.energy_drift());
@@ -80,7 +84,7 @@ fn drift_is_visible_without_stabilisation_and_damped_with_baumgarte() {
 
 #[test]
 fn a_run_backward_returns_to_the_start() {
-    for method in [Method::Dop853, Method::Dopri5] {
+    for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
         let there = swing(2.5, 1e-12).method(method).dense().until(3.0).unwrap();
         let end = there.last().unwrap().to_state();
         let back = Simulation::new(Pendulum::default())

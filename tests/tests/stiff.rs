@@ -1,0 +1,167 @@
+//! Stiff mechanisms with the implicit method.
+
+use models::{FishRobot, Model, Pendulum, SpringPendulum, StartOptions};
+use std::f64::consts::FRAC_PI_2;
+use tests::assert_all_close;
+use ukcore::{Direction, Event, Mechanism, Method, Simulation, State, Trajectory};
+
+fn simulation<M: Model>(model: &M, method: Method, tolerance: f64) -> Simulation<M> {
+    let start = model.default_start().expect("the default start exists");
+    Simulation::new(model.clone())
+        .start(start)
+        .method(method)
+        .tolerance(tolerance)
+}
+
+fn run<M: Model>(model: &M, method: Method, tolerance: f64, until: f64) -> Trajectory<M> {
+    let run = simulation(model, method, tolerance).at(Vec::new());
+    run.until(until)
+        .unwrap_or_else(|e| panic!("{}: {}", M::ID, e.error))
+}
+
+fn end<M: Model>(run: &Trajectory<M>) -> State {
+    run.last().expect("it has run").to_state()
+}
+
+/// Largest difference of coordinates and velocities.
+fn distance(a: &State, b: &State) -> f64 {
+    let pairs = a.q.iter().zip(&b.q).chain(a.v.iter().zip(&b.v));
+    pairs.fold(0.0, |d, (a, b)| d.max((a - b).abs()))
+}
+
+fn spring(k: f64) -> SpringPendulum {
+    SpringPendulum {
+        k,
+        ..SpringPendulum::default()
+    }
+}
+
+#[test]
+fn a_hard_spring_costs_a_fiftieth_of_the_evaluations_of_an_explicit_method() {
+    let model = spring(1e8);
+    let reference = end(&run(&model, Method::Dop853, 1e-12, 2.0));
+    // Of each method the cheapest run with an error below 1e-6.
+    let cheapest = |method| {
+        let runs = (4..12).map(|k| run(&model, method, 10_f64.powi(-k), 2.0));
+        let good = runs.filter(|run| distance(&end(run), &reference) < 1e-6);
+        good.map(|run| run.work())
+            .min_by_key(|work| work.evaluations)
+    };
+    let explicit = cheapest(Method::Dop853).expect("one is good");
+    let implicit = cheapest(Method::Radau5).expect("one is good");
+    println!("{explicit:?} {implicit:?}");
+    assert!(50 * implicit.evaluations <= explicit.evaluations);
+    assert_eq!((explicit.jacobians, explicit.factorisations), (0, 0));
+    assert!(implicit.jacobians > 0 && implicit.jacobians < implicit.evaluations);
+    assert!(implicit.factorisations > 0);
+}
+
+#[test]
+fn the_harder_the_spring_the_nearer_to_the_rigid_pendulum() {
+    let rigid = Pendulum::default();
+    let (angle, rate) = rigid.swing(-FRAC_PI_2, 1.0);
+    let (q, v) = rigid.at_angle(angle, rate);
+    let rigid = State {
+        t: 1.0,
+        q: q.to_vec(),
+        v: v.to_vec(),
+    };
+    // Distance times k.
+    let scaled = |k: f64| {
+        let run = run(&spring(k), Method::Radau5, 1e-11, 1.0);
+        assert!(run.work().evaluations < 20_000, "{k}: {:?}", run.work());
+        k * distance(&end(&run), &rigid)
+    };
+    let limit = scaled(1e7);
+    for k in [1e5, 1e6, 1e8] {
+        println!("{k} {} {limit}", scaled(k));
+        assert!(
+            (scaled(k) / limit - 1.0).abs() < 0.1,
+            "{k}: {} {limit}",
+            scaled(k)
+        );
+    }
+    for k in [1e10, 1e12, 1e14] {
+        println!("{k} {}", scaled(k) / k);
+        assert!(scaled(k) / k < limit / k + 1e-8, "{k}: {}", scaled(k) / k);
+    }
+}
+
+#[test]
+fn what_is_not_resolved_is_damped() {
+    // The spring swings along itself by less than the tolerance, which shows in its force.
+    let model = spring(1e10);
+    let ripple = |method, tolerance| {
+        let options = StartOptions::new().with("stretch", 1e-8);
+        let start = model.start("released", &options).expect("it fits");
+        let run = Simulation::new(model.clone()).start(start).method(method);
+        let run = run.tolerance(tolerance).until(0.02).expect("it runs");
+        let last = run.last().expect("it has run");
+        let balance = {
+            let angle = f64::atan2(last.q[0], -last.q[1]);
+            let rate = (last.q[0] * last.v[1] - last.q[1] * last.v[0])
+                / (last.q[0].powi(2) + last.q[1].powi(2));
+            model.balance(angle, rate).0
+        };
+        let growth = (last.q[0] * last.v[0] + last.q[1] * last.v[1]) / balance;
+        f64::hypot(
+            last.q[0].hypot(last.q[1]) - balance,
+            growth / model.frequency(),
+        )
+    };
+    println!(
+        "{} {}",
+        ripple(Method::Radau5, 1e-4),
+        ripple(Method::Dop853, 1e-8)
+    );
+    assert!(ripple(Method::Radau5, 1e-4) < 1e-10);
+    assert!((ripple(Method::Dop853, 1e-8) / 1e-8 - 1.0).abs() < 0.1);
+}
+
+#[test]
+fn events_samples_and_the_way_back() {
+    let model = spring(1e10);
+    let bottom = Event::new("bottom", |_, q, _| q[0]).direction(Direction::Rising);
+    let there = simulation(&model, Method::Radau5, 1e-9)
+        .event(bottom)
+        .every(0.1)
+        .until(1.0)
+        .expect("it runs");
+    let rigid = Pendulum::default();
+    let quarter = 0.25 * rigid.period(FRAC_PI_2);
+    let hits: Vec<_> = there.events("bottom").expect("watched").collect();
+    assert_eq!(hits.len(), 1);
+    assert!(
+        (hits[0].t - quarter).abs() < 1e-6,
+        "{}",
+        hits[0].t - quarter
+    );
+    for sample in there.samples() {
+        let (angle, rate) = rigid.swing(-FRAC_PI_2, sample.t);
+        let (q, v) = rigid.at_angle(angle, rate);
+        assert_all_close("q", sample.q, &q, 1e-6);
+        assert_all_close("v", sample.v, &v, 1e-5);
+    }
+    let back = Simulation::new(model.clone())
+        .start(end(&there))
+        .method(Method::Radau5)
+        .tolerance(1e-9)
+        .until(0.0)
+        .expect("it runs");
+    assert!(distance(&end(&back), &model.default_start().expect("exists")) < 1e-6);
+}
+
+#[test]
+fn strong_drag_is_followed_through_constraints_and_a_singular_mass_matrix() {
+    let mut fish = FishRobot::default();
+    let drag = 1e4 * fish.get("cd").expect("declared");
+    fish.set("cd", drag).expect("declared");
+    let explicit = run(&fish, Method::Dop853, 1e-7, 0.5);
+    let implicit = run(&fish, Method::Radau5, 1e-7, 0.5);
+    let off = distance(&end(&explicit), &end(&implicit));
+    println!("{off} {:?} {:?}", explicit.work(), implicit.work());
+    assert!(off < 1e-5, "{off}");
+    assert!(10 * implicit.work().evaluations < explicit.work().evaluations);
+    let residuals = implicit.residuals();
+    assert!(residuals.iter().all(|r| r.largest() < 1e-12));
+}

@@ -1,0 +1,369 @@
+//! Radau IIA of order 5 for mechanical systems.
+//!
+//! After Hairer & Wanner, *Solving Ordinary Differential Equations II*, 2nd ed., Springer 1996, §IV.8: simplified Newton with a factorisation kept over
+//! steps, an embedded estimate of the error, Gustafsson's predictive choice of the step size; with the constants of the authors' code RADAU5.
+//!
+//! The state is y = (q, q̇) and y' = (q̇, a(t, q, q̇)). With wᵢ = q̇ᵢ − q̇ at the stages, positions are qᵢ = q + h (cᵢ q̇ + Σ aᵢⱼ wⱼ) and
+//! only the wᵢ are unknown: A⁻¹ w / h = a. Newton's matrix for an eigenvalue λ of A⁻¹ is then n × n, a quarter of what it is for y:
+//!
+//! (λ/h)² − (λ/h) ∂a/∂q̇ − ∂a/∂q,
+//!
+//! once for the real eigenvalue, once for the complex pair.
+
+pub(super) mod newton;
+
+use super::Problem;
+use super::control::Guess;
+use super::scheme::{Attempt, Equations, NoRate, Scheme};
+use super::sums::{sum_of_squares, weights};
+use newton::{Matrices, Newton, Solved};
+
+/// (4 ∓ √6)/10 and 1: the stages, §IV.5 (table 5.6).
+pub(super) const C: [f64; 3] = [0.155_051_025_721_682_2, 0.644_948_974_278_317_8, 1.0];
+
+/// Weights of the stages in the estimate of the error, eq. (8.19) with γ₀⁻¹ taken out: (−13 ∓ 7√6)/3, −1/3.
+const ERROR: [f64; 3] = [-10.048_809_399_827_416, 1.382_142_733_160_749, -1.0 / 3.0];
+
+/// Part of the step size that should just meet the tolerance which is taken.
+const SAFETY: f64 = 0.9;
+
+/// Least and largest factor between two steps.
+const FACTORS: (f64, f64) = (0.2, 8.0);
+
+/// The error is estimated as one of a method of order 3, and falls with the power 4 of the step.
+const ORDER: f64 = 4.0;
+
+/// A step that would grow by less than this factor keeps its size, and with it the factors.
+const KEEP: f64 = 1.2;
+
+/// Newton's method converging faster than this keeps the Jacobian.
+const FAST: f64 = 1e-3;
+
+/// Errors count as at least this much where the next step looks back on them.
+const SMALLEST_PREVIOUS: f64 = 1e-2;
+
+/// Tolerance of the estimate, which is of order 3, for a step of order 5 to have the tolerance `run`: 0.1 run^⅔, as in RADAU5.
+fn estimate_tolerance(run: f64) -> f64 {
+    0.1 * run.powf(2.0 / 3.0)
+}
+
+/// Whether the Jacobian changes so much within steps that one of it will not do.
+#[derive(Default)]
+struct Turning {
+    /// Steps for which that is taken for granted.
+    left: usize,
+    /// So many steps were, the last time.
+    before: usize,
+}
+
+impl Turning {
+    fn expected(&mut self) -> bool {
+        let expected = self.left > 0;
+        self.left = self.left.saturating_sub(1);
+        expected
+    }
+
+    /// Whether one Jacobian did. If not, it is tried again ever more seldom.
+    fn tried(&mut self, solved: bool) {
+        self.before = if solved {
+            0
+        } else {
+            (2 * self.before).clamp(4, 64)
+        };
+        self.left = self.before;
+    }
+}
+
+/// Buffers for steps with n coordinates, and what the last attempted one left in them.
+pub(super) struct Radau {
+    n: usize,
+    newton: Newton,
+    /// f at the start and at the end of the step.
+    rate: Vec<f64>,
+    end_rate: Vec<f64>,
+    /// State at the end of the step.
+    new: Vec<f64>,
+    weights: Vec<f64>,
+    error: Vec<f64>,
+    /// Coefficients of the collocation polynomial: of the closed step, and of the accepted one before, whose size is `h_previous`.
+    dense: Vec<f64>,
+    previous: Vec<f64>,
+    h_previous: Option<f64>,
+    /// Size and error of the last accepted step.
+    accepted: Option<(f64, f64)>,
+    rejected: bool,
+    turning: Turning,
+    /// What Newton's method, where it failed, takes the step times.
+    shorten: f64,
+}
+
+impl Radau {
+    /// For states of length `length`, coordinates and velocities together.
+    pub(super) fn new(length: usize) -> Self {
+        let zeros = |rows: usize| vec![0.0; rows * length];
+        Radau {
+            n: length / 2,
+            newton: Newton::new(length / 2),
+            rate: zeros(1),
+            end_rate: zeros(1),
+            new: zeros(1),
+            weights: zeros(1),
+            error: zeros(1),
+            dense: zeros(4),
+            previous: zeros(4),
+            h_previous: None,
+            accepted: None,
+            rejected: false,
+            turning: Turning::default(),
+            shorten: 0.5,
+        }
+    }
+
+    /// Starting values of the stages: the polynomial of the step before, extrapolated. Where there is none they stay at the start.
+    fn extrapolate(&mut self, h: f64) {
+        let n = self.n;
+        let Some(h_previous) = self.h_previous else {
+            self.newton.w.fill(0.0);
+            return;
+        };
+        let row = |k: usize| &self.previous[(2 * k + 1) * n..][..n];
+        for (w, c) in self.newton.w.chunks_exact_mut(n).zip(C) {
+            // p(1 + s) − p(1) of the form of `Interpolant`.
+            let s = c * h.abs() / h_previous;
+            for (i, w) in w.iter_mut().enumerate() {
+                *w = s * (row(1)[i] - (1.0 + s) * (row(2)[i] + (1.0 + s) * row(3)[i]));
+            }
+        }
+    }
+
+    /// The stages; `false` if they are not found.
+    fn solve<P: Problem>(
+        &mut self,
+        matrices: Matrices,
+        equations: &mut Equations<'_, P>,
+        step: Attempt,
+        y: &[f64],
+        tolerance: f64,
+    ) -> Result<bool, NoRate> {
+        self.extrapolate(step.h);
+        let weights = &self.weights;
+        let solved = (self.newton).solve(matrices, equations, step, y, weights, tolerance)?;
+        match solved {
+            Solved::Yes => Ok(true),
+            Solved::No { shorten } => {
+                self.shorten = shorten;
+                Ok(false)
+            }
+        }
+    }
+
+    /// The error of the attempted step in the error norm, eq. (8.20); where a first or repeated step fails by it, the estimate of eq. (8.21).
+    fn estimate<P: Problem>(
+        &mut self,
+        equations: &mut Equations<'_, P>,
+        step: Attempt,
+        y: &[f64],
+    ) -> f64 {
+        let norm = |error: &[f64], weights: &[f64]| {
+            (sum_of_squares(error, weights) / weights.len().max(1) as f64).sqrt()
+        };
+        self.newton
+            .filter(step.h, &ERROR, &self.rate, &mut self.error);
+        let error = norm(&self.error, &self.weights);
+        if error < 1.0 || !(self.rejected || self.accepted.is_none()) {
+            return error;
+        }
+        for (x, y) in self.error.iter_mut().zip(y) {
+            *x += y;
+        }
+        if equations
+            .rate(step.s, &self.error, &mut self.end_rate)
+            .is_err()
+        {
+            return error;
+        }
+        self.newton
+            .filter(step.h, &ERROR, &self.end_rate, &mut self.error);
+        norm(&self.error, &self.weights)
+    }
+
+    /// What the size `h` is to be divided by to meet the tolerance: less of it is risked where Newton's method took long.
+    fn quotient(&self, error: f64) -> f64 {
+        let most = 1.0 + 2.0 * newton::MOST as f64;
+        let slow = most / (self.newton.iterations as f64 + 2.0 * newton::MOST as f64);
+        let safety = SAFETY * slow.min(1.0);
+        error.max(1e-10).powf(1.0 / ORDER) / safety
+    }
+}
+
+impl Scheme for Radau {
+    fn begin<P: Problem>(
+        &mut self,
+        equations: &mut Equations<'_, P>,
+        y: &[f64],
+    ) -> Result<(), NoRate> {
+        equations.rate(0.0, y, &mut self.rate)
+    }
+
+    fn first_size<P: Problem>(
+        &mut self,
+        equations: &mut Equations<'_, P>,
+        y: &[f64],
+        sign: f64,
+        tolerance: f64,
+        largest: f64,
+    ) -> f64 {
+        let tolerance = estimate_tolerance(tolerance);
+        let start = y.iter().zip(&self.rate).map(|(y, rate)| (*y, *rate));
+        let guess = Guess::new(start.clone(), tolerance, largest);
+        let h = sign * guess.h;
+        for (new, (y, rate)) in self.new.iter_mut().zip(start.clone()) {
+            *new = y + h * rate;
+        }
+        if equations.rate(h, &self.new, &mut self.end_rate).is_err() {
+            return guess.h;
+        }
+        let start = start.zip(&self.end_rate);
+        let start = start.map(|((y, rate), after)| (y, rate, *after));
+        guess.refine(start, ORDER, tolerance, largest)
+    }
+
+    fn attempt<P: Problem>(
+        &mut self,
+        equations: &mut Equations<'_, P>,
+        step: Attempt,
+        y: &[f64],
+    ) -> Result<f64, NoRate> {
+        let n = self.n;
+        let tolerance = estimate_tolerance(step.tolerance);
+        self.shorten = 0.5;
+        self.newton.prepare(equations, step, y)?;
+        weights(&mut self.weights, y, y, tolerance);
+        let by_stages = self.turning.expected();
+        let matrices = if by_stages {
+            Matrices::Stages
+        } else {
+            Matrices::Start
+        };
+        let mut solved = self.solve(matrices, equations, step, y, tolerance)?;
+        if !by_stages {
+            self.turning.tried(solved);
+            if !solved {
+                solved = self.solve(Matrices::Stages, equations, step, y, tolerance)?;
+            }
+        }
+        if !solved {
+            self.turning = Turning::default();
+            return Err(None);
+        }
+        self.new.copy_from_slice(y);
+        let ends = self.newton.z[2 * n..].iter().chain(&self.newton.w[2 * n..]);
+        for (new, change) in self.new.iter_mut().zip(ends) {
+            *new += change;
+        }
+        weights(&mut self.weights, y, &self.new, tolerance);
+        Ok(self.estimate(equations, step, y))
+    }
+
+    fn state(&self) -> &[f64] {
+        &self.new
+    }
+
+    fn state_mut(&mut self) -> &mut [f64] {
+        &mut self.new
+    }
+
+    fn close<P: Problem>(
+        &mut self,
+        equations: &mut Equations<'_, P>,
+        step: Attempt,
+        y: &[f64],
+    ) -> Result<f64, NoRate> {
+        equations.rate(step.s_end, &self.new, &mut self.end_rate)?;
+        // The polynomial through start and stages; the end is the projected one.
+        let n = self.n;
+        let (c0, rest) = self.dense.split_at_mut(2 * n);
+        let (c1, rest) = rest.split_at_mut(2 * n);
+        let (c2, c3) = rest.split_at_mut(2 * n);
+        c0.copy_from_slice(y);
+        for (half, stages) in [&self.newton.z, &self.newton.w].into_iter().enumerate() {
+            for i in 0..n {
+                let end = stages[2 * n + i];
+                let [first, second] =
+                    [0, 1].map(|k| (stages[k * n + i] / C[k] - end) / (1.0 - C[k]));
+                let slope = (second - first) / (C[1] - C[0]);
+                let i = half * n + i;
+                c1[i] = self.new[i] - y[i];
+                c2[i] = first - C[0] * slope;
+                c3[i] = slope;
+            }
+        }
+        Ok(0.0)
+    }
+
+    fn interpolate<P: Problem>(
+        &mut self,
+        _: &mut Equations<'_, P>,
+        _: Attempt,
+        _: &[f64],
+    ) -> Result<(), NoRate> {
+        Ok(())
+    }
+
+    fn dense(&self) -> &[f64] {
+        &self.dense
+    }
+
+    fn advance(&mut self, y: &mut [f64]) {
+        y.copy_from_slice(&self.new);
+        std::mem::swap(&mut self.rate, &mut self.end_rate);
+        std::mem::swap(&mut self.dense, &mut self.previous);
+        self.newton.advance();
+    }
+
+    fn accepted(&mut self, h: f64, error: f64) -> f64 {
+        let (shrink, grow) = FACTORS;
+        let clamp = |quotient: f64| quotient.clamp(1.0 / grow, 1.0 / shrink);
+        let mut quotient = clamp(self.quotient(error));
+        if let Some((h_before, before)) = self.accepted {
+            // Eq. (8.25).
+            let predicted = h_before / h * (error * error / before).powf(1.0 / ORDER);
+            quotient = quotient.max(clamp(predicted / SAFETY));
+        }
+        if self.rejected {
+            quotient = quotient.max(1.0);
+        }
+        self.rejected = false;
+        self.accepted = Some((h, error.max(SMALLEST_PREVIOUS)));
+        self.h_previous = Some(h);
+        let factor = quotient.recip();
+        if (1.0..=KEEP).contains(&factor) && self.newton.keeps_jacobian() {
+            h
+        } else {
+            h * factor
+        }
+    }
+
+    fn inaccurate(&mut self, h: f64, error: f64) -> f64 {
+        self.newton.refused();
+        self.rejected = true;
+        let (shrink, grow) = FACTORS;
+        if error.is_nan() {
+            h * self.shorten
+        } else if self.accepted.is_none() {
+            0.1 * h
+        } else {
+            h / self.quotient(error).clamp(1.0 / grow, 1.0 / shrink)
+        }
+    }
+
+    fn unfit(&mut self, h: f64) -> f64 {
+        self.newton.refused();
+        self.rejected = true;
+        0.5 * h
+    }
+
+    fn factorisations(&self) -> usize {
+        self.newton.factorisations
+    }
+}

@@ -1,0 +1,487 @@
+//! The stages of a step, by simplified Newton iterations.
+
+use nalgebra::Complex;
+
+use super::C;
+use crate::integrate::Problem;
+use crate::integrate::scheme::{Attempt, Equations, NoRate};
+use crate::lu::Lu;
+
+/// Most iterations.
+pub(super) const MOST: usize = 7;
+
+/// Changes that do not shrink below this multiple of what rounding makes of them have converged as far as they can.
+const ROUNDING: f64 = 10.0;
+
+/// A, book §IV.5, table 5.6.
+pub(in crate::integrate) const A: [[f64; 3]; 3] = [
+    [
+        0.196_815_477_223_660_4,
+        -0.065_535_425_850_198_39,
+        0.023_770_974_348_220_15,
+    ],
+    [
+        0.394_424_314_739_087_3,
+        0.292_073_411_665_228_5,
+        -0.041_548_752_125_997_93,
+    ],
+    [
+        0.376_403_062_700_467_25,
+        0.512_485_826_188_421_6,
+        0.111_111_111_111_111_1,
+    ],
+];
+
+/// The eigenvalues of A: the real one and, of the pair, the one with negative imaginary part. λ of the module are their reciprocals.
+pub(in crate::integrate) const REAL: f64 = 0.274_888_829_595_677_34;
+pub(in crate::integrate) const PAIR: Complex<f64> =
+    Complex::new(0.162_555_585_202_161_32, -0.184_949_324_407_140_8);
+
+/// T: w = T (W₁, Re W₂, Im W₂) makes A⁻¹ diagonal, and T⁻¹; §IV.8, with the digits of the authors' code.
+pub(in crate::integrate) const T: [[f64; 3]; 3] = [
+    [
+        0.091_232_394_870_892_95,
+        -0.141_255_295_020_954_2,
+        -0.030_029_194_105_147_424,
+    ],
+    [
+        0.241_717_932_707_107,
+        0.204_129_352_293_799_94,
+        0.382_942_112_757_261_9,
+    ],
+    [0.966_048_182_615_093, 1.0, 0.0],
+];
+pub(in crate::integrate) const T_INVERSE: [[f64; 3]; 3] = [
+    [
+        4.325_579_890_063_155,
+        0.339_199_251_815_809_84,
+        0.541_770_539_935_874_9,
+    ],
+    [
+        -4.178_718_591_551_905,
+        -0.327_682_820_761_062_37,
+        0.476_623_554_500_550_44,
+    ],
+    [
+        -0.502_872_634_945_786_8,
+        2.571_926_949_855_605,
+        -0.596_039_204_828_224_9,
+    ],
+];
+
+/// Iterations that converge more slowly than this use new matrices of the stages.
+const SLOW: f64 = 0.1;
+
+/// Changes that shrink by this factor only do not converge.
+const CONVERGING: f64 = 0.99;
+
+/// Iterations with new matrices before it is judged whether they converge.
+const PATIENCE: usize = 5;
+
+/// Which Jacobians the iterations use.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Matrices {
+    /// That at the start of the step, or an older one, for all stages: two matrices n × n, kept over steps.
+    Start,
+    /// One at each stage: a matrix 3n × 3n, for this step alone. Where stiff directions turn with the motion, as a spring does, this takes far longer steps.
+    Stages,
+}
+
+/// How the iterations ended.
+pub(super) enum Solved {
+    /// They converged.
+    Yes,
+    /// They did not, and the step should be that many times as long.
+    No { shorten: f64 },
+}
+
+/// The matrix of all stages: 1 − h A (∂a/∂q̇ + ∂a/∂q h A), with the derivatives of each stage.
+struct Stages {
+    n: usize,
+    jacobians: [Vec<f64>; 3],
+    lu: Lu<f64>,
+}
+
+impl Stages {
+    fn new(n: usize) -> Self {
+        Stages {
+            n,
+            jacobians: [(); 3].map(|()| vec![0.0; 2 * n * n]),
+            lu: Lu::new(3 * n),
+        }
+    }
+
+    fn factor(&mut self, h: f64) -> bool {
+        let n = self.n;
+        let entries = self.lu.entries_mut();
+        for (j, column) in entries.chunks_exact_mut(3 * n).enumerate() {
+            // Component `own` of stage `stage` changes.
+            let (stage, own) = (j / n, j % n);
+            for (i, row) in A.iter().enumerate() {
+                let out = &mut column[i * n..][..n];
+                out.fill(0.0);
+                for (k, jacobian) in self.jacobians.iter().enumerate() {
+                    let factor = h * row[k] * h * A[k][stage];
+                    let by_position = &jacobian[own * n..][..n];
+                    out.iter_mut()
+                        .zip(by_position)
+                        .for_each(|(x, q)| *x -= factor * q);
+                }
+                let by_velocity = &self.jacobians[stage][(n + own) * n..][..n];
+                let factor = h * row[stage];
+                out.iter_mut()
+                    .zip(by_velocity)
+                    .for_each(|(x, v)| *x -= factor * v);
+            }
+            column[j] += 1.0;
+        }
+        self.lu.factor(0.0)
+    }
+}
+
+/// Matrices and iterates.
+pub(super) struct Newton {
+    n: usize,
+    /// ∂a/∂q and ∂a/∂q̇, n × 2n, column-major.
+    jacobian: Vec<f64>,
+    /// The Jacobian is that of the start of this step; it is to be computed anew.
+    fresh: bool,
+    stale: bool,
+    /// The matrices of both eigenvalues, times (h/λ)², and the step they belong to.
+    real: Lu<f64>,
+    pair: Lu<Complex<f64>>,
+    factored: Option<f64>,
+    /// Made where it is needed first.
+    stages: Option<Stages>,
+    /// Velocities and positions of the stages less those at the start.
+    pub(super) w: Vec<f64>,
+    pub(super) z: Vec<f64>,
+    /// W, and its changes.
+    diagonal: Vec<f64>,
+    change_real: Vec<f64>,
+    change_pair: Vec<Complex<f64>>,
+    /// State and rate of a stage, accelerations of all.
+    stage: Vec<f64>,
+    rate: Vec<f64>,
+    acceleration: Vec<f64>,
+    /// Iterations of the last attempt, their rate of convergence θ, and θ/(1 − θ) carried over from step to step.
+    pub(super) iterations: usize,
+    theta: f64,
+    remaining: f64,
+    /// Factorisations of pairs of matrices so far.
+    pub(super) factorisations: usize,
+}
+
+impl Newton {
+    /// For n coordinates.
+    pub(super) fn new(n: usize) -> Self {
+        let zeros = |rows: usize| vec![0.0; rows * n];
+        Newton {
+            n,
+            jacobian: zeros(2 * n),
+            fresh: false,
+            stale: true,
+            real: Lu::new(n),
+            pair: Lu::new(n),
+            factored: None,
+            stages: None,
+            w: zeros(3),
+            z: zeros(3),
+            diagonal: zeros(3),
+            change_real: zeros(1),
+            change_pair: vec![Complex::ZERO; n],
+            stage: zeros(2),
+            rate: zeros(2),
+            acceleration: zeros(3),
+            iterations: 1,
+            theta: 0.0,
+            remaining: 1.0,
+            factorisations: 0,
+        }
+    }
+
+    /// The run has moved on.
+    pub(super) fn advance(&mut self) {
+        self.fresh = false;
+        self.stale = self.theta > super::FAST;
+    }
+
+    /// The step is tried again.
+    pub(super) fn refused(&mut self) {
+        self.stale = !self.fresh;
+    }
+
+    /// Whether the next step begins with the Jacobian in hand.
+    pub(super) fn keeps_jacobian(&self) -> bool {
+        !self.stale
+    }
+
+    /// Jacobian and factors for `step` from `y`, as far as those in hand will not do.
+    pub(super) fn prepare<P: Problem>(
+        &mut self,
+        equations: &mut Equations<'_, P>,
+        step: Attempt,
+        y: &[f64],
+    ) -> Result<(), NoRate> {
+        if self.stale {
+            equations.jacobian(step.s, y, &mut self.jacobian)?;
+            (self.fresh, self.stale, self.factored) = (true, false, None);
+        }
+        if self.factored == Some(step.h) {
+            return Ok(());
+        }
+        self.factored = None;
+        let (real, pair) = (step.h * REAL, PAIR * step.h);
+        let (by_position, by_velocity) = self.jacobian.split_at(self.n * self.n);
+        let entries = by_position.iter().zip(by_velocity);
+        let targets = self.real.entries_mut().iter_mut();
+        let targets = targets.zip(self.pair.entries_mut());
+        for ((x, z), (q, v)) in targets.zip(entries) {
+            *x = -real * (v + real * q);
+            *z = -pair * (pair * *q + v);
+        }
+        for i in 0..self.n {
+            self.real.entries_mut()[i * self.n + i] += 1.0;
+            self.pair.entries_mut()[i * self.n + i] += 1.0;
+        }
+        self.factorisations += 1;
+        // Singular by chance, or with entries that are no numbers: of no step that is short enough.
+        if !(self.real.factor(0.0) && self.pair.factor(0.0)) {
+            return Err(None);
+        }
+        self.factored = Some(step.h);
+        Ok(())
+    }
+
+    /// From starting values w to the stages of `step` from `y`. `tolerance` is that of `weights`.
+    pub(super) fn solve<P: Problem>(
+        &mut self,
+        matrices: Matrices,
+        equations: &mut Equations<'_, P>,
+        step: Attempt,
+        y: &[f64],
+        weights: &[f64],
+        tolerance: f64,
+    ) -> Result<Solved, NoRate> {
+        // Errors of the iteration are to be small against those of the step.
+        let enough = f64::max(10.0 * f64::EPSILON / tolerance, tolerance.sqrt().min(0.03));
+        self.positions(step.h, y);
+        match matrices {
+            Matrices::Start => transform(&T_INVERSE, &self.w, &mut self.diagonal),
+            Matrices::Stages => {}
+        }
+        // What is known of the convergence from before holds for matrices that are kept.
+        let mut remaining = match matrices {
+            Matrices::Start => self.remaining.max(f64::EPSILON).powf(0.8),
+            Matrices::Stages => 1.0,
+        };
+        self.remaining = 1.0;
+        self.theta = 0.0;
+        let (mut before, mut ratio_before) = (None, None);
+        for iteration in 1..=MOST {
+            self.iterations = iteration;
+            let anew = matrices == Matrices::Stages && (iteration == 1 || self.theta > SLOW);
+            if !self.evaluate(anew, equations, step, y)? {
+                return Ok(Solved::No { shorten: 0.5 });
+            }
+            match matrices {
+                Matrices::Start => self.improve(step.h),
+                Matrices::Stages => self.improve_by_stages(step.h),
+            }
+            let size = self.change(step.h, y, weights);
+            if !size.is_finite() {
+                return Ok(Solved::No { shorten: 0.5 });
+            }
+            if let Some(before) = before {
+                let ratio: f64 = size / before;
+                self.theta = match matrices {
+                    Matrices::Start => (ratio * ratio_before.unwrap_or(ratio)).sqrt(),
+                    Matrices::Stages => ratio,
+                };
+                ratio_before = Some(ratio);
+                remaining = if self.theta < CONVERGING {
+                    self.theta / (1.0 - self.theta)
+                } else {
+                    f64::INFINITY
+                };
+                // Newton's method may go astray at first; nothing follows from its first steps.
+                let judge = matrices == Matrices::Start || iteration >= PATIENCE;
+                if judge && let Some(shorten) = self.hopeless(remaining * size / enough) {
+                    return Ok(if size <= self.rounding(step.h, y, weights) {
+                        Solved::Yes
+                    } else {
+                        Solved::No { shorten }
+                    });
+                }
+            }
+            if remaining * size <= enough {
+                if matrices == Matrices::Start {
+                    self.remaining = remaining;
+                }
+                return Ok(Solved::Yes);
+            }
+            before = Some(size);
+        }
+        Ok(Solved::No { shorten: 0.5 })
+    }
+
+    /// Where the iterations will not get from `error` to below 1: what the step is to be multiplied by.
+    fn hopeless(&self, error: f64) -> Option<f64> {
+        if error.is_infinite() {
+            return Some(0.5);
+        }
+        let left = MOST.checked_sub(1 + self.iterations)? as i32;
+        let last = error * self.theta.powi(left);
+        let power = 1.0 / f64::from(4 + left);
+        (last >= 1.0).then(|| 0.8 * last.min(20.0).powf(-power))
+    }
+
+    /// z = h (c q̇ + A w).
+    fn positions(&mut self, h: f64, y: &[f64]) {
+        let n = self.n;
+        transform(&A, &self.w, &mut self.z);
+        for (z, c) in self.z.chunks_exact_mut(n).zip(C) {
+            for (z, v) in z.iter_mut().zip(&y[n..]) {
+                *z = h * (c * v + *z);
+            }
+        }
+    }
+
+    /// a at the stages; `anew` also the Jacobians there, and the matrix of all stages, factored. `false` if that is singular.
+    fn evaluate<P: Problem>(
+        &mut self,
+        anew: bool,
+        equations: &mut Equations<'_, P>,
+        step: Attempt,
+        y: &[f64],
+    ) -> Result<bool, NoRate> {
+        let n = self.n;
+        if anew {
+            self.stages.get_or_insert_with(|| Stages::new(n));
+        }
+        for (k, c) in C.into_iter().enumerate() {
+            let changes = self.z[k * n..][..n].iter().chain(&self.w[k * n..][..n]);
+            for (stage, (y, change)) in self.stage.iter_mut().zip(y.iter().zip(changes)) {
+                *stage = y + change;
+            }
+            let s = step.s + c * step.h;
+            equations.rate(s, &self.stage, &mut self.rate)?;
+            self.acceleration[k * n..][..n].copy_from_slice(&self.rate[n..]);
+            if let (true, Some(stages)) = (anew, &mut self.stages) {
+                equations.jacobian(s, &self.stage, &mut stages.jacobians[k])?;
+            }
+        }
+        if let (true, Some(stages)) = (anew, &mut self.stages) {
+            self.factorisations += 1;
+            return Ok(stages.factor(step.h));
+        }
+        Ok(true)
+    }
+
+    /// W changes by (h/λ T⁻¹ a − W) through the factors; the new w comes into the place of a.
+    fn improve(&mut self, h: f64) {
+        let n = self.n;
+        let (first, pair) = self.diagonal.split_at_mut(n);
+        let (second, third) = pair.split_at_mut(n);
+        for i in 0..n {
+            let a = [0, 1, 2].map(|k| self.acceleration[k * n + i]);
+            let [x, re, im] = T_INVERSE.map(|row| row[0] * a[0] + row[1] * a[1] + row[2] * a[2]);
+            self.change_real[i] = h * REAL * x - first[i];
+            self.change_pair[i] =
+                PAIR * h * Complex::new(re, im) - Complex::new(second[i], third[i]);
+        }
+        self.real.solve(&mut self.change_real);
+        self.pair.solve(&mut self.change_pair);
+        for i in 0..n {
+            first[i] += self.change_real[i];
+            second[i] += self.change_pair[i].re;
+            third[i] += self.change_pair[i].im;
+        }
+        transform(&T, &self.diagonal, &mut self.acceleration);
+    }
+
+    /// w changes by (h A a − w) through the factors of all stages; the new w comes into the place of a.
+    fn improve_by_stages(&mut self, h: f64) {
+        let Some(stages) = &mut self.stages else {
+            return;
+        };
+        let x = &mut self.diagonal;
+        transform(&A, &self.acceleration, x);
+        for (x, w) in x.iter_mut().zip(&self.w) {
+            *x = h * *x - w;
+        }
+        stages.lu.solve(x);
+        for (a, (w, x)) in self.acceleration.iter_mut().zip(self.w.iter().zip(x)) {
+            *a = w + *x;
+        }
+    }
+
+    /// Takes over the new w, computes z. Returns the size of the change in the error norm.
+    fn change(&mut self, h: f64, y: &[f64], weights: &[f64]) -> f64 {
+        let n = self.n;
+        let mut square = 0.0;
+        let mut add = |change: f64, weight: f64| square += (change * weight) * (change * weight);
+        std::mem::swap(&mut self.w, &mut self.acceleration);
+        for (i, (new, old)) in self.w.iter().zip(&self.acceleration).enumerate() {
+            add(new - old, weights[n + i % n]);
+        }
+        self.acceleration.copy_from_slice(&self.z);
+        self.positions(h, y);
+        for (i, (new, old)) in self.z.iter().zip(&self.acceleration).enumerate() {
+            add(new - old, weights[i % n]);
+        }
+        (square / (6.0 * n.max(1) as f64)).sqrt()
+    }
+
+    /// Size in the error norm of changes that may be rounding: a stiff force multiplies the rounding of positions by as much as the matrices divide by, so
+    /// that positions keep theirs, and velocities have that of positions by λ/h.
+    fn rounding(&self, h: f64, y: &[f64], weights: &[f64]) -> f64 {
+        let n = self.n;
+        let (q, v) = y.split_at(n);
+        let mut square = 0.0;
+        for i in 0..n {
+            let position = q[i].abs() + (h * v[i]).abs();
+            let velocity = v[i].abs() + q[i].abs() / (h.abs() * REAL);
+            square += (position * weights[i]).powi(2) + (velocity * weights[n + i]).powi(2);
+        }
+        ROUNDING * f64::EPSILON * (square / (2.0 * n.max(1) as f64)).sqrt()
+    }
+
+    /// (γ/h − J)⁻¹ (f + Σ e (z, w) / h) into `out`, with f = `rate` and γ the real eigenvalue: an error as stiff equations damp it.
+    pub(super) fn filter(&mut self, h: f64, e: &[f64; 3], rate: &[f64], out: &mut [f64]) {
+        let n = self.n;
+        // (p, r) = h f + Σ e (z, w).
+        for (i, (out, rate)) in out.iter_mut().zip(rate).enumerate() {
+            let (stages, i) = if i < n {
+                (&self.z, i)
+            } else {
+                (&self.w, i - n)
+            };
+            *out = h * rate + e[0] * stages[i] + e[1] * stages[n + i] + e[2] * stages[2 * n + i];
+        }
+        let (p, r) = out.split_at_mut(n);
+        // q: E x = μ p + h μ² (r − ∂a/∂q̇ p); q̇: (x / μ − p) / h.
+        for (p, column) in p.iter().zip(self.jacobian[n * n..].chunks_exact(n)) {
+            r.iter_mut().zip(column).for_each(|(r, j)| *r -= j * p);
+        }
+        let x = &mut self.change_real;
+        for i in 0..n {
+            x[i] = REAL * p[i] + h * REAL * REAL * r[i];
+        }
+        self.real.solve(x);
+        for i in 0..n {
+            r[i] = (x[i] / REAL - p[i]) / h;
+            p[i] = x[i];
+        }
+    }
+}
+
+/// `out` = matrix `x`, of three stages.
+fn transform(matrix: &[[f64; 3]; 3], x: &[f64], out: &mut [f64]) {
+    let n = x.len() / 3;
+    for (row, out) in matrix.iter().zip(out.chunks_exact_mut(n.max(1))) {
+        for (i, out) in out.iter_mut().enumerate() {
+            *out = row[0] * x[i] + row[1] * x[n + i] + row[2] * x[2 * n + i];
+        }
+    }
+}
