@@ -471,12 +471,12 @@ fn interpolants_run_on_smoothly_through_projected_states() {
 #[test]
 fn the_next_step_aims_at_nine_tenths_of_the_size_that_meets_the_tolerance() {
     let control = &tableau::DOP853.control;
-    let mut size = StepSize::new();
     for error in [0.01_f64, 0.3, 1.0] {
         // An error of order 8 would then be 1 after 0.9 is taken back.
-        let h = size.accepted(control, 0.2, error);
+        let h = StepSize::new().accepted(control, 0.2, error);
         assert!((error * (h / 0.9 / 0.2).powi(8) - 1.0).abs() < 1e-13);
     }
+    let mut size = StepSize::new();
     assert_eq!(size.accepted(control, 0.2, 0.0), 0.2 * 6.0);
     assert!((size.inaccurate(control, 0.2, 10.0) / 0.2 - 0.9 * 10_f64.powf(-0.125)).abs() < 1e-15);
     assert_eq!(size.inaccurate(control, 0.2, f64::NAN), 0.2 * 0.333);
@@ -485,4 +485,25 @@ fn the_next_step_aims_at_nine_tenths_of_the_size_that_meets_the_tolerance() {
     assert!(size.accepted(control, 0.2, 1e-6) > 0.2);
     assert_eq!(size.unfit(0.2), 0.1);
     assert_eq!(size.accepted(control, 0.1, 0.0), 0.1);
+}
+
+#[test]
+fn errors_that_grow_are_expected_to_go_on_growing() {
+    let control = &tableau::DOP853.control;
+    // error = C h⁸ with C ten times larger in each step: a step of the size chosen then has nine tenths of the size allowed.
+    let mut size = StepSize::new();
+    let (mut h, mut constant) = (0.1, 1e6);
+    for k in 0..5 {
+        let error: f64 = constant * f64::powi(h, 8);
+        if k > 1 {
+            assert!((error * 0.9_f64.powi(-8) - 1.0).abs() < 1e-12, "{error}");
+        }
+        h = size.accepted(control, h, error);
+        constant *= 10.0;
+    }
+    // Where they fall, steps do not become longer by more than the last error allows.
+    let mut size = StepSize::new();
+    size.accepted(control, 0.1, 1.0);
+    let h = size.accepted(control, 0.1, 0.5);
+    assert!((h - 0.09 * 0.5_f64.powf(-0.125)).abs() < 1e-15);
 }

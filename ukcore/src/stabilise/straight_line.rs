@@ -79,11 +79,9 @@ impl Projector {
                 break;
             }
         }
-        correction.norm = match correction.iterations {
-            0 => 0.0,
-            1 => previous,
-            _ => largest_difference(x, &self.start),
-        };
+        if correction.iterations > 0 {
+            correction.norm = largest_difference(x, &self.start);
+        }
         Some(correction)
     }
 }
