@@ -87,8 +87,15 @@ pub const PROJECTION_LIMIT: f64 = 10.0;
 pub(crate) trait Problem {
     /// y' at (t, y) into `rate`. After far too long a step y may not be finite; an error there only shortens the step.
     fn derivative(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Error>;
-    /// For y = (q, q̇), y' = (q̇, a): ∂a/∂q and ∂a/∂q̇ at (t, y) into `out`, n × 2n, column-major. Asked for by implicit methods alone.
-    fn jacobian(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), Error>;
+    /// For y = (q, q̇), y' = (q̇, a): y' into `rate`, ∂a/∂q and ∂a/∂q̇ at (t, y) into `out`, n × 2n, column-major; not finite where a derivative
+    /// does not exist. Asked for by implicit methods alone.
+    fn jacobian(
+        &mut self,
+        t: f64,
+        y: &[f64],
+        rate: &mut [f64],
+        out: &mut [f64],
+    ) -> Result<(), Error>;
     /// Moves an accepted y to the nearest consistent state.
     fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), Error>;
     /// Moves the coordinates `q` onto the constraints at t along M⁻¹A(`base`)ᵀ, by `shift`.
