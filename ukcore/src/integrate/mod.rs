@@ -52,8 +52,10 @@ pub enum Method {
     Dopri5,
     /// Radau IIA of order 5, implicit, with the exact Jacobian of the accelerations; interpolant of order 3. For stiff mechanisms: hard springs, strong drag or damping,
     /// whose fast motion has died down or is not of interest. There the explicit methods need steps as short as the fast motion, this one only such as the slow motion asks for.
+    ///
     /// It damps fast oscillations that its steps do not resolve (it is L-stable), and takes their energy out; where they matter, or nothing is stiff,
-    /// take [`Dop853`](Method::Dop853).
+    /// take [`Dop853`](Method::Dop853). Positions may err by the tolerance in the direction of a hard spring, too, and there that holds energy: ask for tolerances at which a spring
+    /// stretched by as much holds little of it.
     Radau5,
     /// RATTLE, composed to order 4: symplectic, with equal steps. The energy of a conservative motion stays within a bound over any number of steps, without a
     /// trend. For holonomic constraints, a constant and regular M, and forces from a potential; it keeps the constraints by itself, without projection. Its
