@@ -36,6 +36,39 @@ fn spring(k: f64) -> SpringPendulum {
     }
 }
 
+ukcore::multibody! {
+    /// A body that falls through a thick fluid; its drag has no derivative at rest.
+    pub Sinking {
+        params { g = 9.81, drag = 1e6 }
+        coords { x, y }
+        let speed = sqrt(sq(dot(x)) + sq(dot(y)));
+        mass { x: 1.0, y: 1.0 }
+        force { x: -drag * speed * dot(x), y: g - drag * speed * dot(y) }
+    }
+}
+
+#[test]
+fn a_start_without_derivative_is_got_over() {
+    let start = State {
+        t: 0.0,
+        q: vec![0.0; 2],
+        v: vec![0.0; 2],
+    };
+    let run = Simulation::new(Sinking::default())
+        .start(start)
+        .method(Method::Radau5)
+        .tolerance(1e-8)
+        .until(10.0);
+    let run = run.expect("it runs");
+    // v = u tanh(g t / u) with u = √(g / drag), whose way is u² / g ln cosh(g t / u).
+    let u = f64::sqrt(9.81 / 1e6);
+    let way = u * (10.0 - u / 9.81 * 2.0_f64.ln());
+    let last = run.last().expect("it has run");
+    assert_all_close("q", last.q, &[0.0, way], 1e-7);
+    assert_all_close("v", last.v, &[0.0, u], 1e-7);
+    assert!(run.work().steps < 200, "{:?}", run.work());
+}
+
 #[test]
 fn a_hard_spring_costs_a_fiftieth_of_the_evaluations_of_an_explicit_method() {
     let model = spring(1e8);
@@ -49,10 +82,10 @@ fn a_hard_spring_costs_a_fiftieth_of_the_evaluations_of_an_explicit_method() {
     };
     let explicit = cheapest(Method::Dop853).expect("one is good");
     let implicit = cheapest(Method::Radau5).expect("one is good");
-    println!("{explicit:?} {implicit:?}");
-    assert!(50 * implicit.evaluations <= explicit.evaluations);
+    // Jacobians counted as evaluations, too.
+    assert!(50 * (implicit.evaluations + implicit.jacobians) <= explicit.evaluations);
     assert_eq!((explicit.jacobians, explicit.factorisations), (0, 0));
-    assert!(implicit.jacobians > 0 && implicit.jacobians < implicit.evaluations);
+    assert!(implicit.jacobians > 0);
     assert!(implicit.factorisations > 0);
 }
 
@@ -74,7 +107,6 @@ fn the_harder_the_spring_the_nearer_to_the_rigid_pendulum() {
     };
     let limit = scaled(1e7);
     for k in [1e5, 1e6, 1e8] {
-        println!("{k} {} {limit}", scaled(k));
         assert!(
             (scaled(k) / limit - 1.0).abs() < 0.1,
             "{k}: {} {limit}",
@@ -82,7 +114,6 @@ fn the_harder_the_spring_the_nearer_to_the_rigid_pendulum() {
         );
     }
     for k in [1e10, 1e12, 1e14] {
-        println!("{k} {}", scaled(k) / k);
         assert!(scaled(k) / k < limit / k + 1e-8, "{k}: {}", scaled(k) / k);
     }
 }
@@ -109,11 +140,6 @@ fn what_is_not_resolved_is_damped() {
             growth / model.frequency(),
         )
     };
-    println!(
-        "{} {}",
-        ripple(Method::Radau5, 1e-4),
-        ripple(Method::Dop853, 1e-8)
-    );
     assert!(ripple(Method::Radau5, 1e-4) < 1e-10);
     assert!((ripple(Method::Dop853, 1e-8) / 1e-8 - 1.0).abs() < 0.1);
 }
@@ -159,7 +185,6 @@ fn strong_drag_is_followed_through_constraints_and_a_singular_mass_matrix() {
     let explicit = run(&fish, Method::Dop853, 1e-7, 0.5);
     let implicit = run(&fish, Method::Radau5, 1e-7, 0.5);
     let off = distance(&end(&explicit), &end(&implicit));
-    println!("{off} {:?} {:?}", explicit.work(), implicit.work());
     assert!(off < 1e-5, "{off}");
     assert!(10 * implicit.work().evaluations < explicit.work().evaluations);
     let residuals = implicit.residuals();

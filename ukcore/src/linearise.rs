@@ -58,7 +58,23 @@ impl<M: Mechanism> Linearisation<M> {
         // Also checks the state.
         solver.acceleration(&mech, *t, q, v, &mut acceleration)?;
         let mut columns = vec![0.0; n * directions::<M>()];
-        Slopes::<M>::new(&mech).columns(&mut solver, &mech, *t, q, v, &mut columns)?;
+        let mut slopes = Slopes::<M>::new(&mech);
+        slopes.columns(
+            &mut solver,
+            &mech,
+            (*t, q, v),
+            &mut acceleration,
+            &mut columns,
+        )?;
+        let names = names::<M>();
+        let broken = names.iter().zip(columns.chunks_exact(n));
+        let broken = broken.filter(|(_, column)| !all_finite(column));
+        let what: Vec<String> = broken
+            .map(|(name, _)| format!("derivative of the accelerations by {name}"))
+            .collect();
+        if !what.is_empty() {
+            return Err(Error::NonFinite { what });
+        }
         let (by_position, rest) = columns.split_at(n * n);
         let (by_velocity, rest) = rest.split_at(n * n);
         let (by_parameter, by_time) = rest.split_at(n * M::SPEC.params.len());
@@ -126,39 +142,36 @@ impl<M: Mechanism> Slopes<M> {
         }
     }
 
-    /// Fills `columns`, the first ones in the order of [`names`], each of length n, for q̈ as `solver` has it.
+    /// q̈ into `acceleration`, and fills `columns`, the first ones in the order of [`names`], each of length n, for q̈ as `solver` has it. Derivatives that do not exist, as that of √x
+    /// at 0, are not finite.
     ///
     /// # Errors
-    /// Those of [`Solver::acceleration`]; [`Error::NonFinite`] with the names of those derivatives that do not exist.
+    /// Those of [`Solver::acceleration`].
     pub(crate) fn columns(
         &mut self,
         solver: &mut Solver,
         mech: &Prepared<M>,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
+        (t, q, v): (f64, &[f64], &[f64]),
+        acceleration: &mut [f64],
         columns: &mut [f64],
     ) -> Result<(), Error> {
-        let n = M::SPEC.n();
         let straight = M::SPEC.structure.straight_line && solver.baumgarte().is_none();
-        if !(straight && self.straight_line(t, q, v, columns)) {
-            let implicit = self.implicit.get_or_insert_with(Implicit::new::<M>);
-            implicit.columns(&mut self.sweep, solver, mech, (t, q, v), columns)?;
-        }
-        if all_finite(columns) {
+        if straight && self.straight_line((t, q, v), acceleration, columns) {
             return Ok(());
         }
-        let names = names::<M>();
-        let broken = names.iter().zip(columns.chunks_exact(n));
-        let broken = broken.filter(|(_, column)| !all_finite(column));
-        let what = broken
-            .map(|(name, _)| format!("derivative of the accelerations by {name}"))
-            .collect();
-        Err(Error::NonFinite { what })
+        let implicit = self.implicit.get_or_insert_with(Implicit::new::<M>);
+        implicit.columns(&mut self.sweep, solver, mech, (t, q, v), columns)?;
+        acceleration.copy_from_slice(&implicit.acceleration);
+        Ok(())
     }
 
     /// By differentiating the emitted elimination; `false` where it is not safe.
-    fn straight_line(&mut self, t: f64, q: &[f64], v: &[f64], columns: &mut [f64]) -> bool {
+    fn straight_line(
+        &mut self,
+        (t, q, v): (f64, &[f64], &[f64]),
+        acceleration: &mut [f64],
+        columns: &mut [f64],
+    ) -> bool {
         let n = M::SPEC.n();
         let out = &mut self.straight;
         for (k, columns) in columns.chunks_mut(n * Wide::WIDTH).enumerate() {
@@ -174,6 +187,11 @@ impl<M: Mechanism> Slopes<M> {
                 column.iter_mut().zip(lane).for_each(|(x, d)| *x = d);
             }
         }
+        let values = out.iter().map(|x| x.re.lane(0));
+        acceleration
+            .iter_mut()
+            .zip(values)
+            .for_each(|(a, x)| *a = x);
         true
     }
 }
@@ -348,7 +366,13 @@ mod tests {
         let (q, v) = ([0.7, -0.6], [0.4, -0.3]);
         let mut columns = [0.0; 8];
         let mut slopes = Slopes::<Pendulum>::new(&mech);
-        let found = slopes.columns(&mut solver, &mech, 0.0, &q, &v, &mut columns);
+        let found = slopes.columns(
+            &mut solver,
+            &mech,
+            (0.0, &q, &v),
+            &mut [0.0; 2],
+            &mut columns,
+        );
         assert_eq!(found, Ok(()));
         for (j, column) in columns.chunks_exact(2).enumerate() {
             let h = 1e-5;

@@ -32,18 +32,16 @@ impl<T: ComplexField<RealField = f64> + Copy> Lu<T> {
         let size = self.size;
         for k in 0..size {
             let column = &self.entries[k * size..(k + 1) * size];
-            let (mut pivot, mut largest) = (k, least);
+            let (mut pivot, mut largest) = (None, least);
             for (i, x) in column.iter().enumerate().skip(k) {
                 let x = x.norm1();
                 if x > largest {
-                    (pivot, largest) = (i, x);
+                    (pivot, largest) = (Some(i), x);
                 }
             }
-            // Not so where the entries are not numbers, either.
-            let found = column[pivot].norm1();
-            if found.is_nan() || found <= least {
+            let Some(pivot) = pivot else {
                 return false;
-            }
+            };
             self.order[k] = pivot;
             if pivot != k {
                 for j in 0..size {

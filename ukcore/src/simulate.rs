@@ -143,7 +143,7 @@ impl<M: Mechanism> Simulation<M> {
         self
     }
 
-    /// Keeps the interpolant, for [`Trajectory::at`]. Costs three evaluations a step with DOP853, none with DOPRI5, and memory.
+    /// Keeps the interpolant, for [`Trajectory::at`]. Costs three evaluations a step with DOP853, none with the other methods, and memory.
     #[must_use]
     pub fn dense(mut self) -> Self {
         self.dense = true;

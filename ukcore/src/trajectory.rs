@@ -41,10 +41,10 @@ pub struct Work {
     pub steps: usize,
     /// Attempted steps that were not accepted: because of their error, of the size of their projection, or of a failure.
     pub rejected: usize,
-    /// Evaluations of the mechanism's dynamics, those for drift estimates near singular configurations included; the Jacobians of an implicit method are not.
+    /// Evaluations of the mechanism's dynamics, those for drift estimates near singular configurations included; those that come with the Jacobians of an implicit method are not.
     pub evaluations: usize,
-    /// Jacobians of the accelerations, for an implicit method. Each takes one sweep of dual numbers for 8 of the 2n directions (feature `lanes`; else one for each),
-    /// and a sweep some two evaluations for each direction it carries by itself.
+    /// Jacobians of the accelerations, for an implicit method. Each takes one sweep of dual numbers for 8 of its 2n columns with the feature `lanes`, and one for
+    /// every column without.
     pub jacobians: usize,
     /// Factorisations of the matrices of an implicit method, real and complex counted as one.
     pub factorisations: usize,

@@ -52,8 +52,10 @@ pub enum Method {
     Dopri5,
     /// Radau IIA of order 5, implicit, with the exact Jacobian of the accelerations; interpolant of order 3. For stiff mechanisms: hard springs, strong drag or damping,
     /// whose fast motion has died down or is not of interest. There the explicit methods need steps as short as the fast motion, this one only such as the slow motion asks for.
+    ///
     /// It damps fast oscillations that its steps do not resolve (it is L-stable), and takes their energy out; where they matter, or nothing is stiff,
-    /// take [`Dop853`](Method::Dop853).
+    /// take [`Dop853`](Method::Dop853). Positions may err by the tolerance in the direction of a hard spring, too, and there that holds energy: ask for tolerances at which a spring
+    /// stretched by as much holds little of it.
     Radau5,
     /// RATTLE, composed to order 4: symplectic, with equal steps. The energy of a conservative motion stays within a bound over any number of steps, without a
     /// trend. For holonomic constraints, a constant and regular M, and forces from a potential; it keeps the constraints by itself, without projection. Its
@@ -87,8 +89,15 @@ pub const PROJECTION_LIMIT: f64 = 10.0;
 pub(crate) trait Problem {
     /// y' at (t, y) into `rate`. After far too long a step y may not be finite; an error there only shortens the step.
     fn derivative(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Error>;
-    /// For y = (q, q̇), y' = (q̇, a): ∂a/∂q and ∂a/∂q̇ at (t, y) into `out`, n × 2n, column-major. Asked for by implicit methods alone.
-    fn jacobian(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), Error>;
+    /// For y = (q, q̇), y' = (q̇, a): y' into `rate`, ∂a/∂q and ∂a/∂q̇ at (t, y) into `out`, n × 2n, column-major; not finite where a derivative
+    /// does not exist. Asked for by implicit methods alone.
+    fn jacobian(
+        &mut self,
+        t: f64,
+        y: &[f64],
+        rate: &mut [f64],
+        out: &mut [f64],
+    ) -> Result<(), Error>;
     /// Moves an accepted y to the nearest consistent state.
     fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), Error>;
     /// Moves the coordinates `q` onto the constraints at t along M⁻¹A(`base`)ᵀ, by `shift`.

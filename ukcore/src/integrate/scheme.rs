@@ -31,11 +31,20 @@ impl<P: Problem> Equations<'_, P> {
         result.map_err(|error| no_rate(t, y, error))
     }
 
-    /// [`Problem::jacobian`] at (s, y).
-    pub(super) fn jacobian(&mut self, s: f64, y: &[f64], out: &mut [f64]) -> Result<(), NoRate> {
+    /// [`Problem::jacobian`] at (s, y), with 0 for derivatives that do not exist: iterations that use it go on as well as they can without.
+    pub(super) fn jacobian(
+        &mut self,
+        s: f64,
+        y: &[f64],
+        rate: &mut [f64],
+        out: &mut [f64],
+    ) -> Result<(), NoRate> {
         let t = self.t0 + s;
-        let result = self.problem.jacobian(t, y, out);
-        result.map_err(|error| no_rate(t, y, error))
+        let result = self.problem.jacobian(t, y, rate, out);
+        result.map_err(|error| no_rate(t, y, error))?;
+        let broken = out.iter_mut().filter(|x| !x.is_finite());
+        broken.for_each(|x| *x = 0.0);
+        Ok(())
     }
 }
 

@@ -50,7 +50,14 @@ impl Problem for Plain {
         (self.f)(t, y, rate)
     }
     /// By differences.
-    fn jacobian(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), Error> {
+    fn jacobian(
+        &mut self,
+        t: f64,
+        y: &[f64],
+        rate: &mut [f64],
+        out: &mut [f64],
+    ) -> Result<(), Error> {
+        (self.f)(t, y, rate)?;
         let n = y.len() / 2;
         for (j, column) in out.chunks_exact_mut(n).enumerate() {
             let h = 1e-6 * y[j].abs().max(1.0);

@@ -202,12 +202,20 @@ impl<M: Mechanism> Problem for Run<'_, M> {
         result.inspect_err(|error| self.conflict.note(t, y, error))
     }
 
-    fn jacobian(&mut self, t: f64, y: &[f64], out: &mut [f64]) -> Result<(), Error> {
+    fn jacobian(
+        &mut self,
+        t: f64,
+        y: &[f64],
+        rate: &mut [f64],
+        out: &mut [f64],
+    ) -> Result<(), Error> {
         let (q, v) = y.split_at(self.n);
+        let (q_rate, v_rate) = rate.split_at_mut(self.n);
+        q_rate.copy_from_slice(v);
         let (mechanism, solver) = (self.mechanism, &mut self.solver);
         let slopes = self.slopes.get_or_insert_with(|| Slopes::new(mechanism));
         self.trajectory.work.jacobians += 1;
-        let result = slopes.columns(solver, mechanism, t, q, v, out);
+        let result = slopes.columns(solver, mechanism, (t, q, v), v_rate, out);
         result.inspect_err(|error| self.conflict.note(t, y, error))
     }
 

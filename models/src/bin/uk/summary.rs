@@ -58,6 +58,8 @@ struct Counters {
     steps: usize,
     rejected: usize,
     evaluations: usize,
+    jacobians: usize,
+    factorisations: usize,
     projections: usize,
     projection_iterations: usize,
     fallbacks: usize,
@@ -126,6 +128,8 @@ impl Summary {
                 steps: work.steps,
                 rejected: work.rejected,
                 evaluations: work.evaluations,
+                jacobians: work.jacobians,
+                factorisations: work.factorisations,
                 projections: work.projections,
                 projection_iterations: work.projection_iterations,
                 fallbacks: work.fallbacks,
@@ -179,9 +183,17 @@ impl Summary {
             Some(drift) => writeln!(out, "Energy drift: {drift:.1e} of the energy exchanged")?,
             None => writeln!(out, "Energy is not conserved in this model")?,
         }
+        let implicit = match (w.jacobians, w.factorisations) {
+            (0, 0) => String::new(),
+            (jacobians, factorisations) => format!(
+                ", {}, {}",
+                count(jacobians, "Jacobian"),
+                count(factorisations, "factorisation")
+            ),
+        };
         writeln!(
             out,
-            "Work: {} ({} rejected), {}, {} ({}), {}; {:.3} s",
+            "Work: {} ({} rejected), {}{implicit}, {} ({}), {}; {:.3} s",
             count(w.steps, "step"),
             w.rejected,
             count(w.evaluations, "evaluation"),

@@ -87,6 +87,18 @@ pub(super) enum Matrices {
     Stages,
 }
 
+/// The convergence of the iterations of the step before.
+#[derive(Debug, Clone, Copy)]
+enum Known {
+    /// θ/(1 − θ): what remains of the solution's error after a change, over the change.
+    Linear(f64),
+    /// The second change over the square of the first: Newton's method with new matrices.
+    Quadratic(f64),
+}
+
+/// Factor on the change that the next iteration would make, where it is not made: stiff directions turn errors that are small into forces that are not.
+const CAUTION: f64 = 10.0;
+
 /// How the iterations ended.
 pub(super) enum Solved {
     /// They converged.
@@ -164,10 +176,10 @@ pub(super) struct Newton {
     stage: Vec<f64>,
     rate: Vec<f64>,
     acceleration: Vec<f64>,
-    /// Iterations of the last attempt, their rate of convergence θ, and θ/(1 − θ) carried over from step to step.
+    /// Iterations of the last attempt, their rate of convergence θ, and what the next step may know of it.
     pub(super) iterations: usize,
     theta: f64,
-    remaining: f64,
+    known: Option<Known>,
     /// Factorisations of pairs of matrices so far.
     pub(super) factorisations: usize,
 }
@@ -195,7 +207,7 @@ impl Newton {
             acceleration: zeros(3),
             iterations: 1,
             theta: 0.0,
-            remaining: 1.0,
+            known: None,
             factorisations: 0,
         }
     }
@@ -224,7 +236,7 @@ impl Newton {
         y: &[f64],
     ) -> Result<(), NoRate> {
         if self.stale {
-            equations.jacobian(step.s, y, &mut self.jacobian)?;
+            equations.jacobian(step.s, y, &mut self.rate, &mut self.jacobian)?;
             (self.fresh, self.stale, self.factored) = (true, false, None);
         }
         if self.factored == Some(step.h) {
@@ -270,12 +282,14 @@ impl Newton {
             Matrices::Start => transform(&T_INVERSE, &self.w, &mut self.diagonal),
             Matrices::Stages => {}
         }
-        // What is known of the convergence from before holds for matrices that are kept.
-        let mut remaining = match matrices {
-            Matrices::Start => self.remaining.max(f64::EPSILON).powf(0.8),
-            Matrices::Stages => 1.0,
+        // What is known of the convergence from before fades, and holds for the same kind of matrices only.
+        let (mut remaining, mut quadratic) = match (matrices, self.known.take()) {
+            (Matrices::Start, Some(Known::Linear(known))) => {
+                (known.max(f64::EPSILON).powf(0.8), None)
+            }
+            (Matrices::Stages, Some(Known::Quadratic(known))) => (1.0, Some(2.0 * known)),
+            _ => (1.0, None),
         };
-        self.remaining = 1.0;
         self.theta = 0.0;
         let (mut before, mut ratio_before) = (None, None);
         for iteration in 1..=MOST {
@@ -292,6 +306,9 @@ impl Newton {
             if !size.is_finite() {
                 return Ok(Solved::No { shorten: 0.5 });
             }
+            if let (1, Some(quadratic)) = (iteration, quadratic) {
+                remaining = f64::min(CAUTION * quadratic * size, 1.0);
+            }
             if let Some(before) = before {
                 let ratio: f64 = size / before;
                 self.theta = match matrices {
@@ -299,6 +316,9 @@ impl Newton {
                     Matrices::Stages => ratio,
                 };
                 ratio_before = Some(ratio);
+                if iteration == 2 {
+                    quadratic = Some(ratio / before);
+                }
                 remaining = if self.theta < CONVERGING {
                     self.theta / (1.0 - self.theta)
                 } else {
@@ -315,9 +335,10 @@ impl Newton {
                 }
             }
             if remaining * size <= enough {
-                if matrices == Matrices::Start {
-                    self.remaining = remaining;
-                }
+                self.known = match matrices {
+                    Matrices::Start => Some(Known::Linear(remaining)),
+                    Matrices::Stages => quadratic.map(Known::Quadratic),
+                };
                 return Ok(Solved::Yes);
             }
             before = Some(size);
@@ -365,11 +386,14 @@ impl Newton {
                 *stage = y + change;
             }
             let s = step.s + c * step.h;
-            equations.rate(s, &self.stage, &mut self.rate)?;
-            self.acceleration[k * n..][..n].copy_from_slice(&self.rate[n..]);
-            if let (true, Some(stages)) = (anew, &mut self.stages) {
-                equations.jacobian(s, &self.stage, &mut stages.jacobians[k])?;
+            match &mut self.stages {
+                Some(stages) if anew => {
+                    let jacobian = &mut stages.jacobians[k];
+                    equations.jacobian(s, &self.stage, &mut self.rate, jacobian)?;
+                }
+                _ => equations.rate(s, &self.stage, &mut self.rate)?,
             }
+            self.acceleration[k * n..][..n].copy_from_slice(&self.rate[n..]);
         }
         if let (true, Some(stages)) = (anew, &mut self.stages) {
             self.factorisations += 1;
