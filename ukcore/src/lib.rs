@@ -57,8 +57,8 @@ pub use linearise::Linearisation;
 #[doc(hidden)]
 pub use mechanism::emitted;
 pub use mechanism::{
-    Check, ConstraintKind, ConstraintSpec, Costs, Energy, Equations, Mechanism, Operations,
-    OutputSpec, ParamSpec, Pivot, Prepared, Solve, Spec, Structure, Terms,
+    Branch, Check, ConstraintKind, ConstraintSpec, Costs, Energy, Equations, Mechanism, Operations,
+    OutputSpec, ParamSpec, Pivot, Prepared, Solve, Spec, Structure, SwitchSpec, Terms,
 };
 pub use plan::Plan;
 pub use scalar::{Dual, Scalar};
