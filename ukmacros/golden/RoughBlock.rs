@@ -342,7 +342,7 @@ impl ::ukcore::Mechanism for RoughBlock {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
         let [cos_slope, sin_slope, _, m_g, m, sq_cos_slope_mu_m_g,
-        cos_slope_sin_slope_mu_m_g, _, _, _, _, _, _, _, _, held_0] = *::ukcore::emitted::exact::<
+        cos_slope_sin_slope_mu_m_g, _, _, _, _, _, _, _, _, held_speed_down] = *::ukcore::emitted::exact::<
             S,
             16,
         >(prepared, "prepared");
@@ -353,7 +353,7 @@ impl ::ukcore::Mechanism for RoughBlock {
         force[0] = lit(0.0);
         force[1] = -m_g;
         let speed_down = dot_y.neg_mul_add(sin_slope, dot_x * cos_slope);
-        let right_x = speed_down.branch(held_0).sign();
+        let right_x = speed_down.branch(held_speed_down).sign();
         nonideal[0] = -(sq_cos_slope_mu_m_g * right_x);
         nonideal[1] = cos_slope_sin_slope_mu_m_g * right_x;
         jacobian[0] = sin_slope;
@@ -472,14 +472,14 @@ impl ::ukcore::Mechanism for RoughBlock {
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
         let [cos_slope, sin_slope, _, _, _, _, _, cos_slope_sin_slope_mu, prepared_part,
-        g, cos_slope_mu, prepared_part_2, cos_slope_g, _, safe_plane, held_0] = *::ukcore::emitted::exact::<
+        g, cos_slope_mu, prepared_part_2, cos_slope_g, _, safe_plane, held_speed_down] = *::ukcore::emitted::exact::<
             S,
             16,
         >(prepared, "prepared");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
         let speed_down = dot_y.neg_mul_add(sin_slope, dot_x * cos_slope);
-        let right_x = speed_down.branch(held_0).sign();
+        let right_x = speed_down.branch(held_speed_down).sign();
         let right_x_cos_slope_sin_slope_mu = cos_slope_sin_slope_mu * right_x;
         let right_y = lit(1.0) - right_x_cos_slope_sin_slope_mu;
         let right_plane = right_x_cos_slope_sin_slope_mu + right_y;

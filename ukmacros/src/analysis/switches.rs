@@ -5,7 +5,7 @@
 //! turn at the zeros of one g, of −g or of a multiple of it by a number have one switch.
 
 use super::dynamics::Dynamics;
-use crate::expr::{Func, Graph, Id, Node, Symbol, System};
+use crate::expr::{Func, Graph, Id, Node, Num, Symbol, System, is_power_of_two};
 use std::collections::{HashMap, HashSet};
 
 /// A switch.
@@ -101,30 +101,33 @@ fn terms(d: &Dynamics, names: &[String]) -> Vec<(String, Id)> {
 
 /// What decides the branch of the node `id`, if it has branches and they vary along a motion.
 fn decision(id: Id, g: &mut Graph) -> Option<Decision> {
-    let difference = match *g.node(id) {
-        Node::Call(Func::Abs | Func::Sign, ref args) => args[0],
-        Node::Call(Func::Min | Func::Max, ref args) => {
-            let (a, b) = (args[0], args[1]);
-            g.sub(a, b)
-        }
-        Node::Select { a, b, .. } => g.sub(a, b),
+    let (a, b) = match *g.node(id) {
+        Node::Call(Func::Abs | Func::Sign, ref args) => (args[0], None),
+        Node::Call(Func::Min | Func::Max, ref args) => (args[0], Some(args[1])),
+        Node::Select { a, b, .. } => (a, Some(b)),
         _ => return None,
     };
+    let mut terms = g.open(1.0, a);
+    if let Some(b) = b {
+        terms.extend(g.open(-1.0, b));
+    }
+    let difference = g.sum(&terms);
     if g.uses(difference).constant() {
         return None;
     }
     let (c, mut function) = g.unscaled(difference);
     let mut sign = c.signum();
-    // A sum with a constant keeps its signs: 1 − x is x − 1 from the other side.
-    if let Node::Sum(c, terms) = g.node(function).clone()
-        && terms.first().is_some_and(|(k, _)| k.get() < 0.0)
+    // A sum with a constant keeps its coefficients: 1 − 2 x is x − 1/2 from the other side.
+    if let Node::Sum(constant, terms) = g.node(function).clone()
+        && let Some((first, _)) = terms.first()
+        && is_power_of_two(first.get().abs())
     {
-        let one = g.one();
-        let constant = (-c.get(), one);
-        let negated = terms.iter().map(|(k, term)| (-k.get(), *term));
-        let terms: Vec<(f64, Id)> = negated.chain([constant]).collect();
-        function = g.sum(&terms);
-        sign = -sign;
+        let divide = |k: Num| k.get() / first.get();
+        let mut divided: Vec<(f64, Id)> =
+            terms.iter().map(|(k, term)| (divide(*k), *term)).collect();
+        divided.push((divide(constant), g.one()));
+        function = g.sum(&divided);
+        sign *= first.get().signum();
     }
     Some(Decision { function, sign })
 }
