@@ -49,6 +49,8 @@ pub mod stabilise;
 #[cfg(feature = "simulate")]
 pub mod trajectory;
 mod workspace;
+#[cfg(feature = "simulate")]
+mod zero;
 
 pub use assemble::{Residuals, State, assemble, residuals};
 pub use error::Error;
@@ -73,6 +75,6 @@ pub use integrate::Method;
 #[cfg(feature = "ensemble")]
 pub use simulate::ensemble::{Ensemble, Member};
 #[cfg(feature = "simulate")]
-pub use simulate::{Failure, Simulation};
+pub use simulate::{Failure, Simulation, Switching};
 #[cfg(feature = "simulate")]
 pub use trajectory::{Ending, Residual, Sample, Trajectory, Work};

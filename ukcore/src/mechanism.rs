@@ -134,6 +134,18 @@ pub enum Branch {
     Positive,
 }
 
+impl Branch {
+    /// −1 or 1; 0 where none is held.
+    #[must_use]
+    pub fn sign(self) -> f64 {
+        match self {
+            Branch::Followed => 0.0,
+            Branch::Negative => -1.0,
+            Branch::Positive => 1.0,
+        }
+    }
+}
+
 /// A mechanism with fixed parameters: what depends on them alone is computed once, here. Of numbers `S`: with
 /// [`Dual`](crate::Dual) parameters come derivatives by parameters.
 #[derive(Debug, Clone, PartialEq)]
@@ -151,9 +163,8 @@ impl<M: Mechanism, S: Scalar> Prepared<M, S> {
     /// If `given` has not the length of `SPEC.params`.
     #[must_use]
     pub fn new(given: Vec<S>) -> Self {
-        let computed = M::SPEC.prepared.len();
-        let mut values = vec![S::from_f64(0.0); computed + M::SPEC.switches.len()];
-        M::prepare(&given, &mut values[..computed]);
+        let mut values = vec![S::from_f64(0.0); M::SPEC.slots()];
+        M::prepare(&given, &mut values[..M::SPEC.prepared.len()]);
         Prepared {
             given,
             values,
@@ -172,11 +183,7 @@ impl<M: Mechanism, S: Scalar> Prepared<M, S> {
     /// # Panics
     /// If there is no such switch.
     pub fn hold(&mut self, switch: usize, branch: Branch) {
-        self.values[M::SPEC.prepared.len()..][switch] = S::from_f64(match branch {
-            Branch::Followed => 0.0,
-            Branch::Negative => -1.0,
-            Branch::Positive => 1.0,
-        });
+        self.values[M::SPEC.prepared.len()..][switch] = S::from_f64(branch.sign());
     }
 
     /// [`Mechanism::switching`]: all switching functions.
@@ -230,6 +237,17 @@ impl<M: Mechanism, S: Scalar> Prepared<M, S> {
     #[inline]
     pub fn correction(&self, t: S, q: &[S], v: &[S], residual: &[S], out: &mut [S]) -> S {
         M::correction(&self.values, t, q, v, residual, out)
+    }
+}
+
+impl<M: Mechanism> Prepared<M> {
+    /// What emitted code takes as `prepared`, in other numbers: from the parameters `given`, in the branches held here.
+    pub(crate) fn prepare_as<T: Scalar>(&self, given: &[T], values: &mut [T]) {
+        let (computed, held) = values.split_at_mut(M::SPEC.prepared.len());
+        M::prepare(given, computed);
+        for (held, branch) in held.iter_mut().zip(&self.values[computed.len()..]) {
+            *held = T::from_f64(*branch);
+        }
     }
 }
 

@@ -278,6 +278,11 @@ impl Spec {
         self.constraints.len()
     }
 
+    /// Length of what emitted code takes as `prepared`: what depends on parameters only, then the branches held.
+    pub(crate) const fn slots(&self) -> usize {
+        self.prepared.len() + self.switches.len()
+    }
+
     /// Name of what stands at `position` of K = [M Aᵀ; A 0]: a coordinate, or a constraint after all coordinates.
     #[must_use]
     pub fn name_at(&self, position: usize) -> &'static str {

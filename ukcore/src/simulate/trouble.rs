@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::integrate::error_norm;
-use crate::mechanism::Spec;
+use crate::mechanism::{Spec, SwitchSpec};
 
 /// A contradiction seen nearer to where it begins replaces the one seen first while its residual is at least this part of it:
 /// nearer still it fades into rounding, and so do the names.
@@ -111,14 +111,8 @@ pub(super) struct Pace {
 
 impl Pace {
     pub(super) fn new(spec: &Spec, tolerance: f64, max_steps: usize) -> Self {
-        let mut terms: Vec<String> = Vec::new();
-        for term in spec.switches.iter().flat_map(|switch| switch.terms) {
-            if !terms.iter().any(|known| known == term) {
-                terms.push((*term).to_owned());
-            }
-        }
         Pace {
-            terms,
+            terms: terms(&spec.switches.iter().collect::<Vec<_>>()),
             tolerance,
             left: max_steps,
             steps: 0,
@@ -170,6 +164,26 @@ impl Pace {
             },
             other => other,
         }
+    }
+}
+
+/// The terms that turn at zeros of `switches`, each once.
+fn terms(switches: &[&SwitchSpec]) -> Vec<String> {
+    let mut terms: Vec<String> = Vec::new();
+    for term in switches.iter().flat_map(|switch| switch.terms) {
+        if !terms.iter().any(|known| known == term) {
+            terms.push((*term).to_owned());
+        }
+    }
+    terms
+}
+
+/// The error of a motion that is driven onto the zeros of `switches` from both sides.
+pub(super) fn stuck(spec: &Spec, switches: &[usize]) -> Error {
+    let switches: Vec<&SwitchSpec> = switches.iter().map(|k| &spec.switches[*k]).collect();
+    Error::Chattering {
+        step: 0.0,
+        terms: terms(&switches),
     }
 }
 

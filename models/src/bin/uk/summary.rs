@@ -57,6 +57,7 @@ struct Energies {
 struct Counters {
     steps: usize,
     rejected: usize,
+    switches: usize,
     evaluations: usize,
     projections: usize,
     projection_iterations: usize,
@@ -125,6 +126,7 @@ impl Summary {
             work: Counters {
                 steps: work.steps,
                 rejected: work.rejected,
+                switches: work.switches,
                 evaluations: work.evaluations,
                 projections: work.projections,
                 projection_iterations: work.projection_iterations,
@@ -181,9 +183,10 @@ impl Summary {
         }
         writeln!(
             out,
-            "Work: {} ({} rejected), {}, {} ({}), {}; {:.3} s",
+            "Work: {} ({} rejected, {} onto switches), {}, {} ({}), {}; {:.3} s",
             count(w.steps, "step"),
             w.rejected,
+            w.switches,
             count(w.evaluations, "evaluation"),
             count(w.projections, "projection"),
             count(w.projection_iterations, "iteration"),
