@@ -50,6 +50,16 @@ ukcore::multibody! {
 }
 
 ukcore::multibody! {
+    /// A ball that bounces on Hertz's spring, which has no force to be continued above the ground.
+    Ball {
+        params { m = 1.0, g = 9.81, k = 1e4 }
+        coords { h }
+        mass { h: m }
+        potential { m * g * h, 0.4 * k * max(-h, 0.0).powf(2.5) }
+    }
+}
+
+ukcore::multibody! {
     /// Kinks and jumps in M, Q, A and b at once.
     Broken {
         params { m = 1.5, c = 0.3, k = 20.0, gap = 0.2 }
@@ -292,6 +302,31 @@ fn random_motions_are_those_of_short_steps_across() {
         }
     }
     assert!(arrived > 10, "{arrived}");
+}
+
+#[test]
+fn a_branch_that_ends_at_its_zero_is_left_and_entered() {
+    for method in [Method::Dop853, Method::Dopri5] {
+        // Bounces, to and fro in time; from the ground itself, up and down.
+        for (h, v, span) in [
+            (1.0, 0.0, 5.0),
+            (1.0, 0.0, -5.0),
+            (0.0, 2.0, 1.0),
+            (0.0, -2.0, 1.0),
+        ] {
+            let run = |switching| {
+                let run = simulation(Ball::default(), state(0.0, h, v))
+                    .method(method)
+                    .switching(switching)
+                    .until(span)
+                    .expect("a motion");
+                (run.energy_drift(), run.work().evaluations)
+            };
+            let (located, ignored) = (run(Located), run(Ignored));
+            assert!(located.0 < 1e-7, "{located:?}, {ignored:?}");
+            assert!(10 * located.1 < 11 * ignored.1, "{located:?}, {ignored:?}");
+        }
+    }
 }
 
 /// Up and down a rough slope: one jump, between two parabolas, which the method follows exactly.

@@ -109,6 +109,10 @@ fn everything<M: Mechanism>(mech: &Prepared<M>, State { t, q, v }: &State) -> Ve
     out
 }
 
+fn dual(x: &[f64], d: &[f64]) -> Vec<Dual> {
+    x.iter().zip(d).map(|(x, d)| Dual::new(*x, *d)).collect()
+}
+
 fn branch(g: f64) -> Branch {
     if g < 0.0 {
         Branch::Negative
@@ -146,9 +150,6 @@ fn the_compiler_finds_each_switch_once() {
 #[test]
 fn switching_by_dual_numbers_is_its_derivative_along_the_motion() {
     let mut random = Random::new(6);
-    let dual = |x: &[f64], d: &[f64]| -> Vec<Dual> {
-        x.iter().zip(d).map(|(x, d)| Dual::new(*x, *d)).collect()
-    };
     for _ in 0..20 {
         let (State { t, q, v }, along) = (state(&mut random), state(&mut random));
         let mech = Kinks::default();
@@ -194,7 +195,7 @@ fn held_where_the_signs_agree_nothing_changes() {
     }
 }
 
-/// In any branches, whatever the signs say, all equations are those of the smooth mechanism with these signs; also by the rank-revealing solve.
+/// In any branches, whatever the signs say, all equations, and their derivatives, are those of the smooth mechanism with these signs; also by the rank-revealing solve.
 /// Outputs follow their switches.
 #[test]
 fn held_in_any_branch_the_equations_are_smooth() {
@@ -202,16 +203,36 @@ fn held_in_any_branch_the_equations_are_smooth() {
     for _ in 0..200 {
         let state = state(&mut random);
         let mut held = Kinks::default().prepared();
-        let mut smooth = Smooth::default();
+        let mut twin = Smooth::default();
         for (switch, (k, factor, _)) in EXPECTED.iter().enumerate() {
             let sign = random.signed().signum();
             held.hold(switch, branch(sign));
-            smooth.s[*k] = sign * factor;
+            twin.s[*k] = sign * factor;
         }
-        let smooth = smooth.prepared();
+        let smooth = twin.prepared();
         let (found, expected) = (everything(&held, &state), everything(&smooth, &state));
         assert_all_close("held", &found, &expected, 1e-12);
         let State { t, q, v } = &state;
+        let along = self::state(&mut random);
+        let derivative = |found: &mut [Dual]| -> Vec<f64> { found.iter().map(|x| x.eps).collect() };
+        let (t_dual, q_dual, v_dual) =
+            (Dual::new(*t, along.t), dual(q, &along.q), dual(v, &along.v));
+        let mut slopes = [[Dual::new(0.0, 0.0); 4]; 2];
+        let mut duals = Kinks::default().prepared::<Dual>();
+        duals.hold_as(&held);
+        duals.acceleration(t_dual, &q_dual, &v_dual, &mut slopes[0]);
+        let smooth = twin.prepared::<Dual>();
+        smooth.acceleration(t_dual, &q_dual, &v_dual, &mut slopes[1]);
+        let [found, expected_slope] = &mut slopes;
+        let size = expected_slope
+            .iter()
+            .fold(1.0, |s: f64, x| s.max(x.eps.abs()));
+        assert_all_close(
+            "slopes",
+            &derivative(found),
+            &derivative(expected_slope),
+            1e-12 * size,
+        );
         let mut dense = Solver::new::<Kinks>(SolverOptions {
             formula: ukcore::Formula::UdwadiaKalaba,
             ..SolverOptions::default()

@@ -186,6 +186,11 @@ impl<M: Mechanism, S: Scalar> Prepared<M, S> {
         self.values[M::SPEC.prepared.len()..][switch] = S::from_f64(branch.sign());
     }
 
+    /// Holds all switches as `other` does.
+    pub fn hold_as(&mut self, other: &Prepared<M>) {
+        other.copy_branches(&mut self.values);
+    }
+
     /// [`Mechanism::switching`]: all switching functions.
     #[inline]
     pub fn switching(&self, t: S, q: &[S], v: &[S], switching: &mut [S]) {
@@ -243,10 +248,14 @@ impl<M: Mechanism, S: Scalar> Prepared<M, S> {
 impl<M: Mechanism> Prepared<M> {
     /// What emitted code takes as `prepared`, in other numbers: from the parameters `given`, in the branches held here.
     pub(crate) fn prepare_as<T: Scalar>(&self, given: &[T], values: &mut [T]) {
-        let (computed, held) = values.split_at_mut(M::SPEC.prepared.len());
-        M::prepare(given, computed);
-        for (held, branch) in held.iter_mut().zip(&self.values[computed.len()..]) {
-            *held = T::from_f64(*branch);
+        M::prepare(given, &mut values[..M::SPEC.prepared.len()]);
+        self.copy_branches(values);
+    }
+
+    fn copy_branches<T: Scalar>(&self, values: &mut [T]) {
+        let branches = self.values.iter().zip(values);
+        for (from, to) in branches.skip(M::SPEC.prepared.len()) {
+            *to = T::from_f64(*from);
         }
     }
 }

@@ -187,6 +187,8 @@ impl<P: Problem, X: Scheme> Driver<'_, P, X> {
                     self.follow(leaving, plan, whole, error)?
                 }
                 Err(Refusal::Inaccurate(error)) => self.scheme.inaccurate(size, error),
+                // Beyond a zero there may be no value in the branch held.
+                Err(Refusal::Stage(_) | Refusal::End(_)) if self.release() => size,
                 Err(Refusal::Stage(cause)) => {
                     self.trouble = cause.or(self.trouble.take());
                     self.scheme.inaccurate(size, f64::NAN)
@@ -206,8 +208,8 @@ impl<P: Problem, X: Scheme> Driver<'_, P, X> {
     /// Evaluates f at the start and returns the size of the first step.
     fn start(&mut self) -> Result<f64, Error> {
         let largest = self.largest_step().min(self.s_end);
-        self.choose()?;
-        self.begin()?;
+        let zeros = self.choose()?;
+        self.begin_at(&zeros)?;
         if let Some(h) = self.settings.first_step {
             return Ok(h.min(largest));
         }
@@ -226,6 +228,23 @@ impl<P: Problem, X: Scheme> Driver<'_, P, X> {
             self.trouble = trouble;
             Error::StepTooSmall { step: 0.0 }
         })
+    }
+
+    /// The same where `switches` stand at zero: those are followed if f has no value there in their branches.
+    fn begin_at(&mut self, switches: &[usize]) -> Result<(), Error> {
+        if self.begin().is_ok() {
+            return Ok(());
+        }
+        self.hold(switches, Branch::Followed);
+        self.trouble = None;
+        self.begin()
+    }
+
+    fn release(&mut self) -> bool {
+        let Equations {
+            problem, switches, ..
+        } = &mut self.equations;
+        switches.release(*problem)
     }
 
     /// Tries the step of size `h` that ends at `s`, which is `t`, and moves to its end if it is good. Returns its error.
@@ -364,7 +383,7 @@ impl<P: Problem, X: Scheme> Driver<'_, P, X> {
             }
         };
         if self.turn(&switches)? {
-            self.begin()?;
+            self.begin_at(&switches)?;
             return Ok(whole);
         }
         // The motion goes into its branch, and leaves it before the step's first part ends.
@@ -386,14 +405,14 @@ impl<P: Problem, X: Scheme> Driver<'_, P, X> {
         }
         self.landings += 1;
         self.turn(&targets)?;
-        self.begin()?;
+        self.begin_at(&targets)?;
         Ok(true)
     }
 
     /// Puts those of `switches`, which stand at zero, into their other branches whose functions leave the ones they are in. Returns whether there are
     /// any.
     fn turn(&mut self, switches: &[usize]) -> Result<bool, Error> {
-        let out = self.driven_out(switches)?;
+        let out = self.driven_out(switches);
         if out.is_empty() {
             return Ok(false);
         }
@@ -404,33 +423,29 @@ impl<P: Problem, X: Scheme> Driver<'_, P, X> {
             switches.flip(*problem, *k);
         }
         switches.arrive(*problem, self.t, &self.y);
-        let stuck = self.driven_out(&out)?;
+        let stuck = self.driven_out(&out);
         match stuck.is_empty() {
             true => Ok(true),
             false => Err(self.stuck(&stuck)),
         }
     }
 
-    /// Branches at the start of the run. A function that is zero there goes where it moves.
-    fn choose(&mut self) -> Result<(), Error> {
+    /// Branches at the start of the run. A function that is zero there goes where it moves; returns these.
+    fn choose(&mut self) -> Result<Vec<usize>, Error> {
         let Equations {
             problem, switches, ..
         } = &mut self.equations;
-        if switches.is_empty() {
-            return Ok(());
-        }
         let zeros = switches.start(*problem, self.t, &self.y);
         self.hold(&zeros, Branch::Positive);
-        let down = self.driven_out(&zeros)?;
-        let rest = self.at_rest(&zeros)?;
+        let down = self.driven_out(&zeros);
+        let rest = self.at_rest(&zeros);
         self.hold(&rest, Branch::Followed);
         self.hold(&down, Branch::Negative);
-        let back = self.driven_out(&down)?;
+        let back = self.driven_out(&down);
         // Driven back from both sides, it may stay between them: at rest under friction, without a force.
         self.hold(&back, Branch::Followed);
-        let rest = self.at_rest(&back)?;
-        match rest.len() == back.len() {
-            true => Ok(()),
+        match self.at_rest(&back).len() == back.len() {
+            true => Ok(zeros),
             false => Err(self.stuck(&back)),
         }
     }
@@ -443,32 +458,24 @@ impl<P: Problem, X: Scheme> Driver<'_, P, X> {
     }
 
     /// Those of `switches` whose functions leave the branches they are in.
-    fn driven_out(&mut self, switches: &[usize]) -> Result<Vec<usize>, Error> {
+    fn driven_out(&mut self, switches: &[usize]) -> Vec<usize> {
         let along = self.clock.sign;
         let out = |branch: Branch, rate: f64| along * branch.sign() * rate < 0.0;
         self.moving(switches, out)
     }
 
     /// Those of `switches` whose functions stay as they are.
-    fn at_rest(&mut self, switches: &[usize]) -> Result<Vec<usize>, Error> {
+    fn at_rest(&mut self, switches: &[usize]) -> Vec<usize> {
         self.moving(switches, |_, rate| rate == 0.0)
     }
 
-    /// Those of `switches` for which `which` of their branch and the rate of their function holds where the run stands.
-    fn moving(
-        &mut self,
-        switches: &[usize],
-        which: impl Fn(Branch, f64) -> bool,
-    ) -> Result<Vec<usize>, Error> {
-        if switches.is_empty() {
-            return Ok(Vec::new());
-        }
+    /// Those of `switches` for which `which` of their branch and the rate of their function holds where the run stands; none where f has no value.
+    fn moving(&mut self, switches: &[usize], which: impl Fn(Branch, f64) -> bool) -> Vec<usize> {
         // No step is in hand.
         let rate = &mut self.raw;
         let s = self.clock.sign * self.s;
-        if let Err(trouble) = self.equations.rate(s, &self.y, rate) {
-            self.trouble = trouble;
-            return Err(Error::StepTooSmall { step: 0.0 });
+        if switches.is_empty() || self.equations.rate(s, &self.y, rate).is_err() {
+            return Vec::new();
         }
         let Equations {
             problem,
@@ -477,7 +484,7 @@ impl<P: Problem, X: Scheme> Driver<'_, P, X> {
         } = &mut self.equations;
         let rates = all.rates(*problem, self.t, &self.y, rate);
         let found = switches.iter().copied();
-        Ok(found.filter(|k| which(all.branch(*k), rates[*k])).collect())
+        found.filter(|k| which(all.branch(*k), rates[*k])).collect()
     }
 
     fn stuck(&mut self, switches: &[usize]) -> Error {

@@ -29,10 +29,9 @@ impl<P: Problem> Equations<'_, P> {
     /// y' at (s, y) into `rate`.
     pub(super) fn rate(&mut self, s: f64, y: &[f64], rate: &mut [f64]) -> Result<(), NoRate> {
         let t = self.t0 + s;
-        let result = self.problem.derivative(t, y, rate);
-        result.map_err(|error| no_rate(t, y, error))?;
         self.switches.look(self.problem, t, y);
-        Ok(())
+        let result = self.problem.derivative(t, y, rate);
+        result.map_err(|error| no_rate(t, y, error))
     }
 
     /// [`Problem::jacobian`] at (s, y).

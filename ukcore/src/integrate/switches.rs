@@ -4,6 +4,8 @@
 //! start: where g passes zero within a step y' goes on smoothly, and the step has the full order of its method. If g has left its branch, the step is repeated up to
 //! the first zero, found on the interpolant, and the next step begins there in the other branch.
 //!
+//! A branch may end at its zero, as that of max(x, 0)^1.5 does: where y' has no value beyond it, the step follows its switches, as short as its error demands.
+//!
 //! That a function has left its branch shows at the end of a step, or, if it comes back before that, at a stage; the interpolant is made only then. So what stays
 //! unseen is what falls between all stages, as it does for the estimate of the error.
 
@@ -91,6 +93,9 @@ impl Switches {
 
     /// Holds each switch in the branch of its value at the start of a run; returns those that are zero, which are followed.
     pub(super) fn start(&mut self, problem: &mut impl Problem, t: f64, y: &[f64]) -> Vec<usize> {
+        if self.is_empty() {
+            return Vec::new();
+        }
         problem.switching(t, y, &mut self.values);
         for k in 0..self.branches.len() {
             self.adopt(problem, k);
@@ -113,13 +118,24 @@ impl Switches {
         self.doubt = false;
     }
 
-    /// y' has been evaluated at (t, y).
+    /// y' is to be evaluated at (t, y).
     pub(super) fn look(&mut self, problem: &mut impl Problem, t: f64, y: &[f64]) {
         if self.is_empty() || self.doubt {
             return;
         }
         problem.switching(t, y, &mut self.values);
-        self.doubt = (0..self.values.len()).any(|k| self.inside(k, self.values[k]) < 0.0);
+        let outside = |k: usize| self.inside(k, self.values[k]) < 0.0;
+        self.doubt = (0..self.values.len()).any(|k| outside(k) && !self.targets.contains(&k));
+    }
+
+    /// Follows all switches again where the step in hand was outside of a branch; returns whether it was.
+    pub(super) fn release(&mut self, problem: &mut impl Problem) -> bool {
+        if self.doubt {
+            for k in 0..self.branches.len() {
+                self.hold(problem, k, Branch::Followed);
+            }
+        }
+        std::mem::take(&mut self.doubt)
     }
 
     /// Whether the step may have left its branches, which ends at (t, y).
