@@ -182,6 +182,34 @@ fn a_mass_between_springs_comes_back_after_its_period() {
     }
 }
 
+/// The same between springs so hard that contact is a stiff motion, with the implicit method: its Jacobian jumps at each zero.
+#[test]
+fn the_implicit_method_steps_onto_kinks() {
+    let mech = Stops {
+        k: 1e6,
+        ..Stops::default()
+    };
+    let (omega, speed) = ((mech.k / mech.m).sqrt(), 2.0);
+    let period = 2.0 * PI / omega + 4.0 * mech.gap / speed;
+    let run = |switching| {
+        let run = simulation(mech.clone(), state(0.0, 0.0, speed))
+            .method(Method::Radau5)
+            .tolerance(1e-9)
+            .switching(switching)
+            .until(3.0 * period)
+            .expect("a motion");
+        let end = run.last().expect("a sample");
+        (end.q[0].abs(), run.work())
+    };
+    let (located, ignored) = (run(Located), run(Ignored));
+    assert!(located.0 < 1e-7, "{located:?}");
+    assert_eq!(located.1.switches, 12);
+    assert!(
+        located.1.evaluations < ignored.1.evaluations,
+        "{located:?}, {ignored:?}"
+    );
+}
+
 /// Samples, events and the interpolant are right on both sides of a kink within the same proposed step.
 #[test]
 fn what_is_seen_between_steps_is_right_about_kinks() {

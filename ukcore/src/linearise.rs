@@ -126,7 +126,7 @@ impl<M: Mechanism> Slopes<M> {
         }
     }
 
-    /// Fills `columns`, the first ones in the order of [`names`], each of length n, for q̈ as `solver` has it.
+    /// Fills `columns`, in the branches that `mech` holds, the first ones in the order of [`names`], each of length n, for q̈ as `solver` has it.
     ///
     /// # Errors
     /// Those of [`Solver::acceleration`]; [`Error::NonFinite`] with the names of those derivatives that do not exist.
@@ -139,6 +139,7 @@ impl<M: Mechanism> Slopes<M> {
         v: &[f64],
         columns: &mut [f64],
     ) -> Result<(), Error> {
+        self.sweep.mech.hold_as(mech);
         let n = M::SPEC.n();
         let straight = M::SPEC.structure.straight_line && solver.baumgarte().is_none();
         if !(straight && self.straight_line(t, q, v, columns)) {

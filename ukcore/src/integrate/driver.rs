@@ -188,7 +188,7 @@ impl<P: Problem, X: Scheme> Driver<'_, P, X> {
                 }
                 Err(Refusal::Inaccurate(error)) => self.scheme.inaccurate(size, error),
                 // Beyond a zero there may be no value in the branch held.
-                Err(Refusal::Stage(_) | Refusal::End(_)) if self.release() => size,
+                Err(Refusal::Stage(Some(_)) | Refusal::End(Some(_))) if self.release() => size,
                 Err(Refusal::Stage(cause)) => {
                     self.trouble = cause.or(self.trouble.take());
                     self.scheme.inaccurate(size, f64::NAN)
