@@ -2,7 +2,7 @@
 
 use models::{Model, Pendulum, UChain};
 use tests::{Check, Random, assert_all_close, every_model, largest};
-use ukcore::{Ensemble, Error, Mechanism, Member, Simulation, State};
+use ukcore::{Ensemble, Error, Mechanism, Member, Simulation, State, Switching};
 
 /// Members with other parameters and starts.
 fn members<M: Model>(count: usize) -> Vec<(M, State)> {
@@ -44,6 +44,7 @@ fn members_move_as_they_do_alone() {
                 let run = Simulation::new(mechanism)
                     .start(start)
                     .tolerance(1e-9)
+                    .switching(Switching::Ignored)
                     .every(0.15)
                     .until(t_end);
                 let (member, run) = match (result, run) {

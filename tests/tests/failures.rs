@@ -105,7 +105,7 @@ fn a_contradiction_that_begins_within_a_run_is_found_where_it_begins() {
         let (t, error) = place(&failure);
         let (names, residual) = contradiction(error);
         assert_eq!(names, ["early", "late"]);
-        assert!(t > 0.5 && t < 0.6, "{t}: {error}");
+        assert!((0.5..0.6).contains(&t), "{t}: {error}");
         assert!(residual > 1e-6, "{error}");
         assert!(
             failure

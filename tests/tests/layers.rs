@@ -133,6 +133,7 @@ fn ukcore() {
             "scalar",
             "scan",
             "rounding",
+            "zero",
             "spec",
             "plan",
             "mechanism",

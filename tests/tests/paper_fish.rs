@@ -63,7 +63,7 @@ fn states_agree_with_the_reference() {
         let body = [FishRobot::X1, FishRobot::Y1, FishRobot::TH1];
         let mut found = body.map(|i| sample.q[i]).to_vec();
         found.extend(body.map(|i| sample.v[i]));
-        assert_all_close(&format!("t = {}", sample.t), &found, &expected, 1e-6);
+        assert_all_close(&format!("t = {}", sample.t), &found, &expected, 1e-8);
     }
 }
 

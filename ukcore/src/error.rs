@@ -85,7 +85,7 @@ pub enum Error {
     },
     /// Steps became tiny about a place where sign, abs, min or max switch, as where dry friction brings a body to rest.
     Chattering {
-        /// Size of the last steps.
+        /// Size of the last steps; 0 where both branches were found to drive the motion back onto the switch.
         step: f64,
         /// The terms that contain such a function: `"force on s"`.
         terms: Vec<String>,
@@ -260,11 +260,24 @@ impl fmt::Display for Error {
                 f,
                 "{steps} steps were not enough; raise `max_steps`, loosen the tolerance, or soften stiff forces"
             ),
-            Error::Chattering { step, terms } => write!(
-                f,
-                "steps fell to {step:.1e} about a switch of sign, abs, min or max in the {}; dry friction that brings a body to rest is not found to stick: end the run at rest by a terminal event, or smooth the switch, as by tanh(v / 1e-3) for sign(v)",
-                terms.join(", ")
-            ),
+            Error::Chattering { step, terms } => {
+                match *step {
+                    0.0 => write!(f, "both branches of")?,
+                    step => write!(f, "steps fell to {step:.1e} about")?,
+                }
+                write!(
+                    f,
+                    " a switch of sign, abs, min or max in the {}",
+                    terms.join(", ")
+                )?;
+                if *step == 0.0 {
+                    write!(f, " drive the motion back onto it")?;
+                }
+                write!(
+                    f,
+                    "; dry friction that brings a body to rest is not found to stick: end the run at rest by a terminal event, or smooth the switch, as by tanh(v / 1e-3) for sign(v)"
+                )
+            }
             Error::At { t, source, .. } if *t != 0.0 && t.abs() < 1e-4 => {
                 write!(f, "at t = {t:e}: {source}")
             }

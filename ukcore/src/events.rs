@@ -3,13 +3,14 @@
 use std::fmt;
 
 use crate::error::Error;
+use crate::zero::{PARTS, locate};
 
 /// Parts into which each step is divided in the search for sign changes, ends included.
 ///
 /// Two zeros of one event function less than an eighth of a step apart can cancel and be missed. An interpolant of a
 /// step that passed error control at order 8 (or 5) seldom has more than one or two extrema within it, so eight parts leave a
 /// margin; where that is not enough, [`max_step`](crate::Simulation::max_step) makes the search finer.
-pub const EVENT_PARTS: usize = 8;
+pub const EVENT_PARTS: usize = PARTS;
 
 /// Which sign changes count. Signs are compared in the order in which the run passes them, also when it runs backward.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -200,7 +201,11 @@ impl Watch {
                     states.consistent(t, state)?;
                     evaluate(event, t, &state[..n], &state[n..])
                 };
-                crossing.t = locate(&mut g, a, b, crossing.direction)?;
+                let sign = match crossing.direction {
+                    Direction::Falling => -1.0,
+                    Direction::Rising | Direction::Both => 1.0,
+                };
+                crossing.t = locate(|t| Ok(sign * g(t)?), a, b)?;
             }
             let forward = t >= t_old;
             crossings[found..].sort_by(|x, y| {
@@ -234,109 +239,9 @@ fn evaluate(event: &mut Event, t: f64, q: &[f64], v: &[f64]) -> Result<f64, Erro
     Ok(value)
 }
 
-/// The zero of `g` between `a` and `b` where it changes its sign in `direction`, to rounding in t.
-///
-/// Of the two neighbouring times it is left with it returns the one at which the sign has changed, so that a run which
-/// goes on from there does not meet the same zero again. A `g` at projected states can differ from the interpolated one
-/// that suggested the interval; where it then has its zero just outside, the nearer end is returned.
-///
-/// Inverse quadratic interpolation where it is safe, else bisection: T. R. Chandrupatla, Adv. Eng. Softw. 28 (1997) 145-149.
-fn locate(
-    g: &mut impl FnMut(f64) -> Result<f64, Error>,
-    a: f64,
-    b: f64,
-    direction: Direction,
-) -> Result<f64, Error> {
-    let sign = if direction == Direction::Falling {
-        -1.0
-    } else {
-        1.0
-    };
-    let mut g = |t: f64| -> Result<f64, Error> { Ok(sign * g(t)?) };
-    let (mut x1, mut x2) = (b, a);
-    let (mut f1, mut f2) = (g(b)?, g(a)?);
-    if f1 < 0.0 {
-        return Ok(b);
-    }
-    if f2 >= 0.0 {
-        return Ok(a);
-    }
-    // x1 the newest point, x2 on the other side of the zero, x3 the one before x1.
-    let mut part = 0.5;
-    // Each pair of iterations at least halves the interval, so rounding is reached long before this.
-    for _ in 0..2 * f64::MANTISSA_DIGITS + 64 {
-        let x = x1 + part * (x2 - x1);
-        let f = g(x)?;
-        let (x3, f3);
-        if (f >= 0.0) == (f1 >= 0.0) {
-            (x3, f3) = (x1, f1);
-        } else {
-            (x3, f3) = (x2, f2);
-            (x2, f2) = (x1, f1);
-        }
-        (x1, f1) = (x, f);
-        let width = (x2 - x1).abs();
-        let resolution = f64::EPSILON * x1.abs().max(x2.abs());
-        if f1 == 0.0 || width <= resolution {
-            break;
-        }
-        let xi = (x1 - x2) / (x3 - x2);
-        let phi = (f1 - f2) / (f3 - f2);
-        part = if phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi {
-            f1 / (f2 - f1) * f3 / (f2 - f3)
-                + (x3 - x1) / (x2 - x1) * f1 / (f3 - f1) * f2 / (f3 - f2)
-        } else {
-            0.5
-        };
-        let least = (0.5 * resolution / width).min(0.5);
-        part = part.clamp(least, 1.0 - least);
-    }
-    Ok(if f1 >= 0.0 { x1 } else { x2 })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Zero of `g` on [a, b] (in either order), and the number of evaluations.
-    fn zero(g: impl Fn(f64) -> f64, a: f64, b: f64, direction: Direction) -> (f64, usize) {
-        let mut count = 0;
-        let mut g = |t: f64| {
-            count += 1;
-            Ok(g(t))
-        };
-        let t = locate(&mut g, a, b, direction).unwrap();
-        (t, count)
-    }
-
-    #[test]
-    fn zeros_are_located_to_rounding_in_few_evaluations() {
-        let check = |g: fn(f64) -> f64, a: f64, b: f64, expect: f64| {
-            let direction = if g(b) > 0.0 {
-                Direction::Rising
-            } else {
-                Direction::Falling
-            };
-            let (t, count) = zero(g, a, b, direction);
-            let rounding = 2.0 * f64::EPSILON * expect.abs();
-            assert!((t - expect).abs() <= rounding, "{t} is not {expect}");
-            assert!(count <= 60, "{count} evaluations");
-            assert!(g(t) == 0.0 || (g(t) > 0.0) == (g(b) > 0.0), "wrong side");
-        };
-        let pi = std::f64::consts::PI;
-        check(f64::sin, 3.0, 3.5, pi);
-        check(f64::sin, 3.5, 3.0, pi);
-        check(|t| (t - 1.0).powi(3), 0.0, 1.75, 1.0);
-        check(|t| if t < 0.3 { -1.0 } else { 1e-9 }, 0.0, 1.0, 0.3);
-        check(|t| (20.0 * (t - 2.0)).tanh(), 1.9, 9.0, 2.0);
-        check(|t| t - 1e9 - 0.125, 1e9, 1e9 + 1.0, 1e9 + 0.125);
-    }
-
-    #[test]
-    fn an_end_serves_where_the_projected_function_does_not_change_sign() {
-        assert_eq!(zero(|t| t, 0.5, 1.0, Direction::Rising).0, 0.5);
-        assert_eq!(zero(|t| t - 2.0, 0.5, 1.0, Direction::Rising).0, 1.0);
-    }
 
     struct Line;
     impl States for Line {

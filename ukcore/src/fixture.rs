@@ -157,6 +157,7 @@ const EMPTY: Spec = Spec {
     constraints: &[],
     holonomic: 0,
     outputs: &[],
+    switches: &[],
     structure: Structure {
         straight_line: false,
         solve: Solve::none("it is written by hand"),

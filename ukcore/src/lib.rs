@@ -49,6 +49,8 @@ pub mod stabilise;
 #[cfg(feature = "simulate")]
 pub mod trajectory;
 mod workspace;
+#[cfg(feature = "simulate")]
+mod zero;
 
 pub use assemble::{Residuals, State, assemble, residuals};
 pub use error::Error;
@@ -57,8 +59,8 @@ pub use linearise::Linearisation;
 #[doc(hidden)]
 pub use mechanism::emitted;
 pub use mechanism::{
-    Check, ConstraintKind, ConstraintSpec, Costs, Energy, Equations, Mechanism, Operations,
-    OutputSpec, ParamSpec, Pivot, Prepared, Solve, Spec, Structure, Terms,
+    Branch, Check, ConstraintKind, ConstraintSpec, Costs, Energy, Equations, Mechanism, Operations,
+    OutputSpec, ParamSpec, Pivot, Prepared, Solve, Spec, Structure, SwitchSpec, Terms,
 };
 pub use plan::Plan;
 pub use scalar::{Dual, Scalar};
@@ -73,6 +75,6 @@ pub use integrate::Method;
 #[cfg(feature = "ensemble")]
 pub use simulate::ensemble::{Ensemble, Member};
 #[cfg(feature = "simulate")]
-pub use simulate::{Failure, Simulation};
+pub use simulate::{Failure, Simulation, Switching};
 #[cfg(feature = "simulate")]
 pub use trajectory::{Ending, Residual, Sample, Trajectory, Work};

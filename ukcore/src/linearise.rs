@@ -142,8 +142,8 @@ impl<M: Mechanism> Slopes<M> {
         }
     }
 
-    /// q̈ into `acceleration`, and fills `columns`, the first ones in the order of [`names`], each of length n, for q̈ as `solver` has it. Derivatives that do not exist, as that of √x
-    /// at 0, are not finite.
+    /// q̈ into `acceleration`, and fills `columns`, the first ones in the order of [`names`], each of length n, for q̈ as `solver` has it and in the branches that
+    /// `mech` holds. Derivatives that do not exist, as that of √x at 0, are not finite.
     ///
     /// # Errors
     /// Those of [`Solver::acceleration`].
@@ -155,6 +155,7 @@ impl<M: Mechanism> Slopes<M> {
         acceleration: &mut [f64],
         columns: &mut [f64],
     ) -> Result<(), Error> {
+        self.sweep.mech.hold_as(mech);
         let straight = M::SPEC.structure.straight_line && solver.baumgarte().is_none();
         if straight && self.straight_line((t, q, v), acceleration, columns) {
             return Ok(());

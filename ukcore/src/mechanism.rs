@@ -12,12 +12,13 @@ use crate::scalar::Scalar;
 
 pub use crate::spec::{
     Check, ConstraintKind, ConstraintSpec, Costs, Equations, Operations, OutputSpec, ParamSpec,
-    Pivot, Solve, Spec, Structure,
+    Pivot, Solve, Spec, Structure, SwitchSpec,
 };
 
 /// A declared mechanism: its parameters (`self`), what is known about it (`SPEC`), and its equations as straight-line code.
 ///
-/// The functions that evaluate the equations take `prepared`, what depends on parameters only; [`Prepared`] holds it, and is how they are called.
+/// The functions that evaluate the equations take `prepared`: what depends on parameters only, then for each switch the branch it is held in, as a sign, or 0
+/// where it is followed. [`Prepared`] holds it, and is how they are called.
 ///
 /// All matrices are column-major. Into matrices the emitted code writes **structural non-zeros only**: the caller passes buffers
 /// that were zeroed once, and may reuse them for the same mechanism type. Vectors are written completely. No method allocates. Every method panics if a slice has
@@ -52,6 +53,11 @@ pub trait Mechanism: Clone + Default + Send + Sync + 'static {
     fn energy<S: Scalar>(prepared: &[S], t: S, q: &[S], v: &[S]) -> Energy<S>;
     /// The declared outputs.
     fn outputs<S: Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], outputs: &mut [S]);
+
+    /// The functions at whose zeros abs, sign, min or max change their branch, `SPEC.switches`, as they are: held branches do not count.
+    fn switching<S: Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], switching: &mut [S]) {
+        let _ = (prepared, t, q, v, switching);
+    }
 
     /// q̈ at (t, q, q̇) by straight-line elimination of [M Aᵀ; A 0], and its certificate: 1 where each pivot d of the elimination keeps a
     /// safe share d/G of the diagonal G it started from, 0 where M or A is singular or nearly so, and q̈ is not to be used. Exists if
@@ -115,11 +121,37 @@ pub trait Mechanism: Clone + Default + Send + Sync + 'static {
     }
 }
 
+/// A branch of a switch. Functions of a mechanism whose switches are all held are smooth where a switching function passes zero: each abs, sign,
+/// min or max goes on in the branch it is held in. Energies and outputs follow their switches always.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Branch {
+    /// The one that the sign of the switching function says.
+    #[default]
+    Followed,
+    /// That of negative values.
+    Negative,
+    /// That of positive values.
+    Positive,
+}
+
+impl Branch {
+    /// −1 or 1; 0 where none is held.
+    #[must_use]
+    pub fn sign(self) -> f64 {
+        match self {
+            Branch::Followed => 0.0,
+            Branch::Negative => -1.0,
+            Branch::Positive => 1.0,
+        }
+    }
+}
+
 /// A mechanism with fixed parameters: what depends on them alone is computed once, here. Of numbers `S`: with
 /// [`Dual`](crate::Dual) parameters come derivatives by parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Prepared<M, S = f64> {
     given: Vec<S>,
+    /// What depends on parameters only, then the branches held.
     values: Vec<S>,
     mechanism: PhantomData<fn() -> M>,
 }
@@ -131,8 +163,8 @@ impl<M: Mechanism, S: Scalar> Prepared<M, S> {
     /// If `given` has not the length of `SPEC.params`.
     #[must_use]
     pub fn new(given: Vec<S>) -> Self {
-        let mut values = vec![S::from_f64(0.0); M::SPEC.prepared.len()];
-        M::prepare(&given, &mut values);
+        let mut values = vec![S::from_f64(0.0); M::SPEC.slots()];
+        M::prepare(&given, &mut values[..M::SPEC.prepared.len()]);
         Prepared {
             given,
             values,
@@ -144,6 +176,25 @@ impl<M: Mechanism, S: Scalar> Prepared<M, S> {
     #[must_use]
     pub fn parameters(&self) -> &[S] {
         &self.given
+    }
+
+    /// Holds switch `switch` (order of `SPEC.switches`) in `branch`, until told otherwise. A new one follows all its switches.
+    ///
+    /// # Panics
+    /// If there is no such switch.
+    pub fn hold(&mut self, switch: usize, branch: Branch) {
+        self.values[M::SPEC.prepared.len()..][switch] = S::from_f64(branch.sign());
+    }
+
+    /// Holds all switches as `other` does.
+    pub fn hold_as(&mut self, other: &Prepared<M>) {
+        other.copy_branches(&mut self.values);
+    }
+
+    /// [`Mechanism::switching`]: all switching functions.
+    #[inline]
+    pub fn switching(&self, t: S, q: &[S], v: &[S], switching: &mut [S]) {
+        M::switching(&self.values, t, q, v, switching);
     }
 
     /// [`Mechanism::dynamics`]: M, Q, c, A and b.
@@ -191,6 +242,21 @@ impl<M: Mechanism, S: Scalar> Prepared<M, S> {
     #[inline]
     pub fn correction(&self, t: S, q: &[S], v: &[S], residual: &[S], out: &mut [S]) -> S {
         M::correction(&self.values, t, q, v, residual, out)
+    }
+}
+
+impl<M: Mechanism> Prepared<M> {
+    /// What emitted code takes as `prepared`, in other numbers: from the parameters `given`, in the branches held here.
+    pub(crate) fn prepare_as<T: Scalar>(&self, given: &[T], values: &mut [T]) {
+        M::prepare(given, &mut values[..M::SPEC.prepared.len()]);
+        self.copy_branches(values);
+    }
+
+    fn copy_branches<T: Scalar>(&self, values: &mut [T]) {
+        let branches = self.values.iter().zip(values);
+        for (from, to) in branches.skip(M::SPEC.prepared.len()) {
+            *to = T::from_f64(*from);
+        }
     }
 }
 

@@ -265,6 +265,20 @@ impl Plan {
         Ok(())
     }
 
+    fn switches(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let switches = self.spec.switches;
+        if switches.is_empty() {
+            return Ok(());
+        }
+        writeln!(f, "\nSwitches: a run steps onto the zeros of")?;
+        let wide = widest(switches.iter().map(|switch| switch.function));
+        for switch in switches {
+            let (function, terms) = (switch.function, switch.terms.join(", "));
+            item(f, &format!("{function:<wide$} in {terms}"))?;
+        }
+        Ok(())
+    }
+
     fn left_out(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let left_out = self.spec.structure.left_out;
         if !left_out.is_empty() {
@@ -332,6 +346,7 @@ impl Display for Plan {
         self.solve(f)?;
         self.certificate(f)?;
         self.hoisted(f)?;
+        self.switches(f)?;
         self.left_out(f)?;
         self.costs(f)?;
         self.pictures(f)

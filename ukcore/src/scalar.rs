@@ -20,6 +20,12 @@ pub trait Scalar:
     fn from_f64(x: f64) -> Self;
     /// `then` where `a ≤ b`, else `otherwise` (also where a or b is NaN).
     fn select_le(a: Self, b: Self, then: Self, otherwise: Self) -> Self;
+    /// What decides a branch: `held`, unless it is 0; then `self`.
+    #[inline]
+    fn branch(self, held: Self) -> Self {
+        let zero = Self::from_f64(0.0);
+        Self::select_le(held.abs(), zero, self, held)
+    }
     /// self · b + c; rounded once where the target has an instruction for it, never by a library call.
     #[inline]
     fn mul_add(self, b: Self, c: Self) -> Self {

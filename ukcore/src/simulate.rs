@@ -41,12 +41,16 @@ pub const SMALLEST_TOLERANCE: f64 = 10.0 * f64::EPSILON;
 /// A projection does not make a bad step a good one: where it moves the state by more than
 /// [`PROJECTION_LIMIT`](crate::integrate::PROJECTION_LIMIT) in the norm of error control, the step is rejected and
 /// repeated with half its size.
+///
+/// Where abs, sign, min or max change their branch within a step, it is repeated up to there, unless
+/// [`switching`](Simulation::switching) says otherwise.
 pub struct Simulation<M> {
     mechanism: M,
     start: Option<State>,
     method: Method,
     tolerance: f64,
     stabilisation: Stabilisation,
+    switching: Switching,
     formula: Formula,
     sampling: Sampling,
     dense: bool,
@@ -55,6 +59,17 @@ pub struct Simulation<M> {
     max_step: Option<f64>,
     first_step: Option<f64>,
     progress: Option<Progress<M>>,
+}
+
+/// What a run does about [switches](crate::SwitchSpec), the zeros at which abs, sign, min and max change their branch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Switching {
+    /// Steps go onto the zeros, and each step has the full order of its method. A motion that is driven onto a zero from both sides, as at rest under dry
+    /// friction, ends with [`Error::Chattering`].
+    #[default]
+    Located,
+    /// Steps go across, and are as short there as their errors demand. A motion that rests on a zero for a while chatters along it.
+    Ignored,
 }
 
 /// Most samples of [`Simulation::every`]: a slip in its unit must not fill the memory.
@@ -77,6 +92,7 @@ impl<M: Mechanism> Simulation<M> {
             method: Method::default(),
             tolerance: 1e-9,
             stabilisation: Stabilisation::default(),
+            switching: Switching::default(),
             formula: Formula::default(),
             sampling: Sampling::Steps,
             dense: false,
@@ -113,6 +129,13 @@ impl<M: Mechanism> Simulation<M> {
     #[must_use]
     pub fn stabilise(mut self, stabilisation: Stabilisation) -> Self {
         self.stabilisation = stabilisation;
+        self
+    }
+
+    /// What becomes of the kinks and jumps of abs, sign, min and max. Without effect where the equations of motion have none.
+    #[must_use]
+    pub fn switching(mut self, switching: Switching) -> Self {
+        self.switching = switching;
         self
     }
 
@@ -233,8 +256,10 @@ impl<M: Mechanism> Simulation<M> {
             dense: self.dense || !self.events.is_empty(),
         };
         let n = M::SPEC.n();
+        let locate = self.switching == Switching::Located && !M::SPEC.switches.is_empty();
         let mut run = Run {
-            mechanism: &self.mechanism.prepared(),
+            mechanism: self.mechanism.prepared(),
+            located: locate.then(|| self.mechanism.prepared()),
             solver: Solver::new::<M>(options),
             projector,
             project: trajectory.projected,
@@ -259,6 +284,7 @@ impl<M: Mechanism> Simulation<M> {
             run.trajectory.work.steps = report.steps;
             run.trajectory.work.rejected = report.rejected;
             run.trajectory.work.factorisations = report.factorisations;
+            run.trajectory.work.switches = report.landings;
             match report.outcome {
                 Outcome::Reached => run.trajectory.ending = Ending::Completed,
                 // Given up: the steps allowed would be used up without getting on.

@@ -21,6 +21,8 @@ pub struct Spec {
     pub holonomic: usize,
     /// Outputs, in declared order.
     pub outputs: &'static [OutputSpec],
+    /// Where the equations of motion have kinks or jumps, in the order of `Mechanism::switching`.
+    pub switches: &'static [SwitchSpec],
     /// What the compiler found out.
     pub structure: Structure,
     /// The derived equations, readable.
@@ -45,6 +47,16 @@ pub struct OutputSpec {
     pub name: &'static str,
     /// Doc comment; empty if none.
     pub doc: &'static str,
+}
+
+/// A switch: a function g(t, q, q̇) at whose zeros abs, sign, min or max change their branch. abs(u) and sign(u) turn at the zeros of u,
+/// min(a, b) and max(a, b) at those of a − b.
+#[derive(Debug)]
+pub struct SwitchSpec {
+    /// g, readable.
+    pub function: &'static str,
+    /// The terms of the equations of motion that contain it: "force on `x`", "non-ideal force on `x`", "mass on `x`", "constraint `rod`".
+    pub terms: &'static [&'static str],
 }
 
 /// A constraint.
@@ -264,6 +276,11 @@ impl Spec {
     #[must_use]
     pub const fn m(&self) -> usize {
         self.constraints.len()
+    }
+
+    /// Length of what emitted code takes as `prepared`: what depends on parameters only, then the branches held.
+    pub(crate) const fn slots(&self) -> usize {
+        self.prepared.len() + self.switches.len()
     }
 
     /// Name of what stands at `position` of K = [M Aᵀ; A 0]: a coordinate, or a constraint after all coordinates.

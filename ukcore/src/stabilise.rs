@@ -117,7 +117,7 @@ impl Projector {
             terms: vec![0.0; m],
             largest: vec![0.0; m],
             rounding: vec![0.0; m],
-            rounded: [n, n, m, spec.params.len(), spec.prepared.len()]
+            rounded: [n, n, m, spec.params.len(), spec.slots()]
                 .map(|len| vec![Rounded::exact(0.0); len]),
             dense: Dense::new(n, m, spec.structure.mass_diagonal),
             factored_at: None,
@@ -233,7 +233,7 @@ impl Projector {
         let [given, fixed, residual, params, prepared] = &mut self.rounded;
         let exact = mech.parameters().iter().map(|p| Rounded::exact(*p));
         params.iter_mut().zip(exact).for_each(|(r, p)| *r = p);
-        M::prepare(params, prepared);
+        mech.prepare_as(params, prepared);
         given
             .iter_mut()
             .zip(x)

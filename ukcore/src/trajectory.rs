@@ -41,6 +41,8 @@ pub struct Work {
     pub steps: usize,
     /// Attempted steps that were not accepted: because of their error, of the size of their projection, or of a failure.
     pub rejected: usize,
+    /// Steps onto zeros of [switching functions](crate::SwitchSpec), each of them cut from a longer one.
+    pub switches: usize,
     /// Evaluations of the mechanism's dynamics, those for drift estimates near singular configurations included; those that come with the Jacobians of an implicit method are not.
     pub evaluations: usize,
     /// Jacobians of the accelerations, for an implicit method. Each takes one sweep of dual numbers for 8 of its 2n columns with the feature `lanes`, and one for

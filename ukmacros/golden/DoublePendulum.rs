@@ -178,6 +178,7 @@ impl ::ukcore::Mechanism for DoublePendulum {
                 doc: "Angle of the outer rod from the downward vertical, rad",
             },
         ],
+        switches: &[],
         structure: ::ukcore::Structure {
             straight_line: true,
             solve: ::ukcore::Solve {

@@ -153,6 +153,7 @@ impl ::ukcore::Mechanism for DoublePendulumAngles {
                 doc: "Vertical position of the outer mass, upwards, m",
             },
         ],
+        switches: &[],
         structure: ::ukcore::Structure {
             straight_line: true,
             solve: ::ukcore::Solve {

@@ -68,6 +68,15 @@
 /// b[fin] = -sq(w)*a3*sin(w*t - phi)
 /// ```
 ///
+/// Switches, functions at whose zeros abs, sign, min or max change their branch, with the terms that contain them:
+///
+/// ```text
+/// dot(x1): force on `x1`
+/// dot(y1): force on `y1`
+/// dot(y2): force on `y2`
+/// dot(y3): force on `y3`
+/// ```
+///
 /// # How it is computed
 ///
 /// By straight-line code: [M Aᵀ; A 0] is eliminated at compile time, which fills in 6 of its entries.
@@ -76,10 +85,10 @@
 ///
 /// | operations | add | multiply | divide | root | function | select |
 /// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
-/// | M, Q, c, A and b | 15 | 52 | 0 | 0 | 5 | 4 |
+/// | M, Q, c, A and b | 19 | 52 | 0 | 0 | 5 | 8 |
 /// | dense LDLᵀ of [M Aᵀ; A 0] after that | 770 | 890 | 15 | 0 | 0 | 0 |
-/// | straight line, nothing hoisted | 49 | 165 | 7 | 0 | 5 | 16 |
-/// | straight line, as emitted | 47 | 105 | 2 | 0 | 5 | 6 |
+/// | straight line, nothing hoisted | 53 | 165 | 7 | 0 | 5 | 20 |
+/// | straight line, as emitted | 51 | 105 | 2 | 0 | 5 | 10 |
 /// | correction of a projection | 25 | 53 | 2 | 0 | 3 | 2 |
 /// | once for a set of parameters | 2 | 60 | 5 | 0 | 0 | 10 |
 ///
@@ -301,14 +310,6 @@ impl ::ukcore::Mechanism for FishRobot {
         prepared: &[
             ("rho_span_half_chord", "rho*span*half_chord"),
             ("times_rho_span_half_chord", "6.283185307179586*rho*span*half_chord"),
-            ("rho_s_cd", "rho*s*cd"),
-            ("half_rho_s_cd", "0.5*rho*s*cd"),
-            ("rho_cd_s1", "rho*cd*s1"),
-            ("half_rho_cd_s1", "0.5*rho*cd*s1"),
-            ("rho_cd_s2", "rho*cd*s2"),
-            ("half_rho_cd_s2", "0.5*rho*cd*s2"),
-            ("rho_cd_s3", "rho*cd*s3"),
-            ("half_rho_cd_s3", "0.5*rho*cd*s3"),
             ("a", "a"),
             ("l2", "l2"),
             ("b", "b"),
@@ -324,6 +325,14 @@ impl ::ukcore::Mechanism for FishRobot {
             ("a2_sq_w", "a2*sq(w)"),
             ("w_a3", "w*a3"),
             ("sq_w_a3", "sq(w)*a3"),
+            ("rho_s_cd", "rho*s*cd"),
+            ("half_rho_s_cd", "0.5*rho*s*cd"),
+            ("rho_cd_s1", "rho*cd*s1"),
+            ("half_rho_cd_s1", "0.5*rho*cd*s1"),
+            ("rho_cd_s2", "rho*cd*s2"),
+            ("half_rho_cd_s2", "0.5*rho*cd*s2"),
+            ("rho_cd_s3", "rho*cd*s3"),
+            ("half_rho_cd_s3", "0.5*rho*cd*s3"),
             ("l2_a2_sq_w", "l2*a2*sq(w)"),
             ("b_sq_w_a3", "b*sq(w)*a3"),
             ("rho_per_m1_s_cd", "rho*s*cd/m1"),
@@ -415,6 +424,24 @@ impl ::ukcore::Mechanism for FishRobot {
                 doc: "Lateral position of the fin's trailing edge, m",
             },
         ],
+        switches: &[
+            ::ukcore::SwitchSpec {
+                function: "dot(x1)",
+                terms: &["force on `x1`"],
+            },
+            ::ukcore::SwitchSpec {
+                function: "dot(y1)",
+                terms: &["force on `y1`"],
+            },
+            ::ukcore::SwitchSpec {
+                function: "dot(y2)",
+                terms: &["force on `y2`"],
+            },
+            ::ukcore::SwitchSpec {
+                function: "dot(y3)",
+                terms: &["force on `y3`"],
+            },
+        ],
         structure: ::ukcore::Structure {
             straight_line: true,
             solve: ::ukcore::Solve {
@@ -483,12 +510,12 @@ impl ::ukcore::Mechanism for FishRobot {
             ],
             costs: ::ukcore::Costs {
                 dynamics: ::ukcore::Operations {
-                    additions: 15,
+                    additions: 19,
                     multiplications: 52,
                     divisions: 0,
                     square_roots: 0,
                     transcendentals: 5,
-                    selections: 4,
+                    selections: 8,
                 },
                 dense: ::ukcore::Operations {
                     additions: 770,
@@ -499,20 +526,20 @@ impl ::ukcore::Mechanism for FishRobot {
                     selections: 0,
                 },
                 unprepared: ::ukcore::Operations {
-                    additions: 49,
+                    additions: 53,
                     multiplications: 165,
                     divisions: 7,
                     square_roots: 0,
                     transcendentals: 5,
-                    selections: 16,
+                    selections: 20,
                 },
                 acceleration: ::ukcore::Operations {
-                    additions: 47,
+                    additions: 51,
                     multiplications: 105,
                     divisions: 2,
                     square_roots: 0,
                     transcendentals: 5,
-                    selections: 6,
+                    selections: 10,
                 },
                 correction: ::ukcore::Operations {
                     additions: 25,
@@ -643,37 +670,37 @@ impl ::ukcore::Mechanism for FishRobot {
         let rho_span_half_chord = rho * span * half_chord;
         prepared[0] = rho_span_half_chord;
         prepared[1] = lit(::core::f64::consts::TAU) * rho_span_half_chord;
-        let rho_s_cd = rho * s * cd;
-        prepared[2] = rho_s_cd;
-        prepared[3] = lit(0.5) * rho_s_cd;
-        let rho_cd_s1 = rho * cd * s1;
-        prepared[4] = rho_cd_s1;
-        prepared[5] = lit(0.5) * rho_cd_s1;
-        let rho_cd_s2 = rho * cd * s2;
-        prepared[6] = rho_cd_s2;
-        prepared[7] = lit(0.5) * rho_cd_s2;
-        let rho_cd_s3 = rho * cd * s3;
-        prepared[8] = rho_cd_s3;
-        prepared[9] = lit(0.5) * rho_cd_s3;
-        prepared[10] = a;
-        prepared[11] = l2;
-        prepared[12] = b;
-        prepared[13] = w;
-        prepared[14] = a2;
-        prepared[15] = phi_2;
-        prepared[16] = a3;
+        prepared[2] = a;
+        prepared[3] = l2;
+        prepared[4] = b;
+        prepared[5] = w;
+        prepared[6] = a2;
+        prepared[7] = phi_2;
+        prepared[8] = a3;
         let per_m1 = m1.recip();
-        prepared[17] = m1;
+        prepared[9] = m1;
         let per_i1 = i1.recip();
-        prepared[18] = i1;
+        prepared[10] = i1;
         let per_m2 = m2.recip();
-        prepared[19] = m2;
+        prepared[11] = m2;
         let per_m3 = m3.recip();
-        prepared[20] = m3;
-        prepared[21] = a2 * w;
-        prepared[22] = a2 * w * w;
-        prepared[23] = w * a3;
-        prepared[24] = w * w * a3;
+        prepared[12] = m3;
+        prepared[13] = a2 * w;
+        prepared[14] = a2 * w * w;
+        prepared[15] = w * a3;
+        prepared[16] = w * w * a3;
+        let rho_s_cd = rho * s * cd;
+        prepared[17] = rho_s_cd;
+        prepared[18] = lit(0.5) * rho_s_cd;
+        let rho_cd_s1 = rho * cd * s1;
+        prepared[19] = rho_cd_s1;
+        prepared[20] = lit(0.5) * rho_cd_s1;
+        let rho_cd_s2 = rho * cd * s2;
+        prepared[21] = rho_cd_s2;
+        prepared[22] = lit(0.5) * rho_cd_s2;
+        let rho_cd_s3 = rho * cd * s3;
+        prepared[23] = rho_cd_s3;
+        prepared[24] = lit(0.5) * rho_cd_s3;
         prepared[25] = l2 * a2 * w * w;
         prepared[26] = b * w * w * a3;
         prepared[27] = rho * s * cd * per_m1;
@@ -742,7 +769,7 @@ impl ::ukcore::Mechanism for FishRobot {
         );
         prepared[51] = safe_joint2_0;
     }
-    /// 15 additions, 52 multiplications, 0 divisions, 0 square roots, 5 transcendentals, 4 selections.
+    /// 19 additions, 52 multiplications, 0 divisions, 0 square roots, 5 transcendentals, 8 selections.
     fn dynamics<S: ::ukcore::Scalar>(
         prepared: &[S],
         t: S,
@@ -755,13 +782,11 @@ impl ::ukcore::Mechanism for FishRobot {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 9>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 54>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 6>(out.rhs, "rhs");
-        let [rho_span_half_chord, times_rho_span_half_chord, _, half_rho_s_cd, _,
-        half_rho_cd_s1, _, half_rho_cd_s2, _, half_rho_cd_s3, a, l2, b, w, _, phi_2, _,
-        m1, i1, m2, m3, _, a2_sq_w, _, sq_w_a3, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            52,
-        >(prepared, "prepared");
+        let [rho_span_half_chord, times_rho_span_half_chord, a, l2, b, w, _, phi_2, _,
+        m1, i1, m2, m3, _, a2_sq_w, _, sq_w_a3, _, half_rho_s_cd, _, half_rho_cd_s1, _,
+        half_rho_cd_s2, _, half_rho_cd_s3, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+        _, _, _, _, _, _, _, _, _, _, _, _, held_dot_x1, held_dot_y1, held_dot_y2,
+        held_dot_y3] = *::ukcore::emitted::exact::<S, 56>(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -778,18 +803,21 @@ impl ::ukcore::Mechanism for FishRobot {
         mass[40] = m2;
         mass[60] = m3;
         mass[70] = m3;
-        force[0] = -(dot_x1 * half_rho_s_cd * dot_x1.abs());
-        force[1] = -(dot_y1 * half_rho_cd_s1 * dot_y1.abs());
+        force[0] = -(dot_x1 * half_rho_s_cd
+            * S::select_le(lit(0.0), dot_x1.branch(held_dot_x1), dot_x1, -dot_x1));
+        force[1] = -(dot_y1 * half_rho_cd_s1
+            * S::select_le(lit(0.0), dot_y1.branch(held_dot_y1), dot_y1, -dot_y1));
         force[2] = lit(0.0);
         force[3] = lit(0.0);
-        force[4] = -(dot_y2 * half_rho_cd_s2 * dot_y2.abs());
+        force[4] = -(dot_y2 * half_rho_cd_s2
+            * S::select_le(lit(0.0), dot_y2.branch(held_dot_y2), dot_y2, -dot_y2));
         force[5] = lit(0.0);
         let (sin_th3, cos_th3) = th3.sin_cos();
         force[6] = times_rho_span_half_chord
             * (dot_y3 * dot_y3).neg_mul_add(cos_th3, dot_x3 * dot_y3 * sin_th3);
         force[7] = (dot_y3 * half_rho_cd_s3)
             .neg_mul_add(
-                dot_y3.abs(),
+                S::select_le(lit(0.0), dot_y3.branch(held_dot_y3), dot_y3, -dot_y3),
                 lit(::core::f64::consts::TAU) * rho_span_half_chord
                     * (dot_x3 * dot_x3).neg_mul_add(sin_th3, dot_x3 * dot_y3 * cos_th3),
             );
@@ -841,9 +869,9 @@ impl ::ukcore::Mechanism for FishRobot {
     }
     fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 81>(mass, "mass");
-        let [_, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, m1, i1, m2, m3, _, _, _,
+        let [_, _, _, _, _, _, _, _, _, m1, i1, m2, m3, _, _, _, _, _, _, _, _, _, _, _,
         _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _] = *::ukcore::emitted::exact::<S, 52>(prepared, "prepared");
+        _, _, _, _, _] = *::ukcore::emitted::exact::<S, 56>(prepared, "prepared");
         mass[0] = m1;
         mass[10] = m1;
         mass[20] = i1;
@@ -860,9 +888,9 @@ impl ::ukcore::Mechanism for FishRobot {
         jacobian: &mut [S],
     ) {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 54>(jacobian, "jacobian");
-        let [_, _, _, _, _, _, _, _, _, _, a, l2, b, _, _, _, _, _, _, _, _, _, _, _, _,
+        let [_, _, a, l2, b, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
         _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        ] = *::ukcore::emitted::exact::<S, 52>(prepared, "prepared");
+        _, _, _, _] = *::ukcore::emitted::exact::<S, 56>(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -894,9 +922,9 @@ impl ::ukcore::Mechanism for FishRobot {
     }
     fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
         let phi = ::ukcore::emitted::exact_mut::<S, 6>(phi, "phi");
-        let [_, _, _, _, _, _, _, _, _, _, a, l2, b, w, a2, phi_2, a3, _, _, _, _, _, _,
+        let [_, _, a, l2, b, w, a2, phi_2, a3, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
         _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _] = *::ukcore::emitted::exact::<S, 52>(prepared, "prepared");
+        _, _, _, _, _, _] = *::ukcore::emitted::exact::<S, 56>(prepared, "prepared");
         let [x1, y1, th1, x2, y2, th2, x3, y3, th3] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -923,9 +951,9 @@ impl ::ukcore::Mechanism for FishRobot {
         rate: &mut [S],
     ) {
         let rate = ::ukcore::emitted::exact_mut::<S, 6>(rate, "rate");
-        let [_, _, _, _, _, _, _, _, _, _, a, l2, b, w, _, phi_2, _, _, _, _, _, a2_w, _,
-        w_a3, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _] = *::ukcore::emitted::exact::<S, 52>(prepared, "prepared");
+        let [_, _, a, l2, b, w, _, phi_2, _, _, _, _, _, a2_w, _, w_a3, _, _, _, _, _, _,
+        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+        _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<S, 56>(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -965,9 +993,9 @@ impl ::ukcore::Mechanism for FishRobot {
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
-        let [_, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, m1, i1, m2, m3, _, _, _,
+        let [_, _, _, _, _, _, _, _, _, m1, i1, m2, m3, _, _, _, _, _, _, _, _, _, _, _,
         _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _] = *::ukcore::emitted::exact::<S, 52>(prepared, "prepared");
+        _, _, _, _, _] = *::ukcore::emitted::exact::<S, 56>(prepared, "prepared");
         let [dot_x1, dot_y1, dot_th1, dot_x2, dot_y2, _, dot_x3, dot_y3, _] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -1009,11 +1037,11 @@ impl ::ukcore::Mechanism for FishRobot {
         outputs: &mut [S],
     ) {
         let outputs = ::ukcore::emitted::exact_mut::<S, 6>(outputs, "outputs");
-        let [rho_span_half_chord, times_rho_span_half_chord, _, _, _, _, _, _, _, _, _,
-        _, b, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
-        _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [rho_span_half_chord, times_rho_span_half_chord, _, _, b, _, _, _, _, _, _,
+        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
+        _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            52,
+            56,
         >(prepared, "prepared");
         let [_, _, th1, _, _, _, x3, y3, th3] = *::ukcore::emitted::exact::<
             S,
@@ -1035,7 +1063,24 @@ impl ::ukcore::Mechanism for FishRobot {
         outputs[4] = b.mul_add(cos_th3, x3);
         outputs[5] = b.mul_add(sin_th3, y3);
     }
-    /// 47 additions, 105 multiplications, 2 divisions, 0 square roots, 5 transcendentals, 6 selections.
+    fn switching<S: ::ukcore::Scalar>(
+        prepared: &[S],
+        t: S,
+        q: &[S],
+        v: &[S],
+        switching: &mut [S],
+    ) {
+        let switching = ::ukcore::emitted::exact_mut::<S, 4>(switching, "switching");
+        let [dot_x1, dot_y1, _, _, dot_y2, _, _, dot_y3, _] = *::ukcore::emitted::exact::<
+            S,
+            9,
+        >(v, "v");
+        switching[0] = dot_x1;
+        switching[1] = dot_y1;
+        switching[2] = dot_y2;
+        switching[3] = dot_y3;
+    }
+    /// 51 additions, 105 multiplications, 2 divisions, 0 square roots, 5 transcendentals, 10 selections.
     fn acceleration<S: ::ukcore::Scalar>(
         prepared: &[S],
         t: S,
@@ -1044,17 +1089,15 @@ impl ::ukcore::Mechanism for FishRobot {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 9>(out, "out");
-        let [rho_span_half_chord, _, rho_s_cd, _, rho_cd_s1, _, rho_cd_s2, _, _, _, a,
-        l2, b, w, _, phi_2, _, _, _, _, _, _, a2_sq_w, _, sq_w_a3, l2_a2_sq_w, b_sq_w_a3,
+        let [rho_span_half_chord, _, a, l2, b, w, _, phi_2, _, _, _, _, _, _, a2_sq_w, _,
+        sq_w_a3, rho_s_cd, _, rho_cd_s1, _, rho_cd_s2, _, _, _, l2_a2_sq_w, b_sq_w_a3,
         rho_per_m1_s_cd, rho_per_m1_cd_s1, rho_span_half_chord_per_m3, _, _,
         times_span_half_chord, half_cd_s3, rho, rho_per_m3, per_i1_sq_a,
         rho_per_m2_cd_s2, joint1_0_with_joint2_0, joint1_1_by_joint2_1,
         per_m1_and_per_m2, pivot_joint2_0, prepared_part, prepared_part_2,
         prepared_part_3, per_i1_sq_a_per_m3_and_per_m2, per_per_m3_and_per_m2, per_i1_a,
-        per_m3, per_m1, _, safe_joint2_0] = *::ukcore::emitted::exact::<
-            S,
-            52,
-        >(prepared, "prepared");
+        per_m3, per_m1, _, safe_joint2_0, held_dot_x1, held_dot_y1, held_dot_y2,
+        held_dot_y3] = *::ukcore::emitted::exact::<S, 56>(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
             S,
             9,
@@ -1064,18 +1107,24 @@ impl ::ukcore::Mechanism for FishRobot {
             9,
         >(v, "v");
         let lit = S::from_f64;
-        let right_x1 = lit(0.5) * (dot_x1 * dot_x1.abs());
-        let right_y1 = lit(0.5) * (dot_y1 * dot_y1.abs());
+        let right_x1 = lit(0.5)
+            * (dot_x1
+                * S::select_le(lit(0.0), dot_x1.branch(held_dot_x1), dot_x1, -dot_x1));
+        let right_y1 = lit(0.5)
+            * (dot_y1
+                * S::select_le(lit(0.0), dot_y1.branch(held_dot_y1), dot_y1, -dot_y1));
         let (sin_th3, cos_th3) = th3.sin_cos();
         let right_x3 = lit(::core::f64::consts::TAU)
             * (dot_y3 * dot_y3).neg_mul_add(cos_th3, dot_x3 * dot_y3 * sin_th3);
         let right_y3 = (dot_y3 * half_cd_s3)
             .neg_mul_add(
-                dot_y3.abs(),
+                S::select_le(lit(0.0), dot_y3.branch(held_dot_y3), dot_y3, -dot_y3),
                 times_span_half_chord
                     * (dot_x3 * dot_x3).neg_mul_add(sin_th3, dot_x3 * dot_y3 * cos_th3),
             );
-        let right_y2 = lit(0.5) * (dot_y2 * dot_y2.abs());
+        let right_y2 = lit(0.5)
+            * (dot_y2
+                * S::select_le(lit(0.0), dot_y2.branch(held_dot_y2), dot_y2, -dot_y2));
         let (sin_th2, cos_th2) = th2.sin_cos();
         let cos_th2_sq_dot_th2_l2 = dot_th2 * dot_th2 * l2 * cos_th2;
         let acceleration_0_part = lit(0.5) * sin_th2;
@@ -1199,12 +1248,15 @@ impl ::ukcore::Mechanism for FishRobot {
         out: &mut [S],
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 9>(out, "out");
-        let [_, _, _, _, _, _, _, _, _, _, _, l2, b, _, _, _, _, _, _, _, _, _, _, _, _,
+        let [_, _, _, l2, b, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _,
         _, _, _, _, _, _, _, _, _, _, _, per_i1_sq_a, _, joint1_0_with_joint2_0,
         joint1_1_by_joint2_1, per_m1_and_per_m2, pivot_joint2_0, prepared_part,
         prepared_part_2, prepared_part_3, per_i1_sq_a_per_m3_and_per_m2,
         per_per_m3_and_per_m2, per_i1_a, _, per_m1, per_m3_per_per_m3_and_per_m2,
-        safe_joint2_0] = *::ukcore::emitted::exact::<S, 52>(prepared, "prepared");
+        safe_joint2_0, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            56,
+        >(prepared, "prepared");
         let [_, _, th1, _, _, th2, _, _, th3] = *::ukcore::emitted::exact::<
             S,
             9,

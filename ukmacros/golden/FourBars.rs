@@ -238,6 +238,7 @@ impl ::ukcore::Mechanism for FourBars {
                 doc: "Angle of the first crank from the upright, towards +x, rad",
             },
         ],
+        switches: &[],
         structure: ::ukcore::Structure {
             straight_line: true,
             solve: ::ukcore::Solve {

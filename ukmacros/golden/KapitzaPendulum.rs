@@ -164,6 +164,7 @@ impl ::ukcore::Mechanism for KapitzaPendulum {
                 doc: "Height of the pivot, m",
             },
         ],
+        switches: &[],
         structure: ::ukcore::Structure {
             straight_line: true,
             solve: ::ukcore::Solve {

@@ -149,6 +149,7 @@ impl ::ukcore::Mechanism for KnifeEdge {
                 doc: "Angular velocity, rad/s",
             },
         ],
+        switches: &[],
         structure: ::ukcore::Structure {
             straight_line: true,
             solve: ::ukcore::Solve {

@@ -121,6 +121,7 @@ impl ::ukcore::Mechanism for MasslessSpring {
                 doc: "Force that the springs transmit, N",
             },
         ],
+        switches: &[],
         structure: ::ukcore::Structure {
             straight_line: false,
             solve: ::ukcore::Solve::none(

@@ -138,6 +138,7 @@ impl ::ukcore::Mechanism for Pendulum {
                 doc: "Tension of the rod, N",
             },
         ],
+        switches: &[],
         structure: ::ukcore::Structure {
             straight_line: true,
             solve: ::ukcore::Solve {

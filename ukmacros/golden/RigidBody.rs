@@ -185,6 +185,7 @@ impl ::ukcore::Mechanism for RigidBody {
                 doc: "Angular momentum along the space axis z, kg m^2/s",
             },
         ],
+        switches: &[],
         structure: ::ukcore::Structure {
             straight_line: true,
             solve: ::ukcore::Solve {

@@ -45,16 +45,22 @@
 /// c[y] = cos(slope)*sin(slope)*mu*m*g*sign(speed_down)
 /// ```
 ///
+/// Switches, functions at whose zeros abs, sign, min or max change their branch, with the terms that contain them:
+///
+/// ```text
+/// speed_down: non-ideal force on `x`, non-ideal force on `y`
+/// ```
+///
 /// # How it is computed
 ///
 /// By straight-line code: [M Aᵀ; A 0] is eliminated at compile time, which fills in 0 of its entries.
 ///
 /// | operations | add | multiply | divide | root | function | select |
 /// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
-/// | M, Q, c, A and b | 3 | 4 | 0 | 0 | 0 | 1 |
+/// | M, Q, c, A and b | 3 | 4 | 0 | 0 | 0 | 2 |
 /// | dense LDLᵀ of [M Aᵀ; A 0] after that | 10 | 16 | 3 | 0 | 0 | 0 |
-/// | straight line, nothing hoisted | 8 | 17 | 1 | 0 | 1 | 5 |
-/// | straight line, as emitted | 7 | 8 | 0 | 0 | 0 | 1 |
+/// | straight line, nothing hoisted | 8 | 17 | 1 | 0 | 1 | 6 |
+/// | straight line, as emitted | 7 | 8 | 0 | 0 | 0 | 2 |
 /// | correction of a projection | 2 | 2 | 0 | 0 | 0 | 0 |
 /// | once for a set of parameters | 1 | 22 | 1 | 0 | 1 | 4 |
 ///
@@ -132,9 +138,9 @@ impl ::ukcore::Mechanism for RoughBlock {
             ("sin_slope", "sin(slope)"),
             ("cos_slope_mu_m_g", "cos(slope)*mu*m*g"),
             ("m_g", "m*g"),
+            ("m", "m"),
             ("sq_cos_slope_mu_m_g", "sq(cos(slope))*mu*m*g"),
             ("cos_slope_sin_slope_mu_m_g", "cos(slope)*sin(slope)*mu*m*g"),
-            ("m", "m"),
             ("cos_slope_sin_slope_mu", "cos(slope)*sin(slope)*mu"),
             ("prepared_part", "sq(cos(slope))/(sq(sin(slope)) + sq(cos(slope)))"),
             ("g", "g"),
@@ -168,6 +174,12 @@ impl ::ukcore::Mechanism for RoughBlock {
             ::ukcore::OutputSpec {
                 name: "friction_force",
                 doc: "Friction, positive down the slope, N",
+            },
+        ],
+        switches: &[
+            ::ukcore::SwitchSpec {
+                function: "speed_down",
+                terms: &["non-ideal force on `x`", "non-ideal force on `y`"],
             },
         ],
         structure: ::ukcore::Structure {
@@ -207,7 +219,7 @@ impl ::ukcore::Mechanism for RoughBlock {
                     divisions: 0,
                     square_roots: 0,
                     transcendentals: 0,
-                    selections: 1,
+                    selections: 2,
                 },
                 dense: ::ukcore::Operations {
                     additions: 10,
@@ -223,7 +235,7 @@ impl ::ukcore::Mechanism for RoughBlock {
                     divisions: 1,
                     square_roots: 0,
                     transcendentals: 1,
-                    selections: 5,
+                    selections: 6,
                 },
                 acceleration: ::ukcore::Operations {
                     additions: 7,
@@ -231,7 +243,7 @@ impl ::ukcore::Mechanism for RoughBlock {
                     divisions: 0,
                     square_roots: 0,
                     transcendentals: 0,
-                    selections: 1,
+                    selections: 2,
                 },
                 correction: ::ukcore::Operations {
                     additions: 2,
@@ -290,9 +302,9 @@ impl ::ukcore::Mechanism for RoughBlock {
         prepared[1] = sin_slope;
         prepared[2] = mu * m * g * cos_slope;
         prepared[3] = m * g;
-        prepared[4] = mu * m * g * cos_slope * cos_slope;
-        prepared[5] = mu * m * g * cos_slope * sin_slope;
-        prepared[6] = m;
+        prepared[4] = m;
+        prepared[5] = mu * m * g * cos_slope * cos_slope;
+        prepared[6] = mu * m * g * cos_slope * sin_slope;
         prepared[7] = mu * cos_slope * sin_slope;
         let pivot_plane = cos_slope.mul_add(cos_slope, sin_slope * sin_slope);
         let per_pivot_plane = pivot_plane.recip();
@@ -316,7 +328,7 @@ impl ::ukcore::Mechanism for RoughBlock {
         );
         prepared[14] = safe_plane;
     }
-    /// 3 additions, 4 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 1 selections.
+    /// 3 additions, 4 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 2 selections.
     fn dynamics<S: ::ukcore::Scalar>(
         prepared: &[S],
         t: S,
@@ -329,10 +341,10 @@ impl ::ukcore::Mechanism for RoughBlock {
         let nonideal = ::ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
         let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(out.jacobian, "jacobian");
         let rhs = ::ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
-        let [cos_slope, sin_slope, _, m_g, sq_cos_slope_mu_m_g,
-        cos_slope_sin_slope_mu_m_g, m, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [cos_slope, sin_slope, _, m_g, m, sq_cos_slope_mu_m_g,
+        cos_slope_sin_slope_mu_m_g, _, _, _, _, _, _, _, _, held_speed_down] = *::ukcore::emitted::exact::<
             S,
-            15,
+            16,
         >(prepared, "prepared");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
@@ -341,7 +353,7 @@ impl ::ukcore::Mechanism for RoughBlock {
         force[0] = lit(0.0);
         force[1] = -m_g;
         let speed_down = dot_y.neg_mul_add(sin_slope, dot_x * cos_slope);
-        let right_x = speed_down.sign();
+        let right_x = speed_down.branch(held_speed_down).sign();
         nonideal[0] = -(sq_cos_slope_mu_m_g * right_x);
         nonideal[1] = cos_slope_sin_slope_mu_m_g * right_x;
         jacobian[0] = sin_slope;
@@ -350,9 +362,9 @@ impl ::ukcore::Mechanism for RoughBlock {
     }
     fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
         let mass = ::ukcore::emitted::exact_mut::<S, 4>(mass, "mass");
-        let [_, _, _, _, _, _, m, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [_, _, _, _, m, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            15,
+            16,
         >(prepared, "prepared");
         mass[0] = m;
         mass[3] = m;
@@ -365,18 +377,18 @@ impl ::ukcore::Mechanism for RoughBlock {
         jacobian: &mut [S],
     ) {
         let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(jacobian, "jacobian");
-        let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            15,
+            16,
         >(prepared, "prepared");
         jacobian[0] = sin_slope;
         jacobian[1] = cos_slope;
     }
     fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
         let phi = ::ukcore::emitted::exact_mut::<S, 1>(phi, "phi");
-        let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            15,
+            16,
         >(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         phi[0] = y.mul_add(cos_slope, x * sin_slope);
@@ -389,9 +401,9 @@ impl ::ukcore::Mechanism for RoughBlock {
         rate: &mut [S],
     ) {
         let rate = ::ukcore::emitted::exact_mut::<S, 1>(rate, "rate");
-        let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            15,
+            16,
         >(prepared, "prepared");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         rate[0] = dot_y.mul_add(cos_slope, dot_x * sin_slope);
@@ -402,9 +414,9 @@ impl ::ukcore::Mechanism for RoughBlock {
         q: &[S],
         v: &[S],
     ) -> ::ukcore::Energy<S> {
-        let [_, _, _, m_g, _, _, m, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+        let [_, _, _, m_g, m, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
             S,
-            15,
+            16,
         >(prepared, "prepared");
         let [_, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
@@ -425,17 +437,32 @@ impl ::ukcore::Mechanism for RoughBlock {
     ) {
         let outputs = ::ukcore::emitted::exact_mut::<S, 3>(outputs, "outputs");
         let [cos_slope, sin_slope, cos_slope_mu_m_g, _, _, _, _, _, _, _, _, _, _, _, _,
-        ] = *::ukcore::emitted::exact::<S, 15>(prepared, "prepared");
+        _] = *::ukcore::emitted::exact::<S, 16>(prepared, "prepared");
         let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         outputs[0] = y.neg_mul_add(sin_slope, x * cos_slope);
         let speed_down = dot_y.neg_mul_add(sin_slope, dot_x * cos_slope);
         outputs[1] = speed_down;
-        let right_x = speed_down.sign();
-        let neg_friction = cos_slope_mu_m_g * right_x;
+        let neg_friction = cos_slope_mu_m_g * speed_down.sign();
         outputs[2] = -neg_friction;
     }
-    /// 7 additions, 8 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 1 selections.
+    fn switching<S: ::ukcore::Scalar>(
+        prepared: &[S],
+        t: S,
+        q: &[S],
+        v: &[S],
+        switching: &mut [S],
+    ) {
+        let switching = ::ukcore::emitted::exact_mut::<S, 1>(switching, "switching");
+        let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
+            S,
+            16,
+        >(prepared, "prepared");
+        let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
+        let speed_down = dot_y.neg_mul_add(sin_slope, dot_x * cos_slope);
+        switching[0] = speed_down;
+    }
+    /// 7 additions, 8 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 2 selections.
     fn acceleration<S: ::ukcore::Scalar>(
         prepared: &[S],
         t: S,
@@ -445,14 +472,14 @@ impl ::ukcore::Mechanism for RoughBlock {
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
         let [cos_slope, sin_slope, _, _, _, _, _, cos_slope_sin_slope_mu, prepared_part,
-        g, cos_slope_mu, prepared_part_2, cos_slope_g, _, safe_plane] = *::ukcore::emitted::exact::<
+        g, cos_slope_mu, prepared_part_2, cos_slope_g, _, safe_plane, held_speed_down] = *::ukcore::emitted::exact::<
             S,
-            15,
+            16,
         >(prepared, "prepared");
         let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
         let lit = S::from_f64;
         let speed_down = dot_y.neg_mul_add(sin_slope, dot_x * cos_slope);
-        let right_x = speed_down.sign();
+        let right_x = speed_down.branch(held_speed_down).sign();
         let right_x_cos_slope_sin_slope_mu = cos_slope_sin_slope_mu * right_x;
         let right_y = lit(1.0) - right_x_cos_slope_sin_slope_mu;
         let right_plane = right_x_cos_slope_sin_slope_mu + right_y;
@@ -472,7 +499,7 @@ impl ::ukcore::Mechanism for RoughBlock {
     ) -> S {
         let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
         let [_, _, _, _, _, _, _, _, _, _, _, prepared_part_2, _, prepared_part_3,
-        safe_plane] = *::ukcore::emitted::exact::<S, 15>(prepared, "prepared");
+        safe_plane, _] = *::ukcore::emitted::exact::<S, 16>(prepared, "prepared");
         let [residual_0] = *::ukcore::emitted::exact::<S, 1>(residual, "residual");
         let safe = safe_plane;
         out[0] = -(residual_0 * prepared_part_2);

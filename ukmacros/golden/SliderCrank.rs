@@ -314,6 +314,7 @@ impl ::ukcore::Mechanism for SliderCrank {
                 doc: "Velocity of the slider, m/s",
             },
         ],
+        switches: &[],
         structure: ::ukcore::Structure {
             straight_line: true,
             solve: ::ukcore::Solve {

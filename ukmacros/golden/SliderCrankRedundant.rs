@@ -321,6 +321,7 @@ impl ::ukcore::Mechanism for SliderCrankRedundant {
                 doc: "Velocity of the slider, m/s",
             },
         ],
+        switches: &[],
         structure: ::ukcore::Structure {
             straight_line: false,
             solve: ::ukcore::Solve::none(

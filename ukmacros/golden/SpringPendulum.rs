@@ -135,6 +135,7 @@ impl ::ukcore::Mechanism for SpringPendulum {
                 doc: "Force of the spring, N",
             },
         ],
+        switches: &[],
         structure: ::ukcore::Structure {
             straight_line: true,
             solve: ::ukcore::Solve {

@@ -316,6 +316,7 @@ impl ::ukcore::Mechanism for UChain {
                 doc: "Depth of the centre of mass below the support, m",
             },
         ],
+        switches: &[],
         structure: ::ukcore::Structure {
             straight_line: true,
             solve: ::ukcore::Solve {

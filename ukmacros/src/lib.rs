@@ -68,7 +68,8 @@ use proc_macro2::TokenStream;
 /// A power is `x.powi(2)` (exponents from −64 to 64) or `sq(x)`, never `x ^ 2`. Parentheses around a sum are kept in the emitted arithmetic.
 /// Sums and products may be as long as they like, but are nested at most 100 deep.
 ///
-/// abs and sign have derivative sign and 0 (0 at 0); min and max follow the branch taken. sqrt at 0, asin and acos at ±1, ln and negative
+/// abs and sign have derivative sign and 0 (0 at 0); min and max follow the branch taken. Where the equations of motion depend on one of them, the function
+/// whose sign decides its branch is a switch: it stands in `T::SPEC.switches`, and simulations step onto its zeros. sqrt at 0, asin and acos at ±1, ln and negative
 /// powers at 0, atan2 and hypot at (0, 0) have no finite derivative: evaluating there is reported as an error at run time.
 ///
 /// # What is emitted
@@ -136,12 +137,13 @@ fn expand(input: TokenStream) -> (TokenStream, diag::Diagnostics) {
             let coordinates = model.coord_elements.iter().map(|c| c.name.clone());
             let constraints = system.constraints.iter().map(|c| c.item.text());
             let names: Vec<String> = coordinates.chain(constraints).collect();
-            let straight = analysis::eliminate(&dynamics, &names, &mut system.graph)
+            let (held, switches) = analysis::hold(&mut system, &dynamics, &names);
+            let straight = analysis::eliminate(&held, &names, &mut system.graph)
                 .map(|elimination| analysis::Straight::new(elimination, &mut system));
-            let plan = analysis::plan(structure, &dynamics, &straight, &system.graph);
-            let hoisted = analysis::hoist(&mut system, &dynamics, &straight);
+            let plan = analysis::plan(structure, &held, &straight, &system.graph);
+            let hoisted = analysis::hoist(&mut system, &held, &straight, &switches);
             if cfg!(debug_assertions)
-                && let Some(k) = analysis::verify_hoisting(&system, &dynamics, &straight, &hoisted)
+                && let Some(k) = analysis::verify_hoisting(&system, &held, &straight, &hoisted)
             {
                 diag.error(
                     decl.name.span(),
@@ -150,9 +152,13 @@ fn expand(input: TokenStream) -> (TokenStream, diag::Diagnostics) {
                     ),
                 );
             }
-            let code = emit::emit(
-                &decl, &model, &system, &constants, &dynamics, &plan, &hoisted,
-            );
+            let derived = emit::Derived {
+                dynamics: &dynamics,
+                switches: &switches,
+                plan: &plan,
+                hoisted: &hoisted,
+            };
+            let code = emit::emit(&decl, &model, &system, &constants, &derived);
             if diag.is_empty() {
                 return (code, diag);
             }

@@ -32,10 +32,11 @@ impl Scheme for Explicit {
     fn begin<P: Problem>(
         &mut self,
         equations: &mut Equations<'_, P>,
+        s: f64,
         y: &[f64],
     ) -> Result<(), NoRate> {
         let f = |s, y: &[f64], rate: &mut [f64]| equations.rate(s, y, rate);
-        self.stepper.begin(f, 0.0, y)
+        self.stepper.begin(f, s, y)
     }
 
     fn first_size<P: Problem>(

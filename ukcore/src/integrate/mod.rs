@@ -10,11 +10,12 @@
 //!    error norm: the root mean square of error / (tolerance + tolerance |y|);
 //! 2. project the new state; a change above [`PROJECTION_LIMIT`] in the same norm rejects the step;
 //! 3. evaluate f at the projected state, for the next step to begin with;
-//! 4. samples, events, the interpolant.
+//! 4. where a switching function has changed its sign, repeat the step up to its zero;
+//! 5. samples, events, the interpolant.
 //!
 //! Dopri5 needs what 3 gives for its estimate, which then comes after it.
 //!
-//! A failure in 2 to 4 rejects the step like a failure in 1. So an error reaches the user only where no step, however
+//! A failure in 2 to 5 rejects the step like a failure in 1. So an error reaches the user only where no step, however
 //! small, avoids it, and then it carries the place where it arose.
 
 mod control;
@@ -26,6 +27,7 @@ mod rattle;
 mod scheme;
 mod stepper;
 mod sums;
+mod switches;
 mod tableau;
 #[cfg(test)]
 mod tests;
@@ -33,6 +35,7 @@ mod tests;
 use std::fmt;
 
 use crate::error::Error;
+use crate::mechanism::Branch;
 #[cfg(feature = "ensemble")]
 pub(crate) use control::{Guess, Plan, StepSize};
 #[cfg(feature = "ensemble")]
@@ -112,6 +115,27 @@ pub(crate) trait Problem {
     fn settle(&mut self, t: f64, q: &[f64], v: &mut [f64]) -> Result<(), Error>;
     /// The next time at which an interpolant is wanted, if any; may change in [`Problem::step`].
     fn next_sample(&self) -> Option<f64>;
+    /// Number of switches: functions g(t, y) at whose zeros y' may have kinks or jumps, onto which steps are to go.
+    fn switches(&self) -> usize {
+        0
+    }
+    /// The g of all switches at (t, y).
+    fn switching(&mut self, t: f64, y: &[f64], values: &mut [f64]) {
+        let _ = (t, y, values);
+    }
+    /// Their derivatives by time where y' is `rate`.
+    fn switching_rate(&mut self, t: f64, y: &[f64], rate: &[f64], values: &mut [f64]) {
+        let _ = (t, y, rate, values);
+    }
+    /// Holds switch `k` in `branch`: from now on y' goes on smoothly at its zeros.
+    fn hold(&mut self, k: usize, branch: Branch) {
+        let _ = (k, branch);
+    }
+    /// What to report where the motion is driven onto the zeros of `switches` from both sides.
+    fn stuck(&self, switches: &[usize]) -> Error {
+        let _ = switches;
+        Error::StepTooSmall { step: 0.0 }
+    }
     /// Called after each accepted step. After an error nothing of this call may be kept: the step is tried again, shorter.
     fn step(&mut self, step: &Step<'_>) -> Result<Next, Error>;
 }
@@ -169,10 +193,12 @@ pub(crate) struct Report {
     pub(crate) outcome: Outcome,
     /// Accepted steps.
     pub(crate) steps: usize,
-    /// Attempted steps that were not accepted.
+    /// Attempted steps that were not accepted, those aside that were repeated up to the zero of a switch.
     pub(crate) rejected: usize,
     /// Factorisations of the matrices of an implicit method.
     pub(crate) factorisations: usize,
+    /// Steps that went onto zeros of switches.
+    pub(crate) landings: usize,
 }
 
 impl Method {

@@ -204,9 +204,12 @@ impl Scheme for Radau {
     fn begin<P: Problem>(
         &mut self,
         equations: &mut Equations<'_, P>,
+        s: f64,
         y: &[f64],
     ) -> Result<(), NoRate> {
-        equations.rate(0.0, y, &mut self.rate)
+        self.newton.forget();
+        self.h_previous = None;
+        equations.rate(s, y, &mut self.rate)
     }
 
     fn first_size<P: Problem>(

@@ -110,9 +110,10 @@ impl Scheme for Rattle {
     fn begin<P: Problem>(
         &mut self,
         equations: &mut Equations<'_, P>,
+        s: f64,
         y: &[f64],
     ) -> Result<(), NoRate> {
-        equations.rate(0.0, y, &mut self.rate)
+        equations.rate(s, y, &mut self.rate)
     }
 
     fn first_size<P: Problem>(

@@ -4,6 +4,7 @@
 //! one step at a time and says how long the next one should be.
 
 use super::Problem;
+use super::switches::Switches;
 use crate::error::Error;
 use crate::scan::all_finite;
 
@@ -21,12 +22,14 @@ pub(super) type NoRate = Option<Trouble>;
 pub(super) struct Equations<'p, P> {
     pub(super) problem: &'p mut P,
     pub(super) t0: f64,
+    pub(super) switches: Switches,
 }
 
 impl<P: Problem> Equations<'_, P> {
     /// y' at (s, y) into `rate`.
     pub(super) fn rate(&mut self, s: f64, y: &[f64], rate: &mut [f64]) -> Result<(), NoRate> {
         let t = self.t0 + s;
+        self.switches.look(self.problem, t, y);
         let result = self.problem.derivative(t, y, rate);
         result.map_err(|error| no_rate(t, y, error))
     }
@@ -72,10 +75,11 @@ pub(super) struct Attempt {
 /// [`interpolate`](Scheme::interpolate) if wanted, [`advance`](Scheme::advance), [`accepted`](Scheme::accepted). Where one of them fails, what follows is left out,
 /// [`inaccurate`](Scheme::inaccurate) or [`unfit`](Scheme::unfit) shortens the step, and it is tried again.
 pub(super) trait Scheme {
-    /// Evaluates f at the start of the run, (0, y).
+    /// Evaluates f at (s, y), at the start of the run or where f has changed there: nothing before counts any more.
     fn begin<P: Problem>(
         &mut self,
         equations: &mut Equations<'_, P>,
+        s: f64,
         y: &[f64],
     ) -> Result<(), NoRate>;
 

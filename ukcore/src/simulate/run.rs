@@ -2,12 +2,13 @@
 
 use std::ops::ControlFlow;
 
-use super::trouble::{Conflict, Pace};
+use super::trouble::{self, Conflict, Pace};
 use crate::error::Error;
 use crate::events::{EventHit, States, Watch};
 use crate::integrate::{Next, Problem, Step};
 use crate::linearise::Slopes;
-use crate::mechanism::{Mechanism, Prepared};
+use crate::mechanism::{Branch, Mechanism, Prepared};
+use crate::scalar::Dual;
 use crate::solver::Solver;
 use crate::stabilise::Projector;
 use crate::trajectory::{Ending, Trajectory, Work};
@@ -82,7 +83,9 @@ impl Agenda {
 
 /// The simulation as a problem for the integrator.
 pub(super) struct Run<'a, M> {
-    pub(super) mechanism: &'a Prepared<M>,
+    pub(super) mechanism: Prepared<M>,
+    /// For the derivatives of switching functions, if steps are to go onto their zeros.
+    pub(super) located: Option<Prepared<M, Dual>>,
     pub(super) solver: Solver,
     pub(super) projector: Projector,
     pub(super) project: bool,
@@ -138,7 +141,7 @@ impl<M: Mechanism> Run<'_, M> {
     /// What is to be kept of an accepted step.
     fn record(&mut self, step: &Step<'_>) -> Result<(), Error> {
         let mut within = Within {
-            mechanism: self.mechanism,
+            mechanism: &self.mechanism,
             projector: &mut self.projector,
             project: self.project,
             step,
@@ -198,7 +201,7 @@ impl<M: Mechanism> Problem for Run<'_, M> {
         let (q_rate, v_rate) = rate.split_at_mut(self.n);
         q_rate.copy_from_slice(v);
         let solver = &mut self.solver;
-        let result = solver.acceleration_in_run(self.mechanism, t, q, v, v_rate);
+        let result = solver.acceleration_in_run(&self.mechanism, t, q, v, v_rate);
         result.inspect_err(|error| self.conflict.note(t, y, error))
     }
 
@@ -212,7 +215,7 @@ impl<M: Mechanism> Problem for Run<'_, M> {
         let (q, v) = y.split_at(self.n);
         let (q_rate, v_rate) = rate.split_at_mut(self.n);
         q_rate.copy_from_slice(v);
-        let (mechanism, solver) = (self.mechanism, &mut self.solver);
+        let (mechanism, solver) = (&self.mechanism, &mut self.solver);
         let slopes = self.slopes.get_or_insert_with(|| Slopes::new(mechanism));
         self.trajectory.work.jacobians += 1;
         let result = slopes.columns(solver, mechanism, (t, q, v), v_rate, out);
@@ -222,7 +225,7 @@ impl<M: Mechanism> Problem for Run<'_, M> {
     fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), Error> {
         if self.project {
             let work = &mut self.trajectory.work;
-            let result = project(self.mechanism, &mut self.projector, work, t, y);
+            let result = project(&self.mechanism, &mut self.projector, work, t, y);
             result.inspect_err(|error| self.conflict.note(t, y, error))?;
         }
         Ok(())
@@ -238,19 +241,52 @@ impl<M: Mechanism> Problem for Run<'_, M> {
         let work = &mut self.trajectory.work;
         work.projections += 1;
         let projector = &mut self.projector;
-        let correction = projector.position_along(self.mechanism, t, base, q, shift)?;
+        let correction = projector.position_along(&self.mechanism, t, base, q, shift)?;
         work.projection_iterations += correction.iterations;
         Ok(())
     }
 
     fn settle(&mut self, t: f64, q: &[f64], v: &mut [f64]) -> Result<(), Error> {
-        let correction = self.projector.velocity(self.mechanism, t, q, v)?;
+        let correction = self.projector.velocity(&self.mechanism, t, q, v)?;
         self.trajectory.work.projection_iterations += correction.iterations;
         Ok(())
     }
 
     fn next_sample(&self) -> Option<f64> {
         self.agenda.next()
+    }
+
+    fn switches(&self) -> usize {
+        match self.located {
+            Some(_) => M::SPEC.switches.len(),
+            None => 0,
+        }
+    }
+
+    fn switching(&mut self, t: f64, y: &[f64], values: &mut [f64]) {
+        let (q, v) = y.split_at(self.n);
+        self.mechanism.switching(t, q, v, values);
+    }
+
+    fn switching_rate(&mut self, t: f64, y: &[f64], rate: &[f64], values: &mut [f64]) {
+        let Some(mechanism) = &self.located else {
+            return;
+        };
+        let pairs = y.iter().zip(rate);
+        let y: Vec<Dual> = pairs.map(|(y, rate)| Dual::new(*y, *rate)).collect();
+        let (q, v) = y.split_at(self.n);
+        let mut duals = vec![Dual::new(0.0, 0.0); values.len()];
+        mechanism.switching(Dual::new(t, 1.0), q, v, &mut duals);
+        let rates = duals.iter().map(|dual| dual.eps);
+        values.iter_mut().zip(rates).for_each(|(x, rate)| *x = rate);
+    }
+
+    fn hold(&mut self, k: usize, branch: Branch) {
+        self.mechanism.hold(k, branch);
+    }
+
+    fn stuck(&self, switches: &[usize]) -> Error {
+        trouble::stuck(M::SPEC, switches)
     }
 
     fn step(&mut self, step: &Step<'_>) -> Result<Next, Error> {

@@ -59,6 +59,7 @@ static SPEC: Spec = Spec {
         name: "angle",
         doc: "",
     }],
+    switches: &[],
     structure: Structure {
         straight_line: false,
         solve: Solve::none("it is written by hand"),

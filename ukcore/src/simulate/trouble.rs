@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::integrate::error_norm;
-use crate::mechanism::Spec;
+use crate::mechanism::{Spec, SwitchSpec};
 
 /// A contradiction seen nearer to where it begins replaces the one seen first while its residual is at least this part of it:
 /// nearer still it fades into rounding, and so do the names.
@@ -112,7 +112,7 @@ pub(super) struct Pace {
 impl Pace {
     pub(super) fn new(spec: &Spec, tolerance: f64, max_steps: usize) -> Self {
         Pace {
-            terms: switches(spec),
+            terms: terms(&spec.switches.iter().collect::<Vec<_>>()),
             tolerance,
             left: max_steps,
             steps: 0,
@@ -167,62 +167,29 @@ impl Pace {
     }
 }
 
-/// The terms of `spec` that contain sign, abs, min or max.
-fn switches(spec: &Spec) -> Vec<String> {
-    if spec.structure.costs.dynamics.selections == 0 {
-        return Vec::new();
-    }
-    let e = &spec.equations;
-    let mut terms = Vec::new();
-    let mut take = |name: String, text: &str| {
-        if has_switch(text) && !terms.contains(&name) {
-            terms.push(name);
+/// The terms that turn at zeros of `switches`, each once.
+fn terms(switches: &[&SwitchSpec]) -> Vec<String> {
+    let mut terms: Vec<String> = Vec::new();
+    for term in switches.iter().flat_map(|switch| switch.terms) {
+        if !terms.iter().any(|known| known == term) {
+            terms.push((*term).to_owned());
         }
-    };
-    for (i, text) in e.force {
-        take(format!("force on `{}`", spec.coords[*i]), text);
-    }
-    for (i, text) in e.nonideal {
-        take(format!("non-ideal force on `{}`", spec.coords[*i]), text);
-    }
-    for (i, _, text) in e.mass {
-        take(format!("mass on `{}`", spec.coords[*i]), text);
-    }
-    for (c, text) in e.rhs {
-        take(format!("constraint `{}`", spec.constraints[*c].name), text);
-    }
-    for (c, _, text) in e.jacobian {
-        take(format!("constraint `{}`", spec.constraints[*c].name), text);
     }
     terms
 }
 
-/// Whether a readable expression calls sign, abs, min or max.
-fn has_switch(text: &str) -> bool {
-    ["sign(", "abs(", "min(", "max("].iter().any(|call| {
-        text.match_indices(call).any(|(at, _)| {
-            let before = text[..at].chars().next_back();
-            before.is_none_or(|c| !(c.is_alphanumeric() || c == '_'))
-        })
-    })
+/// The error of a motion that is driven onto the zeros of `switches` from both sides.
+pub(super) fn stuck(spec: &Spec, switches: &[usize]) -> Error {
+    let switches: Vec<&SwitchSpec> = switches.iter().map(|k| &spec.switches[*k]).collect();
+    Error::Chattering {
+        step: 0.0,
+        terms: terms(&switches),
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn switches_are_calls_not_parts_of_names() {
-        for (text, expect) in [
-            ("-m*mu*g*sign(dot(s))", true),
-            ("max(0, x)", true),
-            ("2*abs(x)", true),
-            ("design(x) + cabs(x) + sq(sign_x)", false),
-            ("sin(minimum)", false),
-        ] {
-            assert_eq!(has_switch(text), expect, "{text}");
-        }
-    }
 
     fn split(residual: f64) -> Error {
         Error::Inconsistent {

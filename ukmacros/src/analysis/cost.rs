@@ -55,7 +55,9 @@ pub(crate) fn count(g: &Graph, needed: &HashSet<Id>, reciprocals: &HashSet<Id>) 
             }
             Node::Call(func, args) => match func {
                 Func::Sqrt => n.square_roots += 1,
-                Func::Abs | Func::Sign | Func::Min | Func::Max => n.selections += 1,
+                Func::Abs | Func::Sign | Func::Min | Func::Max | Func::Branch => {
+                    n.selections += 1;
+                }
                 // Counted with its sine.
                 Func::Cos
                     if g.find_call(Func::Sin, args[0])

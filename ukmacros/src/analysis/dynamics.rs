@@ -29,6 +29,16 @@ pub(crate) struct Dynamics {
 impl Dynamics {
     /// All values, in a fixed order.
     pub(crate) fn values_mut(&mut self) -> impl Iterator<Item = &mut Id> {
+        let (equations, energies) = self.parts_mut();
+        equations.chain(energies)
+    }
+
+    /// All values but the energies, in a fixed order.
+    pub(crate) fn equations_mut(&mut self) -> impl Iterator<Item = &mut Id> {
+        self.parts_mut().0
+    }
+
+    fn parts_mut(&mut self) -> (impl Iterator<Item = &mut Id>, [&mut Id; 2]) {
         let matrices = self.mass.values_mut().chain(self.jacobian.values_mut());
         let vectors = self.force.iter_mut().chain(&mut self.nonideal);
         let constraints = self
@@ -37,7 +47,7 @@ impl Dynamics {
             .chain(&mut self.phi)
             .chain(&mut self.rate);
         let energies = [&mut self.kinetic, &mut self.potential];
-        matrices.chain(vectors).chain(constraints).chain(energies)
+        (matrices.chain(vectors).chain(constraints), energies)
     }
 }
 

@@ -10,6 +10,7 @@ mod presolve;
 mod schedule;
 mod sparsity;
 mod structure;
+mod switches;
 mod verify;
 
 pub(crate) use check::check;
@@ -21,4 +22,5 @@ pub(crate) use plan::{Chosen, Plan, plan};
 pub(crate) use presolve::{Hoisted, hoist, verify_hoisting};
 pub(crate) use schedule::{Program, Sequence, Step, schedule};
 pub(crate) use structure::{Structure, structure};
+pub(crate) use switches::{Switch, hold};
 pub(crate) use verify::verify;

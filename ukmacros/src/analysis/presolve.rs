@@ -6,6 +6,7 @@
 
 use super::dynamics::Dynamics;
 use super::elimination::Straight;
+use super::switches::Switch;
 use crate::expr::{Graph, Id, Node, Point, Symbol, System, eval};
 use std::collections::HashMap;
 
@@ -13,6 +14,8 @@ use std::collections::HashMap;
 pub(crate) struct Hoisted {
     pub(crate) dynamics: Dynamics,
     pub(crate) outputs: Vec<Id>,
+    /// Switching functions.
+    pub(crate) switches: Vec<Id>,
     /// The solve, or why there is none.
     pub(crate) straight: Result<Straight, String>,
     /// Expressions of the prepared values, in parameters.
@@ -24,11 +27,14 @@ pub(crate) fn hoist(
     system: &mut System,
     dynamics: &Dynamics,
     straight: &Result<Straight, String>,
+    switches: &[Switch],
 ) -> Hoisted {
     let mut dynamics = dynamics.clone();
     let mut straight = straight.clone();
     let mut outputs: Vec<Id> = system.outputs.iter().map(|o| o.value).collect();
-    let mut places: Vec<&mut Id> = dynamics.values_mut().chain(&mut outputs).collect();
+    let mut switches: Vec<Id> = switches.iter().map(|s| s.function).collect();
+    let mut places: Vec<&mut Id> = dynamics.values_mut().collect();
+    places.extend(outputs.iter_mut().chain(&mut switches));
     if let Ok(straight) = &mut straight {
         places.extend(straight.values_mut());
     }
@@ -49,21 +55,11 @@ pub(crate) fn hoist(
         let exits = straight.exits.iter().filter_map(|id| known.get(id));
         straight.exits = exits.copied().collect();
     }
-    // Names go with the values.
-    let names = system.all_hints();
-    let mut known: Vec<(Id, Id)> = known.into_iter().collect();
-    known.sort_unstable();
-    for (old, new) in known {
-        let (_, inner) = system.graph.unscaled(new);
-        if let Some(name) = names.get(&old).cloned()
-            && !system.graph.operands(inner).is_empty()
-        {
-            system.inner_hints.entry(inner).or_insert(name);
-        }
-    }
+    system.carry_names(known);
     Hoisted {
         dynamics,
         outputs,
+        switches,
         straight,
         values,
     }
@@ -150,28 +146,11 @@ impl<'g> Pass<'g> {
                 self.g.scale(c.get().signum(), scaled)
             }
             Node::Product(factors) => self.product(1.0, &factors),
-            Node::Call(func, args) => match args[..] {
-                [a] => {
-                    let a = self.value(a);
-                    self.g.call1(func, a)
-                }
-                _ => {
-                    let (a, b) = (self.value(args[0]), self.value(args[1]));
-                    self.g.call2(func, a, b)
-                }
-            },
-            Node::Held(inner) => {
-                let inner = self.value(inner);
-                self.g.hold_again(inner)
-            }
-            Node::Select {
-                a,
-                b,
-                then,
-                otherwise,
-            } => {
-                let [a, b, then, otherwise] = [a, b, then, otherwise].map(|id| self.value(id));
-                self.g.select(a, b, then, otherwise)
+            Node::Call(..) | Node::Held(_) | Node::Select { .. } => {
+                let operands = self.g.operands(id);
+                let values: HashMap<Id, Id> =
+                    operands.into_iter().map(|o| (o, self.value(o))).collect();
+                self.g.with_operands(id, |_, operand| values[&operand])
             }
         }
     }

@@ -210,7 +210,9 @@ impl Path<'_> {
             Node::Symbol(Symbol::Coord(i)) => self.q[*i],
             Node::Symbol(Symbol::Velocity(i)) => self.v[*i],
             Node::Symbol(Symbol::Time) => self.t,
-            Node::Symbol(Symbol::Residual(_) | Symbol::Prepared(_)) => Jet(0.0, 0.0, 0.0),
+            Node::Symbol(Symbol::Residual(_) | Symbol::Prepared(_) | Symbol::Branch(_)) => {
+                Jet(0.0, 0.0, 0.0)
+            }
             Node::Sum(c, terms) => terms.iter().fold(Jet(c.get(), 0.0, 0.0), |sum, (k, t)| {
                 sum.plus(at(t).times(Jet(k.get(), 0.0, 0.0)))
             }),
@@ -317,6 +319,8 @@ fn call(func: Func, u: Jet, w: Option<Jet>) -> Jet {
         Func::Min if x <= w.0 => u,
         Func::Max if x >= w.0 => u,
         Func::Min | Func::Max => w,
+        Func::Branch if w.0 == 0.0 => u,
+        Func::Branch => w,
         Func::Hypot => u.times(u).plus(w.times(w)).sqrt(),
         Func::Powf => u.ln().times(w).exp(),
         Func::Atan2 => {

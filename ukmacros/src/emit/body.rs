@@ -1,6 +1,6 @@
 //! Statements of one emitted function.
 
-use super::names::Namer;
+use super::names::{Namer, Slots};
 use crate::analysis::{Operations, Program, Sequence, Step, count, schedule};
 use crate::expr::{Graph, Id, Node, Symbol, System};
 use crate::model::Model;
@@ -26,7 +26,7 @@ pub(super) struct Body {
 pub(super) fn body(
     system: &System,
     model: &Model,
-    prepared: &[Id],
+    prepared: Slots<'_>,
     roots: &[Root],
     sequence: Sequence<'_>,
     exits: &[Id],
@@ -39,7 +39,7 @@ pub(super) fn body(
         graph: g,
         namer: Namer::new(g, model, system.constraints.len(), &hints, prepared),
     };
-    let inputs = writer.inputs(model, system.constraints.len(), prepared.len(), &program);
+    let inputs = writer.inputs(model, system.constraints.len(), prepared, &program);
     let mut statements = TokenStream::new();
     // Helpers are named for the value whose computation needs them first: the next one stored.
     let mut next = 0;
@@ -108,7 +108,7 @@ impl Writer<'_> {
         &self,
         model: &Model,
         constraints: usize,
-        prepared: usize,
+        prepared: Slots<'_>,
         program: &Program,
     ) -> TokenStream {
         let used = |symbol: Symbol| {
@@ -119,23 +119,25 @@ impl Writer<'_> {
         let mut out = TokenStream::new();
         let n = model.coord_elements.len();
         let params = model.param_elements.len();
-        for (text, n, symbol) in [
-            ("given", params, Symbol::Param as fn(usize) -> Symbol),
-            ("prepared", prepared, Symbol::Prepared),
-            ("q", n, Symbol::Coord),
-            ("v", n, Symbol::Velocity),
-            ("residual", constraints, Symbol::Residual),
+        let all = |n: usize, symbol: fn(usize) -> Symbol| (0..n).map(symbol).collect::<Vec<_>>();
+        for (text, symbols) in [
+            ("given", all(params, Symbol::Param)),
+            ("prepared", prepared.symbols().collect()),
+            ("q", all(n, Symbol::Coord)),
+            ("v", all(n, Symbol::Velocity)),
+            ("residual", all(constraints, Symbol::Residual)),
         ] {
             let slice = format_ident!("{text}");
-            let names: Vec<Option<Ident>> = (0..n)
-                .map(|i| used(symbol(i)).then(|| self.namer.symbol(symbol(i))))
+            let names: Vec<Option<Ident>> = symbols
+                .iter()
+                .map(|s| used(*s).then(|| self.namer.symbol(*s)))
                 .collect();
             if names.iter().any(Option::is_some) {
                 let patterns = names.iter().map(|name| match name {
                     Some(name) => quote! { #name },
                     None => quote! { _ },
                 });
-                let n = Literal::usize_unsuffixed(n);
+                let n = Literal::usize_unsuffixed(symbols.len());
                 out.extend(quote! {
                     let [#(#patterns),*] = *::ukcore::emitted::exact::<S, #n>(#slice, #text);
                 });

@@ -1,8 +1,9 @@
 //! The derived equations as text, for rustdoc and `SPEC`.
 
-use super::names::Namer;
+use super::impls::Derived;
+use super::names::{Namer, Slots};
 use super::spec::Costs;
-use crate::analysis::{Chosen, Dynamics, Plan};
+use crate::analysis::{Chosen, Plan};
 use crate::expr::{Id, Node, Printer, Symbol, System};
 use crate::model::Model;
 use std::collections::{HashMap, HashSet};
@@ -24,15 +25,14 @@ pub(super) struct Listing {
     pub(super) phi: Vec<String>,
     /// Name and expression of the prepared values.
     pub(super) prepared: Vec<(String, String)>,
+    /// Switching functions, and the terms that turn at their zeros.
+    pub(super) switches: Vec<(String, Vec<String>)>,
 }
 
 /// Prints the equations of `system`.
-pub(super) fn listing(
-    system: &System,
-    dynamics: &Dynamics,
-    prepared: &[Id],
-    model: &Model,
-) -> Listing {
+pub(super) fn listing(system: &System, derived: &Derived<'_>, model: &Model) -> Listing {
+    let dynamics = derived.dynamics;
+    let prepared: &[Id] = &derived.hoisted.values;
     let coords: Vec<String> = model
         .coord_elements
         .iter()
@@ -84,7 +84,10 @@ pub(super) fn listing(
         ),
         _ => printer.text(*id),
     });
+    let switches = derived.switches.iter();
+    let switches = switches.map(|s| (printer.text(s.function), s.terms.clone()));
     Listing {
+        switches: switches.collect(),
         prepared: names.into_iter().zip(texts).collect(),
         mass: matrix(&dynamics.mass),
         force: vector(&dynamics.force),
@@ -201,6 +204,12 @@ impl Listing {
         block("Constraint Jacobian A, eq. 5:", jacobian.collect());
         block("Right-hand side b, eq. 5:", rhs.collect());
         block("Non-ideal force c, eq. 8:", nonideal.collect());
+        let switches = self.switches.iter();
+        let switches = switches.map(|(g, terms)| format!("{g}: {}", terms.join(", ")));
+        block(
+            "Switches, functions at whose zeros abs, sign, min or max change their branch, with the terms that contain them:",
+            switches.collect(),
+        );
         out
     }
 }
@@ -209,7 +218,11 @@ impl Listing {
 fn prepared_names(system: &System, model: &Model, prepared: &[Id]) -> Vec<String> {
     let constraints = system.constraints.len();
     let hints = system.all_hints();
-    let namer = Namer::new(&system.graph, model, constraints, &hints, prepared);
+    let slots = Slots {
+        values: prepared,
+        switches: &[],
+    };
+    let namer = Namer::new(&system.graph, model, constraints, &hints, slots);
     let symbols = (0..prepared.len()).map(Symbol::Prepared);
     symbols.map(|s| namer.symbol(s).to_string()).collect()
 }

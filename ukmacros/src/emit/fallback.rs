@@ -35,6 +35,7 @@ pub(crate) fn fallback(
                 constraints: &[],
                 holonomic: 0,
                 outputs: &[],
+                switches: &[],
                 structure: ::ukcore::Structure {
                     straight_line: false,
                     solve: ::ukcore::Solve::none(""),

@@ -2,12 +2,12 @@
 
 use super::body::{Body, Root, body, float};
 use super::docs::{Listing, computed, listing};
-use super::names::plain;
+use super::names::{Slots, plain};
 use super::print;
 use super::spec::{Costs, Facts};
 use crate::analysis::{
     Constant, ConstantValue, Dynamics, Elimination, Hoisted, Operations, Plan, Positions, Sequence,
-    Straight,
+    Straight, Switch,
 };
 use crate::expr::{Id, System};
 use crate::model::Model;
@@ -15,17 +15,26 @@ use crate::parse::Declaration;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
+/// What was derived from the declaration.
+pub(crate) struct Derived<'a> {
+    /// The equations to be read.
+    pub(crate) dynamics: &'a Dynamics,
+    pub(crate) switches: &'a [Switch],
+    pub(crate) plan: &'a Plan,
+    /// The equations to be computed.
+    pub(crate) hoisted: &'a Hoisted,
+}
+
 /// Everything the declaration becomes.
 pub(crate) fn emit(
     decl: &Declaration,
     model: &Model,
     system: &System,
     constants: &[Constant],
-    dynamics: &Dynamics,
-    plan: &Plan,
-    hoisted: &Hoisted,
+    derived: &Derived<'_>,
 ) -> TokenStream {
-    let listing = listing(system, dynamics, &hoisted.values, model);
+    let Derived { plan, hoisted, .. } = *derived;
+    let listing = listing(system, derived, model);
     let functions = Functions {
         system,
         model,
@@ -188,11 +197,19 @@ impl Functions<'_> {
         self.dynamics.rhs.len()
     }
 
+    /// What stands in `prepared`.
+    fn prepared_slice(&self) -> Slots<'_> {
+        Slots {
+            values: &self.hoisted.values,
+            switches: &self.hoisted.switches,
+        }
+    }
+
     fn body(&self, roots: &[Root]) -> Body {
         body(
             self.system,
             self.model,
-            &self.hoisted.values,
+            self.prepared_slice(),
             roots,
             Sequence::Roots,
             &[],
@@ -222,6 +239,11 @@ impl Functions<'_> {
             self.energy(),
             self.filling("outputs", "outputs", outputs.len(), &state, output_roots),
         ];
+        let switches = &self.hoisted.switches;
+        if !switches.is_empty() {
+            let roots = vector("switching", "switching", switches);
+            all.push(self.filling("switching", "switching", switches.len(), &state, roots));
+        }
         if let Ok(straight) = &self.hoisted.straight {
             let Elimination {
                 acceleration,
@@ -362,7 +384,7 @@ impl Functions<'_> {
         let Body { tokens, operations } = body(
             self.system,
             self.model,
-            &self.hoisted.values,
+            self.prepared_slice(),
             &roots,
             Sequence::Stages(&straight.stages),
             &straight.exits,
@@ -388,7 +410,10 @@ impl Functions<'_> {
         let roots = vector("prepared", "prepared", values);
         let Body { tokens, operations } = match values.is_empty() {
             true => Body::default(),
-            false => body(self.system, self.model, &[], &roots, Sequence::Roots, &[]),
+            false => {
+                let none = Slots::default();
+                body(self.system, self.model, none, &roots, Sequence::Roots, &[])
+            }
         };
         let len = Literal::usize_unsuffixed(values.len());
         let target = (!values.is_empty()).then(|| {

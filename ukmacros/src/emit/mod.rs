@@ -9,4 +9,4 @@ mod print;
 mod spec;
 
 pub(crate) use fallback::fallback;
-pub(crate) use impls::emit;
+pub(crate) use impls::{Derived, emit};

@@ -101,6 +101,22 @@ pub(super) fn plain(text: &str) -> String {
     }
 }
 
+/// What stands in `prepared`, in this order.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Slots<'a> {
+    /// What depends on parameters only.
+    pub(super) values: &'a [Id],
+    /// Switching functions, for the branches that they are held in.
+    pub(super) switches: &'a [Id],
+}
+
+impl Slots<'_> {
+    pub(super) fn symbols(&self) -> impl Iterator<Item = Symbol> + use<> {
+        let values = (0..self.values.len()).map(Symbol::Prepared);
+        values.chain((0..self.switches.len()).map(Symbol::Branch))
+    }
+}
+
 /// Variables of one emitted function.
 pub(super) struct Namer<'a> {
     graph: &'a Graph,
@@ -117,7 +133,7 @@ impl<'a> Namer<'a> {
         model: &Model,
         constraints: usize,
         hints: &'a HashMap<Id, String>,
-        prepared: &[Id],
+        prepared: Slots<'_>,
     ) -> Self {
         let mut namer = Namer {
             graph,
@@ -144,7 +160,7 @@ impl<'a> Namer<'a> {
         for (i, parameter) in model.param_elements.iter().enumerate() {
             enter(Symbol::Param(i), &parameter.name);
         }
-        for (i, value) in prepared.iter().enumerate() {
+        for (i, value) in prepared.values.iter().enumerate() {
             let name = match (graph.node(*value), hints.get(value)) {
                 // The prepared values that are parameters take their names.
                 (Node::Symbol(s), _) => namer.symbols[s].clone(),
@@ -155,6 +171,14 @@ impl<'a> Namer<'a> {
                 }
             };
             namer.symbols.insert(Symbol::Prepared(i), name);
+        }
+        for (i, function) in prepared.switches.iter().enumerate() {
+            let own = hints.get(function).map(|hint| snake(hint));
+            let wish = own.or_else(|| namer.describe(*function));
+            let wish = wish.filter(|name| name.len() <= LONGEST);
+            let wish = wish.unwrap_or_else(|| i.to_string());
+            let name = namer.fresh(&format!("held_{wish}"));
+            namer.symbols.insert(Symbol::Branch(i), name);
         }
         namer
     }

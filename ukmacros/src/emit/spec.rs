@@ -84,6 +84,9 @@ impl Facts<'_> {
             quote! { ::ukcore::OutputSpec { name: #name, doc: #docs } }
         });
         let prepared = listing.prepared.iter().map(|(n, t)| quote! { (#n, #t) });
+        let switches = listing.switches.iter().map(|(function, terms)| {
+            quote! { ::ukcore::SwitchSpec { function: #function, terms: &[#(#terms),*] } }
+        });
         let structure = self.structure();
         let equations = equations(listing);
         quote! {
@@ -96,6 +99,7 @@ impl Facts<'_> {
                 constraints: &[#(#constraints),*],
                 holonomic: #holonomic,
                 outputs: &[#(#outputs),*],
+                switches: &[#(#switches),*],
                 structure: #structure,
                 equations: #equations,
             };

@@ -55,6 +55,7 @@ impl Derivative {
             Seed::Partial(Symbol::Time) => !uses.time,
             Seed::Partial(Symbol::Param(_) | Symbol::Prepared(_)) => !uses.param,
             Seed::Partial(Symbol::Residual(_)) => !uses.residual,
+            Seed::Partial(Symbol::Branch(_)) => !uses.branch,
             Seed::Total => !(uses.coord || uses.time),
         }
     }
@@ -187,7 +188,13 @@ impl Derivative {
             Func::Exp => value,
             Func::Ln => g.pow(u, -1),
             Func::Abs => g.call1(Func::Sign, u),
-            Func::Sign | Func::Atan2 | Func::Min | Func::Max | Func::Hypot | Func::Powf => g.zero(),
+            Func::Sign
+            | Func::Atan2
+            | Func::Min
+            | Func::Max
+            | Func::Hypot
+            | Func::Powf
+            | Func::Branch => g.zero(),
         };
         g.mul(slope, du)
     }

@@ -103,6 +103,7 @@ impl Printer<'_> {
             Symbol::Time => "t".to_owned(),
             Symbol::Residual(i) => format!("residual[{i}]"),
             Symbol::Prepared(i) => format!("prepared[{i}]"),
+            Symbol::Branch(i) => format!("branch[{i}]"),
         }
     }
 

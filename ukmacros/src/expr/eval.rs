@@ -55,6 +55,8 @@ fn value(node: &Node, values: &[f64], point: &Point<'_>) -> f64 {
         Node::Symbol(Symbol::Time) => point.t,
         Node::Symbol(Symbol::Residual(i)) => pick(point.residual, *i),
         Node::Symbol(Symbol::Prepared(i)) => pick(point.prepared, *i),
+        // Values are those of switches that are followed.
+        Node::Symbol(Symbol::Branch(_)) => 0.0,
         Node::Sum(c, terms) => c.get() + terms.iter().map(|(k, t)| k.get() * at(t)).sum::<f64>(),
         Node::Scale(c, inner) => c.get() * at(inner),
         Node::Held(inner) => at(inner),
@@ -83,6 +85,8 @@ fn value(node: &Node, values: &[f64], point: &Point<'_>) -> f64 {
                 Func::Max => u.max(w),
                 Func::Hypot => u.hypot(w),
                 Func::Powf => u.powf(w),
+                Func::Branch if w == 0.0 => u,
+                Func::Branch => w,
             }
         }
         Node::Select {

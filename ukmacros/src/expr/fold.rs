@@ -408,6 +408,49 @@ impl Graph {
         self.intern(Node::Call(func, args))
     }
 
+    /// The node `id` with each operand replaced by what `new` says.
+    pub(crate) fn with_operands(&mut self, id: Id, mut new: impl FnMut(&mut Self, Id) -> Id) -> Id {
+        match self.node(id).clone() {
+            Node::Const(_) | Node::Symbol(_) => id,
+            Node::Sum(c, terms) => {
+                let mut sum = vec![(c.get(), self.one())];
+                for (k, term) in terms {
+                    sum.push((k.get(), new(self, term)));
+                }
+                self.sum(&sum)
+            }
+            Node::Scale(c, inner) => {
+                let inner = new(self, inner);
+                self.scale(c.get(), inner)
+            }
+            Node::Product(factors) => {
+                let replace = |(f, e): (Id, i32)| (new(self, f), e);
+                let factors: Vec<(Id, i32)> = factors.into_iter().map(replace).collect();
+                self.product(&factors)
+            }
+            Node::Held(inner) => {
+                let inner = new(self, inner);
+                self.hold_again(inner)
+            }
+            Node::Call(func, args) => {
+                let args: Vec<Id> = args.into_iter().map(|a| new(self, a)).collect();
+                match args[..] {
+                    [u, w] => self.call2(func, u, w),
+                    _ => self.call1(func, args[0]),
+                }
+            }
+            Node::Select {
+                a,
+                b,
+                then,
+                otherwise,
+            } => {
+                let [a, b, then, otherwise] = [a, b, then, otherwise].map(|id| new(self, id));
+                self.select(a, b, then, otherwise)
+            }
+        }
+    }
+
     /// `id`, which was held, in another form: held as it is, with its coefficient.
     pub(crate) fn hold_again(&mut self, id: Id) -> Id {
         match self.node(id) {

@@ -49,6 +49,8 @@ pub(crate) enum Symbol {
     Residual(usize),
     /// A value that depends on parameters only, by its position among the prepared ones.
     Prepared(usize),
+    /// The branch that a switch is held in, by the switch's position: its sign ±1, or 0 where none is held.
+    Branch(usize),
 }
 
 /// A function of one or two arguments.
@@ -73,6 +75,8 @@ pub(crate) enum Func {
     Max,
     Hypot,
     Powf,
+    /// The branch held (second argument), or the switching function (first) where none is. No function of the language.
+    Branch,
 }
 
 impl Func {
@@ -98,9 +102,11 @@ impl Func {
             Func::Max => "max",
             Func::Hypot => "hypot",
             Func::Powf => "powf",
+            Func::Branch => "branch",
         }
     }
 
+    /// The functions of the language.
     pub(crate) const ALL: [Func; 19] = [
         Func::Sqrt,
         Func::Sin,
@@ -126,7 +132,7 @@ impl Func {
     /// Number of arguments.
     pub(crate) fn arity(self) -> usize {
         match self {
-            Func::Atan2 | Func::Min | Func::Max | Func::Hypot | Func::Powf => 2,
+            Func::Atan2 | Func::Min | Func::Max | Func::Hypot | Func::Powf | Func::Branch => 2,
             _ => 1,
         }
     }
@@ -163,6 +169,7 @@ pub(crate) struct Uses {
     pub(crate) velocity: bool,
     pub(crate) time: bool,
     pub(crate) residual: bool,
+    pub(crate) branch: bool,
 }
 
 impl Uses {
@@ -173,12 +180,13 @@ impl Uses {
             velocity: self.velocity | o.velocity,
             time: self.time | o.time,
             residual: self.residual | o.residual,
+            branch: self.branch | o.branch,
         }
     }
 
     /// Neither q, q̇ nor t: fixed once the parameters are.
     pub(crate) fn constant(self) -> bool {
-        !(self.coord || self.velocity || self.time || self.residual)
+        !(self.coord || self.velocity || self.time || self.residual || self.branch)
     }
 }
 
@@ -248,6 +256,7 @@ impl Graph {
                 Symbol::Velocity(_) => uses.velocity = true,
                 Symbol::Time => uses.time = true,
                 Symbol::Residual(_) => uses.residual = true,
+                Symbol::Branch(_) => uses.branch = true,
             }
             if uses.coord || uses.velocity {
                 support.push(s);
@@ -342,7 +351,8 @@ fn own_latency(node: &Node) -> u32 {
         Node::Sum(..) | Node::Scale(..) => 4,
         Node::Product(factors) if factors.iter().any(|(_, e)| *e < 0) => 18,
         Node::Product(_) => 4,
-        Node::Call(Func::Abs | Func::Sign | Func::Min | Func::Max, _) | Node::Select { .. } => 4,
+        Node::Call(Func::Abs | Func::Sign | Func::Min | Func::Max | Func::Branch, _)
+        | Node::Select { .. } => 4,
         Node::Call(Func::Sqrt, _) => 18,
         Node::Call(..) => 50,
     }

@@ -26,31 +26,10 @@ impl Graph {
     }
 
     fn node_at_rest(&mut self, id: Id, known: &HashMap<Id, Id>) -> Id {
-        match self.node(id).clone() {
-            Node::Const(_) => id,
+        match self.node(id) {
             Node::Symbol(Symbol::Velocity(_)) => self.zero(),
-            Node::Symbol(_) => id,
-            Node::Sum(c, terms) => {
-                let mut sum = vec![(c.get(), self.one())];
-                sum.extend(terms.iter().map(|(k, t)| (k.get(), known[t])));
-                self.sum(&sum)
-            }
-            Node::Scale(c, inner) => self.scale(c.get(), known[&inner]),
-            Node::Product(factors) => {
-                let factors: Vec<(Id, i32)> = factors.iter().map(|(f, e)| (known[f], *e)).collect();
-                self.product(&factors)
-            }
-            Node::Held(inner) => known[&inner],
-            Node::Call(func, args) => match args[..] {
-                [u, w] => self.call2(func, known[&u], known[&w]),
-                _ => self.call1(func, known[&args[0]]),
-            },
-            Node::Select {
-                a,
-                b,
-                then,
-                otherwise,
-            } => self.select(known[&a], known[&b], known[&then], known[&otherwise]),
+            Node::Held(inner) => known[inner],
+            _ => self.with_operands(id, |_, operand| known[&operand]),
         }
     }
 }

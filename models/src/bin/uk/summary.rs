@@ -57,6 +57,7 @@ struct Energies {
 struct Counters {
     steps: usize,
     rejected: usize,
+    switches: usize,
     evaluations: usize,
     jacobians: usize,
     factorisations: usize,
@@ -127,6 +128,7 @@ impl Summary {
             work: Counters {
                 steps: work.steps,
                 rejected: work.rejected,
+                switches: work.switches,
                 evaluations: work.evaluations,
                 jacobians: work.jacobians,
                 factorisations: work.factorisations,
@@ -193,9 +195,10 @@ impl Summary {
         };
         writeln!(
             out,
-            "Work: {} ({} rejected), {}{implicit}, {} ({}), {}; {:.3} s",
+            "Work: {} ({} rejected, {} onto switches), {}{implicit}, {} ({}), {}; {:.3} s",
             count(w.steps, "step"),
             w.rejected,
+            w.switches,
             count(w.evaluations, "evaluation"),
             count(w.projections, "projection"),
             count(w.projection_iterations, "iteration"),

@@ -218,6 +218,11 @@ impl Newton {
         self.stale = self.theta > super::FAST;
     }
 
+    /// f has changed.
+    pub(super) fn forget(&mut self) {
+        (self.fresh, self.stale) = (false, true);
+    }
+
     /// The step is tried again.
     pub(super) fn refused(&mut self) {
         self.stale = !self.fresh;

@@ -4,6 +4,7 @@ use super::*;
 use crate::integrate::radau::newton::{A, PAIR, REAL, T, T_INVERSE};
 use crate::integrate::radau::{C, Radau};
 use crate::integrate::scheme::{Attempt, Equations, Scheme};
+use crate::integrate::switches::Switches;
 
 type Matrix = [[f64; 3]; 3];
 
@@ -61,7 +62,11 @@ fn steps_estimates_and_interpolants_have_their_order() {
         let step = |h: f64| {
             let mut problem = Plain::new(smooth);
             let problem = &mut problem;
-            let mut equations = Equations { problem, t0: 0.3 };
+            let mut equations = Equations {
+                problem,
+                t0: 0.3,
+                switches: Switches::none(),
+            };
             let mut scheme = Radau::new(2);
             let (s, s_end, tolerance) = (0.0, h, 1e-12);
             let step = Attempt {
@@ -70,7 +75,7 @@ fn steps_estimates_and_interpolants_have_their_order() {
                 h,
                 tolerance,
             };
-            assert!(scheme.begin(&mut equations, &start).is_ok());
+            assert!(scheme.begin(&mut equations, 0.0, &start).is_ok());
             let estimate = scheme.attempt(&mut equations, step, &start);
             assert!(scheme.close(&mut equations, step, &start).is_ok());
             let mut largest = 0.0_f64;

@@ -36,6 +36,21 @@ impl System {
         all.extend(self.hints.clone());
         all
     }
+
+    /// Values that were rewritten, old to new, keep their names.
+    pub(crate) fn carry_names(&mut self, rewritten: HashMap<Id, Id>) {
+        let names = self.all_hints();
+        let mut rewritten: Vec<(Id, Id)> = rewritten.into_iter().collect();
+        rewritten.sort_unstable();
+        for (old, new) in rewritten {
+            let (_, inner) = self.graph.unscaled(new);
+            if let Some(name) = names.get(&old).cloned()
+                && !self.graph.operands(inner).is_empty()
+            {
+                self.inner_hints.entry(inner).or_insert(name);
+            }
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -1,0 +1,246 @@
+//! Steps onto the zeros of switching functions.
+//!
+//! Where y' has a kink or a jump, at a zero of a switching function g, a step across it loses its order. So y' is held in the branches of the step's
+//! start: where g passes zero within a step y' goes on smoothly, and the step has the full order of its method. If g has left its branch, the step is repeated up to
+//! the first zero, found on the interpolant, and the next step begins there in the other branch.
+//!
+//! A branch may end at its zero, as that of max(x, 0)^1.5 does: where y' has no value beyond it, the step follows its switches, as short as its error demands.
+//!
+//! That a function has left its branch shows at the end of a step, or, if it comes back before that, at a stage; the interpolant is made only then. So what stays
+//! unseen is what falls between all stages, as it does for the estimate of the error.
+
+use super::Problem;
+use super::dense::interpolate;
+use crate::mechanism::Branch;
+use crate::zero::{PARTS, locate};
+
+/// A zero nearer than this part of a step to its end is at its end.
+const AT_END: f64 = 1e-13;
+
+/// Zeros of several functions within this part of a step are one.
+const TOGETHER: f64 = 1e-10;
+
+/// How a step leaves its branches, with the switches that do first.
+#[derive(Debug, PartialEq)]
+pub(super) enum Leaving {
+    /// At its start: they stand at zero, and go the other way.
+    AtOnce(Vec<usize>),
+    /// At this part of it.
+    Within(f64, Vec<usize>),
+    /// At its end, as far as rounding can tell.
+    AtEnd(Vec<usize>),
+}
+
+/// The branches of a run.
+pub(super) struct Switches {
+    /// None where no switch is to be located.
+    branches: Vec<Branch>,
+    /// What counts as the zero of each function. A landing misses it by an error of integration; until the function has left, that is 0 to it.
+    levels: Vec<f64>,
+    values: Vec<f64>,
+    /// Distances into the branches at the start of a part of a step.
+    before: Vec<f64>,
+    state: Vec<f64>,
+    /// Whether an evaluation since the last [`Switches::begin`] was outside of the branches held.
+    doubt: bool,
+    /// The attempted step goes onto zeros of these.
+    pub(super) targets: Vec<usize>,
+}
+
+impl Switches {
+    /// For `count` switches and states of length `n`.
+    pub(super) fn new(count: usize, n: usize) -> Self {
+        Switches {
+            branches: vec![Branch::Followed; count],
+            levels: vec![0.0; count],
+            values: vec![0.0; count],
+            before: vec![0.0; count],
+            state: vec![0.0; n],
+            doubt: false,
+            targets: Vec::new(),
+        }
+    }
+
+    /// For a run that goes across all switches.
+    pub(super) fn none() -> Self {
+        Switches::new(0, 0)
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.branches.is_empty()
+    }
+
+    /// How far switch k with the value `g` is within its branch; negative outside.
+    fn inside(&self, k: usize, g: f64) -> f64 {
+        self.branches[k].sign() * (g - self.levels[k])
+    }
+
+    pub(super) fn hold(&mut self, problem: &mut impl Problem, k: usize, branch: Branch) {
+        self.branches[k] = branch;
+        problem.hold(k, branch);
+    }
+
+    /// Holds switch k in the other branch.
+    pub(super) fn flip(&mut self, problem: &mut impl Problem, k: usize) {
+        let other = match self.branches[k] {
+            Branch::Followed => Branch::Followed,
+            Branch::Negative => Branch::Positive,
+            Branch::Positive => Branch::Negative,
+        };
+        self.hold(problem, k, other);
+        self.levels[k] = 0.0;
+    }
+
+    /// Holds each switch in the branch of its value at the start of a run; returns those that are zero, which are followed.
+    pub(super) fn start(&mut self, problem: &mut impl Problem, t: f64, y: &[f64]) -> Vec<usize> {
+        if self.is_empty() {
+            return Vec::new();
+        }
+        problem.switching(t, y, &mut self.values);
+        for k in 0..self.branches.len() {
+            self.adopt(problem, k);
+        }
+        let zero = |k: &usize| self.branches[*k] == Branch::Followed;
+        (0..self.branches.len()).filter(zero).collect()
+    }
+
+    fn adopt(&mut self, problem: &mut impl Problem, k: usize) {
+        let g = self.values[k];
+        if g > 0.0 {
+            self.hold(problem, k, Branch::Positive);
+        } else if g < 0.0 {
+            self.hold(problem, k, Branch::Negative);
+        }
+    }
+
+    /// A step is to be tried.
+    pub(super) fn begin(&mut self) {
+        self.doubt = false;
+    }
+
+    /// y' is to be evaluated at (t, y).
+    pub(super) fn look(&mut self, problem: &mut impl Problem, t: f64, y: &[f64]) {
+        if self.is_empty() || self.doubt {
+            return;
+        }
+        problem.switching(t, y, &mut self.values);
+        let outside = |k: usize| self.inside(k, self.values[k]) < 0.0;
+        self.doubt = (0..self.values.len()).any(|k| outside(k) && !self.targets.contains(&k));
+    }
+
+    /// Follows all switches again where the step in hand was outside of a branch; returns whether it was.
+    pub(super) fn release(&mut self, problem: &mut impl Problem) -> bool {
+        if self.doubt {
+            for k in 0..self.branches.len() {
+                self.hold(problem, k, Branch::Followed);
+            }
+        }
+        std::mem::take(&mut self.doubt)
+    }
+
+    /// Whether the step may have left its branches, which ends at (t, y).
+    pub(super) fn suspect(&mut self, problem: &mut impl Problem, t: f64, y: &[f64]) -> bool {
+        self.look(problem, t, y);
+        self.doubt
+    }
+
+    /// Where a step first leaves its branches, if it does. `time` is that of a part of the step, `coefficients` are those of its interpolant. Switches that the step
+    /// goes onto do not count.
+    pub(super) fn search(
+        &mut self,
+        problem: &mut impl Problem,
+        time: impl Fn(f64) -> f64,
+        coefficients: &[f64],
+    ) -> Option<Leaving> {
+        let mut state = std::mem::take(&mut self.state);
+        let mut values = std::mem::take(&mut self.values);
+        let mut evaluate = |theta: f64, values: &mut [f64]| {
+            interpolate(theta, coefficients, &mut state);
+            problem.switching(time(theta), &state, values);
+        };
+        evaluate(0.0, &mut values);
+        for (k, g) in values.iter().enumerate() {
+            self.before[k] = self.inside(k, *g);
+        }
+        let mut found = None;
+        let mut a = 0.0;
+        for part in 1..=PARTS {
+            let b = part as f64 / PARTS as f64;
+            evaluate(b, &mut values);
+            let mut at_once = Vec::new();
+            let mut zeros: Vec<(f64, usize)> = Vec::new();
+            for k in 0..self.branches.len() {
+                let (before, after) = (self.before[k], self.inside(k, values[k]));
+                self.before[k] = after;
+                if after >= 0.0 || after.is_nan() || self.targets.contains(&k) {
+                    continue;
+                }
+                if before <= 0.0 {
+                    at_once.push(k);
+                    continue;
+                }
+                let outside = |theta: f64| -> Result<f64, std::convert::Infallible> {
+                    let mut values = vec![0.0; values.len()];
+                    evaluate(theta, &mut values);
+                    Ok(-self.inside(k, values[k]))
+                };
+                let Ok(zero) = locate(outside, a, b);
+                zeros.push((zero, k));
+            }
+            let first = zeros
+                .iter()
+                .fold(f64::INFINITY, |s, (zero, _)| s.min(*zero));
+            if !at_once.is_empty() {
+                found = Some(Leaving::AtOnce(at_once));
+                break;
+            }
+            if first.is_finite() {
+                let together = zeros.iter().filter(|(zero, _)| zero - first <= TOGETHER);
+                let switches = together.map(|(_, k)| *k).collect();
+                found = Some(match first < 1.0 - AT_END {
+                    true => Leaving::Within(first, switches),
+                    false => Leaving::AtEnd(switches),
+                });
+                break;
+            }
+            a = b;
+        }
+        (self.state, self.values) = (state, values);
+        found
+    }
+
+    /// The run has got to (t, y).
+    pub(super) fn arrive(&mut self, problem: &mut impl Problem, t: f64, y: &[f64]) {
+        if self.is_empty() {
+            return;
+        }
+        problem.switching(t, y, &mut self.values);
+        for k in 0..self.branches.len() {
+            let g = self.values[k];
+            if self.branches[k] == Branch::Followed {
+                self.adopt(problem, k);
+            } else if g * self.branches[k].sign() > 0.0 {
+                self.levels[k] = 0.0;
+            } else if self.inside(k, g) < 0.0 {
+                self.levels[k] = g;
+            }
+        }
+    }
+
+    pub(super) fn branch(&self, k: usize) -> Branch {
+        self.branches[k]
+    }
+
+    /// The derivatives of the functions by time at (t, y), where y' is `rate`.
+    pub(super) fn rates(
+        &self,
+        problem: &mut impl Problem,
+        t: f64,
+        y: &[f64],
+        rate: &[f64],
+    ) -> Vec<f64> {
+        let mut rates = vec![0.0; self.values.len()];
+        problem.switching_rate(t, y, rate, &mut rates);
+        rates
+    }
+}

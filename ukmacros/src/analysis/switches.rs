@@ -1,0 +1,202 @@
+//! Switching functions: where abs, sign, min and max change their branch.
+//!
+//! abs(u) and sign(u) turn where u changes its sign, min(a, b), max(a, b) and their derivatives where a − b does. Each such g that the
+//! equations of motion depend on is a switch. An integrator may hold it in one branch: the emitted code then goes on smoothly across g = 0. Functions that
+//! turn at the zeros of one g, of −g or of a multiple of it by a number have one switch.
+
+use super::dynamics::Dynamics;
+use crate::expr::{Func, Graph, Id, Node, Num, Symbol, System, is_power_of_two};
+use std::collections::{HashMap, HashSet};
+
+/// A switch.
+pub(crate) struct Switch {
+    /// g.
+    pub(crate) function: Id,
+    /// The terms of the equations of motion that turn at its zeros, in words.
+    pub(crate) terms: Vec<String>,
+}
+
+/// What decides the branch of a node: the sign of `sign` · g.
+#[derive(Clone, Copy)]
+struct Decision {
+    function: Id,
+    sign: f64,
+}
+
+/// Finds the switches and makes the equations depend on the branches held, [`Symbol::Branch`]; energies stay as they are. `names` are those of the coordinates, then
+/// of the constraints. Without a switch the equations are returned as they are.
+pub(crate) fn hold(
+    system: &mut System,
+    dynamics: &Dynamics,
+    names: &[String],
+) -> (Dynamics, Vec<Switch>) {
+    let g = &mut system.graph;
+    let mut switches: Vec<Switch> = Vec::new();
+    let mut numbers: HashMap<Id, usize> = HashMap::new();
+    for (term, root) in terms(dynamics, names) {
+        for id in g.reachable(&[root]) {
+            let Some(Decision { function, .. }) = decision(id, g) else {
+                continue;
+            };
+            let k = *numbers.entry(function).or_insert(switches.len());
+            if k == switches.len() {
+                let terms = Vec::new();
+                switches.push(Switch { function, terms });
+            }
+            let known = &mut switches[k].terms;
+            if !known.contains(&term) {
+                known.push(term.clone());
+            }
+        }
+    }
+    let mut held = dynamics.clone();
+    if switches.is_empty() {
+        return (held, switches);
+    }
+    let roots: Vec<Id> = held.equations_mut().map(|id| *id).collect();
+    let mut pass = Pass {
+        numbers,
+        branches: HashMap::new(),
+        known: HashMap::new(),
+    };
+    for id in g.reachable(&roots) {
+        let new = pass.rewrite(id, g);
+        pass.known.insert(id, new);
+    }
+    for id in held.equations_mut() {
+        *id = pass.known[id];
+    }
+    system.carry_names(pass.known);
+    (held, switches)
+}
+
+/// Everything that M, Q, c, A and b consist of, with the words for it.
+fn terms(d: &Dynamics, names: &[String]) -> Vec<(String, Id)> {
+    let n = d.force.len();
+    let mut out = Vec::new();
+    let mut seen = HashSet::new();
+    let mut enter = |what: &str, position: usize, id: Id| {
+        let term = format!("{what} `{}`", names[position]);
+        if seen.insert((term.clone(), id)) {
+            out.push((term, id));
+        }
+    };
+    for (i, id) in d.force.iter().enumerate() {
+        enter("force on", i, *id);
+    }
+    for (i, id) in d.nonideal.iter().enumerate() {
+        enter("non-ideal force on", i, *id);
+    }
+    for ((i, _), id) in &d.mass {
+        enter("mass on", *i, *id);
+    }
+    for (row, id) in d.rhs.iter().enumerate() {
+        enter("constraint", n + row, *id);
+    }
+    for ((row, _), id) in &d.jacobian {
+        enter("constraint", n + row, *id);
+    }
+    out
+}
+
+/// What decides the branch of the node `id`, if it has branches and they vary along a motion.
+fn decision(id: Id, g: &mut Graph) -> Option<Decision> {
+    let (a, b) = match *g.node(id) {
+        Node::Call(Func::Abs | Func::Sign, ref args) => (args[0], None),
+        Node::Call(Func::Min | Func::Max, ref args) => (args[0], Some(args[1])),
+        Node::Select { a, b, .. } => (a, Some(b)),
+        _ => return None,
+    };
+    let mut terms = g.open(1.0, a);
+    if let Some(b) = b {
+        terms.extend(g.open(-1.0, b));
+    }
+    let difference = g.sum(&terms);
+    if g.uses(difference).constant() {
+        return None;
+    }
+    let (c, mut function) = g.unscaled(difference);
+    let mut sign = c.signum();
+    // A sum with a constant keeps its coefficients: 1 − 2 x is x − 1/2 from the other side.
+    if let Node::Sum(constant, terms) = g.node(function).clone()
+        && let Some((first, _)) = terms.first()
+        && is_power_of_two(first.get().abs())
+    {
+        let divide = |k: Num| k.get() / first.get();
+        let mut divided: Vec<(f64, Id)> =
+            terms.iter().map(|(k, term)| (divide(*k), *term)).collect();
+        divided.push((divide(constant), g.one()));
+        function = g.sum(&divided);
+        sign *= first.get().signum();
+    }
+    Some(Decision { function, sign })
+}
+
+struct Pass {
+    /// Positions of the switches by their functions.
+    numbers: HashMap<Id, usize>,
+    /// What stands for g in decisions: the branch where one is held.
+    branches: HashMap<Id, Id>,
+    /// New node of each old one.
+    known: HashMap<Id, Id>,
+}
+
+impl Pass {
+    fn rewrite(&mut self, id: Id, g: &mut Graph) -> Id {
+        let decision = decision(id, g).filter(|d| self.numbers.contains_key(&d.function));
+        let Some(Decision { function, sign }) = decision else {
+            let kept = |operand: &Id| self.known[operand] == *operand;
+            return match g.operands(id).iter().all(kept) {
+                true => id,
+                false => g.with_operands(id, |_, operand| self.known[&operand]),
+            };
+        };
+        let branch = self.branch(function, g);
+        let zero = g.zero();
+        // u ≤ 0 where low ≤ high, for u = sign · g.
+        let (low, high) = match sign > 0.0 {
+            true => (branch, zero),
+            false => (zero, branch),
+        };
+        match g.node(id).clone() {
+            Node::Call(Func::Sign, _) => {
+                let value = g.call1(Func::Sign, branch);
+                g.scale(sign, value)
+            }
+            Node::Call(Func::Abs, args) => {
+                let u = self.known[&args[0]];
+                let negative = g.neg(u);
+                g.select(high, low, u, negative)
+            }
+            Node::Call(func, args) => {
+                let (a, b) = (self.known[&args[0]], self.known[&args[1]]);
+                match func {
+                    Func::Min => g.select(low, high, a, b),
+                    _ => g.select(low, high, b, a),
+                }
+            }
+            Node::Select {
+                then, otherwise, ..
+            } => {
+                let (then, otherwise) = (self.known[&then], self.known[&otherwise]);
+                g.select(low, high, then, otherwise)
+            }
+            _ => id,
+        }
+    }
+
+    fn branch(&mut self, function: Id, g: &mut Graph) -> Id {
+        if let Some(branch) = self.branches.get(&function) {
+            return *branch;
+        }
+        // A difference a − b may be no part of the equations, but what it consists of is.
+        let value = match self.known.get(&function) {
+            Some(value) => *value,
+            None => g.with_operands(function, |_, operand| self.known[&operand]),
+        };
+        let held = g.symbol(Symbol::Branch(self.numbers[&function]));
+        let branch = g.call2(Func::Branch, value, held);
+        self.branches.insert(function, branch);
+        branch
+    }
+}
