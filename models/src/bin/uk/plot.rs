@@ -10,6 +10,7 @@ use plotters::coord::ranged1d::{
 };
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use crate::failure::Failure;
 
@@ -28,6 +29,8 @@ pub(crate) const GREY: RGBColor = RGBColor(120, 120, 120);
 const FONT: &str = "Helvetica, Arial, sans-serif";
 const LABEL_SIZE: u32 = 15;
 const TICK_SIZE: u32 = 13;
+/// Height of a row of a legend above the frame.
+const ROW: i32 = 18;
 const GRID: RGBColor = RGBColor(226, 226, 226);
 const FRAME: RGBColor = RGBColor(90, 90, 90);
 
@@ -80,7 +83,8 @@ impl Series {
 pub(crate) enum Legend {
     None,
     UpperLeft,
-    UpperRight,
+    /// Above the frame, in two columns.
+    Above,
     UpperMiddle,
     LowerMiddle,
     LowerLeft,
@@ -155,6 +159,8 @@ impl Chart {
         Y::CoordDescType: ValueFormatter<f64>,
     {
         area.fill(&WHITE)?;
+        let frame = self.draw_legend_above(area)?;
+        let area = frame.as_ref().unwrap_or(area);
         let mut chart = ChartBuilder::on(area)
             .margin(10)
             .margin_right(18)
@@ -179,9 +185,8 @@ impl Chart {
             draw_series(&mut chart, series, self.scale)?;
         }
         let position = match self.legend {
-            Legend::None => return Ok(()),
+            Legend::None | Legend::Above => return Ok(()),
             Legend::UpperLeft => SeriesLabelPosition::UpperLeft,
-            Legend::UpperRight => SeriesLabelPosition::UpperRight,
             Legend::UpperMiddle => SeriesLabelPosition::UpperMiddle,
             Legend::LowerMiddle => SeriesLabelPosition::LowerMiddle,
             Legend::LowerLeft => SeriesLabelPosition::LowerLeft,
@@ -195,6 +200,47 @@ impl Chart {
             .background_style(WHITE.mix(0.85))
             .label_font((FONT, TICK_SIZE))
             .draw()
+    }
+}
+
+impl Chart {
+    /// The legend, if it stands above the frame; what is left of the area for the frame then.
+    fn draw_legend_above<'a>(
+        &self,
+        area: &DrawingArea<SVGBackend<'a>, Shift>,
+    ) -> Result<Option<DrawingArea<SVGBackend<'a>, Shift>>, DrawError<'a>> {
+        if self.legend != Legend::Above {
+            return Ok(None);
+        }
+        // What lies on top comes first.
+        let named = || self.series.iter().rev().filter(|s| !s.label.is_empty());
+        let rows = named().count().div_ceil(2);
+        let height = 8 + ROW * rows as i32;
+        let (legend, frame) = area.split_vertically(height);
+        let column = self.size.0 as i32 / 2 - 10;
+        let text = (FONT, TICK_SIZE)
+            .into_text_style(&legend)
+            .pos(Pos::new(HPos::Left, VPos::Center));
+        for (k, series) in named().enumerate() {
+            let (x, y) = (
+                16 + column * (k / rows) as i32,
+                8 + ROW / 2 + ROW * (k % rows) as i32,
+            );
+            let style = series.colour.stroke_width(series.width);
+            let line = [(x, y), (x + 26, y)];
+            if series.dashed {
+                legend.draw(&PathElement::new([(x, y), (x + 9, y)], style))?;
+                legend.draw(&PathElement::new([(x + 17, y), (x + 26, y)], style))?;
+            } else {
+                legend.draw(&PathElement::new(line, style))?;
+            }
+            if series.dots > 0 {
+                let dot = Circle::new((x + 13, y), series.dots, series.colour.filled());
+                legend.draw(&dot)?;
+            }
+            legend.draw(&Text::new(series.label.as_str(), (x + 34, y), text.clone()))?;
+        }
+        Ok(Some(frame))
     }
 }
 

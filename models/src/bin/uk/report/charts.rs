@@ -6,19 +6,21 @@ use crate::plot::{COLOURS, Chart, GREY, Legend, Scale, Series, decade_range};
 use super::study::{Curve, Figures, Study};
 use super::variants::{Variant, named};
 
-const SIZE: (u32, u32) = (620, 460);
+const SIZE: (u32, u32) = (530, 470);
 
 /// Combinations that are told apart in a picture; the rest is thin and grey.
-const BY_TIME: [&str; 5] = [
+const BY_TIME: [&str; 6] = [
     "dop853",
     "dopri5",
+    "rattle",
+    "dop853-none",
     "dop853-general",
     "dop853-kkt",
-    "dop853-baumgarte20",
 ];
-const BY_EVALUATIONS: [&str; 5] = [
+const BY_EVALUATIONS: [&str; 6] = [
     "dop853",
     "dopri5",
+    "rattle",
     "dop853-none",
     "dop853-baumgarte20",
     "dop853-baumgarte200",
@@ -65,7 +67,7 @@ fn chart(study: &Study, shown: &[&str], x_label: &str, across: fn(&Figures) -> f
     if let Some(rest) = series.first_mut() {
         rest.label = "the others".to_owned();
     }
-    // The default on top of all, and first in the legend: the legend follows the order of drawing.
+    // The default on top of all, and first in the legend.
     for (index, name) in shown.iter().enumerate().rev() {
         let (Some(curve), Some(variant)) = (study.curve(name), named(name)) else {
             continue;
@@ -100,7 +102,7 @@ fn chart(study: &Study, shown: &[&str], x_label: &str, across: fn(&Figures) -> f
         y,
         series,
         scale: Scale::Decades,
-        legend: Legend::UpperRight,
+        legend: Legend::Above,
         size: SIZE,
     }
 }

@@ -70,25 +70,26 @@ pub(super) fn csv(report: &Report, out: &mut dyn Write) -> io::Result<()> {
                 )?;
                 write!(
                     out,
-                    ",{:e},{:e},{:e},{:e},{:e},{:e}",
+                    ",{:e},{:e},{:e},{:e},{},{}",
                     f.error,
                     f.error_in_units,
                     f.error_along,
                     study.reference.floor,
-                    f.off,
-                    f.within
+                    number(f.off),
+                    number(f.within)
                 )?;
                 let (position, velocity) = (f.drift.position_residual, f.drift.velocity_residual);
-                let energy = f.drift.energy_drift.map(|e| format!("{e:e}"));
-                writeln!(
-                    out,
-                    ",{position:e},{velocity:e},{},",
-                    energy.unwrap_or_default()
-                )?;
+                let energy = number(f.drift.energy_drift);
+                writeln!(out, ",{position:e},{velocity:e},{energy},")?;
             }
         }
     }
     Ok(())
+}
+
+/// A number, or an empty field.
+fn number(value: Option<f64>) -> String {
+    value.map_or_else(String::new, |v| format!("{v:e}"))
 }
 
 /// A field that may contain commas and quotes.

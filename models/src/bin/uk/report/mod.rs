@@ -230,11 +230,14 @@ fn write_all(out: &Path, report: &Report) -> Result<(), Failure> {
 fn tell(out: &Path, report: &Report) -> Result<(), Failure> {
     let wide = numbers::width(report.studies.iter().map(|s| s.name.as_str()));
     output::to_stdout(|w| {
-        writeln!(w, "What to take for which scaled error at the end")?;
+        writeln!(
+            w,
+            "What to take for which scaled error at the end, with the constraints kept"
+        )?;
         for study in &report.studies {
             for (k, goal) in verdict::GOALS.into_iter().enumerate() {
                 let name = if k == 0 { study.name.as_str() } else { "" };
-                match verdict::choice(study, goal) {
+                match verdict::choice(study, goal, verdict::Among::Kept) {
                     Some(choice) => writeln!(
                         w,
                         "  {name:<wide$}  {goal:.0e}  {:>9}  {} at {:.0e}",

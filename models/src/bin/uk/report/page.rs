@@ -9,7 +9,7 @@ use super::charts;
 use super::export::Report;
 use super::study::{Figures, Study};
 use super::variants::{OMITTED, Variant, named};
-use super::verdict::{self, DEFAULT_TOLERANCE, GOALS, TIE};
+use super::verdict::{self, Among, DEFAULT_TOLERANCE, GOALS, TIE};
 
 /// index.html.
 pub(super) fn html(report: &Report) -> String {
@@ -48,6 +48,16 @@ fn power(value: f64) -> Cell {
     Cell::Number(power_of_ten(value))
 }
 
+/// An error; where it lies below that of the reference, the latter as a bound.
+fn claimed(study: &Study, error: f64) -> Cell {
+    let text = power_of_ten(study.claimed(error));
+    Cell::Number(if error <= study.reference.floor {
+        format!("≤ {text}")
+    } else {
+        text
+    })
+}
+
 fn missing() -> Cell {
     Cell::Number("–".to_owned())
 }
@@ -77,7 +87,7 @@ fn name(study: &Study) -> Cell {
 }
 
 fn head(report: &Report) -> String {
-    let found = verdict::defaults(&report.studies);
+    let kept = verdict::standing(&report.studies, Among::Kept);
     let mut html = String::from(
         "<h1>Error against run time</h1>\n\
          <p class=\"lead\">Each model under every sensible combination of method, formula for the accelerations and stabilisation.</p>\n",
@@ -107,16 +117,13 @@ fn head(report: &Report) -> String {
     }
     let _ = writeln!(
         html,
-        "<p>The default of <code>Simulation</code>, {} at tolerance {} with the automatic formula, is within {} % of the fastest combination in {} of {} cases \
-         (a motion and an accuracy of 10<sup>−3</sup> to 10<sup>−12</sup>).</p>\n\
+        "<p>The default of <code>Simulation</code>, {} at tolerance {} with the automatic formula, is {}</p>\n\
          <nav><a href=\"#choices\">What to take</a><a href=\"#tally\">How often</a><a href=\"#defaults\">The defaults</a><a href=\"#prices\">Stabilisation</a>\
          <a href=\"#causes\">Causes of error</a><a href=\"#motions\">Motions</a><a href=\"#method\">How it is measured</a><a href=\"report.json\">JSON</a>\
          <a href=\"report.csv\">CSV</a></nav>",
         escape(Variant::default().label),
         power_of_ten(DEFAULT_TOLERANCE),
-        fixed(100.0 * (TIE - 1.0), 0),
-        found.best,
-        found.cases,
+        standing_words(&kept),
     );
     html
 }
@@ -134,30 +141,45 @@ fn choices(report: &Report) -> String {
         .iter()
         .map(|study| {
             let mut row = vec![name(study)];
-            row.extend(GOALS.iter().map(|&goal| {
-                let Some(choice) = verdict::choice(study, goal) else {
-                    return Cell::Number(unreached(study, goal).to_owned());
-                };
-                Cell::Number(format!(
-                    "<b>{}</b><br><small>{}<br>{} {}</small>",
-                    duration(choice.cost.seconds),
-                    escape(choice.variant.label),
-                    choice.variant.knob_name(),
-                    power_of_ten(choice.cost.knob),
-                ))
-            }));
+            row.extend(GOALS.iter().map(|&goal| recommended(study, goal)));
             row
         })
         .collect();
     let caption = format!(
-        "The combination to take for an error at the end, and the time of its run. It is the first of the list whose time is within {} % of the least. \
-         The error is scaled: a part of the largest value that coordinates, or velocities, of the same kind take.",
+        "The combination to take for an error at the end, and the time of its run: of those that keep the constraints the first of the list whose time is within \
+         {} % of the least; below it in grey one that does not keep them, where that is faster still. The error is scaled: a part of the largest value that \
+         coordinates, or velocities, of the same kind take.",
         fixed(100.0 * (TIE - 1.0), 0)
     );
     format!(
         "<h2 id=\"choices\">1. What to take for which accuracy</h2>\n{}",
         table(&caption, &[&heads], &rows)
     )
+}
+
+fn recommended(study: &Study, goal: f64) -> Cell {
+    let Some(kept) = verdict::choice(study, goal, Among::Kept) else {
+        return Cell::Number(unreached(study, goal).to_owned());
+    };
+    let mut text = format!(
+        "<b>{}</b><br><small>{}<br>{} {}</small>",
+        duration(kept.cost.seconds),
+        escape(kept.variant.label),
+        kept.variant.knob_name(),
+        power_of_ten(kept.cost.knob),
+    );
+    if let Some(all) = verdict::choice(study, goal, Among::All)
+        && all.variant != kept.variant
+        && all.cost.seconds < kept.cost.seconds
+    {
+        let _ = write!(
+            text,
+            "<br><small class=\"soft\">{} {}</small>",
+            duration(all.cost.seconds),
+            escape(all.variant.label)
+        );
+    }
+    Cell::Number(text)
 }
 
 /// Why nothing is recommended.
@@ -173,31 +195,42 @@ fn unreached(study: &Study, goal: f64) -> &'static str {
 fn tallied(report: &Report) -> String {
     let goals: Vec<String> = GOALS.iter().map(|g| power_of_ten(*g)).collect();
     let mut heads = vec![("combination", 1)];
-    heads.extend(goals.iter().map(|g| (g.as_str(), 1)));
-    heads.extend([("all", 1), ("of", 1)]);
+    for _ in [Among::Kept, Among::All] {
+        heads.extend(goals.iter().map(|g| (g.as_str(), 1)));
+    }
+    heads.push(("cases", 1));
     let rows: Vec<Vec<Cell>> = verdict::tally(&report.studies)
         .into_iter()
-        .map(|(variant, won, tried)| {
-            let all: usize = won.iter().sum();
-            let label = escape(variant.label);
-            let mut row = vec![if all == 0 {
-                Cell::Text(format!(
-                    "{label} <span class=\"fails\">never recommended</span>"
-                ))
+        .map(|row| {
+            let label = escape(row.variant.label);
+            let all: usize = row.kept.iter().chain(&row.all).sum();
+            let mut cells = vec![Cell::Text(if all == 0 && row.cases > 0 {
+                format!("{label} <span class=\"fails\">never recommended</span>")
             } else {
-                Cell::Text(label)
-            }];
-            row.extend(won.iter().map(|n| Cell::Number(n.to_string())));
-            row.push(Cell::Number(all.to_string()));
-            row.push(Cell::Number(tried.to_string()));
-            row
+                label
+            })];
+            let counts = row.kept.iter().chain(&row.all);
+            cells.extend(counts.map(|n| match n {
+                0 => Cell::Number("·".to_owned()),
+                n => Cell::Number(format!("<b>{n}</b>")),
+            }));
+            cells.push(Cell::Number(row.cases.to_string()));
+            cells
         })
         .collect();
     format!(
         "<h2 id=\"tally\">2. How often each combination is the one to take</h2>\n{}<p>{OMITTED}</p>\n",
         table(
-            "Motions for which the table above recommends the combination, by accuracy; of so many cases in which it was run and the accuracy was reached.",
-            &[&heads],
+            "Motions for which the combination is the one to take, by accuracy; and the cases (a motion and an accuracy that is reached) in which it was in the running.",
+            &[
+                &[
+                    ("", 1),
+                    ("of those that keep the constraints", GOALS.len()),
+                    ("of all", GOALS.len()),
+                    ("", 1)
+                ],
+                &heads,
+            ],
             &rows
         )
     )
@@ -205,56 +238,38 @@ fn tallied(report: &Report) -> String {
 
 /// Whether the figures support the defaults.
 fn defaults(report: &Report) -> String {
-    let found = verdict::defaults(&report.studies);
-    let mut html =
-        String::from("<h2 id=\"defaults\">3. Do the figures support the defaults?</h2>\n");
-    let often = 2 * found.best >= found.cases;
-    let _ = write!(
-        html,
-        "<p>{} {} is within {} % of the fastest combination in {} of {} cases; on average it takes {} times the least time",
-        if often { "Yes." } else { "No." },
+    let kept = verdict::standing(&report.studies, Among::Kept);
+    let mut html = format!(
+        "<h2 id=\"defaults\">3. Do the figures support the defaults?</h2>\n<p>{}: {}",
         escape(Variant::default().label),
-        fixed(100.0 * (TIE - 1.0), 0),
-        found.best,
-        found.cases,
-        fixed(found.mean, 2),
+        standing_words(&kept)
     );
-    if let Some((ratio, name, goal)) = &found.worst {
+    if let Some((ratio, name, goal)) = &kept.worst {
         let _ = write!(
             html,
-            ", at worst {} times ({}, {})",
+            " At worst it takes {} times the least time ({}, {}).",
             fixed(*ratio, 1),
             escape(name),
             power_of_ten(*goal)
         );
     }
-    let _ = writeln!(
-        html,
-        ". In {} cases it misses an accuracy that another combination reaches.</p>",
-        found.missed
-    );
-    let rows: Vec<Vec<Cell>> = report
-        .studies
-        .iter()
-        .filter_map(|study| {
-            let own = study.curve(Variant::default().name)?;
-            let f = own.at(DEFAULT_TOLERANCE)?;
-            let beside = |factor: f64| own.at(factor * DEFAULT_TOLERANCE);
-            let time = |f: Option<&Figures>, here: &Figures| {
-                or_missing(f, |f| Cell::Number(percent(f.seconds / here.seconds)))
-            };
-            Some(vec![
-                name(study),
-                power(study.claimed(f.error)),
-                power(study.claimed(f.error_along)),
-                Cell::Number(duration(f.seconds)),
-                or_missing(beside(1e3), |f| power(study.claimed(f.error))),
-                time(beside(1e3), f),
-                or_missing(beside(1e-3), |f| power(study.claimed(f.error))),
-                time(beside(1e-3), f),
-            ])
-        })
-        .collect();
+    html.push_str("</p>\n<ul>\n");
+    for line in verdict::arguments(&report.studies) {
+        let _ = writeln!(
+            html,
+            "<li><b>{}</b>: {} <span class=\"{}\">{}</span></li>",
+            escape(line.default),
+            line.figures,
+            if line.supported { "holds" } else { "fails" },
+            if line.supported {
+                "supported"
+            } else {
+                "not supported"
+            },
+        );
+    }
+    html.push_str("</ul>\n");
+    let rows: Vec<Vec<Cell>> = report.studies.iter().filter_map(default_row).collect();
     if !rows.is_empty() {
         html.push_str(&table(
             "The default combination at the default tolerance, and a thousand times looser and tighter: scaled error, and change of the time.",
@@ -275,6 +290,43 @@ fn defaults(report: &Report) -> String {
         ));
     }
     html
+}
+
+/// How the default stands, in words, HTML.
+fn standing_words(found: &verdict::Standing) -> String {
+    let mut text = format!(
+        "within {} % of the fastest combination that keeps the constraints in {} of {} (a motion and an accuracy).",
+        fixed(100.0 * (TIE - 1.0), 0),
+        found.best,
+        numbers::count(found.cases, "case"),
+    );
+    if found.missed > 0 {
+        let _ = write!(
+            text,
+            " In {} it does not reach the accuracy though another one does.",
+            numbers::count(found.missed, "case")
+        );
+    }
+    text
+}
+
+fn default_row(study: &Study) -> Option<Vec<Cell>> {
+    let own = study.curve(Variant::default().name)?;
+    let here = own.at(DEFAULT_TOLERANCE)?;
+    let mut row = vec![
+        name(study),
+        claimed(study, here.error),
+        claimed(study, here.error_along),
+        Cell::Number(duration(here.seconds)),
+    ];
+    for factor in [1e3, 1e-3] {
+        let beside = own.at(factor * DEFAULT_TOLERANCE);
+        row.push(or_missing(beside, |f| claimed(study, f.error)));
+        row.push(or_missing(beside, |f| {
+            Cell::Number(percent(f.seconds / here.seconds))
+        }));
+    }
+    Some(row)
 }
 
 /// Goals at which the price of a stabilisation is told.
@@ -303,7 +355,7 @@ fn prices(report: &Report) -> String {
                 or_missing(projection, |(_, ratio)| {
                     Cell::Number(format!("× {}", fixed(ratio, 2)))
                 }),
-                or_missing(free, |f| power(f.off)),
+                or_missing(free.and_then(|f| f.off), power),
                 or_missing(free, |f| {
                     power(f.drift.position_residual.max(f.drift.velocity_residual))
                 }),
@@ -363,21 +415,14 @@ fn causes(report: &Report) -> String {
             });
             vec![
                 name(study),
-                or_missing(at(own, 1e-6), |f| power(study.claimed(f.within))),
-                or_missing(at(own, 1e-9), |f| power(study.claimed(f.within))),
-                or_missing(at(free, 1e-6), |f| power(f.off)),
-                or_missing(at(free, 1e-9), |f| power(f.off)),
+                or_missing(at(own, 1e-6).and_then(|f| f.within), |e| claimed(study, e)),
+                or_missing(at(own, 1e-9).and_then(|f| f.within), |e| claimed(study, e)),
+                or_missing(at(free, 1e-6).and_then(|f| f.off), power),
+                or_missing(at(free, 1e-9).and_then(|f| f.off), power),
                 or_missing(study.limits.rank, power),
                 or_missing(study.limits.solve, power),
                 or_missing(study.limits.rounding, power),
-                or_missing(least, |e| {
-                    let claimed = power_of_ten(study.claimed(e));
-                    Cell::Number(if e <= study.reference.floor {
-                        format!("≤ {claimed}")
-                    } else {
-                        claimed
-                    })
-                }),
+                or_missing(least, |e| claimed(study, e)),
                 power(study.reference.floor),
             ]
         })
@@ -514,14 +559,6 @@ fn all_runs(study: &Study) -> String {
 
 fn cells(study: &Study, f: &Figures) -> Vec<Cell> {
     let count = |n: usize| Cell::Number(n.to_string());
-    let error = |e: f64| {
-        let text = power_of_ten(study.claimed(e));
-        Cell::Number(if e <= study.reference.floor {
-            format!("≤ {text}")
-        } else {
-            text
-        })
-    };
     let (low, high) = f.quartiles;
     let spread = 50.0 * (high - low) / f.seconds;
     vec![
@@ -534,9 +571,9 @@ fn cells(study: &Study, f: &Figures) -> Vec<Cell> {
         count(f.evaluations),
         count(f.steps),
         count(f.rejected),
-        error(f.error),
-        error(f.error_along),
-        power(f.off),
+        claimed(study, f.error),
+        claimed(study, f.error_along),
+        or_missing(f.off, power),
         power(f.drift.position_residual.max(f.drift.velocity_residual)),
         or_missing(f.drift.energy_drift, power),
         count(f.fallbacks),

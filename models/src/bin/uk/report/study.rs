@@ -23,6 +23,8 @@ pub(super) struct Study {
     pub(super) curves: Vec<Curve>,
     /// What was not.
     pub(super) left_out: Vec<LeftOut>,
+    /// The model has no constraints, so that all combinations keep them.
+    pub(super) unconstrained: bool,
     /// The measurement was not interrupted.
     pub(super) whole: bool,
 }
@@ -96,10 +98,10 @@ pub(super) struct Figures {
     pub(super) error_in_units: f64,
     /// Largest scaled error at the times of the reference, samples being interpolated.
     pub(super) error_along: f64,
-    /// Scaled distance of the end from the nearest state on the constraints.
-    pub(super) off: f64,
+    /// Scaled distance of the end from the nearest state on the constraints, if that can be found.
+    pub(super) off: Option<f64>,
     /// Scaled distance of that state from the reference.
-    pub(super) within: f64,
+    pub(super) within: Option<f64>,
     /// Largest residuals and drift of the energy over all steps.
     #[serde(flatten)]
     pub(super) drift: Drift,

@@ -5,9 +5,21 @@ use ukcore::{Error, Method, Simulation, State};
 
 use crate::failure::Failure;
 
-/// Tolerance of the run that serves as reference where none is shipped, and of the one that it is compared with. Both are as tight as rounding
-/// allows their method.
-const TIGHT: [(Method, f64); 2] = [(Method::Dop853, 1e-14), (Method::Dopri5, 1e-13)];
+/// How a motion is integrated that serves as reference.
+#[derive(Debug, Clone, Copy)]
+struct Way {
+    method: Method,
+    tolerance: f64,
+    max_step: Option<f64>,
+}
+
+/// Steps of the reference are at most this part of the mean step of DOP853 at 1e-13: its truncation error then falls below rounding. (A
+/// tolerance below rounding would do the same, but fails where rounding is all that is left of the error estimate.)
+const SHORT: f64 = 0.4;
+/// Steps of the run that it is compared with are longer by this, which multiplies an error of order 8 by 26; its tolerance is larger by ten.
+const LONGER: f64 = 1.5;
+/// Tolerance of the reference.
+const TIGHT: f64 = 1e-13;
 /// Equal intervals at whose ends states are compared where no reference is shipped.
 const INTERVALS: u32 = 12;
 
@@ -50,37 +62,57 @@ impl Truth {
         }
     }
 
-    /// By two runs with different methods, each started anew at each of the times, so that nothing is interpolated; what they differ by is
-    /// taken as the error of the first.
+    /// By DOP853 with short steps, started anew at each of the times, so that nothing is interpolated. What a run with longer ones differs by is taken as its
+    /// error; by how much another method differs is told.
     ///
     /// # Errors
-    /// [`Failure::Failed`] naming the run.
+    /// [`Failure::Failed`] naming the model.
     pub(super) fn computed<M: Model>(
         mechanism: &M,
         start: &State,
         end: f64,
     ) -> Result<Self, Failure> {
-        let step = (end - start.t) / f64::from(INTERVALS);
+        let span = end - start.t;
         let times: Vec<f64> = (1..=INTERVALS)
-            .map(|k| start.t + f64::from(k) * step)
+            .map(|k| start.t + f64::from(k) * span / f64::from(INTERVALS))
             .collect();
-        let [best, other] = TIGHT.map(|(method, tolerance)| {
-            along(mechanism, start, &times, method, tolerance)
+        let run = |method, tolerance, max_step| {
+            let way = Way {
+                method,
+                tolerance,
+                max_step,
+            };
+            along(mechanism, start, &times, way)
                 .map_err(|error| Failure::Failed(format!("no reference for `{}`: {error}", M::ID)))
-        });
-        let (states, others) = (best?, other?);
+        };
+        let (_, steps) = run(Method::Dop853, TIGHT, None)?;
+        let short = SHORT * span.abs() / steps.max(1) as f64;
+        let (states, _) = run(Method::Dop853, TIGHT, Some(short))?;
+        let (coarser, _) = run(Method::Dop853, 10.0 * TIGHT, Some(LONGER * short))?;
+        let (other, _) = run(Method::Dopri5, TIGHT, None)?;
         let scale = scale::<M>(start, &states);
         let mut truth = Truth {
-            source: "made here: DOP853 at 1e-14, compared with DOPRI5 at 1e-13".to_owned(),
+            source: String::new(),
             floor: f64::EPSILON,
             times,
             states,
             scale,
         };
-        for (k, other) in others.iter().enumerate() {
-            truth.floor = truth.floor.max(truth.errors(k, other).scaled);
-        }
+        truth.floor = truth.floor.max(truth.largest(&coarser));
+        truth.source = format!(
+            "made here: DOP853 with steps of at most {short:.1e} s; its error is its difference from a run with steps {LONGER} times as long. DOPRI5 at \
+             {TIGHT:.0e} differs by {:.1e}",
+            truth.largest(&other)
+        );
         Ok(truth)
+    }
+
+    /// Largest scaled distance of states at the same times.
+    fn largest(&self, states: &[Vec<f64>]) -> f64 {
+        let distances = states.iter().enumerate();
+        distances
+            .map(|(k, state)| self.errors(k, state).scaled)
+            .fold(0.0, f64::max)
     }
 
     /// End of the motion.
@@ -129,28 +161,32 @@ pub(super) fn stacked(state: &State) -> Vec<f64> {
     [state.q.as_slice(), &state.v].concat()
 }
 
+/// (q, q̇) at `times`, and the steps taken.
 fn along<M: Model>(
     mechanism: &M,
     start: &State,
     times: &[f64],
-    method: Method,
-    tolerance: f64,
-) -> Result<Vec<Vec<f64>>, Error> {
+    way: Way,
+) -> Result<(Vec<Vec<f64>>, usize), Error> {
     let mut state = start.clone();
     let mut states = Vec::with_capacity(times.len());
+    let mut steps = 0;
     for &t in times {
-        let run = Simulation::new(mechanism.clone())
+        let mut simulation = Simulation::new(mechanism.clone())
             .start(state)
-            .method(method)
-            .tolerance(tolerance)
-            .at(Vec::new())
-            .until(t)
-            .map_err(|failure| failure.error)?;
+            .method(way.method)
+            .tolerance(way.tolerance)
+            .at(Vec::new());
+        if let Some(step) = way.max_step {
+            simulation = simulation.max_step(step);
+        }
+        let run = simulation.until(t).map_err(|failure| failure.error)?;
         let Some(last) = run.last() else { break };
+        steps += run.work().steps;
         state = last.to_state();
         states.push(stacked(&state));
     }
-    Ok(states)
+    Ok((states, steps))
 }
 
 /// The size of each coordinate and velocity: the largest of its kind along the motion; of all kinds, where its own stays at zero. The kind of a

@@ -20,6 +20,8 @@ pub(super) enum Solve {
 pub(super) enum Engine {
     /// Steps of its own choice, by a tolerance.
     Adaptive(Method),
+    /// RATTLE, by the size of its equal steps.
+    Rattle,
 }
 
 /// A combination.
@@ -52,14 +54,14 @@ const fn baumgarte(rate: f64) -> Stabilisation {
 const fn variant(
     name: &'static str,
     label: &'static str,
-    method: Method,
+    engine: Engine,
     solve: Solve,
     stabilisation: Stabilisation,
 ) -> Variant {
     Variant {
         name,
         label,
-        engine: Engine::Adaptive(method),
+        engine,
         solve,
         stabilisation,
     }
@@ -67,70 +69,73 @@ const fn variant(
 
 /// All combinations; the first is the default of [`Simulation`]. Of two that cost alike the earlier one is recommended.
 pub(super) const VARIANTS: &[Variant] = {
-    use Method::{Dop853, Dopri5};
+    const DOP853: Engine = Engine::Adaptive(Method::Dop853);
+    const DOPRI5: Engine = Engine::Adaptive(Method::Dopri5);
+    use Engine::Rattle;
     use Solve::{Automatic, Dense, General};
     use Stabilisation::{None, Projection};
     &[
         variant(
             "dop853",
             "DOP853, projection",
-            Dop853,
+            DOP853,
             Automatic,
             Projection,
         ),
         variant(
             "dopri5",
             "DOPRI5, projection",
-            Dopri5,
+            DOPRI5,
             Automatic,
             Projection,
         ),
+        variant("rattle", "RATTLE", Rattle, Automatic, Projection),
         variant(
             "dop853-none",
             "DOP853, no stabilisation",
-            Dop853,
+            DOP853,
             Automatic,
             None,
         ),
         variant(
             "dopri5-none",
             "DOPRI5, no stabilisation",
-            Dopri5,
+            DOPRI5,
             Automatic,
             None,
         ),
         variant(
             "dop853-baumgarte20",
             "DOP853, Baumgarte 20/s",
-            Dop853,
+            DOP853,
             Automatic,
             SLOW,
         ),
         variant(
             "dop853-baumgarte200",
             "DOP853, Baumgarte 200/s",
-            Dop853,
+            DOP853,
             Automatic,
             FAST,
         ),
         variant(
             "dop853-general",
             "DOP853, projection, eq. 13 or 19",
-            Dop853,
+            DOP853,
             General,
             Projection,
         ),
         variant(
             "dopri5-general",
             "DOPRI5, projection, eq. 13 or 19",
-            Dopri5,
+            DOPRI5,
             General,
             Projection,
         ),
         variant(
             "dop853-kkt",
             "DOP853, projection, dense KKT",
-            Dop853,
+            DOP853,
             Dense,
             Projection,
         ),
@@ -153,6 +158,11 @@ impl Variant {
         &VARIANTS[0]
     }
 
+    /// Whether the constraints hold to rounding at the end of each step.
+    pub(super) fn keeps_constraints(&self) -> bool {
+        self.engine == Engine::Rattle || self.stabilisation == Stabilisation::Projection
+    }
+
     /// Whether evaluations are dense linear algebra: dearer by two orders, so that fewer tolerances have to do. `spec` is that of the
     /// model.
     pub(super) fn is_dense(&self, spec: &Spec) -> bool {
@@ -171,17 +181,21 @@ impl Variant {
         None
     }
 
-    /// The settings of accuracy to run, loose to tight.
-    pub(super) fn knobs(&self, spec: &Spec, quick: bool) -> Vec<f64> {
-        let decades: &[i32] = match (quick, self.is_dense(spec)) {
-            (true, false) => &[4, 6, 8, 10],
-            (true, true) => &[5, 8],
-            (false, false) => &[3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13],
-            (false, true) => &[3, 5, 7, 9, 11, 13],
+    /// The settings of accuracy to run, loose to tight, for a motion that lasts `span`, s, of a model with this `spec`.
+    pub(super) fn knobs(&self, spec: &Spec, span: f64, quick: bool) -> Vec<f64> {
+        let exponents: &[i32] = match (self.engine, quick, self.is_dense(spec)) {
+            (Engine::Adaptive(_), true, false) => &[4, 6, 8, 10],
+            (Engine::Adaptive(_), true, true) => &[5, 8],
+            (Engine::Adaptive(_), false, false) => &[3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13],
+            (Engine::Adaptive(_), false, true) => &[3, 5, 7, 9, 11, 13],
+            (Engine::Rattle, true, _) => &[7, 9, 11],
+            (Engine::Rattle, false, _) => &[4, 5, 6, 7, 8, 9, 10, 11, 12, 13],
         };
-        match self.engine {
-            Engine::Adaptive(_) => decades.iter().map(|k| 10_f64.powi(-k)).collect(),
-        }
+        let knob = |k: &i32| match self.engine {
+            Engine::Adaptive(_) => 10_f64.powi(-k),
+            Engine::Rattle => span * 2_f64.powi(-k),
+        };
+        exponents.iter().map(knob).collect()
     }
 
     /// `simulation` with these settings; `general` is the formula that fits the mass matrix of the model.
@@ -200,6 +214,7 @@ impl Variant {
             });
         match self.engine {
             Engine::Adaptive(method) => simulation.method(method).tolerance(knob),
+            Engine::Rattle => simulation.method(Method::Rattle { step: knob }),
         }
     }
 
@@ -207,6 +222,7 @@ impl Variant {
     pub(super) fn knob_name(&self) -> &'static str {
         match self.engine {
             Engine::Adaptive(_) => "tolerance",
+            Engine::Rattle => "step",
         }
     }
 }

@@ -1,5 +1,7 @@
 //! What follows from the figures: which combination to take for which accuracy, and what it costs.
 
+use crate::html::{fixed, power_of_ten};
+
 use super::study::{Curve, Study};
 use super::variants::{VARIANTS, Variant};
 
@@ -70,11 +72,20 @@ pub(super) struct Choice {
     pub(super) least: f64,
 }
 
-/// The combination to take for an accuracy: the first of the list whose time is within [`TIE`] of the least. Among combinations that leave the
-/// constraints to drift, only one that saves more than that is worth its drift.
-pub(super) fn choice(study: &Study, goal: f64) -> Option<Choice> {
+/// Which combinations are to choose from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Among {
+    /// All of them.
+    All,
+    /// Those that keep the constraints to rounding: by projection, or by steps that end on them.
+    Kept,
+}
+
+/// The combination to take for an accuracy: the first of the list whose time is within [`TIE`] of the least.
+pub(super) fn choice(study: &Study, goal: f64, among: Among) -> Option<Choice> {
     let costs: Vec<(&'static Variant, Cost)> = VARIANTS
         .iter()
+        .filter(|v| among == Among::All || v.keeps_constraints() || study.unconstrained)
         .filter_map(|v| Some((v, cost(study, study.curve(v.name)?, goal)?)))
         .collect();
     let times = costs.iter().map(|(_, c)| c.seconds);
@@ -87,77 +98,221 @@ pub(super) fn choice(study: &Study, goal: f64) -> Option<Choice> {
     })
 }
 
-/// How often each combination is the one to take, with the number of cases in which it was in the running.
-pub(super) fn tally(studies: &[Study]) -> Vec<(&'static Variant, [usize; GOALS.len()], usize)> {
-    let mut rows: Vec<_> = VARIANTS.iter().map(|v| (v, [0; GOALS.len()], 0)).collect();
-    for study in studies {
-        for (k, &goal) in GOALS.iter().enumerate() {
-            let chosen = choice(study, goal).map(|c| c.variant.name);
-            for (variant, won, tried) in &mut rows {
-                *tried += usize::from(chosen.is_some() && study.curve(variant.name).is_some());
-                won[k] += usize::from(chosen == Some(variant.name));
-            }
-        }
-    }
-    rows
+/// A row of the table of recommendations.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Tally {
+    /// The combination.
+    pub(super) variant: &'static Variant,
+    /// Motions for which it is the one to take among those that keep the constraints, by accuracy.
+    pub(super) kept: [usize; GOALS.len()],
+    /// And among all.
+    pub(super) all: [usize; GOALS.len()],
+    /// Cases (motion and accuracy) in which it was in the running.
+    pub(super) cases: usize,
 }
 
-/// How the defaults of [`ukcore::Simulation`] compare with the best, over all motions.
+/// How often each combination is the one to take.
+pub(super) fn tally(studies: &[Study]) -> Vec<Tally> {
+    let count = |variant: &'static Variant| {
+        let mut row = Tally {
+            variant,
+            kept: [0; GOALS.len()],
+            all: [0; GOALS.len()],
+            cases: 0,
+        };
+        for study in studies.iter().filter(|s| s.curve(variant.name).is_some()) {
+            for (k, &goal) in GOALS.iter().enumerate() {
+                let wins = |among| choice(study, goal, among).map(|c| c.variant == variant);
+                row.kept[k] += usize::from(wins(Among::Kept) == Some(true));
+                let all = wins(Among::All);
+                row.all[k] += usize::from(all == Some(true));
+                row.cases += usize::from(all.is_some());
+            }
+        }
+        row
+    };
+    VARIANTS.iter().map(count).collect()
+}
+
+/// How the default combination of [`ukcore::Simulation`] compares with the best, over all motions.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Defaults {
+pub(super) struct Standing {
     /// Cases (motion and accuracy) that some combination reaches.
     pub(super) cases: usize,
-    /// Cases in which the default combination is within [`TIE`] of the best.
+    /// Cases in which the default is within [`TIE`] of the best.
     pub(super) best: usize,
     /// Cases in which it does not reach the accuracy though another one does.
     pub(super) missed: usize,
-    /// The largest ratio of its time to the best, with motion and accuracy.
+    /// The largest ratio of its time to the least, with motion and accuracy.
     pub(super) worst: Option<(f64, String, f64)>,
-    /// Geometric mean of these ratios.
-    pub(super) mean: f64,
-    /// Motion, error and time, s, at the default tolerance.
-    pub(super) reached: Vec<(String, f64, f64)>,
+    /// Ratios of its time to the least: the median.
+    pub(super) median: Option<f64>,
 }
 
-/// Looks at the defaults.
-pub(super) fn defaults(studies: &[Study]) -> Defaults {
-    let mut found = Defaults {
+/// Looks at the default combination.
+pub(super) fn standing(studies: &[Study], among: Among) -> Standing {
+    let mut found = Standing {
         cases: 0,
         best: 0,
         missed: 0,
         worst: None,
-        mean: 1.0,
-        reached: Vec::new(),
+        median: None,
     };
-    let (mut logarithms, mut compared) = (0.0, 0_usize);
+    let mut ratios = Vec::new();
     for study in studies {
-        let own = study.curve(Variant::default().name);
-        if let Some(f) = own.and_then(|c| c.at(DEFAULT_TOLERANCE)) {
-            let error = study.claimed(f.error);
-            found.reached.push((study.name.clone(), error, f.seconds));
-        }
         for goal in GOALS {
-            let Some(choice) = choice(study, goal) else {
+            let Some(choice) = choice(study, goal, among) else {
                 continue;
             };
             found.cases += 1;
+            let own = study.curve(Variant::default().name);
             let Some(cost) = own.and_then(|c| cost(study, c, goal)) else {
                 found.missed += 1;
                 continue;
             };
             let ratio = cost.seconds / choice.least;
             found.best += usize::from(ratio <= TIE);
-            logarithms += ratio.ln();
-            compared += 1;
+            ratios.push(ratio);
             if found.worst.as_ref().is_none_or(|w| ratio > w.0) {
                 found.worst = Some((ratio, study.name.clone(), goal));
             }
         }
     }
-    if compared > 0 {
-        found.mean = (logarithms / compared as f64).exp();
-    }
+    found.median = median(ratios);
     found
+}
+
+/// A default and what the figures say of it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Argument {
+    /// The default.
+    pub(super) default: &'static str,
+    /// The figures, HTML.
+    pub(super) figures: String,
+    /// They speak for it.
+    pub(super) supported: bool,
+}
+
+/// Errors that the default tolerance should stay below for it to be called safe.
+const SAFE: f64 = 1e-5;
+
+/// What speaks for and against each default.
+pub(super) fn arguments(studies: &[Study]) -> Vec<Argument> {
+    [
+        method_argument(studies),
+        formula_argument(studies),
+        stabilisation_argument(studies),
+        tolerance_argument(studies),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+/// All prices that are known at the goals.
+fn prices(studies: &[Study], variant: &str, other: &str) -> Vec<Price> {
+    let every = studies.iter().flat_map(|s| GOALS.map(|goal| (s, goal)));
+    every
+        .filter_map(|(s, goal)| price(s, variant, other, goal))
+        .collect()
+}
+
+fn method_argument(studies: &[Study]) -> Option<Argument> {
+    let known = prices(studies, "dopri5", "dop853");
+    let middle = median(known.iter().map(|p| p.time).collect())?;
+    let faster = known.iter().filter(|p| p.time > 1.0).count();
+    Some(Argument {
+        default: "DOP853",
+        figures: format!(
+            "DOPRI5 takes {} times the time for the same error (median of {} cases), and more in {faster} of them.",
+            fixed(middle, 2),
+            known.len()
+        ),
+        supported: middle > 1.0,
+    })
+}
+
+fn formula_argument(studies: &[Study]) -> Option<Argument> {
+    let known = prices(studies, "dop853-general", "dop853");
+    let middle = median(known.iter().map(|p| p.time).collect())?;
+    let kkt = prices(studies, "dop853-kkt", "dop853");
+    let kkt = median(kkt.iter().map(|p| p.time).collect())?;
+    Some(Argument {
+        default: "The automatic formula",
+        figures: format!(
+            "a run with eq. 13 or 19 throughout takes {} times its time, one with the dense KKT {} times (medians, where there is a straight line).",
+            fixed(middle, 1),
+            fixed(kkt, 1)
+        ),
+        supported: middle > 1.0 && kkt > 1.0,
+    })
+}
+
+fn stabilisation_argument(studies: &[Study]) -> Option<Argument> {
+    let known = prices(studies, "dop853", "dop853-none");
+    let equal = median(known.iter().map(|p| p.time).collect())?;
+    let same: Vec<(Price, f64)> = studies
+        .iter()
+        .filter_map(|s| price_at(s, "dop853", "dop853-none", DEFAULT_TOLERANCE))
+        .collect();
+    let time = median(same.iter().map(|(p, _)| p.time).collect())?;
+    let error = median(same.iter().map(|(_, ratio)| *ratio).collect())?;
+    let feedback = prices(studies, "dop853-baumgarte20", "dop853");
+    let feedback = median(feedback.iter().map(|p| p.evaluations).collect());
+    let feedback = feedback.map_or_else(String::new, |f| {
+        format!(
+            " Baumgarte's feedback of 20/s takes {} times its evaluations for the same error.",
+            fixed(f, 2)
+        )
+    });
+    Some(Argument {
+        default: "Projection",
+        figures: format!(
+            "at tolerance {} it adds {} % to the time of a run without and multiplies its error by {}; for the same error it takes {} times the time \
+             (medians), and the constraints hold.{feedback}",
+            power_of_ten(DEFAULT_TOLERANCE),
+            fixed(100.0 * (time - 1.0), 0),
+            fixed(error, 2),
+            fixed(equal, 2),
+        ),
+        supported: equal <= TIE,
+    })
+}
+
+fn tolerance_argument(studies: &[Study]) -> Option<Argument> {
+    let default = Variant::default().name;
+    let at = |s: &Study, knob| s.curve(default).and_then(|c| c.at(knob)).copied();
+    let errors: Vec<f64> = studies
+        .iter()
+        .filter_map(|s| Some(s.claimed(at(s, DEFAULT_TOLERANCE)?.error)))
+        .collect();
+    let ratio = |factor: f64| {
+        let times = studies.iter().filter_map(|s| {
+            Some(at(s, factor * DEFAULT_TOLERANCE)?.seconds / at(s, DEFAULT_TOLERANCE)?.seconds)
+        });
+        median(times.collect())
+    };
+    let (looser, tighter) = (ratio(1e3)?, ratio(1e-3)?);
+    let worst = errors.iter().copied().fold(0.0, f64::max);
+    Some(Argument {
+        default: "Tolerance 1e-9",
+        figures: format!(
+            "errors at the end are {} in the median, {} at most; a tolerance of {} takes {} times the time, one of {} {} times (medians).",
+            power_of_ten(median(errors)?),
+            power_of_ten(worst),
+            power_of_ten(1e3 * DEFAULT_TOLERANCE),
+            fixed(looser, 2),
+            power_of_ten(1e-3 * DEFAULT_TOLERANCE),
+            fixed(tighter, 2),
+        ),
+        supported: worst <= SAFE,
+    })
+}
+
+/// The middle one of some numbers.
+pub(super) fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
 }
 
 /// What one combination costs beside another.
@@ -218,8 +373,8 @@ mod tests {
                 error,
                 error_in_units: error,
                 error_along: error,
-                off: 0.0,
-                within: error,
+                off: Some(0.0),
+                within: Some(error),
                 drift: Drift {
                     position_residual: 0.0,
                     velocity_residual: 0.0,
@@ -253,6 +408,7 @@ mod tests {
             },
             curves,
             left_out: Vec::new(),
+            unconstrained: false,
             whole: true,
         }
     }
@@ -301,22 +457,30 @@ mod tests {
             let fast = curve("dop853-none", &runs(factor));
             study(1e-15, vec![fast, curve("dop853", &runs(1.0))])
         };
-        let chosen = |factor: f64| choice(&both(factor), 1e-6).map(|c| c.variant.name);
-        assert_eq!(chosen(0.95), Some("dop853"));
-        assert_eq!(chosen(0.5), Some("dop853-none"));
-        assert_eq!(choice(&both(1.0), 1e-12), None);
+        let chosen =
+            |factor: f64, among| choice(&both(factor), 1e-6, among).map(|c| c.variant.name);
+        assert_eq!(chosen(0.95, Among::All), Some("dop853"));
+        assert_eq!(chosen(0.5, Among::All), Some("dop853-none"));
+        assert_eq!(chosen(0.5, Among::Kept), Some("dop853"));
+        assert_eq!(choice(&both(1.0), 1e-12, Among::All), None);
 
         let studies = [both(0.95), both(0.5)];
         let rows = tally(&studies);
-        let row = |name: &str| rows.iter().find(|r| r.0.name == name).expect("in the list");
-        assert_eq!(row("dop853").1, [1, 1, 0, 0]);
-        assert_eq!(row("dop853-none").1, [1, 1, 0, 0]);
-        // Two motions with two accuracies that are reached; never run is never in the running.
-        assert_eq!((row("dop853").2, row("dopri5").2), (4, 0));
+        let row = |name: &str| {
+            let found = rows.iter().find(|r| r.variant.name == name);
+            *found.expect("in the list")
+        };
+        assert_eq!(row("dop853").all, [1, 1, 0, 0]);
+        assert_eq!(row("dop853").kept, [2, 2, 0, 0]);
+        assert_eq!(row("dop853-none").all, [1, 1, 0, 0]);
+        assert_eq!(row("dop853-none").kept, [0; 4]);
+        // Two motions with two accuracies that are reached; what is never run is never in the running.
+        assert_eq!((row("dop853").cases, row("dopri5").cases), (4, 0));
 
-        let found = defaults(&studies);
+        let found = standing(&studies, Among::All);
         assert_eq!((found.cases, found.best, found.missed), (4, 2, 0));
         assert!(found.worst.is_some_and(|w| (w.0 - 2.0).abs() < 1e-12));
+        assert_eq!(standing(&studies, Among::Kept).best, 4);
         let price = price(&studies[1], "dop853", "dop853-none", 1e-6).expect("both reach it");
         assert!((price.time - 2.0).abs() < 1e-12);
         assert!((price.evaluations - 2.0).abs() < 1e-5);
