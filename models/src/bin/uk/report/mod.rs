@@ -1,5 +1,6 @@
 //! `uk report`: error against run time, of each method, formula and stabilisation, on any model.
 
+mod argument;
 mod charts;
 mod clock;
 mod export;

@@ -23,6 +23,8 @@ pub(super) struct Study {
     pub(super) curves: Vec<Curve>,
     /// What was not.
     pub(super) left_out: Vec<LeftOut>,
+    /// Longer runs of what conserves energy.
+    pub(super) long: Vec<LongRun>,
     /// The model has no constraints, so that all combinations keep them.
     pub(super) unconstrained: bool,
     /// The measurement was not interrupted.
@@ -56,8 +58,6 @@ pub(super) struct Limits {
 pub(super) struct Curve {
     /// Name of the combination.
     pub(super) variant: String,
-    /// Evaluations are dense linear algebra.
-    pub(super) dense: bool,
     /// The runs.
     pub(super) points: Vec<Point>,
 }
@@ -105,6 +105,25 @@ pub(super) struct Figures {
     /// Largest residuals and drift of the energy over all steps.
     #[serde(flatten)]
     pub(super) drift: Drift,
+}
+
+/// A run many times as long, for its energy.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct LongRun {
+    /// Name of the combination.
+    pub(super) variant: String,
+    /// Tolerance, or step in s.
+    pub(super) knob: f64,
+    /// Its duration, s.
+    pub(super) span: f64,
+    /// Time that it took, once, s.
+    pub(super) seconds: Option<f64>,
+    /// Drift of the energy after a tenth, as a part of the energy exchanged.
+    pub(super) early: Option<f64>,
+    /// Drift at the end.
+    pub(super) late: Option<f64>,
+    /// Why it failed.
+    pub(super) failure: Option<String>,
 }
 
 /// A combination that was not run.

@@ -13,9 +13,10 @@ struct Way {
     max_step: Option<f64>,
 }
 
-/// Steps of the reference are at most this part of the mean step of DOP853 at 1e-13: its truncation error then falls below rounding. (A
-/// tolerance below rounding would do the same, but fails where rounding is all that is left of the error estimate.)
-const SHORT: f64 = 0.4;
+/// Steps of the reference are at most this part of the mean step of DOP853 at 1e-13: its truncation error then falls below rounding, also
+/// where the motion is faster than in the mean. (A tolerance below rounding would do the same, but fails where rounding is all that is left of
+/// the error estimate.)
+const SHORT: f64 = 0.1;
 /// Steps of the run that it is compared with are longer by this, which multiplies an error of order 8 by 26; its tolerance is larger by ten.
 const LONGER: f64 = 1.5;
 /// Tolerance of the reference.

@@ -163,11 +163,10 @@ impl Variant {
         self.engine == Engine::Rattle || self.stabilisation == Stabilisation::Projection
     }
 
-    /// Whether evaluations are dense linear algebra: dearer by two orders, so that fewer tolerances have to do. `spec` is that of the
-    /// model.
-    pub(super) fn is_dense(&self, spec: &Spec) -> bool {
+    /// Whether there is no straight line for it in any model: evaluations are then dearer by up to two orders, and fewer tolerances have to do.
+    fn is_dense(&self) -> bool {
         let feedback = matches!(self.stabilisation, Stabilisation::Baumgarte(_));
-        self.solve != Solve::Automatic || feedback || !spec.structure.straight_line
+        self.solve != Solve::Automatic || feedback
     }
 
     /// Why the combination makes no sense for a model with this `spec`, if so.
@@ -181,15 +180,15 @@ impl Variant {
         None
     }
 
-    /// The settings of accuracy to run, loose to tight, for a motion that lasts `span`, s, of a model with this `spec`.
-    pub(super) fn knobs(&self, spec: &Spec, span: f64, quick: bool) -> Vec<f64> {
-        let exponents: &[i32] = match (self.engine, quick, self.is_dense(spec)) {
+    /// The settings of accuracy to run, loose to tight, for a motion that lasts `span`, s.
+    pub(super) fn knobs(&self, span: f64, quick: bool) -> Vec<f64> {
+        let exponents: &[i32] = match (self.engine, quick, self.is_dense()) {
             (Engine::Adaptive(_), true, false) => &[4, 6, 8, 10],
             (Engine::Adaptive(_), true, true) => &[5, 8],
             (Engine::Adaptive(_), false, false) => &[3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13],
             (Engine::Adaptive(_), false, true) => &[3, 5, 7, 9, 11, 13],
             (Engine::Rattle, true, _) => &[7, 9, 11],
-            (Engine::Rattle, false, _) => &[4, 5, 6, 7, 8, 9, 10, 11, 12, 13],
+            (Engine::Rattle, false, _) => &[5, 6, 7, 8, 9, 10, 11, 12, 13],
         };
         let knob = |k: &i32| match self.engine {
             Engine::Adaptive(_) => 10_f64.powi(-k),

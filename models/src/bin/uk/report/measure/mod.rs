@@ -1,13 +1,13 @@
 //! Runs and times the combinations for one motion.
 
-use std::cell::Cell;
+mod limits;
+mod long;
+
 use std::ops::ControlFlow;
-use std::rc::Rc;
 
 use models::{Model, Reference};
 use ukcore::{
-    Ending, Error, Formula, Prepared, Projector, Simulation, Solver, SolverOptions, State,
-    Trajectory, solver::RANK_TOLERANCE,
+    Ending, Error, Formula, Projector, Simulation, Solver, SolverOptions, State, Trajectory,
 };
 
 use crate::drift::Drift;
@@ -15,7 +15,7 @@ use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 
 use super::clock;
-use super::study::{Curve, Figures, LeftOut, Limits, Point, Source, Study};
+use super::study::{Curve, Figures, LeftOut, Point, Source, Study};
 use super::truth::{Truth, stacked};
 use super::variants::{VARIANTS, Variant};
 
@@ -31,13 +31,6 @@ const LEAST: usize = 3;
 const LONG: f64 = 0.25;
 /// Shorter runs are timed several in a row: far above the resolution of the clock, and the machine's caches know the way, s.
 const BATCH: f64 = 5e-4;
-/// Tolerance of the runs that show what a change of the start makes at the end.
-const FINE: f64 = 1e-12;
-/// That change, as a part of the size of each number: far above the errors of these runs, and small enough for the end to follow in proportion.
-const NUDGE: f64 = 1e-8;
-/// So many directions are tried: the worst one is then not missed by much.
-const DIRECTIONS: usize = 8;
-
 /// The extent of the measurements.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Extent {
@@ -93,8 +86,13 @@ pub(super) fn study<M: Model>(
     let limits = subject.limits();
     let (mut curves, left_out) = subject.runs(extent, &|part| done(0.5 * part));
     if !extent.quick {
-        subject.repeat(&mut curves, &|part| done(0.5 + 0.5 * part));
+        subject.repeat(&mut curves, &|part| done(0.5 + 0.4 * part));
     }
+    let long = if extent.quick {
+        Vec::new()
+    } else {
+        subject.long_runs(&curves)
+    };
     Ok(Study {
         name: name.to_owned(),
         model: M::ID.to_owned(),
@@ -108,6 +106,7 @@ pub(super) fn study<M: Model>(
         limits,
         curves,
         left_out,
+        long,
         unconstrained: M::SPEC.m() == 0,
         whole: !interrupt.is_set(),
     })
@@ -119,7 +118,7 @@ impl<M: Model> Subject<'_, M> {
         let (mut curves, mut left_out) = (Vec::new(), Vec::new());
         for (k, variant) in VARIANTS.iter().enumerate() {
             let span = (self.truth.end() - self.start.t).abs();
-            let knobs = variant.knobs(M::SPEC, span, extent.quick);
+            let knobs = variant.knobs(span, extent.quick);
             if let Some(reason) = self.senseless(variant, &knobs) {
                 left_out.push(LeftOut {
                     variant: variant.name.to_owned(),
@@ -129,7 +128,6 @@ impl<M: Model> Subject<'_, M> {
             }
             let mut curve = Curve {
                 variant: variant.name.to_owned(),
-                dense: variant.is_dense(M::SPEC),
                 points: Vec::new(),
             };
             for (i, &knob) in knobs.iter().enumerate() {
@@ -242,22 +240,26 @@ impl<M: Model> Subject<'_, M> {
     }
 
     /// A run that is watched: it ends when the user says so or when it takes too long.
-    fn watched(&self, simulation: Simulation<M>) -> Result<(Trajectory<M>, f64), Trouble> {
+    fn watched(
+        &self,
+        simulation: Simulation<M>,
+        end: f64,
+    ) -> Result<(Trajectory<M>, f64), Trouble> {
         let (interrupt, start) = (self.interrupt.clone(), clock::now());
-        let steps = Rc::new(Cell::new(0_u32));
+        let mut steps = 0_u32;
         let (result, seconds) = clock::timed(|| {
             simulation
                 .progress(move |_| {
-                    steps.set(steps.get().wrapping_add(1));
+                    steps = steps.wrapping_add(1);
                     // The clock is asked now and then: it takes as long as some steps.
-                    let asked = steps.get() % 16 == 0;
+                    let asked = steps.is_multiple_of(16);
                     let long = || (clock::now() - start).as_secs_f64() > LONGEST_RUN;
                     if interrupt.is_set() || (asked && long()) {
                         return ControlFlow::Break(());
                     }
                     ControlFlow::Continue(())
                 })
-                .until(self.truth.end())
+                .until(end)
         });
         match result {
             Ok(run) if run.ending() == Ending::Interrupted => Err(Trouble::TooLong),
@@ -269,9 +271,9 @@ impl<M: Model> Subject<'_, M> {
     /// One run and its errors.
     fn run(&self, variant: &Variant, knob: f64) -> Result<Figures, Trouble> {
         let truth = &self.truth;
-        let (run, seconds) = self.watched(self.simulation(variant, knob))?;
+        let (run, seconds) = self.watched(self.simulation(variant, knob), truth.end())?;
         let times = truth.times.clone();
-        let (sampled, _) = self.watched(self.simulation(variant, knob).at(times))?;
+        let (sampled, _) = self.watched(self.simulation(variant, knob).at(times), truth.end())?;
         let mut error_along: f64 = 0.0;
         for (k, sample) in sampled.samples().enumerate() {
             error_along = error_along.max(truth.errors(k, &stacked(&sample.to_state())).scaled);
@@ -322,85 +324,6 @@ impl<M: Model> Subject<'_, M> {
         projector.position(&mechanism, t, &mut q, &v)?;
         projector.velocity(&mechanism, t, &q, &mut v)?;
         Ok(State { t, q, v })
-    }
-
-    fn limits(&self) -> Limits {
-        let mechanism = self.mechanism.prepared();
-        let options = |formula, factor: f64| SolverOptions {
-            formula,
-            rank_tolerance: factor * RANK_TOLERANCE,
-            ..SolverOptions::default()
-        };
-        let usual = options(self.general, 1.0);
-        Limits {
-            rounding: self.rounding(),
-            rank: [1e-3, 1e3]
-                .into_iter()
-                .map(|factor| self.compare(&mechanism, usual, options(self.general, factor)))
-                .try_fold(0.0, |m: f64, x| x.map(|x| m.max(x))),
-            solve: self.compare(&mechanism, usual, options(Formula::Auto, 1.0)),
-        }
-    }
-
-    /// Largest relative difference of q̈ under two settings, at the states of the reference.
-    fn compare(
-        &self,
-        mechanism: &Prepared<M>,
-        one: SolverOptions,
-        other: SolverOptions,
-    ) -> Option<f64> {
-        let n = M::SPEC.n();
-        let mut solvers = [one, other].map(Solver::new::<M>);
-        let mut largest: f64 = 0.0;
-        for (k, &t) in self.truth.times.iter().enumerate() {
-            let (q, v) = self.truth.state(k).split_at(n);
-            let mut both = [vec![0.0; n], vec![0.0; n]];
-            for (solver, out) in solvers.iter_mut().zip(&mut both) {
-                solver.acceleration(mechanism, t, q, v, out).ok()?;
-            }
-            let [a, b] = &both;
-            let size = a.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-            let difference = a
-                .iter()
-                .zip(b)
-                .fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
-            if size > 0.0 {
-                largest = largest.max(difference / size);
-            }
-        }
-        Some(largest)
-    }
-
-    /// Change of the end by starts that are rounded differently, from one by starts that differ more.
-    fn rounding(&self) -> Option<f64> {
-        let end = |start: State| {
-            let run = Simulation::new(self.mechanism.clone())
-                .start(start)
-                .tolerance(FINE)
-                .at(Vec::new())
-                .until(self.truth.end())
-                .ok()?;
-            run.last().map(|last| stacked(&last.to_state()))
-        };
-        let usual = end(self.start.clone())?;
-        let mut largest: f64 = 0.0;
-        let mut bits: u64 = 0x9e37_79b9_7f4a_7c15;
-        for _ in 0..DIRECTIONS {
-            let mut start = self.start.clone();
-            let values = start.q.iter_mut().chain(&mut start.v);
-            for (value, scale) in values.zip(&self.truth.scale) {
-                // Knuth's linear congruential generator: its highest bit is random enough for a sign.
-                bits = bits
-                    .wrapping_mul(6_364_136_223_846_793_005)
-                    .wrapping_add(1_442_695_040_888_963_407);
-                let sign = if bits >> 63 == 0 { 1.0 } else { -1.0 };
-                *value += sign * NUDGE * scale;
-            }
-            let start = self.nearest(&start).ok()?;
-            let moved = end(start)?;
-            largest = largest.max(self.truth.distance(&moved, &usual).scaled);
-        }
-        Some(largest * f64::EPSILON / NUDGE)
     }
 }
 
