@@ -143,6 +143,28 @@ mod tests {
         assert!(known >= 8, "{known}");
     }
 
+    /// The pendulum's closed form against 28 digits, at the times that both have.
+    #[test]
+    fn the_closed_form_keeps_its_bound() {
+        let reference = crate::Pendulum::references().remove(0);
+        let data = data(include_str!("../data/pendulum.json"));
+        let points = data["reference"].as_array().expect("a list");
+        let mut compared = 0;
+        for point in points {
+            let t = number(&point["t"]);
+            let Some(state) = reference.states.iter().find(|s| s.t == t) else {
+                continue;
+            };
+            let values = state.q.iter().chain(&state.v);
+            for (value, key) in values.zip(["x", "y", "vx", "vy"]) {
+                let error = (value - number(&point[key])).abs();
+                assert!(error <= reference.error, "{key} at {t}: {error:e}");
+            }
+            compared += 1;
+        }
+        assert_eq!(compared, 2, "5 s and 10 s");
+    }
+
     #[test]
     fn numbers_are_read_in_both_ways() {
         let list = data(r#"[1.5, "0.333333333333333333333333", null]"#);

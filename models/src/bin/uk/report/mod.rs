@@ -93,9 +93,14 @@ pub(crate) fn report(args: &ReportArgs) -> Result<(), Failure> {
     }
 }
 
+/// Parameters with which a model is measured, too, beside those it has by default: where they make another problem of it.
+const VARIATIONS: &[(&str, &[(&str, f64)])] = &[];
+
 /// A motion to measure.
 struct Job {
     name: String,
+    /// Parameters other than by default.
+    settings: &'static [(&'static str, f64)],
     model: &'static str,
     reference: Option<Reference>,
 }
@@ -120,7 +125,7 @@ fn jobs(names: &[String]) -> Result<Vec<Job>, Failure> {
     Ok(jobs)
 }
 
-/// Lists the motions of a model: one for each end that a reference has.
+/// Lists the motions of a model: one for each end that a reference has, and its variations.
 struct Motions;
 
 impl Visitor for Motions {
@@ -131,13 +136,11 @@ impl Visitor for Motions {
         let several = references.len() > 1;
         let job = |name, reference| Job {
             name,
+            settings: &[],
             model: M::ID,
             reference,
         };
-        if references.is_empty() {
-            return vec![job(M::ID.to_owned(), None)];
-        }
-        references
+        let mut jobs: Vec<Job> = references
             .into_iter()
             .map(|reference| {
                 let end = reference.states.last().map_or(0.0, |s| s.t);
@@ -148,7 +151,21 @@ impl Visitor for Motions {
                 };
                 job(name, Some(reference))
             })
-            .collect()
+            .collect();
+        if jobs.is_empty() {
+            jobs.push(job(M::ID.to_owned(), None));
+        }
+        for (_, settings) in VARIATIONS.iter().filter(|(id, _)| *id == M::ID) {
+            let words = settings
+                .iter()
+                .map(|(name, value)| format!("{name} {value:e}"));
+            let name = format!("{} with {}", M::ID, words.collect::<Vec<_>>().join(", "));
+            jobs.push(Job {
+                settings,
+                ..job(name, None)
+            });
+        }
+        jobs
     }
 }
 
@@ -175,8 +192,13 @@ impl Job {
                     interrupt,
                     done,
                 } = self;
+                let mut mechanism = M::default();
+                for (name, value) in job.settings {
+                    mechanism.set(name, *value)?;
+                }
                 let reference = job.reference.as_ref();
-                measure::study::<M>(&job.name, reference, Extent { quick }, interrupt, done)
+                let extent = Extent { quick };
+                measure::study(&job.name, mechanism, reference, extent, interrupt, done)
             }
         }
         models::visit(

@@ -55,24 +55,21 @@ struct Timing {
     seconds: Vec<f64>,
 }
 
-/// Measures the motion of `M` up to the end of `reference`, or for its duration. `done` hears the part that is done. What was measured
+/// Measures the motion of `mechanism` up to the end of `reference`, or for its duration. `done` hears the part that is done. What was measured
 /// before an interrupt is kept.
 ///
 /// # Errors
 /// If there is no start or no reference.
 pub(super) fn study<M: Model>(
     name: &str,
+    mechanism: M,
     reference: Option<&Reference>,
     extent: Extent,
     interrupt: &Interrupt,
     done: &dyn Fn(f64),
 ) -> Result<Study, Failure> {
-    let mechanism = M::default();
     let start = mechanism.default_start()?;
-    let truth = match reference {
-        Some(reference) => Truth::shipped::<M>(&start, reference),
-        None => Truth::computed(&mechanism, &start, M::duration())?,
-    };
+    let truth = Truth::of(&mechanism, &start, reference)?;
     let general = Solver::new::<M>(SolverOptions::default())
         .solve(&mechanism.prepared(), start.t, &start.q, &start.v)?
         .formula;

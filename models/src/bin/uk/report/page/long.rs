@@ -1,7 +1,7 @@
 //! What the energy does over long runs.
 
 use super::{duration, name, or_missing, power};
-use crate::html::{Cell, fixed, power_of_ten, table};
+use crate::html::{Cell, escape, fixed, power_of_ten, table};
 use crate::report::export::Report;
 use crate::report::study::{LongRun, Study};
 use crate::report::variants::Variant;
@@ -19,7 +19,8 @@ pub(super) fn long_runs(report: &Report) -> String {
     };
     let rows: Vec<Vec<Cell>> = studies.iter().flat_map(|s| rows(s)).collect();
     format!(
-        "<h2 id=\"long\">6. Long runs</h2>\n{}",
+        "<h2 id=\"long\">6. Long runs</h2>\n<p>{}</p>\n{}",
+        verdict_words(&studies),
         table(
             &format!(
                 "Runs {} times as long, of models that conserve energy and to which RATTLE applies. Each row is a step of RATTLE beside the tightest tolerance of the default \
@@ -48,13 +49,41 @@ pub(super) fn long_runs(report: &Report) -> String {
     )
 }
 
-fn rows(study: &Study) -> Vec<Vec<Cell>> {
-    let rattle = study
-        .long
+/// From which duration on RATTLE is worth its price.
+fn verdict_words(studies: &[&Study]) -> String {
+    let even = |study: &&Study| {
+        let pairs = rattle(study).filter_map(|run| {
+            let beside = verdict::as_cheap(study, run)?;
+            Some((verdict::break_even(run, beside)?, study.name.clone()))
+        });
+        pairs.min_by(|a, b| a.0.total_cmp(&b.0))
+    };
+    let least = studies
         .iter()
-        .filter(|run| run.variant != Variant::default().name);
-    let known = rattle.filter(|run| run.late.is_some());
-    known
+        .filter_map(even)
+        .min_by(|a, b| a.0.total_cmp(&b.0));
+    least.map_or_else(
+        || "RATTLE is the one to take in none of these runs.".to_owned(),
+        |(time, name)| {
+            format!(
+                "RATTLE keeps the energy without a trend, and the default combination does not; but for the same time the default keeps it better up to a \
+                 duration of {} s at least ({}).",
+                power_of_ten(time),
+                escape(&name)
+            )
+        },
+    )
+}
+
+/// The runs of RATTLE that succeeded.
+fn rattle(study: &Study) -> impl Iterator<Item = &LongRun> {
+    let default = Variant::default().name;
+    let runs = study.long.iter();
+    runs.filter(move |r| r.variant != default && r.late.is_some())
+}
+
+fn rows(study: &Study) -> Vec<Vec<Cell>> {
+    rattle(study)
         .enumerate()
         .map(|(k, run)| {
             let beside = verdict::as_cheap(study, run);
