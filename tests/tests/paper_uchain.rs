@@ -154,7 +154,8 @@ fn by_key(state: Sample<'_>) -> [(&'static str, Vec<f64>); 4] {
 /// it happens to take. So the median over some tolerances counts.
 #[test]
 fn with_the_tightest_tolerances_states_are_right_to_thirteen_decimals() {
-    let data: Value = serde_json::from_str(include_str!("../../models/data/uchain.json")).expect("JSON");
+    let data: Value =
+        serde_json::from_str(include_str!("../../models/data/uchain.json")).expect("JSON");
     let expected = &data["states"]["1.5"];
     let mut errors: Vec<f64> = (0..15)
         .map(|k| {

@@ -12,18 +12,18 @@ const SIZE: (u32, u32) = (530, 470);
 const BY_TIME: [&str; 6] = [
     "dop853",
     "dopri5",
+    "radau5",
     "rattle",
-    "dop853-none",
     "dop853-general",
     "dop853-kkt",
 ];
 const BY_EVALUATIONS: [&str; 6] = [
     "dop853",
     "dopri5",
+    "radau5",
     "rattle",
     "dop853-none",
     "dop853-baumgarte20",
-    "dop853-baumgarte200",
 ];
 
 /// A picture's file name without ending, and its SVG.
@@ -107,6 +107,9 @@ fn chart(study: &Study, shown: &[&str], x_label: &str, across: fn(&Figures) -> f
     }
 }
 
+/// Errors above are not drawn: ten times the size of the motion is far off, and a hundred times says nothing more.
+const USELESS: f64 = 10.0;
+
 /// Curves in the background.
 const LIGHT: plotters::style::RGBColor = plotters::style::RGBColor(190, 190, 190);
 
@@ -117,10 +120,15 @@ fn line(
     index: usize,
     place: &dyn Fn(&Figures) -> (f64, f64),
 ) -> Series {
-    let points = curve.figures().map(|(_, f)| place(f)).collect();
+    let figures = || {
+        curve
+            .figures()
+            .map(|(_, f)| f)
+            .filter(|f| f.error <= USELESS)
+    };
     let at_the_floor = |f: &&Figures| f.error <= study.reference.floor;
-    let figures = curve.figures().map(|(_, f)| f);
-    let rings = figures.filter(at_the_floor).map(place).collect();
+    let points = figures().map(place).collect();
+    let rings = figures().filter(at_the_floor).map(place).collect();
     Series {
         rings,
         ..Series::new(label, index % COLOURS.len(), points)

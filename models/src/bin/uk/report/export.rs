@@ -40,7 +40,7 @@ pub(super) const ABOUT: &str = "Error against run time. SI units. error: largest
 pub(super) fn csv(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     writeln!(
         out,
-        "motion,model,end,combination,knob,seconds,lower_quartile,upper_quartile,repeats,evaluations,steps,rejected,projections,fallbacks,\
+        "motion,model,end,combination,knob,seconds,lower_quartile,upper_quartile,repeats,evaluations,jacobians,factorisations,steps,rejected,projections,fallbacks,\
          error,error_in_units,error_along,reference_error,off,within,position_residual,velocity_residual,energy_drift,failure"
     )?;
     for study in &report.studies {
@@ -53,16 +53,18 @@ pub(super) fn csv(report: &Report, out: &mut dyn Write) -> io::Result<()> {
                 )?;
                 let Some(f) = &point.figures else {
                     let failure = point.failure.as_deref().unwrap_or_default();
-                    writeln!(out, "{}{}", ",".repeat(19), quoted(failure))?;
+                    writeln!(out, "{}{}", ",".repeat(21), quoted(failure))?;
                     continue;
                 };
                 let (low, high) = f.quartiles;
                 write!(
                     out,
-                    ",{:e},{low:e},{high:e},{},{},{},{},{},{}",
+                    ",{:e},{low:e},{high:e},{},{},{},{},{},{},{},{}",
                     f.seconds,
                     f.repeats,
                     f.evaluations,
+                    f.jacobians,
+                    f.factorisations,
                     f.steps,
                     f.rejected,
                     f.projections,

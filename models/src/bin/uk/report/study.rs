@@ -84,6 +84,10 @@ pub(super) struct Figures {
     pub(super) repeats: usize,
     /// Evaluations of the dynamics.
     pub(super) evaluations: usize,
+    /// Jacobians of an implicit method.
+    pub(super) jacobians: usize,
+    /// Its factorisations.
+    pub(super) factorisations: usize,
     /// Accepted steps.
     pub(super) steps: usize,
     /// Rejected steps.

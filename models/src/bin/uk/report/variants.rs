@@ -71,6 +71,7 @@ const fn variant(
 pub(super) const VARIANTS: &[Variant] = {
     const DOP853: Engine = Engine::Adaptive(Method::Dop853);
     const DOPRI5: Engine = Engine::Adaptive(Method::Dopri5);
+    const RADAU5: Engine = Engine::Adaptive(Method::Radau5);
     use Engine::Rattle;
     use Solve::{Automatic, Dense, General};
     use Stabilisation::{None, Projection};
@@ -86,6 +87,13 @@ pub(super) const VARIANTS: &[Variant] = {
             "dopri5",
             "DOPRI5, projection",
             DOPRI5,
+            Automatic,
+            Projection,
+        ),
+        variant(
+            "radau5",
+            "Radau IIA 5, projection",
+            RADAU5,
             Automatic,
             Projection,
         ),

@@ -266,6 +266,8 @@ mod tests {
                 quartiles: (seconds, seconds),
                 repeats: 1,
                 evaluations: (1e6 * seconds) as usize,
+                jacobians: 0,
+                factorisations: 0,
                 steps: 1,
                 rejected: 0,
                 projections: 0,

@@ -12,7 +12,7 @@ const TIMES: f64 = 100.0;
 const EARLY: f64 = 0.1;
 /// Tolerances of the methods that choose their steps.
 const TOLERANCES: [f64; 6] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13];
-/// Steps of RATTLE: the longest that succeeded over the short run, and halves of it.
+/// Steps of RATTLE: the longest with which the short run was not quite wrong, and halves of it.
 const STEPS: usize = 4;
 
 impl<M: Model> Subject<'_, M> {
@@ -25,7 +25,8 @@ impl<M: Model> Subject<'_, M> {
         else {
             return Vec::new();
         };
-        let steps = curve.figures().map(|(knob, _)| (rattle, knob)).take(STEPS);
+        let useful = curve.figures().filter(|(_, f)| f.error < 1.0);
+        let steps = useful.map(|(knob, _)| (rattle, knob)).take(STEPS);
         let tolerances = TOLERANCES.map(|tolerance| (Variant::default(), tolerance));
         let runs = tolerances.into_iter().chain(steps);
         runs.map_while(|(variant, knob)| {

@@ -290,6 +290,8 @@ impl<M: Model> Subject<'_, M> {
             quartiles: (seconds, seconds),
             repeats: 1,
             evaluations: work.evaluations,
+            jacobians: work.jacobians,
+            factorisations: work.factorisations,
             steps: work.steps,
             rejected: work.rejected,
             projections: work.projections,

@@ -37,7 +37,7 @@ pub(super) fn motion(study: &Study) -> String {
         ),
         picture(
             "evaluations",
-            "The same by evaluations, which do not depend on the formula: methods and stabilisations alone."
+            "The same by evaluations, which do not depend on the formula: methods and stabilisations alone. The Jacobians of an implicit method are not among them."
         ),
     );
     if !study.left_out.is_empty() {
@@ -78,7 +78,7 @@ fn all_runs(study: &Study) -> String {
                 Some(f) => row.extend(cells(study, f)),
                 None => {
                     let failure = point.failure.as_deref().unwrap_or_default();
-                    row.push(Cell::Wide(11, format!("<i>{}</i>", escape(failure))));
+                    row.push(Cell::Wide(12, format!("<i>{}</i>", escape(failure))));
                 }
             }
             rows.push(row);
@@ -92,6 +92,7 @@ fn all_runs(study: &Study) -> String {
             ("time", 1),
             ("±", 1),
             ("evaluations", 1),
+            ("Jacobians", 1),
             ("steps", 1),
             ("rejected", 1),
             ("error", 1),
@@ -117,6 +118,11 @@ fn cells(study: &Study, f: &Figures) -> Vec<Cell> {
             missing()
         },
         count(f.evaluations),
+        if f.jacobians > 0 {
+            count(f.jacobians)
+        } else {
+            missing()
+        },
         count(f.steps),
         count(f.rejected),
         claimed(study, f.error),
