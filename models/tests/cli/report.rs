@@ -61,6 +61,7 @@ fn a_report_has_its_files_and_its_errors_fall_with_the_tolerance() {
     for name in [
         "dop853",
         "dopri5",
+        "radau5",
         "rattle",
         "dop853-none",
         "dop853-baumgarte20",

@@ -2,7 +2,7 @@
 
 use models::Model;
 
-use super::Subject;
+use super::{LONGEST_RUN, Subject};
 use crate::report::study::{Curve, LongRun};
 use crate::report::variants::{Engine, VARIANTS, Variant};
 
@@ -28,7 +28,16 @@ impl<M: Model> Subject<'_, M> {
         let useful = curve.figures().filter(|(_, f)| f.error < 1.0);
         let steps = useful.map(|(knob, _)| (rattle, knob)).take(STEPS);
         let tolerances = TOLERANCES.map(|tolerance| (Variant::default(), tolerance));
+        let short = |(variant, knob): &(&Variant, f64)| {
+            let figures = curves
+                .iter()
+                .find(|c| c.variant == variant.name)?
+                .at(*knob)?;
+            Some(TIMES * figures.seconds < LONGEST_RUN)
+        };
+        // What would not come to its end is not begun.
         let runs = tolerances.into_iter().chain(steps);
+        let runs = runs.filter(|run| short(run) != Some(false));
         runs.map_while(|(variant, knob)| {
             let run = self.long_run(variant, knob);
             (!self.interrupt.is_set()).then_some(run)
