@@ -1,8 +1,8 @@
 //! The double pendulum in angles: no constraints, M from the kinetic energy.
 
-use crate::double_pendulum::{DoublePendulum, RELEASED};
+use crate::double_pendulum::{self, DoublePendulum, RELEASED};
 use crate::model::{Chosen, positive};
-use crate::{Model, StartOptions, StartSpec};
+use crate::{Model, Reference, StartOptions, StartSpec, reference};
 use ukcore::{Error, State};
 
 ukcore::multibody! {
@@ -72,6 +72,14 @@ impl Model for DoublePendulumAngles {
 
     fn duration() -> f64 {
         10.0
+    }
+
+    fn references() -> Vec<Reference> {
+        double_pendulum::known(|t, point| {
+            let angles = reference::numbers(&point["angles"]);
+            let (q, v) = angles.split_at(angles.len() / 2);
+            reference::placed::<Self>(t, 0.., q, v)
+        })
     }
 }
 

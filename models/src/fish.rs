@@ -1,7 +1,8 @@
 //! The two-joint carangiform fish robot of Zhao, Zhen & Chen 2013, §6-10.
 
 use crate::model::Chosen;
-use crate::{Model, StartOption, StartOptions, StartSpec};
+use crate::{Model, Reference, StartOption, StartOptions, StartSpec, reference};
+use serde_json::Value;
 use std::f64::consts::PI;
 use ukcore::{Error, State};
 
@@ -135,6 +136,26 @@ impl Model for FishRobot {
 
     fn duration() -> f64 {
         4.0
+    }
+
+    fn references() -> Vec<Reference> {
+        let data = reference::data(include_str!("../data/fish.json"));
+        let fish = FishRobot::default();
+        let states = data["states"].as_object().map_or_else(Vec::new, |states| {
+            let read = |(time, state): (&String, &Value)| {
+                let t = time.parse().unwrap_or(f64::NAN);
+                let [x, y, angle, vx, vy, spin] = reference::numbers(state)[..] else {
+                    return fish.follow(t, [f64::NAN; 3], [f64::NAN; 3]);
+                };
+                fish.follow(t, [x, y, angle], [vx, vy, spin])
+            };
+            states.iter().map(read).collect()
+        });
+        vec![Reference {
+            source: "integration in three coordinates, order 8, started anew at each change of sign of a velocity with drag",
+            error: 3e-12,
+            states,
+        }]
     }
 }
 

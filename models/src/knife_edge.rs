@@ -1,7 +1,7 @@
 //! A knife edge on an inclined plane: nonholonomic, in closed form.
 
 use crate::model::Chosen;
-use crate::{Model, StartOption, StartOptions, StartSpec};
+use crate::{Model, Reference, StartOption, StartOptions, StartSpec};
 use ukcore::{Error, State};
 
 ukcore::multibody! {
@@ -85,6 +85,18 @@ impl Model for KnifeEdge {
     fn duration() -> f64 {
         10.0
     }
+
+    fn references() -> Vec<Reference> {
+        let edge = KnifeEdge::default();
+        let (turn, glide, heading) = (1.0, 0.0, 0.0);
+        // Rounding of a way of some 25 m.
+        vec![Reference::closed::<Self>(2e-14, |t| {
+            let q = edge.path(turn, glide, heading, t);
+            let (sin, cos) = q[2].sin_cos();
+            let speed = edge.speed(turn, glide, heading, t);
+            (q.to_vec(), vec![speed * cos, speed * sin, turn])
+        })]
+    }
 }
 
 impl KnifeEdge {
@@ -112,6 +124,16 @@ impl KnifeEdge {
             constant / turn * (c0 - c) + drift * (th - heading - (s * c - s0 * c0)),
             th,
         ]
+    }
+
+    /// Speed along the edge, m/s, on the [`path`](KnifeEdge::path): c + (k/ω) sin θ.
+    #[must_use]
+    pub fn speed(&self, turn: f64, glide: f64, heading: f64, t: f64) -> f64 {
+        let k = self.g * self.slope.sin();
+        if turn == 0.0 {
+            return glide + k * heading.cos() * t;
+        }
+        glide + k / turn * ((heading + turn * t).sin() - heading.sin())
     }
 
     /// Mean velocity across the slope when started at rest, m/s: g sin(slope)/(2ω).

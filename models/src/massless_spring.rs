@@ -1,7 +1,7 @@
 //! A mass on two springs in series, joined by a massless point: M is singular.
 
 use crate::model::{Chosen, positive};
-use crate::{Model, StartOption, StartOptions, StartSpec};
+use crate::{Model, Reference, StartOption, StartOptions, StartSpec};
 use ukcore::{Error, State};
 
 ukcore::multibody! {
@@ -75,6 +75,17 @@ impl Model for MasslessSpring {
 
     fn duration() -> f64 {
         10.0
+    }
+
+    fn references() -> Vec<Reference> {
+        let spring = MasslessSpring::default();
+        let ratio = spring.ratio();
+        let amplitude = 0.1;
+        // ω t = 45 is rounded to 45 ε, which moves what swings with 0.1 m at 4.5/s by so much.
+        vec![Reference::closed::<Self>(1e-14, |t| {
+            let (x, v) = spring.oscillation(amplitude, 0.0, t);
+            (vec![ratio * x, x], vec![ratio * v, v])
+        })]
     }
 }
 

@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use ukcore::{Error, Mechanism, State};
 
+use crate::Reference;
+
 /// A mechanism with a name, consistent start states and a typical duration.
 pub trait Model: Mechanism {
     /// Name on the command line, such as `"uchain"`.
@@ -24,6 +26,13 @@ pub trait Model: Mechanism {
 
     /// Duration of a typical run, s.
     fn duration() -> f64;
+
+    /// What is known about the motion from [`default_start`](Model::default_start) with default parameters, once for each end that is of
+    /// interest; empty where nothing is.
+    #[must_use]
+    fn references() -> Vec<Reference> {
+        Vec::new()
+    }
 
     /// The first start with default options.
     ///

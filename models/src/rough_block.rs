@@ -1,7 +1,7 @@
 //! A block on a rough slope: dry friction as a non-ideal constraint force, in closed form.
 
 use crate::model::Chosen;
-use crate::{Model, StartOption, StartOptions, StartSpec};
+use crate::{Model, Reference, StartOption, StartOptions, StartSpec};
 use ukcore::{Error, State};
 
 ukcore::multibody! {
@@ -82,6 +82,16 @@ impl Model for RoughBlock {
 
     fn duration() -> f64 {
         3.0
+    }
+
+    fn references() -> Vec<Reference> {
+        let block = RoughBlock::default();
+        let (sin, cos) = block.slope.sin_cos();
+        // Rounding of a way of some 10 m.
+        vec![Reference::closed::<Self>(1e-14, |t| {
+            let (way, speed) = block.slide(-5.0, t);
+            (vec![way * cos, -way * sin], vec![speed * cos, -speed * sin])
+        })]
     }
 }
 

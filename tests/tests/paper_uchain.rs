@@ -10,7 +10,7 @@ use ukcore::{
 };
 
 /// For x0 = 12 … 16: lowest point, m, and its time, s, by an independent integration in angles at 1e-12, which agrees with the
-/// 113-bit reference in `data/uchain.json` to its digits; deepest acceleration of the tip, m/s².
+/// 113-bit reference in `models/data/uchain.json` to its digits; deepest acceleration of the tip, m/s².
 const REFERENCE: [(f64, f64, f64); 5] = [
     (15.942_962_3, 1.635_099_2, -199.18),
     (15.989_480_2, 1.685_285_2, -203.80),
@@ -86,7 +86,8 @@ fn peak(run: &Trajectory<UChain>) -> f64 {
 
 #[test]
 fn table_1_and_peaks() {
-    let data: Value = serde_json::from_str(include_str!("../data/uchain.json")).expect("JSON");
+    let data: Value =
+        serde_json::from_str(include_str!("../../models/data/uchain.json")).expect("JSON");
     for (row, (h_max, t_max, deepest)) in TABLE_1.iter().zip(REFERENCE) {
         let case = format!("x0 = {}", row.x0);
         let run = fall(row.x0);
@@ -153,7 +154,8 @@ fn by_key(state: Sample<'_>) -> [(&'static str, Vec<f64>); 4] {
 /// it happens to take. So the median over some tolerances counts.
 #[test]
 fn with_the_tightest_tolerances_states_are_right_to_thirteen_decimals() {
-    let data: Value = serde_json::from_str(include_str!("../data/uchain.json")).expect("JSON");
+    let data: Value =
+        serde_json::from_str(include_str!("../../models/data/uchain.json")).expect("JSON");
     let expected = &data["states"]["1.5"];
     let mut errors: Vec<f64> = (0..15)
         .map(|k| {
@@ -176,7 +178,8 @@ fn with_the_tightest_tolerances_states_are_right_to_thirteen_decimals() {
 
 #[test]
 fn states_agree_with_the_reference() {
-    let data: Value = serde_json::from_str(include_str!("../data/uchain.json")).expect("JSON");
+    let data: Value =
+        serde_json::from_str(include_str!("../../models/data/uchain.json")).expect("JSON");
     let mut state = start("trapezoid", 12.0);
     for (time, expected) in data["states"].as_object().expect("an object") {
         let end: f64 = time.parse().expect("a time");

@@ -2,6 +2,7 @@
 
 mod paper;
 mod refusals;
+mod report;
 mod streams;
 
 use std::fs;

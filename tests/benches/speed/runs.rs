@@ -102,7 +102,8 @@ fn ours_alone(
 
 /// (q, q̇) at the end, in 113-bit arithmetic.
 fn reference() -> Vec<f64> {
-    let data: Value = serde_json::from_str(include_str!("../../data/uchain.json")).expect("JSON");
+    let data: Value =
+        serde_json::from_str(include_str!("../../../models/data/uchain.json")).expect("JSON");
     let state = &data["states"]["1.5"];
     let decimals = |x: &Value| -> f64 { x.as_str().expect("decimals").parse().expect("a number") };
     ["x", "y", "vx", "vy"]

@@ -27,6 +27,8 @@ Values may have units and be expressions: 15deg, 12mm, 9.81 m/s^2, 2.5*PI. A bar
 pub(crate) enum Command {
     /// Reproduce the paper (Zhao, Zhen & Chen 2013): tables, figures and a verdict on each claim
     Paper(PaperArgs),
+    /// Measure error against run time, for each method, formula and stabilisation, and say which to take for which accuracy
+    Report(ReportArgs),
     /// List the models, their starts and start options
     List,
     /// Integrate a model
@@ -48,6 +50,19 @@ impl Default for PaperArgs {
             out: PathBuf::from("out/paper"),
         }
     }
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ReportArgs {
+    /// Models to measure (see `uk list`); all of them if none is named
+    #[arg(value_name = "MODEL")]
+    pub(crate) models: Vec<String>,
+    /// Directory to write index.html, report.json, report.csv and figures to. What an interrupted report has left there is taken over
+    #[arg(long, value_name = "DIR", default_value = "out/report", value_parser = file)]
+    pub(crate) out: PathBuf,
+    /// A quick look: few tolerances, each timed once
+    #[arg(long)]
+    pub(crate) quick: bool,
 }
 
 /// Which mechanism, with which parameters, from where.

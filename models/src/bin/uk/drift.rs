@@ -1,11 +1,11 @@
 //! How well a trajectory keeps the constraints and the energy.
 
 use models::Model;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use ukcore::Trajectory;
 
 /// The worst of all samples of a trajectory.
-#[derive(Debug, Clone, Copy, Serialize)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(crate) struct Drift {
     /// Largest |φ| of the holonomic constraints, in their units.
     pub(crate) position_residual: f64,

@@ -60,6 +60,8 @@ pub(crate) enum Cell {
     Number(String),
     /// With a class of its own.
     Class(&'static str, String),
+    /// Text across so many columns.
+    Wide(usize, String),
 }
 
 /// A table with a caption. Each head is HTML with the number of columns it spans; rows of heads come first.
@@ -84,6 +86,7 @@ pub(crate) fn table(caption: &str, heads: &[&[(&str, usize)]], rows: &[Vec<Cell>
             let _ = match cell {
                 Cell::Text(text) => write!(html, "<td>{text}</td>"),
                 Cell::Number(text) => write!(html, "<td class=\"n\">{text}</td>"),
+                Cell::Wide(span, text) => write!(html, "<td colspan=\"{span}\">{text}</td>"),
                 Cell::Class(class, text) => write!(html, "<td class=\"{class}\">{text}</td>"),
             };
         }

@@ -14,6 +14,7 @@ mod output;
 mod paper;
 mod plot;
 mod progress;
+mod report;
 mod run;
 mod scene;
 mod summary;
@@ -31,6 +32,7 @@ fn main() -> ExitCode {
     let result = match Cli::parse().command {
         None => paper::paper(&PaperArgs::default()),
         Some(Command::Paper(args)) => paper::paper(&args),
+        Some(Command::Report(args)) => report::report(&args),
         Some(Command::List) => list::list(),
         Some(Command::Run(args)) => run::run(&args),
         Some(Command::Explain(args)) => explain::explain(&args),

@@ -2,9 +2,15 @@
 //!
 //! The text of an SVG is set by whoever shows it, so no font is needed here; the drawing library's estimate of text widths is enough.
 
+use std::ops::Range;
+
 use plotters::coord::Shift;
+use plotters::coord::ranged1d::{
+    AsRangedCoord, DefaultFormatting, KeyPointHint, Ranged, ValueFormatter,
+};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use crate::failure::Failure;
 
@@ -23,6 +29,8 @@ pub(crate) const GREY: RGBColor = RGBColor(120, 120, 120);
 const FONT: &str = "Helvetica, Arial, sans-serif";
 const LABEL_SIZE: u32 = 15;
 const TICK_SIZE: u32 = 13;
+/// Height of a row of a legend above the frame.
+const ROW: i32 = 18;
 const GRID: RGBColor = RGBColor(226, 226, 226);
 const FRAME: RGBColor = RGBColor(90, 90, 90);
 
@@ -41,6 +49,8 @@ pub(crate) struct Series {
     pub(crate) dashed: bool,
     /// Radius of a dot at each point; 0 for none.
     pub(crate) dots: u32,
+    /// Points with a ring instead of a dot.
+    pub(crate) rings: Vec<(f64, f64)>,
 }
 
 impl Series {
@@ -53,6 +63,7 @@ impl Series {
             width: 2,
             dashed: false,
             dots: 0,
+            rings: Vec::new(),
         }
     }
 
@@ -72,10 +83,21 @@ impl Series {
 pub(crate) enum Legend {
     None,
     UpperLeft,
+    /// Above the frame, in two columns.
+    Above,
     UpperMiddle,
     LowerMiddle,
     LowerLeft,
     LowerRight,
+}
+
+/// What the axes are divided by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Scale {
+    /// Equal distances are equal differences.
+    Linear,
+    /// Equal distances are equal ratios, on both axes; ticks at whole powers of ten. All numbers are positive.
+    Decades,
 }
 
 /// A chart.
@@ -91,6 +113,8 @@ pub(crate) struct Chart {
     pub(crate) y: (f64, f64),
     /// The curves; later ones lie on top.
     pub(crate) series: Vec<Series>,
+    /// Division of both axes.
+    pub(crate) scale: Scale,
     /// Place of the legend.
     pub(crate) legend: Legend,
     /// Width and height in pixels.
@@ -114,13 +138,35 @@ impl Chart {
     }
 
     fn draw<'a>(&self, area: &DrawingArea<SVGBackend<'a>, Shift>) -> Result<(), DrawError<'a>> {
+        let (x, y) = (self.x.0..self.x.1, self.y.0..self.y.1);
+        match self.scale {
+            Scale::Linear => self.draw_on(area, x, y, tick),
+            Scale::Decades => self.draw_on(area, Exponents::new(&x), Exponents::new(&y), power),
+        }
+    }
+
+    fn draw_on<'a, X, Y>(
+        &self,
+        area: &DrawingArea<SVGBackend<'a>, Shift>,
+        x: X,
+        y: Y,
+        tick: fn(f64) -> String,
+    ) -> Result<(), DrawError<'a>>
+    where
+        X: AsRangedCoord<Value = f64>,
+        Y: AsRangedCoord<Value = f64>,
+        X::CoordDescType: ValueFormatter<f64>,
+        Y::CoordDescType: ValueFormatter<f64>,
+    {
         area.fill(&WHITE)?;
+        let frame = self.draw_legend_above(area)?;
+        let area = frame.as_ref().unwrap_or(area);
         let mut chart = ChartBuilder::on(area)
             .margin(10)
             .margin_right(18)
             .x_label_area_size(46)
             .y_label_area_size(64)
-            .build_cartesian_2d(self.x.0..self.x.1, self.y.0..self.y.1)?;
+            .build_cartesian_2d(x, y)?;
         chart
             .configure_mesh()
             .light_line_style(TRANSPARENT)
@@ -136,10 +182,10 @@ impl Chart {
             .y_labels(8)
             .draw()?;
         for series in &self.series {
-            draw_series(&mut chart, series)?;
+            draw_series(&mut chart, series, self.scale)?;
         }
         let position = match self.legend {
-            Legend::None => return Ok(()),
+            Legend::None | Legend::Above => return Ok(()),
             Legend::UpperLeft => SeriesLabelPosition::UpperLeft,
             Legend::UpperMiddle => SeriesLabelPosition::UpperMiddle,
             Legend::LowerMiddle => SeriesLabelPosition::LowerMiddle,
@@ -157,14 +203,60 @@ impl Chart {
     }
 }
 
+impl Chart {
+    /// The legend, if it stands above the frame; what is left of the area for the frame then.
+    fn draw_legend_above<'a>(
+        &self,
+        area: &DrawingArea<SVGBackend<'a>, Shift>,
+    ) -> Result<Option<DrawingArea<SVGBackend<'a>, Shift>>, DrawError<'a>> {
+        if self.legend != Legend::Above {
+            return Ok(None);
+        }
+        // What lies on top comes first.
+        let named = || self.series.iter().rev().filter(|s| !s.label.is_empty());
+        let rows = named().count().div_ceil(2);
+        let height = 8 + ROW * rows as i32;
+        let (legend, frame) = area.split_vertically(height);
+        let column = self.size.0 as i32 / 2 - 10;
+        let text = (FONT, TICK_SIZE)
+            .into_text_style(&legend)
+            .pos(Pos::new(HPos::Left, VPos::Center));
+        for (k, series) in named().enumerate() {
+            let (x, y) = (
+                16 + column * (k / rows) as i32,
+                8 + ROW / 2 + ROW * (k % rows) as i32,
+            );
+            let style = series.colour.stroke_width(series.width);
+            let line = [(x, y), (x + 26, y)];
+            if series.dashed {
+                legend.draw(&PathElement::new([(x, y), (x + 9, y)], style))?;
+                legend.draw(&PathElement::new([(x + 17, y), (x + 26, y)], style))?;
+            } else {
+                legend.draw(&PathElement::new(line, style))?;
+            }
+            if series.dots > 0 {
+                let dot = Circle::new((x + 13, y), series.dots, series.colour.filled());
+                legend.draw(&dot)?;
+            }
+            legend.draw(&Text::new(series.label.as_str(), (x + 34, y), text.clone()))?;
+        }
+        Ok(Some(frame))
+    }
+}
+
 type DrawError<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
 
-fn draw_series<'a>(
-    chart: &mut ChartContext<'a, SVGBackend<'a>, Cartesian2d<RangedCoordf64, RangedCoordf64>>,
+fn draw_series<'a, X: Ranged<ValueType = f64>, Y: Ranged<ValueType = f64>>(
+    chart: &mut ChartContext<'a, SVGBackend<'a>, Cartesian2d<X, Y>>,
     series: &Series,
+    scale: Scale,
 ) -> Result<(), DrawError<'a>> {
     let style = series.colour.stroke_width(series.width);
-    let points = series.points.iter().copied();
+    let place = |&(x, y): &(f64, f64)| match scale {
+        Scale::Linear => (x, y),
+        Scale::Decades => (x.log10(), y.log10()),
+    };
+    let points = series.points.iter().map(place);
     let annotation = if series.dashed {
         chart.draw_series(DashedLineSeries::new(points, 6, 4, style))?
     } else {
@@ -186,9 +278,12 @@ fn draw_series<'a>(
             series
                 .points
                 .iter()
-                .map(|&p| Circle::new(p, series.dots, series.colour.filled())),
+                .filter(|p| !series.rings.contains(p))
+                .map(|p| Circle::new(place(p), series.dots, series.colour.filled())),
         )?;
     }
+    let ring = |p| Circle::new(place(p), series.dots.max(2) + 1, style);
+    chart.draw_series(series.rings.iter().map(ring))?;
     Ok(())
 }
 
@@ -200,6 +295,76 @@ fn tick(value: f64) -> String {
         return "0".to_owned();
     }
     rounded.to_string().replace('-', "−")
+}
+
+/// The exponents of an axis with ticks at whole powers of ten.
+struct Exponents {
+    line: RangedCoordf64,
+    ticks: Vec<f64>,
+}
+
+impl Exponents {
+    fn new(range: &Range<f64>) -> Self {
+        let (low, high) = (range.start.log10(), range.end.log10());
+        Exponents {
+            line: (low..high).into(),
+            ticks: decades(low, high),
+        }
+    }
+}
+
+impl Ranged for Exponents {
+    type FormatOption = DefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
+        self.line.map(value, limit)
+    }
+
+    fn key_points<Hint: KeyPointHint>(&self, _hint: Hint) -> Vec<f64> {
+        self.ticks.clone()
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.line.range()
+    }
+}
+
+/// The whole powers of ten between two exponents, at most twelve of them.
+fn decades(low: f64, high: f64) -> Vec<f64> {
+    let (first, last) = (low.ceil() as i32, high.floor() as i32);
+    let stride = ((last - first) / 12 + 1).max(1) as usize;
+    (first..=last).step_by(stride).map(f64::from).collect()
+}
+
+/// 10 to the power of a tick.
+fn power(exponent: f64) -> String {
+    let digit = |c: char| match c {
+        '-' => '⁻',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        // The others follow each other from U+2070 on.
+        c => char::from_u32(0x2070 + c.to_digit(10).unwrap_or(0)).unwrap_or(c),
+    };
+    let exponent = format!("{:.0}", exponent.round());
+    format!("10{}", exponent.chars().map(digit).collect::<String>())
+}
+
+/// The smallest range of whole decades that holds all of `values` that are positive.
+pub(crate) fn decade_range(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    let (low, high) = values
+        .filter(|v| *v > 0.0 && v.is_finite())
+        .map(f64::log10)
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
+            (l.min(v), h.max(v))
+        });
+    if low > high {
+        return (0.1, 1.0);
+    }
+    let (low, high) = (low.floor(), high.ceil());
+    let high = if high > low { high } else { low + 1.0 };
+    (10_f64.powf(low), 10_f64.powf(high))
 }
 
 /// Gives the SVG a view box (the drawing library sets one only in some versions), so that a page can scale it.
@@ -265,6 +430,18 @@ mod tests {
     }
 
     #[test]
+    fn decades_are_whole() {
+        assert_eq!(power(-13.0), "10⁻¹³");
+        assert_eq!(power(0.0), "10⁰");
+        assert_eq!(power(4.0), "10⁴");
+        assert_eq!(decades(-3.2, 1.0), [-3.0, -2.0, -1.0, 0.0, 1.0]);
+        assert!(decades(-300.0, 300.0).len() <= 13);
+        let (low, high) = decade_range([3e-7, 0.0, 2.0, f64::NAN].into_iter());
+        assert!((low / 1e-7 - 1.0).abs() < 1e-12 && (high / 10.0 - 1.0).abs() < 1e-12);
+        assert_eq!(decade_range(std::iter::empty()), (0.1, 1.0));
+    }
+
+    #[test]
     fn a_chart_is_drawn_without_fonts() {
         let chart = Chart {
             x_label: "t (s)".into(),
@@ -275,6 +452,7 @@ mod tests {
                 Series::new("chain", 0, vec![(0.0, 1.0), (1.0, 16.0)]),
                 Series::reference("free fall", vec![(0.0, 0.0), (2.0, 5.0)]),
             ],
+            scale: Scale::Linear,
             legend: Legend::LowerRight,
             size: (480, 300),
         };

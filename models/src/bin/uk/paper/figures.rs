@@ -6,7 +6,7 @@ use plotters::style::RGBColor;
 
 use crate::failure::Failure;
 use crate::html::fixed;
-use crate::plot::{COLOURS, Chart, Legend, Series, round_range};
+use crate::plot::{COLOURS, Chart, Legend, Scale, Series, round_range};
 
 use super::chain::Chain;
 use super::fish::{self, Fish};
@@ -97,6 +97,7 @@ fn chart(y_label: &str, x: (f64, f64), curves: Vec<Series>, legend: Legend) -> C
         x,
         y,
         series,
+        scale: Scale::Linear,
         legend,
         size: HALF,
     }
@@ -144,6 +145,7 @@ fn falling(chain: &Chain) -> Chart {
         x,
         y: (depth, -above),
         series,
+        scale: Scale::Linear,
         legend: Legend::UpperMiddle,
         size: (width, height),
     }
