@@ -27,6 +27,8 @@ Values may have units and be expressions: 15deg, 12mm, 9.81 m/s^2, 2.5*PI. A bar
 pub(crate) enum Command {
     /// Reproduce the paper (Zhao, Zhen & Chen 2013): tables, figures and a verdict on each claim
     Paper(PaperArgs),
+    /// Stiff and extreme cases: how far each one goes with full accuracy, how far within a bound, and what is refused beyond
+    Stability(StabilityArgs),
     /// List the models, their starts and start options
     List,
     /// Integrate a model
@@ -48,6 +50,15 @@ impl Default for PaperArgs {
             out: PathBuf::from("out/paper"),
         }
     }
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct StabilityArgs {
+    /// Cases to run; all of them if absent (a wrong name lists them)
+    pub(crate) cases: Vec<String>,
+    /// Directory to write index.html, stability.svg, stability.json and stability.csv to
+    #[arg(long, value_name = "DIR", default_value = "out/stability", value_parser = file)]
+    pub(crate) out: PathBuf,
 }
 
 /// Which mechanism, with which parameters, from where.

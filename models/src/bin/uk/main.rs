@@ -12,10 +12,12 @@ mod list;
 mod numbers;
 mod output;
 mod paper;
+mod parallel;
 mod plot;
 mod progress;
 mod run;
 mod scene;
+mod stability;
 mod summary;
 mod units;
 
@@ -31,6 +33,7 @@ fn main() -> ExitCode {
     let result = match Cli::parse().command {
         None => paper::paper(&PaperArgs::default()),
         Some(Command::Paper(args)) => paper::paper(&args),
+        Some(Command::Stability(args)) => stability::stability(&args),
         Some(Command::List) => list::list(),
         Some(Command::Run(args)) => run::run(&args),
         Some(Command::Explain(args)) => explain::explain(&args),
