@@ -101,7 +101,10 @@ const METHODS: [Method; 3] = [Method::Dop853, Method::Dopri5, Method::Radau5];
 
 fn settings(tolerance: f64) -> Settings {
     Settings {
-        tolerance,
+        tolerance: Tolerance {
+            relative: tolerance,
+            absolute: tolerance,
+        },
         first_step: None,
         max_step: None,
         max_steps: 100_000,

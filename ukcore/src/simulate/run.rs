@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::trouble::{Conflict, Pace};
+use crate::diagnose;
 use crate::error::Error;
 use crate::events::{EventHit, States, Watch};
 use crate::integrate::{Next, Problem, Step};
@@ -102,7 +103,42 @@ pub(super) struct Run<'a, M> {
     pub(super) trajectory: &'a mut Trajectory<M>,
 }
 
+/// Significance of a constraint, √ε, below which the state cannot tell on which side of a singular position it is.
+const SINGULAR: f64 = 1.5e-8;
+
 impl<M: Mechanism> Run<'_, M> {
+    /// Refuses a step that ends where constraints all but imply each other and that did not begin there.
+    ///
+    /// A significance δ leaves q off by ε/δ, so below √ε the state does not say on which side of the singular position it is, nor which branch of the motion it
+    /// takes: any of them conserves energy. A step that passes over the place is not concerned.
+    fn check_branch(&mut self, step: &Step<'_>) -> Result<(), Error> {
+        if self.solver.take_weakest() > 16.0 * SINGULAR {
+            return Ok(());
+        }
+        if self.weakest_at(step.t, step.y)? > SINGULAR {
+            return Ok(());
+        }
+        let weak = self.solver.rows_below(SINGULAR).iter();
+        let constraints = weak.map(|c| M::SPEC.constraints[*c].name.to_owned());
+        let error = Error::Singular {
+            constraints: constraints.collect(),
+        };
+        let began = self.y.clone();
+        if self.weakest_at(step.t_old, &began)? > SINGULAR {
+            return Err(error);
+        }
+        Ok(())
+    }
+
+    /// [`Solver::take_weakest`] at (t, y).
+    fn weakest_at(&mut self, t: f64, y: &[f64]) -> Result<f64, Error> {
+        let (q, v) = y.split_at(self.n);
+        let mut rate = vec![0.0; self.n];
+        self.solver
+            .acceleration_in_run(self.mechanism, t, q, v, &mut rate)?;
+        Ok(self.solver.take_weakest())
+    }
+
     /// Events and sample at the start.
     pub(super) fn start(&mut self, t: f64, y: &[f64]) -> Result<(), Error> {
         let asked = !self.agenda.wants_end() && self.agenda.next() == Some(t);
@@ -241,6 +277,37 @@ impl<M: Mechanism> Problem for Run<'_, M> {
         Ok(())
     }
 
+    fn jump(&mut self, t: f64, y: &[f64]) -> Option<Error> {
+        let (q, v) = y.split_at(self.n);
+        let mut near_q = q.to_vec();
+        self.projector
+            .position(self.mechanism, t, &mut near_q, v)
+            .ok()?;
+        let change = |old: &[f64], new: &[f64]| {
+            let pairs = old.iter().zip(new);
+            pairs.fold(0.0, |s: f64, (a, b)| s.max((a - b).abs() / (1.0 + a.abs())))
+        };
+        let mut near_v = v.to_vec();
+        self.projector
+            .velocity(self.mechanism, t, &near_q, &mut near_v)
+            .ok()?;
+        let spec = M::SPEC;
+        let (level, residual) = if change(q, &near_q) >= change(v, &near_v) {
+            let mut residual = vec![0.0; spec.holonomic];
+            self.mechanism.residual(t, q, &mut residual);
+            ("position", residual)
+        } else {
+            let mut residual = vec![0.0; spec.m()];
+            self.mechanism.residual_rate(t, &near_q, v, &mut residual);
+            ("velocity", residual)
+        };
+        let scale = vec![1.0; residual.len()];
+        Some(Error::Jump {
+            level,
+            constraints: diagnose::offending(spec, &residual, &scale),
+        })
+    }
+
     fn next_sample(&self) -> Option<f64> {
         self.agenda.next()
     }
@@ -250,7 +317,8 @@ impl<M: Mechanism> Problem for Run<'_, M> {
         let samples = self.trajectory.times.len();
         let events = self.trajectory.events.len();
         let ending = self.trajectory.ending;
-        if let Err(error) = self.record(step) {
+        let recorded = self.check_branch(step).and_then(|()| self.record(step));
+        if let Err(error) = recorded {
             self.agenda.taken = taken;
             self.trajectory.times.truncate(samples);
             self.trajectory.states.truncate(2 * self.n * samples);

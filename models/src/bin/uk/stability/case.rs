@@ -299,6 +299,8 @@ fn kind(error: &Error) -> &'static str {
         Error::StepTooSmall { .. } => "StepTooSmall",
         Error::TooManySteps { .. } => "TooManySteps",
         Error::Chattering { .. } => "Chattering",
+        Error::Jump { .. } => "Jump",
+        Error::Singular { .. } => "Singular",
         _ => "Error",
     }
 }

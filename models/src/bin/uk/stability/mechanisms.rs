@@ -67,13 +67,13 @@ ukcore::multibody! {
 }
 
 ukcore::multibody! {
-    /// A particle under a constant force, on the plane x = 0 and on one that is turned from it by the small slope `d`.
+    /// A particle under a constant force, on the plane x + y = 0 and on one with a slope that differs by `d`.
     pub(crate) NearPlanes {
         params { d = 0.1 }
         coords { x, y, z }
         mass { x: 1.0, y: 1.0, z: 1.0 }
         force { x: 1.0, y: 2.0, z: 3.0 }
-        holonomic { plane: x = 0.0, turned: x + d * y = 0.0 }
+        holonomic { plane: x + y = 0.0, turned: x + (1.0 + d) * y = 0.0 }
     }
 }
 

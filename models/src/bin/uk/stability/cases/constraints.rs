@@ -101,7 +101,7 @@ fn rows_near(d: f64, effort: &mut Effort) -> Result<f64, Error> {
         let expected = [0.0, 0.0, 3.0];
         return accelerations_off(&planes, &state, &REGULAR, &expected, effort);
     }
-    let free = accelerations_off(&planes, &state, &[], &[0.0, 2.0, 3.0], effort)?;
+    let free = accelerations_off(&planes, &state, &[], &[-0.5, 0.5, 3.0], effort)?;
     // Of the force that the plane would have to bear, this part is let through.
     let let_through = d * solution.acceleration[1] / 2.0;
     Ok(worse(worse(free, let_through), RANK_TOLERANCE))

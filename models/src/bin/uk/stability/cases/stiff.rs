@@ -62,6 +62,8 @@ fn drag(c: f64, effort: &mut Effort) -> Result<f64, Error> {
     incline.set("drag", c)?;
     let until = 1.0;
     let simulation = Simulation::new(incline).start(State::zeros::<Incline>());
+    // The start is at zero and has no size; the speed that is reached has.
+    let simulation = simulation.absolute_tolerance(1e-10 / c);
     let run = effort.run(
         simulation
             .tolerance(1e-10)
