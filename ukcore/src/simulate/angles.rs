@@ -32,7 +32,10 @@ fn texts(spec: &Spec) -> impl Iterator<Item = &'static str> {
     let matrices = e.mass.iter().chain(e.jacobian);
     let matrices = matrices.map(|(_, _, text)| *text);
     let definitions = e.definitions.iter().map(|(_, text)| *text);
-    force.map(|(_, text)| *text).chain(matrices).chain(definitions)
+    force
+        .map(|(_, text)| *text)
+        .chain(matrices)
+        .chain(definitions)
 }
 
 /// Whether `name` occurs in the argument of a sine, cosine or tangent in `text`.

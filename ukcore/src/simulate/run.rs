@@ -9,7 +9,8 @@ use crate::events::{EventHit, States, Watch};
 use crate::integrate::{Next, Problem, Step};
 use crate::linearise::Slopes;
 use crate::mechanism::{Mechanism, Prepared};
-use crate::solver::Solver;
+use crate::scan::largest;
+use crate::solver::{RANK_CEILING, Solver};
 use crate::stabilise::Projector;
 use crate::trajectory::{Ending, Trajectory, Work};
 
@@ -118,16 +119,21 @@ impl<M: Mechanism> Run<'_, M> {
         if self.weakest_at(step.t, step.y)? > SINGULAR {
             return Ok(());
         }
-        let weak = self.solver.rows_below(SINGULAR).iter();
-        let constraints = weak.map(|c| M::SPEC.constraints[*c].name.to_owned());
-        let error = Error::Singular {
-            constraints: constraints.collect(),
-        };
+        let error = self.singular(SINGULAR);
         let began = self.y.clone();
         if self.weakest_at(step.t_old, &began)? > SINGULAR {
             return Err(error);
         }
         Ok(())
+    }
+
+    /// An error that names the constraints whose significance in the last solution was not above `significance`.
+    fn singular(&self, significance: f64) -> Error {
+        let weak = self.solver.rows_below(significance).iter();
+        let names = weak.map(|c| M::SPEC.constraints[*c].name.to_owned());
+        Error::Singular {
+            constraints: names.collect(),
+        }
     }
 
     /// [`Solver::take_weakest`] at (t, y).
@@ -279,33 +285,43 @@ impl<M: Mechanism> Problem for Run<'_, M> {
 
     fn jump(&mut self, t: f64, y: &[f64]) -> Option<Error> {
         let (q, v) = y.split_at(self.n);
-        let mut near_q = q.to_vec();
-        self.projector
-            .position(self.mechanism, t, &mut near_q, v)
-            .ok()?;
+        let (spec, mechanism) = (M::SPEC, self.mechanism);
+        let mut near = y.to_vec();
+        let (near_q, near_v) = near.split_at_mut(self.n);
+        let projector = &mut self.projector;
+        projector.position(mechanism, t, near_q, v).ok()?;
+        projector.velocity(mechanism, t, near_q, near_v).ok()?;
         let change = |old: &[f64], new: &[f64]| {
             let pairs = old.iter().zip(new);
             pairs.fold(0.0, |s: f64, (a, b)| s.max((a - b).abs() / (1.0 + a.abs())))
         };
-        let mut near_v = v.to_vec();
-        self.projector
-            .velocity(self.mechanism, t, &near_q, &mut near_v)
-            .ok()?;
-        let spec = M::SPEC;
-        let (level, residual) = if change(q, &near_q) >= change(v, &near_v) {
-            let mut residual = vec![0.0; spec.holonomic];
-            self.mechanism.residual(t, q, &mut residual);
-            ("position", residual)
-        } else {
+        let position = change(q, near_q) >= change(v, near_v);
+        let residual = |t: f64| {
             let mut residual = vec![0.0; spec.m()];
-            self.mechanism.residual_rate(t, &near_q, v, &mut residual);
-            ("velocity", residual)
+            if position {
+                mechanism.residual(t, q, &mut residual[..spec.holonomic]);
+            } else {
+                mechanism.residual_rate(t, near_q, v, &mut residual);
+            }
+            residual
         };
-        let scale = vec![1.0; residual.len()];
-        Some(Error::Jump {
-            level,
-            constraints: diagnose::offending(spec, &residual, &scale),
-        })
+        // What the time alone has made of it since the last step.
+        let after = residual(t);
+        let size = largest(&after);
+        let pairs = after.iter().zip(residual(self.t));
+        let jumps = pairs.map(|(after, before)| {
+            let alone = (after - before).abs() > 0.5 * size;
+            if alone { *after } else { 0.0 }
+        });
+        let jumps: Vec<f64> = jumps.collect();
+        if jumps.iter().any(|r| *r != 0.0) {
+            return Some(Error::Jump {
+                level: if position { "position" } else { "velocity" },
+                constraints: diagnose::offending(spec, &jumps, &vec![1.0; jumps.len()]),
+            });
+        }
+        let weakest = self.weakest_at(t, &near).ok()?;
+        (weakest <= RANK_CEILING).then(|| self.singular(RANK_CEILING))
     }
 
     fn next_sample(&self) -> Option<f64> {
