@@ -223,6 +223,11 @@ impl Exact {
     }
 }
 
+/// `wrong()` unless `right`.
+fn ensure(right: bool, wrong: impl FnOnce() -> String) -> Result<(), String> {
+    if right { Ok(()) } else { Err(wrong()) }
+}
+
 /// What became of the cases.
 #[derive(Debug, Default)]
 struct Outcomes {
@@ -252,7 +257,7 @@ fn named(error: &Error) -> bool {
 
 impl Outcomes {
     /// One mechanism, all formulas; a run where `run` says so.
-    fn case(&mut self, seed: u64, run: bool) {
+    fn case(&mut self, seed: u64, run: bool) -> Result<(), String> {
         let Drawn {
             rods,
             mut state,
@@ -264,9 +269,9 @@ impl Outcomes {
             .position(&prepared, 0.0, &mut state.q, &state.v)
             .and_then(|_| projector.velocity(&prepared, 0.0, &state.q, &mut state.v));
         if let Err(error) = projected {
-            assert!(named(&error), "seed {seed}: {error}");
+            ensure(named(&error), || format!("seed {seed}: {error}"))?;
             self.refused += 1;
-            return;
+            return Ok(());
         }
         let exact = Exact::of(&rods, &state);
         let formulas = [
@@ -285,35 +290,36 @@ impl Outcomes {
             match solver.acceleration(&prepared, 0.0, &state.q, &state.v, &mut found) {
                 Ok(()) => {
                     let residual = exact.residual(&found);
-                    assert!(
-                        residual <= BOUND,
-                        "seed {seed}, {formula:?}: residual {residual:e}\n{rods:?}"
-                    );
+                    ensure(residual <= BOUND, || {
+                        format!("seed {seed}, {formula:?}: residual {residual:e}\n{rods:?}")
+                    })?;
                     self.right += 1;
                     self.worst = self.worst.max(residual);
                 }
                 Err(error) => {
-                    assert!(named(&error), "seed {seed}, {formula:?}: {error}");
+                    ensure(named(&error), || {
+                        format!("seed {seed}, {formula:?}: {error}")
+                    })?;
                     self.refused += 1;
                 }
             }
         }
         if run {
-            self.motion(seed, rods, state, time);
+            self.motion(seed, rods, state, time)?;
         }
+        Ok(())
     }
 
-    fn motion(&mut self, seed: u64, rods: Rods, state: State, time: f64) {
+    fn motion(&mut self, seed: u64, rods: Rods, state: State, time: f64) -> Result<(), String> {
         let size = state.q.iter().fold(0.0, |s: f64, q| s.max(q.abs()));
         let simulation = Simulation::new(rods.clone()).start(state);
         let simulation = simulation.tolerance(1e-10).max_steps(2000);
         match simulation.until(0.2 * time) {
             Ok(motion) => {
                 let drift = motion.energy_drift();
-                assert!(
-                    drift <= DRIFT,
-                    "seed {seed}: energy drifts by {drift:e}\n{rods:?}"
-                );
+                ensure(drift <= DRIFT, || {
+                    format!("seed {seed}: energy drifts by {drift:e}\n{rods:?}")
+                })?;
                 let rows: Vec<f64> = (0..K)
                     .map(|k| rods.get(&format!("row[{k}]")).expect("row"))
                     .collect();
@@ -323,17 +329,20 @@ impl Outcomes {
                         .residual(sample.t, sample.q, &mut residual);
                     for (r, row) in residual.iter().zip(&rows) {
                         let off = (r / row).abs() / (size * size);
-                        assert!(off <= 1e-11, "seed {seed}: a rod is off by {off:e}");
+                        ensure(off <= 1e-11, || {
+                            format!("seed {seed}: a rod is off by {off:e}")
+                        })?;
                     }
                 }
                 self.run += 1;
                 self.worst_drift = self.worst_drift.max(drift);
             }
             Err(failure) => {
-                assert!(named(&failure.error), "seed {seed}: {failure}");
+                ensure(named(&failure.error), || format!("seed {seed}: {failure}"))?;
                 self.run_refused += 1;
             }
         }
+        Ok(())
     }
 }
 
@@ -341,7 +350,9 @@ impl Outcomes {
 fn random_mechanisms_come_out_right_or_are_refused_by_name() {
     let mut outcomes = Outcomes::default();
     for seed in 0..400 {
-        outcomes.case(seed, seed % 4 == 0);
+        if let Err(wrong) = outcomes.case(seed, seed % 4 == 0) {
+            panic!("{wrong}");
+        }
     }
     // Refusals are exceptions: a solver that refuses all would pass, too.
     assert!(outcomes.right > 1200 && outcomes.run > 50, "{outcomes:?}");
@@ -354,9 +365,10 @@ fn hunt() {
     let count = std::env::var("HUNT")
         .ok()
         .and_then(|text| text.parse().ok());
-    let mut outcomes = Outcomes::default();
+    let (mut outcomes, mut wrong) = (Outcomes::default(), Vec::new());
     for seed in 1_000_000..1_000_000 + count.unwrap_or(10_000) {
-        outcomes.case(seed, true);
+        wrong.extend(outcomes.case(seed, true).err());
     }
     println!("{outcomes:?}");
+    assert!(wrong.is_empty(), "{}: {wrong:#?}", wrong.len());
 }
