@@ -51,7 +51,7 @@ pub enum Formula {
     UdwadiaKalaba,
     /// Eq. 19, for regular and singular M.
     UdwadiaPhohomsiri,
-    /// Gaussian elimination of \[M Aᵀ; A 0\]. Where constraints are redundant or nearly so, eq. 19 takes over (a fallback).
+    /// Gaussian elimination of \[M Aᵀ; A 0\]. Where constraints are redundant or nearly so, or are not met by the result, eq. 19 takes over (a fallback).
     Kkt,
 }
 
@@ -618,12 +618,20 @@ impl Solver {
             Some(saddle) if formula == Formula::Kkt => {
                 let (root, row_scale) = (&self.dense.metric.root, &self.dense.row_scale);
                 saddle.solve(&self.force, &self.rhs, root, row_scale, out);
+                // Coordinates that hardly carry inertia of their own can lose their digits among the others'.
+                let exact = (0..self.m).all(|c| {
+                    let size = self.rhs[c].abs() + a.magnitude(c, out);
+                    (self.rhs[c] - a.product(c, out)).abs() <= RANK_TOLERANCE * size
+                });
+                if exact {
+                    return;
+                }
+                self.work.fallbacks += 1;
             }
-            _ => {
-                let force = Some(&self.force[..]);
-                self.dense.solve(&self.here.mass, a, force, &self.rhs, out);
-            }
+            _ => {}
         }
+        let force = Some(&self.force[..]);
+        self.dense.solve(&self.here.mass, a, force, &self.rhs, out);
     }
 
     /// Redundant rows must agree with the others, and q̈ must be finite.

@@ -242,15 +242,12 @@ impl Row {
         first.zip(last)
     }
 
-    /// That range in words; "1e-12 … 1e8", or the end alone where the sweep begins at its ordinary value.
+    /// That range in words: "1e-12 … 1e8", or "to 1e8" where the sweep begins at its ordinary value.
     pub(super) fn range_text(&self, good: impl Fn(Class) -> bool) -> String {
         let Some((first, last)) = self.range(good) else {
             return "–".to_owned();
         };
         let label = |i: usize| self.points[i].label.as_str();
-        if first == 0 && last + 1 == self.points.len() {
-            return "all".to_owned();
-        }
         if self.ordinary == 0 {
             return format!("to {}", label(last));
         }

@@ -9,8 +9,8 @@ const HEAD: usize = 44;
 const PITCH: usize = 24;
 const BAR: usize = 15;
 /// Left and right end of the bars; names stand before the labels of the first value, remarks after those of the last.
-const LEFT: usize = 216;
-const RIGHT: usize = 590;
+const LEFT: usize = 200;
+const RIGHT: usize = 556;
 
 /// Colours that differ in lightness, too (after Okabe and Ito).
 fn colour(class: Class) -> &'static str {
@@ -79,7 +79,11 @@ fn bar(row: &Row, top: usize) -> String {
     svg.push_str(&text(14, "start", 13, row.id));
     svg.push_str(&text(LEFT - 8, "end", 12, first));
     svg.push_str(&text(RIGHT + 8, "start", 12, last));
-    svg.push_str(&text(RIGHT + 62, "start", 12, &row.refusals().join(", ")));
+    let refusals = row.refusals();
+    let shown = refusals.len().min(2);
+    let more = if refusals.len() > shown { ", …" } else { "" };
+    let names = format!("{}{more}", refusals[..shown].join(", "));
+    svg.push_str(&text(RIGHT + 58, "start", 12, &names));
     let width = (RIGHT - LEFT) as f64 / row.points.len().max(1) as f64;
     for (i, point) in row.points.iter().enumerate() {
         let x = LEFT as f64 + i as f64 * width;

@@ -1,5 +1,6 @@
 //! Masses and lengths out of proportion, masses that vanish.
 
+use models::RigidBody;
 use ukcore::{Error, Formula, Mechanism, Projector, Simulation, State};
 
 use super::super::case::{Case, Effort, Sweep, decades};
@@ -69,7 +70,39 @@ pub(super) fn cases() -> Vec<Case> {
             measure: bob_to_zero,
             before: "",
         },
+        Case {
+            id: "quaternion",
+            swept: "turn of a rigid body from the identity quaternion, rad (singular M)",
+            oracle: "the same equations in 31 digits; both formulas for singular M",
+            accurate: 1e-12,
+            bound: 1e-8,
+            sweep: decades(0, -16, 1, 0).and(0.0),
+            measure: near_identity,
+            before: "",
+        },
     ]
+}
+
+/// A body turned by `distance` from where its quaternion is the identity, spinning; M there is singular along the quaternion.
+fn near_identity(distance: f64, effort: &mut Effort) -> Result<f64, Error> {
+    let (sin, cos) = (0.5 * distance).sin_cos();
+    let axis = [0.48, 0.6, 0.64];
+    let e = [cos, sin * axis[0], sin * axis[1], sin * axis[2]];
+    // ė = ½ G(e)ᵀ ω.
+    let w = [1.0, -0.7, 0.4];
+    let v = vec![
+        0.5 * (-e[1] * w[0] - e[2] * w[1] - e[3] * w[2]),
+        0.5 * (e[0] * w[0] - e[3] * w[1] + e[2] * w[2]),
+        0.5 * (e[3] * w[0] + e[0] * w[1] - e[1] * w[2]),
+        0.5 * (-e[2] * w[0] + e[1] * w[1] + e[0] * w[2]),
+    ];
+    let state = State {
+        t: 0.0,
+        q: e.to_vec(),
+        v,
+    };
+    let formulas = [Formula::UdwadiaPhohomsiri, Formula::Kkt];
+    accelerations_imprecise(&RigidBody::default(), &state, &formulas, effort)
 }
 
 fn inertias() -> Sweep {
