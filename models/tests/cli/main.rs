@@ -2,6 +2,7 @@
 
 mod paper;
 mod refusals;
+mod stability;
 mod streams;
 
 use std::fs;

@@ -9,7 +9,7 @@ use super::worse;
 
 pub(super) fn cases() -> Vec<Case> {
     let jumps = || decades(-16, 0, 1, -16);
-    let jump = |id, swept, measure| Case {
+    let jump = |id, swept, measure, before| Case {
         id,
         swept,
         oracle: "closed form of the mass on its spring",
@@ -17,7 +17,7 @@ pub(super) fn cases() -> Vec<Case> {
         bound: 1e-5,
         sweep: jumps(),
         measure,
-        before: "",
+        before,
     };
     vec![
         Case {
@@ -40,18 +40,23 @@ pub(super) fn cases() -> Vec<Case> {
             measure: assembly_off,
             before: "",
         },
-        jump("jump-place", "jump of a prescribed position, m", |h, e| {
-            jumping(h, 0.0, 0.0, e)
-        }),
+        jump(
+            "jump-place",
+            "jump of a prescribed position, m",
+            |h, e| jumping(h, 0.0, 0.0, e),
+            JUMP,
+        ),
         jump(
             "jump-velocity",
             "jump of a prescribed velocity, m/s",
             |u, e| jumping(0.0, u, 0.0, e),
+            JUMP,
         ),
         jump(
             "jump-acceleration",
             "jump of a prescribed acceleration, m/s²",
             |a, e| jumping(0.0, 0.0, a, e),
+            "",
         ),
         Case {
             id: "not-finite",
@@ -65,6 +70,8 @@ pub(super) fn cases() -> Vec<Case> {
         },
     ]
 }
+
+const JUMP: &str = "refused as a step too small; now the error names the constraint that jumps";
 
 /// The U-chain's start with its coordinates moved to and fro by up to `distance`.
 fn moved(distance: f64) -> Result<State, Error> {

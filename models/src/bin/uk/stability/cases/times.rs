@@ -46,7 +46,7 @@ pub(super) fn cases() -> Vec<Case> {
             oracle: "closed form",
             accurate: 1e-8,
             bound: 1e-5,
-            sweep: decades(0, 16, 1, 0),
+            sweep: decades(0, 15, 1, 0),
             measure: late_pendulum,
             before: "",
         },
