@@ -30,8 +30,9 @@ const K: usize = 8;
 /// Largest residual of A q̈ = b, as a part of the terms of its row, and of M q̈ − Q off the range of Aᵀ, as a part of both, where the rows are well apart.
 const BOUND: f64 = 1e-10;
 
-/// Where they are not: this many ε over the least part (in the mass metric) that a row has for itself, since the rounding of A's entries moves the range of Aᵀ by that.
-const ROUNDING: f64 = 1e5;
+/// Where they are not: so many times the rounding of A's entries over the least part that a row has for itself. An entry, a difference of coordinates, is
+/// rounded by ε times the coordinates' size over the rod's length.
+const ROUNDING: f64 = 1e3;
 
 /// Largest drift of the energy over a short run at tolerance 1e-10, as a part of that exchanged.
 const DRIFT: f64 = 1e-6;
@@ -122,6 +123,8 @@ struct Exact {
     force: Vec<DoubleDouble>,
     jacobian: Vec<DoubleDouble>,
     rhs: Vec<DoubleDouble>,
+    /// Rounding of the entries of A, as a part of their row.
+    rounding: f64,
 }
 
 fn d(x: f64) -> DoubleDouble {
@@ -148,7 +151,10 @@ impl Exact {
             &wide(&state.v),
             &mut terms,
         );
+        let size = state.q.iter().fold(0.0, |s: f64, q| s.max(q.abs()));
+        let lengths = rods.l.iter().filter(|l| **l > 0.0);
         Exact {
+            rounding: f64::EPSILON * size / lengths.fold(f64::INFINITY, |s, l| s.min(*l)),
             mass: (0..n).map(|i| mass[i * n + i].to_f64()).collect(),
             force,
             jacobian,
@@ -173,11 +179,11 @@ impl Exact {
             }
         }
         let (beside, least) = self.beside_constraints(a);
-        let bound = BOUND.max(ROUNDING * f64::EPSILON / least);
+        let bound = BOUND.max(ROUNDING * self.rounding / least);
         (worst.max(beside), bound)
     }
 
-    /// The part of M^−½ (M q̈ − Q) outside of the range of M^−½ Aᵀ, by Gram and Schmidt, and the least part that a row has for itself.
+    /// The part of M^−½ (M q̈ − Q) outside of the range of M^−½ Aᵀ, by Gram and Schmidt, and the least part that a row has for itself, in A's own units.
     fn beside_constraints(&self, a: &[f64]) -> (f64, f64) {
         let n = 2 * N;
         let dot = |x: &[DoubleDouble], y: &[DoubleDouble]| {
@@ -194,10 +200,18 @@ impl Exact {
         let mut left: Vec<Vec<DoubleDouble>> = (0..K)
             .map(|c| (0..n).map(|i| self.jacobian[i * K + c] / root[i]).collect())
             .collect();
+        // What is left of a row, in A's own units: 1 to begin with.
+        let part = |row: &[DoubleDouble]| {
+            let entries = row
+                .iter()
+                .zip(&root)
+                .map(|(x, root)| (*x * *root).to_f64().abs());
+            entries.fold(0.0, f64::max)
+        };
         for row in &mut left {
-            let norm = dot(row, row).sqrt();
-            if norm.to_f64() > 0.0 {
-                row.iter_mut().for_each(|x| *x = *x / norm);
+            let size = part(row);
+            if size > 0.0 {
+                row.iter_mut().for_each(|x| *x = *x / d(size));
             }
         }
         loop {
@@ -210,7 +224,7 @@ impl Exact {
                     }
                 }
             }
-            let norms = left.iter().map(|row| dot(row, row).sqrt().to_f64());
+            let norms = left.iter().map(|row| part(row));
             let (at, norm) = norms
                 .enumerate()
                 .fold((0, 0.0), |b, x| if x.1 > b.1 { x } else { b });

@@ -418,11 +418,11 @@ impl Solver {
         std::mem::replace(&mut self.weakest, 1.0)
     }
 
-    /// Constraints whose significance in the last solution was not above `significance`.
+    /// Constraints whose significance in the last solution was not above `significance`, or that were left out.
     #[cfg(feature = "simulate")]
     pub(crate) fn rows_below(&self, significance: f64) -> &[usize] {
         let cod = &self.dense.cod;
-        &cod.order()[leading(cod.pivots(), significance)..]
+        &cod.order()[leading(cod.pivots(), significance).min(cod.rank())..]
     }
 
     /// What has been done so far.
