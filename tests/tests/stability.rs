@@ -106,8 +106,8 @@ impl Drawn {
             }
         }
         let mut state = State::zeros::<Rods>();
-        for i in 0..N {
-            (state.q[Rods::X[i]], state.q[Rods::Y[i]]) = (at[i][0], at[i][1]);
+        for (i, [x, y]) in at.into_iter().enumerate() {
+            (state.q[Rods::X[i]], state.q[Rods::Y[i]]) = (x, y);
         }
         let time = (unit / 9.81).sqrt();
         for v in &mut state.v {
@@ -164,15 +164,14 @@ impl Exact {
 
     /// The larger of the two relative residuals of q̈, and its bound.
     fn residual(&self, a: &[f64]) -> (f64, f64) {
-        let n = 2 * N;
         let mut worst = 0.0_f64;
         for c in 0..K {
             let (mut sum, mut size) = (-self.rhs[c], self.rhs[c].to_f64().abs());
-            for i in 0..n {
+            for (i, a) in a.iter().enumerate() {
                 let entry = self.jacobian[i * K + c];
-                sum = sum + entry * d(a[i]);
+                sum = sum + entry * d(*a);
                 let free = self.force[i].to_f64() / self.mass[i];
-                size += entry.to_f64().abs() * (a[i].abs() + free.abs());
+                size += entry.to_f64().abs() * (a.abs() + free.abs());
             }
             if size > 0.0 {
                 worst = worst.max(sum.to_f64().abs() / size);

@@ -76,6 +76,8 @@ fn drag(c: f64, effort: &mut Effort) -> Result<f64, Error> {
     let speed = -pull / c * (-c * until).exp_m1();
     let way = (pull * until - speed) / c;
     let along = |x: f64| [x * a.cos(), -x * a.sin()];
-    let last = run.last().ok_or_else(|| Error::TooManySteps { steps: 0 })?;
+    let Some(last) = run.last() else {
+        return Ok(f64::NAN);
+    };
     Ok(worse(off(last.q, &along(way)), off(last.v, &along(speed))))
 }
