@@ -1,7 +1,7 @@
 //! Stiff springs, heavy drag.
 
 use models::Pendulum;
-use ukcore::{Error, Mechanism, Simulation, State};
+use ukcore::{Error, Mechanism, Method, Simulation, State};
 
 use super::super::case::{Case, Effort, decades};
 use super::super::mechanisms::{Elastic, Incline};
@@ -16,7 +16,17 @@ pub(super) fn cases() -> Vec<Case> {
             accurate: 1e-7,
             bound: 1e-4,
             sweep: decades(2, 12, 1, 2),
-            measure: spring,
+            measure: |k, effort| spring(k, Method::Dop853, effort),
+            before: "",
+        },
+        Case {
+            id: "spring-implicit",
+            swept: "the same by the implicit method, Radau IIA of order 5",
+            oracle: "the rigid pendulum, from which a spring may differ by 20 m g/(k l), and energy",
+            accurate: 1e-7,
+            bound: 1e-4,
+            sweep: decades(2, 12, 1, 2),
+            measure: |k, effort| spring(k, Method::Radau5, effort),
             before: "",
         },
         Case {
@@ -33,7 +43,7 @@ pub(super) fn cases() -> Vec<Case> {
 }
 
 /// A pendulum on a spring, let go at 60° with the spring as long as its load makes it. What is beyond the reach of the stiffness.
-fn spring(k: f64, effort: &mut Effort) -> Result<f64, Error> {
+fn spring(k: f64, method: Method, effort: &mut Effort) -> Result<f64, Error> {
     let mut elastic = Elastic::default();
     elastic.set("k", k)?;
     let (angle, g) = (std::f64::consts::FRAC_PI_3, 9.81);
@@ -44,7 +54,8 @@ fn spring(k: f64, effort: &mut Effort) -> Result<f64, Error> {
         q: vec![length * sin, -length * cos],
         v: vec![0.0; 2],
     };
-    let simulation = Simulation::new(elastic).start(start).tolerance(1e-9);
+    let simulation = Simulation::new(elastic).start(start).method(method);
+    let simulation = simulation.tolerance(1e-9);
     let run = effort.run(simulation.max_steps(400_000).every(0.1), 2.0)?;
     let mut worst: f64 = run.energy_drift();
     for sample in run.samples() {
