@@ -89,7 +89,8 @@ fn simulation<M: Mechanism>(mechanism: M, start: State) -> Simulation<M> {
 
 /// The fish after 4 s: the largest error of its body's position and velocity, and the work.
 fn swim(settings: impl Fn(Simulation<FishRobot>) -> Simulation<FishRobot>) -> (f64, Work) {
-    let data: Value = serde_json::from_str(include_str!("../data/fish.json")).expect("JSON");
+    let data: Value =
+        serde_json::from_str(include_str!("../../models/data/fish.json")).expect("JSON");
     let expected = data["states"]["4.0"].as_array().expect("a list");
     let fish = FishRobot::default();
     let start = fish.default_start().expect("the start is consistent");

@@ -131,6 +131,7 @@ fn ukcore() {
         &[
             "error",
             "scalar",
+            "double",
             "scan",
             "rounding",
             "zero",

@@ -73,6 +73,18 @@ pub enum Error {
         /// What is wrong and what is allowed.
         reason: String,
     },
+    /// These constraints all but imply the others here: a singular position, from which the motion can go on in several ways.
+    Singular {
+        /// Their names.
+        constraints: Vec<String>,
+    },
+    /// These constraints move away from the motion faster than any step follows: prescribed motion that jumps.
+    Jump {
+        /// `"position"` or `"velocity"`.
+        level: &'static str,
+        /// Names of the constraints, with their residual after the shortest step.
+        constraints: Vec<(String, f64)>,
+    },
     /// The step size fell below rounding at time `t`.
     StepTooSmall {
         /// Step size.
@@ -248,6 +260,16 @@ impl fmt::Display for Error {
                 write!(f, "`{what}` has length {found}, but {expected} is needed")
             }
             Error::InvalidSetting { what, reason } => write!(f, "`{what}` {reason}"),
+            Error::Singular { constraints } => write!(
+                f,
+                "a singular position, where the others imply {}: the state does not tell in which way the motion goes on; a looser tolerance lets steps pass over the place, or start a run behind it",
+                quoted(constraints)
+            ),
+            Error::Jump { level, constraints } => write!(
+                f,
+                "constraints jump at {level} level (residual after a step of no length): {}; a prescribed motion must not jump, nor its velocity: smooth it, or end the run there and start another behind it",
+                Named(constraints)
+            ),
             Error::StepTooSmall { step: 0.0 } => write!(
                 f,
                 "no step from here succeeds, however small; the motion may have a singularity here, or masses or forces are out of all proportion"

@@ -22,6 +22,7 @@
 
 pub mod assemble;
 pub mod diagnose;
+pub mod double;
 pub mod equations;
 pub mod error;
 #[cfg(feature = "simulate")]
@@ -53,6 +54,7 @@ mod workspace;
 mod zero;
 
 pub use assemble::{Residuals, State, assemble, residuals};
+pub use double::DoubleDouble;
 pub use error::Error;
 pub use lanes::{LaneSolver, Lanes};
 pub use linearise::Linearisation;

@@ -1,6 +1,7 @@
 //! Gaussian elimination of the saddle-point system, in buffers allocated once.
 
 use crate::lu::Lu;
+use crate::pinv::axpy;
 use crate::workspace::Rows;
 
 /// A pivot of the scaled system (entries of order 1) below this is none: with n + m unknowns elimination loses a few digits, and
@@ -12,8 +13,12 @@ const PIVOT: f64 = 1.5e-8;
 pub(crate) struct Saddle {
     n: usize,
     m: usize,
+    /// The scaled matrix, and its factors.
+    matrix: Vec<f64>,
     lu: Lu<f64>,
     x: Vec<f64>,
+    /// Right-hand side, then what the solution leaves of it.
+    rest: Vec<f64>,
 }
 
 impl Saddle {
@@ -22,8 +27,10 @@ impl Saddle {
         Saddle {
             n,
             m,
+            matrix: vec![0.0; size * size],
             lu: Lu::new(size),
             x: vec![0.0; size],
+            rest: vec![0.0; size],
         }
     }
 
@@ -49,6 +56,7 @@ impl Saddle {
                 entries[(n + c) * size + j] = entry;
             }
         }
+        self.matrix.copy_from_slice(entries);
         self.lu.factor(PIVOT)
     }
 
@@ -61,17 +69,25 @@ impl Saddle {
         row_scale: &[f64],
         out: &mut [f64],
     ) {
-        let n = self.n;
-        let x = &mut self.x;
+        let (n, size) = (self.n, self.n + self.m);
         for i in 0..n {
-            x[i] = force[i] / root[i];
+            self.rest[i] = force[i] / root[i];
         }
         for (c, b) in rhs.iter().enumerate() {
-            x[n + c] = row_scale[c] * b;
+            self.rest[n + c] = row_scale[c] * b;
         }
-        self.lu.solve(x);
+        self.x.copy_from_slice(&self.rest);
+        self.lu.solve(&mut self.x);
         for i in 0..n {
-            out[i] = x[i] / root[i];
+            out[i] = self.x[i] / root[i];
+        }
+        // Once more for what rounding has left: rows that nearly imply each other have multipliers far larger than the accelerations, and theirs is the rounding.
+        for (x, column) in self.x.iter().zip(self.matrix.chunks_exact(size)) {
+            axpy(-x, column, &mut self.rest);
+        }
+        self.lu.solve(&mut self.rest);
+        for i in 0..n {
+            out[i] += self.rest[i] / root[i];
         }
     }
 }

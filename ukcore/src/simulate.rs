@@ -7,12 +7,13 @@ use crate::assemble::State;
 use crate::diagnose;
 use crate::error::Error;
 use crate::events::{Event, Watch};
-use crate::integrate::{Method, Outcome, Settings};
+use crate::integrate::{Method, Outcome, Settings, Tolerance};
 use crate::mechanism::Mechanism;
 use crate::solver::{Formula, Solver, SolverOptions};
 use crate::stabilise::{Projector, Stabilisation};
 use crate::trajectory::{Ending, Trajectory, Work};
 
+mod angles;
 #[cfg(feature = "ensemble")]
 pub mod ensemble;
 mod run;
@@ -49,6 +50,7 @@ pub struct Simulation<M> {
     start: Option<State>,
     method: Method,
     tolerance: f64,
+    absolute: Option<f64>,
     stabilisation: Stabilisation,
     switching: Switching,
     formula: Formula,
@@ -91,6 +93,7 @@ impl<M: Mechanism> Simulation<M> {
             start: None,
             method: Method::default(),
             tolerance: 1e-9,
+            absolute: None,
             stabilisation: Stabilisation::default(),
             switching: Switching::default(),
             formula: Formula::default(),
@@ -118,10 +121,21 @@ impl<M: Mechanism> Simulation<M> {
         self
     }
 
-    /// Relative and absolute tolerance of each step, per coordinate and velocity; from [`SMALLEST_TOLERANCE`] to below 1. RATTLE does not look at it.
+    /// Tolerance of each step, relative to each coordinate and velocity; from [`SMALLEST_TOLERANCE`] to below 1. The
+    /// [absolute](Simulation::absolute_tolerance) one follows it. RATTLE does not look at it.
     #[must_use]
     pub fn tolerance(mut self, tolerance: f64) -> Self {
         self.tolerance = tolerance;
+        self
+    }
+
+    /// Absolute tolerance of each step: the error allowed in a coordinate or velocity near zero, in its own unit; positive.
+    ///
+    /// By default it is the relative one times the size of the start, the largest coordinate or velocity there, but at most times 1. So a mechanism of
+    /// micrometres is as exact in metres as one of metres. Coordinates of different units share it: the smallest that matters should decide.
+    #[must_use]
+    pub fn absolute_tolerance(mut self, tolerance: f64) -> Self {
+        self.absolute = Some(tolerance);
         self
     }
 
@@ -248,8 +262,9 @@ impl<M: Mechanism> Simulation<M> {
         if self.dense {
             trajectory.segments = Some(Vec::new());
         }
+        let tolerance = self.tolerance_from(&y);
         let settings = Settings {
-            tolerance: self.tolerance,
+            tolerance,
             first_step: self.first_step,
             max_step: self.max_step,
             max_steps: self.max_steps,
@@ -272,7 +287,7 @@ impl<M: Mechanism> Simulation<M> {
             between: vec![0.0; 2 * n],
             slopes: None,
             conflict: Conflict::default(),
-            pace: Pace::new(M::SPEC, self.tolerance, self.max_steps),
+            pace: Pace::new(M::SPEC, tolerance, self.max_steps),
             trajectory: &mut trajectory,
         };
         let error = run.start(t0, &y).and_then(|()| {
@@ -324,8 +339,13 @@ impl<M: Mechanism> Simulation<M> {
             Sampling::Every(dt) => Some(dt),
             Sampling::Steps | Sampling::At(_) => None,
         };
-        let first = ("first_step", self.first_step);
-        for (what, size) in [("every", dt), ("max_step", self.max_step), first] {
+        let sizes = [
+            ("every", dt),
+            ("max_step", self.max_step),
+            ("first_step", self.first_step),
+            ("absolute_tolerance", self.absolute),
+        ];
+        for (what, size) in sizes {
             if let Some(size) = size
                 && !(size.is_finite() && size > 0.0)
             {
@@ -440,15 +460,17 @@ impl<M: Mechanism> Simulation<M> {
         if let Some(error) = diagnose::non_finite_input(&mech, t, &q, &v) {
             return Err(error);
         }
+        angles::check(spec, &q)?;
         let (mut new_q, mut new_v) = (q.clone(), v.clone());
         let position = projector.position(&mech, t, &mut new_q, &v)?;
-        if !self.near(&q, &new_q) {
+        let absolute = self.tolerance_from(&[&q[..], &v].concat()).absolute;
+        if !near(&q, &new_q, absolute) {
             let mut residual = vec![0.0; spec.holonomic];
             mech.residual(t, &q, &mut residual);
             return Err(off_constraint::<M>("position", &residual));
         }
         let velocity = projector.velocity(&mech, t, &new_q, &mut new_v)?;
-        if !self.near(&v, &new_v) {
+        if !near(&v, &new_v, absolute) {
             let mut residual = vec![0.0; spec.m()];
             mech.residual_rate(t, &new_q, &v, &mut residual);
             return Err(off_constraint::<M>("velocity", &residual));
@@ -462,13 +484,24 @@ impl<M: Mechanism> Simulation<M> {
         })
     }
 
-    /// Whether a projection from `before` to `after` is within [`START_BOUND`].
-    fn near(&self, before: &[f64], after: &[f64]) -> bool {
-        let size = before.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-        let bound = START_BOUND * size + self.tolerance;
-        let mut pairs = before.iter().zip(after);
-        pairs.all(|(before, after)| (after - before).abs() <= bound)
+    /// The tolerance of a run that starts at y = \[q; q̇\].
+    fn tolerance_from(&self, y: &[f64]) -> Tolerance {
+        let size = y.iter().fold(0.0, |s: f64, x| s.max(x.abs()));
+        // A start at zero in all coordinates has no size.
+        let size = if size > 0.0 { size.min(1.0) } else { 1.0 };
+        Tolerance {
+            relative: self.tolerance,
+            absolute: self.absolute.unwrap_or(self.tolerance * size),
+        }
     }
+}
+
+/// Whether a projection from `before` to `after` is within [`START_BOUND`] and the absolute tolerance.
+fn near(before: &[f64], after: &[f64], absolute: f64) -> bool {
+    let size = before.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    let bound = START_BOUND * size + absolute;
+    let mut pairs = before.iter().zip(after);
+    pairs.all(|(before, after)| (after - before).abs() <= bound)
 }
 
 fn off_constraint<M: Mechanism>(level: &'static str, residual: &[f64]) -> Error {
@@ -486,6 +519,7 @@ impl<M: Mechanism> fmt::Debug for Simulation<M> {
             .field("start", &self.start)
             .field("method", &self.method)
             .field("tolerance", &self.tolerance)
+            .field("absolute", &self.absolute)
             .field("stabilisation", &self.stabilisation)
             .field("formula", &self.formula)
             .field("sampling", &self.sampling)

@@ -51,7 +51,7 @@ pub enum Formula {
     UdwadiaKalaba,
     /// Eq. 19, for regular and singular M.
     UdwadiaPhohomsiri,
-    /// Gaussian elimination of \[M Aᵀ; A 0\]. Where constraints are redundant or nearly so, eq. 19 takes over (a fallback).
+    /// Gaussian elimination of \[M Aᵀ; A 0\]. Where constraints are redundant or nearly so, or are not met by the result, eq. 19 takes over (a fallback).
     Kkt,
 }
 
@@ -150,6 +150,10 @@ pub struct Solver {
     straight_line: bool,
     /// M was found singular at run time: Formula::Auto does not try to factor it any more.
     singular: bool,
+    /// Largest rank decided so far.
+    full: usize,
+    /// Least significance of a row that counts, since it was last asked for; 0 where the rank is less than it was elsewhere.
+    weakest: f64,
     n: usize,
     m: usize,
     here: Evaluated,
@@ -203,6 +207,8 @@ impl Solver {
                 && options.baumgarte.is_none()
                 && spec.structure.straight_line,
             singular: false,
+            full: 0,
+            weakest: 1.0,
             n,
             m,
             here: Evaluated::new(n, m),
@@ -264,6 +270,7 @@ impl Solver {
         if self.straight_line && !self.singular {
             if mech.acceleration(t, q, v, out) > 0.5 && all_finite(out) {
                 self.work.evaluations += 1;
+                self.full = self.m;
                 return Ok(());
             }
             // Once for a solution, whatever else is left on the way.
@@ -404,6 +411,20 @@ impl Solver {
         self.options.baumgarte
     }
 
+    /// The least significance of a row that counted in the solutions since this was last asked: how near they came to a singular position. 0 where the rank
+    /// was less than it was elsewhere, 1 where the emitted elimination found nothing to doubt.
+    #[cfg(feature = "simulate")]
+    pub(crate) fn take_weakest(&mut self) -> f64 {
+        std::mem::replace(&mut self.weakest, 1.0)
+    }
+
+    /// Constraints whose significance in the last solution was not above `significance`, or that were left out.
+    #[cfg(feature = "simulate")]
+    pub(crate) fn rows_below(&self, significance: f64) -> &[usize] {
+        let cod = &self.dense.cod;
+        &cod.order()[leading(cod.pivots(), significance).min(cod.rank())..]
+    }
+
     /// What has been done so far.
     #[must_use]
     pub fn work(&self) -> SolverWork {
@@ -532,6 +553,13 @@ impl Solver {
             tolerance = tolerance.min(RANK_CEILING);
             rank = leading(self.dense.cod.pivots(), tolerance);
         }
+        self.full = self.full.max(rank);
+        let weakest = match rank.checked_sub(1) {
+            Some(last) if rank == self.full => self.dense.cod.pivots()[last],
+            Some(_) => 0.0,
+            None => 1.0,
+        };
+        self.weakest = self.weakest.min(weakest);
         let reduced = self.dense.set_rank(rank, &self.here.mass);
         reduced.map_err(|fault| mass_error::<M>(fault))?;
         Ok(tolerance)
@@ -590,12 +618,20 @@ impl Solver {
             Some(saddle) if formula == Formula::Kkt => {
                 let (root, row_scale) = (&self.dense.metric.root, &self.dense.row_scale);
                 saddle.solve(&self.force, &self.rhs, root, row_scale, out);
+                // Coordinates that hardly carry inertia of their own can lose their digits among the others'.
+                let exact = (0..self.m).all(|c| {
+                    let size = self.rhs[c].abs() + a.magnitude(c, out);
+                    (self.rhs[c] - a.product(c, out)).abs() <= RANK_TOLERANCE * size
+                });
+                if exact {
+                    return;
+                }
+                self.work.fallbacks += 1;
             }
-            _ => {
-                let force = Some(&self.force[..]);
-                self.dense.solve(&self.here.mass, a, force, &self.rhs, out);
-            }
+            _ => {}
         }
+        let force = Some(&self.force[..]);
+        self.dense.solve(&self.here.mass, a, force, &self.rhs, out);
     }
 
     /// Redundant rows must agree with the others, and q̈ must be finite.

@@ -3,6 +3,7 @@
 mod paper;
 mod refusals;
 mod report;
+mod stability;
 mod streams;
 
 use std::fs;

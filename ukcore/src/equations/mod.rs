@@ -8,7 +8,9 @@
 //! - [`uk`]: the Udwadia-Kalaba equation and its parts, for regular M (eqs. 2, 11, 12, 13, 15, 17, 18).
 //! - [`up`]: the Udwadia-Phohomsiri equation, for singular M too (eq. 19).
 //! - [`kkt`]: the saddle-point system of Lagrange's multipliers, as a third opinion.
+//! - [`precise`]: the same system in 31 digits, as a reference.
 
 pub mod kkt;
+pub mod precise;
 pub mod uk;
 pub mod up;

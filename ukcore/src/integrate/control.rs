@@ -4,6 +4,7 @@
 //! functions of numbers: a driver of many lanes uses them for each lane.
 
 use super::dense::Clock;
+use super::sums::Tolerance;
 
 /// Part of the step size that should just meet the tolerance which is taken.
 const SAFETY: f64 = 0.9;
@@ -131,6 +132,9 @@ impl Plan {
     }
 }
 
+/// The first step where nothing tells how fast things change, as a share of the run.
+const BLIND: f64 = 1e-6;
+
 /// First guess of the first step size: h for which an explicit Euler step changes y by a hundredth.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Guess {
@@ -144,17 +148,17 @@ impl Guess {
     /// From pairs (y, f) at the start.
     pub(crate) fn new(
         start: impl Iterator<Item = (f64, f64)>,
-        tolerance: f64,
+        tolerance: Tolerance,
         largest: f64,
     ) -> Self {
         let (mut value, mut slope) = (0.0, 0.0);
         for (y, rate) in start {
-            let weight = 1.0 / (tolerance + tolerance * y.abs());
+            let weight = 1.0 / tolerance.at(y.abs());
             value += (y * weight) * (y * weight);
             slope += (rate * weight) * (rate * weight);
         }
         let h = if slope <= 1e-10 || value <= 1e-10 {
-            1e-6
+            BLIND * largest
         } else {
             0.01 * f64::sqrt(value / slope)
         };
@@ -171,12 +175,12 @@ impl Guess {
         self,
         start: impl Iterator<Item = (f64, f64, f64)>,
         order: f64,
-        tolerance: f64,
+        tolerance: Tolerance,
         largest: f64,
     ) -> f64 {
         let mut change = 0.0;
         for (y, rate, after) in start {
-            let weighted = (after - rate) / (tolerance + tolerance * y.abs());
+            let weighted = (after - rate) / tolerance.at(y.abs());
             change += weighted * weighted;
         }
         let curvature = f64::sqrt(change) / self.h;
@@ -185,7 +189,7 @@ impl Guess {
         }
         let steepest = curvature.max(self.slope);
         let h = if steepest <= 1e-15 {
-            f64::max(1e-6, 1e-3 * self.h)
+            f64::max(BLIND * largest, 1e-3 * self.h)
         } else {
             f64::powf(0.01 / steepest, 1.0 / order)
         };

@@ -287,18 +287,21 @@ impl<P: Problem, X: Scheme> Driver<'_, P, X> {
             let y = self.raw.clone();
             return Err(Refusal::End(Some(Trouble { t, y, error })));
         }
-        // No weight of the norm is above 1 / tol.
-        let least = PROJECTION_LIMIT * self.settings.tolerance;
+        // No weight of the norm is above 1 / absolute tolerance.
+        let least = PROJECTION_LIMIT * self.settings.tolerance.absolute;
         if all_pairs(&self.raw, new, |raw, new| (new - raw).abs() <= least) {
             return Ok(());
         }
         let pairs = self.raw.iter().zip(&*new).zip(&self.y);
         let change = pairs.map(|((raw, new), old)| (new - raw, *old, *raw));
         if error_norm(change, self.settings.tolerance) <= PROJECTION_LIMIT {
-            Ok(())
-        } else {
-            Err(Refusal::End(None))
+            return Ok(());
         }
+        let error = self.equations.problem.jump(t, &self.raw);
+        Err(Refusal::End(error.map(|error| {
+            let y = self.raw.clone();
+            Trouble { t, y, error }
+        })))
     }
 
     /// Shows the problem the step, with its interpolant if one is wanted.

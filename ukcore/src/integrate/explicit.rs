@@ -1,10 +1,10 @@
 //! The explicit Runge-Kutta methods as schemes.
 
-use super::Problem;
 use super::control::{Guess, StepSize};
 use super::scheme::{Attempt, Equations, NoRate, Scheme};
 use super::stepper::Stepper;
 use super::tableau::Tableau;
+use super::{Problem, Tolerance};
 
 /// A [`Stepper`] of one lane, and its step size.
 pub(super) struct Explicit {
@@ -44,7 +44,7 @@ impl Scheme for Explicit {
         equations: &mut Equations<'_, P>,
         y: &[f64],
         sign: f64,
-        tolerance: f64,
+        tolerance: Tolerance,
         largest: f64,
     ) -> f64 {
         let rate = self.stepper.rate().to_vec();

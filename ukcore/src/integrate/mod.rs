@@ -7,7 +7,7 @@
 //! The order of events in one step, which each method keeps:
 //!
 //! 1. attempt a step, estimate its error, reject it and shrink the step where f failed or the error is above 1 in the
-//!    error norm: the root mean square of error / (tolerance + tolerance |y|);
+//!    error norm: the root mean square of error / (absolute + relative tolerance · |y|);
 //! 2. project the new state; a change above [`PROJECTION_LIMIT`] in the same norm rejects the step;
 //! 3. evaluate f at the projected state, for the next step to begin with;
 //! 4. where a switching function has changed its sign, repeat the step up to its zero;
@@ -43,7 +43,7 @@ pub(crate) use dense::Clock;
 pub(crate) use dense::{Interpolant, Segment};
 #[cfg(feature = "ensemble")]
 pub(crate) use stepper::Stepper;
-pub(crate) use sums::error_norm;
+pub(crate) use sums::{Tolerance, error_norm};
 
 /// The methods on offer.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -113,6 +113,11 @@ pub(crate) trait Problem {
     ) -> Result<(), Error>;
     /// Moves the velocities `v` onto the constraints at (t, `q`), as [`project`](Problem::project) does.
     fn settle(&mut self, t: f64, q: &[f64], v: &mut [f64]) -> Result<(), Error>;
+    /// Why the nearest consistent state is far from `y`, where a step arrived; of use where no shorter step comes nearer.
+    fn jump(&mut self, t: f64, y: &[f64]) -> Option<Error> {
+        let _ = (t, y);
+        None
+    }
     /// The next time at which an interpolant is wanted, if any; may change in [`Problem::step`].
     fn next_sample(&self) -> Option<f64>;
     /// Number of switches: functions g(t, y) at whose zeros y' may have kinks or jumps, onto which steps are to go.
@@ -164,8 +169,8 @@ pub(crate) enum Next {
 /// Settings of a run, validated.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Settings {
-    /// Absolute and relative tolerance, both.
-    pub(crate) tolerance: f64,
+    /// Of each step, for each component.
+    pub(crate) tolerance: Tolerance,
     /// First step size, positive; `None`: chosen by the method.
     pub(crate) first_step: Option<f64>,
     /// Largest step size, positive; `None`: no limit.

@@ -16,10 +16,10 @@
 
 pub(super) mod newton;
 
-use super::Problem;
 use super::control::Guess;
 use super::scheme::{Attempt, Equations, NoRate, Scheme};
 use super::sums::{sum_of_squares, weights};
+use super::{Problem, Tolerance};
 use newton::{Matrices, Newton, Solved};
 
 /// (4 ∓ √6)/10 and 1: the stages, §IV.5 (table 5.6).
@@ -47,8 +47,12 @@ const FAST: f64 = 1e-3;
 const SMALLEST_PREVIOUS: f64 = 1e-2;
 
 /// Tolerance of the estimate, which is of order 3, for a step of order 5 to have the tolerance `run`: 0.1 run^⅔, as in RADAU5.
-fn estimate_tolerance(run: f64) -> f64 {
-    0.1 * run.powf(2.0 / 3.0)
+fn estimate_tolerance(run: Tolerance) -> Tolerance {
+    let relative = 0.1 * run.relative.powf(2.0 / 3.0);
+    Tolerance {
+        relative,
+        absolute: run.absolute / run.relative * relative,
+    }
 }
 
 /// Whether the Jacobian changes so much within steps that one of it will not do.
@@ -217,7 +221,7 @@ impl Scheme for Radau {
         equations: &mut Equations<'_, P>,
         y: &[f64],
         sign: f64,
-        tolerance: f64,
+        tolerance: Tolerance,
         largest: f64,
     ) -> f64 {
         let tolerance = estimate_tolerance(tolerance);
@@ -252,11 +256,11 @@ impl Scheme for Radau {
         } else {
             Matrices::Start
         };
-        let mut solved = self.solve(matrices, equations, step, y, tolerance)?;
+        let mut solved = self.solve(matrices, equations, step, y, tolerance.relative)?;
         if !by_stages {
             self.turning.tried(solved);
             if !solved {
-                solved = self.solve(Matrices::Stages, equations, step, y, tolerance)?;
+                solved = self.solve(Matrices::Stages, equations, step, y, tolerance.relative)?;
             }
         }
         if !solved {

@@ -10,9 +10,9 @@
 //!
 //! A stage is symmetric and of order 2. Five of them with sizes γh, γh, (1 − 4γ)h, γh, γh make order 4 (Suzuki's composition, §II.4).
 
-use super::Problem;
 use super::dense::cubic;
 use super::scheme::{Attempt, Equations, NoRate, Scheme, no_rate};
+use super::{Problem, Tolerance};
 use crate::error::Error;
 
 /// γ = 1/(4 − ∛4).
@@ -121,7 +121,7 @@ impl Scheme for Rattle {
         _: &mut Equations<'_, P>,
         _: &[f64],
         _: f64,
-        _: f64,
+        _: Tolerance,
         _: f64,
     ) -> f64 {
         self.step

@@ -3,8 +3,8 @@
 //! The loop over steps, their ends, projections, failures and samples is [`driver`](super::driver)'s and the same for all methods. A [`Scheme`] makes
 //! one step at a time and says how long the next one should be.
 
-use super::Problem;
 use super::switches::Switches;
+use super::{Problem, Tolerance};
 use crate::error::Error;
 use crate::scan::all_finite;
 
@@ -66,7 +66,7 @@ pub(super) struct Attempt {
     /// Its signed size.
     pub(super) h: f64,
     /// Of the run.
-    pub(super) tolerance: f64,
+    pub(super) tolerance: Tolerance,
 }
 
 /// A one-step method: buffers, what the last attempt left in them, and the choice of the step size.
@@ -89,7 +89,7 @@ pub(super) trait Scheme {
         equations: &mut Equations<'_, P>,
         y: &[f64],
         sign: f64,
-        tolerance: f64,
+        tolerance: Tolerance,
         largest: f64,
     ) -> f64;
 

@@ -4,7 +4,7 @@
 //! here branches on a value. What is accepted, and how large the next step is, is decided outside.
 
 use super::dense::cubic;
-use super::sums::{sum, sum_of_squares, weights};
+use super::sums::{Tolerance, sum, sum_of_squares, weights};
 use super::tableau::{self, Sums, Tableau};
 use crate::scalar::Scalar;
 use std::ops::Range;
@@ -163,7 +163,7 @@ impl<S: Scalar> Stepper<S> {
     /// Estimated error of the attempted step from y in the [error norm](super): at most 1 if it has the accuracy asked for.
     ///
     /// With two estimates e₁, e₂: |e₁|² / √(|e₁|² + 0.01 |e₂|²), eq. (10.17) of the book, which falls as h⁸.
-    pub(crate) fn error(&mut self, h: S, y: &[S], tolerance: f64) -> S {
+    pub(crate) fn error(&mut self, h: S, y: &[S], tolerance: Tolerance<S>) -> S {
         (self.sums.errors)(&mut self.errors, h, &self.rates);
         // No stage is evaluated any more.
         weights(&mut self.argument, y, &self.new, tolerance);

@@ -55,12 +55,25 @@ pub(super) fn sum<S: Scalar, const N: usize>(
     }
 }
 
-/// `out` = 1 / (tol + tol max(|old|, |new|)), the weights of the [error norm](super).
-pub(super) fn weights<S: Scalar>(out: &mut [S], old: &[S], new: &[S], tolerance: f64) {
-    let tolerance = S::from_f64(tolerance);
+/// What error is allowed in a component of the size s: absolute + relative · s.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Tolerance<S = f64> {
+    pub(crate) relative: f64,
+    pub(crate) absolute: S,
+}
+
+impl<S: Scalar> Tolerance<S> {
+    #[inline(always)]
+    pub(crate) fn at(self, size: S) -> S {
+        self.absolute + S::from_f64(self.relative) * size
+    }
+}
+
+/// `out` = 1 / tolerance at max(|old|, |new|), the weights of the [error norm](super).
+pub(super) fn weights<S: Scalar>(out: &mut [S], old: &[S], new: &[S], tolerance: Tolerance<S>) {
     for (out, (old, new)) in out.iter_mut().zip(old.iter().zip(new)) {
         let size = old.abs().max(new.abs());
-        *out = (tolerance + tolerance * size).recip();
+        *out = tolerance.at(size).recip();
     }
 }
 
@@ -82,13 +95,15 @@ pub(super) fn sum_of_squares<S: Scalar>(x: &[S], weights: &[S]) -> S {
     (sums[0] + sums[1]) + (sums[2] + sums[3])
 }
 
-/// Root mean square of change / (tol + tol max(|y_old|, |y_new|)) of triples (change, y_old, y_new): the norm in which the methods measure
+/// Root mean square of change / tolerance at max(|y_old|, |y_new|) of triples (change, y_old, y_new): the norm in which the methods measure
 /// their error.
-pub(crate) fn error_norm<S: Scalar>(change: impl Iterator<Item = (S, S, S)>, tolerance: f64) -> S {
-    let tolerance = S::from_f64(tolerance);
+pub(crate) fn error_norm<S: Scalar>(
+    change: impl Iterator<Item = (S, S, S)>,
+    tolerance: Tolerance<S>,
+) -> S {
     let (mut sum, mut count) = (S::from_f64(0.0), 0.0_f64);
     for (delta, old, new) in change {
-        let weighted = delta / (tolerance + tolerance * old.abs().max(new.abs()));
+        let weighted = delta / tolerance.at(old.abs().max(new.abs()));
         sum = sum + weighted * weighted;
         count += 1.0;
     }

@@ -106,9 +106,17 @@ impl Problem for Plain {
 const EXPLICIT: [Method; 2] = [Method::Dop853, Method::Dopri5];
 const METHODS: [Method; 3] = [Method::Dop853, Method::Dopri5, Method::Radau5];
 
+/// Relative and absolute.
+fn both(tolerance: f64) -> Tolerance {
+    Tolerance {
+        relative: tolerance,
+        absolute: tolerance,
+    }
+}
+
 fn settings(tolerance: f64) -> Settings {
     Settings {
-        tolerance,
+        tolerance: both(tolerance),
         first_step: None,
         max_step: None,
         max_steps: 100_000,

@@ -3,13 +3,15 @@
 use std::ops::ControlFlow;
 
 use super::trouble::{self, Conflict, Pace};
+use crate::diagnose;
 use crate::error::Error;
 use crate::events::{EventHit, States, Watch};
 use crate::integrate::{Next, Problem, Step};
 use crate::linearise::Slopes;
 use crate::mechanism::{Branch, Mechanism, Prepared};
 use crate::scalar::Dual;
-use crate::solver::Solver;
+use crate::scan::largest;
+use crate::solver::{RANK_CEILING, Solver};
 use crate::stabilise::Projector;
 use crate::trajectory::{Ending, Trajectory, Work};
 
@@ -105,7 +107,47 @@ pub(super) struct Run<'a, M> {
     pub(super) trajectory: &'a mut Trajectory<M>,
 }
 
+/// Significance of a constraint, √ε, below which the state cannot tell on which side of a singular position it is.
+const SINGULAR: f64 = 1.5e-8;
+
 impl<M: Mechanism> Run<'_, M> {
+    /// Refuses a step that ends where constraints all but imply each other and that did not begin there.
+    ///
+    /// A significance δ leaves q off by ε/δ, so below √ε the state does not say on which side of the singular position it is, nor which branch of the motion it
+    /// takes: any of them conserves energy. A step that passes over the place is not concerned.
+    fn check_branch(&mut self, step: &Step<'_>) -> Result<(), Error> {
+        if self.solver.take_weakest() > 16.0 * SINGULAR {
+            return Ok(());
+        }
+        if self.weakest_at(step.t, step.y)? > SINGULAR {
+            return Ok(());
+        }
+        let error = self.singular(SINGULAR);
+        let began = self.y.clone();
+        if self.weakest_at(step.t_old, &began)? > SINGULAR {
+            return Err(error);
+        }
+        Ok(())
+    }
+
+    /// An error that names the constraints whose significance in the last solution was not above `significance`.
+    fn singular(&self, significance: f64) -> Error {
+        let weak = self.solver.rows_below(significance).iter();
+        let names = weak.map(|c| M::SPEC.constraints[*c].name.to_owned());
+        Error::Singular {
+            constraints: names.collect(),
+        }
+    }
+
+    /// [`Solver::take_weakest`] at (t, y).
+    fn weakest_at(&mut self, t: f64, y: &[f64]) -> Result<f64, Error> {
+        let (q, v) = y.split_at(self.n);
+        let mut rate = vec![0.0; self.n];
+        self.solver
+            .acceleration_in_run(&self.mechanism, t, q, v, &mut rate)?;
+        Ok(self.solver.take_weakest())
+    }
+
     /// Events and sample at the start.
     pub(super) fn start(&mut self, t: f64, y: &[f64]) -> Result<(), Error> {
         let asked = !self.agenda.wants_end() && self.agenda.next() == Some(t);
@@ -252,6 +294,47 @@ impl<M: Mechanism> Problem for Run<'_, M> {
         Ok(())
     }
 
+    fn jump(&mut self, t: f64, y: &[f64]) -> Option<Error> {
+        let (q, v) = y.split_at(self.n);
+        let (spec, mechanism) = (M::SPEC, &self.mechanism);
+        let mut near = y.to_vec();
+        let (near_q, near_v) = near.split_at_mut(self.n);
+        let projector = &mut self.projector;
+        projector.position(mechanism, t, near_q, v).ok()?;
+        projector.velocity(mechanism, t, near_q, near_v).ok()?;
+        let change = |old: &[f64], new: &[f64]| {
+            let pairs = old.iter().zip(new);
+            pairs.fold(0.0, |s: f64, (a, b)| s.max((a - b).abs() / (1.0 + a.abs())))
+        };
+        let position = change(q, near_q) >= change(v, near_v);
+        let residual = |t: f64| {
+            let mut residual = vec![0.0; spec.m()];
+            if position {
+                mechanism.residual(t, q, &mut residual[..spec.holonomic]);
+            } else {
+                mechanism.residual_rate(t, near_q, v, &mut residual);
+            }
+            residual
+        };
+        // What the time alone has made of it since the last step.
+        let after = residual(t);
+        let size = largest(&after);
+        let pairs = after.iter().zip(residual(self.t));
+        let jumps = pairs.map(|(after, before)| {
+            let alone = (after - before).abs() > 0.5 * size;
+            if alone { *after } else { 0.0 }
+        });
+        let jumps: Vec<f64> = jumps.collect();
+        if jumps.iter().any(|r| *r != 0.0) {
+            return Some(Error::Jump {
+                level: if position { "position" } else { "velocity" },
+                constraints: diagnose::offending(spec, &jumps, &vec![1.0; jumps.len()]),
+            });
+        }
+        let weakest = self.weakest_at(t, &near).ok()?;
+        (weakest <= RANK_CEILING).then(|| self.singular(RANK_CEILING))
+    }
+
     fn next_sample(&self) -> Option<f64> {
         self.agenda.next()
     }
@@ -294,7 +377,8 @@ impl<M: Mechanism> Problem for Run<'_, M> {
         let samples = self.trajectory.times.len();
         let events = self.trajectory.events.len();
         let ending = self.trajectory.ending;
-        if let Err(error) = self.record(step) {
+        let recorded = self.check_branch(step).and_then(|()| self.record(step));
+        if let Err(error) = recorded {
             self.agenda.taken = taken;
             self.trajectory.times.truncate(samples);
             self.trajectory.states.truncate(2 * self.n * samples);

@@ -1,7 +1,7 @@
 //! Why a run cannot go on, in words that help: what is known over several steps, and not in the one that failed last.
 
 use crate::error::Error;
-use crate::integrate::error_norm;
+use crate::integrate::{Tolerance, error_norm};
 use crate::mechanism::{Spec, SwitchSpec};
 
 /// A contradiction seen nearer to where it begins replaces the one seen first while its residual is at least this part of it:
@@ -100,7 +100,7 @@ const CHATTER: f64 = 100.0;
 pub(super) struct Pace {
     /// The terms with a switch; nothing is watched if there are none.
     terms: Vec<String>,
-    tolerance: f64,
+    tolerance: Tolerance,
     /// Steps still allowed, as far as accepted ones count.
     left: usize,
     /// Steps of the window in hand, the time they took, and the changes of the state in units of the tolerance.
@@ -110,7 +110,7 @@ pub(super) struct Pace {
 }
 
 impl Pace {
-    pub(super) fn new(spec: &Spec, tolerance: f64, max_steps: usize) -> Self {
+    pub(super) fn new(spec: &Spec, tolerance: Tolerance, max_steps: usize) -> Self {
         Pace {
             terms: terms(&spec.switches.iter().collect::<Vec<_>>()),
             tolerance,

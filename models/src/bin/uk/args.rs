@@ -29,6 +29,8 @@ pub(crate) enum Command {
     Paper(PaperArgs),
     /// Measure error against run time, for each method, formula and stabilisation, and say which to take for which accuracy
     Report(ReportArgs),
+    /// Stiff and extreme cases: how far each one goes with full accuracy, how far within a bound, and what is refused beyond
+    Stability(StabilityArgs),
     /// List the models, their starts and start options
     List,
     /// Integrate a model
@@ -63,6 +65,15 @@ pub(crate) struct ReportArgs {
     /// A quick look: few tolerances, each timed once
     #[arg(long)]
     pub(crate) quick: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct StabilityArgs {
+    /// Cases to run; all of them if absent (a wrong name lists them)
+    pub(crate) cases: Vec<String>,
+    /// Directory to write index.html, stability.svg, stability.json and stability.csv to
+    #[arg(long, value_name = "DIR", default_value = "out/stability", value_parser = file)]
+    pub(crate) out: PathBuf,
 }
 
 /// Which mechanism, with which parameters, from where.

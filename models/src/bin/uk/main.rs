@@ -12,11 +12,13 @@ mod list;
 mod numbers;
 mod output;
 mod paper;
+mod parallel;
 mod plot;
 mod progress;
 mod report;
 mod run;
 mod scene;
+mod stability;
 mod summary;
 mod units;
 
@@ -33,6 +35,7 @@ fn main() -> ExitCode {
         None => paper::paper(&PaperArgs::default()),
         Some(Command::Paper(args)) => paper::paper(&args),
         Some(Command::Report(args)) => report::report(&args),
+        Some(Command::Stability(args)) => stability::stability(&args),
         Some(Command::List) => list::list(),
         Some(Command::Run(args)) => run::run(&args),
         Some(Command::Explain(args)) => explain::explain(&args),

@@ -68,7 +68,7 @@ fn run_ivp(
 ) -> (usize, Steps) {
     let calls = RefCell::new(0);
     let (f, mut steps) = (Counted { f, calls }, Steps::default());
-    let tolerance = || Tolerance::Scalar(settings.tolerance);
+    let tolerance = || Tolerance::Scalar(settings.tolerance.relative);
     let first_step = settings.first_step;
     let (stiff_test, dense_output) = (usize::MAX, true);
     let result = match method {

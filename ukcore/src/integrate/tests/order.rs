@@ -66,7 +66,7 @@ fn interpolants_and_estimates_converge_with_their_order() {
                 stepper.begin(f, t, &y).unwrap();
                 stepper.attempt(f, t, h, &y).unwrap();
                 stepper.close(f, t + h).unwrap();
-                let estimate = stepper.error(h, &y, 1e-9);
+                let estimate = stepper.error(h, &y, both(1e-9));
                 stepper.interpolate(f, t, h, &y).unwrap();
                 let mut largest = 0.0_f64;
                 for theta in [0.15, 0.3, 0.45, 0.6, 0.75, 0.9] {

@@ -73,7 +73,7 @@ fn steps_estimates_and_interpolants_have_their_order() {
                 s,
                 s_end,
                 h,
-                tolerance,
+                tolerance: both(tolerance),
             };
             assert!(scheme.begin(&mut equations, 0.0, &start).is_ok());
             let estimate = scheme.attempt(&mut equations, step, &start);

@@ -7,7 +7,7 @@ use super::{Ensemble, Member};
 use crate::assemble::State;
 use crate::error::Error;
 use crate::integrate::{
-    Clock, Guess, Interpolant, PROJECTION_LIMIT, Plan, StepSize, Stepper, error_norm,
+    Clock, Guess, Interpolant, PROJECTION_LIMIT, Plan, StepSize, Stepper, Tolerance, error_norm,
 };
 use crate::lanes::{LaneProjector, LaneSolver, Lanes};
 use crate::mechanism::{Mechanism, Prepared};
@@ -32,6 +32,7 @@ struct Running<M> {
     h: f64,
     plan: Plan,
     step_size: StepSize,
+    tolerance: Tolerance,
     attempts: usize,
     agenda: Agenda,
     samples: Vec<State>,
@@ -208,6 +209,14 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
         }
     }
 
+    /// Tolerances of the lanes.
+    fn tolerance(&self, equations: &Equations<M, L>) -> Tolerance<L> {
+        Tolerance {
+            relative: self.ensemble.tolerance,
+            absolute: equations.each(|r| r.tolerance.absolute),
+        }
+    }
+
     /// Member `index`, checked, with its consistent start in lane `k`.
     fn admit(&mut self, index: usize, k: usize) -> Result<Running<M>, Error> {
         let simulation = self.ensemble.simulation(index);
@@ -218,6 +227,7 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
         for (y, x) in self.y.iter_mut().zip(start.q.iter().chain(&start.v)) {
             y.set_lane(k, *x);
         }
+        let tolerance = simulation.tolerance_from(&lane(&self.y, k));
         let mut agenda = Agenda::new(simulation.sampling, t0, t_end);
         let mut samples = Vec::new();
         let asked = !agenda.wants_end() && agenda.next() == Some(t0);
@@ -229,7 +239,7 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
         }
         let sign = if t_end < t0 { -1.0 } else { 1.0 };
         let clock = Clock { t0, sign };
-        let (tolerance, max_steps) = (self.ensemble.tolerance, self.ensemble.max_steps);
+        let max_steps = self.ensemble.max_steps;
         Ok(Running {
             index,
             mechanism: simulation.mechanism.prepared(),
@@ -239,6 +249,7 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
             h: 0.0,
             plan: Plan::default(),
             step_size: StepSize::new(),
+            tolerance,
             attempts: 0,
             agenda,
             samples,
@@ -252,7 +263,6 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
 
     /// Evaluates f at the start of `fresh` members, and chooses their first step sizes.
     fn begin(&mut self, equations: &mut Equations<M, L>, fresh: Vec<bool>) {
-        let tolerance = self.ensemble.tolerance;
         let control = &self.stepper.tableau().control;
         let half = L::from_f64(0.5);
         let new = mask::<L>(&fresh);
@@ -283,7 +293,7 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
         let mut guesses = vec![None; L::WIDTH];
         for (k, running) in equations.running().filter(|(k, _)| alive[*k]) {
             let pairs = y.iter().zip(&*rate).map(|(y, f)| (y.lane(k), f.lane(k)));
-            let guess = Guess::new(pairs, tolerance, running.end.0);
+            let guess = Guess::new(pairs, running.tolerance, running.end.0);
             running.h = guess.h;
             guesses[k] = Some(guess);
         }
@@ -301,7 +311,7 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
             if let (Some(guess), true) = (guesses[k], still[k]) {
                 let triples = y.iter().zip(&*rate).zip(after);
                 let triples = triples.map(|((y, f), g)| (y.lane(k), f.lane(k), g.lane(k)));
-                running.h = guess.refine(triples, control.order, tolerance, running.end.0);
+                running.h = guess.refine(triples, control.order, running.tolerance, running.end.0);
             }
         }
     }
@@ -346,7 +356,7 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
 
     /// Tries the planned steps, and moves on in the lanes where they are good.
     fn attempt(&mut self, equations: &mut Equations<M, L>) {
-        let tolerance = self.ensemble.tolerance;
+        let tolerance = self.tolerance(equations);
         let control = &self.stepper.tableau().control;
         let start = equations.each(|r| r.clock.sign * r.now.0);
         let step = equations.each(|r| r.clock.sign * r.plan.size);
@@ -443,6 +453,7 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
     /// Projects the new states. Lanes where that fails, or the change says that the step was a bad one, take no further part.
     fn project(&mut self, equations: &mut Equations<M, L>) {
         let n = M::SPEC.n();
+        let tolerance = self.tolerance(equations);
         let new = self.stepper.state_mut();
         self.raw.copy_from_slice(new);
         let wanted = mask::<L>(&equations.alive);
@@ -479,7 +490,7 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
         }
         let changes = self.raw.iter().zip(&*new).zip(&self.y);
         let changes = changes.map(|((raw, new), old)| (*new - *raw, *old, *raw));
-        let change = error_norm(changes, self.ensemble.tolerance);
+        let change = error_norm(changes, tolerance);
         for (k, alive) in alive.iter_mut().enumerate() {
             *alive &= change.lane(k) <= PROJECTION_LIMIT;
         }

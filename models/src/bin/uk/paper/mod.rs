@@ -7,7 +7,6 @@ mod fish;
 mod measure;
 mod motion;
 mod page;
-mod parallel;
 mod published;
 
 use std::io;
@@ -20,6 +19,7 @@ use serde::Serialize;
 use crate::args::PaperArgs;
 use crate::failure::Failure;
 use crate::output;
+use crate::parallel;
 use crate::progress::Progress;
 
 use chain::{Chain, ChainRow};

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 /// `f` of every item. `done` hears, on whichever thread finishes an item, how many are finished.
-pub(super) fn map<I: Sync, O: Send>(
+pub(crate) fn map<I: Sync, O: Send>(
     items: &[I],
     f: impl Fn(&I) -> O + Sync,
     done: impl Fn(usize) + Sync,
