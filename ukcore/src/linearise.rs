@@ -21,11 +21,8 @@ use crate::scalar::{Dual, Scalar};
 use crate::scan::all_finite;
 use crate::solver::{Baumgarte, Solver, SolverOptions};
 
-/// Numbers that carry the directions of a sweep.
-#[cfg(feature = "lanes")]
-type Wide = wide::f64x8;
-/// Numbers that carry the directions of a sweep.
-#[cfg(not(feature = "lanes"))]
+/// Numbers that carry the directions of a sweep: one alone. Code for eight lanes takes as long to compile as all the rest of a simulation, and gains little
+/// where registers are narrow.
 type Wide = f64;
 
 /// q̈ and its derivatives at a state. Matrices are column-major: a column for each direction, a row for each coordinate.

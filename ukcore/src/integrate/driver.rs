@@ -34,8 +34,8 @@ struct Goal {
     error: f64,
 }
 
-struct Driver<'p, P, X> {
-    equations: Equations<'p, P>,
+struct Driver<'p, X> {
+    equations: Equations<'p>,
     settings: &'p Settings,
     clock: Clock,
     t_end: f64,
@@ -59,9 +59,9 @@ struct Driver<'p, P, X> {
 }
 
 /// [`Method::run`](super::Method::run).
-pub(super) fn run<P: Problem>(
+pub(super) fn run(
     method: Method,
-    problem: &mut P,
+    problem: &mut dyn Problem,
     t0: f64,
     y0: &[f64],
     t_end: f64,
@@ -91,10 +91,10 @@ pub(super) fn run<P: Problem>(
 }
 
 /// The same with a scheme.
-fn drive<P: Problem, X: Scheme>(
+fn drive<X: Scheme>(
     scheme: X,
     switches: Switches,
-    problem: &mut P,
+    problem: &mut dyn Problem,
     t0: f64,
     y0: &[f64],
     t_end: f64,
@@ -141,7 +141,7 @@ fn drive<P: Problem, X: Scheme>(
     }
 }
 
-impl<P: Problem, X: Scheme> Driver<'_, P, X> {
+impl<X: Scheme> Driver<'_, X> {
     /// All steps. An error says that there is no next one; [`Driver::trouble`], if there is one, is its cause.
     fn run(&mut self) -> Result<Outcome, Error> {
         let largest = self.largest_step();

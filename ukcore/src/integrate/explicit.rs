@@ -1,10 +1,10 @@
 //! The explicit Runge-Kutta methods as schemes.
 
+use super::Tolerance;
 use super::control::{Guess, StepSize};
 use super::scheme::{Attempt, Equations, NoRate, Scheme};
 use super::stepper::Stepper;
 use super::tableau::Tableau;
-use super::{Problem, Tolerance};
 
 /// A [`Stepper`] of one lane, and its step size.
 pub(super) struct Explicit {
@@ -29,19 +29,14 @@ impl Explicit {
 }
 
 impl Scheme for Explicit {
-    fn begin<P: Problem>(
-        &mut self,
-        equations: &mut Equations<'_, P>,
-        s: f64,
-        y: &[f64],
-    ) -> Result<(), NoRate> {
+    fn begin(&mut self, equations: &mut Equations<'_>, s: f64, y: &[f64]) -> Result<(), NoRate> {
         let f = |s, y: &[f64], rate: &mut [f64]| equations.rate(s, y, rate);
         self.stepper.begin(f, s, y)
     }
 
-    fn first_size<P: Problem>(
+    fn first_size(
         &mut self,
-        equations: &mut Equations<'_, P>,
+        equations: &mut Equations<'_>,
         y: &[f64],
         sign: f64,
         tolerance: Tolerance,
@@ -58,9 +53,9 @@ impl Scheme for Explicit {
         guess.refine(start, self.tableau.control.order, tolerance, largest)
     }
 
-    fn attempt<P: Problem>(
+    fn attempt(
         &mut self,
-        equations: &mut Equations<'_, P>,
+        equations: &mut Equations<'_>,
         step: Attempt,
         y: &[f64],
     ) -> Result<f64, NoRate> {
@@ -81,9 +76,9 @@ impl Scheme for Explicit {
         self.stepper.state_mut()
     }
 
-    fn close<P: Problem>(
+    fn close(
         &mut self,
-        equations: &mut Equations<'_, P>,
+        equations: &mut Equations<'_>,
         step: Attempt,
         y: &[f64],
     ) -> Result<f64, NoRate> {
@@ -96,9 +91,9 @@ impl Scheme for Explicit {
         })
     }
 
-    fn interpolate<P: Problem>(
+    fn interpolate(
         &mut self,
-        equations: &mut Equations<'_, P>,
+        equations: &mut Equations<'_>,
         step: Attempt,
         y: &[f64],
     ) -> Result<(), NoRate> {

@@ -88,7 +88,8 @@ impl fmt::Display for Method {
 /// another one. In both cases the step does not have the accuracy that was asked for.
 pub const PROJECTION_LIMIT: f64 = 10.0;
 
-/// What is to be integrated, and what is to be done along the way.
+/// What is to be integrated, and what is to be done along the way. Methods take it as `dyn`: they are compiled once and not for each mechanism, and a call more is
+/// little beside an evaluation.
 pub(crate) trait Problem {
     /// y' at (t, y) into `rate`. After far too long a step y may not be finite; an error there only shortens the step.
     fn derivative(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Error>;
@@ -210,7 +211,7 @@ impl Method {
     /// Integrates from (t0, y0) to `t_end` ≠ t0, in either direction.
     pub(crate) fn run(
         self,
-        problem: &mut impl Problem,
+        problem: &mut dyn Problem,
         t0: f64,
         y0: &[f64],
         t_end: f64,

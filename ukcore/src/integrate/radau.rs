@@ -16,10 +16,10 @@
 
 pub(super) mod newton;
 
+use super::Tolerance;
 use super::control::Guess;
 use super::scheme::{Attempt, Equations, NoRate, Scheme};
 use super::sums::{sum_of_squares, weights};
-use super::{Problem, Tolerance};
 use newton::{Matrices, Newton, Solved};
 
 /// (4 ∓ √6)/10 and 1: the stages, §IV.5 (table 5.6).
@@ -145,10 +145,10 @@ impl Radau {
     }
 
     /// The stages; `false` if they are not found.
-    fn solve<P: Problem>(
+    fn solve(
         &mut self,
         matrices: Matrices,
-        equations: &mut Equations<'_, P>,
+        equations: &mut Equations<'_>,
         step: Attempt,
         y: &[f64],
         tolerance: f64,
@@ -166,12 +166,7 @@ impl Radau {
     }
 
     /// The error of the attempted step in the error norm, eq. (8.20); where a first or repeated step fails by it, the estimate of eq. (8.21).
-    fn estimate<P: Problem>(
-        &mut self,
-        equations: &mut Equations<'_, P>,
-        step: Attempt,
-        y: &[f64],
-    ) -> f64 {
+    fn estimate(&mut self, equations: &mut Equations<'_>, step: Attempt, y: &[f64]) -> f64 {
         let norm = |error: &[f64], weights: &[f64]| {
             (sum_of_squares(error, weights) / weights.len().max(1) as f64).sqrt()
         };
@@ -205,20 +200,15 @@ impl Radau {
 }
 
 impl Scheme for Radau {
-    fn begin<P: Problem>(
-        &mut self,
-        equations: &mut Equations<'_, P>,
-        s: f64,
-        y: &[f64],
-    ) -> Result<(), NoRate> {
+    fn begin(&mut self, equations: &mut Equations<'_>, s: f64, y: &[f64]) -> Result<(), NoRate> {
         self.newton.forget();
         self.h_previous = None;
         equations.rate(s, y, &mut self.rate)
     }
 
-    fn first_size<P: Problem>(
+    fn first_size(
         &mut self,
-        equations: &mut Equations<'_, P>,
+        equations: &mut Equations<'_>,
         y: &[f64],
         sign: f64,
         tolerance: Tolerance,
@@ -239,9 +229,9 @@ impl Scheme for Radau {
         guess.refine(start, ORDER, tolerance, largest)
     }
 
-    fn attempt<P: Problem>(
+    fn attempt(
         &mut self,
-        equations: &mut Equations<'_, P>,
+        equations: &mut Equations<'_>,
         step: Attempt,
         y: &[f64],
     ) -> Result<f64, NoRate> {
@@ -284,9 +274,9 @@ impl Scheme for Radau {
         &mut self.new
     }
 
-    fn close<P: Problem>(
+    fn close(
         &mut self,
-        equations: &mut Equations<'_, P>,
+        equations: &mut Equations<'_>,
         step: Attempt,
         y: &[f64],
     ) -> Result<f64, NoRate> {
@@ -312,12 +302,7 @@ impl Scheme for Radau {
         Ok(0.0)
     }
 
-    fn interpolate<P: Problem>(
-        &mut self,
-        _: &mut Equations<'_, P>,
-        _: Attempt,
-        _: &[f64],
-    ) -> Result<(), NoRate> {
+    fn interpolate(&mut self, _: &mut Equations<'_>, _: Attempt, _: &[f64]) -> Result<(), NoRate> {
         Ok(())
     }
 

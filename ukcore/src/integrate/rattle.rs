@@ -10,9 +10,9 @@
 //!
 //! A stage is symmetric and of order 2. Five of them with sizes γh, γh, (1 − 4γ)h, γh, γh make order 4 (Suzuki's composition, §II.4).
 
+use super::Tolerance;
 use super::dense::cubic;
 use super::scheme::{Attempt, Equations, NoRate, Scheme, no_rate};
-use super::{Problem, Tolerance};
 use crate::error::Error;
 
 /// γ = 1/(4 − ∛4).
@@ -61,12 +61,7 @@ impl Rattle {
     }
 
     /// A stage of signed size `h` that ends at `s`.
-    fn stage<P: Problem>(
-        &mut self,
-        equations: &mut Equations<'_, P>,
-        s: f64,
-        h: f64,
-    ) -> Result<(), NoRate> {
+    fn stage(&mut self, equations: &mut Equations<'_>, s: f64, h: f64) -> Result<(), NoRate> {
         let n = self.n;
         let t = equations.t0 + s;
         let (q, v) = self.new.split_at_mut(n);
@@ -107,18 +102,13 @@ fn add(x: &mut [f64], lost: &mut [f64], c: f64, d: &[f64]) {
 }
 
 impl Scheme for Rattle {
-    fn begin<P: Problem>(
-        &mut self,
-        equations: &mut Equations<'_, P>,
-        s: f64,
-        y: &[f64],
-    ) -> Result<(), NoRate> {
+    fn begin(&mut self, equations: &mut Equations<'_>, s: f64, y: &[f64]) -> Result<(), NoRate> {
         equations.rate(s, y, &mut self.rate)
     }
 
-    fn first_size<P: Problem>(
+    fn first_size(
         &mut self,
-        _: &mut Equations<'_, P>,
+        _: &mut Equations<'_>,
         _: &[f64],
         _: f64,
         _: Tolerance,
@@ -127,9 +117,9 @@ impl Scheme for Rattle {
         self.step
     }
 
-    fn attempt<P: Problem>(
+    fn attempt(
         &mut self,
-        equations: &mut Equations<'_, P>,
+        equations: &mut Equations<'_>,
         step: Attempt,
         y: &[f64],
     ) -> Result<f64, NoRate> {
@@ -156,19 +146,14 @@ impl Scheme for Rattle {
         true
     }
 
-    fn close<P: Problem>(
-        &mut self,
-        _: &mut Equations<'_, P>,
-        _: Attempt,
-        _: &[f64],
-    ) -> Result<f64, NoRate> {
+    fn close(&mut self, _: &mut Equations<'_>, _: Attempt, _: &[f64]) -> Result<f64, NoRate> {
         Ok(0.0)
     }
 
     /// The cubic through states and rates at both ends: of the order of the method.
-    fn interpolate<P: Problem>(
+    fn interpolate(
         &mut self,
-        equations: &mut Equations<'_, P>,
+        equations: &mut Equations<'_>,
         step: Attempt,
         y: &[f64],
     ) -> Result<(), NoRate> {

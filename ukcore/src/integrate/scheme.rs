@@ -19,13 +19,13 @@ pub(super) struct Trouble {
 pub(super) type NoRate = Option<Trouble>;
 
 /// The problem's functions over s, the signed time since the start of the run.
-pub(super) struct Equations<'p, P> {
-    pub(super) problem: &'p mut P,
+pub(super) struct Equations<'p> {
+    pub(super) problem: &'p mut (dyn Problem + 'p),
     pub(super) t0: f64,
     pub(super) switches: Switches,
 }
 
-impl<P: Problem> Equations<'_, P> {
+impl Equations<'_> {
     /// y' at (s, y) into `rate`.
     pub(super) fn rate(&mut self, s: f64, y: &[f64], rate: &mut [f64]) -> Result<(), NoRate> {
         let t = self.t0 + s;
@@ -76,17 +76,12 @@ pub(super) struct Attempt {
 /// [`inaccurate`](Scheme::inaccurate) or [`unfit`](Scheme::unfit) shortens the step, and it is tried again.
 pub(super) trait Scheme {
     /// Evaluates f at (s, y), at the start of the run or where f has changed there: nothing before counts any more.
-    fn begin<P: Problem>(
-        &mut self,
-        equations: &mut Equations<'_, P>,
-        s: f64,
-        y: &[f64],
-    ) -> Result<(), NoRate>;
+    fn begin(&mut self, equations: &mut Equations<'_>, s: f64, y: &[f64]) -> Result<(), NoRate>;
 
     /// Size of the first step, at most `largest`, going in the direction `sign`. Comes after [`begin`](Scheme::begin).
-    fn first_size<P: Problem>(
+    fn first_size(
         &mut self,
-        equations: &mut Equations<'_, P>,
+        equations: &mut Equations<'_>,
         y: &[f64],
         sign: f64,
         tolerance: Tolerance,
@@ -94,9 +89,9 @@ pub(super) trait Scheme {
     ) -> f64;
 
     /// Makes the step from `y` up to its unprojected end. Returns its error in the [error norm](super); 0 if that is known only when the step is closed.
-    fn attempt<P: Problem>(
+    fn attempt(
         &mut self,
-        equations: &mut Equations<'_, P>,
+        equations: &mut Equations<'_>,
         step: Attempt,
         y: &[f64],
     ) -> Result<f64, NoRate>;
@@ -113,17 +108,17 @@ pub(super) trait Scheme {
     }
 
     /// Evaluates f at the end of the attempted step. Returns its error if that is known only now, else 0.
-    fn close<P: Problem>(
+    fn close(
         &mut self,
-        equations: &mut Equations<'_, P>,
+        equations: &mut Equations<'_>,
         step: Attempt,
         y: &[f64],
     ) -> Result<f64, NoRate>;
 
     /// Makes the [coefficients](Scheme::dense) of the interpolant of the closed step.
-    fn interpolate<P: Problem>(
+    fn interpolate(
         &mut self,
-        equations: &mut Equations<'_, P>,
+        equations: &mut Equations<'_>,
         step: Attempt,
         y: &[f64],
     ) -> Result<(), NoRate>;

@@ -75,13 +75,13 @@ impl Switches {
         self.branches[k].sign() * (g - self.levels[k])
     }
 
-    pub(super) fn hold(&mut self, problem: &mut impl Problem, k: usize, branch: Branch) {
+    pub(super) fn hold(&mut self, problem: &mut dyn Problem, k: usize, branch: Branch) {
         self.branches[k] = branch;
         problem.hold(k, branch);
     }
 
     /// Holds switch k in the other branch.
-    pub(super) fn flip(&mut self, problem: &mut impl Problem, k: usize) {
+    pub(super) fn flip(&mut self, problem: &mut dyn Problem, k: usize) {
         let other = match self.branches[k] {
             Branch::Followed => Branch::Followed,
             Branch::Negative => Branch::Positive,
@@ -92,7 +92,7 @@ impl Switches {
     }
 
     /// Holds each switch in the branch of its value at the start of a run; returns those that are zero, which are followed.
-    pub(super) fn start(&mut self, problem: &mut impl Problem, t: f64, y: &[f64]) -> Vec<usize> {
+    pub(super) fn start(&mut self, problem: &mut dyn Problem, t: f64, y: &[f64]) -> Vec<usize> {
         if self.is_empty() {
             return Vec::new();
         }
@@ -104,7 +104,7 @@ impl Switches {
         (0..self.branches.len()).filter(zero).collect()
     }
 
-    fn adopt(&mut self, problem: &mut impl Problem, k: usize) {
+    fn adopt(&mut self, problem: &mut dyn Problem, k: usize) {
         let g = self.values[k];
         if g > 0.0 {
             self.hold(problem, k, Branch::Positive);
@@ -119,7 +119,7 @@ impl Switches {
     }
 
     /// y' is to be evaluated at (t, y).
-    pub(super) fn look(&mut self, problem: &mut impl Problem, t: f64, y: &[f64]) {
+    pub(super) fn look(&mut self, problem: &mut dyn Problem, t: f64, y: &[f64]) {
         if self.is_empty() || self.doubt {
             return;
         }
@@ -129,7 +129,7 @@ impl Switches {
     }
 
     /// Follows all switches again where the step in hand was outside of a branch; returns whether it was.
-    pub(super) fn release(&mut self, problem: &mut impl Problem) -> bool {
+    pub(super) fn release(&mut self, problem: &mut dyn Problem) -> bool {
         if self.doubt {
             for k in 0..self.branches.len() {
                 self.hold(problem, k, Branch::Followed);
@@ -139,7 +139,7 @@ impl Switches {
     }
 
     /// Whether the step may have left its branches, which ends at (t, y).
-    pub(super) fn suspect(&mut self, problem: &mut impl Problem, t: f64, y: &[f64]) -> bool {
+    pub(super) fn suspect(&mut self, problem: &mut dyn Problem, t: f64, y: &[f64]) -> bool {
         self.look(problem, t, y);
         self.doubt
     }
@@ -148,7 +148,7 @@ impl Switches {
     /// goes onto do not count.
     pub(super) fn search(
         &mut self,
-        problem: &mut impl Problem,
+        problem: &mut dyn Problem,
         time: impl Fn(f64) -> f64,
         coefficients: &[f64],
     ) -> Option<Leaving> {
@@ -210,7 +210,7 @@ impl Switches {
     }
 
     /// The run has got to (t, y).
-    pub(super) fn arrive(&mut self, problem: &mut impl Problem, t: f64, y: &[f64]) {
+    pub(super) fn arrive(&mut self, problem: &mut dyn Problem, t: f64, y: &[f64]) {
         if self.is_empty() {
             return;
         }
@@ -234,7 +234,7 @@ impl Switches {
     /// The derivatives of the functions by time at (t, y), where y' is `rate`.
     pub(super) fn rates(
         &self,
-        problem: &mut impl Problem,
+        problem: &mut dyn Problem,
         t: f64,
         y: &[f64],
         rate: &[f64],

@@ -3,7 +3,6 @@
 use nalgebra::Complex;
 
 use super::C;
-use crate::integrate::Problem;
 use crate::integrate::scheme::{Attempt, Equations, NoRate};
 use crate::lu::Lu;
 
@@ -234,9 +233,9 @@ impl Newton {
     }
 
     /// Jacobian and factors for `step` from `y`, as far as those in hand will not do.
-    pub(super) fn prepare<P: Problem>(
+    pub(super) fn prepare(
         &mut self,
-        equations: &mut Equations<'_, P>,
+        equations: &mut Equations<'_>,
         step: Attempt,
         y: &[f64],
     ) -> Result<(), NoRate> {
@@ -271,10 +270,10 @@ impl Newton {
     }
 
     /// From starting values w to the stages of `step` from `y`. `tolerance` is that of `weights`.
-    pub(super) fn solve<P: Problem>(
+    pub(super) fn solve(
         &mut self,
         matrices: Matrices,
-        equations: &mut Equations<'_, P>,
+        equations: &mut Equations<'_>,
         step: Attempt,
         y: &[f64],
         weights: &[f64],
@@ -374,10 +373,10 @@ impl Newton {
     }
 
     /// a at the stages; `anew` also the Jacobians there, and the matrix of all stages, factored. `false` if that is singular.
-    fn evaluate<P: Problem>(
+    fn evaluate(
         &mut self,
         anew: bool,
-        equations: &mut Equations<'_, P>,
+        equations: &mut Equations<'_>,
         step: Attempt,
         y: &[f64],
     ) -> Result<bool, NoRate> {

@@ -1,0 +1,26 @@
+//! All tests of this crate as one program: what they share is compiled and linked once.
+
+mod allocation;
+mod certificate;
+mod closed_forms;
+mod derivatives;
+mod ensemble;
+mod equilibrium;
+mod failures;
+mod formulas;
+mod invariants;
+mod kinks;
+mod lanes;
+mod language;
+mod layers;
+mod linearise;
+mod paper_fish;
+mod paper_uchain;
+mod plan;
+mod projection;
+mod rattle;
+mod redundant_loop;
+mod registry;
+mod stability;
+mod stiff;
+mod switches;
