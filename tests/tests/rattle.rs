@@ -2,7 +2,7 @@
 
 use models::{
     DoublePendulum, FishRobot, KnifeEdge, MasslessSpring, Model, Pendulum, RigidBody,
-    SliderCrankRedundant, StartOptions, UChain,
+    SliderCrankRedundant, SpringPendulum, StartOptions, UChain,
 };
 use tests::largest;
 use ukcore::{Baumgarte, Error, Method, Simulation, Stabilisation, State, Trajectory};
@@ -161,6 +161,37 @@ fn what_it_cannot_do_is_refused_by_name() {
         baumgarte.contains("keeps the constraints by itself"),
         "{baumgarte}"
     );
+}
+
+/// Too long a step for a stiff spring makes the energy grow from step to step: no result is better than such a one.
+#[test]
+fn steps_with_which_the_energy_runs_away_are_an_error() {
+    let mech = SpringPendulum::default();
+    let start = mech.default_start().expect("a start");
+    for step in [0.05, 0.1, 0.2] {
+        let run = Simulation::new(mech.clone()).start(start.clone());
+        let failure = run.method(Method::Rattle { step }).until(5.0);
+        let message = failure.expect_err("not a motion").error.to_string();
+        assert!(
+            message.contains("`step` is") && message.contains("too long"),
+            "{message}"
+        );
+    }
+    // A chain at rest in equilibrium exchanges no energy at all.
+    let chain = UChain::default();
+    let hanging = State {
+        t: 0.0,
+        q: hanging(),
+        v: vec![0.0; 34],
+    };
+    let run = run(chain, hanging, 0.01, 1.0, 0.1);
+    assert_eq!(run.work().steps, 100);
+}
+
+/// Straight down from the support.
+fn hanging() -> Vec<f64> {
+    let down = (0..17).rev().map(|i| f64::from(i) + 1.0);
+    std::iter::repeat_n(0.0, 17).chain(down).collect()
 }
 
 #[test]

@@ -385,7 +385,7 @@ fn random_mechanisms_come_out_right_or_are_refused_by_name() {
     assert!(outcomes.right > 1200 && outcomes.run > 50, "{outcomes:?}");
 }
 
-/// The same over as many seeds as one has patience for: `HUNT=100000 cargo test --release -p tests --test stability -- --ignored --nocapture`.
+/// The same over as many seeds as one has patience for: `HUNT=100000 cargo test --release -p tests hunt -- --ignored --nocapture`.
 #[test]
 #[ignore = "a hunt over many seeds"]
 fn hunt() {

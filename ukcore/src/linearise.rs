@@ -1,6 +1,6 @@
 //! Exact derivatives of the accelerations: ∂q̈/∂(t, q, q̇, parameters) at a state.
 //!
-//! Emitted code runs on [`Dual`] numbers whose lanes each carry another direction, so that one sweep gives as many columns as there are lanes. Where
+//! Emitted code runs on [`Dual`] numbers, a sweep for each direction. Where
 //! there is an emitted elimination and its certificate holds, it is differentiated as it stands. Elsewhere the solution is
 //! differentiated implicitly: from M q̈ = Q + c + Aᵀλ and A q̈ = b follow
 //!

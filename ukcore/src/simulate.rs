@@ -9,6 +9,7 @@ use crate::error::Error;
 use crate::events::{Event, Watch};
 use crate::integrate::{Method, Outcome, Settings, Tolerance};
 use crate::mechanism::Mechanism;
+use crate::scan::largest;
 use crate::solver::{Formula, Solver, SolverOptions};
 use crate::stabilise::{Projector, Stabilisation};
 use crate::trajectory::{Ending, Trajectory, Work};
@@ -21,7 +22,7 @@ mod run;
 mod tests;
 mod trouble;
 
-use run::{Agenda, Progress, Run, Sampling, at};
+use run::{Agenda, Keeper, Progress, Run, Sampling, at};
 use trouble::{Conflict, Pace};
 
 /// How far a start may be off the constraints: projection may move a coordinate by this part of the largest one (a
@@ -131,8 +132,9 @@ impl<M: Mechanism> Simulation<M> {
 
     /// Absolute tolerance of each step: the error allowed in a coordinate or velocity near zero, in its own unit; positive.
     ///
-    /// By default it is the relative one times the size of the start, the largest coordinate or velocity there, but at most times 1. So a mechanism of
-    /// micrometres is as exact in metres as one of metres. Coordinates of different units share it: the smallest that matters should decide.
+    /// By default it is the relative one times the size of the start: the largest coordinate or velocity there or, if that is more, the largest length in a
+    /// holonomic constraint; but at most times 1. So a mechanism of micrometres is as exact in metres as one of metres. Coordinates of different units share
+    /// it: the smallest that matters should decide.
     #[must_use]
     pub fn absolute_tolerance(mut self, tolerance: f64) -> Self {
         self.absolute = Some(tolerance);
@@ -250,8 +252,9 @@ impl<M: Mechanism> Simulation<M> {
             return Err(fail(error, trajectory));
         }
         let mut projector = Projector::new::<M>();
-        let state = match self.consistent_start(&mut projector, &mut trajectory.work) {
-            Ok(state) => state,
+        let start = self.consistent_start(&mut projector, &mut trajectory.work);
+        let (state, tolerance) = match start {
+            Ok(start) => start,
             Err(error) => return Err(fail(error, trajectory)),
         };
         let t0 = state.t;
@@ -262,7 +265,6 @@ impl<M: Mechanism> Simulation<M> {
         if self.dense {
             trajectory.segments = Some(Vec::new());
         }
-        let tolerance = self.tolerance_from(&y);
         let settings = Settings {
             tolerance,
             first_step: self.first_step,
@@ -272,7 +274,14 @@ impl<M: Mechanism> Simulation<M> {
         };
         let n = M::SPEC.n();
         let locate = self.switching == Switching::Located && !M::SPEC.switches.is_empty();
+        let mut keeper = None;
+        if let Method::Rattle { step } = self.method {
+            let (q, v) = y.split_at(n);
+            let energy = self.mechanism.prepared().energy(t0, q, v);
+            keeper = Some(Keeper::new(step, energy));
+        }
         let mut run = Run {
+            keeper,
             mechanism: self.mechanism.prepared(),
             located: locate.then(|| self.mechanism.prepared()),
             solver: Solver::new::<M>(options),
@@ -446,8 +455,12 @@ impl<M: Mechanism> Simulation<M> {
         Ok(())
     }
 
-    /// The start, checked and projected.
-    fn consistent_start(&self, projector: &mut Projector, work: &mut Work) -> Result<State, Error> {
+    /// The start, checked and projected, and the tolerance of a run from there.
+    fn consistent_start(
+        &self,
+        projector: &mut Projector,
+        work: &mut Work,
+    ) -> Result<(State, Tolerance), Error> {
         let spec = M::SPEC;
         let Some(State { t, q, v }) = self.start.clone() else {
             let what = "start";
@@ -463,7 +476,13 @@ impl<M: Mechanism> Simulation<M> {
         angles::check(spec, &q)?;
         let (mut new_q, mut new_v) = (q.clone(), v.clone());
         let position = projector.position(&mech, t, &mut new_q, &v)?;
-        let absolute = self.tolerance_from(&[&q[..], &v].concat()).absolute;
+        let mut size = largest(&q).max(largest(&v));
+        if size < 1.0 {
+            // Coordinates may be measured from where they start; rounding, for one, is then not that of their size.
+            size = size.max(projector.length(&mech, t, &new_q, &v));
+        }
+        let tolerance = self.tolerance_of(size);
+        let absolute = tolerance.absolute;
         if !near(&q, &new_q, absolute) {
             let mut residual = vec![0.0; spec.holonomic];
             mech.residual(t, &q, &mut residual);
@@ -477,16 +496,16 @@ impl<M: Mechanism> Simulation<M> {
         }
         work.projections += 1;
         work.projection_iterations += position.iterations + velocity.iterations;
-        Ok(State {
+        let state = State {
             t,
             q: new_q,
             v: new_v,
-        })
+        };
+        Ok((state, tolerance))
     }
 
-    /// The tolerance of a run that starts at y = \[q; q̇\].
-    fn tolerance_from(&self, y: &[f64]) -> Tolerance {
-        let size = y.iter().fold(0.0, |s: f64, x| s.max(x.abs()));
+    /// The tolerance of a run whose start has this size.
+    fn tolerance_of(&self, size: f64) -> Tolerance {
         // A start at zero in all coordinates has no size.
         let size = if size > 0.0 { size.min(1.0) } else { 1.0 };
         Tolerance {
@@ -498,8 +517,7 @@ impl<M: Mechanism> Simulation<M> {
 
 /// Whether a projection from `before` to `after` is within [`START_BOUND`] and the absolute tolerance.
 fn near(before: &[f64], after: &[f64], absolute: f64) -> bool {
-    let size = before.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-    let bound = START_BOUND * size + absolute;
+    let bound = START_BOUND * largest(before) + absolute;
     let mut pairs = before.iter().zip(after);
     pairs.all(|(before, after)| (after - before).abs() <= bound)
 }

@@ -258,6 +258,24 @@ impl Projector {
         }
     }
 
+    /// The largest length in a holonomic constraint at q, in the unit of the coordinates: what rounding makes of φ, over ε max|A_cj|. 0 without such constraints.
+    #[cfg(feature = "simulate")]
+    pub(crate) fn length<M: Mechanism>(
+        &mut self,
+        mech: &Prepared<M>,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+    ) -> f64 {
+        self.size = 0.0;
+        self.jacobian(mech, t, q, v, Level::Position);
+        self.weigh::<M>(q);
+        self.measure_rounding(mech, t, q, v, Level::Position);
+        let sizes = self.rounding[..self.holonomic].iter().zip(&self.largest);
+        let lengths = sizes.filter(|(_, entry)| **entry > 0.0);
+        lengths.fold(0.0, |s: f64, (r, entry)| s.max(r / entry))
+    }
+
     fn jacobian<M: Mechanism>(
         &mut self,
         mech: &Prepared<M>,

@@ -34,6 +34,9 @@ struct Goal {
     error: f64,
 }
 
+/// A step of this share of the run is short enough to tell when a constraint jumps.
+const NEAR: f64 = 1e-9;
+
 struct Driver<'p, X> {
     equations: Equations<'p>,
     settings: &'p Settings,
@@ -268,7 +271,10 @@ impl<X: Scheme> Driver<'_, X> {
         self.scheme.advance(&mut self.y);
         (self.s, self.t) = (s, t);
         self.steps += 1;
-        self.trouble = None;
+        // What lies close ahead is still to come, and may leave no room for a step.
+        let (sign, reach) = (self.clock.sign, NEAR * self.s_end);
+        let ahead = |trouble: &mut Trouble| (0.0..=reach).contains(&(sign * (trouble.t - t)));
+        self.trouble = self.trouble.take_if(ahead);
         Ok((next, error))
     }
 
@@ -297,8 +303,10 @@ impl<X: Scheme> Driver<'_, X> {
         if error_norm(change, self.settings.tolerance) <= PROJECTION_LIMIT {
             return Ok(());
         }
-        let error = self.equations.problem.jump(t, &self.raw);
-        Err(Refusal::End(error.map(|error| {
+        // Asked close to the place alone, so that the error has its time.
+        let close = (t - self.t).abs() <= NEAR * self.s_end;
+        let error = close.then(|| self.equations.problem.jump(t, &self.raw));
+        Err(Refusal::End(error.flatten().map(|error| {
             let y = self.raw.clone();
             Trouble { t, y, error }
         })))

@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::events::{EventHit, States, Watch};
 use crate::integrate::{Next, Problem, Step};
 use crate::linearise::Slopes;
-use crate::mechanism::{Branch, Mechanism, Prepared};
+use crate::mechanism::{Branch, Energy, Mechanism, Prepared};
 use crate::scalar::Dual;
 use crate::scan::largest;
 use crate::solver::{RANK_CEILING, Solver};
@@ -104,7 +104,52 @@ pub(super) struct Run<'a, M> {
     pub(super) slopes: Option<Slopes<M>>,
     pub(super) conflict: Conflict,
     pub(super) pace: Pace,
+    /// For a method with a fixed step.
+    pub(super) keeper: Option<Keeper>,
     pub(super) trajectory: &'a mut Trajectory<M>,
+}
+
+/// Watches the energy of a run with steps of a fixed size: too long ones make it grow without bound, and nothing else would tell.
+pub(super) struct Keeper {
+    pub(super) step: f64,
+    first: Energy,
+    /// Largest energy exchanged so far.
+    exchanged: f64,
+}
+
+/// Largest change of the energy, as a share of the energy exchanged, with which a motion still counts as one of the mechanism.
+const ASTRAY: f64 = 0.5;
+
+/// Changes of the energy below this share of its terms may be rounding.
+const NO_CHANGE: f64 = 1e-9;
+
+impl Keeper {
+    pub(super) fn new(step: f64, first: Energy) -> Self {
+        Keeper {
+            step,
+            first,
+            exchanged: 0.0,
+        }
+    }
+
+    fn check(&mut self, now: Energy) -> Result<(), Error> {
+        let gained = now.potential - self.first.potential;
+        let change = (gained + (now.kinetic - self.first.kinetic)).abs();
+        self.exchanged = self.exchanged.max(now.kinetic).max(gained.abs());
+        let terms = now.kinetic + now.potential.abs() + self.first.potential.abs();
+        // The energy of a motion gone astray may not be a number.
+        let kept = change <= ASTRAY * self.exchanged || change <= NO_CHANGE * terms;
+        if kept {
+            return Ok(());
+        }
+        let what = "step";
+        let reason = format!(
+            "is {:?}, which is too long here: the energy has changed by {:.0} % of the energy exchanged; take a smaller one",
+            self.step,
+            100.0 * change / self.exchanged
+        );
+        Err(Error::InvalidSetting { what, reason })
+    }
 }
 
 /// Significance of a constraint, √ε, below which the state cannot tell on which side of a singular position it is.
@@ -373,6 +418,10 @@ impl<M: Mechanism> Problem for Run<'_, M> {
     }
 
     fn step(&mut self, step: &Step<'_>) -> Result<Next, Error> {
+        if let Some(keeper) = &mut self.keeper {
+            let (q, v) = step.y.split_at(self.n);
+            keeper.check(self.mechanism.energy(step.t, q, v))?;
+        }
         let taken = self.agenda.taken;
         let samples = self.trajectory.times.len();
         let events = self.trajectory.events.len();

@@ -222,12 +222,11 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
         let simulation = self.ensemble.simulation(index);
         simulation.check(self.t_end)?;
         let mut work = Work::default();
-        let start = simulation.consistent_start(&mut self.alone, &mut work)?;
+        let (start, tolerance) = simulation.consistent_start(&mut self.alone, &mut work)?;
         let (t0, t_end) = (start.t, self.t_end);
         for (y, x) in self.y.iter_mut().zip(start.q.iter().chain(&start.v)) {
             y.set_lane(k, *x);
         }
-        let tolerance = simulation.tolerance_from(&lane(&self.y, k));
         let mut agenda = Agenda::new(simulation.sampling, t0, t_end);
         let mut samples = Vec::new();
         let asked = !agenda.wants_end() && agenda.next() == Some(t0);

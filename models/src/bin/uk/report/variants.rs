@@ -1,6 +1,6 @@
 //! What is compared: the one list of combinations of method, formula and stabilisation.
 
-use ukcore::{Baumgarte, Formula, Method, Simulation, Spec, Stabilisation};
+use ukcore::{Baumgarte, Formula, Method, Simulation, Spec, Stabilisation, Switching};
 
 use models::Model;
 
@@ -37,6 +37,8 @@ pub(super) struct Variant {
     pub(super) solve: Solve,
     /// The stabilisation.
     pub(super) stabilisation: Stabilisation,
+    /// What is done about kinks and jumps.
+    pub(super) switching: Switching,
 }
 
 /// Rate of Baumgarte's feedback that `uk run` takes, too, 1/s.
@@ -64,6 +66,7 @@ const fn variant(
         engine,
         solve,
         stabilisation,
+        switching: Switching::Located,
     }
 }
 
@@ -98,6 +101,16 @@ pub(super) const VARIANTS: &[Variant] = {
             Projection,
         ),
         variant("rattle", "RATTLE", Rattle, Automatic, Projection),
+        Variant {
+            switching: Switching::Ignored,
+            ..variant(
+                "dop853-across",
+                "DOP853, projection, across switches",
+                DOP853,
+                Automatic,
+                Projection,
+            )
+        },
         variant(
             "dop853-none",
             "DOP853, no stabilisation",
@@ -182,6 +195,9 @@ impl Variant {
         if spec.m() == 0 && self.stabilisation != Stabilisation::Projection {
             return Some("without constraints nothing drifts");
         }
+        if spec.switches.is_empty() && self.switching == Switching::Ignored {
+            return Some("there is no switch to step across");
+        }
         if self.solve == Solve::General && !spec.structure.straight_line {
             return Some("the automatic choice is this formula: there is no straight line");
         }
@@ -214,6 +230,7 @@ impl Variant {
     ) -> Simulation<M> {
         let simulation = simulation
             .stabilise(self.stabilisation)
+            .switching(self.switching)
             .formula(match self.solve {
                 Solve::Automatic => Formula::Auto,
                 Solve::Dense => Formula::Kkt,

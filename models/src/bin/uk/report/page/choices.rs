@@ -7,7 +7,7 @@ use crate::html::{Cell, escape, fixed, power_of_ten, table};
 use crate::report::argument;
 use crate::report::export::Report;
 use crate::report::study::Study;
-use crate::report::variants::{OMITTED, Variant};
+use crate::report::variants::{Engine, OMITTED, Variant};
 use crate::report::verdict::{self, Among, DEFAULT_TOLERANCE, GOALS, TIE};
 
 /// What to take for which accuracy, over all motions.
@@ -81,13 +81,19 @@ pub(super) fn tallied(report: &Report) -> String {
         heads.extend(goals.iter().map(|g| (g.as_str(), 1)));
     }
     heads.push(("cases", 1));
+    let worth = super::long::worth(report);
     let rows: Vec<Vec<Cell>> = verdict::tally(&report.studies)
         .into_iter()
         .map(|row| {
             let label = escape(row.variant.label);
             let all: usize = row.kept.iter().chain(&row.all).sum();
             let mut cells = vec![Cell::Text(if all == 0 && row.cases > 0 {
-                format!("{label} <span class=\"fails\">never recommended</span>")
+                let lasting = row.variant.engine == Engine::Rattle && worth.is_some();
+                if lasting {
+                    format!("{label}, for the energy of <a href=\"#long\">long runs</a>")
+                } else {
+                    format!("{label} <span class=\"fails\">never recommended</span>")
+                }
             } else {
                 label
             })];

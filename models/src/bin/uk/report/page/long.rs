@@ -20,7 +20,7 @@ pub(super) fn long_runs(report: &Report) -> String {
     let rows: Vec<Vec<Cell>> = studies.iter().flat_map(|s| rows(s)).collect();
     format!(
         "<h2 id=\"long\">6. Long runs</h2>\n<p>{}</p>\n{}",
-        verdict_words(&studies),
+        verdict_words(report),
         table(
             &format!(
                 "Runs {} times as long, of models that conserve energy and to which RATTLE applies. Each row is a step of RATTLE beside the tightest tolerance of the default \
@@ -49,25 +49,26 @@ pub(super) fn long_runs(report: &Report) -> String {
     )
 }
 
-/// From which duration on RATTLE is worth its price.
-fn verdict_words(studies: &[&Study]) -> String {
-    let even = |study: &&Study| {
+/// The least duration, s, from which on RATTLE is worth its price, and the motion of which that holds.
+pub(super) fn worth(report: &Report) -> Option<(f64, String)> {
+    let even = |study: &Study| {
         let pairs = rattle(study).filter_map(|run| {
             let beside = verdict::as_cheap(study, run)?;
             Some((verdict::break_even(run, beside)?, study.name.clone()))
         });
         pairs.min_by(|a, b| a.0.total_cmp(&b.0))
     };
-    let least = studies
-        .iter()
-        .filter_map(even)
-        .min_by(|a, b| a.0.total_cmp(&b.0));
-    least.map_or_else(
+    let least = report.studies.iter().filter_map(even);
+    least.min_by(|a, b| a.0.total_cmp(&b.0))
+}
+
+fn verdict_words(report: &Report) -> String {
+    worth(report).map_or_else(
         || "RATTLE is the one to take in none of these runs.".to_owned(),
         |(time, name)| {
             format!(
                 "RATTLE keeps the energy without a trend, and the default combination does not; but for the same time the default keeps it better up to a \
-                 duration of {} s at least ({}).",
+                 duration of {} s at least ({}). RATTLE is the one to take for the energy of runs longer than that.",
                 power_of_ten(time),
                 escape(&name)
             )
