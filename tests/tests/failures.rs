@@ -1,6 +1,6 @@
 //! Runs that cannot go on say why, in time, by the names of the declaration.
 
-use ukcore::{Error, Failure, Mechanism, Method, Simulation, State};
+use ukcore::{Error, Failure, Mechanism, Method, Simulation, State, Switching};
 
 ukcore::multibody! {
     /// Two constraints on x + y that agree at t = 0 only.
@@ -152,6 +152,44 @@ fn friction_that_brings_to_rest_is_named_with_the_remedy() {
                 message.contains("terminal event") && message.contains("tanh"),
                 "{message}"
             );
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// A carriage whose prescribed place, or velocity, jumps at t = 1/2.
+    pub Carriage {
+        params { place = 0.0, velocity = 0.0 }
+        coords { x, y }
+        mass { x: 1.0, y: 1.0 }
+        potential { 15.0 * sq(x - y) }
+        holonomic { drive: x = place * sign(t - 0.5) + velocity * max(0.0, t - 0.5) }
+    }
+}
+
+#[test]
+fn a_jump_is_told_by_its_constraint_level_and_time() {
+    for (place, velocity, level) in [(0.1, 0.0, "position"), (0.0, 0.1, "velocity")] {
+        for switching in [Switching::Located, Switching::Ignored] {
+            let mech = Carriage { place, velocity };
+            let start = State {
+                t: 0.0,
+                q: vec![-place, 0.0],
+                v: vec![0.0; 2],
+            };
+            let run = Simulation::new(mech).start(start).switching(switching);
+            let failure = run.until(1.0).expect_err("it jumps");
+            let (t, cause) = self::place(&failure);
+            assert!((t - 0.5).abs() < 1e-8, "{t}");
+            match cause {
+                Error::Jump {
+                    level: found,
+                    constraints,
+                } => {
+                    assert_eq!((*found, constraints[0].0.as_str()), (level, "drive"));
+                }
+                other => panic!("{switching:?}, {level}: {other}"),
+            }
         }
     }
 }

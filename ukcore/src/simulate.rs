@@ -477,7 +477,7 @@ impl<M: Mechanism> Simulation<M> {
         let (mut new_q, mut new_v) = (q.clone(), v.clone());
         let position = projector.position(&mech, t, &mut new_q, &v)?;
         let mut size = largest(&q).max(largest(&v));
-        if size < 1.0 {
+        if size > 0.0 && size < 1.0 {
             // Coordinates may be measured from where they start; rounding, for one, is then not that of their size.
             size = size.max(projector.length(&mech, t, &new_q, &v));
         }

@@ -341,7 +341,13 @@ impl<M: Mechanism> Problem for Run<'_, M> {
 
     fn jump(&mut self, t: f64, y: &[f64]) -> Option<Error> {
         let (q, v) = y.split_at(self.n);
-        let (spec, mechanism) = (M::SPEC, &self.mechanism);
+        let spec = M::SPEC;
+        // Held branches do not jump.
+        let mut followed = self.mechanism.clone();
+        for k in 0..spec.switches.len() {
+            followed.hold(k, Branch::Followed);
+        }
+        let mechanism = &followed;
         let mut near = y.to_vec();
         let (near_q, near_v) = near.split_at_mut(self.n);
         let projector = &mut self.projector;
@@ -361,10 +367,10 @@ impl<M: Mechanism> Problem for Run<'_, M> {
             }
             residual
         };
-        // What the time alone has made of it since the last step.
+        // What the time alone has made of it since the last step, which may have gone just onto the jump.
         let after = residual(t);
         let size = largest(&after);
-        let pairs = after.iter().zip(residual(self.t));
+        let pairs = after.iter().zip(residual(2.0 * self.t - t));
         let jumps = pairs.map(|(after, before)| {
             let alone = (after - before).abs() > 0.5 * size;
             if alone { *after } else { 0.0 }
