@@ -64,6 +64,7 @@ pub(crate) fn is_within(d: &[f64], x: &[f64], share: f64, least: f64) -> bool {
 }
 
 /// Whether `holds` of each pair. Looks at all, which is faster than to stop at the first of which it does not.
+#[cfg(any(test, feature = "simulate"))]
 #[inline]
 pub(crate) fn all_pairs(x: &[f64], y: &[f64], holds: impl Fn(f64, f64) -> bool) -> bool {
     let pairs = x.iter().zip(y);

@@ -16,14 +16,19 @@
 //!
 //! The same difference, |Δb| + |ΔA||q̈|, is granted to the redundant rows before they are called inconsistent.
 
-use crate::diagnose::{self, Diagnosis};
+use crate::diagnose;
 use crate::error::Error;
 use crate::mechanism::{Mechanism, Prepared};
 use crate::metric::MassFault;
 use crate::saddle::Saddle;
-use crate::scalar::Scalar;
 use crate::scan::all_finite;
 use crate::workspace::{Dense, Evaluated, Owner, Route, Rows};
+
+mod rank;
+mod settings;
+
+pub(crate) use rank::leading;
+pub use settings::{Baumgarte, Formula, Solution, SolverOptions, SolverWork};
 
 /// Default of [`SolverOptions::rank_tolerance`].
 ///
@@ -40,105 +45,6 @@ pub const RANK_CEILING: f64 = 1.0 / 32.0;
 /// Factor on the measured drift of A and b: pivoted elimination can enlarge a perturbation of the rows (in practice by less than
 /// ten), and one Newton correction measures the drift to first order.
 pub const DRIFT_FACTOR: f64 = 10.0;
-
-/// Which formula computes the accelerations.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Formula {
-    /// Udwadia-Kalaba where M is regular, Udwadia-Phohomsiri where it is singular.
-    #[default]
-    Auto,
-    /// Eq. 13, for regular M only.
-    UdwadiaKalaba,
-    /// Eq. 19, for regular and singular M.
-    UdwadiaPhohomsiri,
-    /// Gaussian elimination of \[M Aᵀ; A 0\]. Where constraints are redundant or nearly so, or are not met by the result, eq. 19 takes over (a fallback).
-    Kkt,
-}
-
-/// Baumgarte's stabilisation: b − 2αφ̇ − β²φ for holonomic, b − αψ for nonholonomic constraints.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Baumgarte {
-    /// α in 1/s.
-    pub alpha: f64,
-    /// β in 1/s; β = α is critical damping.
-    pub beta: f64,
-}
-
-impl Baumgarte {
-    /// Takes the terms off b, from φ of the holonomic constraints and the rates of all.
-    pub(crate) fn apply<S: Scalar>(self, position: &[S], rate: &[S], rhs: &mut [S]) {
-        let [alpha, twice, square] =
-            [self.alpha, 2.0 * self.alpha, self.beta * self.beta].map(S::from_f64);
-        for (i, (b, rate)) in rhs.iter_mut().zip(rate).enumerate() {
-            *b = *b
-                - match position.get(i) {
-                    Some(phi) => twice * *rate + square * *phi,
-                    None => alpha * *rate,
-                };
-        }
-    }
-}
-
-/// Settings of a [`Solver`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SolverOptions {
-    /// The formula.
-    pub formula: Formula,
-    /// Significance up to which a constraint counts as implied by the others (see the [module](self)); between ε and
-    /// [`RANK_CEILING`]; values outside are moved there.
-    pub rank_tolerance: f64,
-    /// Baumgarte's stabilisation, if wanted.
-    pub baumgarte: Option<Baumgarte>,
-}
-
-impl Default for SolverOptions {
-    fn default() -> Self {
-        SolverOptions {
-            formula: Formula::Auto,
-            rank_tolerance: RANK_TOLERANCE,
-            baumgarte: None,
-        }
-    }
-}
-
-/// What a [`Solver`] has done.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct SolverWork {
-    /// Evaluations of [`Mechanism::dynamics`], those for drift estimates included.
-    pub evaluations: usize,
-    /// Solutions that had to leave the formula first tried for a more general one: a mass matrix that looked regular at compile
-    /// time and is singular at run time, or redundant constraints under [`Formula::Kkt`].
-    pub fallbacks: usize,
-}
-
-/// Everything about one state.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Solution {
-    /// q̈.
-    pub acceleration: Vec<f64>,
-    /// Qc_id, the force of ideal constraints (eq. 11): does no work in a virtual displacement.
-    pub ideal_force: Vec<f64>,
-    /// Qc_nid, the non-ideal part (eq. 12). M q̈ = Q + Qc_id + Qc_nid.
-    pub nonideal_force: Vec<f64>,
-    /// λ with Qc_id = Aᵀλ; the one of least norm where constraints are redundant.
-    pub multipliers: Vec<f64>,
-    /// Rank of A.
-    pub rank: usize,
-    /// n − rank A.
-    pub degrees_of_freedom: usize,
-    /// The formula that was used (never [`Formula::Auto`]).
-    pub formula: Formula,
-    /// Indices of constraints that the others imply, ascending. Not an error.
-    pub redundant: Vec<usize>,
-}
-
-impl Solution {
-    /// Rank, degrees of freedom and redundant constraints by name.
-    #[must_use]
-    pub fn diagnosis<M: Mechanism>(&self) -> Diagnosis {
-        Diagnosis::new(M::SPEC, self.rank, &self.redundant)
-    }
-}
 
 /// Solves M q̈ = Q + Qc, A q̈ = b in buffers allocated once.
 #[derive(Debug, Clone)]
@@ -520,81 +426,6 @@ impl Solver {
         }
     }
 
-    /// Decides the rank (see the [module](self)) and returns the tolerance that did.
-    fn decide_rank<M: Mechanism>(
-        &mut self,
-        mech: &Prepared<M>,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
-    ) -> Result<f64, Error> {
-        let mut tolerance = self.options.rank_tolerance;
-        let clear = leading(self.dense.cod.pivots(), RANK_CEILING);
-        let mut rank = self.dense.cod.pivots().len();
-        if clear < rank {
-            self.dense.cod.set_rank(clear);
-            self.measure_drift(mech, t, q, v);
-            let there = rows(&self.drift.there, self.m);
-            let here = rows(&self.here, self.m);
-            for c in 0..self.m {
-                let change = here.row(c).zip(there.row(c)).map(|(a, b)| (a - b).abs());
-                // Not finite: no state worth the name is near.
-                let change = change.fold(0.0, |s: f64, x| {
-                    if x.is_finite() {
-                        s.max(x)
-                    } else {
-                        f64::INFINITY
-                    }
-                });
-                if change > 0.0 {
-                    tolerance = tolerance.max(DRIFT_FACTOR * change / here.largest(c));
-                }
-            }
-            tolerance = tolerance.min(RANK_CEILING);
-            rank = leading(self.dense.cod.pivots(), tolerance);
-        }
-        self.full = self.full.max(rank);
-        let weakest = match rank.checked_sub(1) {
-            Some(last) if rank == self.full => self.dense.cod.pivots()[last],
-            Some(_) => 0.0,
-            None => 1.0,
-        };
-        self.weakest = self.weakest.min(weakest);
-        let reduced = self.dense.set_rank(rank, &self.here.mass);
-        reduced.map_err(|fault| mass_error::<M>(fault))?;
-        Ok(tolerance)
-    }
-
-    /// The equations one Newton step nearer to the manifold, with the rank in force.
-    fn measure_drift<M: Mechanism>(&mut self, mech: &Prepared<M>, t: f64, q: &[f64], v: &[f64]) {
-        let Drift {
-            known,
-            there,
-            q: near_q,
-            v: near_v,
-            correction,
-        } = &mut self.drift;
-        *known = true;
-        mech.residual(t, q, &mut self.position);
-        mech.residual_rate(t, q, v, &mut self.rate);
-        self.dense.least_norm(&self.rate, correction);
-        near_v
-            .iter_mut()
-            .zip(v)
-            .zip(&*correction)
-            .for_each(|((x, v), d)| *x = v - d);
-        self.rate.fill(0.0);
-        self.rate[..self.position.len()].copy_from_slice(&self.position);
-        self.dense.least_norm(&self.rate, correction);
-        near_q
-            .iter_mut()
-            .zip(q)
-            .zip(&*correction)
-            .for_each(|((x, q), d)| *x = q - d);
-        there.dynamics(mech, t, near_q, near_v);
-        self.work.evaluations += 1;
-    }
-
     /// Under Formula::Kkt: eliminates, or falls back.
     fn eliminate(&mut self, formula: Formula) -> Formula {
         match &mut self.saddle {
@@ -714,11 +545,6 @@ fn rows(terms: &Evaluated, m: usize) -> Rows<'_> {
         stride: m,
         rows: m,
     }
-}
-
-/// Number of pivots before the first that does not exceed `tolerance`.
-pub(crate) fn leading(pivots: &[f64], tolerance: f64) -> usize {
-    pivots.iter().take_while(|p| **p > tolerance).count()
 }
 
 pub(crate) fn mass_error<M: Mechanism>(fault: MassFault) -> Error {

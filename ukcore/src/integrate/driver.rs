@@ -162,7 +162,17 @@ impl<X: Scheme> Driver<'_, X> {
                 None => Plan::new(h, (self.s, self.t), end, self.clock),
             };
             let Some(plan) = plan else {
-                return Err(Error::StepTooSmall { step: h });
+                let chosen = self.attempts == 0 && self.settings.first_step.is_none();
+                return Err(if chosen && h > 0.0 && h < f64::EPSILON * self.s_end {
+                    let t = self.t_end;
+                    let reason = format!(
+                        "is {t:e}, so far that a first step of {h:.1e} is nothing beside it; take a nearer one"
+                    );
+                    let what = "t_end";
+                    Error::InvalidSetting { what, reason }
+                } else {
+                    Error::StepTooSmall { step: h }
+                });
             };
             let Plan { size, s, t, last } = plan;
             self.attempts += 1;

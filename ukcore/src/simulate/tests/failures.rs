@@ -126,3 +126,10 @@ fn settings_are_checked() {
     let failure = Simulation::new(Pendulum::default()).until(1.0).unwrap_err();
     assert!(failure.to_string().contains("start"));
 }
+
+#[test]
+fn an_end_out_of_reach_is_told_as_such() {
+    let failure = swing(1.0, 1e-9).until(1e300).unwrap_err();
+    let message = failure.error.to_string();
+    assert!(message.contains("`t_end` is 1e300, so far"), "{message}");
+}

@@ -1,0 +1,93 @@
+//! How many constraints count: the tolerance of the rank, as far as drift lends significance.
+
+use super::{DRIFT_FACTOR, Drift, RANK_CEILING, Solver, mass_error, rows};
+use crate::error::Error;
+use crate::mechanism::{Mechanism, Prepared};
+
+impl Solver {
+    /// Decides the rank (see the [module](super)) and returns the tolerance that did.
+    pub(super) fn decide_rank<M: Mechanism>(
+        &mut self,
+        mech: &Prepared<M>,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+    ) -> Result<f64, Error> {
+        let mut tolerance = self.options.rank_tolerance;
+        let clear = leading(self.dense.cod.pivots(), RANK_CEILING);
+        let mut rank = self.dense.cod.pivots().len();
+        if clear < rank {
+            self.dense.cod.set_rank(clear);
+            self.measure_drift(mech, t, q, v);
+            let there = rows(&self.drift.there, self.m);
+            let here = rows(&self.here, self.m);
+            for c in 0..self.m {
+                let change = here.row(c).zip(there.row(c)).map(|(a, b)| (a - b).abs());
+                // Not finite: no state worth the name is near.
+                let change = change.fold(0.0, |s: f64, x| {
+                    if x.is_finite() {
+                        s.max(x)
+                    } else {
+                        f64::INFINITY
+                    }
+                });
+                if change > 0.0 {
+                    tolerance = tolerance.max(DRIFT_FACTOR * change / here.largest(c));
+                }
+            }
+            tolerance = tolerance.min(RANK_CEILING);
+            rank = leading(self.dense.cod.pivots(), tolerance);
+        }
+        self.full = self.full.max(rank);
+        let weakest = match rank.checked_sub(1) {
+            Some(last) if rank == self.full => self.dense.cod.pivots()[last],
+            Some(_) => 0.0,
+            None => 1.0,
+        };
+        self.weakest = self.weakest.min(weakest);
+        let reduced = self.dense.set_rank(rank, &self.here.mass);
+        reduced.map_err(|fault| mass_error::<M>(fault))?;
+        Ok(tolerance)
+    }
+
+    /// The equations one Newton step nearer to the manifold, with the rank in force.
+    pub(super) fn measure_drift<M: Mechanism>(
+        &mut self,
+        mech: &Prepared<M>,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+    ) {
+        let Drift {
+            known,
+            there,
+            q: near_q,
+            v: near_v,
+            correction,
+        } = &mut self.drift;
+        *known = true;
+        mech.residual(t, q, &mut self.position);
+        mech.residual_rate(t, q, v, &mut self.rate);
+        self.dense.least_norm(&self.rate, correction);
+        near_v
+            .iter_mut()
+            .zip(v)
+            .zip(&*correction)
+            .for_each(|((x, v), d)| *x = v - d);
+        self.rate.fill(0.0);
+        self.rate[..self.position.len()].copy_from_slice(&self.position);
+        self.dense.least_norm(&self.rate, correction);
+        near_q
+            .iter_mut()
+            .zip(q)
+            .zip(&*correction)
+            .for_each(|((x, q), d)| *x = q - d);
+        there.dynamics(mech, t, near_q, near_v);
+        self.work.evaluations += 1;
+    }
+}
+
+/// Number of pivots before the first that does not exceed `tolerance`.
+pub(crate) fn leading(pivots: &[f64], tolerance: f64) -> usize {
+    pivots.iter().take_while(|p| **p > tolerance).count()
+}

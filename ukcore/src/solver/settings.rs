@@ -1,0 +1,105 @@
+//! What a solver is told, and what it tells.
+
+use super::RANK_TOLERANCE;
+use crate::diagnose::Diagnosis;
+use crate::mechanism::Mechanism;
+use crate::scalar::Scalar;
+
+/// Which formula computes the accelerations.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Formula {
+    /// Udwadia-Kalaba where M is regular, Udwadia-Phohomsiri where it is singular.
+    #[default]
+    Auto,
+    /// Eq. 13, for regular M only.
+    UdwadiaKalaba,
+    /// Eq. 19, for regular and singular M.
+    UdwadiaPhohomsiri,
+    /// Gaussian elimination of \[M Aᵀ; A 0\]. Where constraints are redundant or nearly so, or are not met by the result, eq. 19 takes over (a fallback).
+    Kkt,
+}
+
+/// Baumgarte's stabilisation: b − 2αφ̇ − β²φ for holonomic, b − αψ for nonholonomic constraints.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Baumgarte {
+    /// α in 1/s.
+    pub alpha: f64,
+    /// β in 1/s; β = α is critical damping.
+    pub beta: f64,
+}
+
+impl Baumgarte {
+    /// Takes the terms off b, from φ of the holonomic constraints and the rates of all.
+    pub(crate) fn apply<S: Scalar>(self, position: &[S], rate: &[S], rhs: &mut [S]) {
+        let [alpha, twice, square] =
+            [self.alpha, 2.0 * self.alpha, self.beta * self.beta].map(S::from_f64);
+        for (i, (b, rate)) in rhs.iter_mut().zip(rate).enumerate() {
+            *b = *b
+                - match position.get(i) {
+                    Some(phi) => twice * *rate + square * *phi,
+                    None => alpha * *rate,
+                };
+        }
+    }
+}
+
+/// Settings of a [`Solver`](super::Solver).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SolverOptions {
+    /// The formula.
+    pub formula: Formula,
+    /// Significance up to which a constraint counts as implied by the others (see the [module](crate::solver)); between ε and
+    /// [`RANK_CEILING`](super::RANK_CEILING); values outside are moved there.
+    pub rank_tolerance: f64,
+    /// Baumgarte's stabilisation, if wanted.
+    pub baumgarte: Option<Baumgarte>,
+}
+
+impl Default for SolverOptions {
+    fn default() -> Self {
+        SolverOptions {
+            formula: Formula::Auto,
+            rank_tolerance: RANK_TOLERANCE,
+            baumgarte: None,
+        }
+    }
+}
+
+/// What a [`Solver`](super::Solver) has done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct SolverWork {
+    /// Evaluations of [`Mechanism::dynamics`], those for drift estimates included.
+    pub evaluations: usize,
+    /// Solutions that had to leave the formula first tried for a more general one: a mass matrix that looked regular at compile
+    /// time and is singular at run time, or redundant constraints under [`Formula::Kkt`].
+    pub fallbacks: usize,
+}
+
+/// Everything about one state.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solution {
+    /// q̈.
+    pub acceleration: Vec<f64>,
+    /// Qc_id, the force of ideal constraints (eq. 11): does no work in a virtual displacement.
+    pub ideal_force: Vec<f64>,
+    /// Qc_nid, the non-ideal part (eq. 12). M q̈ = Q + Qc_id + Qc_nid.
+    pub nonideal_force: Vec<f64>,
+    /// λ with Qc_id = Aᵀλ; the one of least norm where constraints are redundant.
+    pub multipliers: Vec<f64>,
+    /// Rank of A.
+    pub rank: usize,
+    /// n − rank A.
+    pub degrees_of_freedom: usize,
+    /// The formula that was used (never [`Formula::Auto`]).
+    pub formula: Formula,
+    /// Indices of constraints that the others imply, ascending. Not an error.
+    pub redundant: Vec<usize>,
+}
+
+impl Solution {
+    /// Rank, degrees of freedom and redundant constraints by name.
+    #[must_use]
+    pub fn diagnosis<M: Mechanism>(&self) -> Diagnosis {
+        Diagnosis::new(M::SPEC, self.rank, &self.redundant)
+    }
+}
