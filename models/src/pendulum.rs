@@ -35,6 +35,22 @@ ukcore::multibody! {
     }
 }
 
+/// Angle at which a pendulum is let go.
+pub(crate) const FROM: StartOption = StartOption {
+    name: "from",
+    doc: "angle from the downward vertical, counter-clockwise",
+    default: -FRAC_PI_2,
+    unit: "rad",
+};
+
+/// Angular velocity with which it is let go.
+pub(crate) const RATE: StartOption = StartOption {
+    name: "rate",
+    doc: "angular velocity",
+    default: 0.0,
+    unit: "rad/s",
+};
+
 impl Model for Pendulum {
     const ID: &'static str = "pendulum";
 
@@ -46,20 +62,7 @@ impl Model for Pendulum {
         &[StartSpec {
             name: "released",
             doc: "let go at an angle",
-            options: &[
-                StartOption {
-                    name: "from",
-                    doc: "angle from the downward vertical, counter-clockwise",
-                    default: -FRAC_PI_2,
-                    unit: "rad",
-                },
-                StartOption {
-                    name: "rate",
-                    doc: "angular velocity",
-                    default: 0.0,
-                    unit: "rad/s",
-                },
-            ],
+            options: &[FROM, RATE],
         }]
     }
 

@@ -1,8 +1,8 @@
 //! A point mass on a stiff spring: fast along the spring, slow across it.
 
 use crate::model::{Chosen, positive};
+use crate::pendulum::{FROM, RATE};
 use crate::{Model, StartOption, StartOptions, StartSpec};
-use std::f64::consts::FRAC_PI_2;
 use ukcore::{Error, State};
 
 ukcore::multibody! {
@@ -51,18 +51,8 @@ impl Model for SpringPendulum {
             name: "released",
             doc: "let go at an angle, the spring stretched so that it balances the mass",
             options: &[
-                StartOption {
-                    name: "from",
-                    doc: "angle from the downward vertical, counter-clockwise",
-                    default: -FRAC_PI_2,
-                    unit: "rad",
-                },
-                StartOption {
-                    name: "rate",
-                    doc: "angular velocity",
-                    default: 0.0,
-                    unit: "rad/s",
-                },
+                FROM,
+                RATE,
                 StartOption {
                     name: "stretch",
                     doc: "stretch of the spring beyond balance, which excites the fast oscillation",

@@ -13,6 +13,7 @@
 use super::Tolerance;
 use super::dense::cubic;
 use super::scheme::{Attempt, Equations, NoRate, Scheme, no_rate};
+use super::sums::keeping;
 use crate::error::Error;
 
 /// γ = 1/(4 − ∛4).
@@ -94,10 +95,7 @@ impl Rattle {
 /// x ← x + c d, with what rounding takes from it in `lost`.
 fn add(x: &mut [f64], lost: &mut [f64], c: f64, d: &[f64]) {
     for ((x, lost), d) in x.iter_mut().zip(lost).zip(d) {
-        let change = c * d + *lost;
-        let new = *x + change;
-        *lost = change - (new - *x);
-        *x = new;
+        (*x, *lost) = keeping(*x, c * d + *lost);
     }
 }
 

@@ -4,7 +4,7 @@
 //! here branches on a value. What is accepted, and how large the next step is, is decided outside.
 
 use super::dense::cubic;
-use super::sums::{Tolerance, sum, sum_of_squares, weights};
+use super::sums::{Tolerance, keeping, sum, sum_of_squares, weights};
 use super::tableau::{self, Sums, Tableau};
 use crate::scalar::Scalar;
 use std::ops::Range;
@@ -22,8 +22,7 @@ pub(crate) struct Stepper<S> {
     argument: Vec<S>,
     /// State at the end of the step.
     new: Vec<S>,
-    /// What rounding took from the state at the start of the step, to be added to the change that the step makes (Kahan's summation; Hairer,
-    /// Lubich & Wanner, *Geometric Numerical Integration*, §VIII.5).
+    /// What rounding took from the state at the start of the step, to be added to the change that the step makes.
     lost: Vec<S>,
     /// The same at the end of the attempted step.
     losing: Vec<S>,
@@ -115,9 +114,7 @@ impl<S: Scalar> Stepper<S> {
         // The stage's sum on top of what was lost so far, then both onto y: the larger of two terms first, so that what is lost is exact.
         (self.sums.argument)(closing, &mut self.new, &self.lost, h, &self.rates);
         for ((new, y), lost) in self.new.iter_mut().zip(y).zip(&mut self.losing) {
-            let change = *new;
-            *new = *y + change;
-            *lost = change - (*new - *y);
+            (*new, *lost) = keeping(*y, *new);
         }
         Ok(())
     }

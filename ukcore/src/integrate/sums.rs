@@ -69,6 +69,14 @@ impl<S: Scalar> Tolerance<S> {
     }
 }
 
+/// x + `change`, and what rounding takes from it; exact where |change| ≤ |x|. (Kahan's summation; Hairer, Lubich & Wanner, *Geometric Numerical
+/// Integration*, §VIII.5.)
+#[inline(always)]
+pub(super) fn keeping<S: Scalar>(x: S, change: S) -> (S, S) {
+    let new = x + change;
+    (new, change - (new - x))
+}
+
 /// `out` = 1 / tolerance at max(|old|, |new|), the weights of the [error norm](super).
 pub(super) fn weights<S: Scalar>(out: &mut [S], old: &[S], new: &[S], tolerance: Tolerance<S>) {
     for (out, (old, new)) in out.iter_mut().zip(old.iter().zip(new)) {
