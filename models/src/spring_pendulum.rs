@@ -1,8 +1,8 @@
 //! A point mass on a stiff spring: fast along the spring, slow across it.
 
-use crate::model::{Chosen, positive};
 use crate::pendulum::{FROM, RATE};
 use crate::{Model, StartOption, StartOptions, StartSpec};
+use ukcore::model::{Chosen, positive};
 use ukcore::{Error, State};
 
 ukcore::multibody! {

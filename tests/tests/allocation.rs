@@ -16,7 +16,7 @@ fn acceleration_allocates_nothing() {
                     formula,
                     ..SolverOptions::default()
                 };
-                let mut solver = Solver::new::<M>(options);
+                let mut solver = Solver::new(&MECH, options);
                 let mut out = vec![0.0; M::SPEC.n()];
                 let prepared = model.prepared();
                 let count = allocation_counter::measure(|| {
@@ -41,7 +41,7 @@ fn evaluation_and_projection_allocate_nothing() {
         fn check<M: Model>(&self) {
             let model = M::default();
             let mut state = model.default_start().expect("the default start exists");
-            let mut projector = Projector::new::<M>();
+            let mut projector = Projector::new(&MECH);
             let mut phi = vec![0.0; M::SPEC.holonomic];
             let mut rate = vec![0.0; M::SPEC.m()];
             let mut outputs = vec![0.0; M::SPEC.outputs.len()];

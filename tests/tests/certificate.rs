@@ -296,7 +296,7 @@ fn wrong_masses() {
                         M::ID,
                         p.name
                     );
-                    let mut solver = Solver::new::<M>(SolverOptions::default());
+                    let mut solver = Solver::new(&MECH, SolverOptions::default());
                     let solved =
                         solver.acceleration(&prepared, state.t, &state.q, &state.v, &mut out);
                     assert!(

@@ -20,7 +20,7 @@ fn members<M: Model>(count: usize) -> Vec<(M, State)> {
 
 fn on_threads<M: Mechanism>(
     threads: usize,
-    ensemble: &Ensemble<M>,
+    ensemble: &Ensemble,
     t_end: f64,
 ) -> Vec<Result<Member, Error>> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
@@ -161,7 +161,7 @@ fn settings_are_those_of_a_simulation() {
     let mechanism = Pendulum::default();
     let start = mechanism.default_start().expect("the default start exists");
     let ensemble = Ensemble::new(vec![(mechanism, start)]);
-    let refused = |ensemble: Ensemble<Pendulum>, t_end| match ensemble.until(t_end).remove(0) {
+    let refused = |ensemble: Ensemble, t_end| match ensemble.until(t_end).remove(0) {
         Err(Error::InvalidSetting { what, .. }) => what,
         other => panic!("{other:?}"),
     };

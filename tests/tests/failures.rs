@@ -43,7 +43,7 @@ ukcore::multibody! {
 
 /// Time and cause.
 #[track_caller]
-fn place<M: Mechanism>(failure: &Failure<M>) -> (f64, &Error) {
+fn place<M: Mechanism>(failure: &Failure) -> (f64, &Error) {
     match &failure.error {
         Error::At { t, source, .. } => (*t, source),
         other => panic!("{other}"),

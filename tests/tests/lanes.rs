@@ -45,7 +45,7 @@ fn solver<M: Mechanism, L: Lanes>(members: &[(M, State)]) -> (LaneSolver<M, L>, 
 
 fn check<M: Model, L: Lanes>() {
     let members = members::<M, L>(7);
-    let (mut solver, t, q, v) = solver::<M, L>(&members);
+    let (mut solver, t, q, v) = solver(&mechanism, &members);
     let zeros = |len: usize| vec![L::from_f64(0.0); len];
     let (n, m) = (M::SPEC.n(), M::SPEC.m());
     let mut found = [zeros(n * n), zeros(n), zeros(n), zeros(m * n), zeros(m)];
@@ -82,16 +82,10 @@ fn check<M: Model, L: Lanes>() {
                 bound,
             );
         }
-        let mut alone = Solver::new::<M>(SolverOptions::default());
+        let mut alone = Solver::new(&mechanism, SolverOptions::default());
         let mut expected = vec![0.0; n];
         alone
-            .acceleration(
-                &mechanism.prepared(),
-                state.t,
-                &state.q,
-                &state.v,
-                &mut expected,
-            )
+            .acceleration(state.t, &state.q, &state.v, &mut expected)
             .unwrap_or_else(|e| panic!("{}: {e}", M::ID));
         let bound = ACCURACY * largest(&expected).max(1.0);
         assert_all_close(M::ID, &lane(&out, k), &expected, bound);
@@ -116,12 +110,12 @@ fn each_lane_is_its_mechanism_alone() {
 fn what_fails_in_a_lane_leaves_the_others_as_they_are() {
     type L = f64x8;
     let members = members::<Pendulum, L>(3);
-    let (mut sound, t, q, v) = solver::<Pendulum, L>(&members);
+    let (mut sound, t, q, v) = solver(&mechanism, &members);
     let mut expected = vec![L::splat(0.0); 2];
     assert!(sound.acceleration(t, &q, &v, &mut expected, |_| true));
 
     // At the pivot the rod has no direction, and A no rank; a weight that is not a number; a time that is not.
-    let (mut solver, mut t, mut q, v) = solver::<Pendulum, L>(&members);
+    let (mut solver, mut t, mut q, v) = solver(&mechanism, &members);
     q[0].set_lane(2, 0.0);
     q[1].set_lane(2, 0.0);
     let mut broken = members[5].0.clone();
@@ -140,14 +134,8 @@ fn what_fails_in_a_lane_leaves_the_others_as_they_are() {
         (state.t, state.q, state.v) = (t.lane(k), lane(&q, k), lane(&v, k));
         let mechanism = if k == 5 { &broken } else { &members[k].0 };
         let mut alone = [0.0; 2];
-        let mut solver_alone = Solver::new::<Pendulum>(SolverOptions::default());
-        let result = solver_alone.acceleration(
-            &mechanism.prepared(),
-            state.t,
-            &state.q,
-            &state.v,
-            &mut alone,
-        );
+        let mut solver_alone = Solver::new(&mechanism, SolverOptions::default());
+        let result = solver_alone.acceleration(state.t, &state.q, &state.v, &mut alone);
         assert_eq!(result.as_ref().err(), solver.error(k));
         assert_eq!(solver.work(k), solver_alone.work());
         match result {

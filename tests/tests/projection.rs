@@ -23,7 +23,7 @@ fn to_rounding_from_any_distance_and_no_further() {
             let start = model.default_start().expect("the default start exists");
             let (prepared, n) = (model.prepared(), M::SPEC.n());
             let size = largest(&start.q).max(1.0);
-            let mut projector = Projector::new::<M>();
+            let mut projector = Projector::new(&MECH);
             let mut next = numbers(5);
             let mut jacobian = vec![0.0; M::SPEC.m() * n];
             for off in [1e-13, 1e-11, 1e-9, 1e-7, 1e-5, 1e-3] {

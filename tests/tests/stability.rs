@@ -289,7 +289,7 @@ impl Outcomes {
             time,
         } = Drawn::new(&mut Random::new(seed));
         let prepared = rods.prepared();
-        let mut projector = Projector::new::<Rods>();
+        let mut projector = Projector::new(&MECH);
         let projected = projector
             .position(&prepared, 0.0, &mut state.q, &state.v)
             .and_then(|_| projector.velocity(&prepared, 0.0, &state.q, &mut state.v));
@@ -310,7 +310,7 @@ impl Outcomes {
                 formula,
                 ..SolverOptions::default()
             };
-            let mut solver = Solver::new::<Rods>(options);
+            let mut solver = Solver::new(&MECH, options);
             let mut found = vec![0.0; 2 * N];
             match solver.acceleration(&prepared, 0.0, &state.q, &state.v, &mut found) {
                 Ok(()) => {

@@ -4,8 +4,8 @@
 //! is independent of the macro's symbolic derivatives.
 
 use crate::mechanism::{
-    ConstraintKind, ConstraintSpec, Costs, Energy, Equations, Mechanism, ParamSpec, Solve, Spec,
-    Structure, Terms,
+    ConstraintKind, ConstraintSpec, Costs, Energy, Equations, Mechanism, ParamSpec, Prepared,
+    Solve, Spec, Structure, Terms,
 };
 use crate::scalar::{Dual, Scalar};
 
@@ -223,6 +223,11 @@ macro_rules! toy {
         impl Default for $name {
             fn default() -> Self {
                 $name { params: vec![$($value),*] }
+            }
+        }
+        impl From<$name> for Prepared {
+            fn from(mechanism: $name) -> Self {
+                mechanism.prepared()
             }
         }
         impl Toy for $name {

@@ -82,7 +82,7 @@ impl<'a> Accelerations<'a> {
         }
         let (mech, mut solver) = (
             mechanism.prepared(),
-            Solver::new::<M>(SolverOptions::default()),
+            Solver::new(&mech, SolverOptions::default()),
         );
         self.add("Solver::acceleration", false, move |s, out| {
             solver

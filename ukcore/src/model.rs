@@ -1,31 +1,43 @@
-//! What every model of this crate offers: a name, starts with options, a duration.
+//! What a mechanism may say of itself beyond its equations: a name, start states with options, a duration, known motions.
 
 use std::collections::BTreeMap;
 
-use ukcore::{Error, Mechanism, State};
+use crate::assemble::State;
+use crate::error::Error;
+use crate::mechanism::Mechanism;
 
-use crate::Reference;
-
-/// A mechanism with a name, consistent start states and a typical duration.
+/// A mechanism that says more of itself than its equations: a name, consistent start states, a typical duration, what is known of its motion.
 pub trait Model: Mechanism {
     /// Name on the command line, such as `"uchain"`.
-    const ID: &'static str;
+    const ID: &'static str = Self::SPEC.name;
 
-    /// The model in one line.
-    fn summary() -> &'static str;
+    /// The model in one line: the first of its documentation where nothing else is said.
+    #[must_use]
+    fn summary() -> &'static str {
+        Self::SPEC.doc.trim().lines().next().unwrap_or_default()
+    }
 
     /// The start states on offer; the first is the default.
-    fn starts() -> &'static [StartSpec];
+    #[must_use]
+    fn starts() -> &'static [StartSpec] {
+        &[]
+    }
 
     /// A state on all constraints, for the parameters of `self`.
     ///
     /// # Errors
     /// [`Error::UnknownName`] for an unknown start or option, [`Error::InvalidSetting`] for a value with which the mechanism cannot
     /// be put together.
-    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error>;
+    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
+        Chosen::of::<Self>(name, options)?;
+        Ok(State::zeros::<Self>())
+    }
 
-    /// Duration of a typical run, s.
-    fn duration() -> f64;
+    /// Duration of a typical run, s: 10 s where nothing else is said.
+    #[must_use]
+    fn duration() -> f64 {
+        10.0
+    }
 
     /// What is known about the motion from [`default_start`](Model::default_start) with default parameters, once for each end that is of
     /// interest; empty where nothing is.
@@ -107,11 +119,11 @@ impl StartOptions {
     }
 }
 
-/// A start of a model with the values of all its options.
+/// A start of a model with the values of all its options: what an implementation of [`Model::start`] begins with.
 #[derive(Debug, Clone)]
-pub(crate) struct Chosen {
+pub struct Chosen {
     /// The start.
-    pub(crate) spec: &'static StartSpec,
+    pub spec: &'static StartSpec,
     values: Vec<f64>,
 }
 
@@ -120,7 +132,7 @@ impl Chosen {
     ///
     /// # Errors
     /// [`Error::UnknownName`] with the nearest name, [`Error::NonFinite`] for a value that is not finite.
-    pub(crate) fn of<M: Model>(name: &str, options: &StartOptions) -> Result<Self, Error> {
+    pub fn of<M: Model>(name: &str, options: &StartOptions) -> Result<Self, Error> {
         let spec = M::starts().iter().find(|s| s.name == name).ok_or_else(|| {
             Error::unknown_name("start", name, &mut M::starts().iter().map(|s| s.name))
         })?;
@@ -140,16 +152,59 @@ impl Chosen {
     }
 
     /// Values of the first `K` options, in declared order; 0 for those that the start has not.
-    pub(crate) fn values<const K: usize>(&self) -> [f64; K] {
+    #[must_use]
+    pub fn values<const K: usize>(&self) -> [f64; K] {
         std::array::from_fn(|i| self.values.get(i).copied().unwrap_or(0.0))
     }
 }
 
-/// An [`Error::InvalidSetting`] unless `value` is positive and finite.
-pub(crate) fn positive(what: &'static str, value: f64) -> Result<(), Error> {
+/// Checks a value that a start was given.
+///
+/// # Errors
+/// [`Error::InvalidSetting`], which calls it `what`, unless `value` is positive and finite.
+pub fn positive(what: &'static str, value: f64) -> Result<(), Error> {
     if value > 0.0 && value.is_finite() {
         return Ok(());
     }
     let reason = format!("is {value:?}; it must be positive and finite");
     Err(Error::InvalidSetting { what, reason })
+}
+
+/// States of a motion that are known in closed form, or from integrations with more digits than an `f64` holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reference {
+    /// Where the states come from, in a few words.
+    pub source: &'static str,
+    /// Bound of the error of every coordinate and velocity, in their own units.
+    pub error: f64,
+    /// The states, in order of time; the motion ends with the last one.
+    pub states: Vec<State>,
+}
+
+/// States in closed form: so many equal intervals of the duration of a model.
+const INTERVALS: u32 = 16;
+
+impl Reference {
+    /// The closed form `at` time t of q and q̇, at equal intervals up to the duration of `M`.
+    #[must_use]
+    pub fn closed<M: Model>(error: f64, at: impl Fn(f64) -> (Vec<f64>, Vec<f64>)) -> Self {
+        let states = (1..=INTERVALS).map(|k| {
+            let t = M::duration() * f64::from(k) / f64::from(INTERVALS);
+            let (q, v) = at(t);
+            State { t, q, v }
+        });
+        Reference {
+            source: "closed form",
+            error,
+            states: states.collect(),
+        }
+    }
+
+    /// These states up to the time `end`.
+    #[must_use]
+    pub fn up_to(&self, end: f64) -> Self {
+        let mut shorter = self.clone();
+        shorter.states.retain(|state| state.t <= end);
+        shorter
+    }
 }
