@@ -5,7 +5,7 @@ use models::{Model, UChain};
 use nalgebra::DVector;
 use tests::{Check, Dense, Random, assert_close, every_model, largest};
 use ukcore::equations::{kkt, uk, up};
-use ukcore::{Formula, Mechanism as _, Solver, SolverOptions};
+use ukcore::{Formula, Solver, SolverOptions};
 
 /// Agreement asked for, relative to the largest acceleration.
 const ACCURACY: f64 = 1e-9;
@@ -81,9 +81,9 @@ fn printed_formulas_agree_with_the_solver() {
     impl Check for Printed {
         fn check<M: Model>(&self) {
             let mut random = Random::new(42);
+            let model = M::default();
             let mut solver = Solver::new(&model, SolverOptions::default());
             for _ in 0..STATES {
-                let model = M::default();
                 let state = random.consistent_state(&model, 0.01);
                 let solution = solver
                     .solve(state.t, &state.q, &state.v)

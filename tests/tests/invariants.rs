@@ -51,9 +51,9 @@ fn ideal_forces_do_no_virtual_work() {
     impl Check for Work {
         fn check<M: Model>(&self) {
             let mut random = Random::new(21);
+            let model = M::default();
             let mut solver = Solver::new(&model, SolverOptions::default());
             for _ in 0..STATES {
-                let model = M::default();
                 let state = random.consistent_state(&model, 0.01);
                 let solution = solver
                     .solve(state.t, &state.q, &state.v)
@@ -120,9 +120,9 @@ fn gauss_principle() {
     impl Check for Gauss {
         fn check<M: Model>(&self) {
             let mut random = Random::new(22);
+            let model = M::default();
             let mut solver = Solver::new(&model, SolverOptions::default());
             for _ in 0..STATES {
-                let model = M::default();
                 let state = random.consistent_state(&model, 0.01);
                 let mut actual = vec![0.0; M::SPEC.n()];
                 solver

@@ -43,7 +43,7 @@ fn swim(fish: &FishRobot, tolerance: f64, times: Vec<f64>) -> Trajectory {
 fn start_acceleration(fish: &FishRobot) -> f64 {
     let start = fish.default_start().expect("the start is consistent");
     let mut out = vec![0.0; FishRobot::SPEC.n()];
-    Solver::new(&fish, SolverOptions::default())
+    Solver::new(fish, SolverOptions::default())
         .acceleration(start.t, &start.q, &start.v, &mut out)
         .expect("[M | Aᵀ] has full rank");
     out[FishRobot::X1]

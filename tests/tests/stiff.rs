@@ -19,7 +19,7 @@ fn run<M: Model>(model: &M, method: Method, tolerance: f64, until: f64) -> Traje
         .unwrap_or_else(|e| panic!("{}: {}", M::ID, e.error))
 }
 
-fn end<M: Model>(run: &Trajectory) -> State {
+fn end(run: &Trajectory) -> State {
     run.last().expect("it has run").to_state()
 }
 

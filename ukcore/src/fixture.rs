@@ -10,7 +10,7 @@ use crate::mechanism::{
 use crate::scalar::{Dual, Scalar};
 
 /// What a test mechanism states.
-pub(crate) trait Toy: Clone + Default + Send + Sync + 'static {
+pub(crate) trait Toy: Clone + Default + Into<Prepared> + Send + Sync + 'static {
     const FACTS: &'static Spec;
     fn params(&self) -> &[f64];
     fn params_mut(&mut self) -> &mut [f64];
