@@ -177,6 +177,28 @@ fn table(found: &BTreeMap<String, Expansion>) -> String {
     out
 }
 
+/// A declaration of everything that a user's code can name, with an error.
+const BROKEN: &str = "
+/// A declaration with an error: its type, so that what uses it gives no second message.
+pub Broken {
+    const N: usize = 2;
+    const HALF: f64 = 0.5;
+    params { m = 1.0, k[N] = 2.0 }
+    coords { x[N], y }
+    mass { x[0]: m, x[1]: m, y: weight }
+    holonomic { rod: x[0] = x[1]  for i in 0..N { pin[i]: [x[i], y] = [t, t] } }
+    output { angle = atan2(x[0], y) }
+}";
+
+/// The type that `BROKEN` becomes, which `tests/tests/fallback.rs` compiles and uses.
+fn fallback() -> String {
+    let (code, errors) = super::expand(BROKEN);
+    assert_eq!(errors.len(), 1, "{errors:?}");
+    // What follows `::core::compile_error! { "message" }`.
+    let code: TokenStream = code.into_iter().skip(8).collect();
+    prettyplease::unparse(&syn::parse2(code).expect("the fallback is Rust"))
+}
+
 #[test]
 fn emitted_code_is_as_reviewed() {
     let golden = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("golden");
@@ -188,6 +210,7 @@ fn emitted_code_is_as_reviewed() {
     }
     let mut files: BTreeMap<String, String> = BTreeMap::new();
     files.insert("operations.txt".to_owned(), table(&found));
+    files.insert("Broken.rs".to_owned(), fallback());
     files.extend(
         found
             .into_iter()
