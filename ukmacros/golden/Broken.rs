@@ -15,7 +15,6 @@ impl ::core::default::Default for Broken {
         Broken { m: 1.0, k: [2.0, 2.0] }
     }
 }
-#[automatically_derived]
 #[allow(dead_code)]
 impl Broken {
     /// Constant `N` of the declaration.
@@ -34,100 +33,77 @@ impl Broken {
     /// Position of output `angle`.
     pub const OUT_ANGLE: usize = 0;
 }
-#[automatically_derived]
-#[allow(unused_variables, clippy::all, clippy::pedantic)]
-impl ::ukcore::Mechanism for Broken {
-    const SPEC: &'static ::ukcore::Spec = &::ukcore::Spec {
-        name: "Broken",
-        doc: "",
-        params: &[],
-        prepared: &[],
-        coords: &[],
-        constraints: &[],
-        holonomic: 0,
-        outputs: &[],
-        switches: &[],
-        structure: ::ukcore::Structure {
-            straight_line: false,
-            solve: ::ukcore::Solve::none(""),
-            mass_pattern: &[],
-            jacobian_pattern: &[],
-            mass_diagonal: false,
-            mass_constant: false,
-            jacobian_constant: false,
-            massless: &[],
-            scleronomic: false,
-            nonideal: false,
-            potential: false,
-            conservative: false,
-            left_out: &[],
-            costs: ::ukcore::Costs::NONE,
-        },
-        equations: ::ukcore::Equations {
-            definitions: &[],
-            mass: &[],
-            force: &[],
-            nonideal: &[],
-            jacobian: &[],
-            rhs: &[],
-        },
-    };
-    fn parameter(&self, index: usize) -> f64 {
-        match index {
-            0 => self.m,
-            1 => self.k[0],
-            2 => self.k[1],
-            _ => ::ukcore::emitted::no_parameter(index),
+const _: () = {
+    use ::ukcore as ukcore;
+    #[automatically_derived]
+    #[allow(unused_variables, clippy::all, clippy::pedantic)]
+    impl ukcore::Mechanism for Broken {
+        const SPEC: &'static ukcore::Spec = &ukcore::Spec {
+            name: "Broken",
+            ..ukcore::Spec::EMPTY
+        };
+        fn parameter(&self, index: usize) -> f64 {
+            match index {
+                0 => self.m,
+                1 => self.k[0],
+                2 => self.k[1],
+                _ => ukcore::emitted::no_parameter(index),
+            }
         }
-    }
-    fn set_parameter(&mut self, index: usize, value: f64) {
-        match index {
-            0 => self.m = value,
-            1 => self.k[0] = value,
-            2 => self.k[1] = value,
-            _ => ::ukcore::emitted::no_parameter(index),
+        fn set_parameter(&mut self, index: usize, value: f64) {
+            match index {
+                0 => self.m = value,
+                1 => self.k[0] = value,
+                2 => self.k[1] = value,
+                _ => ukcore::emitted::no_parameter(index),
+            }
         }
-    }
-    fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {}
-    fn dynamics<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-        out: &mut ::ukcore::Terms<'_, S>,
-    ) {}
-    fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {}
-    fn jacobian<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-        jacobian: &mut [S],
-    ) {}
-    fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {}
-    fn residual_rate<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-        rate: &mut [S],
-    ) {}
-    fn energy<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-    ) -> ::ukcore::Energy<S> {
-        ::ukcore::Energy {
-            kinetic: t,
-            potential: t,
+        fn prepare<S: ukcore::Scalar>(given: &[S], prepared: &mut [S]) {}
+        fn dynamics<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            out: &mut ukcore::Terms<'_, S>,
+        ) {}
+        fn mass_matrix<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            mass: &mut [S],
+        ) {}
+        fn jacobian<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            jacobian: &mut [S],
+        ) {}
+        fn residual<S: ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {}
+        fn residual_rate<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            rate: &mut [S],
+        ) {}
+        fn energy<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+        ) -> ukcore::Energy<S> {
+            ukcore::Energy {
+                kinetic: t,
+                potential: t,
+            }
         }
+        fn outputs<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            outputs: &mut [S],
+        ) {}
     }
-    fn outputs<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-        outputs: &mut [S],
-    ) {}
-}
+};

@@ -223,6 +223,8 @@ cases! {
     unknown_section: "coords { x } mass { x: 1.0 } «forces» { x: 1.0 }" => "unknown section `forces`; did you mean `force`?";
     repeated_section: "coords { x } «coords» { y } mass { x: 1.0, y: 1.0 }" => "section `coords` appears twice";
     attribute: "coords { #[«allow(dead_code)»] x } mass { x: 1.0 }" => "only doc comments are allowed here";
+    crate_without_path: "#[«ukcore(runtime)»] coords { x } mass { x: 1.0 }" => "this attribute is written `#[ukcore(crate = my::path::to::ukcore)]`";
+    crate_of_an_entry: "coords { «#»[ukcore(crate = a)] x } mass { x: 1.0 }" => "stands before the whole declaration";
     open_range: "coords { x[3] } mass { for i in «0..» { x[i]: 1.0 } }" => "a range needs both ends";
     no_range: "coords { x[3] } mass { for i in «3» { x[i]: 1.0 } }" => "expected a range such as `0..N`";
     // Indices and loops.
