@@ -1662,7 +1662,7 @@ const _: () = {
                             coupler_2_by_coupler_3,
                             right_crank_3 * coupler_2_by_crank_3,
                         )
-                        + (right_y_2 * acceleration_0_part_34)
+                        + (acceleration_0_part_34 * right_y_2)
                             .neg_mul_add(
                                 per_pivot_y_2,
                                 right_x_2

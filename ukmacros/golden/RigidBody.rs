@@ -876,7 +876,7 @@ const _: () = {
                 safe_e3,
                 lit(0.0),
             );
-            let right_unit = (right_e3 * acceleration_0_part_15)
+            let right_unit = (acceleration_0_part_15 * right_e3)
                 .mul_add(
                     per_pivot_e3,
                     right_e2

@@ -239,8 +239,8 @@ const _: () = {
                 ("per_i1_torque_r", "torque*r/i1"),
                 ("per_i2_sq_l", "sq(l)/i2"),
                 ("per_m1", "1/m1"),
-                ("per_i1_torque", "torque/i1"),
                 ("prepared_part", "r^4/sq(i1)"),
+                ("per_i1_torque", "torque/i1"),
                 ("prepared_part_2", "r^3/i1"),
                 ("g", "g"),
                 ("per_m3_and_per_m2", "1/m3 + 1/m2"),
@@ -572,8 +572,8 @@ const _: () = {
             prepared[14] = l * l * per_i2;
             let per_m1 = m1.recip();
             prepared[15] = per_m1;
-            prepared[16] = torque * per_i1;
-            prepared[17] = r.powi(4) / (i1 * i1);
+            prepared[16] = r.powi(4) / (i1 * i1);
+            prepared[17] = torque * per_i1;
             prepared[18] = r * r * r * per_i1;
             prepared[19] = g;
             let per_m3 = m3.recip();
@@ -925,7 +925,7 @@ const _: () = {
         ) -> S {
             let out = ukcore::emitted::exact_mut::<S, 9>(out, "out");
             let [_, _, _, torque, r, l, _, _, _, _, _, _, per_i1_sq_r, per_i1_torque_r,
-            per_i2_sq_l, per_m1, per_i1_torque, prepared_part, prepared_part_2, g,
+            per_i2_sq_l, per_m1, prepared_part, per_i1_torque, prepared_part_2, g,
             per_m3_and_per_m2, per_m2, prepared_part_3, prepared_part_4,
             per_m1_and_per_m2, per_i2_l, per_i1, per_m3, _, safe_th2] = *ukcore::emitted::exact::<
                 S,
@@ -1248,7 +1248,7 @@ const _: () = {
         ) -> S {
             let out = ukcore::emitted::exact_mut::<S, 9>(out, "out");
             let [_, _, _, _, _, _, _, _, _, _, _, _, per_i1_sq_r, _, per_i2_sq_l, per_m1,
-            _, prepared_part, _, _, per_m3_and_per_m2, per_m2, prepared_part_3, _,
+            prepared_part, _, _, _, per_m3_and_per_m2, per_m2, prepared_part_3, _,
             per_m1_and_per_m2, per_i2_l, _, per_m3, per_i1_r, safe_th2] = *ukcore::emitted::exact::<
                 S,
                 30,
