@@ -1,12 +1,8 @@
-//! Values of parameters as written on the command line: `15deg`, `12mm`, `2*PI`, `9.81 m/s^2`.
+//! Values as written on the command line: a number times units, such as `15deg`, `12mm`, `9.81 m/s^2`, `2.5*PI`.
 //!
 //! ```text
-//! value   = term { ("+" | "-") term } ;
-//! term    = factor { ("*" | "/") factor | factor } ;      (a juxtaposed factor multiplies: 2 PI, N m)
-//! factor  = [ "+" | "-" ] power ;
-//! power   = atom [ "^" integer ] ;
-//! atom    = number [ unit [ "^" integer ] ] | name | "(" value ")" ;       (1/2m is 1/(2 m))
-//! name    = "PI" | unit ;
+//! value  = [ "+" | "-" ] factor { [ "*" | "/" ] factor } ;      (from left to right; without a sign between them the second is a name)
+//! factor = number | "PI" | unit [ "^" [ "-" ] digits | "²" | "³" ] ;
 //! ```
 
 use std::f64::consts::PI;
@@ -16,41 +12,36 @@ use ukcore::Error;
 /// Exponents of kilogram, metre, second and radian. The radian counts, so that an angle is not taken for a number.
 type Dimension = [i32; 4];
 
-const NONE: Dimension = [0; 4];
+/// Name, value in kg, m, s and rad, dimension, and whether a prefix may stand before it. A hertz is a turn a second: what is declared
+/// in mechanics are angular frequencies.
+const UNITS: &[(&str, f64, Dimension, bool)] = &[
+    ("g", 1e-3, [1, 0, 0, 0], true),
+    ("m", 1.0, [0, 1, 0, 0], true),
+    ("s", 1.0, [0, 0, 1, 0], true),
+    ("min", 60.0, [0, 0, 1, 0], false),
+    ("h", 3600.0, [0, 0, 1, 0], false),
+    ("rad", 1.0, [0, 0, 0, 1], true),
+    ("deg", PI / 180.0, [0, 0, 0, 1], false),
+    ("°", PI / 180.0, [0, 0, 0, 1], false),
+    ("turn", 2.0 * PI, [0, 0, 0, 1], false),
+    ("Hz", 2.0 * PI, [0, 0, -1, 1], true),
+    ("rpm", PI / 30.0, [0, 0, -1, 1], false),
+    ("N", 1.0, [1, 1, -2, 0], true),
+    ("Nm", 1.0, [1, 2, -2, 0], true),
+    ("J", 1.0, [1, 2, -2, 0], true),
+    ("W", 1.0, [1, 2, -3, 0], true),
+    ("Pa", 1.0, [1, -1, -2, 0], true),
+];
 
-/// Name, value in kg, m, s and rad, dimension. A hertz is a turn a second: what is declared in this project are angular frequencies.
-const UNITS: &[(&str, f64, Dimension)] = &[
-    ("kg", 1.0, [1, 0, 0, 0]),
-    ("g", 1e-3, [1, 0, 0, 0]),
-    ("mg", 1e-6, [1, 0, 0, 0]),
-    ("m", 1.0, [0, 1, 0, 0]),
-    ("km", 1e3, [0, 1, 0, 0]),
-    ("cm", 1e-2, [0, 1, 0, 0]),
-    ("mm", 1e-3, [0, 1, 0, 0]),
-    ("um", 1e-6, [0, 1, 0, 0]),
-    ("s", 1.0, [0, 0, 1, 0]),
-    ("ms", 1e-3, [0, 0, 1, 0]),
-    ("us", 1e-6, [0, 0, 1, 0]),
-    ("min", 60.0, [0, 0, 1, 0]),
-    ("h", 3600.0, [0, 0, 1, 0]),
-    ("rad", 1.0, [0, 0, 0, 1]),
-    ("mrad", 1e-3, [0, 0, 0, 1]),
-    ("deg", PI / 180.0, [0, 0, 0, 1]),
-    ("°", PI / 180.0, [0, 0, 0, 1]),
-    ("turn", 2.0 * PI, [0, 0, 0, 1]),
-    ("Hz", 2.0 * PI, [0, 0, -1, 1]),
-    ("rpm", PI / 30.0, [0, 0, -1, 1]),
-    ("N", 1.0, [1, 1, -2, 0]),
-    ("kN", 1e3, [1, 1, -2, 0]),
-    ("mN", 1e-3, [1, 1, -2, 0]),
-    ("Nm", 1.0, [1, 2, -2, 0]),
-    ("J", 1.0, [1, 2, -2, 0]),
-    ("kJ", 1e3, [1, 2, -2, 0]),
-    ("mJ", 1e-3, [1, 2, -2, 0]),
-    ("W", 1.0, [1, 2, -3, 0]),
-    ("Pa", 1.0, [1, -1, -2, 0]),
-    ("kPa", 1e3, [1, -1, -2, 0]),
-    ("MPa", 1e6, [1, -1, -2, 0]),
+const PREFIXES: &[(char, f64)] = &[
+    ('G', 1e9),
+    ('M', 1e6),
+    ('k', 1e3),
+    ('c', 1e-2),
+    ('m', 1e-3),
+    ('u', 1e-6),
+    ('µ', 1e-6),
+    ('n', 1e-9),
 ];
 
 /// A value with its dimension.
@@ -58,9 +49,8 @@ const UNITS: &[(&str, f64, Dimension)] = &[
 pub(crate) struct Quantity {
     /// In kg, m, s and rad, or as it stands if no unit was named.
     value: f64,
-    dimension: Dimension,
-    /// A unit was named.
-    has_unit: bool,
+    /// None if no unit was named.
+    dimension: Option<Dimension>,
 }
 
 impl Quantity {
@@ -69,22 +59,21 @@ impl Quantity {
     /// # Errors
     /// What is wrong with `text`, with the nearest unit if one is unknown.
     pub(crate) fn parse(text: &str) -> Result<Self, String> {
-        let word = text.trim().trim_start_matches(['-', '+']).to_lowercase();
+        let body = text.trim();
+        let unsigned = body.strip_prefix(['+', '-', '−']).unwrap_or(body);
+        let word = unsigned.to_lowercase();
         if ["nan", "inf", "infinity"].contains(&word.as_str()) {
             return Err(format!("`{text}` is not a finite number"));
         }
-        let mut parser = Parser {
-            rest: text,
-            depth: 0,
-        };
-        let quantity = parser.sum().map_err(|e| format!("`{text}`: {e}"))?;
-        if !parser.rest.is_empty() {
-            return Err(format!("`{text}`: `{}` is not understood", parser.rest));
+        let mut value = product(unsigned.trim_start()).map_err(|e| format!("`{text}`: {e}"))?;
+        if body.starts_with(['-', '−']) {
+            value.value = -value.value;
         }
-        if !quantity.value.is_finite() {
-            return Err(format!("`{text}` is not a finite number"));
+        if value.value.is_finite() {
+            Ok(value)
+        } else {
+            Err(format!("`{text}` is not a finite number"))
         }
-        Ok(quantity)
     }
 
     /// The number in the unit `declared`. A bare number is in that unit already; with no unit declared, kg, m, s and rad are meant.
@@ -92,47 +81,46 @@ impl Quantity {
     /// # Errors
     /// If the dimensions differ.
     pub(crate) fn in_unit(self, declared: Option<&str>) -> Result<f64, String> {
-        if !self.has_unit {
-            return Ok(self.value);
-        }
-        let Some(unit) = declared.filter(|u| is_unit(u)) else {
+        let unit = declared.and_then(|name| Some((name, unit(name)?)));
+        let (Some(own), Some((name, one))) = (self.dimension, unit) else {
             return Ok(self.value);
         };
-        let one = Quantity::parse(unit)?;
         if one.dimension == self.dimension {
-            Ok(self.value / one.value)
-        } else {
-            Err(format!(
-                "a value in {unit} is needed, not one in {}",
-                describe(self.dimension)
-            ))
+            return Ok(self.value / one.value);
         }
+        let own = describe(own);
+        Err(format!("a value in {name} is needed, not one in {own}"))
+    }
+
+    fn times(self, factor: Quantity, power: i32) -> Self {
+        let sum = |a: Dimension, b: Dimension| std::array::from_fn(|i| a[i] + power * b[i]);
+        let dimension = match (self.dimension, factor.dimension) {
+            (a, None) => a,
+            (a, Some(b)) => Some(sum(a.unwrap_or_default(), b)),
+        };
+        let value = self.value * factor.value.powi(power);
+        Quantity { value, dimension }
     }
 }
 
-/// Whether `text` is a unit: `m`, `kg m^2`, `rad/s`, `1/s`.
-pub(crate) fn is_unit(text: &str) -> bool {
-    Quantity::parse(text).is_ok_and(|q| q.has_unit)
+/// The unit that `text` stands for, such as `m`, `kg m^2`, `rad/s`, `1/s`; none where it names none.
+fn unit(text: &str) -> Option<Quantity> {
+    Quantity::parse(text).ok().filter(|q| q.dimension.is_some())
 }
 
 /// The unit a doc comment ends with: after a comma or "in", or in brackets: "mass of link 1, kg", "span (m)", "phase in rad".
 pub(crate) fn unit_in(doc: &str) -> Option<&str> {
     let doc = doc.trim().trim_end_matches('.');
-    let inside = |open, close| {
-        let (_, tail) = doc.rsplit_once(open)?;
-        tail.split_once(close).map(|(unit, _)| unit)
-    };
-    let after = |mark| doc.rsplit_once(mark).map(|(_, unit)| unit);
-    [
+    let inside = |open, close| Some(doc.rsplit_once(open)?.1.split_once(close)?.0);
+    let after = |mark| Some(doc.rsplit_once(mark)?.1);
+    let places = [
         inside('[', ']'),
         inside('(', ')'),
         after(", "),
         after(" in "),
-    ]
-    .into_iter()
-    .flatten()
-    .map(str::trim)
-    .find(|unit| is_unit(unit))
+    ];
+    let mut words = places.into_iter().flatten().map(str::trim);
+    words.find(|word| unit(word).is_some())
 }
 
 /// Splits `NAME=VALUE`.
@@ -140,17 +128,14 @@ pub(crate) fn unit_in(doc: &str) -> Option<&str> {
 /// # Errors
 /// If there is no `=`, no name, or the value is not understood.
 pub(crate) fn assignment(text: &str) -> Result<(String, Quantity), String> {
-    let (name, value) = text
-        .split_once('=')
-        .ok_or_else(|| format!("`{text}` is not of the form NAME=VALUE"))?;
-    let name = name.trim();
-    if name.is_empty() {
-        return Err(format!("`{text}` has no name before `=`"));
+    let Some((name, value)) = text.split_once('=') else {
+        return Err(format!("`{text}` is not of the form NAME=VALUE"));
+    };
+    match (name.trim(), value.trim()) {
+        ("", _) => Err(format!("`{text}` has no name before `=`")),
+        (_, "") => Err(format!("`{text}` has no value after `=`")),
+        (name, _) => Ok((name.to_owned(), Quantity::parse(value)?)),
     }
-    if value.trim().is_empty() {
-        return Err(format!("`{text}` has no value after `=`"));
-    }
-    Ok((name.to_owned(), Quantity::parse(value)?))
 }
 
 /// A time in seconds: `1.5`, `20ms`, `2min`.
@@ -162,251 +147,125 @@ pub(crate) fn seconds(text: &str) -> Result<f64, String> {
 }
 
 fn describe(dimension: Dimension) -> String {
-    let parts: Vec<String> = ["kg", "m", "s", "rad"]
-        .iter()
-        .zip(dimension)
-        .filter(|(_, power)| *power != 0)
+    let units = ["kg", "m", "s", "rad"].into_iter().zip(dimension);
+    let parts = units.filter(|(_, power)| *power != 0);
+    let words: Vec<String> = parts
         .map(|(unit, power)| match power {
-            1 => (*unit).to_owned(),
+            1 => unit.to_owned(),
             _ => format!("{unit}^{power}"),
         })
         .collect();
-    if parts.is_empty() {
-        "plain numbers".to_owned()
-    } else {
-        parts.join(" ")
+    if words.is_empty() {
+        return "plain numbers".to_owned();
+    }
+    words.join(" ")
+}
+
+fn product(text: &str) -> Result<Quantity, String> {
+    let (mut total, mut rest) = factor(text)?;
+    loop {
+        rest = rest.trim_start();
+        let (power, next) = match rest.chars().next() {
+            None => return Ok(total),
+            Some(sign @ ('*' | '·' | '/')) => {
+                (if sign == '/' { -1 } else { 1 }, &rest[sign.len_utf8()..])
+            }
+            Some(c) if is_letter(c) => (1, rest),
+            Some(c) if c.is_ascii_digit() || c == '.' => {
+                return Err(format!("`*`, `/` or `^` is missing before `{rest}`"));
+            }
+            Some(_) => return Err(format!("`{rest}` is not understood")),
+        };
+        let (next, after) = factor(next.trim_start())?;
+        total = total.times(next, power);
+        rest = after;
     }
 }
 
-/// Parentheses deeper than this are a mistake, not a value; the bound keeps the parser's recursion finite.
-const DEEPEST: usize = 32;
-
-struct Parser<'a> {
-    rest: &'a str,
-    depth: usize,
+/// The factor that `text` begins with, and what follows it.
+fn factor(text: &str) -> Result<(Quantity, &str), String> {
+    let plain = |value| Quantity {
+        value,
+        dimension: None,
+    };
+    match text.chars().next() {
+        Some(c) if c.is_ascii_digit() || c == '.' => {
+            let (number, rest) = text.split_at(number_length(text));
+            let value = number.parse();
+            let value = value.map_err(|_| format!("`{number}` is not a number"))?;
+            Ok((plain(value), rest))
+        }
+        Some(c) if is_letter(c) => {
+            let end = text.find(|c| !is_letter(c)).unwrap_or(text.len());
+            let (name, rest) = text.split_at(end);
+            if ["PI", "pi", "π"].contains(&name) {
+                return Ok((plain(PI), rest));
+            }
+            let (power, rest) = exponent(rest)?;
+            let one = plain(1.0);
+            Ok((one.times(named(name)?, power), rest))
+        }
+        Some(c) => Err(format!("a value is expected at `{c}`")),
+        None => Err("a value is missing".to_owned()),
+    }
 }
 
-impl Parser<'_> {
-    fn peek(&mut self) -> Option<char> {
-        self.rest = self.rest.trim_start();
-        self.rest.chars().next()
-    }
+fn is_letter(c: char) -> bool {
+    c.is_alphabetic() || c == '_' || c == '°'
+}
 
-    fn take(&mut self, wanted: char) -> bool {
-        let found = self.peek() == Some(wanted);
-        if found {
-            self.rest = &self.rest[wanted.len_utf8()..];
-        }
-        found
-    }
-
-    fn sum(&mut self) -> Result<Quantity, String> {
-        let mut left = self.product()?;
-        loop {
-            let sign = match self.peek() {
-                Some('+') => 1.0,
-                Some('-' | '−') => -1.0,
-                _ => return Ok(left),
-            };
-            self.bump();
-            let right = self.product()?;
-            if left.dimension != right.dimension || left.has_unit != right.has_unit {
-                return Err(format!(
-                    "{} and {} cannot be added",
-                    describe(left.dimension),
-                    describe(right.dimension)
-                ));
-            }
-            left.value += sign * right.value;
+/// All digits and points, so that `1.5.2` is one wrong number; an `e` is an exponent only if digits follow: `2e3`, but not `2 e`.
+fn number_length(text: &str) -> usize {
+    let digits = |from: usize, point| {
+        let end = text[from..].find(|c: char| !c.is_ascii_digit() && !(point && c == '.'));
+        end.map_or(text.len(), |n| from + n)
+    };
+    let end = digits(0, true);
+    if text[end..].starts_with(['e', 'E']) {
+        let start = end + 1 + usize::from(text[end + 1..].starts_with(['+', '-']));
+        let stop = digits(start, false);
+        if stop > start {
+            return stop;
         }
     }
+    end
+}
 
-    fn product(&mut self) -> Result<Quantity, String> {
-        let mut left = self.factor()?;
-        loop {
-            let power = match self.peek() {
-                Some('*' | '·') => {
-                    self.bump();
-                    1
-                }
-                Some('/') => {
-                    self.bump();
-                    -1
-                }
-                Some(c) if c == '(' || c == '.' || c == '°' || c.is_alphanumeric() => 1,
-                _ => return Ok(left),
-            };
-            let right = self.factor()?;
-            left = times(left, raised(right, power));
+/// The power at the start of `text`, 1 if there is none, and what follows it.
+fn exponent(text: &str) -> Result<(i32, &str), String> {
+    for (sign, power) in [('²', 2), ('³', 3)] {
+        if let Some(rest) = text.strip_prefix(sign) {
+            return Ok((power, rest));
         }
     }
+    let Some(power) = text.strip_prefix('^') else {
+        return Ok((1, text));
+    };
+    let start = usize::from(power.starts_with('-'));
+    let end = power[start..].find(|c: char| !c.is_ascii_digit());
+    let (power, rest) = power.split_at(end.map_or(power.len(), |end| start + end));
+    let small = power.parse().ok().filter(|power: &i32| power.abs() < 100);
+    Ok((small.ok_or("an exponent must be a small integer")?, rest))
+}
 
-    fn factor(&mut self) -> Result<Quantity, String> {
-        match self.peek() {
-            Some('+') => {
-                self.bump();
-                self.power()
-            }
-            Some('-' | '−') => {
-                self.bump();
-                let quantity = self.power()?;
-                Ok(Quantity {
-                    value: -quantity.value,
-                    ..quantity
-                })
-            }
-            _ => self.power(),
-        }
-    }
-
-    fn power(&mut self) -> Result<Quantity, String> {
-        match self.peek() {
-            Some('(') => {
-                self.bump();
-                self.depth += 1;
-                if self.depth > DEEPEST {
-                    return Err("parentheses are nested too deep".to_owned());
-                }
-                let inner = self.sum()?;
-                self.depth -= 1;
-                if !self.take(')') {
-                    return Err("a `)` is missing".to_owned());
-                }
-                self.exponent(inner)
-            }
-            Some(c) if c == '.' || c.is_ascii_digit() => {
-                let number = self.number()?;
-                // A unit or PI touching the number belongs to it.
-                match self.rest.chars().next() {
-                    Some(c) if c == '°' || c.is_alphabetic() => {
-                        let name = self.name()?;
-                        Ok(times(number, self.exponent(name)?))
-                    }
-                    _ => self.exponent(number),
-                }
-            }
-            Some(c) if c == '°' || c.is_alphabetic() => {
-                let name = self.name()?;
-                self.exponent(name)
-            }
-            Some(c) => Err(format!("a value is expected at `{c}`")),
-            None => Err("a value is missing".to_owned()),
-        }
-    }
-
-    fn exponent(&mut self, base: Quantity) -> Result<Quantity, String> {
-        let exponent = match self.peek() {
-            Some('²') => 2,
-            Some('³') => 3,
-            Some('^') => {
-                self.bump();
-                let negative = self.take('-');
-                self.peek();
-                let digits = self.split(|c| c.is_ascii_digit());
-                // More than two digits are no exponent of a unit, and powi needs an i32.
-                let size: i32 = digits
-                    .parse()
-                    .ok()
-                    .filter(|n| *n < 100)
-                    .ok_or("an exponent must be a small integer")?;
-                return Ok(raised(base, if negative { -size } else { size }));
-            }
-            _ => return Ok(base),
-        };
-        self.bump();
-        Ok(raised(base, exponent))
-    }
-
-    fn number(&mut self) -> Result<Quantity, String> {
-        let text = self.rest;
-        let digits = |from: usize| {
-            text[from..]
-                .find(|c: char| !c.is_ascii_digit())
-                .map_or(text.len(), |n| from + n)
-        };
-        let mut end = digits(0);
-        if text[end..].starts_with('.') {
-            end = digits(end + 1);
-        }
-        // An `e` is an exponent only if digits follow: `2e3`, but not `2 e`.
-        if text[end..].starts_with(['e', 'E']) {
-            let sign = usize::from(text[end + 1..].starts_with(['+', '-']));
-            let start = end + 1 + sign;
-            let stop = digits(start);
-            if stop > start {
-                end = stop;
-            }
-        }
-        let (number, rest) = text.split_at(end);
-        self.rest = rest;
-        let value = number
-            .parse()
-            .map_err(|_| format!("`{number}` is not a number"))?;
-        Ok(Quantity {
-            value,
-            dimension: NONE,
-            has_unit: false,
+/// The unit called `name`, with or without a prefix.
+fn named(name: &str) -> Result<Quantity, String> {
+    let find = |name: &str, factor: f64| {
+        let entry = UNITS.iter().find(|(unit, ..)| *unit == name)?;
+        (factor == 1.0 || entry.3).then_some(Quantity {
+            value: factor * entry.1,
+            dimension: Some(entry.2),
         })
-    }
-
-    fn name(&mut self) -> Result<Quantity, String> {
-        let name = match self.rest.strip_prefix('°') {
-            Some(rest) => {
-                self.rest = rest;
-                "°"
-            }
-            None => self.split(|c| c.is_alphabetic() || c == '_'),
-        };
-        if name == "PI" || name == "pi" || name == "π" {
-            return Ok(Quantity {
-                value: PI,
-                dimension: NONE,
-                has_unit: false,
-            });
-        }
-        UNITS
-            .iter()
-            .find(|(unit, ..)| *unit == name)
-            .map(|&(_, value, dimension)| Quantity {
-                value,
-                dimension,
-                has_unit: true,
-            })
-            .ok_or_else(|| {
-                let mut units = UNITS.iter().map(|(unit, ..)| *unit);
-                Error::unknown_name("unit", name, &mut units).to_string()
-            })
-    }
-
-    /// Takes the longest start of the rest whose characters all satisfy `accept`.
-    fn split(&mut self, accept: impl Fn(char) -> bool) -> &str {
-        let end = self.rest.find(|c| !accept(c)).unwrap_or(self.rest.len());
-        let (taken, rest) = self.rest.split_at(end);
-        self.rest = rest;
-        taken
-    }
-
-    fn bump(&mut self) {
-        let mut chars = self.rest.chars();
-        chars.next();
-        self.rest = chars.as_str();
-    }
-}
-
-fn times(a: Quantity, b: Quantity) -> Quantity {
-    Quantity {
-        value: a.value * b.value,
-        dimension: std::array::from_fn(|i| a.dimension[i] + b.dimension[i]),
-        has_unit: a.has_unit || b.has_unit,
-    }
-}
-
-fn raised(a: Quantity, power: i32) -> Quantity {
-    Quantity {
-        value: a.value.powi(power),
-        dimension: a.dimension.map(|d| d * power),
-        has_unit: a.has_unit,
-    }
+    };
+    let mut prefixed = PREFIXES
+        .iter()
+        .filter_map(|&(prefix, factor)| find(name.strip_prefix(prefix)?, factor));
+    find(name, 1.0)
+        .or_else(|| prefixed.next())
+        .ok_or_else(|| {
+            let mut units = UNITS.iter().map(|(unit, ..)| *unit);
+            Error::unknown_name("unit", name, &mut units).to_string()
+        })
 }
 
 #[cfg(test)]
