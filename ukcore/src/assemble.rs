@@ -9,7 +9,7 @@ use nalgebra::DMatrix;
 
 use crate::diagnose;
 use crate::error::Error;
-use crate::mechanism::{Mechanism, Prepared};
+use crate::mechanism::{Constraints, Mechanism, Prepared};
 use crate::pinv::Decomposition;
 use crate::rounding::Rounded;
 use crate::scalar::Scalar;
@@ -66,10 +66,11 @@ impl State {
     ///
     /// # Errors
     /// [`Error::WrongLength`], [`Error::NonFinite`] (also for parameters of `mech`).
-    pub fn check<M: Mechanism>(&self, mech: &M) -> Result<(), Error> {
-        diagnose::check_length("q", self.q.len(), M::SPEC.n())?;
-        diagnose::check_length("v", self.v.len(), M::SPEC.n())?;
-        diagnose::non_finite_input(&mech.prepared(), self.t, &self.q, &self.v).map_or(Ok(()), Err)
+    pub fn check(&self, mech: &Prepared) -> Result<(), Error> {
+        let n = mech.spec().n();
+        diagnose::check_length("q", self.q.len(), n)?;
+        diagnose::check_length("v", self.v.len(), n)?;
+        diagnose::non_finite_input(mech, self.t, &self.q, &self.v).map_or(Ok(()), Err)
     }
 }
 
@@ -100,13 +101,13 @@ impl Residuals {
 ///
 /// # Errors
 /// [`Error::WrongLength`].
-pub fn residuals<M: Mechanism>(mech: &M, state: &State) -> Result<Residuals, Error> {
-    let spec = M::SPEC;
+pub fn residuals(mechanism: impl Into<Prepared>, state: &State) -> Result<Residuals, Error> {
+    let mech: Prepared = mechanism.into();
+    let spec = mech.spec();
     diagnose::check_length("q", state.q.len(), spec.n())?;
     diagnose::check_length("v", state.v.len(), spec.n())?;
     let mut position = vec![0.0; spec.holonomic];
     let mut velocity = vec![0.0; spec.m()];
-    let mech = mech.prepared();
     mech.residual(state.t, &state.q, &mut position);
     mech.residual_rate(state.t, &state.q, &state.v, &mut velocity);
     Ok(Residuals { position, velocity })
@@ -119,9 +120,14 @@ pub fn residuals<M: Mechanism>(mech: &M, state: &State) -> Result<Residuals, Err
 /// - [`Error::NotAssembled`]: no state near the guess satisfies all constraints with these coordinates held; names those in
 ///   conflict with the residuals that remain where their squares (scaled) are least, and the held coordinates where these are the cause.
 /// - [`Error::UnknownName`] for a name in `hold`; [`Error::WrongLength`]; [`Error::NonFinite`].
-pub fn assemble<M: Mechanism>(mech: &M, guess: State, hold: &[&str]) -> Result<State, Error> {
-    guess.check(mech)?;
-    let spec = M::SPEC;
+pub fn assemble(
+    mechanism: impl Into<Prepared>,
+    guess: State,
+    hold: &[&str],
+) -> Result<State, Error> {
+    let mech: Prepared = mechanism.into();
+    guess.check(&mech)?;
+    let spec = mech.spec();
     let mut free = vec![true; spec.n()];
     for name in hold {
         let member = |c: &str| c.split_once('[').is_some_and(|(family, _)| family == *name);
@@ -131,10 +137,10 @@ pub fn assemble<M: Mechanism>(mech: &M, guess: State, hold: &[&str]) -> Result<S
         }
         members.into_iter().for_each(|j| free[j] = false);
     }
-    search(mech, &guess, &free).map_err(|error| blame(mech, &guess, &free, error))
+    search(&mech, &guess, &free).map_err(|error| blame(&mech, &guess, &free, error))
 }
 
-fn search<M: Mechanism>(mech: &M, guess: &State, free: &[bool]) -> Result<State, Error> {
+fn search(mech: &Prepared, guess: &State, free: &[bool]) -> Result<State, Error> {
     let mut problem = Problem::new(mech, guess, free);
     let q = problem.find(Level::Position, &guess.q, &guess.v)?;
     let v = problem.find(Level::Velocity, &guess.v, &q)?;
@@ -142,7 +148,7 @@ fn search<M: Mechanism>(mech: &M, guess: &State, free: &[bool]) -> Result<State,
 }
 
 /// `error` with the held coordinates that cause it: those that help if let go alone; if none does, all, provided that letting all go helps.
-fn blame<M: Mechanism>(mech: &M, guess: &State, free: &[bool], error: Error) -> Error {
+fn blame(mech: &Prepared, guess: &State, free: &[bool], error: Error) -> Error {
     let Error::NotAssembled {
         level, constraints, ..
     } = error
@@ -168,7 +174,7 @@ fn blame<M: Mechanism>(mech: &M, guess: &State, free: &[bool], error: Error) -> 
         constraints,
         held: cause
             .into_iter()
-            .map(|j| M::SPEC.coords[j].to_owned())
+            .map(|j| mech.spec().coords[j].to_owned())
             .collect(),
     }
 }
@@ -180,9 +186,9 @@ enum Level {
 }
 
 /// The least-squares problem of one level at a time.
-struct Problem<'a, M> {
-    mech: &'a M,
-    prepared: Prepared<M>,
+struct Problem<'a> {
+    mech: &'a Prepared,
+    rounded: Prepared<Rounded, dyn Constraints<Rounded>>,
     t: f64,
     /// Indices of the coordinates that may change, and 1/√M_jj for each.
     free: Vec<usize>,
@@ -221,12 +227,11 @@ impl Point {
     }
 }
 
-impl<'a, M: Mechanism> Problem<'a, M> {
-    fn new(mech: &'a M, guess: &State, free: &[bool]) -> Self {
-        let n = M::SPEC.n();
+impl<'a> Problem<'a> {
+    fn new(mech: &'a Prepared, guess: &State, free: &[bool]) -> Self {
+        let n = mech.spec().n();
         let mut mass = vec![0.0; n * n];
-        let prepared = mech.prepared();
-        prepared.mass_matrix(guess.t, &guess.q, &mut mass);
+        mech.mass_matrix(guess.t, &guess.q, &mut mass);
         let inertia: Vec<f64> = (0..n).map(|j| mass[j * n + j]).collect();
         let massive: Vec<f64> = inertia
             .iter()
@@ -245,17 +250,22 @@ impl<'a, M: Mechanism> Problem<'a, M> {
         });
         Problem {
             mech,
-            prepared,
+            rounded: mech.rounded(),
             t: guess.t,
             scale: scale.collect(),
             free,
-            jacobian: vec![0.0; n * M::SPEC.m()],
+            jacobian: vec![0.0; n * mech.spec().m()],
         }
     }
 
-    fn residual<S: Scalar>(&self, level: Level, x: &[S], other: &[S]) -> Vec<S> {
-        let (spec, t, zero) = (M::SPEC, S::from_f64(self.t), S::from_f64(0.0));
-        let mech = self.mech.prepared::<S>();
+    fn residual<S: Scalar, C: ?Sized + Constraints<S>>(
+        &self,
+        mech: &Prepared<S, C>,
+        level: Level,
+        x: &[S],
+        other: &[S],
+    ) -> Vec<S> {
+        let (spec, t, zero) = (mech.spec(), S::from_f64(self.t), S::from_f64(0.0));
         match level {
             Level::Position => {
                 let mut phi = vec![zero; spec.holonomic];
@@ -271,15 +281,11 @@ impl<'a, M: Mechanism> Problem<'a, M> {
     }
 
     fn point(&mut self, level: Level, x: Vec<f64>, other: &[f64]) -> Point {
-        let (n, m) = (M::SPEC.n(), M::SPEC.m());
-        let residual = self.residual(level, &x, other);
+        let (n, m) = (self.mech.spec().n(), self.mech.spec().m());
+        let residual = self.residual(self.mech, level, &x, other);
         match level {
-            Level::Position => self
-                .prepared
-                .jacobian(self.t, &x, other, &mut self.jacobian),
-            Level::Velocity => self
-                .prepared
-                .jacobian(self.t, other, &x, &mut self.jacobian),
+            Level::Position => self.mech.jacobian(self.t, &x, other, &mut self.jacobian),
+            Level::Velocity => self.mech.jacobian(self.t, other, &x, &mut self.jacobian),
         }
         let rows = residual.len();
         let a = &self.jacobian;
@@ -300,7 +306,7 @@ impl<'a, M: Mechanism> Problem<'a, M> {
         }
         let fixed: Vec<Rounded> = other.iter().map(|x| Rounded::exact(*x)).collect();
         let given: Vec<Rounded> = x.iter().map(|x| Rounded::unknown(*x)).collect();
-        let rounded = self.residual(level, &given, &fixed);
+        let rounded = self.residual(&self.rounded, level, &given, &fixed);
         Point {
             x,
             residual,
@@ -330,7 +336,8 @@ impl<'a, M: Mechanism> Problem<'a, M> {
             if best.as_ref().is_none_or(|(least, _)| cost < *least) {
                 best = Some((cost, point));
             }
-            if level == Level::Velocity && M::SPEC.holonomic == M::SPEC.m() {
+            let spec = self.mech.spec();
+            if level == Level::Velocity && spec.holonomic == spec.m() {
                 // Linear: nothing else to find.
                 break;
             }
@@ -356,7 +363,7 @@ impl<'a, M: Mechanism> Problem<'a, M> {
             for ((&j, scale), d) in self.free.iter().zip(&self.scale).zip(&step) {
                 x[j] += scale * d;
             }
-            let trial = self.residual(level, &x, other);
+            let trial = self.residual(self.mech, level, &x, other);
             let trial_cost = point.cost(&trial);
             if trial_cost < cost {
                 // At the rounding level costs may fall for ever by tiny amounts.
@@ -409,7 +416,7 @@ impl<'a, M: Mechanism> Problem<'a, M> {
     fn conflict(&self, level: Level, point: &Point) -> Error {
         let mut residual = point.residual.clone();
         if residual.iter().any(|r| !r.is_finite()) {
-            return diagnose::non_finite_residual(M::SPEC, &residual);
+            return diagnose::non_finite_residual(self.mech.spec(), &residual);
         }
         for (c, r) in residual.iter_mut().enumerate() {
             if point.met(c) {
@@ -421,7 +428,7 @@ impl<'a, M: Mechanism> Problem<'a, M> {
                 Level::Position => "position",
                 Level::Velocity => "velocity",
             },
-            constraints: diagnose::offending(M::SPEC, &residual, &point.row_scale),
+            constraints: diagnose::offending(self.mech.spec(), &residual, &point.row_scale),
             held: Vec::new(),
         }
     }

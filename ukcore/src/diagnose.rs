@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::error::Error;
-use crate::mechanism::{Mechanism, Prepared, Spec};
+use crate::mechanism::{Prepared, Spec};
 use crate::workspace::Evaluated;
 
 /// A coordinate or constraint takes part in a finding if its share is at least this much of the largest one's. Shares that are
@@ -76,13 +76,8 @@ pub(crate) fn offending(spec: &Spec, residual: &[f64], scale: &[f64]) -> Vec<(St
 }
 
 /// An [`Error::NonFinite`] for the state or parameters, if any of those is not finite.
-pub(crate) fn non_finite_input<M: Mechanism>(
-    mech: &Prepared<M>,
-    t: f64,
-    q: &[f64],
-    v: &[f64],
-) -> Option<Error> {
-    let spec = M::SPEC;
+pub(crate) fn non_finite_input(mech: &Prepared, t: f64, q: &[f64], v: &[f64]) -> Option<Error> {
+    let spec = mech.spec();
     let mut what = Vec::new();
     for (i, p) in spec.params.iter().enumerate() {
         if !mech.parameters()[i].is_finite() {
@@ -104,8 +99,7 @@ pub(crate) fn non_finite_input<M: Mechanism>(
 }
 
 /// An [`Error::NonFinite`] for the terms of the equations, in order: mass and constraints, forces, b.
-pub(crate) fn non_finite_terms<M: Mechanism>(terms: &Evaluated, rhs: &[f64]) -> Error {
-    let spec = M::SPEC;
+pub(crate) fn non_finite_terms(spec: &Spec, terms: &Evaluated, rhs: &[f64]) -> Error {
     let mut what = non_finite_matrices(spec, &terms.mass, &terms.jacobian);
     for (name, x) in spec.coords.iter().zip(&terms.force) {
         if !x.is_finite() {

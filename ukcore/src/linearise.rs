@@ -11,23 +11,16 @@
 //! Derivatives are those of eqs. 13 and 19 at any state, on the constraints or off them. Where constraints are redundant on the manifold φ = 0 alone,
 //! the equations have no derivative across it; columns are then those of the redundant set kept as it is, and right for directions along the manifold.
 
-use std::marker::PhantomData;
-
 use crate::assemble::State;
 use crate::error::Error;
-use crate::lanes::Lanes;
-use crate::mechanism::{Mechanism, Prepared, Terms};
+use crate::mechanism::{Dynamics, Prepared, Spec, Terms};
 use crate::scalar::{Dual, Scalar};
 use crate::scan::all_finite;
 use crate::solver::{Baumgarte, Solver, SolverOptions};
 
-/// Numbers that carry the directions of a sweep: one alone. Code for eight lanes takes as long to compile as all the rest of a simulation, and gains little
-/// where registers are narrow.
-type Wide = f64;
-
 /// q̈ and its derivatives at a state. Matrices are column-major: a column for each direction, a row for each coordinate.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Linearisation<M> {
+pub struct Linearisation {
     /// q̈, n.
     pub acceleration: Vec<f64>,
     /// ∂q̈/∂q, n × n.
@@ -38,32 +31,29 @@ pub struct Linearisation<M> {
     pub by_parameter: Vec<f64>,
     /// ∂q̈/∂t, n.
     pub by_time: Vec<f64>,
-    mechanism: PhantomData<fn() -> M>,
+    names: Vec<String>,
 }
 
-impl<M: Mechanism> Linearisation<M> {
+impl Linearisation {
     /// The derivatives at `state`.
     ///
     /// # Errors
     /// Those of [`Solver::acceleration`]; [`Error::NonFinite`] with the names of those derivatives that do not exist, as that of √x at 0.
-    pub fn at(mechanism: &M, state: &State) -> Result<Self, Error> {
-        let n = M::SPEC.n();
-        let mut solver = Solver::new::<M>(SolverOptions::default());
+    pub fn at(mechanism: impl Into<Prepared>, state: &State) -> Result<Self, Error> {
+        Linearisation::of(Solver::new(mechanism, SolverOptions::default()), state)
+    }
+
+    fn of(mut solver: Solver, state: &State) -> Result<Self, Error> {
+        let spec = solver.mechanism().spec();
+        let n = spec.n();
         let mut acceleration = vec![0.0; n];
         let State { t, q, v } = state;
-        let mech = mechanism.prepared();
         // Also checks the state.
-        solver.acceleration(&mech, *t, q, v, &mut acceleration)?;
-        let mut columns = vec![0.0; n * directions::<M>()];
-        let mut slopes = Slopes::<M>::new(&mech);
-        slopes.columns(
-            &mut solver,
-            &mech,
-            (*t, q, v),
-            &mut acceleration,
-            &mut columns,
-        )?;
-        let names = names::<M>();
+        solver.acceleration(*t, q, v, &mut acceleration)?;
+        let mut columns = vec![0.0; n * directions(spec)];
+        let mut slopes = Slopes::new(solver.mechanism());
+        slopes.columns(&mut solver, (*t, q, v), &mut acceleration, &mut columns)?;
+        let names = names(spec);
         let broken = names.iter().zip(columns.chunks_exact(n));
         let broken = broken.filter(|(_, column)| !all_finite(column));
         let what: Vec<String> = broken
@@ -74,14 +64,14 @@ impl<M: Mechanism> Linearisation<M> {
         }
         let (by_position, rest) = columns.split_at(n * n);
         let (by_velocity, rest) = rest.split_at(n * n);
-        let (by_parameter, by_time) = rest.split_at(n * M::SPEC.params.len());
+        let (by_parameter, by_time) = rest.split_at(n * spec.params.len());
         Ok(Linearisation {
             acceleration,
             by_position: by_position.to_vec(),
             by_velocity: by_velocity.to_vec(),
             by_parameter: by_parameter.to_vec(),
             by_time: by_time.to_vec(),
-            mechanism: PhantomData,
+            names,
         })
     }
 
@@ -90,10 +80,9 @@ impl<M: Mechanism> Linearisation<M> {
     /// # Errors
     /// [`Error::UnknownName`] with the nearest name.
     pub fn by(&self, name: &str) -> Result<&[f64], Error> {
-        let names = names::<M>();
-        let n = M::SPEC.n();
-        let Some(index) = names.iter().position(|known| known == name) else {
-            let mut names = names.iter().map(String::as_str);
+        let n = self.acceleration.len();
+        let Some(index) = self.names.iter().position(|known| known == name) else {
+            let mut names = self.names.iter().map(String::as_str);
             return Err(Error::unknown_name("variable", name, &mut names));
         };
         let matrices = [
@@ -108,8 +97,7 @@ impl<M: Mechanism> Linearisation<M> {
 }
 
 /// Names of all directions, in the order of the columns: coordinates, velocities, parameters, time.
-fn names<M: Mechanism>() -> Vec<String> {
-    let spec = M::SPEC;
+fn names(spec: &Spec) -> Vec<String> {
     let coords = spec.coords.iter().map(|name| (*name).to_owned());
     let rates = spec.coords.iter().map(|name| format!("dot({name})"));
     let params = spec.params.iter().map(|p| p.name.to_owned());
@@ -118,47 +106,47 @@ fn names<M: Mechanism>() -> Vec<String> {
 }
 
 /// Number of directions.
-fn directions<M: Mechanism>() -> usize {
-    2 * M::SPEC.n() + M::SPEC.params.len() + 1
+fn directions(spec: &Spec) -> usize {
+    2 * spec.n() + spec.params.len() + 1
 }
 
 /// Columns of ∂q̈/∂(q, q̇, parameters, t), in buffers allocated once.
-pub(crate) struct Slopes<M> {
-    sweep: Sweep<M, Wide>,
-    straight: Vec<Dual<Wide>>,
-    implicit: Option<Implicit<Wide>>,
+pub(crate) struct Slopes {
+    sweep: Sweep,
+    straight: Vec<Dual>,
+    implicit: Option<Implicit>,
 }
 
-impl<M: Mechanism> Slopes<M> {
+impl Slopes {
     /// With the parameters of `mech`.
-    pub(crate) fn new(mech: &Prepared<M>) -> Self {
+    pub(crate) fn new(mech: &Prepared) -> Self {
         Slopes {
             sweep: Sweep::new(mech),
-            straight: vec![Dual::from_f64(0.0); M::SPEC.n()],
+            straight: vec![Dual::from_f64(0.0); mech.spec().n()],
             implicit: None,
         }
     }
 
     /// q̈ into `acceleration`, and fills `columns`, the first ones in the order of [`names`], each of length n, for q̈ as `solver` has it and in the branches that
-    /// `mech` holds. Derivatives that do not exist, as that of √x at 0, are not finite.
+    /// its mechanism holds. Derivatives that do not exist, as that of √x at 0, are not finite.
     ///
     /// # Errors
     /// Those of [`Solver::acceleration`].
     pub(crate) fn columns(
         &mut self,
         solver: &mut Solver,
-        mech: &Prepared<M>,
         (t, q, v): (f64, &[f64], &[f64]),
         acceleration: &mut [f64],
         columns: &mut [f64],
     ) -> Result<(), Error> {
-        self.sweep.mech.hold_as(mech);
-        let straight = M::SPEC.structure.straight_line && solver.baumgarte().is_none();
+        self.sweep.mech.hold_as(solver.mechanism());
+        let spec = solver.mechanism().spec();
+        let straight = spec.structure.straight_line && solver.baumgarte().is_none();
         if straight && self.straight_line((t, q, v), acceleration, columns) {
             return Ok(());
         }
-        let implicit = self.implicit.get_or_insert_with(Implicit::new::<M>);
-        implicit.columns(&mut self.sweep, solver, mech, (t, q, v), columns)?;
+        let implicit = self.implicit.get_or_insert_with(|| Implicit::new(spec));
+        implicit.columns(&mut self.sweep, solver, (t, q, v), columns)?;
         acceleration.copy_from_slice(&implicit.acceleration);
         Ok(())
     }
@@ -170,47 +158,40 @@ impl<M: Mechanism> Slopes<M> {
         acceleration: &mut [f64],
         columns: &mut [f64],
     ) -> bool {
-        let n = M::SPEC.n();
+        let n = self.sweep.q.len();
         let out = &mut self.straight;
-        for (k, columns) in columns.chunks_mut(n * Wide::WIDTH).enumerate() {
-            self.sweep.aim(t, q, v, k * Wide::WIDTH);
+        for (k, column) in columns.chunks_exact_mut(n).enumerate() {
+            self.sweep.aim(t, q, v, k);
             let Sweep { mech, t, q, v, .. } = &self.sweep;
             let safe = mech.acceleration(*t, q, v, out);
-            let finite = out.iter().all(|x| x.re.lane(0).is_finite());
-            if !(finite && safe.re.lane(0) > 0.5) {
+            let finite = out.iter().all(|x| x.re.is_finite());
+            if !(finite && safe.re > 0.5) {
                 return false;
             }
-            for (k, column) in columns.chunks_exact_mut(n).enumerate() {
-                let lane = out.iter().map(|x| x.eps.lane(k));
-                column.iter_mut().zip(lane).for_each(|(x, d)| *x = d);
-            }
+            column.iter_mut().zip(&*out).for_each(|(d, x)| *d = x.eps);
         }
-        let values = out.iter().map(|x| x.re.lane(0));
-        acceleration
-            .iter_mut()
-            .zip(values)
-            .for_each(|(a, x)| *a = x);
+        let pairs = acceleration.iter_mut().zip(out);
+        pairs.for_each(|(a, x)| *a = x.re);
         true
     }
 }
 
-/// Mechanism and state, moving in as many directions as there are lanes.
-struct Sweep<M, L> {
-    mech: Prepared<M, Dual<L>>,
+/// Mechanism and state, moving in one direction.
+struct Sweep {
+    mech: Prepared<Dual, dyn Dynamics<Dual>>,
     /// Some parameter moves.
     moving: bool,
-    t: Dual<L>,
-    q: Vec<Dual<L>>,
-    v: Vec<Dual<L>>,
+    t: Dual,
+    q: Vec<Dual>,
+    v: Vec<Dual>,
 }
 
-impl<M: Mechanism, L: Lanes> Sweep<M, L> {
+impl Sweep {
     /// With the parameters of `mech`.
-    fn new(mech: &Prepared<M>) -> Self {
-        let given = mech.parameters().iter().map(|p| Dual::from_f64(*p));
-        let zeros = || vec![Dual::from_f64(0.0); M::SPEC.n()];
+    fn new(mech: &Prepared) -> Self {
+        let zeros = || vec![Dual::from_f64(0.0); mech.spec().n()];
         Sweep {
-            mech: Prepared::new(given.collect()),
+            mech: mech.dual(),
             moving: false,
             t: Dual::from_f64(0.0),
             q: zeros(),
@@ -218,49 +199,45 @@ impl<M: Mechanism, L: Lanes> Sweep<M, L> {
         }
     }
 
-    /// At (t, q, q̇), lane k moves in direction `first` + k.
-    fn aim(&mut self, t: f64, q: &[f64], v: &[f64], first: usize) {
-        let seed = |x: L, direction: usize| {
-            let unit = |k| f64::from(u8::from(first + k == direction));
-            Dual::new(x, L::from_lanes(unit))
-        };
-        let (n, p) = (M::SPEC.n(), M::SPEC.params.len());
+    /// At (t, q, q̇), moving in `direction`.
+    fn aim(&mut self, t: f64, q: &[f64], v: &[f64], direction: usize) {
+        let seed = |x: f64, own: usize| Dual::new(x, f64::from(u8::from(own == direction)));
+        let (n, p) = (q.len(), self.mech.parameters().len());
         for i in 0..n {
-            self.q[i] = seed(L::from_f64(q[i]), i);
-            self.v[i] = seed(L::from_f64(v[i]), n + i);
+            self.q[i] = seed(q[i], i);
+            self.v[i] = seed(v[i], n + i);
         }
-        let moves = first < 2 * n + p && first + L::WIDTH > 2 * n;
+        let moves = (2 * n..2 * n + p).contains(&direction);
         if moves || self.moving {
             let given = self.mech.parameters().iter().enumerate();
-            let given = given.map(|(i, x)| seed(x.re, 2 * n + i));
-            self.mech = Prepared::new(given.collect());
+            let given: Vec<Dual> = given.map(|(i, x)| seed(x.re, 2 * n + i)).collect();
+            self.mech.set_parameters(given.into_iter());
             self.moving = moves;
         }
-        self.t = seed(L::from_f64(t), 2 * n + p);
+        self.t = seed(t, 2 * n + p);
     }
 }
 
 /// Buffers for columns by differentiating the equations.
-struct Implicit<L> {
+struct Implicit {
     acceleration: Vec<f64>,
     multipliers: Vec<f64>,
-    mass: Vec<Dual<L>>,
-    force: Vec<Dual<L>>,
-    nonideal: Vec<Dual<L>>,
-    jacobian: Vec<Dual<L>>,
-    rhs: Vec<Dual<L>>,
+    mass: Vec<Dual>,
+    force: Vec<Dual>,
+    nonideal: Vec<Dual>,
+    jacobian: Vec<Dual>,
+    rhs: Vec<Dual>,
     /// φ and φ̇, for Baumgarte's terms.
-    position: Vec<Dual<L>>,
-    rate: Vec<Dual<L>>,
-    /// Right-hand sides of the differentiated equations, and one lane of them.
-    change: Vec<L>,
-    demand: Vec<L>,
-    lane: (Vec<f64>, Vec<f64>),
+    position: Vec<Dual>,
+    rate: Vec<Dual>,
+    /// Right-hand sides of the differentiated equations.
+    change: Vec<f64>,
+    demand: Vec<f64>,
 }
 
-impl<L: Lanes> Implicit<L> {
-    fn new<M: Mechanism>() -> Self {
-        let (n, m) = (M::SPEC.n(), M::SPEC.m());
+impl Implicit {
+    fn new(spec: &Spec) -> Self {
+        let (n, m) = (spec.n(), spec.m());
         let zeros = |len: usize| vec![Dual::from_f64(0.0); len];
         Implicit {
             acceleration: vec![0.0; n],
@@ -270,44 +247,33 @@ impl<L: Lanes> Implicit<L> {
             nonideal: zeros(n),
             jacobian: zeros(m * n),
             rhs: zeros(m),
-            position: zeros(M::SPEC.holonomic),
+            position: zeros(spec.holonomic),
             rate: zeros(m),
-            change: vec![L::from_f64(0.0); n],
-            demand: vec![L::from_f64(0.0); m],
-            lane: (vec![0.0; n], vec![0.0; m]),
+            change: vec![0.0; n],
+            demand: vec![0.0; m],
         }
     }
 
-    fn columns<M: Mechanism>(
+    fn columns(
         &mut self,
-        sweep: &mut Sweep<M, L>,
+        sweep: &mut Sweep,
         solver: &mut Solver,
-        mech: &Prepared<M>,
         (t, q, v): (f64, &[f64], &[f64]),
         columns: &mut [f64],
     ) -> Result<(), Error> {
-        let n = M::SPEC.n();
         let (acceleration, multipliers) = (&mut self.acceleration, &mut self.multipliers);
-        let formula = solver.balance(mech, t, q, v, acceleration, multipliers)?;
-        for (k, columns) in columns.chunks_mut(n * L::WIDTH).enumerate() {
-            sweep.aim(t, q, v, k * L::WIDTH);
+        let formula = solver.balance(t, q, v, acceleration, multipliers)?;
+        for (k, column) in columns.chunks_exact_mut(q.len()).enumerate() {
+            sweep.aim(t, q, v, k);
             self.differentiate(sweep, solver.baumgarte());
-            for (k, column) in columns.chunks_exact_mut(n).enumerate() {
-                let (change, demand) = &mut self.lane;
-                let lane = |to: &mut [f64], all: &[L]| {
-                    to.iter_mut().zip(all).for_each(|(x, l)| *x = l.lane(k));
-                };
-                lane(change, &self.change);
-                lane(demand, &self.demand);
-                solver.respond(formula, change, demand, column);
-            }
+            solver.respond(formula, &self.change, &self.demand, column);
         }
         Ok(())
     }
 
     /// dQ + dc − dM q̈ + dAᵀλ and db − dA q̈ along the directions of `sweep`.
-    fn differentiate<M: Mechanism>(&mut self, sweep: &Sweep<M, L>, baumgarte: Option<Baumgarte>) {
-        let (n, m) = (M::SPEC.n(), M::SPEC.m());
+    fn differentiate(&mut self, sweep: &Sweep, baumgarte: Option<Baumgarte>) {
+        let (n, m) = (self.acceleration.len(), self.multipliers.len());
         let Sweep { mech, t, q, v, .. } = sweep;
         let mut terms = Terms {
             mass: &mut self.mass,
@@ -330,14 +296,14 @@ impl<L: Lanes> Implicit<L> {
             *demand = rhs.eps;
         }
         for j in 0..n {
-            let a = L::from_f64(self.acceleration[j]);
+            let a = self.acceleration[j];
             for (change, mass) in change.iter_mut().zip(&self.mass[j * n..]) {
-                *change = *change - mass.eps * a;
+                *change -= mass.eps * a;
             }
             let column = self.jacobian[j * m..].iter().zip(&self.multipliers);
             for (demand, (entry, multiplier)) in demand.iter_mut().zip(column) {
-                *demand = *demand - entry.eps * a;
-                change[j] = change[j] + entry.eps * L::from_f64(*multiplier);
+                *demand -= entry.eps * a;
+                change[j] += entry.eps * multiplier;
             }
         }
     }
@@ -358,19 +324,12 @@ mod tests {
             baumgarte,
             ..SolverOptions::default()
         };
-        let mech = Pendulum::default().prepared();
-        let mut solver = Solver::new::<Pendulum>(options);
+        let mut solver = Solver::new(Pendulum::default(), options);
         // Off the rod by a tenth, and moving off.
         let (q, v) = ([0.7, -0.6], [0.4, -0.3]);
         let mut columns = [0.0; 8];
-        let mut slopes = Slopes::<Pendulum>::new(&mech);
-        let found = slopes.columns(
-            &mut solver,
-            &mech,
-            (0.0, &q, &v),
-            &mut [0.0; 2],
-            &mut columns,
-        );
+        let mut slopes = Slopes::new(solver.mechanism());
+        let found = slopes.columns(&mut solver, (0.0, &q, &v), &mut [0.0; 2], &mut columns);
         assert_eq!(found, Ok(()));
         for (j, column) in columns.chunks_exact(2).enumerate() {
             let h = 1e-5;
@@ -379,7 +338,7 @@ mod tests {
                 moved[j] += h;
                 let (q, v) = moved.split_at(2);
                 let mut out = [0.0; 2];
-                solver.acceleration(&mech, 0.0, q, v, &mut out).unwrap();
+                solver.acceleration(0.0, q, v, &mut out).unwrap();
                 out
             });
             for i in 0..2 {

@@ -4,11 +4,14 @@
 //! M q̈ = Q (eq. 1), A q̈ = b (eq. 5), c the non-ideal force (eq. 8). `n` is the number of coordinates, `m` of constraints,
 //! `h` of holonomic ones, which come first.
 
-use std::marker::PhantomData;
-
 use crate::error::Error;
 use crate::plan::Plan;
 use crate::scalar::Scalar;
+
+mod prepared;
+
+pub use prepared::Prepared;
+pub(crate) use prepared::{Constraints, Dynamics};
 
 pub use crate::spec::{
     Check, ConstraintKind, ConstraintSpec, Costs, Equations, Operations, OutputSpec, ParamSpec,
@@ -80,9 +83,9 @@ pub trait Mechanism: Clone + Default + Send + Sync + 'static {
     }
 
     /// The mechanism with these parameters, ready to be evaluated with numbers of type `S`.
-    fn prepared<S: Scalar>(&self) -> Prepared<Self, S> {
+    fn prepared<S: Scalar>(&self) -> Prepared<S> {
         let given = (0..Self::SPEC.params.len()).map(|i| S::from_f64(self.parameter(i)));
-        Prepared::new(given.collect())
+        Prepared::of::<Self>(given.collect())
     }
 
     /// What the compiler decided about this mechanism, with reasons, costs and the sparsity of its equations: print it.
@@ -104,18 +107,8 @@ pub trait Mechanism: Clone + Default + Send + Sync + 'static {
     /// # Errors
     /// [`Error::UnknownName`] with the nearest name.
     fn set(&mut self, name: &str, value: f64) -> Result<(), Error> {
-        let mut found = false;
-        for (i, p) in Self::SPEC.params.iter().enumerate() {
-            if p.name
-                .split_once('[')
-                .is_some_and(|(family, _)| family == name)
-            {
-                self.set_parameter(i, value);
-                found = true;
-            }
-        }
-        if !found {
-            self.set_parameter(Self::SPEC.parameter_index(name)?, value);
+        for i in Self::SPEC.parameter_indices(name)? {
+            self.set_parameter(i, value);
         }
         Ok(())
     }
@@ -142,120 +135,6 @@ impl Branch {
             Branch::Followed => 0.0,
             Branch::Negative => -1.0,
             Branch::Positive => 1.0,
-        }
-    }
-}
-
-/// A mechanism with fixed parameters: what depends on them alone is computed once, here. Of numbers `S`: with
-/// [`Dual`](crate::Dual) parameters come derivatives by parameters.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Prepared<M, S = f64> {
-    given: Vec<S>,
-    /// What depends on parameters only, then the branches held.
-    values: Vec<S>,
-    mechanism: PhantomData<fn() -> M>,
-}
-
-impl<M: Mechanism, S: Scalar> Prepared<M, S> {
-    /// With the parameters `given` (order of `SPEC.params`).
-    ///
-    /// # Panics
-    /// If `given` has not the length of `SPEC.params`.
-    #[must_use]
-    pub fn new(given: Vec<S>) -> Self {
-        let mut values = vec![S::from_f64(0.0); M::SPEC.slots()];
-        M::prepare(&given, &mut values[..M::SPEC.prepared.len()]);
-        Prepared {
-            given,
-            values,
-            mechanism: PhantomData,
-        }
-    }
-
-    /// The parameters (order of `SPEC.params`).
-    #[must_use]
-    pub fn parameters(&self) -> &[S] {
-        &self.given
-    }
-
-    /// Holds switch `switch` (order of `SPEC.switches`) in `branch`, until told otherwise. A new one follows all its switches.
-    ///
-    /// # Panics
-    /// If there is no such switch.
-    pub fn hold(&mut self, switch: usize, branch: Branch) {
-        self.values[M::SPEC.prepared.len()..][switch] = S::from_f64(branch.sign());
-    }
-
-    /// Holds all switches as `other` does.
-    pub fn hold_as(&mut self, other: &Prepared<M>) {
-        other.copy_branches(&mut self.values);
-    }
-
-    /// [`Mechanism::switching`]: all switching functions.
-    #[inline]
-    pub fn switching(&self, t: S, q: &[S], v: &[S], switching: &mut [S]) {
-        M::switching(&self.values, t, q, v, switching);
-    }
-
-    /// [`Mechanism::dynamics`]: M, Q, c, A and b.
-    #[inline]
-    pub fn dynamics(&self, t: S, q: &[S], v: &[S], out: &mut Terms<'_, S>) {
-        M::dynamics(&self.values, t, q, v, out);
-    }
-    /// [`Mechanism::mass_matrix`]: M, n × n, column-major.
-    #[inline]
-    pub fn mass_matrix(&self, t: S, q: &[S], mass: &mut [S]) {
-        M::mass_matrix(&self.values, t, q, mass);
-    }
-    /// [`Mechanism::jacobian`]: A, m × n, column-major.
-    #[inline]
-    pub fn jacobian(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
-        M::jacobian(&self.values, t, q, v, jacobian);
-    }
-    /// [`Mechanism::residual`]: φ.
-    #[inline]
-    pub fn residual(&self, t: S, q: &[S], phi: &mut [S]) {
-        M::residual(&self.values, t, q, phi);
-    }
-    /// [`Mechanism::residual_rate`]: φ̇ of holonomic, φ of nonholonomic constraints.
-    #[inline]
-    pub fn residual_rate(&self, t: S, q: &[S], v: &[S], rate: &mut [S]) {
-        M::residual_rate(&self.values, t, q, v, rate);
-    }
-    /// [`Mechanism::energy`]: T and V.
-    #[inline]
-    #[must_use]
-    pub fn energy(&self, t: S, q: &[S], v: &[S]) -> Energy<S> {
-        M::energy(&self.values, t, q, v)
-    }
-    /// [`Mechanism::outputs`].
-    #[inline]
-    pub fn outputs(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) {
-        M::outputs(&self.values, t, q, v, outputs);
-    }
-    /// [`Mechanism::acceleration`]: q̈, and its certificate. [`Solver`](crate::Solver) wraps it with the rank-revealing solve.
-    #[inline]
-    pub fn acceleration(&self, t: S, q: &[S], v: &[S], out: &mut [S]) -> S {
-        M::acceleration(&self.values, t, q, v, out)
-    }
-    /// [`Mechanism::correction`]: Δ, and its certificate.
-    #[inline]
-    pub fn correction(&self, t: S, q: &[S], v: &[S], residual: &[S], out: &mut [S]) -> S {
-        M::correction(&self.values, t, q, v, residual, out)
-    }
-}
-
-impl<M: Mechanism> Prepared<M> {
-    /// What emitted code takes as `prepared`, in other numbers: from the parameters `given`, in the branches held here.
-    pub(crate) fn prepare_as<T: Scalar>(&self, given: &[T], values: &mut [T]) {
-        M::prepare(given, &mut values[..M::SPEC.prepared.len()]);
-        self.copy_branches(values);
-    }
-
-    fn copy_branches<T: Scalar>(&self, values: &mut [T]) {
-        let branches = self.values.iter().zip(values);
-        for (from, to) in branches.skip(M::SPEC.prepared.len()) {
-            *to = T::from_f64(*from);
         }
     }
 }

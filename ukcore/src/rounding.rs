@@ -9,7 +9,7 @@ use crate::scalar::{Dual, Scalar};
 ///
 /// It sees what derivatives do not: in φ = (x − a)² − a² at x = 0 the coordinate is exact, but 2a² is rounded.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Rounded {
+pub struct Rounded {
     value: f64,
     error: f64,
 }

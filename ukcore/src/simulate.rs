@@ -8,7 +8,7 @@ use crate::diagnose;
 use crate::error::Error;
 use crate::events::{Event, Watch};
 use crate::integrate::{Method, Outcome, Settings, Tolerance};
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Prepared, Spec};
 use crate::scan::largest;
 use crate::solver::{Formula, Solver, SolverOptions};
 use crate::stabilise::{Projector, Stabilisation};
@@ -46,8 +46,8 @@ pub const SMALLEST_TOLERANCE: f64 = 10.0 * f64::EPSILON;
 ///
 /// Where abs, sign, min or max change their branch within a step, it is repeated up to there, unless
 /// [`switching`](Simulation::switching) says otherwise.
-pub struct Simulation<M> {
-    mechanism: M,
+pub struct Simulation {
+    mechanism: Prepared,
     start: Option<State>,
     method: Method,
     tolerance: f64,
@@ -61,7 +61,7 @@ pub struct Simulation<M> {
     max_steps: usize,
     max_step: Option<f64>,
     first_step: Option<f64>,
-    progress: Option<Progress<M>>,
+    progress: Option<Progress>,
 }
 
 /// What a run does about [switches](crate::SwitchSpec), the zeros at which abs, sign, min and max change their branch.
@@ -79,18 +79,18 @@ pub enum Switching {
 const MAX_SAMPLES: f64 = 1e8;
 
 /// A run that failed: why, and the motion up to there.
-pub struct Failure<M> {
+pub struct Failure {
     /// What happened; [`Error::At`] with time and state if it happened on the way.
     pub error: Error,
     /// Everything up to the last step that succeeded; empty if the run could not start.
-    pub trajectory: Box<Trajectory<M>>,
+    pub trajectory: Box<Trajectory>,
 }
 
-impl<M: Mechanism> Simulation<M> {
+impl Simulation {
     /// A simulation of `mechanism` with the defaults: [`Method::Dop853`] at tolerance 1e-9, projection, a sample at each accepted step, at most 10⁷ steps.
-    pub fn new(mechanism: M) -> Self {
+    pub fn new(mechanism: impl Into<Prepared>) -> Self {
         Simulation {
-            mechanism,
+            mechanism: mechanism.into(),
             start: None,
             method: Method::default(),
             tolerance: 1e-9,
@@ -220,7 +220,7 @@ impl<M: Mechanism> Simulation<M> {
     /// Calls `f` after every accepted step with the motion so far (its end is [`Trajectory::last`]; its cost is counted when the
     /// run has ended); `Break` ends the run there, which is no failure.
     #[must_use]
-    pub fn progress(mut self, f: impl FnMut(&Trajectory<M>) -> ControlFlow<()> + 'static) -> Self {
+    pub fn progress(mut self, f: impl FnMut(&Trajectory) -> ControlFlow<()> + 'static) -> Self {
         self.progress = Some(Box::new(f));
         self
     }
@@ -231,7 +231,7 @@ impl<M: Mechanism> Simulation<M> {
     /// [`Error::InvalidSetting`] for settings outside of their range; [`Error::WrongLength`], [`Error::NonFinite`] or
     /// [`Error::OffConstraint`] for a bad start; on the way [`Error::At`] with time, state and cause: what the solver or
     /// the projection reports, [`Error::StepTooSmall`], [`Error::TooManySteps`], [`Error::Chattering`]. The trajectory up to there is in the [`Failure`].
-    pub fn until(self, t_end: f64) -> Result<Trajectory<M>, Failure<M>> {
+    pub fn until(self, t_end: f64) -> Result<Trajectory, Failure> {
         let baumgarte = match self.stabilisation {
             Stabilisation::Baumgarte(baumgarte) => Some(baumgarte),
             Stabilisation::Projection | Stabilisation::None => None,
@@ -251,7 +251,8 @@ impl<M: Mechanism> Simulation<M> {
         if let Err(error) = self.check(t_end) {
             return Err(fail(error, trajectory));
         }
-        let mut projector = Projector::new::<M>();
+        let spec = self.mechanism.spec();
+        let mut projector = Projector::new(&self.mechanism);
         let start = self.consistent_start(&mut projector, &mut trajectory.work);
         let (state, tolerance) = match start {
             Ok(start) => start,
@@ -272,19 +273,18 @@ impl<M: Mechanism> Simulation<M> {
             max_steps: self.max_steps,
             dense: self.dense || !self.events.is_empty(),
         };
-        let n = M::SPEC.n();
-        let locate = self.switching == Switching::Located && !M::SPEC.switches.is_empty();
+        let n = spec.n();
+        let locate = self.switching == Switching::Located && !spec.switches.is_empty();
         let mut keeper = None;
         if let Method::Rattle { step } = self.method {
             let (q, v) = y.split_at(n);
-            let energy = self.mechanism.prepared().energy(t0, q, v);
+            let energy = self.mechanism.energy(t0, q, v);
             keeper = Some(Keeper::new(step, energy));
         }
         let mut run = Run {
             keeper,
-            mechanism: self.mechanism.prepared(),
-            located: locate.then(|| self.mechanism.prepared()),
-            solver: Solver::new::<M>(options),
+            located: locate.then(|| self.mechanism.dual()),
+            solver: Solver::new(self.mechanism, options),
             projector,
             project: trajectory.projected,
             n,
@@ -296,7 +296,7 @@ impl<M: Mechanism> Simulation<M> {
             between: vec![0.0; 2 * n],
             slopes: None,
             conflict: Conflict::default(),
-            pace: Pace::new(M::SPEC, tolerance, self.max_steps),
+            pace: Pace::new(spec, tolerance, self.max_steps),
             trajectory: &mut trajectory,
         };
         let error = run.start(t0, &y).and_then(|()| {
@@ -418,7 +418,7 @@ impl<M: Mechanism> Simulation<M> {
 
     /// Whether RATTLE with steps of `step` fits the mechanism and the other settings.
     fn check_rattle(&self, step: f64) -> Result<(), Error> {
-        let spec = M::SPEC;
+        let spec = self.mechanism.spec();
         let invalid = |what, reason: String| Err(Error::InvalidSetting { what, reason });
         if !(step.is_finite() && step > 0.0) {
             let reason = format!("is {step:?}, but must be positive and finite");
@@ -461,7 +461,7 @@ impl<M: Mechanism> Simulation<M> {
         projector: &mut Projector,
         work: &mut Work,
     ) -> Result<(State, Tolerance), Error> {
-        let spec = M::SPEC;
+        let spec = self.mechanism.spec();
         let Some(State { t, q, v }) = self.start.clone() else {
             let what = "start";
             let reason = "is missing".to_owned();
@@ -469,30 +469,30 @@ impl<M: Mechanism> Simulation<M> {
         };
         diagnose::check_length("q", q.len(), spec.n())?;
         diagnose::check_length("v", v.len(), spec.n())?;
-        let mech = self.mechanism.prepared();
-        if let Some(error) = diagnose::non_finite_input(&mech, t, &q, &v) {
+        let mech = &self.mechanism;
+        if let Some(error) = diagnose::non_finite_input(mech, t, &q, &v) {
             return Err(error);
         }
         angles::check(spec, &q)?;
         let (mut new_q, mut new_v) = (q.clone(), v.clone());
-        let position = projector.position(&mech, t, &mut new_q, &v)?;
+        let position = projector.position(t, &mut new_q, &v)?;
         let mut size = largest(&q).max(largest(&v));
         if size > 0.0 && size < 1.0 {
             // Coordinates may be measured from where they start; rounding, for one, is then not that of their size.
-            size = size.max(projector.length(&mech, t, &new_q, &v));
+            size = size.max(projector.length(t, &new_q, &v));
         }
         let tolerance = self.tolerance_of(size);
         let absolute = tolerance.absolute;
         if !near(&q, &new_q, absolute) {
             let mut residual = vec![0.0; spec.holonomic];
             mech.residual(t, &q, &mut residual);
-            return Err(off_constraint::<M>("position", &residual));
+            return Err(off_constraint(spec, "position", &residual));
         }
-        let velocity = projector.velocity(&mech, t, &new_q, &mut new_v)?;
+        let velocity = projector.velocity(t, &new_q, &mut new_v)?;
         if !near(&v, &new_v, absolute) {
             let mut residual = vec![0.0; spec.m()];
             mech.residual_rate(t, &new_q, &v, &mut residual);
-            return Err(off_constraint::<M>("velocity", &residual));
+            return Err(off_constraint(spec, "velocity", &residual));
         }
         work.projections += 1;
         work.projection_iterations += position.iterations + velocity.iterations;
@@ -522,18 +522,18 @@ fn near(before: &[f64], after: &[f64], absolute: f64) -> bool {
     pairs.all(|(before, after)| (after - before).abs() <= bound)
 }
 
-fn off_constraint<M: Mechanism>(level: &'static str, residual: &[f64]) -> Error {
+fn off_constraint(spec: &Spec, level: &'static str, residual: &[f64]) -> Error {
     let scale = vec![1.0; residual.len()];
     Error::OffConstraint {
         level,
-        constraints: diagnose::offending(M::SPEC, residual, &scale),
+        constraints: diagnose::offending(spec, residual, &scale),
     }
 }
 
-impl<M: Mechanism> fmt::Debug for Simulation<M> {
+impl fmt::Debug for Simulation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Simulation")
-            .field("mechanism", &M::SPEC.name)
+            .field("mechanism", &self.mechanism.spec().name)
             .field("start", &self.start)
             .field("method", &self.method)
             .field("tolerance", &self.tolerance)
@@ -548,19 +548,24 @@ impl<M: Mechanism> fmt::Debug for Simulation<M> {
 }
 
 /// As `Display`: `main` prints the error it returns by `Debug`.
-impl<M: Mechanism> fmt::Debug for Failure<M> {
+impl fmt::Debug for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)
     }
 }
 
-impl<M: Mechanism> fmt::Display for Failure<M> {
+impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "simulation of `{}` failed: {}", M::SPEC.name, self.error)
+        write!(
+            f,
+            "simulation of `{}` failed: {}",
+            self.trajectory.spec().name,
+            self.error
+        )
     }
 }
 
-impl<M: Mechanism> std::error::Error for Failure<M> {
+impl std::error::Error for Failure {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         // The error itself is part of the message.
         self.error.source()

@@ -18,11 +18,11 @@
 
 use crate::diagnose;
 use crate::error::Error;
-use crate::mechanism::{Mechanism, Prepared};
+use crate::mechanism::{Prepared, Spec};
 use crate::metric::MassFault;
 use crate::saddle::Saddle;
 use crate::scan::all_finite;
-use crate::workspace::{Dense, Evaluated, Owner, Route, Rows};
+use crate::workspace::{Dense, Evaluated, Route, Rows};
 
 mod rank;
 mod settings;
@@ -49,7 +49,7 @@ pub const DRIFT_FACTOR: f64 = 10.0;
 /// Solves M q̈ = Q + Qc, A q̈ = b in buffers allocated once.
 #[derive(Debug, Clone)]
 pub struct Solver {
-    owner: Owner,
+    mechanism: Prepared,
     options: SolverOptions,
     work: SolverWork,
     /// The emitted elimination is wanted and exists.
@@ -93,14 +93,18 @@ struct Decided {
 }
 
 impl Solver {
-    /// A solver for mechanisms of type `M`. Everything it will ever need is allocated here.
+    /// A solver for `mechanism`: a reference to one that is declared, or a [`Prepared`] one. Everything it will ever need is allocated here.
     #[must_use]
-    pub fn new<M: Mechanism>(options: SolverOptions) -> Self {
-        let spec = M::SPEC;
+    pub fn new(mechanism: impl Into<Prepared>, options: SolverOptions) -> Self {
+        Solver::of(mechanism.into(), options)
+    }
+
+    fn of(mechanism: Prepared, options: SolverOptions) -> Self {
+        let spec = mechanism.spec();
         let (n, m) = (spec.n(), spec.m());
         let saddle = (options.formula == Formula::Kkt).then(|| Saddle::new(n, m));
         Solver {
-            owner: Owner::of::<M>(),
+            mechanism,
             options: SolverOptions {
                 rank_tolerance: match options.rank_tolerance {
                     x if x.is_nan() => RANK_TOLERANCE,
@@ -140,11 +144,9 @@ impl Solver {
     ///
     /// # Errors
     /// [`Error::NonFinite`], [`Error::Underdetermined`], [`Error::Inconsistent`], [`Error::IndefiniteMass`],
-    /// [`Error::WrongLength`], and [`Error::InvalidSetting`] for a formula that does not fit the mass matrix, or a solver made for
-    /// another mechanism.
-    pub fn acceleration<M: Mechanism>(
+    /// [`Error::WrongLength`], and [`Error::InvalidSetting`] for a formula that does not fit the mass matrix.
+    pub fn acceleration(
         &mut self,
-        mech: &Prepared<M>,
         t: f64,
         q: &[f64],
         v: &[f64],
@@ -153,52 +155,49 @@ impl Solver {
         diagnose::check_length("out", out.len(), self.n)?;
         diagnose::check_length("q", q.len(), self.n)?;
         diagnose::check_length("v", v.len(), self.n)?;
-        self.owner.check::<M>("solver")?;
         // A coordinate that no equation contains must not hide that it is not a number.
         if t.is_finite() && all_finite(q) && all_finite(v) {
-            self.acceleration_in_run(mech, t, q, v, out)
+            self.acceleration_in_run(t, q, v, out)
         } else {
-            self.rank_revealing(mech, t, q, v, out)
+            self.rank_revealing(t, q, v, out)
         }
     }
 
     /// The same without a look at what is given: slices of the right lengths, for the mechanism that the solver was made for. A number
     /// that is not finite may pass where no equation contains it; an integrator sees it in its states.
     #[inline]
-    pub(crate) fn acceleration_in_run<M: Mechanism>(
+    pub(crate) fn acceleration_in_run(
         &mut self,
-        mech: &Prepared<M>,
         t: f64,
         q: &[f64],
         v: &[f64],
         out: &mut [f64],
     ) -> Result<(), Error> {
         if self.straight_line && !self.singular {
-            if mech.acceleration(t, q, v, out) > 0.5 && all_finite(out) {
+            if self.mechanism.acceleration(t, q, v, out) > 0.5 && all_finite(out) {
                 self.work.evaluations += 1;
                 self.full = self.m;
                 return Ok(());
             }
             // Once for a solution, whatever else is left on the way.
             let fallbacks = self.work.fallbacks + 1;
-            let result = self.rank_revealing(mech, t, q, v, out);
+            let result = self.rank_revealing(t, q, v, out);
             self.work.fallbacks = fallbacks;
             return result;
         }
-        self.rank_revealing(mech, t, q, v, out)
+        self.rank_revealing(t, q, v, out)
     }
 
     /// The same by the rank-revealing solve.
-    fn rank_revealing<M: Mechanism>(
+    fn rank_revealing(
         &mut self,
-        mech: &Prepared<M>,
         t: f64,
         q: &[f64],
         v: &[f64],
         out: &mut [f64],
     ) -> Result<(), Error> {
-        let decided = self.decide(mech, t, q, v)?;
-        if M::SPEC.structure.nonideal {
+        let decided = self.decide(t, q, v)?;
+        if self.mechanism.spec().structure.nonideal {
             let sum = self.here.force.iter().zip(&self.here.nonideal);
             self.force
                 .iter_mut()
@@ -208,23 +207,17 @@ impl Solver {
             self.force.copy_from_slice(&self.here.force);
         }
         self.solve_for_force(decided.formula, out);
-        self.check(mech, t, q, v, decided.tolerance, out)
+        self.check(t, q, v, decided.tolerance, out)
     }
 
     /// Accelerations, forces, multipliers and rank at (t, q, q̇). Allocates its result.
     ///
     /// # Errors
     /// As [`Solver::acceleration`].
-    pub fn solve<M: Mechanism>(
-        &mut self,
-        mech: &Prepared<M>,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
-    ) -> Result<Solution, Error> {
+    pub fn solve(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<Solution, Error> {
         let n = self.n;
         let mut ideal = vec![0.0; n];
-        let decided = self.decide(mech, t, q, v)?;
+        let decided = self.decide(t, q, v)?;
         self.force.copy_from_slice(&self.here.force);
         self.solve_for_force(decided.formula, &mut ideal);
         let mut ideal_force = if decided.formula == Formula::UdwadiaKalaba {
@@ -241,7 +234,7 @@ impl Solver {
         };
         let mut acceleration = ideal.clone();
         let mut nonideal_force = vec![0.0; n];
-        if M::SPEC.structure.nonideal {
+        if self.mechanism.spec().structure.nonideal {
             let sum = self.here.force.iter().zip(&self.here.nonideal);
             self.force
                 .iter_mut()
@@ -255,7 +248,7 @@ impl Solver {
                 .collect();
             nonideal_force = self.mass_times(&change);
         }
-        self.check(mech, t, q, v, decided.tolerance, &acceleration)?;
+        self.check(t, q, v, decided.tolerance, &acceleration)?;
         let mut multipliers = vec![0.0; self.m];
         self.dense
             .multipliers(&mut ideal_force.clone(), &mut multipliers);
@@ -278,21 +271,20 @@ impl Solver {
     }
 
     /// q̈ and all λ, with M q̈ = Q + c + Aᵀλ, by the rank-revealing solve, whose factors then serve [`Solver::respond`].
-    pub(crate) fn balance<M: Mechanism>(
+    pub(crate) fn balance(
         &mut self,
-        mech: &Prepared<M>,
         t: f64,
         q: &[f64],
         v: &[f64],
         acceleration: &mut [f64],
         multipliers: &mut [f64],
     ) -> Result<Formula, Error> {
-        let decided = self.decide(mech, t, q, v)?;
+        let decided = self.decide(t, q, v)?;
         let applied = self.here.force.iter().zip(&self.here.nonideal);
         let applied: Vec<f64> = applied.map(|(a, b)| a + b).collect();
         self.force.copy_from_slice(&applied);
         self.solve_for_force(decided.formula, acceleration);
-        self.check(mech, t, q, v, decided.tolerance, acceleration)?;
+        self.check(t, q, v, decided.tolerance, acceleration)?;
         let mut reaction = self.mass_times(acceleration);
         reaction.iter_mut().zip(&applied).for_each(|(r, f)| *r -= f);
         self.dense.multipliers(&mut reaction, multipliers);
@@ -331,6 +323,17 @@ impl Solver {
         &cod.order()[leading(cod.pivots(), significance).min(cod.rank())..]
     }
 
+    /// The mechanism, with the parameters that are solved for.
+    #[must_use]
+    pub fn mechanism(&self) -> &Prepared {
+        &self.mechanism
+    }
+
+    /// The mechanism, to set parameters or to hold switches; what follows is solved with them.
+    pub fn mechanism_mut(&mut self) -> &mut Prepared {
+        &mut self.mechanism
+    }
+
     /// What has been done so far.
     #[must_use]
     pub fn work(&self) -> SolverWork {
@@ -350,23 +353,16 @@ impl Solver {
     }
 
     /// Evaluates, factors, and decides the rank.
-    fn decide<M: Mechanism>(
-        &mut self,
-        mech: &Prepared<M>,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
-    ) -> Result<Decided, Error> {
-        self.owner.check::<M>("solver")?;
+    fn decide(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<Decided, Error> {
         diagnose::check_length("q", q.len(), self.n)?;
         diagnose::check_length("v", v.len(), self.n)?;
-        self.here.dynamics(mech, t, q, v);
+        self.here.dynamics(&self.mechanism, t, q, v);
         self.work.evaluations += 1;
         self.drift.known = false;
         self.rhs.copy_from_slice(&self.here.rhs);
         if let Some(baumgarte) = self.options.baumgarte {
-            mech.residual(t, q, &mut self.position);
-            mech.residual_rate(t, q, v, &mut self.rate);
+            self.mechanism.residual(t, q, &mut self.position);
+            self.mechanism.residual_rate(t, q, v, &mut self.rate);
             baumgarte.apply(&self.position, &self.rate, &mut self.rhs);
         }
         let terms = &self.here;
@@ -379,14 +375,20 @@ impl Solver {
         ];
         let given = t.is_finite() && all_finite(q) && all_finite(v);
         if !(given && evaluated.iter().all(|x| all_finite(x))) {
-            return Err(diagnose::non_finite_input(mech, t, q, v)
-                .unwrap_or_else(|| diagnose::non_finite_terms::<M>(terms, &self.rhs)));
+            return Err(
+                diagnose::non_finite_input(&self.mechanism, t, q, v).unwrap_or_else(|| {
+                    diagnose::non_finite_terms(self.mechanism.spec(), terms, &self.rhs)
+                }),
+            );
         }
-        let formula = self.factor::<M>()?;
-        let tolerance = self.decide_rank(mech, t, q, v)?;
+        let formula = self.factor()?;
+        let tolerance = self.decide_rank(t, q, v)?;
         if formula != Formula::UdwadiaKalaba && self.dense.determined() < self.n {
             return Err(Error::Underdetermined {
-                coordinates: diagnose::participating(M::SPEC, &self.dense.undetermined()),
+                coordinates: diagnose::participating(
+                    self.mechanism.spec(),
+                    &self.dense.undetermined(),
+                ),
                 rank: self.dense.determined(),
                 needed: self.n,
             });
@@ -396,8 +398,8 @@ impl Solver {
     }
 
     /// Factors M and A; the formula is then UdwadiaKalaba, UdwadiaPhohomsiri or Kkt.
-    fn factor<M: Mechanism>(&mut self) -> Result<Formula, Error> {
-        let structure = &M::SPEC.structure;
+    fn factor(&mut self) -> Result<Formula, Error> {
+        let structure = &self.mechanism.spec().structure;
         let floor = self.options.rank_tolerance;
         let a = rows(&self.here, self.m);
         let (route, formula) = match self.options.formula {
@@ -419,10 +421,10 @@ impl Solver {
                 let singular = self
                     .dense
                     .factor(Route::Singular, &self.here.mass, a, floor);
-                singular.map_err(|fault| mass_error::<M>(fault))?;
+                singular.map_err(|fault| mass_error(self.mechanism.spec(), fault))?;
                 Ok(Formula::UdwadiaPhohomsiri)
             }
-            Err(fault) => Err(mass_error::<M>(fault)),
+            Err(fault) => Err(mass_error(self.mechanism.spec(), fault)),
         }
     }
 
@@ -466,16 +468,15 @@ impl Solver {
     }
 
     /// Redundant rows must agree with the others, and q̈ must be finite.
-    fn check<M: Mechanism>(
+    fn check(
         &mut self,
-        mech: &Prepared<M>,
         t: f64,
         q: &[f64],
         v: &[f64],
         tolerance: f64,
         acceleration: &[f64],
     ) -> Result<(), Error> {
-        let spec = M::SPEC;
+        let spec = self.mechanism.spec();
         if !all_finite(acceleration) {
             let names = spec
                 .coords
@@ -492,7 +493,7 @@ impl Solver {
             return Ok(());
         }
         if !self.drift.known {
-            self.measure_drift(mech, t, q, v);
+            self.measure_drift(t, q, v);
             if self.agrees(acceleration, tolerance) {
                 return Ok(());
             }
@@ -547,8 +548,8 @@ fn rows(terms: &Evaluated, m: usize) -> Rows<'_> {
     }
 }
 
-pub(crate) fn mass_error<M: Mechanism>(fault: MassFault) -> Error {
-    let name = |i: usize| M::SPEC.coords[i];
+pub(crate) fn mass_error(spec: &Spec, fault: MassFault) -> Error {
+    let name = |i: usize| spec.coords[i];
     match fault {
         MassFault::Singular(i) => Error::InvalidSetting {
             what: "formula",

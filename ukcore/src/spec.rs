@@ -300,6 +300,20 @@ impl Spec {
         find("parameter", name, self.params.iter().map(|p| p.name))
     }
 
+    /// Indices of the parameters that `name` means: that parameter, or all members of the family with this bare name.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name.
+    pub fn parameter_indices(&self, name: &str) -> Result<Vec<usize>, Error> {
+        let family = |p: &ParamSpec| p.name.split_once('[').is_some_and(|(f, _)| f == name);
+        let members = self.params.iter().enumerate().filter(|(_, p)| family(p));
+        let members: Vec<usize> = members.map(|(i, _)| i).collect();
+        if members.is_empty() {
+            return Ok(vec![self.parameter_index(name)?]);
+        }
+        Ok(members)
+    }
+
     /// Index of the coordinate called `name`.
     ///
     /// # Errors

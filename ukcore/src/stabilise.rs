@@ -7,11 +7,11 @@
 
 use crate::diagnose;
 use crate::error::Error;
-use crate::mechanism::{Mechanism, Prepared};
+use crate::mechanism::{Branch, Constraints, Prepared};
 use crate::rounding::Rounded;
 use crate::scan::largest;
 use crate::solver::Baumgarte;
-use crate::workspace::{Dense, Owner, Rows};
+use crate::workspace::{Dense, Rows};
 
 #[cfg(feature = "simulate")]
 mod along;
@@ -68,7 +68,7 @@ enum Level {
 /// Projects states onto the constraints, in buffers allocated once.
 #[derive(Debug, Clone)]
 pub struct Projector {
-    owner: Owner,
+    mechanism: Prepared,
     n: usize,
     m: usize,
     holonomic: usize,
@@ -86,7 +86,10 @@ pub struct Projector {
     largest: Vec<f64>,
     /// What rounding the evaluation of each constraint carries, in units of ε; 0 until it is needed.
     rounding: Vec<f64>,
-    rounded: [Vec<Rounded>; 5],
+    rounded: Prepared<Rounded, dyn Constraints<Rounded>>,
+    given: Vec<Rounded>,
+    fixed: Vec<Rounded>,
+    rounded_residual: Vec<Rounded>,
     dense: Dense,
     /// Position up to which the factors in `dense` hold all rows of A, for the velocity projection that follows.
     factored_at: Option<f64>,
@@ -96,13 +99,16 @@ pub struct Projector {
 }
 
 impl Projector {
-    /// A projector for mechanisms of type `M`.
+    /// A projector for `mechanism`: a reference to one that is declared, or a [`Prepared`] one.
     #[must_use]
-    pub fn new<M: Mechanism>() -> Self {
-        let spec = M::SPEC;
+    pub fn new(mechanism: impl Into<Prepared>) -> Self {
+        Projector::of(mechanism.into())
+    }
+
+    fn of(mechanism: Prepared) -> Self {
+        let spec = mechanism.spec();
         let (n, m) = (spec.n(), spec.m());
         Projector {
-            owner: Owner::of::<M>(),
             n,
             m,
             holonomic: spec.holonomic,
@@ -117,12 +123,15 @@ impl Projector {
             terms: vec![0.0; m],
             largest: vec![0.0; m],
             rounding: vec![0.0; m],
-            rounded: [n, n, m, spec.params.len(), spec.slots()]
-                .map(|len| vec![Rounded::exact(0.0); len]),
+            rounded: mechanism.rounded(),
+            given: vec![Rounded::exact(0.0); n],
+            fixed: vec![Rounded::exact(0.0); n],
+            rounded_residual: vec![Rounded::exact(0.0); m],
             dense: Dense::new(n, m, spec.structure.mass_diagonal),
             factored_at: None,
             factored_q: vec![0.0; n],
             cautious: true,
+            mechanism,
         }
     }
 
@@ -132,16 +141,10 @@ impl Projector {
     /// # Errors
     /// [`Error::OffConstraint`] with the constraints that cannot be met near q; [`Error::NonFinite`], [`Error::IndefiniteMass`],
     /// [`Error::WrongLength`].
-    pub fn position<M: Mechanism>(
-        &mut self,
-        mech: &Prepared<M>,
-        t: f64,
-        q: &mut [f64],
-        v: &[f64],
-    ) -> Result<Correction, Error> {
-        self.check_lengths::<M>(q, v)?;
+    pub fn position(&mut self, t: f64, q: &mut [f64], v: &[f64]) -> Result<Correction, Error> {
+        self.check_lengths(q, v)?;
         self.factored_at = None;
-        self.project(mech, t, q, v, Level::Position)
+        self.project(t, q, v, Level::Position)
     }
 
     /// Minimal change of q̇ in the mass metric with φ̇ = 0 and ψ = 0 (all constraints) to rounding level; nonholonomic ones may be
@@ -149,29 +152,34 @@ impl Projector {
     ///
     /// # Errors
     /// As [`Projector::position`].
-    pub fn velocity<M: Mechanism>(
-        &mut self,
-        mech: &Prepared<M>,
-        t: f64,
-        q: &[f64],
-        v: &mut [f64],
-    ) -> Result<Correction, Error> {
-        self.check_lengths::<M>(q, v)?;
-        let result = self.project(mech, t, v, q, Level::Velocity);
+    pub fn velocity(&mut self, t: f64, q: &[f64], v: &mut [f64]) -> Result<Correction, Error> {
+        self.check_lengths(q, v)?;
+        let result = self.project(t, v, q, Level::Velocity);
         self.factored_at = None;
         result
     }
 
-    fn check_lengths<M: Mechanism>(&self, q: &[f64], v: &[f64]) -> Result<(), Error> {
+    /// The mechanism, with the parameters whose constraints count.
+    #[must_use]
+    pub fn mechanism(&self) -> &Prepared {
+        &self.mechanism
+    }
+
+    /// Holds switch `switch` in `branch`, or follows it again.
+    #[cfg(feature = "simulate")]
+    pub(crate) fn hold(&mut self, switch: usize, branch: Branch) {
+        self.mechanism.hold(switch, branch);
+        self.rounded.hold(switch, branch);
+    }
+
+    fn check_lengths(&self, q: &[f64], v: &[f64]) -> Result<(), Error> {
         diagnose::check_length("q", q.len(), self.n)?;
-        diagnose::check_length("v", v.len(), self.n)?;
-        self.owner.check::<M>("projector")
+        diagnose::check_length("v", v.len(), self.n)
     }
 
     /// Projects `x`: q with `other` = q̇, or q̇ with `other` = q. Where that fails, `x` is left as it was.
-    fn project<M: Mechanism>(
+    fn project(
         &mut self,
-        mech: &Prepared<M>,
         t: f64,
         x: &mut [f64],
         other: &[f64],
@@ -184,13 +192,13 @@ impl Projector {
         self.start.copy_from_slice(x);
         self.size = largest(x);
         // The elimination is that of all rows.
-        if M::SPEC.structure.straight_line && rows == self.m {
-            if let Some(correction) = self.straight_line(mech, t, x, other, level) {
+        if self.mechanism.spec().structure.straight_line && rows == self.m {
+            if let Some(correction) = self.straight_line(t, x, other, level) {
                 return Ok(correction);
             }
             x.copy_from_slice(&self.start);
         }
-        let result = self.rank_revealing(mech, t, x, other, level);
+        let result = self.rank_revealing(t, x, other, level);
         if result.is_err() {
             x.copy_from_slice(&self.start);
         }
@@ -206,34 +214,22 @@ impl Projector {
     }
 
     /// φ, or φ̇ and ψ, into `residual`.
-    fn evaluate<M: Mechanism>(
-        &mut self,
-        mech: &Prepared<M>,
-        t: f64,
-        x: &[f64],
-        other: &[f64],
-        level: Level,
-    ) {
+    fn evaluate(&mut self, t: f64, x: &[f64], other: &[f64], level: Level) {
         match level {
-            Level::Position => mech.residual(t, x, &mut self.residual[..self.holonomic]),
-            Level::Velocity => mech.residual_rate(t, other, x, &mut self.residual),
+            Level::Position => self
+                .mechanism
+                .residual(t, x, &mut self.residual[..self.holonomic]),
+            Level::Velocity => self
+                .mechanism
+                .residual_rate(t, other, x, &mut self.residual),
         }
     }
 
     /// What rounding the residuals at `x` carry. Where coordinates are small beside the lengths in a constraint (measured from the
     /// state at rest, say), this is far more than their own rounding makes of it.
-    fn measure_rounding<M: Mechanism>(
-        &mut self,
-        mech: &Prepared<M>,
-        t: f64,
-        x: &[f64],
-        other: &[f64],
-        level: Level,
-    ) {
-        let [given, fixed, residual, params, prepared] = &mut self.rounded;
-        let exact = mech.parameters().iter().map(|p| Rounded::exact(*p));
-        params.iter_mut().zip(exact).for_each(|(r, p)| *r = p);
-        mech.prepare_as(params, prepared);
+    fn measure_rounding(&mut self, t: f64, x: &[f64], other: &[f64], level: Level) {
+        let (given, fixed, residual) =
+            (&mut self.given, &mut self.fixed, &mut self.rounded_residual);
         given
             .iter_mut()
             .zip(x)
@@ -245,11 +241,12 @@ impl Projector {
         let t = Rounded::exact(t);
         let rows = match level {
             Level::Position => {
-                M::residual(prepared, t, given, &mut residual[..self.holonomic]);
+                self.rounded
+                    .residual(t, given, &mut residual[..self.holonomic]);
                 self.holonomic
             }
             Level::Velocity => {
-                M::residual_rate(prepared, t, fixed, given, residual);
+                self.rounded.residual_rate(t, fixed, given, residual);
                 self.m
             }
         };
@@ -260,42 +257,29 @@ impl Projector {
 
     /// The largest length in a holonomic constraint at q, in the unit of the coordinates: what rounding makes of φ, over ε max|A_cj|. 0 without such constraints.
     #[cfg(feature = "simulate")]
-    pub(crate) fn length<M: Mechanism>(
-        &mut self,
-        mech: &Prepared<M>,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
-    ) -> f64 {
+    pub(crate) fn length(&mut self, t: f64, q: &[f64], v: &[f64]) -> f64 {
         self.size = 0.0;
-        self.jacobian(mech, t, q, v, Level::Position);
-        self.weigh::<M>(q);
-        self.measure_rounding(mech, t, q, v, Level::Position);
+        self.jacobian(t, q, v, Level::Position);
+        self.weigh(q);
+        self.measure_rounding(t, q, v, Level::Position);
         let sizes = self.rounding[..self.holonomic].iter().zip(&self.largest);
         let lengths = sizes.filter(|(_, entry)| **entry > 0.0);
         lengths.fold(0.0, |s: f64, (r, entry)| s.max(r / entry))
     }
 
-    fn jacobian<M: Mechanism>(
-        &mut self,
-        mech: &Prepared<M>,
-        t: f64,
-        x: &[f64],
-        other: &[f64],
-        level: Level,
-    ) {
+    fn jacobian(&mut self, t: f64, x: &[f64], other: &[f64], level: Level) {
         match level {
-            Level::Position => mech.jacobian(t, x, other, &mut self.jacobian),
-            Level::Velocity => mech.jacobian(t, other, x, &mut self.jacobian),
+            Level::Position => self.mechanism.jacobian(t, x, other, &mut self.jacobian),
+            Level::Velocity => self.mechanism.jacobian(t, other, x, &mut self.jacobian),
         }
     }
 
     /// Sizes of the rows of A at `x`, for [`Projector::at_rounding`].
-    fn weigh<M: Mechanism>(&mut self, x: &[f64]) {
+    fn weigh(&mut self, x: &[f64]) {
         self.terms.fill(0.0);
         self.largest.fill(0.0);
         let least = NEIGHBOUR * self.size;
-        for &(c, j) in M::SPEC.structure.jacobian_pattern {
+        for &(c, j) in self.mechanism.spec().structure.jacobian_pattern {
             let entry = self.jacobian[j * self.m + c].abs();
             self.terms[c] += entry * (x[j].abs() + least);
             self.largest[c] = self.largest[c].max(entry);

@@ -7,7 +7,7 @@ use crate::assemble::State;
 use crate::error::Error;
 use crate::events::EventHit;
 use crate::integrate::Segment;
-use crate::mechanism::{Energy, Mechanism, Prepared};
+use crate::mechanism::{Energy, Prepared, Spec};
 use crate::solver::{Solution, Solver, SolverOptions};
 use crate::stabilise::Projector;
 
@@ -92,8 +92,8 @@ pub enum Ending {
 ///
 /// Its methods compute at each sample anew what is asked for; nothing but states is stored.
 #[derive(Clone)]
-pub struct Trajectory<M> {
-    mechanism: M,
+pub struct Trajectory {
+    mechanism: Prepared,
     options: SolverOptions,
     pub(crate) times: Vec<f64>,
     /// [q; q̇] of one sample after the other.
@@ -111,8 +111,8 @@ pub struct Trajectory<M> {
     pub(crate) work: Work,
 }
 
-impl<M: Mechanism> Trajectory<M> {
-    pub(crate) fn new(mechanism: M, options: SolverOptions) -> Self {
+impl Trajectory {
+    pub(crate) fn new(mechanism: Prepared, options: SolverOptions) -> Self {
         Trajectory {
             mechanism,
             options,
@@ -131,8 +131,14 @@ impl<M: Mechanism> Trajectory<M> {
 
     /// The mechanism, with the parameters that were simulated.
     #[must_use]
-    pub fn mechanism(&self) -> &M {
+    pub fn mechanism(&self) -> &Prepared {
         &self.mechanism
+    }
+
+    /// What is known about the mechanism: names, structure, readable equations.
+    #[must_use]
+    pub fn spec(&self) -> &'static Spec {
+        self.mechanism.spec()
     }
 
     /// Number of samples.
@@ -161,7 +167,7 @@ impl<M: Mechanism> Trajectory<M> {
     }
 
     fn sample_at(&self, index: usize) -> Sample<'_> {
-        let n = M::SPEC.n();
+        let n = self.spec().n();
         let state = &self.states[2 * n * index..2 * n * (index + 1)];
         let (q, v) = state.split_at(n);
         let t = self.times[index];
@@ -201,7 +207,7 @@ impl<M: Mechanism> Trajectory<M> {
     pub fn events<'a>(
         &'a self,
         name: &str,
-    ) -> Result<impl DoubleEndedIterator<Item = &'a EventHit> + Clone + use<'a, M>, Error> {
+    ) -> Result<impl DoubleEndedIterator<Item = &'a EventHit> + Clone + use<'a>, Error> {
         let Some(name) = self.watched.iter().find(|watched| *watched == name) else {
             let mut names = self.watched.iter().map(String::as_str);
             return Err(Error::unknown_name("event", name, &mut names));
@@ -247,14 +253,14 @@ impl<M: Mechanism> Trajectory<M> {
         let Some(segment) = segments.get(index) else {
             return Ok(end.clone());
         };
-        let n = M::SPEC.n();
+        let n = self.spec().n();
         let mut q = vec![0.0; 2 * n];
         segment.state(t, &mut q);
         let mut v = q.split_off(n);
         if self.projected {
-            let (mech, mut projector) = (self.mechanism.prepared(), Projector::new::<M>());
-            projector.position(&mech, t, &mut q, &v)?;
-            projector.velocity(&mech, t, &q, &mut v)?;
+            let mut projector = Projector::new(&self.mechanism);
+            projector.position(t, &mut q, &v)?;
+            projector.velocity(t, &q, &mut v)?;
         }
         Ok(State { t, q, v })
     }
@@ -264,7 +270,7 @@ impl<M: Mechanism> Trajectory<M> {
     /// # Errors
     /// [`Error::UnknownName`] with the nearest name.
     pub fn coordinate(&self, name: &str) -> Result<Vec<f64>, Error> {
-        let index = M::SPEC.coordinate_index(name)?;
+        let index = self.spec().coordinate_index(name)?;
         Ok(self.samples().map(|s| s.q[index]).collect())
     }
 
@@ -273,7 +279,7 @@ impl<M: Mechanism> Trajectory<M> {
     /// # Errors
     /// [`Error::UnknownName`] with the nearest name.
     pub fn velocity(&self, name: &str) -> Result<Vec<f64>, Error> {
-        let index = M::SPEC.coordinate_index(name)?;
+        let index = self.spec().coordinate_index(name)?;
         Ok(self.samples().map(|s| s.v[index]).collect())
     }
 
@@ -282,17 +288,16 @@ impl<M: Mechanism> Trajectory<M> {
     /// # Errors
     /// [`Error::UnknownName`] with the nearest name.
     pub fn output(&self, name: &str) -> Result<Vec<f64>, Error> {
-        let index = M::SPEC.output_index(name)?;
+        let index = self.spec().output_index(name)?;
         Ok(self.outputs().iter().map(|row| row[index]).collect())
     }
 
     /// All outputs at the samples: one row a sample, the order of [`Spec::outputs`](crate::Spec::outputs).
     #[must_use]
     pub fn outputs(&self) -> Vec<Vec<f64>> {
-        let mech = self.mechanism.prepared();
         let row = |s: Sample<'_>| {
-            let mut row = vec![0.0; M::SPEC.outputs.len()];
-            mech.outputs(s.t, s.q, s.v, &mut row);
+            let mut row = vec![0.0; self.spec().outputs.len()];
+            self.mechanism.outputs(s.t, s.q, s.v, &mut row);
             row
         };
         self.samples().map(row).collect()
@@ -301,8 +306,7 @@ impl<M: Mechanism> Trajectory<M> {
     /// Kinetic and potential energy at the samples.
     #[must_use]
     pub fn energy(&self) -> Vec<Energy> {
-        let mech = self.mechanism.prepared();
-        let energy = |s: Sample<'_>| mech.energy(s.t, s.q, s.v);
+        let energy = |s: Sample<'_>| self.mechanism.energy(s.t, s.q, s.v);
         self.samples().map(energy).collect()
     }
 
@@ -330,9 +334,10 @@ impl<M: Mechanism> Trajectory<M> {
     /// How far the samples are off the constraints.
     #[must_use]
     pub fn residuals(&self) -> Vec<Residual> {
-        let mech = self.mechanism.prepared();
-        let mut gauge = Gauge::new::<M>();
-        self.samples().map(|s| gauge.residual(&mech, s)).collect()
+        let mut gauge = Gauge::new(self.spec());
+        self.samples()
+            .map(|s| gauge.residual(&self.mechanism, s))
+            .collect()
     }
 
     /// Accelerations q̈ at the samples, by the formula of the run.
@@ -340,11 +345,10 @@ impl<M: Mechanism> Trajectory<M> {
     /// # Errors
     /// What the solver reports, with the sample ([`Error::At`]).
     pub fn accelerations(&self) -> Result<Vec<Vec<f64>>, Error> {
-        let mut solver = Solver::new::<M>(self.options);
-        let mech = self.mechanism.prepared();
+        let mut solver = Solver::new(&self.mechanism, self.options);
         let mut acceleration = |s: Sample<'_>| {
             let mut out = vec![0.0; s.q.len()];
-            match solver.acceleration(&mech, s.t, s.q, s.v, &mut out) {
+            match solver.acceleration(s.t, s.q, s.v, &mut out) {
                 Ok(()) => Ok(out),
                 Err(error) => Err(at(s, error)),
             }
@@ -357,10 +361,9 @@ impl<M: Mechanism> Trajectory<M> {
     /// # Errors
     /// What the solver reports, with the sample ([`Error::At`]).
     pub fn solutions(&self) -> Result<Vec<Solution>, Error> {
-        let mut solver = Solver::new::<M>(self.options);
-        let mech = self.mechanism.prepared();
+        let mut solver = Solver::new(&self.mechanism, self.options);
         let mut solve = |s: Sample<'_>| {
-            let solution = solver.solve(&mech, s.t, s.q, s.v);
+            let solution = solver.solve(s.t, s.q, s.v);
             solution.map_err(|error| at(s, error))
         };
         self.samples().map(&mut solve).collect()
@@ -383,7 +386,7 @@ impl<M: Mechanism> Trajectory<M> {
     /// # Errors
     /// Those of `writer`.
     pub fn write_csv_head(&self, writer: &mut (impl Write + ?Sized)) -> io::Result<()> {
-        let spec = M::SPEC;
+        let spec = self.spec();
         let mut line = "t".to_owned();
         for name in spec.coords {
             line += &format!(",{name}");
@@ -408,18 +411,17 @@ impl<M: Mechanism> Trajectory<M> {
         writer: &mut (impl Write + ?Sized),
     ) -> io::Result<()> {
         let mut writer = io::BufWriter::new(writer);
-        let mech = self.mechanism.prepared();
-        let mut gauge = Gauge::new::<M>();
-        let mut outputs = vec![0.0; M::SPEC.outputs.len()];
+        let mut gauge = Gauge::new(self.spec());
+        let mut outputs = vec![0.0; self.spec().outputs.len()];
         for sample in self.samples().skip(first) {
             let Sample { t, q, v } = sample;
-            mech.outputs(t, q, v, &mut outputs);
+            self.mechanism.outputs(t, q, v, &mut outputs);
             write!(writer, "{t:?}")?;
             for value in q.iter().chain(v).chain(&outputs) {
                 write!(writer, ",{value:?}")?;
             }
-            let energy = mech.energy(t, q, v).total();
-            let residual = gauge.residual(&mech, sample).largest();
+            let energy = self.mechanism.energy(t, q, v).total();
+            let residual = gauge.residual(&self.mechanism, sample).largest();
             writeln!(writer, ",{energy:?},{residual:?}")?;
         }
         writer.flush()
@@ -433,14 +435,14 @@ struct Gauge {
 }
 
 impl Gauge {
-    fn new<M: Mechanism>() -> Self {
+    fn new(spec: &Spec) -> Self {
         Gauge {
-            position: vec![0.0; M::SPEC.holonomic],
-            velocity: vec![0.0; M::SPEC.m()],
+            position: vec![0.0; spec.holonomic],
+            velocity: vec![0.0; spec.m()],
         }
     }
 
-    fn residual<M: Mechanism>(&mut self, mech: &Prepared<M>, sample: Sample<'_>) -> Residual {
+    fn residual(&mut self, mech: &Prepared, sample: Sample<'_>) -> Residual {
         let Sample { t, q, v } = sample;
         mech.residual(t, q, &mut self.position);
         mech.residual_rate(t, q, v, &mut self.velocity);
@@ -466,10 +468,10 @@ fn at(sample: Sample<'_>, error: Error) -> Error {
     }
 }
 
-impl<M: Mechanism> fmt::Debug for Trajectory<M> {
+impl fmt::Debug for Trajectory {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Trajectory")
-            .field("mechanism", &M::SPEC.name)
+            .field("mechanism", &self.spec().name)
             .field("samples", &self.len())
             .field("events", &self.events)
             .field("end", &self.end)

@@ -10,10 +10,7 @@
 //! Each row of B (or Ĉ) is divided by its norm first. For consistent constraints that changes neither the set of q̈ with A q̈ = b
 //! nor, hence, the one of least norm in it, and rank decisions become independent of how a constraint is scaled.
 
-use std::any::TypeId;
-
-use crate::error::Error;
-use crate::mechanism::{Mechanism, Prepared, Terms};
+use crate::mechanism::{Prepared, Terms};
 use crate::metric::{MassFault, Metric};
 use crate::pinv::{Decomposition, axpy, dot};
 
@@ -21,37 +18,7 @@ use crate::pinv::{Decomposition, axpy, dot};
 /// N and of the product are a few n ε.
 const INERTIA_ROUNDING: f64 = 64.0;
 
-/// The mechanism type that buffers belong to: those of another one have other sizes and other structural zeros.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Owner {
-    id: TypeId,
-    name: &'static str,
-}
-
-impl Owner {
-    pub(crate) fn of<M: Mechanism>() -> Self {
-        Owner {
-            id: TypeId::of::<M>(),
-            name: M::SPEC.name,
-        }
-    }
-
-    pub(crate) fn check<M: Mechanism>(self, what: &str) -> Result<(), Error> {
-        if self.id == TypeId::of::<M>() {
-            return Ok(());
-        }
-        Err(Error::InvalidSetting {
-            what: "mechanism",
-            reason: format!(
-                "is a `{}`, but this {what} was made for `{}`",
-                M::SPEC.name,
-                self.name
-            ),
-        })
-    }
-}
-
-/// Buffers of [`Mechanism::dynamics`].
+/// Buffers of [`Mechanism::dynamics`](crate::Mechanism::dynamics).
 #[derive(Debug, Clone)]
 pub(crate) struct Evaluated {
     pub(crate) mass: Vec<f64>,
@@ -72,13 +39,7 @@ impl Evaluated {
         }
     }
 
-    pub(crate) fn dynamics<M: Mechanism>(
-        &mut self,
-        mech: &Prepared<M>,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
-    ) {
+    pub(crate) fn dynamics(&mut self, mech: &Prepared, t: f64, q: &[f64], v: &[f64]) {
         let mut terms = Terms {
             mass: &mut self.mass,
             force: &mut self.force,

@@ -2,7 +2,7 @@
 //! [`Projector`](crate::Projector).
 
 use super::Lanes;
-use crate::mechanism::{Mechanism, Prepared};
+use crate::mechanism::{Prepared, Spec};
 use crate::stabilise::{NEIGHBOUR, ROUNDING, STALLED};
 
 /// Newton steps at most; the state at the end of a good step needs one or two.
@@ -19,8 +19,8 @@ pub(crate) struct LaneProjector<L> {
 }
 
 impl<L: Lanes> LaneProjector<L> {
-    pub(crate) fn new<M: Mechanism>() -> Self {
-        let (n, m) = (M::SPEC.n(), M::SPEC.m());
+    pub(crate) fn new(spec: &Spec) -> Self {
+        let (n, m) = (spec.n(), spec.m());
         let zeros = |len: usize| vec![L::from_f64(0.0); len];
         LaneProjector {
             jacobian: zeros(m * n),
@@ -32,22 +32,22 @@ impl<L: Lanes> LaneProjector<L> {
     }
 
     /// Projects q, then q̇, in the lanes where `wanted` is 1 (and not 0). Adds the Newton steps to `steps`, lane by lane. Returns 1 for those that are consistent now, 0 for the others.
-    pub(crate) fn project<M: Mechanism>(
+    pub(crate) fn project(
         &mut self,
-        mech: &Prepared<M, L>,
+        mech: &Prepared<L>,
         t: L,
         q: &mut [L],
         v: &mut [L],
         wanted: L,
         steps: &mut L,
     ) -> L {
-        let spec = M::SPEC;
+        let spec = mech.spec();
         let mut good = wanted;
         if spec.holonomic > 0 {
             // Only all rows together have an elimination.
             let solvable = spec.structure.straight_line && spec.holonomic == spec.m();
             mech.jacobian(t, q, v, &mut self.jacobian);
-            self.bounds::<M>(spec.holonomic, q);
+            self.bounds(spec, spec.holonomic, q);
             good = self.newton(spec.holonomic, q, good, solvable, steps, |x, own, solve| {
                 if solve {
                     mech.correction(t, x, v, own.0, own.1)
@@ -59,7 +59,7 @@ impl<L: Lanes> LaneProjector<L> {
         }
         if spec.m() > 0 {
             mech.jacobian(t, q, v, &mut self.jacobian);
-            self.bounds::<M>(spec.m(), v);
+            self.bounds(spec, spec.m(), v);
             let solvable = spec.structure.straight_line;
             good = self.newton(spec.m(), v, good, solvable, steps, |x, own, solve| {
                 if solve {
@@ -74,13 +74,13 @@ impl<L: Lanes> LaneProjector<L> {
     }
 
     /// The bounds, as [`Projector`](crate::Projector) has them.
-    fn bounds<M: Mechanism>(&mut self, rows: usize, x: &[L]) {
+    fn bounds(&mut self, spec: &Spec, rows: usize, x: &[L]) {
         let zero = L::from_f64(0.0);
         let size = x.iter().fold(zero, |size, x| size.max(x.abs()));
         self.strict.fill(zero);
         self.loose.fill(zero);
-        for &(c, j) in M::SPEC.structure.jacobian_pattern {
-            let entry = self.jacobian[j * M::SPEC.m() + c].abs();
+        for &(c, j) in spec.structure.jacobian_pattern {
+            let entry = self.jacobian[j * spec.m() + c].abs();
             self.strict[c] = entry.mul_add(x[j].abs(), self.strict[c]);
             self.loose[c] = self.loose[c].max(entry);
         }

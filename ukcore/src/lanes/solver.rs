@@ -3,6 +3,7 @@
 use super::Lanes;
 use crate::error::Error;
 use crate::mechanism::{Mechanism, Prepared};
+use crate::scalar::Scalar;
 use crate::scan::sum;
 use crate::solver::{Solver, SolverOptions, SolverWork};
 
@@ -11,18 +12,17 @@ use crate::solver::{Solver, SolverOptions, SolverWork};
 /// The emitted elimination computes all lanes. Where its certificate does not hold in a lane, or something is not finite there, a [`Solver`] of that lane's own solves it
 /// again; so a lane has the acceleration, or the error, that it would have alone.
 #[derive(Debug, Clone)]
-pub struct LaneSolver<M, L> {
-    mechanisms: Vec<M>,
-    prepared: Prepared<M, L>,
-    /// A lane's own solver and mechanism, once it needs them.
-    own: Vec<Option<Box<Own<M>>>>,
+pub struct LaneSolver<L: Scalar> {
+    mechanisms: Vec<Prepared>,
+    prepared: Prepared<L>,
+    /// A lane's own solver, once it needs one.
+    own: Vec<Option<Box<Own>>>,
     errors: Vec<Option<Error>>,
     evaluations: Vec<usize>,
 }
 
 #[derive(Debug, Clone)]
-struct Own<M> {
-    prepared: Prepared<M>,
+struct Own {
     solver: Solver,
     /// State and acceleration: q, q̇, q̈.
     state: [Vec<f64>; 3],
@@ -33,24 +33,42 @@ fn zero_if_finite<L: Lanes>(t: L, [q, v, out]: [&[L]; 3]) -> L {
     (t + sum(q) + sum(v) + sum(out)) * L::from_f64(0.0)
 }
 
-impl<M: Mechanism, L: Lanes> LaneSolver<M, L> {
+impl<L: Lanes> LaneSolver<L> {
     /// A solver with `mechanism` in each lane.
     #[must_use]
-    pub fn new(mechanism: &M) -> Self {
+    pub fn new<M: Mechanism>(mechanism: &M) -> Self {
+        LaneSolver::with(mechanism.prepared(), mechanism.prepared())
+    }
+
+    /// The same with a mechanism given in lanes and alone.
+    pub(crate) fn with(prepared: Prepared<L>, mechanism: Prepared) -> Self {
         LaneSolver {
-            mechanisms: vec![mechanism.clone(); L::WIDTH],
-            prepared: mechanism.prepared(),
+            mechanisms: vec![mechanism; L::WIDTH],
+            prepared,
             own: (0..L::WIDTH).map(|_| None).collect(),
             errors: vec![None; L::WIDTH],
             evaluations: vec![0; L::WIDTH],
         }
     }
 
-    /// Puts `mechanism` into lane `lane`, below [`Lanes::WIDTH`], and begins to count its work anew.
-    pub fn set(&mut self, lane: usize, mechanism: &M) {
-        self.mechanisms[lane] = mechanism.clone();
-        let parameter = |i| L::from_lanes(|k| self.mechanisms[k].parameter(i));
-        self.prepared = Prepared::new((0..M::SPEC.params.len()).map(parameter).collect());
+    /// Puts `mechanism`, with its parameters, into lane `lane`, below [`Lanes::WIDTH`], and begins to count its work anew.
+    ///
+    /// # Errors
+    /// [`Error::InvalidSetting`] if it is not the mechanism that the solver was made for.
+    pub fn set(&mut self, lane: usize, mechanism: impl Into<Prepared>) -> Result<(), Error> {
+        let mechanism = mechanism.into();
+        self.mechanisms[lane].check_same(&mechanism, "solver")?;
+        self.put(lane, mechanism);
+        Ok(())
+    }
+
+    /// The same for what is known to be the same mechanism.
+    pub(crate) fn put(&mut self, lane: usize, mechanism: Prepared) {
+        self.mechanisms[lane] = mechanism;
+        let mechanisms = &self.mechanisms;
+        let parameter = |i| L::from_lanes(|k| mechanisms[k].parameters()[i]);
+        let count = self.prepared.parameters().len();
+        self.prepared.set_parameters((0..count).map(parameter));
         self.own[lane] = None;
         self.errors[lane] = None;
         self.evaluations[lane] = 0;
@@ -58,7 +76,7 @@ impl<M: Mechanism, L: Lanes> LaneSolver<M, L> {
 
     /// The mechanisms, for what needs no solver.
     #[must_use]
-    pub fn prepared(&self) -> &Prepared<M, L> {
+    pub fn prepared(&self) -> &Prepared<L> {
         &self.prepared
     }
 
@@ -75,7 +93,7 @@ impl<M: Mechanism, L: Lanes> LaneSolver<M, L> {
         out: &mut [L],
         wanted: impl Fn(usize) -> bool,
     ) -> bool {
-        let straight_line = M::SPEC.structure.straight_line;
+        let straight_line = self.prepared.spec().structure.straight_line;
         let mut safe = L::from_f64(0.0);
         if straight_line {
             safe = self.prepared.acceleration(t, q, v, out);
@@ -97,20 +115,18 @@ impl<M: Mechanism, L: Lanes> LaneSolver<M, L> {
     /// Solves lane `lane` by its own solver.
     #[cold]
     fn alone(&mut self, lane: usize, t: L, q: &[L], v: &[L], out: &mut [L]) -> bool {
+        let mechanism = &self.mechanisms[lane];
         let own = self.own[lane].get_or_insert_with(|| {
             Box::new(Own {
-                prepared: self.mechanisms[lane].prepared(),
-                solver: Solver::new::<M>(SolverOptions::default()),
-                state: std::array::from_fn(|_| vec![0.0; M::SPEC.n()]),
+                solver: Solver::new(mechanism, SolverOptions::default()),
+                state: std::array::from_fn(|_| vec![0.0; mechanism.spec().n()]),
             })
         });
         let [own_q, own_v, own_out] = &mut own.state;
         for (own, all) in [(&mut *own_q, q), (&mut *own_v, v)] {
             own.iter_mut().zip(all).for_each(|(x, y)| *x = y.lane(lane));
         }
-        let result = own
-            .solver
-            .acceleration(&own.prepared, t.lane(lane), own_q, own_v, own_out);
+        let result = own.solver.acceleration(t.lane(lane), own_q, own_v, own_out);
         if let Err(error) = result {
             own_out.fill(f64::NAN);
             self.errors[lane] = Some(error);

@@ -14,7 +14,7 @@ use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use super::{Sampling, Simulation};
 use crate::assemble::State;
 use crate::error::Error;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, Prepared};
 use crate::trajectory::Work;
 
 mod group;
@@ -30,8 +30,10 @@ type Wide = wide::f64x4;
 
 /// An ensemble: members and settings, then [`until`](Ensemble::until).
 #[derive(Debug, Clone)]
-pub struct Ensemble<M> {
-    members: Vec<(M, State)>,
+pub struct Ensemble {
+    members: Vec<(Prepared, State)>,
+    /// The mechanism in lanes, with whatever parameters.
+    lanes: Prepared<Wide>,
     tolerance: f64,
     sampling: Sampling,
     max_steps: usize,
@@ -48,12 +50,14 @@ pub struct Member {
     pub work: Work,
 }
 
-impl<M: Mechanism> Ensemble<M> {
+impl Ensemble {
     /// An ensemble of mechanisms and their starts, at tolerance 1e-9, without samples, with at most 10⁷ steps for each.
     #[must_use]
-    pub fn new(members: Vec<(M, State)>) -> Self {
+    pub fn new<M: Mechanism>(members: Vec<(M, State)>) -> Self {
+        let prepared = |(mechanism, start): (M, State)| (mechanism.prepared(), start);
         Ensemble {
-            members,
+            members: members.into_iter().map(prepared).collect(),
+            lanes: M::default().prepared(),
             tolerance: 1e-9,
             sampling: Sampling::At(Vec::new()),
             max_steps: 10_000_000,
@@ -96,7 +100,7 @@ impl<M: Mechanism> Ensemble<M> {
         let next = AtomicUsize::new(0);
         // Few members are shared out evenly.
         let capacity = self.members.len().div_ceil(threads);
-        let run = |_| Group::<M, Wide>::new(self, t_end, &next, capacity).run();
+        let run = |_| Group::new(self, &self.lanes, t_end, &next, capacity).run();
         let parts: Vec<_> = (0..threads).into_par_iter().map(run).collect();
         let mut all: Vec<_> = parts.into_iter().flatten().collect();
         all.sort_by_key(|(index, _)| *index);
@@ -104,7 +108,7 @@ impl<M: Mechanism> Ensemble<M> {
     }
 
     /// Member `index` alone.
-    fn simulation(&self, index: usize) -> Simulation<M> {
+    fn simulation(&self, index: usize) -> Simulation {
         let (mechanism, start) = &self.members[index];
         let mut simulation = Simulation::new(mechanism.clone());
         simulation.start = Some(start.clone());

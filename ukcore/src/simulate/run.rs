@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::events::{EventHit, States, Watch};
 use crate::integrate::{Next, Problem, Step};
 use crate::linearise::Slopes;
-use crate::mechanism::{Branch, Energy, Mechanism, Prepared};
+use crate::mechanism::{Branch, Dynamics, Energy, Prepared};
 use crate::scalar::Dual;
 use crate::scan::largest;
 use crate::solver::{RANK_CEILING, Solver};
@@ -29,7 +29,7 @@ pub(super) enum Sampling {
     At(Vec<f64>),
 }
 
-pub(super) type Progress<M> = Box<dyn FnMut(&Trajectory<M>) -> ControlFlow<()>>;
+pub(super) type Progress = Box<dyn FnMut(&Trajectory) -> ControlFlow<()>>;
 
 /// `error` with the place where it arose.
 pub(super) fn at(t: f64, y: &[f64], error: Error) -> Error {
@@ -84,29 +84,28 @@ impl Agenda {
 }
 
 /// The simulation as a problem for the integrator.
-pub(super) struct Run<'a, M> {
-    pub(super) mechanism: Prepared<M>,
+pub(super) struct Run<'a> {
     /// For the derivatives of switching functions, if steps are to go onto their zeros.
-    pub(super) located: Option<Prepared<M, Dual>>,
+    pub(super) located: Option<Prepared<Dual, dyn Dynamics<Dual>>>,
     pub(super) solver: Solver,
     pub(super) projector: Projector,
     pub(super) project: bool,
     pub(super) n: usize,
     pub(super) agenda: Agenda,
     pub(super) watch: Watch,
-    pub(super) progress: Option<Progress<M>>,
+    pub(super) progress: Option<Progress>,
     /// Time and state at the end of the last accepted step; the time is that of the event where a terminal one ended it.
     pub(super) t: f64,
     pub(super) y: Vec<f64>,
     /// A state within a step.
     pub(super) between: Vec<f64>,
     /// Made when a method asks for the first Jacobian.
-    pub(super) slopes: Option<Slopes<M>>,
+    pub(super) slopes: Option<Slopes>,
     pub(super) conflict: Conflict,
     pub(super) pace: Pace,
     /// For a method with a fixed step.
     pub(super) keeper: Option<Keeper>,
-    pub(super) trajectory: &'a mut Trajectory<M>,
+    pub(super) trajectory: &'a mut Trajectory,
 }
 
 /// Watches the energy of a run with steps of a fixed size: too long ones make it grow without bound, and nothing else would tell.
@@ -155,7 +154,7 @@ impl Keeper {
 /// Significance of a constraint, √ε, below which the state cannot tell on which side of a singular position it is.
 const SINGULAR: f64 = 1.5e-8;
 
-impl<M: Mechanism> Run<'_, M> {
+impl Run<'_> {
     /// Refuses a step that ends where constraints all but imply each other and that did not begin there.
     ///
     /// A significance δ leaves q off by ε/δ, so below √ε the state does not say on which side of the singular position it is, nor which branch of the motion it
@@ -178,7 +177,7 @@ impl<M: Mechanism> Run<'_, M> {
     /// An error that names the constraints whose significance in the last solution was not above `significance`.
     fn singular(&self, significance: f64) -> Error {
         let weak = self.solver.rows_below(significance).iter();
-        let names = weak.map(|c| M::SPEC.constraints[*c].name.to_owned());
+        let names = weak.map(|c| self.trajectory.spec().constraints[*c].name.to_owned());
         Error::Singular {
             constraints: names.collect(),
         }
@@ -188,8 +187,7 @@ impl<M: Mechanism> Run<'_, M> {
     fn weakest_at(&mut self, t: f64, y: &[f64]) -> Result<f64, Error> {
         let (q, v) = y.split_at(self.n);
         let mut rate = vec![0.0; self.n];
-        self.solver
-            .acceleration_in_run(&self.mechanism, t, q, v, &mut rate)?;
+        self.solver.acceleration_in_run(t, q, v, &mut rate)?;
         Ok(self.solver.take_weakest())
     }
 
@@ -228,7 +226,6 @@ impl<M: Mechanism> Run<'_, M> {
     /// What is to be kept of an accepted step.
     fn record(&mut self, step: &Step<'_>) -> Result<(), Error> {
         let mut within = Within {
-            mechanism: &self.mechanism,
             projector: &mut self.projector,
             project: self.project,
             step,
@@ -282,13 +279,13 @@ impl<M: Mechanism> Run<'_, M> {
     }
 }
 
-impl<M: Mechanism> Problem for Run<'_, M> {
+impl Problem for Run<'_> {
     fn derivative(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Error> {
         let (q, v) = y.split_at(self.n);
         let (q_rate, v_rate) = rate.split_at_mut(self.n);
         q_rate.copy_from_slice(v);
         let solver = &mut self.solver;
-        let result = solver.acceleration_in_run(&self.mechanism, t, q, v, v_rate);
+        let result = solver.acceleration_in_run(t, q, v, v_rate);
         result.inspect_err(|error| self.conflict.note(t, y, error))
     }
 
@@ -302,17 +299,17 @@ impl<M: Mechanism> Problem for Run<'_, M> {
         let (q, v) = y.split_at(self.n);
         let (q_rate, v_rate) = rate.split_at_mut(self.n);
         q_rate.copy_from_slice(v);
-        let (mechanism, solver) = (&self.mechanism, &mut self.solver);
-        let slopes = self.slopes.get_or_insert_with(|| Slopes::new(mechanism));
+        let solver = &mut self.solver;
+        let slopes = (self.slopes).get_or_insert_with(|| Slopes::new(solver.mechanism()));
         self.trajectory.work.jacobians += 1;
-        let result = slopes.columns(solver, mechanism, (t, q, v), v_rate, out);
+        let result = slopes.columns(solver, (t, q, v), v_rate, out);
         result.inspect_err(|error| self.conflict.note(t, y, error))
     }
 
     fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), Error> {
         if self.project {
             let work = &mut self.trajectory.work;
-            let result = project(&self.mechanism, &mut self.projector, work, t, y);
+            let result = project(&mut self.projector, work, t, y);
             result.inspect_err(|error| self.conflict.note(t, y, error))?;
         }
         Ok(())
@@ -328,31 +325,31 @@ impl<M: Mechanism> Problem for Run<'_, M> {
         let work = &mut self.trajectory.work;
         work.projections += 1;
         let projector = &mut self.projector;
-        let correction = projector.position_along(&self.mechanism, t, base, q, shift)?;
+        let correction = projector.position_along(t, base, q, shift)?;
         work.projection_iterations += correction.iterations;
         Ok(())
     }
 
     fn settle(&mut self, t: f64, q: &[f64], v: &mut [f64]) -> Result<(), Error> {
-        let correction = self.projector.velocity(&self.mechanism, t, q, v)?;
+        let correction = self.projector.velocity(t, q, v)?;
         self.trajectory.work.projection_iterations += correction.iterations;
         Ok(())
     }
 
     fn jump(&mut self, t: f64, y: &[f64]) -> Option<Error> {
         let (q, v) = y.split_at(self.n);
-        let spec = M::SPEC;
+        let spec = self.trajectory.spec();
         // Held branches do not jump.
-        let mut followed = self.mechanism.clone();
+        let mut followed = self.solver.mechanism().clone();
         for k in 0..spec.switches.len() {
             followed.hold(k, Branch::Followed);
         }
+        let mut projector = Projector::new(&followed);
         let mechanism = &followed;
         let mut near = y.to_vec();
         let (near_q, near_v) = near.split_at_mut(self.n);
-        let projector = &mut self.projector;
-        projector.position(mechanism, t, near_q, v).ok()?;
-        projector.velocity(mechanism, t, near_q, near_v).ok()?;
+        projector.position(t, near_q, v).ok()?;
+        projector.velocity(t, near_q, near_v).ok()?;
         let change = |old: &[f64], new: &[f64]| {
             let pairs = old.iter().zip(new);
             pairs.fold(0.0, |s: f64, (a, b)| s.max((a - b).abs() / (1.0 + a.abs())))
@@ -392,14 +389,14 @@ impl<M: Mechanism> Problem for Run<'_, M> {
 
     fn switches(&self) -> usize {
         match self.located {
-            Some(_) => M::SPEC.switches.len(),
+            Some(_) => self.trajectory.spec().switches.len(),
             None => 0,
         }
     }
 
     fn switching(&mut self, t: f64, y: &[f64], values: &mut [f64]) {
         let (q, v) = y.split_at(self.n);
-        self.mechanism.switching(t, q, v, values);
+        self.solver.mechanism().switching(t, q, v, values);
     }
 
     fn switching_rate(&mut self, t: f64, y: &[f64], rate: &[f64], values: &mut [f64]) {
@@ -416,17 +413,18 @@ impl<M: Mechanism> Problem for Run<'_, M> {
     }
 
     fn hold(&mut self, k: usize, branch: Branch) {
-        self.mechanism.hold(k, branch);
+        self.solver.mechanism_mut().hold(k, branch);
+        self.projector.hold(k, branch);
     }
 
     fn stuck(&self, switches: &[usize]) -> Error {
-        trouble::stuck(M::SPEC, switches)
+        trouble::stuck(self.trajectory.spec(), switches)
     }
 
     fn step(&mut self, step: &Step<'_>) -> Result<Next, Error> {
         if let Some(keeper) = &mut self.keeper {
             let (q, v) = step.y.split_at(self.n);
-            keeper.check(self.mechanism.energy(step.t, q, v))?;
+            keeper.check(self.solver.mechanism().energy(step.t, q, v))?;
         }
         let taken = self.agenda.taken;
         let samples = self.trajectory.times.len();
@@ -467,8 +465,7 @@ impl<M: Mechanism> Problem for Run<'_, M> {
 }
 
 /// Projects y = [q; q̇], positions first, and counts it.
-pub(super) fn project<M: Mechanism>(
-    mechanism: &Prepared<M>,
+pub(super) fn project(
     projector: &mut Projector,
     work: &mut Work,
     t: f64,
@@ -476,24 +473,23 @@ pub(super) fn project<M: Mechanism>(
 ) -> Result<(), Error> {
     let (q, v) = y.split_at_mut(y.len() / 2);
     work.projections += 1;
-    let position = projector.position(mechanism, t, q, v)?;
+    let position = projector.position(t, q, v)?;
     work.projection_iterations += position.iterations;
-    let velocity = projector.velocity(mechanism, t, q, v)?;
+    let velocity = projector.velocity(t, q, v)?;
     work.projection_iterations += velocity.iterations;
     Ok(())
 }
 
 /// The states of one step.
-struct Within<'a, 'b, M> {
-    mechanism: &'a Prepared<M>,
+struct Within<'a, 'b> {
     projector: &'a mut Projector,
     project: bool,
     step: &'a Step<'b>,
     y_old: &'a [f64],
-    trajectory: &'a mut Trajectory<M>,
+    trajectory: &'a mut Trajectory,
 }
 
-impl<M: Mechanism> Within<'_, '_, M> {
+impl Within<'_, '_> {
     /// The state at an end of the step, which needs neither interpolation nor projection.
     fn end(&self, t: f64) -> Option<&[f64]> {
         if t == self.step.t {
@@ -506,7 +502,7 @@ impl<M: Mechanism> Within<'_, '_, M> {
     }
 }
 
-impl<M: Mechanism> States for Within<'_, '_, M> {
+impl States for Within<'_, '_> {
     fn state(&mut self, t: f64, y: &mut [f64]) {
         match (self.end(t), self.step.interpolant) {
             (Some(end), _) => y.copy_from_slice(end),
@@ -520,7 +516,7 @@ impl<M: Mechanism> States for Within<'_, '_, M> {
         self.state(t, y);
         if self.project && self.end(t).is_none() {
             let work = &mut self.trajectory.work;
-            project(self.mechanism, self.projector, work, t, y)?;
+            project(self.projector, work, t, y)?;
         }
         Ok(())
     }

@@ -2,23 +2,16 @@
 
 use super::{DRIFT_FACTOR, Drift, RANK_CEILING, Solver, mass_error, rows};
 use crate::error::Error;
-use crate::mechanism::{Mechanism, Prepared};
 
 impl Solver {
     /// Decides the rank (see the [module](super)) and returns the tolerance that did.
-    pub(super) fn decide_rank<M: Mechanism>(
-        &mut self,
-        mech: &Prepared<M>,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
-    ) -> Result<f64, Error> {
+    pub(super) fn decide_rank(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<f64, Error> {
         let mut tolerance = self.options.rank_tolerance;
         let clear = leading(self.dense.cod.pivots(), RANK_CEILING);
         let mut rank = self.dense.cod.pivots().len();
         if clear < rank {
             self.dense.cod.set_rank(clear);
-            self.measure_drift(mech, t, q, v);
+            self.measure_drift(t, q, v);
             let there = rows(&self.drift.there, self.m);
             let here = rows(&self.here, self.m);
             for c in 0..self.m {
@@ -46,18 +39,12 @@ impl Solver {
         };
         self.weakest = self.weakest.min(weakest);
         let reduced = self.dense.set_rank(rank, &self.here.mass);
-        reduced.map_err(|fault| mass_error::<M>(fault))?;
+        reduced.map_err(|fault| mass_error(self.mechanism.spec(), fault))?;
         Ok(tolerance)
     }
 
     /// The equations one Newton step nearer to the manifold, with the rank in force.
-    pub(super) fn measure_drift<M: Mechanism>(
-        &mut self,
-        mech: &Prepared<M>,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
-    ) {
+    pub(super) fn measure_drift(&mut self, t: f64, q: &[f64], v: &[f64]) {
         let Drift {
             known,
             there,
@@ -66,8 +53,8 @@ impl Solver {
             correction,
         } = &mut self.drift;
         *known = true;
-        mech.residual(t, q, &mut self.position);
-        mech.residual_rate(t, q, v, &mut self.rate);
+        self.mechanism.residual(t, q, &mut self.position);
+        self.mechanism.residual_rate(t, q, v, &mut self.rate);
         self.dense.least_norm(&self.rate, correction);
         near_v
             .iter_mut()
@@ -82,7 +69,7 @@ impl Solver {
             .zip(q)
             .zip(&*correction)
             .for_each(|((x, q), d)| *x = q - d);
-        there.dynamics(mech, t, near_q, near_v);
+        there.dynamics(&self.mechanism, t, near_q, near_v);
         self.work.evaluations += 1;
     }
 }

@@ -2,7 +2,7 @@
 
 use super::RANK_TOLERANCE;
 use crate::diagnose::Diagnosis;
-use crate::mechanism::Mechanism;
+use crate::mechanism::Spec;
 use crate::scalar::Scalar;
 
 /// Which formula computes the accelerations.
@@ -68,7 +68,7 @@ impl Default for SolverOptions {
 /// What a [`Solver`](super::Solver) has done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct SolverWork {
-    /// Evaluations of [`Mechanism::dynamics`], those for drift estimates included.
+    /// Evaluations of [`Mechanism::dynamics`](crate::Mechanism::dynamics), those for drift estimates included.
     pub evaluations: usize,
     /// Solutions that had to leave the formula first tried for a more general one: a mass matrix that looked regular at compile
     /// time and is singular at run time, or redundant constraints under [`Formula::Kkt`].
@@ -97,9 +97,9 @@ pub struct Solution {
 }
 
 impl Solution {
-    /// Rank, degrees of freedom and redundant constraints by name.
+    /// Rank, degrees of freedom and redundant constraints by name, for the mechanism of `spec`.
     #[must_use]
-    pub fn diagnosis<M: Mechanism>(&self) -> Diagnosis {
-        Diagnosis::new(M::SPEC, self.rank, &self.redundant)
+    pub fn diagnosis(&self, spec: &Spec) -> Diagnosis {
+        Diagnosis::new(spec, self.rank, &self.redundant)
     }
 }

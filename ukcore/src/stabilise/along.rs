@@ -2,7 +2,6 @@
 
 use super::{Correction, Level, Projector, ROUNDING};
 use crate::error::Error;
-use crate::mechanism::{Mechanism, Prepared};
 use crate::scan::{all_finite, all_pairs, largest};
 
 /// The method converges linearly, for a step of size h as h^k; more than that is no useful step.
@@ -14,9 +13,8 @@ impl Projector {
     ///
     /// # Errors
     /// [`Error::OffConstraint`] with the constraints that cannot be met that way; [`Error::NonFinite`], [`Error::IndefiniteMass`].
-    pub(crate) fn position_along<M: Mechanism>(
+    pub(crate) fn position_along(
         &mut self,
-        mech: &Prepared<M>,
         t: f64,
         base: &[f64],
         q: &mut [f64],
@@ -33,16 +31,16 @@ impl Projector {
         let mut factored = false;
         let mut previous = f64::INFINITY;
         loop {
-            self.evaluate(mech, t, q, base, level);
+            self.evaluate(t, q, base, level);
             correction.residual = largest(&self.residual);
             if !all_finite(&self.residual) {
-                return Err(self.non_finite(mech, t, q, base, level));
+                return Err(self.non_finite(t, q, base, level));
             }
-            if factored || !self.eliminate(mech, t, base) {
+            if factored || !self.eliminate(t, base) {
                 if !factored {
-                    self.jacobian(mech, t, base, base, level);
+                    self.jacobian(t, base, base, level);
                     self.cautious = true;
-                    self.factor(mech, t, base, self.m)?;
+                    self.factor(t, base, self.m)?;
                     factored = true;
                 }
                 self.minimal_step(self.m);
@@ -56,13 +54,13 @@ impl Projector {
                 if done || change <= rounding * self.size {
                     break;
                 }
-                self.jacobian(mech, t, q, base, level);
-                self.weigh::<M>(q);
-                self.measure_rounding(mech, t, q, base, level);
+                self.jacobian(t, q, base, level);
+                self.weigh(q);
+                self.measure_rounding(t, q, base, level);
                 if self.acceptable(q, self.m) {
                     break;
                 }
-                return Err(self.off_constraint::<M>(q, level));
+                return Err(self.off_constraint(q, level));
             }
             q.iter_mut().zip(&self.step).for_each(|(x, d)| *x += d);
             shift.iter_mut().zip(&self.step).for_each(|(x, d)| *x += d);
@@ -74,9 +72,12 @@ impl Projector {
     }
 
     /// The step by the emitted elimination at `base`; `false` where there is none, or it is not safe.
-    fn eliminate<M: Mechanism>(&mut self, mech: &Prepared<M>, t: f64, base: &[f64]) -> bool {
-        M::SPEC.structure.straight_line
-            && mech.correction(t, base, base, &self.residual, &mut self.step) > 0.5
+    fn eliminate(&mut self, t: f64, base: &[f64]) -> bool {
+        self.mechanism.spec().structure.straight_line
+            && self
+                .mechanism
+                .correction(t, base, base, &self.residual, &mut self.step)
+                > 0.5
             && all_finite(&self.step)
     }
 }

@@ -3,7 +3,6 @@
 use super::{Correction, Level, PROGRESS, Projector, rows_of};
 use crate::diagnose;
 use crate::error::Error;
-use crate::mechanism::{Mechanism, Prepared};
 use crate::metric::MassFault;
 use crate::scan::{all_finite, largest, largest_difference};
 use crate::solver::{RANK_CEILING, RANK_TOLERANCE, leading, mass_error};
@@ -20,9 +19,8 @@ const MAX_STALLS: usize = 6;
 
 impl Projector {
     /// Newton's method on `x`: q with `other` = q̇, or q̇ with `other` = q. Where it fails, `x` is left somewhere.
-    pub(super) fn rank_revealing<M: Mechanism>(
+    pub(super) fn rank_revealing(
         &mut self,
-        mech: &Prepared<M>,
         t: f64,
         x: &mut [f64],
         other: &[f64],
@@ -31,26 +29,21 @@ impl Projector {
         let rows = self.rows(level);
         let mut correction = Correction::default();
         self.rounding.fill(0.0);
-        self.evaluate(mech, t, x, other, level);
+        self.evaluate(t, x, other, level);
         let mut factored =
             level == Level::Velocity && self.factored_at == Some(t) && self.factored_q == other;
-        self.jacobian(mech, t, x, other, level);
-        self.weigh::<M>(x);
+        self.jacobian(t, x, other, level);
+        self.weigh(x);
         correction.residual = largest(&self.residual[..rows]);
         if !all_finite(&self.residual[..rows]) {
-            return Err(self.non_finite(mech, t, x, other, level));
+            return Err(self.non_finite(t, x, other, level));
         }
         if self.at_rounding(rows) {
             return Ok(correction);
         }
         if !factored {
             self.cautious = true;
-            self.factor(
-                mech,
-                t,
-                if level == Level::Position { x } else { other },
-                rows,
-            )?;
+            self.factor(t, if level == Level::Position { x } else { other }, rows)?;
         }
         self.best.copy_from_slice(x);
         let mut merit = self.merit(rows);
@@ -58,8 +51,8 @@ impl Projector {
         while correction.iterations < MAX_STEPS {
             correction.iterations += 1;
             self.advance(x, rows);
-            self.evaluate(mech, t, x, other, level);
-            self.weigh::<M>(x);
+            self.evaluate(t, x, other, level);
+            self.weigh(x);
             let previous = merit;
             merit = self.merit(rows);
             if merit.is_finite() && merit < best_merit {
@@ -79,31 +72,26 @@ impl Projector {
                     continue;
                 }
                 stalls += 1;
-                self.measure_rounding(mech, t, x, other, level);
+                self.measure_rounding(t, x, other, level);
                 if self.acceptable(x, rows) || stalls > MAX_STALLS || !merit.is_finite() {
                     break;
                 }
             }
             factored = false;
-            self.jacobian(mech, t, x, other, level);
-            self.weigh::<M>(x);
-            self.factor(
-                mech,
-                t,
-                if level == Level::Position { x } else { other },
-                rows,
-            )?;
+            self.jacobian(t, x, other, level);
+            self.weigh(x);
+            self.factor(t, if level == Level::Position { x } else { other }, rows)?;
             merit = self.merit(rows);
         }
         x.copy_from_slice(&self.best);
-        self.evaluate(mech, t, x, other, level);
-        self.weigh::<M>(x);
+        self.evaluate(t, x, other, level);
+        self.weigh(x);
         correction.residual = largest(&self.residual[..rows]);
         correction.norm = largest_difference(x, &self.start);
         if !self.at_rounding(rows) {
-            self.measure_rounding(mech, t, x, other, level);
+            self.measure_rounding(t, x, other, level);
             if !self.acceptable(x, rows) {
-                return Err(self.off_constraint::<M>(x, level));
+                return Err(self.off_constraint(x, level));
             }
         }
         if level == Level::Position && rows == self.m {
@@ -116,21 +104,15 @@ impl Projector {
 
     /// Factors M and the first `rows` rows of A. While `cautious`, rows of a significance below the ceiling are left out: off the
     /// manifold nobody can tell whether they are implied; if they are not, the residual will not fall, and they are taken in.
-    pub(super) fn factor<M: Mechanism>(
-        &mut self,
-        mech: &Prepared<M>,
-        t: f64,
-        q: &[f64],
-        rows: usize,
-    ) -> Result<(), Error> {
-        mech.mass_matrix(t, q, &mut self.mass);
+    pub(super) fn factor(&mut self, t: f64, q: &[f64], rows: usize) -> Result<(), Error> {
+        self.mechanism.mass_matrix(t, q, &mut self.mass);
         if !all_finite(&self.mass) || !all_finite(&self.jacobian) {
             let (mass, jacobian) = (&self.mass, &self.jacobian);
-            let what = diagnose::non_finite_matrices(M::SPEC, mass, jacobian);
+            let what = diagnose::non_finite_matrices(self.mechanism.spec(), mass, jacobian);
             return Err(Error::NonFinite { what });
         }
         let a = rows_of(&self.jacobian, self.m, rows);
-        let massless = !M::SPEC.structure.massless.is_empty();
+        let massless = !self.mechanism.spec().structure.massless.is_empty();
         let route = if massless {
             Route::Singular
         } else {
@@ -143,7 +125,7 @@ impl Projector {
             }
             result => result,
         };
-        result.map_err(|fault| mass_error::<M>(fault))?;
+        result.map_err(|fault| mass_error(self.mechanism.spec(), fault))?;
         let pivots = self.dense.cod.pivots();
         let rank = if self.cautious {
             leading(pivots, RANK_CEILING)
@@ -152,7 +134,7 @@ impl Projector {
         };
         self.dense
             .set_rank(rank, &self.mass)
-            .map_err(|fault| mass_error::<M>(fault))
+            .map_err(|fault| mass_error(self.mechanism.spec(), fault))
     }
 
     /// Takes in the rows left out so far; `false` if there are none.
@@ -202,25 +184,19 @@ impl Projector {
             })
     }
 
-    pub(super) fn non_finite<M: Mechanism>(
-        &self,
-        mech: &Prepared<M>,
-        t: f64,
-        x: &[f64],
-        other: &[f64],
-        level: Level,
-    ) -> Error {
+    pub(super) fn non_finite(&self, t: f64, x: &[f64], other: &[f64], level: Level) -> Error {
         let rows = self.rows(level);
         let (q, v) = if level == Level::Position {
             (x, other)
         } else {
             (other, x)
         };
-        diagnose::non_finite_input(mech, t, q, v)
-            .unwrap_or_else(|| diagnose::non_finite_residual(M::SPEC, &self.residual[..rows]))
+        diagnose::non_finite_input(&self.mechanism, t, q, v).unwrap_or_else(|| {
+            diagnose::non_finite_residual(self.mechanism.spec(), &self.residual[..rows])
+        })
     }
 
-    pub(super) fn off_constraint<M: Mechanism>(&self, x: &[f64], level: Level) -> Error {
+    pub(super) fn off_constraint(&self, x: &[f64], level: Level) -> Error {
         let rows = self.rows(level);
         // Rows at rounding level are met.
         let mut residual = self.residual[..rows].to_vec();
@@ -234,7 +210,11 @@ impl Projector {
                 Level::Position => "position",
                 Level::Velocity => "velocity",
             },
-            constraints: diagnose::offending(M::SPEC, &residual, &self.dense.residual_scale()),
+            constraints: diagnose::offending(
+                self.mechanism.spec(),
+                &residual,
+                &self.dense.residual_scale(),
+            ),
         }
     }
 }

@@ -1,7 +1,6 @@
 //! Newton's method with the emitted elimination: no matrix is formed, and it is known beforehand where one step is enough.
 
 use super::{Correction, Level, NEIGHBOUR, PROGRESS, Projector, ROUNDING};
-use crate::mechanism::{Mechanism, Prepared};
 use crate::scan::{all_finite, is_within, largest, largest_difference};
 
 /// Steps before the rank-revealing solve takes over.
@@ -18,9 +17,8 @@ const LINEAR: f64 = 1e-3;
 impl Projector {
     /// As [`Projector::rank_revealing`]; `None` if the certificate of the elimination does not hold or the method does not converge at
     /// once, with `x` left somewhere.
-    pub(super) fn straight_line<M: Mechanism>(
+    pub(super) fn straight_line(
         &mut self,
-        mech: &Prepared<M>,
         t: f64,
         x: &mut [f64],
         other: &[f64],
@@ -30,14 +28,16 @@ impl Projector {
         let trusted = if linear { LINEAR } else { QUADRATIC };
         let mut correction = Correction::default();
         let mut previous = f64::INFINITY;
-        self.evaluate(mech, t, x, other, level);
+        self.evaluate(t, x, other, level);
         correction.residual = largest(&self.residual);
         loop {
             let (q, v) = match level {
                 Level::Position => (&*x, other),
                 Level::Velocity => (other, &*x),
             };
-            let certificate = mech.correction(t, q, v, &self.residual, &mut self.step);
+            let certificate = self
+                .mechanism
+                .correction(t, q, v, &self.residual, &mut self.step);
             if certificate.is_nan() || certificate <= 0.5 || !all_finite(&self.step) {
                 return None;
             }
@@ -50,16 +50,16 @@ impl Projector {
                 if is_within(&self.step, x, rounding, least) {
                     break;
                 }
-                self.jacobian(mech, t, x, other, level);
-                self.weigh::<M>(x);
+                self.jacobian(t, x, other, level);
+                self.weigh(x);
                 if self.at_rounding(self.m) {
                     break;
                 }
             }
             if change > PROGRESS * previous {
-                self.jacobian(mech, t, x, other, level);
-                self.weigh::<M>(x);
-                self.measure_rounding(mech, t, x, other, level);
+                self.jacobian(t, x, other, level);
+                self.weigh(x);
+                self.measure_rounding(t, x, other, level);
                 if self.acceptable(x, self.m) {
                     break;
                 }
@@ -72,7 +72,7 @@ impl Projector {
             x.iter_mut().zip(&self.step).for_each(|(x, d)| *x += d);
             correction.iterations += 1;
             previous = change;
-            self.evaluate(mech, t, x, other, level);
+            self.evaluate(t, x, other, level);
             let before = correction.residual;
             correction.residual = largest(&self.residual);
             if last && correction.residual <= before {

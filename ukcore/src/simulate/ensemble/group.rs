@@ -10,7 +10,7 @@ use crate::integrate::{
     Clock, Guess, Interpolant, PROJECTION_LIMIT, Plan, StepSize, Stepper, Tolerance, error_norm,
 };
 use crate::lanes::{LaneProjector, LaneSolver, Lanes};
-use crate::mechanism::{Mechanism, Prepared};
+use crate::mechanism::Prepared;
 use crate::simulate::run::{Agenda, at, project};
 use crate::simulate::trouble::{Conflict, Pace};
 use crate::stabilise::Projector;
@@ -20,9 +20,10 @@ use crate::trajectory::Work;
 type Trouble = (f64, Vec<f64>, Error);
 
 /// A member under way.
-struct Running<M> {
+struct Running {
     index: usize,
-    mechanism: Prepared<M>,
+    /// For its start, samples, and projections that its lane leaves to it.
+    projector: Projector,
     clock: Clock,
     /// End of the run as s and t.
     end: (f64, f64),
@@ -44,7 +45,7 @@ struct Running<M> {
     trouble: Option<Trouble>,
 }
 
-impl<M> Running<M> {
+impl Running {
     /// An error at (t, y) refuses the step; where y is not finite, as happens after far too long a step, it says nothing.
     fn refuse(&mut self, t: f64, y: Vec<f64>, error: Error) {
         self.conflict.note(t, &y, &error);
@@ -53,8 +54,8 @@ impl<M> Running<M> {
 }
 
 /// As many members as there are lanes, at most.
-pub(super) struct Group<'a, M, L> {
-    ensemble: &'a Ensemble<M>,
+pub(super) struct Group<'a, L: Lanes> {
+    ensemble: &'a Ensemble,
     t_end: f64,
     /// The next member that nobody has taken.
     next: &'a AtomicUsize,
@@ -62,27 +63,25 @@ pub(super) struct Group<'a, M, L> {
     capacity: usize,
     stepper: Stepper<L>,
     projector: LaneProjector<L>,
-    /// For starts, samples, and lanes that need it.
-    alone: Projector,
-    equations: Option<Equations<M, L>>,
+    equations: Option<Equations<L>>,
     y: Vec<L>,
     raw: Vec<L>,
     results: Vec<(usize, Result<Member, Error>)>,
 }
 
 /// The members and their right-hand sides.
-struct Equations<M, L> {
-    solver: LaneSolver<M, L>,
-    lanes: Vec<Option<Running<M>>>,
+struct Equations<L: Lanes> {
+    solver: LaneSolver<L>,
+    lanes: Vec<Option<Running>>,
     /// Lanes that take part in the evaluation.
     alive: Vec<bool>,
     t0: L,
 }
 
-impl<M: Mechanism, L: Lanes> Equations<M, L> {
+impl<L: Lanes> Equations<L> {
     /// y' at t0 + `s`. Lanes where it does not exist take no further part.
     fn rate(&mut self, s: L, y: &[L], rate: &mut [L]) -> Result<(), Infallible> {
-        let n = M::SPEC.n();
+        let n = y.len() / 2;
         let t = self.t0 + s;
         let (q, v) = y.split_at(n);
         let (q_rate, v_rate) = rate.split_at_mut(n);
@@ -102,13 +101,13 @@ impl<M: Mechanism, L: Lanes> Equations<M, L> {
     }
 
     /// Numbers of the running lanes, and what runs there.
-    fn running(&mut self) -> impl Iterator<Item = (usize, &mut Running<M>)> {
+    fn running(&mut self) -> impl Iterator<Item = (usize, &mut Running)> {
         let lanes = self.lanes.iter_mut().enumerate();
         lanes.filter_map(|(k, running)| Some((k, running.as_mut()?)))
     }
 
     /// A number with f of each running member, 0 in idle lanes.
-    fn each(&self, f: impl Fn(&Running<M>) -> f64) -> L {
+    fn each(&self, f: impl Fn(&Running) -> f64) -> L {
         L::from_lanes(|k| self.lanes[k].as_ref().map_or(0.0, &f))
     }
 }
@@ -130,17 +129,19 @@ fn state(t: f64, y: &[f64]) -> State {
     }
 }
 
-impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
+impl<'a, L: Lanes> Group<'a, L> {
     pub(super) fn new(
-        ensemble: &'a Ensemble<M>,
+        ensemble: &'a Ensemble,
+        lanes: &Prepared<L>,
         t_end: f64,
         next: &'a AtomicUsize,
         capacity: usize,
     ) -> Self {
-        let n = M::SPEC.n();
+        let spec = lanes.spec();
+        let n = spec.n();
         let zeros = || vec![L::from_f64(0.0); 2 * n];
         let equations = ensemble.members.first().map(|(mechanism, _)| Equations {
-            solver: LaneSolver::new(mechanism),
+            solver: LaneSolver::with(lanes.clone(), mechanism.clone()),
             lanes: (0..L::WIDTH).map(|_| None).collect(),
             alive: vec![false; L::WIDTH],
             t0: L::from_f64(0.0),
@@ -151,8 +152,7 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
             next,
             capacity: capacity.min(L::WIDTH),
             stepper: Stepper::dop853(2 * n),
-            projector: LaneProjector::new::<M>(),
-            alone: Projector::new::<M>(),
+            projector: LaneProjector::new(spec),
             equations,
             y: zeros(),
             raw: zeros(),
@@ -179,7 +179,7 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
     }
 
     /// Gives idle lanes the next members.
-    fn refill(&mut self, equations: &mut Equations<M, L>) {
+    fn refill(&mut self, equations: &mut Equations<L>) {
         let mut fresh = vec![false; L::WIDTH];
         for (k, fresh) in fresh.iter_mut().enumerate().take(self.capacity) {
             while equations.lanes[k].is_none() {
@@ -196,7 +196,9 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
                             .push((index, Ok(Member { end, samples, work })));
                     }
                     Ok(running) => {
-                        equations.solver.set(k, &self.ensemble.members[index].0);
+                        equations
+                            .solver
+                            .put(k, self.ensemble.members[index].0.clone());
                         equations.lanes[k] = Some(running);
                         *fresh = true;
                     }
@@ -210,7 +212,7 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
     }
 
     /// Tolerances of the lanes.
-    fn tolerance(&self, equations: &Equations<M, L>) -> Tolerance<L> {
+    fn tolerance(&self, equations: &Equations<L>) -> Tolerance<L> {
         Tolerance {
             relative: self.ensemble.tolerance,
             absolute: equations.each(|r| r.tolerance.absolute),
@@ -218,11 +220,12 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
     }
 
     /// Member `index`, checked, with its consistent start in lane `k`.
-    fn admit(&mut self, index: usize, k: usize) -> Result<Running<M>, Error> {
+    fn admit(&mut self, index: usize, k: usize) -> Result<Running, Error> {
         let simulation = self.ensemble.simulation(index);
         simulation.check(self.t_end)?;
         let mut work = Work::default();
-        let (start, tolerance) = simulation.consistent_start(&mut self.alone, &mut work)?;
+        let mut projector = Projector::new(&simulation.mechanism);
+        let (start, tolerance) = simulation.consistent_start(&mut projector, &mut work)?;
         let (t0, t_end) = (start.t, self.t_end);
         for (y, x) in self.y.iter_mut().zip(start.q.iter().chain(&start.v)) {
             y.set_lane(k, *x);
@@ -241,7 +244,6 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
         let max_steps = self.ensemble.max_steps;
         Ok(Running {
             index,
-            mechanism: simulation.mechanism.prepared(),
             clock,
             end: (clock.s(t_end), t_end),
             now: (0.0, t0),
@@ -254,14 +256,15 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
             samples,
             work,
             conflict: Conflict::default(),
-            pace: Pace::new(M::SPEC, tolerance, max_steps),
+            pace: Pace::new(simulation.mechanism.spec(), tolerance, max_steps),
+            projector,
             cause: None,
             trouble: None,
         })
     }
 
     /// Evaluates f at the start of `fresh` members, and chooses their first step sizes.
-    fn begin(&mut self, equations: &mut Equations<M, L>, fresh: Vec<bool>) {
+    fn begin(&mut self, equations: &mut Equations<L>, fresh: Vec<bool>) {
         let control = &self.stepper.tableau().control;
         let half = L::from_f64(0.5);
         let new = mask::<L>(&fresh);
@@ -316,7 +319,7 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
     }
 
     /// Chooses the steps to be tried; members that cannot go on end here.
-    fn plan(&mut self, equations: &mut Equations<M, L>) {
+    fn plan(&mut self, equations: &mut Equations<L>) {
         for k in 0..L::WIDTH {
             equations.alive[k] = false;
             let Some(running) = &mut equations.lanes[k] else {
@@ -343,7 +346,7 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
     }
 
     /// Ends the member in lane `k` with `error`, or with what lies behind it.
-    fn fail(&mut self, equations: &mut Equations<M, L>, k: usize, error: Error) {
+    fn fail(&mut self, equations: &mut Equations<L>, k: usize, error: Error) {
         if let Some(mut running) = equations.lanes[k].take() {
             let cause = running.cause.take().or(running.trouble.take());
             let (t, y, error) = cause.unwrap_or_else(|| (running.now.1, lane(&self.y, k), error));
@@ -354,7 +357,7 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
     }
 
     /// Tries the planned steps, and moves on in the lanes where they are good.
-    fn attempt(&mut self, equations: &mut Equations<M, L>) {
+    fn attempt(&mut self, equations: &mut Equations<L>) {
         let tolerance = self.tolerance(equations);
         let control = &self.stepper.tableau().control;
         let start = equations.each(|r| r.clock.sign * r.now.0);
@@ -420,7 +423,7 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
     }
 
     /// Ends the member in lane `k` if it has arrived, or will not.
-    fn finish(&mut self, equations: &mut Equations<M, L>, k: usize) {
+    fn finish(&mut self, equations: &mut Equations<L>, k: usize) {
         let work = equations.solver.work(k);
         let Some(running) = &mut equations.lanes[k] else {
             return;
@@ -450,14 +453,13 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
     }
 
     /// Projects the new states. Lanes where that fails, or the change says that the step was a bad one, take no further part.
-    fn project(&mut self, equations: &mut Equations<M, L>) {
-        let n = M::SPEC.n();
+    fn project(&mut self, equations: &mut Equations<L>) {
         let tolerance = self.tolerance(equations);
         let new = self.stepper.state_mut();
         self.raw.copy_from_slice(new);
         let wanted = mask::<L>(&equations.alive);
         let t = equations.each(|r| r.plan.t);
-        let (q, v) = new.split_at_mut(n);
+        let (q, v) = new.split_at_mut(new.len() / 2);
         let mut steps = L::from_f64(0.0);
         let prepared = equations.solver.prepared();
         let good = self
@@ -478,8 +480,7 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
             let (work, t) = (&mut running.work, running.plan.t);
             if !raw.iter().all(|x| x.is_finite()) {
                 alive[k] = false;
-            } else if let Err(error) = project(&running.mechanism, &mut self.alone, work, t, &mut y)
-            {
+            } else if let Err(error) = project(&mut running.projector, work, t, &mut y) {
                 alive[k] = false;
                 running.refuse(t, raw, error);
             }
@@ -496,9 +497,9 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
     }
 
     /// Takes the samples within the closed steps. Lanes where one fails take no further part.
-    fn take_samples(&mut self, equations: &mut Equations<M, L>, start: L, step: L) {
+    fn take_samples(&mut self, equations: &mut Equations<L>, start: L, step: L) {
         let alive = equations.alive.clone();
-        let wanted = |r: &Running<M>| r.agenda.next().is_some_and(|t| r.clock.passed(t, r.plan.s));
+        let wanted = |r: &Running| r.agenda.next().is_some_and(|t| r.clock.passed(t, r.plan.s));
         let sampled: Vec<bool> = (0..L::WIDTH)
             .map(|k| alive[k] && equations.lanes[k].as_ref().is_some_and(wanted))
             .collect();
@@ -522,7 +523,7 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
     }
 
     /// Takes the samples of the step in lane `k`; `false` if one fails.
-    fn sample(&mut self, equations: &mut Equations<M, L>, k: usize) -> bool {
+    fn sample(&mut self, equations: &mut Equations<L>, k: usize) -> bool {
         let Some(running) = &mut equations.lanes[k] else {
             return false;
         };
@@ -544,7 +545,7 @@ impl<'a, M: Mechanism, L: Lanes> Group<'a, M, L> {
                 interpolant.state(t, &mut y);
                 let raw = y.clone();
                 let work = &mut running.work;
-                if let Err(error) = project(&running.mechanism, &mut self.alone, work, t, &mut y) {
+                if let Err(error) = project(&mut running.projector, work, t, &mut y) {
                     running.refuse(t, raw, error);
                     running.agenda.taken = before.0;
                     running.samples.truncate(before.1);

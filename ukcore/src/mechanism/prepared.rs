@@ -1,0 +1,404 @@
+//! A mechanism as an object: its emitted functions behind tables, and its parameters.
+//!
+//! Emitted functions are generic over numbers, so [`Mechanism`] itself makes no trait object. Everything that runs on them does so through
+//! [`Prepared`], which is one type for all mechanisms: solver, projection, integration and trajectories are compiled once, here, and a crate that
+//! declares a mechanism compiles its emitted functions and little else.
+
+use std::any::TypeId;
+use std::fmt;
+use std::marker::PhantomData;
+
+use crate::error::Error;
+use crate::mechanism::{Branch, Energy, Mechanism, Terms};
+use crate::plan::Plan;
+use crate::rounding::Rounded;
+use crate::scalar::{Dual, Scalar};
+use crate::spec::Spec;
+
+/// The emitted functions that concern constraints alone, in numbers `S`.
+pub trait Constraints<S>: Send + Sync + 'static {
+    /// [`Mechanism::prepare`].
+    fn prepare(&self, given: &[S], prepared: &mut [S]);
+    /// [`Mechanism::residual`].
+    fn residual(&self, prepared: &[S], t: S, q: &[S], phi: &mut [S]);
+    /// [`Mechanism::residual_rate`].
+    fn residual_rate(&self, prepared: &[S], t: S, q: &[S], v: &[S], rate: &mut [S]);
+}
+
+/// The emitted functions of which derivatives are taken, in numbers `S`.
+pub trait Dynamics<S>: Constraints<S> {
+    /// [`Mechanism::dynamics`].
+    fn dynamics(&self, prepared: &[S], t: S, q: &[S], v: &[S], out: &mut Terms<'_, S>);
+    /// [`Mechanism::switching`].
+    fn switching(&self, prepared: &[S], t: S, q: &[S], v: &[S], switching: &mut [S]);
+    /// [`Mechanism::acceleration`].
+    fn acceleration(&self, prepared: &[S], t: S, q: &[S], v: &[S], out: &mut [S]) -> S;
+}
+
+/// All emitted functions, in numbers `S`.
+pub trait Emitted<S>: Dynamics<S> {
+    /// What is known about the mechanism, and its functions in other numbers.
+    fn face(&self) -> &'static dyn Face;
+    /// [`Mechanism::mass_matrix`].
+    fn mass_matrix(&self, prepared: &[S], t: S, q: &[S], mass: &mut [S]);
+    /// [`Mechanism::jacobian`].
+    fn jacobian(&self, prepared: &[S], t: S, q: &[S], v: &[S], jacobian: &mut [S]);
+    /// [`Mechanism::energy`].
+    fn energy(&self, prepared: &[S], t: S, q: &[S], v: &[S]) -> Energy<S>;
+    /// [`Mechanism::outputs`].
+    fn outputs(&self, prepared: &[S], t: S, q: &[S], v: &[S], outputs: &mut [S]);
+    /// [`Mechanism::correction`].
+    fn correction(
+        &self,
+        prepared: &[S],
+        t: S,
+        q: &[S],
+        v: &[S],
+        residual: &[S],
+        out: &mut [S],
+    ) -> S;
+}
+
+/// What a mechanism is in all numbers that the runtime needs. Only functions that it calls are in a table, for each one in it is compiled.
+pub trait Face: Send + Sync + 'static {
+    /// [`Mechanism::SPEC`].
+    fn spec(&self) -> &'static Spec;
+    /// The identity of the mechanism's type.
+    fn id(&self) -> TypeId;
+    /// In numbers that carry a derivative.
+    fn dual(&self) -> &'static dyn Dynamics<Dual>;
+    /// In numbers that add up their rounding.
+    fn rounded(&self) -> &'static dyn Constraints<Rounded>;
+}
+
+/// The functions of `M`.
+struct Of<M>(PhantomData<fn() -> M>);
+
+impl<M: Mechanism> Face for Of<M> {
+    fn spec(&self) -> &'static Spec {
+        M::SPEC
+    }
+    fn id(&self) -> TypeId {
+        TypeId::of::<M>()
+    }
+    fn dual(&self) -> &'static dyn Dynamics<Dual> {
+        &Of::<M>(PhantomData)
+    }
+    fn rounded(&self) -> &'static dyn Constraints<Rounded> {
+        &Of::<M>(PhantomData)
+    }
+}
+
+impl<M: Mechanism, S: Scalar> Constraints<S> for Of<M> {
+    fn prepare(&self, given: &[S], prepared: &mut [S]) {
+        M::prepare(given, prepared);
+    }
+    fn residual(&self, prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
+        M::residual(prepared, t, q, phi);
+    }
+    fn residual_rate(&self, prepared: &[S], t: S, q: &[S], v: &[S], rate: &mut [S]) {
+        M::residual_rate(prepared, t, q, v, rate);
+    }
+}
+
+impl<M: Mechanism, S: Scalar> Dynamics<S> for Of<M> {
+    fn dynamics(&self, prepared: &[S], t: S, q: &[S], v: &[S], out: &mut Terms<'_, S>) {
+        M::dynamics(prepared, t, q, v, out);
+    }
+    fn switching(&self, prepared: &[S], t: S, q: &[S], v: &[S], switching: &mut [S]) {
+        M::switching(prepared, t, q, v, switching);
+    }
+    fn acceleration(&self, prepared: &[S], t: S, q: &[S], v: &[S], out: &mut [S]) -> S {
+        M::acceleration(prepared, t, q, v, out)
+    }
+}
+
+impl<M: Mechanism, S: Scalar> Emitted<S> for Of<M> {
+    fn face(&self) -> &'static dyn Face {
+        &Of::<M>(PhantomData)
+    }
+    fn mass_matrix(&self, prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
+        M::mass_matrix(prepared, t, q, mass);
+    }
+    fn jacobian(&self, prepared: &[S], t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
+        M::jacobian(prepared, t, q, v, jacobian);
+    }
+    fn energy(&self, prepared: &[S], t: S, q: &[S], v: &[S]) -> Energy<S> {
+        M::energy(prepared, t, q, v)
+    }
+    fn outputs(&self, prepared: &[S], t: S, q: &[S], v: &[S], outputs: &mut [S]) {
+        M::outputs(prepared, t, q, v, outputs);
+    }
+    fn correction(
+        &self,
+        prepared: &[S],
+        t: S,
+        q: &[S],
+        v: &[S],
+        residual: &[S],
+        out: &mut [S],
+    ) -> S {
+        M::correction(prepared, t, q, v, residual, out)
+    }
+}
+
+/// A mechanism with its parameters, as an object: one type for all mechanisms, in numbers `S`. What depends on parameters alone is computed once, here.
+///
+/// It is made by [`Mechanism::prepared`], or from a mechanism or a reference to one by `Prepared::from`; whatever solves, projects or simulates takes
+/// either. With [`Dual`] parameters come derivatives by parameters. Its methods do not check lengths; each panics if a slice has not the stated one.
+pub struct Prepared<S: Scalar = f64, C: ?Sized + 'static = dyn Emitted<S>> {
+    code: &'static C,
+    spec: &'static Spec,
+    given: Vec<S>,
+    /// What depends on parameters only, then the branches held.
+    values: Vec<S>,
+}
+
+impl<S: Scalar> Prepared<S> {
+    /// The mechanism `M` with the parameters `given` (order of `SPEC.params`).
+    ///
+    /// # Panics
+    /// If `given` has not the length of `SPEC.params`.
+    #[must_use]
+    pub fn of<M: Mechanism>(given: Vec<S>) -> Self {
+        Prepared::with(&Of::<M>(PhantomData), M::SPEC, given)
+    }
+
+    /// This mechanism with other parameters (order of [`Spec::params`]) and the branches held here.
+    ///
+    /// # Panics
+    /// If `given` has not the length of [`Spec::params`].
+    #[must_use]
+    pub fn with_parameters(&self, given: Vec<S>) -> Self {
+        let mut other = Prepared::with(self.code, self.spec, given);
+        let fixed = self.spec.prepared.len();
+        other.values[fixed..].copy_from_slice(&self.values[fixed..]);
+        other
+    }
+}
+
+impl<S: Scalar, C: ?Sized + Constraints<S>> Prepared<S, C> {
+    fn with(code: &'static C, spec: &'static Spec, given: Vec<S>) -> Self {
+        assert_eq!(given.len(), spec.params.len(), "one value a parameter");
+        let mut prepared = Prepared {
+            code,
+            spec,
+            given,
+            values: vec![S::from_f64(0.0); spec.slots()],
+        };
+        prepared.prepare();
+        prepared
+    }
+
+    fn prepare(&mut self) {
+        let fixed = self.spec.prepared.len();
+        self.code.prepare(&self.given, &mut self.values[..fixed]);
+    }
+
+    /// What is known about the mechanism: names, structure, readable equations.
+    #[must_use]
+    pub fn spec(&self) -> &'static Spec {
+        self.spec
+    }
+
+    /// The parameters, in the order of [`Spec::params`].
+    #[must_use]
+    pub fn parameters(&self) -> &[S] {
+        &self.given
+    }
+
+    /// Gives the parameters these values, in their order; held branches stay so.
+    pub(crate) fn set_parameters(&mut self, given: impl Iterator<Item = S>) {
+        self.given.iter_mut().zip(given).for_each(|(p, x)| *p = x);
+        self.prepare();
+    }
+
+    /// What emitted functions take as `prepared`, to call them directly, without a table: `Pendulum::acceleration(mech.values(), t, q, v, out)`.
+    #[must_use]
+    pub fn values(&self) -> &[S] {
+        &self.values
+    }
+
+    /// Holds switch `switch` (order of [`Spec::switches`]) in `branch`, until told otherwise. A new mechanism follows all its switches.
+    ///
+    /// # Panics
+    /// If there is no such switch.
+    pub fn hold(&mut self, switch: usize, branch: Branch) {
+        self.values[self.spec.prepared.len()..][switch] = S::from_f64(branch.sign());
+    }
+
+    /// Holds all switches as `other` does.
+    pub(crate) fn hold_as(&mut self, other: &Prepared) {
+        let branches = other.values.iter().zip(&mut self.values);
+        for (from, to) in branches.skip(self.spec.prepared.len()) {
+            *to = S::from_f64(*from);
+        }
+    }
+
+    /// φ of the h holonomic constraints at (t, q); see [`Mechanism::residual`].
+    #[inline]
+    pub fn residual(&self, t: S, q: &[S], phi: &mut [S]) {
+        self.code.residual(&self.values, t, q, phi);
+    }
+
+    /// φ̇ of the holonomic and φ of the nonholonomic constraints at (t, q, q̇), m numbers; see [`Mechanism::residual_rate`].
+    #[inline]
+    pub fn residual_rate(&self, t: S, q: &[S], v: &[S], rate: &mut [S]) {
+        self.code.residual_rate(&self.values, t, q, v, rate);
+    }
+}
+
+impl<S: Scalar, C: ?Sized + Dynamics<S>> Prepared<S, C> {
+    /// All switching functions at (t, q, q̇); see [`Mechanism::switching`].
+    #[inline]
+    pub fn switching(&self, t: S, q: &[S], v: &[S], switching: &mut [S]) {
+        self.code.switching(&self.values, t, q, v, switching);
+    }
+
+    /// M, Q, c, A and b at (t, q, q̇); see [`Mechanism::dynamics`].
+    #[inline]
+    pub fn dynamics(&self, t: S, q: &[S], v: &[S], out: &mut Terms<'_, S>) {
+        self.code.dynamics(&self.values, t, q, v, out);
+    }
+
+    /// q̈ by the emitted elimination and its certificate at (t, q, q̇); see [`Mechanism::acceleration`]. [`Solver`](crate::Solver) wraps it with the
+    /// rank-revealing solve.
+    #[inline]
+    pub fn acceleration(&self, t: S, q: &[S], v: &[S], out: &mut [S]) -> S {
+        self.code.acceleration(&self.values, t, q, v, out)
+    }
+}
+
+impl<S: Scalar, C: ?Sized + Emitted<S>> Prepared<S, C> {
+    /// M at (t, q), n × n, column-major; see [`Mechanism::mass_matrix`].
+    #[inline]
+    pub fn mass_matrix(&self, t: S, q: &[S], mass: &mut [S]) {
+        self.code.mass_matrix(&self.values, t, q, mass);
+    }
+
+    /// A at (t, q, q̇), m × n, column-major; see [`Mechanism::jacobian`].
+    #[inline]
+    pub fn jacobian(&self, t: S, q: &[S], v: &[S], jacobian: &mut [S]) {
+        self.code.jacobian(&self.values, t, q, v, jacobian);
+    }
+
+    /// Kinetic and potential energy at (t, q, q̇); see [`Mechanism::energy`].
+    #[inline]
+    #[must_use]
+    pub fn energy(&self, t: S, q: &[S], v: &[S]) -> Energy<S> {
+        self.code.energy(&self.values, t, q, v)
+    }
+
+    /// The declared outputs at (t, q, q̇), in the order of [`Spec::outputs`]; see [`Mechanism::outputs`].
+    #[inline]
+    pub fn outputs(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) {
+        self.code.outputs(&self.values, t, q, v, outputs);
+    }
+
+    /// The smallest Δ with A Δ = −`residual` in the mass metric, and its certificate; see [`Mechanism::correction`].
+    #[inline]
+    pub fn correction(&self, t: S, q: &[S], v: &[S], residual: &[S], out: &mut [S]) -> S {
+        self.code.correction(&self.values, t, q, v, residual, out)
+    }
+
+    /// An error unless `other` is the same mechanism; `what` is made for this one.
+    pub(crate) fn check_same(&self, other: &Prepared, what: &str) -> Result<(), Error> {
+        if self.code.face().id() == other.code.face().id() {
+            return Ok(());
+        }
+        let (name, own) = (other.spec.name, self.spec.name);
+        Err(Error::InvalidSetting {
+            what: "mechanism",
+            reason: format!("is a `{name}`, but this {what} was made for `{own}`"),
+        })
+    }
+}
+
+impl Prepared {
+    /// What the compiler decided about this mechanism, with reasons, costs and the sparsity of its equations: print it.
+    #[must_use]
+    pub fn plan(&self) -> Plan {
+        Plan::new(self.spec)
+    }
+
+    /// Value of the parameter called `name` (`"m"`, `"m[3]"`).
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name.
+    pub fn get(&self, name: &str) -> Result<f64, Error> {
+        Ok(self.given[self.spec.parameter_index(name)?])
+    }
+
+    /// Sets the parameter called `name` (`"m"`, `"m[3]"`; a family's bare name sets all its members).
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<(), Error> {
+        for i in self.spec.parameter_indices(name)? {
+            self.given[i] = value;
+        }
+        self.prepare();
+        Ok(())
+    }
+
+    /// The same mechanism in numbers that carry a derivative, with its parameters and held branches.
+    pub(crate) fn dual(&self) -> Prepared<Dual, dyn Dynamics<Dual>> {
+        self.lift(self.code.face().dual(), Dual::from_f64)
+    }
+
+    /// The same mechanism in numbers that add up their rounding, with its parameters, taken to be exact, and held branches.
+    pub(crate) fn rounded(&self) -> Prepared<Rounded, dyn Constraints<Rounded>> {
+        self.lift(self.code.face().rounded(), Rounded::exact)
+    }
+
+    fn lift<T: Scalar, C: ?Sized + Constraints<T>>(
+        &self,
+        code: &'static C,
+        number: fn(f64) -> T,
+    ) -> Prepared<T, C> {
+        let given = self.given.iter().map(|p| number(*p)).collect();
+        let mut lifted = Prepared::with(code, self.spec, given);
+        lifted.hold_as(self);
+        lifted
+    }
+}
+
+impl<M: Mechanism> From<&M> for Prepared {
+    fn from(mechanism: &M) -> Self {
+        mechanism.prepared()
+    }
+}
+
+impl From<&Prepared> for Prepared {
+    fn from(prepared: &Prepared) -> Self {
+        prepared.clone()
+    }
+}
+
+impl<S: Scalar, C: ?Sized> Clone for Prepared<S, C> {
+    fn clone(&self) -> Self {
+        Prepared {
+            code: self.code,
+            spec: self.spec,
+            given: self.given.clone(),
+            values: self.values.clone(),
+        }
+    }
+}
+
+impl<S: Scalar + PartialEq> PartialEq for Prepared<S> {
+    fn eq(&self, other: &Self) -> bool {
+        self.code.face().id() == other.code.face().id()
+            && self.given == other.given
+            && self.values == other.values
+    }
+}
+
+impl<S: Scalar, C: ?Sized> fmt::Debug for Prepared<S, C> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names = self.spec.params.iter().map(|p| p.name);
+        f.debug_struct(self.spec.name)
+            .field("parameters", &names.zip(&self.given).collect::<Vec<_>>())
+            .finish_non_exhaustive()
+    }
+}
