@@ -1,9 +1,9 @@
 //! A double pendulum in Cartesian coordinates.
 
-use crate::model::{Chosen, positive};
 use crate::{Model, Reference, StartOption, StartOptions, StartSpec, reference};
 use serde_json::Value;
 use std::f64::consts::FRAC_PI_2;
+use ukcore::model::{Chosen, positive};
 use ukcore::{Error, State};
 
 ukcore::multibody! {

@@ -1,8 +1,8 @@
 //! The double pendulum in angles: no constraints, M from the kinetic energy.
 
 use crate::double_pendulum::{self, DoublePendulum, RELEASED};
-use crate::model::{Chosen, positive};
 use crate::{Model, Reference, StartOptions, StartSpec, reference};
+use ukcore::model::{Chosen, positive};
 use ukcore::{Error, State};
 
 ukcore::multibody! {

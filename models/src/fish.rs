@@ -1,9 +1,9 @@
 //! The two-joint carangiform fish robot of Zhao, Zhen & Chen 2013, §6-10.
 
-use crate::model::Chosen;
 use crate::{Model, Reference, StartOption, StartOptions, StartSpec, reference};
 use serde_json::Value;
 use std::f64::consts::PI;
+use ukcore::model::Chosen;
 use ukcore::{Error, State};
 
 ukcore::multibody! {

@@ -1,7 +1,7 @@
 //! Coupled four-bar linkages side by side, which pass through singular positions.
 
-use crate::model::{Chosen, positive};
 use crate::{Model, StartOption, StartOptions, StartSpec};
+use ukcore::model::{Chosen, positive};
 use ukcore::{Error, State};
 
 ukcore::multibody! {

@@ -1,8 +1,8 @@
 //! Kapitza's pendulum: a pendulum that stands on its head because its pivot shakes.
 
-use crate::model::{Chosen, positive};
 use crate::{Model, StartOption, StartOptions, StartSpec};
 use std::f64::consts::PI;
+use ukcore::model::{Chosen, positive};
 use ukcore::{Error, State};
 
 ukcore::multibody! {

@@ -1,7 +1,7 @@
 //! A knife edge on an inclined plane: nonholonomic, in closed form.
 
-use crate::model::Chosen;
 use crate::{Model, Reference, StartOption, StartOptions, StartSpec};
+use ukcore::model::Chosen;
 use ukcore::{Error, State};
 
 ukcore::multibody! {

@@ -1,7 +1,7 @@
 //! A mass on two springs in series, joined by a massless point: M is singular.
 
-use crate::model::{Chosen, positive};
 use crate::{Model, Reference, StartOption, StartOptions, StartSpec};
+use ukcore::model::{Chosen, positive};
 use ukcore::{Error, State};
 
 ukcore::multibody! {

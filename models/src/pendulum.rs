@@ -1,9 +1,9 @@
 //! A simple pendulum in Cartesian coordinates, with its motion in elliptic functions.
 
 use crate::elliptic;
-use crate::model::{Chosen, positive};
 use crate::{Model, Reference, StartOption, StartOptions, StartSpec};
 use std::f64::consts::FRAC_PI_2;
+use ukcore::model::{Chosen, positive};
 use ukcore::{Error, State};
 
 ukcore::multibody! {

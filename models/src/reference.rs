@@ -1,47 +1,7 @@
-//! Motions that are known otherwise than by integration with the precision of an `f64`.
+//! Reading the files of `models/data`.
 
 use serde_json::Value;
 use ukcore::{Mechanism, State};
-
-use crate::Model;
-
-/// States of a motion that are known in closed form, or from integrations with more digits than an `f64` holds.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Reference {
-    /// Where the states come from, in a few words.
-    pub source: &'static str,
-    /// Bound of the error of every coordinate and velocity, in their own units.
-    pub error: f64,
-    /// The states, in order of time; the motion ends with the last one.
-    pub states: Vec<State>,
-}
-
-/// States in closed form: so many equal intervals of the duration of a model.
-const INTERVALS: u32 = 16;
-
-impl Reference {
-    /// The closed form `at` time t of q and q̇, at equal intervals up to the duration of `M`.
-    pub(crate) fn closed<M: Model>(error: f64, at: impl Fn(f64) -> (Vec<f64>, Vec<f64>)) -> Self {
-        let states = (1..=INTERVALS).map(|k| {
-            let t = M::duration() * f64::from(k) / f64::from(INTERVALS);
-            let (q, v) = at(t);
-            State { t, q, v }
-        });
-        Reference {
-            source: "closed form",
-            error,
-            states: states.collect(),
-        }
-    }
-
-    /// The same up to the time `end`.
-    #[must_use]
-    pub(crate) fn up_to(&self, end: f64) -> Self {
-        let mut shorter = self.clone();
-        shorter.states.retain(|state| state.t <= end);
-        shorter
-    }
-}
 
 /// A file of `models/data`.
 ///

@@ -1,8 +1,8 @@
 //! A free rigid body in a unit quaternion: M is 4 × 4 of rank 3.
 
 use crate::elliptic;
-use crate::model::Chosen;
 use crate::{Model, StartOption, StartOptions, StartSpec};
+use ukcore::model::Chosen;
 use ukcore::{Error, State};
 
 ukcore::multibody! {

@@ -1,7 +1,7 @@
 //! A block on a rough slope: dry friction as a non-ideal constraint force, in closed form.
 
-use crate::model::Chosen;
 use crate::{Model, Reference, StartOption, StartOptions, StartSpec};
+use ukcore::model::Chosen;
 use ukcore::{Error, State};
 
 ukcore::multibody! {

@@ -1,8 +1,8 @@
 //! A slider-crank of three rigid bodies in absolute coordinates.
 
-use crate::model::{Chosen, positive};
 use crate::{Model, StartOption, StartOptions, StartSpec};
 use std::f64::consts::FRAC_PI_4;
+use ukcore::model::{Chosen, positive};
 use ukcore::{Error, State};
 
 ukcore::multibody! {

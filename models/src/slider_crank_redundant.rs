@@ -1,8 +1,8 @@
 //! The slider-crank with more constraints than it needs.
 
-use crate::model::Chosen;
 use crate::slider_crank::{SliderCrank, TURNING};
 use crate::{Model, StartOptions, StartSpec};
+use ukcore::model::Chosen;
 use ukcore::{Error, State};
 
 ukcore::multibody! {

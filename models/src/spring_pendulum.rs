@@ -1,8 +1,8 @@
 //! A point mass on a stiff spring: fast along the spring, slow across it.
 
-use crate::model::{Chosen, positive};
 use crate::pendulum::{FROM, RATE};
 use crate::{Model, StartOption, StartOptions, StartSpec};
+use ukcore::model::{Chosen, positive};
 use ukcore::{Error, State};
 
 ukcore::multibody! {
@@ -75,6 +75,11 @@ impl Model for SpringPendulum {
             q: vec![r * sin, -r * cos],
             v: vec![r * rate * cos + growth * sin, r * rate * sin - growth * cos],
         })
+    }
+
+    /// A hard spring makes it stiff.
+    fn variations() -> &'static [&'static [(&'static str, f64)]] {
+        &[&[("k", 1e8)]]
     }
 
     fn duration() -> f64 {

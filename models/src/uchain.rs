@@ -1,8 +1,8 @@
 //! The falling U-chain of Zhao, Zhen & Chen 2013, §3-5.
 
-use crate::model::{Chosen, positive};
 use crate::{Model, Reference, StartOption, StartOptions, StartSpec, reference};
 use serde_json::Value;
+use ukcore::model::{Chosen, positive};
 use ukcore::{Error, State};
 
 ukcore::multibody! {

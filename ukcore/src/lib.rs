@@ -36,6 +36,7 @@ pub mod linearise;
 mod lu;
 pub mod mechanism;
 mod metric;
+pub mod model;
 pub mod pinv;
 pub mod plan;
 mod rounding;

@@ -260,12 +260,10 @@ fn named(name: &str) -> Result<Quantity, String> {
     let mut prefixed = PREFIXES
         .iter()
         .filter_map(|&(prefix, factor)| find(name.strip_prefix(prefix)?, factor));
-    find(name, 1.0)
-        .or_else(|| prefixed.next())
-        .ok_or_else(|| {
-            let mut units = UNITS.iter().map(|(unit, ..)| *unit);
-            Error::unknown_name("unit", name, &mut units).to_string()
-        })
+    find(name, 1.0).or_else(|| prefixed.next()).ok_or_else(|| {
+        let mut units = UNITS.iter().map(|(unit, ..)| *unit);
+        Error::unknown_name("unit", name, &mut units).to_string()
+    })
 }
 
 #[cfg(test)]
