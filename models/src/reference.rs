@@ -1,4 +1,4 @@
-//! Reading the files of `models/data`.
+//! Reading of the reference data in `models/data`.
 
 use serde_json::Value;
 use ukcore::{Mechanism, State};
@@ -50,7 +50,7 @@ pub(crate) fn placed<M: Mechanism>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Visitor;
+    use crate::{Model, Visitor};
     use ukcore::Projector;
 
     /// Every state of every reference: finite, of the right length, later than the one before, and on the constraints.
@@ -69,14 +69,13 @@ mod tests {
                     assert!(state.t > t, "{}: {t}", M::ID);
                     t = state.t;
                     assert_eq!((state.q.len(), state.v.len()), (M::SPEC.n(), M::SPEC.n()));
-                    let mut projector = Projector::new::<M>();
+                    let mut projector = Projector::new(&mechanism);
                     let (mut q, mut v) = (state.q.clone(), state.v.clone());
-                    let prepared = mechanism.prepared();
                     projector
-                        .position(&prepared, t, &mut q, &v)
+                        .position(t, &mut q, &v)
                         .expect("near the constraints");
                     projector
-                        .velocity(&prepared, t, &q, &mut v)
+                        .velocity(t, &q, &mut v)
                         .expect("near the constraints");
                     let moved = state.q.iter().zip(&q).chain(state.v.iter().zip(&v));
                     for (is, should) in moved {

@@ -62,12 +62,12 @@ impl Random {
     /// If the projection fails.
     pub fn consistent_state<M: Model>(&mut self, mechanism: &M, spread: f64) -> State {
         let mut state = self.state(mechanism, spread);
-        let mut projector = Projector::new::<M>();
+        let mut projector = Projector::new(mechanism);
         projector
-            .position(&mechanism.prepared(), state.t, &mut state.q, &state.v)
+            .position(state.t, &mut state.q, &state.v)
             .unwrap_or_else(|e| panic!("{}: {e}", M::ID));
         projector
-            .velocity(&mechanism.prepared(), state.t, &state.q, &mut state.v)
+            .velocity(state.t, &state.q, &mut state.v)
             .unwrap_or_else(|e| panic!("{}: {e}", M::ID));
         state
     }

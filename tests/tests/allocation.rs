@@ -16,14 +16,12 @@ fn acceleration_allocates_nothing() {
                     formula,
                     ..SolverOptions::default()
                 };
-                let mut solver = Solver::new::<M>(options);
+                let mut solver = Solver::new(&model, options);
                 let mut out = vec![0.0; M::SPEC.n()];
-                let prepared = model.prepared();
                 let count = allocation_counter::measure(|| {
                     for k in 0..10 {
                         let t = state.t + 1e-3 * f64::from(k);
-                        let result =
-                            solver.acceleration(&prepared, t, &state.q, &state.v, &mut out);
+                        let result = solver.acceleration(t, &state.q, &state.v, &mut out);
                         assert!(result.is_ok(), "{}: {result:?}", M::ID);
                     }
                 });
@@ -41,7 +39,7 @@ fn evaluation_and_projection_allocate_nothing() {
         fn check<M: Model>(&self) {
             let model = M::default();
             let mut state = model.default_start().expect("the default start exists");
-            let mut projector = Projector::new::<M>();
+            let mut projector = Projector::new(&model);
             let mut phi = vec![0.0; M::SPEC.holonomic];
             let mut rate = vec![0.0; M::SPEC.m()];
             let mut outputs = vec![0.0; M::SPEC.outputs.len()];
@@ -60,8 +58,8 @@ fn evaluation_and_projection_allocate_nothing() {
                     prepared.outputs(state.t, &state.q, &state.v, &mut outputs);
                     let energy = prepared.energy(state.t, &state.q, &state.v);
                     assert!(energy.total().is_finite(), "{}", M::ID);
-                    let position = projector.position(&prepared, state.t, &mut state.q, &state.v);
-                    let velocity = projector.velocity(&prepared, state.t, &state.q, &mut state.v);
+                    let position = projector.position(state.t, &mut state.q, &state.v);
+                    let velocity = projector.velocity(state.t, &state.q, &mut state.v);
                     assert!(position.is_ok() && velocity.is_ok(), "{}", M::ID);
                     for correction in [position, velocity] {
                         steps += correction.map_or(0, |c| c.iterations);

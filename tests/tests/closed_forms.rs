@@ -12,7 +12,7 @@ use ukcore::{Direction, Event, Mechanism, Simulation, Solver, SolverOptions, Sta
 /// Tolerance of the runs; motions are compared with 100 to 1000 times as much, for the error that accumulates.
 const TOLERANCE: f64 = 1e-11;
 
-fn run<M: Model>(model: M, options: StartOptions, until: f64) -> Trajectory<M> {
+fn run<M: Model>(model: M, options: StartOptions, until: f64) -> Trajectory {
     let name = M::starts()[0].name;
     let start = model
         .start(name, &options)
@@ -20,8 +20,8 @@ fn run<M: Model>(model: M, options: StartOptions, until: f64) -> Trajectory<M> {
     run_from(model, start, until)
 }
 
-fn run_from<M: Model>(model: M, start: State, until: f64) -> Trajectory<M> {
-    Simulation::new(model)
+fn run_from<M: Model>(model: M, start: State, until: f64) -> Trajectory {
+    Simulation::new(&model)
         .start(start)
         .tolerance(TOLERANCE)
         .until(until)
@@ -166,13 +166,13 @@ fn double_pendulum_accelerates_alike_in_both_formulations() {
         let (a, b) = (PI * random.signed(), PI * random.signed());
         let (u, w) = (3.0 * random.signed(), 3.0 * random.signed());
         let mut angular = vec![0.0; 2];
-        Solver::new::<DoublePendulumAngles>(SolverOptions::default())
-            .acceleration(&angles.prepared(), 0.0, &[a, b], &[u, w], &mut angular)
+        Solver::new(&angles, SolverOptions::default())
+            .acceleration(0.0, &[a, b], &[u, w], &mut angular)
             .expect("regular");
         let (q, v) = cartesian.at_angles([a, b], [u, w]);
         let mut found = vec![0.0; 4];
-        Solver::new::<DoublePendulum>(SolverOptions::default())
-            .acceleration(&cartesian.prepared(), 0.0, &q, &v, &mut found)
+        Solver::new(&cartesian, SolverOptions::default())
+            .acceleration(0.0, &q, &v, &mut found)
             .expect("regular");
         let rod = |l: f64, angle: f64, rate: f64, acceleration: f64| {
             let (sin, cos) = angle.sin_cos();
@@ -235,15 +235,13 @@ fn double_pendulum_small_oscillations() {
 #[test]
 fn kapitza_in_its_angle() {
     let mut random = Random::new(5);
-    let mut solver = Solver::new::<KapitzaPendulum>(SolverOptions::default());
     for _ in 0..50 {
         let pendulum: KapitzaPendulum = random.parameters(0.5);
+        let mut solver = Solver::new(&pendulum, SolverOptions::default());
         let (t, angle, rate) = (random.signed(), PI * random.signed(), 5.0 * random.signed());
         let (q, v) = pendulum.at_angle(t, angle, rate);
         let mut found = vec![0.0; 2];
-        solver
-            .acceleration(&pendulum.prepared(), t, &q, &v, &mut found)
-            .expect("regular");
+        solver.acceleration(t, &q, &v, &mut found).expect("regular");
         let acceleration = pendulum.angular_acceleration(t, angle);
         let (sin, cos) = angle.sin_cos();
         let expected = [
@@ -320,8 +318,8 @@ fn slider_crank_with_one_degree_of_freedom() {
         assert_all_close("q", sample.q, &expected.q, 1e-12);
         assert_all_close("q̇", sample.v, &expected.v, 1e-8);
     }
-    let solution = Solver::new::<SliderCrank>(SolverOptions::default())
-        .solve(&crank.prepared(), start.t, &start.q, &start.v)
+    let solution = Solver::new(&crank, SolverOptions::default())
+        .solve(start.t, &start.q, &start.v)
         .expect("regular");
     assert_eq!((solution.rank, solution.degrees_of_freedom), (8, 1));
     assert!(solution.redundant.is_empty());
@@ -389,8 +387,8 @@ fn block_slides_by_coulomb() {
     }
     // The normal force is ideal, friction is not, and neither contains the other.
     let start = block.default_start().expect("a start");
-    let solution = Solver::new::<RoughBlock>(SolverOptions::default())
-        .solve(&block.prepared(), start.t, &start.q, &start.v)
+    let solution = Solver::new(&block, SolverOptions::default())
+        .solve(start.t, &start.q, &start.v)
         .expect("regular");
     let size = |force: &[f64]| force[0].hypot(force[1]);
     let normal = block.m * block.g * block.slope.cos();

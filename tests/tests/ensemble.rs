@@ -2,7 +2,7 @@
 
 use models::{Model, Pendulum, UChain};
 use tests::{Check, Random, assert_all_close, every_model, largest};
-use ukcore::{Ensemble, Error, Mechanism, Member, Simulation, State, Switching};
+use ukcore::{Ensemble, Error, Member, Simulation, State, Switching};
 
 /// Members with other parameters and starts.
 fn members<M: Model>(count: usize) -> Vec<(M, State)> {
@@ -18,11 +18,7 @@ fn members<M: Model>(count: usize) -> Vec<(M, State)> {
     (0..count).map(|_| member()).collect()
 }
 
-fn on_threads<M: Mechanism>(
-    threads: usize,
-    ensemble: &Ensemble<M>,
-    t_end: f64,
-) -> Vec<Result<Member, Error>> {
+fn on_threads(threads: usize, ensemble: &Ensemble, t_end: f64) -> Vec<Result<Member, Error>> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     pool.expect("threads").install(|| ensemble.until(t_end))
 }
@@ -41,7 +37,7 @@ fn members_move_as_they_do_alone() {
             assert_eq!(results.len(), members.len());
             let mut arrived = 0;
             for ((mechanism, start), result) in members.into_iter().zip(results) {
-                let run = Simulation::new(mechanism)
+                let run = Simulation::new(&mechanism)
                     .start(start)
                     .tolerance(1e-9)
                     .switching(Switching::Ignored)
@@ -161,7 +157,7 @@ fn settings_are_those_of_a_simulation() {
     let mechanism = Pendulum::default();
     let start = mechanism.default_start().expect("the default start exists");
     let ensemble = Ensemble::new(vec![(mechanism, start)]);
-    let refused = |ensemble: Ensemble<Pendulum>, t_end| match ensemble.until(t_end).remove(0) {
+    let refused = |ensemble: Ensemble, t_end| match ensemble.until(t_end).remove(0) {
         Err(Error::InvalidSetting { what, .. }) => what,
         other => panic!("{other:?}"),
     };
@@ -173,7 +169,11 @@ fn settings_are_those_of_a_simulation() {
     assert!(
         matches!(few, Err(Error::At { source, .. }) if *source == Error::TooManySteps { steps: 3 })
     );
-    assert!(Ensemble::<Pendulum>::new(Vec::new()).until(1.0).is_empty());
+    assert!(
+        Ensemble::new(Vec::<(Pendulum, State)>::new())
+            .until(1.0)
+            .is_empty()
+    );
     // Backward, to a state that leads here.
     let there = ensemble.until(-1.0).remove(0).expect("runs").end;
     let back = Ensemble::new(vec![(Pendulum::default(), there)]).until(0.0);

@@ -2,7 +2,7 @@
 //! at rest, and coordinates that are zero.
 
 use tests::{Random, assert_all_close, largest};
-use ukcore::{Formula, Mechanism, Simulation, Solver, SolverOptions, State, assemble};
+use ukcore::{Formula, Simulation, Solver, SolverOptions, State, assemble};
 
 ukcore::multibody! {
     /// A particle on three rods in a plane, one more than hold it.
@@ -55,9 +55,9 @@ fn a_truss_stands() {
                 formula,
                 ..SolverOptions::default()
             };
-            let mut solver = Solver::new::<Truss>(options);
+            let mut solver = Solver::new(&truss, options);
             let solution = solver
-                .solve(&truss.prepared(), 0.0, &q, &[0.0; 2])
+                .solve(0.0, &q, &[0.0; 2])
                 .unwrap_or_else(|e| panic!("{formula:?}, {truss:?}: {e}"));
             assert_all_close("q̈", &solution.acceleration, &[0.0; 2], 1e-13);
             assert_eq!((solution.rank, solution.redundant.len()), (2, 1));

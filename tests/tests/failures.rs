@@ -1,6 +1,6 @@
 //! Runs that cannot go on say why, in time, by the names of the declaration.
 
-use ukcore::{Error, Failure, Mechanism, Method, Simulation, State, Switching};
+use ukcore::{Error, Failure, Method, Simulation, State, Switching};
 
 ukcore::multibody! {
     /// Two constraints on x + y that agree at t = 0 only.
@@ -43,7 +43,7 @@ ukcore::multibody! {
 
 /// Time and cause.
 #[track_caller]
-fn place<M: Mechanism>(failure: &Failure<M>) -> (f64, &Error) {
+fn place(failure: &Failure) -> (f64, &Error) {
     match &failure.error {
         Error::At { t, source, .. } => (*t, source),
         other => panic!("{other}"),

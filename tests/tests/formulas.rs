@@ -5,7 +5,7 @@ use models::{Model, UChain};
 use nalgebra::DVector;
 use tests::{Check, Dense, Random, assert_close, every_model, largest};
 use ukcore::equations::{kkt, uk, up};
-use ukcore::{Formula, Mechanism as _, Solver, SolverOptions};
+use ukcore::{Formula, Solver, SolverOptions};
 
 /// Agreement asked for, relative to the largest acceleration.
 const ACCURACY: f64 = 1e-9;
@@ -42,13 +42,13 @@ fn formulas_agree_with_the_oracle() {
                         formula,
                         ..SolverOptions::default()
                     };
-                    let mut solver = Solver::new::<M>(options);
+                    let mut solver = Solver::new(&model, options);
                     let solution = solver
-                        .solve(&model.prepared(), state.t, &state.q, &state.v)
+                        .solve(state.t, &state.q, &state.v)
                         .unwrap_or_else(|e| panic!("{}, {formula:?}: {e}", M::ID));
                     let mut fast = vec![0.0; M::SPEC.n()];
                     solver
-                        .acceleration(&model.prepared(), state.t, &state.q, &state.v, &mut fast)
+                        .acceleration(state.t, &state.q, &state.v, &mut fast)
                         .unwrap_or_else(|e| panic!("{}, {formula:?}: {e}", M::ID));
                     for i in 0..M::SPEC.n() {
                         let what = format!("{}, {formula:?}, {}", M::ID, M::SPEC.coords[i]);
@@ -81,12 +81,12 @@ fn printed_formulas_agree_with_the_solver() {
     impl Check for Printed {
         fn check<M: Model>(&self) {
             let mut random = Random::new(42);
-            let mut solver = Solver::new::<M>(SolverOptions::default());
+            let model = M::default();
+            let mut solver = Solver::new(&model, SolverOptions::default());
             for _ in 0..STATES {
-                let model = M::default();
                 let state = random.consistent_state(&model, 0.01);
                 let solution = solver
-                    .solve(&model.prepared(), state.t, &state.q, &state.v)
+                    .solve(state.t, &state.q, &state.v)
                     .unwrap_or_else(|e| panic!("{}: {e}", M::ID));
                 let Dense {
                     mass,
@@ -154,8 +154,8 @@ fn equal_masses_have_the_short_formulas() {
             ..UChain::default()
         };
         let state = random.consistent_state(&chain, 0.01);
-        let solution = Solver::new::<UChain>(SolverOptions::default())
-            .solve(&chain.prepared(), state.t, &state.q, &state.v)
+        let solution = Solver::new(&chain, SolverOptions::default())
+            .solve(state.t, &state.q, &state.v)
             .expect("the chain's constraints are independent");
         let Dense {
             force,

@@ -51,12 +51,12 @@ fn ideal_forces_do_no_virtual_work() {
     impl Check for Work {
         fn check<M: Model>(&self) {
             let mut random = Random::new(21);
-            let mut solver = Solver::new::<M>(SolverOptions::default());
+            let model = M::default();
+            let mut solver = Solver::new(&model, SolverOptions::default());
             for _ in 0..STATES {
-                let model = M::default();
                 let state = random.consistent_state(&model, 0.01);
                 let solution = solver
-                    .solve(&model.prepared(), state.t, &state.q, &state.v)
+                    .solve(state.t, &state.q, &state.v)
                     .unwrap_or_else(|e| panic!("{}: {e}", M::ID));
                 let dense = Dense::of(&model, &state);
                 let force = DVector::from_vec(solution.ideal_force.clone());
@@ -120,13 +120,13 @@ fn gauss_principle() {
     impl Check for Gauss {
         fn check<M: Model>(&self) {
             let mut random = Random::new(22);
-            let mut solver = Solver::new::<M>(SolverOptions::default());
+            let model = M::default();
+            let mut solver = Solver::new(&model, SolverOptions::default());
             for _ in 0..STATES {
-                let model = M::default();
                 let state = random.consistent_state(&model, 0.01);
                 let mut actual = vec![0.0; M::SPEC.n()];
                 solver
-                    .acceleration(&model.prepared(), state.t, &state.q, &state.v, &mut actual)
+                    .acceleration(state.t, &state.q, &state.v, &mut actual)
                     .unwrap_or_else(|e| panic!("{}: {e}", M::ID));
                 let actual = DVector::from_vec(actual);
                 let dense = Dense::of(&model, &state);

@@ -83,12 +83,12 @@ fn state(t: f64, q: f64, v: f64) -> State {
     }
 }
 
-fn simulation<M: Mechanism>(mechanism: M, start: State) -> Simulation<M> {
+fn simulation<M: Mechanism>(mechanism: M, start: State) -> Simulation {
     Simulation::new(mechanism).start(start).tolerance(1e-10)
 }
 
 /// The fish after 4 s: the largest error of its body's position and velocity, and the work.
-fn swim(settings: impl Fn(Simulation<FishRobot>) -> Simulation<FishRobot>) -> (f64, Work) {
+fn swim(settings: impl Fn(Simulation) -> Simulation) -> (f64, Work) {
     let data: Value =
         serde_json::from_str(include_str!("../../models/data/fish.json")).expect("JSON");
     let expected = data["states"]["4.0"].as_array().expect("a list");
@@ -371,7 +371,7 @@ fn a_block_turns_on_its_slope() {
             .until(2.0)
             .expect("a motion")
     };
-    let way = |run: &ukcore::Trajectory<RoughBlock>| {
+    let way = |run: &ukcore::Trajectory| {
         let last = run.last().expect("a sample");
         last.q[0] * block.slope.cos() - last.q[1] * block.slope.sin()
     };

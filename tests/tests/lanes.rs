@@ -33,10 +33,10 @@ fn lane<L: Lanes>(all: &[L], lane: usize) -> Vec<f64> {
 }
 
 /// A solver with these members, and their times, coordinates and velocities.
-fn solver<M: Mechanism, L: Lanes>(members: &[(M, State)]) -> (LaneSolver<M, L>, L, Vec<L>, Vec<L>) {
-    let mut solver = LaneSolver::<M, L>::new(&M::default());
+fn solver<M: Mechanism, L: Lanes>(members: &[(M, State)]) -> (LaneSolver<L>, L, Vec<L>, Vec<L>) {
+    let mut solver = LaneSolver::<L>::new(&M::default());
     for (k, (mechanism, _)) in members.iter().enumerate() {
-        solver.set(k, mechanism);
+        solver.set(k, mechanism).expect("the same mechanism");
     }
     let t = L::from_lanes(|k| members[k].1.t);
     let (q, v) = (pack(members, |s| &s.q), pack(members, |s| &s.v));
@@ -82,16 +82,10 @@ fn check<M: Model, L: Lanes>() {
                 bound,
             );
         }
-        let mut alone = Solver::new::<M>(SolverOptions::default());
+        let mut alone = Solver::new(mechanism, SolverOptions::default());
         let mut expected = vec![0.0; n];
         alone
-            .acceleration(
-                &mechanism.prepared(),
-                state.t,
-                &state.q,
-                &state.v,
-                &mut expected,
-            )
+            .acceleration(state.t, &state.q, &state.v, &mut expected)
             .unwrap_or_else(|e| panic!("{}: {e}", M::ID));
         let bound = ACCURACY * largest(&expected).max(1.0);
         assert_all_close(M::ID, &lane(&out, k), &expected, bound);
@@ -126,7 +120,7 @@ fn what_fails_in_a_lane_leaves_the_others_as_they_are() {
     q[1].set_lane(2, 0.0);
     let mut broken = members[5].0.clone();
     broken.g = f64::NAN;
-    solver.set(5, &broken);
+    solver.set(5, &broken).expect("the same mechanism");
     t.set_lane(6, f64::INFINITY);
     let mut out = vec![L::splat(1.0); 2];
     assert!(!solver.acceleration(t, &q, &v, &mut out, |k| k != 7));
@@ -140,14 +134,8 @@ fn what_fails_in_a_lane_leaves_the_others_as_they_are() {
         (state.t, state.q, state.v) = (t.lane(k), lane(&q, k), lane(&v, k));
         let mechanism = if k == 5 { &broken } else { &members[k].0 };
         let mut alone = [0.0; 2];
-        let mut solver_alone = Solver::new::<Pendulum>(SolverOptions::default());
-        let result = solver_alone.acceleration(
-            &mechanism.prepared(),
-            state.t,
-            &state.q,
-            &state.v,
-            &mut alone,
-        );
+        let mut solver_alone = Solver::new(mechanism, SolverOptions::default());
+        let result = solver_alone.acceleration(state.t, &state.q, &state.v, &mut alone);
         assert_eq!(result.as_ref().err(), solver.error(k));
         assert_eq!(solver.work(k), solver_alone.work());
         match result {
@@ -160,7 +148,12 @@ fn what_fails_in_a_lane_leaves_the_others_as_they_are() {
     assert_eq!((solver.work(7).evaluations, solver.error(7)), (0, None));
 
     // A lane with a new mechanism has nothing of the one before.
-    solver.set(5, &members[5].0);
+    let other = solver.set(5, models::UChain::default());
+    assert!(
+        matches!(&other, Err(Error::InvalidSetting { what: "mechanism", reason }) if reason.contains("made for `Pendulum`")),
+        "{other:?}"
+    );
+    solver.set(5, &members[5].0).expect("the same mechanism");
     assert_eq!(solver.work(5).fallbacks, 0);
     assert!(solver.acceleration(L::splat(0.0), &q, &v, &mut out, |k| k == 5));
     assert_eq!(lane(&out, 5), lane(&expected, 5));

@@ -426,8 +426,8 @@ fn acceleration<M: Mechanism>(
         ..SolverOptions::default()
     };
     let mut out = vec![0.0; M::SPEC.n()];
-    let mut solver = Solver::new::<M>(options);
-    solver.acceleration(&mechanism.prepared(), state.t, &state.q, &state.v, &mut out)?;
+    let mut solver = Solver::new(mechanism, options);
+    solver.acceleration(state.t, &state.q, &state.v, &mut out)?;
     Ok(out)
 }
 

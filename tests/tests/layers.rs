@@ -149,6 +149,7 @@ fn ukcore() {
             "stabilise",
             "lanes",
             "assemble",
+            "model",
             "linearise",
             "integrate",
             "events",

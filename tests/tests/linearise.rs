@@ -9,8 +9,8 @@ const ACCURACY: f64 = 1e-7;
 
 fn acceleration<M: Mechanism>(mechanism: &M, state: &State) -> Vec<f64> {
     let mut out = vec![0.0; M::SPEC.n()];
-    Solver::new::<M>(SolverOptions::default())
-        .acceleration(&mechanism.prepared(), state.t, &state.q, &state.v, &mut out)
+    Solver::new(mechanism, SolverOptions::default())
+        .acceleration(state.t, &state.q, &state.v, &mut out)
         .unwrap_or_else(|e| panic!("{}: {e}", M::SPEC.name));
     out
 }
@@ -38,8 +38,8 @@ fn member<M: Model>(random: &mut Random) -> (M, State) {
 fn redundant<M: Model>() -> bool {
     let mechanism = M::default();
     let s = mechanism.default_start().expect("the default start exists");
-    let solution = Solver::new::<M>(SolverOptions::default())
-        .solve(&mechanism.prepared(), s.t, &s.q, &s.v)
+    let solution = Solver::new(&mechanism, SolverOptions::default())
+        .solve(s.t, &s.q, &s.v)
         .expect("the start is regular");
     !solution.redundant.is_empty()
 }
@@ -119,14 +119,9 @@ fn along_the_manifold_derivatives_hold_with_redundant_constraints_too() {
                     let mut s = state.clone();
                     let all = s.q.iter_mut().chain(&mut s.v).zip(&direction);
                     all.for_each(|(x, d)| *x += h * d);
-                    let mut projector = Projector::new::<M>();
-                    let mech = mechanism.prepared();
-                    projector
-                        .position(&mech, s.t, &mut s.q, &s.v)
-                        .expect("near");
-                    projector
-                        .velocity(&mech, s.t, &s.q, &mut s.v)
-                        .expect("near");
+                    let mut projector = Projector::new(&mechanism);
+                    projector.position(s.t, &mut s.q, &s.v).expect("near");
+                    projector.velocity(s.t, &s.q, &mut s.v).expect("near");
                     s
                 };
                 let h = 2e-4;

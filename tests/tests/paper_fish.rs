@@ -30,7 +30,7 @@ fn fish(a3: f64, w_over_pi: f64, phi_degrees: f64) -> FishRobot {
     }
 }
 
-fn swim(fish: &FishRobot, tolerance: f64, times: Vec<f64>) -> Trajectory<FishRobot> {
+fn swim(fish: &FishRobot, tolerance: f64, times: Vec<f64>) -> Trajectory {
     let end = times.last().copied().expect("there are times");
     Simulation::new(fish.clone())
         .start(fish.default_start().expect("the start is consistent"))
@@ -43,8 +43,8 @@ fn swim(fish: &FishRobot, tolerance: f64, times: Vec<f64>) -> Trajectory<FishRob
 fn start_acceleration(fish: &FishRobot) -> f64 {
     let start = fish.default_start().expect("the start is consistent");
     let mut out = vec![0.0; FishRobot::SPEC.n()];
-    Solver::new::<FishRobot>(SolverOptions::default())
-        .acceleration(&fish.prepared(), start.t, &start.q, &start.v, &mut out)
+    Solver::new(fish, SolverOptions::default())
+        .acceleration(start.t, &start.q, &start.v, &mut out)
         .expect("[M | Aᵀ] has full rank");
     out[FishRobot::X1]
 }

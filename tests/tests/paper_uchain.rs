@@ -30,7 +30,7 @@ fn lowest_point() -> Event {
     Event::new("lowest", |_t, _q, v| v[UChain::Y[0]]).direction(Direction::Falling)
 }
 
-fn fall(x0: f64) -> Trajectory<UChain> {
+fn fall(x0: f64) -> Trajectory {
     Simulation::new(UChain::default())
         .start(start("trapezoid", x0))
         .tolerance(1e-10)
@@ -44,20 +44,14 @@ fn fall(x0: f64) -> Trajectory<UChain> {
 fn tip_acceleration(solver: &mut Solver, state: &State) -> f64 {
     let mut acceleration = vec![0.0; UChain::SPEC.n()];
     solver
-        .acceleration(
-            &UChain::default().prepared(),
-            state.t,
-            &state.q,
-            &state.v,
-            &mut acceleration,
-        )
+        .acceleration(state.t, &state.q, &state.v, &mut acceleration)
         .expect("the chain's constraints are independent");
     acceleration[UChain::Y[0]]
 }
 
 /// Deepest vertical acceleration of the tip: the least of the accepted steps, then ever finer around it.
-fn peak(run: &Trajectory<UChain>) -> f64 {
-    let mut solver = Solver::new::<UChain>(SolverOptions::default());
+fn peak(run: &Trajectory) -> f64 {
+    let mut solver = Solver::new(run.mechanism(), SolverOptions::default());
     let mut value = |t: f64| {
         let state = run.at(t).expect("the run is dense");
         tip_acceleration(&mut solver, &state)
@@ -267,10 +261,10 @@ fn starts_are_where_they_should_be() {
 fn link_forces_are_internal() {
     // Newton's third law: what the constraints do to all particles together is the pull of the support, along the last link.
     let run = fall(12.0);
-    let mut solver = Solver::new::<UChain>(SolverOptions::default());
+    let mut solver = Solver::new(run.mechanism(), SolverOptions::default());
     for sample in run.samples().step_by(25) {
         let solution = solver
-            .solve(&run.mechanism().prepared(), sample.t, sample.q, sample.v)
+            .solve(sample.t, sample.q, sample.v)
             .expect("the chain's constraints are independent");
         let force =
             |which: [usize; 17]| -> f64 { which.iter().map(|i| solution.ideal_force[*i]).sum() };

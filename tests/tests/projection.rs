@@ -23,7 +23,7 @@ fn to_rounding_from_any_distance_and_no_further() {
             let start = model.default_start().expect("the default start exists");
             let (prepared, n) = (model.prepared(), M::SPEC.n());
             let size = largest(&start.q).max(1.0);
-            let mut projector = Projector::new::<M>();
+            let mut projector = Projector::new(&prepared);
             let mut next = numbers(5);
             let mut jacobian = vec![0.0; M::SPEC.m() * n];
             for off in [1e-13, 1e-11, 1e-9, 1e-7, 1e-5, 1e-3] {
@@ -33,9 +33,9 @@ fn to_rounding_from_any_distance_and_no_further() {
                     q.iter_mut().for_each(|q| *q += off * next());
                     v.iter_mut().for_each(|v| *v += off * next());
                     let before = q.clone();
-                    let position = projector.position(&prepared, start.t, &mut q, &v);
+                    let position = projector.position(start.t, &mut q, &v);
                     let position = position.unwrap_or_else(|e| panic!("{place}: {e}"));
-                    let velocity = projector.velocity(&prepared, start.t, &q, &mut v);
+                    let velocity = projector.velocity(start.t, &q, &mut v);
                     let velocity = velocity.unwrap_or_else(|e| panic!("{place}: {e}"));
                     let (mut phi, mut rate) =
                         (vec![0.0; M::SPEC.holonomic], vec![0.0; M::SPEC.m()]);

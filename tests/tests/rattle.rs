@@ -7,7 +7,7 @@ use models::{
 use tests::largest;
 use ukcore::{Baumgarte, Error, Method, Simulation, Stabilisation, State, Trajectory};
 
-fn run<M: Model>(mechanism: M, start: State, step: f64, end: f64, every: f64) -> Trajectory<M> {
+fn run<M: Model>(mechanism: M, start: State, step: f64, end: f64, every: f64) -> Trajectory {
     Simulation::new(mechanism)
         .start(start)
         .method(Method::Rattle { step })
@@ -24,7 +24,7 @@ fn released(angle: f64) -> (Pendulum, State) {
 }
 
 /// Distance of the pendulum from where elliptic functions have it.
-fn error(run: &Trajectory<Pendulum>, from: f64) -> f64 {
+fn error(run: &Trajectory, from: f64) -> f64 {
     let end = run.last().expect("the run has an end");
     let mech = Pendulum::default();
     let (angle, rate) = mech.swing(from, end.t);
@@ -120,7 +120,7 @@ fn redundant_constraints_are_served_too() {
     }
 }
 
-fn refusal<M: Model>(set: impl Fn(Simulation<M>) -> Simulation<M>) -> String {
+fn refusal<M: Model>(set: impl Fn(Simulation) -> Simulation) -> String {
     let mech = M::default();
     let start = mech.default_start().expect("a start");
     let simulation = Simulation::new(mech)

@@ -289,10 +289,10 @@ impl Outcomes {
             time,
         } = Drawn::new(&mut Random::new(seed));
         let prepared = rods.prepared();
-        let mut projector = Projector::new::<Rods>();
+        let mut projector = Projector::new(&prepared);
         let projected = projector
-            .position(&prepared, 0.0, &mut state.q, &state.v)
-            .and_then(|_| projector.velocity(&prepared, 0.0, &state.q, &mut state.v));
+            .position(0.0, &mut state.q, &state.v)
+            .and_then(|_| projector.velocity(0.0, &state.q, &mut state.v));
         if let Err(error) = projected {
             ensure(named(&error), || format!("seed {seed}: {error}"))?;
             self.refused += 1;
@@ -310,9 +310,9 @@ impl Outcomes {
                 formula,
                 ..SolverOptions::default()
             };
-            let mut solver = Solver::new::<Rods>(options);
+            let mut solver = Solver::new(&prepared, options);
             let mut found = vec![0.0; 2 * N];
-            match solver.acceleration(&prepared, 0.0, &state.q, &state.v, &mut found) {
+            match solver.acceleration(0.0, &state.q, &state.v, &mut found) {
                 Ok(()) => {
                     let (residual, bound) = exact.residual(&found);
                     ensure(residual <= bound, || {

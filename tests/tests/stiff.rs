@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use tests::assert_all_close;
 use ukcore::{Direction, Event, Mechanism, Method, Simulation, State, Trajectory};
 
-fn simulation<M: Model>(model: &M, method: Method, tolerance: f64) -> Simulation<M> {
+fn simulation<M: Model>(model: &M, method: Method, tolerance: f64) -> Simulation {
     let start = model.default_start().expect("the default start exists");
     Simulation::new(model.clone())
         .start(start)
@@ -13,13 +13,13 @@ fn simulation<M: Model>(model: &M, method: Method, tolerance: f64) -> Simulation
         .tolerance(tolerance)
 }
 
-fn run<M: Model>(model: &M, method: Method, tolerance: f64, until: f64) -> Trajectory<M> {
+fn run<M: Model>(model: &M, method: Method, tolerance: f64, until: f64) -> Trajectory {
     let run = simulation(model, method, tolerance).at(Vec::new());
     run.until(until)
         .unwrap_or_else(|e| panic!("{}: {}", M::ID, e.error))
 }
 
-fn end<M: Model>(run: &Trajectory<M>) -> State {
+fn end(run: &Trajectory) -> State {
     run.last().expect("it has run").to_state()
 }
 

@@ -80,14 +80,14 @@ fn state(random: &mut Random) -> State {
     }
 }
 
-fn switching<S: ukcore::Scalar>(mech: &Prepared<Kinks, S>, t: S, q: &[S], v: &[S]) -> Vec<S> {
+fn switching<S: ukcore::Scalar>(mech: &Prepared<S>, t: S, q: &[S], v: &[S]) -> Vec<S> {
     let mut out = vec![S::from_f64(f64::NAN); Kinks::SPEC.switches.len()];
     mech.switching(t, q, v, &mut out);
     out
 }
 
 /// q̈, M, Q, c, A, b, φ and φ̇, one after the other.
-fn everything<M: Mechanism>(mech: &Prepared<M>, State { t, q, v }: &State) -> Vec<f64> {
+fn everything(mech: &Prepared, State { t, q, v }: &State) -> Vec<f64> {
     let mut out = vec![0.0; 4 + 16 + 4 + 4 + 4 + 1 + 1 + 1];
     let (q_dotdot, rest) = out.split_at_mut(4);
     assert!(mech.acceleration(*t, q, v, q_dotdot) > 0.5);
@@ -233,11 +233,14 @@ fn held_in_any_branch_the_equations_are_smooth() {
             &derivative(expected_slope),
             1e-12 * size,
         );
-        let mut dense = Solver::new::<Kinks>(SolverOptions {
-            formula: ukcore::Formula::UdwadiaKalaba,
-            ..SolverOptions::default()
-        });
-        let solution = dense.solve(&held, *t, q, v).expect("a regular system");
+        let mut dense = Solver::new(
+            &held,
+            SolverOptions {
+                formula: ukcore::Formula::UdwadiaKalaba,
+                ..SolverOptions::default()
+            },
+        );
+        let solution = dense.solve(*t, q, v).expect("a regular system");
         assert_all_close("dense", &solution.acceleration, &expected[..4], 1e-10);
         let mut output = [0.0];
         held.outputs(*t, q, v, &mut output);

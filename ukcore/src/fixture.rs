@@ -4,13 +4,13 @@
 //! is independent of the macro's symbolic derivatives.
 
 use crate::mechanism::{
-    ConstraintKind, ConstraintSpec, Costs, Energy, Equations, Mechanism, ParamSpec, Solve, Spec,
-    Structure, Terms,
+    ConstraintKind, ConstraintSpec, Costs, Energy, Equations, Mechanism, ParamSpec, Prepared,
+    Solve, Spec, Structure, Terms,
 };
 use crate::scalar::{Dual, Scalar};
 
 /// What a test mechanism states.
-pub(crate) trait Toy: Clone + Default + Send + Sync + 'static {
+pub(crate) trait Toy: Clone + Default + Into<Prepared> + Send + Sync + 'static {
     const FACTS: &'static Spec;
     fn params(&self) -> &[f64];
     fn params_mut(&mut self) -> &mut [f64];
@@ -223,6 +223,11 @@ macro_rules! toy {
         impl Default for $name {
             fn default() -> Self {
                 $name { params: vec![$($value),*] }
+            }
+        }
+        impl From<$name> for Prepared {
+            fn from(mechanism: $name) -> Self {
+                mechanism.prepared()
             }
         }
         impl Toy for $name {

@@ -26,7 +26,7 @@ pub use crate::spec::{
 /// All matrices are column-major. Into matrices the emitted code writes **structural non-zeros only**: the caller passes buffers
 /// that were zeroed once, and may reuse them for the same mechanism type. Vectors are written completely. No method allocates. Every method panics if a slice has
 /// not the stated length; [`Solver`](crate::Solver) and [`Simulation`](crate::Simulation) check what users pass in before that.
-pub trait Mechanism: Clone + Default + Send + Sync + 'static {
+pub trait Mechanism: Clone + Default + Into<Prepared> + Send + Sync + 'static {
     /// Names, structure and readable equations.
     const SPEC: &'static Spec;
 

@@ -87,6 +87,12 @@ impl ::core::default::Default for DoublePendulum {
     }
 }
 #[automatically_derived]
+impl ::core::convert::From<DoublePendulum> for ::ukcore::Prepared {
+    fn from(mechanism: DoublePendulum) -> Self {
+        ::ukcore::Mechanism::prepared(&mechanism)
+    }
+}
+#[automatically_derived]
 #[allow(dead_code)]
 impl DoublePendulum {
     /// Position in q of coordinate `x1`.

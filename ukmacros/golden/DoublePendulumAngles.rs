@@ -61,6 +61,12 @@ impl ::core::default::Default for DoublePendulumAngles {
     }
 }
 #[automatically_derived]
+impl ::core::convert::From<DoublePendulumAngles> for ::ukcore::Prepared {
+    fn from(mechanism: DoublePendulumAngles) -> Self {
+        ::ukcore::Mechanism::prepared(&mechanism)
+    }
+}
+#[automatically_derived]
 #[allow(dead_code)]
 impl DoublePendulumAngles {
     /// Position in q of coordinate `th1`.

@@ -163,6 +163,12 @@ impl ::core::default::Default for FishRobot {
     }
 }
 #[automatically_derived]
+impl ::core::convert::From<FishRobot> for ::ukcore::Prepared {
+    fn from(mechanism: FishRobot) -> Self {
+        ::ukcore::Mechanism::prepared(&mechanism)
+    }
+}
+#[automatically_derived]
 #[allow(dead_code)]
 impl FishRobot {
     /// Position in q of coordinate `x1`.

@@ -115,6 +115,12 @@ impl ::core::default::Default for FourBars {
     }
 }
 #[automatically_derived]
+impl ::core::convert::From<FourBars> for ::ukcore::Prepared {
+    fn from(mechanism: FourBars) -> Self {
+        ::ukcore::Mechanism::prepared(&mechanism)
+    }
+}
+#[automatically_derived]
 #[allow(dead_code)]
 impl FourBars {
     /// Constant `N` of the declaration.

@@ -85,6 +85,12 @@ impl ::core::default::Default for KapitzaPendulum {
     }
 }
 #[automatically_derived]
+impl ::core::convert::From<KapitzaPendulum> for ::ukcore::Prepared {
+    fn from(mechanism: KapitzaPendulum) -> Self {
+        ::ukcore::Mechanism::prepared(&mechanism)
+    }
+}
+#[automatically_derived]
 #[allow(dead_code)]
 impl KapitzaPendulum {
     /// Position in q of coordinate `x`.

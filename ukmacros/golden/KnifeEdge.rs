@@ -77,6 +77,12 @@ impl ::core::default::Default for KnifeEdge {
     }
 }
 #[automatically_derived]
+impl ::core::convert::From<KnifeEdge> for ::ukcore::Prepared {
+    fn from(mechanism: KnifeEdge) -> Self {
+        ::ukcore::Mechanism::prepared(&mechanism)
+    }
+}
+#[automatically_derived]
 #[allow(dead_code)]
 impl KnifeEdge {
     /// Position in q of coordinate `x`.

@@ -65,6 +65,12 @@ impl ::core::default::Default for MasslessSpring {
     }
 }
 #[automatically_derived]
+impl ::core::convert::From<MasslessSpring> for ::ukcore::Prepared {
+    fn from(mechanism: MasslessSpring) -> Self {
+        ::ukcore::Mechanism::prepared(&mechanism)
+    }
+}
+#[automatically_derived]
 #[allow(dead_code)]
 impl MasslessSpring {
     /// Position in q of coordinate `joint`.

@@ -72,6 +72,12 @@ impl ::core::default::Default for Pendulum {
     }
 }
 #[automatically_derived]
+impl ::core::convert::From<Pendulum> for ::ukcore::Prepared {
+    fn from(mechanism: Pendulum) -> Self {
+        ::ukcore::Mechanism::prepared(&mechanism)
+    }
+}
+#[automatically_derived]
 #[allow(dead_code)]
 impl Pendulum {
     /// Position in q of coordinate `x`.

@@ -94,6 +94,12 @@ impl ::core::default::Default for RigidBody {
     }
 }
 #[automatically_derived]
+impl ::core::convert::From<RigidBody> for ::ukcore::Prepared {
+    fn from(mechanism: RigidBody) -> Self {
+        ::ukcore::Mechanism::prepared(&mechanism)
+    }
+}
+#[automatically_derived]
 #[allow(dead_code)]
 impl RigidBody {
     /// Position in q of coordinate `e0`.

@@ -90,6 +90,12 @@ impl ::core::default::Default for RoughBlock {
     }
 }
 #[automatically_derived]
+impl ::core::convert::From<RoughBlock> for ::ukcore::Prepared {
+    fn from(mechanism: RoughBlock) -> Self {
+        ::ukcore::Mechanism::prepared(&mechanism)
+    }
+}
+#[automatically_derived]
 #[allow(dead_code)]
 impl RoughBlock {
     /// Position in q of coordinate `x`.

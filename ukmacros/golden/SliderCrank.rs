@@ -128,6 +128,12 @@ impl ::core::default::Default for SliderCrank {
     }
 }
 #[automatically_derived]
+impl ::core::convert::From<SliderCrank> for ::ukcore::Prepared {
+    fn from(mechanism: SliderCrank) -> Self {
+        ::ukcore::Mechanism::prepared(&mechanism)
+    }
+}
+#[automatically_derived]
 #[allow(dead_code)]
 impl SliderCrank {
     /// Position in q of coordinate `x1`.

@@ -132,6 +132,12 @@ impl ::core::default::Default for SliderCrankRedundant {
     }
 }
 #[automatically_derived]
+impl ::core::convert::From<SliderCrankRedundant> for ::ukcore::Prepared {
+    fn from(mechanism: SliderCrankRedundant) -> Self {
+        ::ukcore::Mechanism::prepared(&mechanism)
+    }
+}
+#[automatically_derived]
 #[allow(dead_code)]
 impl SliderCrankRedundant {
     /// Position in q of coordinate `x1`.

@@ -64,6 +64,12 @@ impl ::core::default::Default for SpringPendulum {
     }
 }
 #[automatically_derived]
+impl ::core::convert::From<SpringPendulum> for ::ukcore::Prepared {
+    fn from(mechanism: SpringPendulum) -> Self {
+        ::ukcore::Mechanism::prepared(&mechanism)
+    }
+}
+#[automatically_derived]
 #[allow(dead_code)]
 impl SpringPendulum {
     /// Position in q of coordinate `x`.

@@ -122,6 +122,12 @@ impl ::core::default::Default for UChain {
     }
 }
 #[automatically_derived]
+impl ::core::convert::From<UChain> for ::ukcore::Prepared {
+    fn from(mechanism: UChain) -> Self {
+        ::ukcore::Mechanism::prepared(&mechanism)
+    }
+}
+#[automatically_derived]
 #[allow(dead_code)]
 impl UChain {
     /// Constant `N` of the declaration.

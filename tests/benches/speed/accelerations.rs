@@ -80,13 +80,10 @@ impl<'a> Accelerations<'a> {
                 assert!(safe > 0.5, "the certificate holds");
             });
         }
-        let (mech, mut solver) = (
-            mechanism.prepared(),
-            Solver::new::<M>(SolverOptions::default()),
-        );
+        let mut solver = Solver::new(mechanism, SolverOptions::default());
         self.add("Solver::acceleration", false, move |s, out| {
             solver
-                .acceleration(&mech, s.t, &s.q, &s.v, out)
+                .acceleration(s.t, &s.q, &s.v, out)
                 .expect("the constraints are independent");
         });
         let (mech, mut dense) = (mechanism.prepared(), Dense::new::<M>());

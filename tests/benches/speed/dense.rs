@@ -34,7 +34,7 @@ impl Dense {
     }
 
     /// M, Q, A and b alone.
-    pub(crate) fn evaluate<M: Mechanism>(&mut self, mechanism: &Prepared<M>, state: &State) {
+    pub(crate) fn evaluate(&mut self, mechanism: &Prepared, state: &State) {
         let mut terms = Terms {
             mass: self.mass.as_mut_slice(),
             force: self.force.as_mut_slice(),
@@ -46,12 +46,7 @@ impl Dense {
     }
 
     /// q̈ by LU decomposition of [M Aᵀ; A 0] with partial pivoting.
-    pub(crate) fn saddle<M: Mechanism>(
-        &mut self,
-        mechanism: &Prepared<M>,
-        state: &State,
-        out: &mut [f64],
-    ) {
+    pub(crate) fn saddle(&mut self, mechanism: &Prepared, state: &State, out: &mut [f64]) {
         self.evaluate(mechanism, state);
         let (m, n) = self.jacobian.shape();
         let mut system = std::mem::replace(&mut self.system, DMatrix::zeros(0, 0));
@@ -69,12 +64,7 @@ impl Dense {
     }
 
     /// q̈ by eq. 13 as printed, with its pseudo-inverse and square roots.
-    pub(crate) fn printed<M: Mechanism>(
-        &mut self,
-        mechanism: &Prepared<M>,
-        state: &State,
-        out: &mut [f64],
-    ) {
+    pub(crate) fn printed(&mut self, mechanism: &Prepared, state: &State, out: &mut [f64]) {
         self.evaluate(mechanism, state);
         let acceleration = uk::acceleration_nonideal(
             &self.mass,

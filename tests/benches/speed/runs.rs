@@ -209,7 +209,7 @@ fn packs<L: Lanes>(states: &[State]) -> Vec<Pack<L>> {
 /// The generated code in lanes, with its certificates looked at; each lane agrees with the solver.
 fn ours_in_lanes<L: Lanes>(mech: &UChain, states: &[State]) -> Contender<'static> {
     let packs: Vec<Pack<L>> = packs(states);
-    let mut solver = LaneSolver::<UChain, L>::new(mech);
+    let mut solver = LaneSolver::<L>::new(mech);
     let mut out = vec![L::from_f64(0.0); 2 * N];
     let t = L::from_f64(0.0);
     for ((q, v), states) in packs.iter().zip(states.chunks_exact(L::WIDTH)) {

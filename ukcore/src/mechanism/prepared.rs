@@ -228,7 +228,7 @@ impl<S: Scalar, C: ?Sized + Constraints<S>> Prepared<S, C> {
     }
 
     /// Holds all switches as `other` does.
-    pub(crate) fn hold_as(&mut self, other: &Prepared) {
+    pub fn hold_as(&mut self, other: &Prepared) {
         let branches = other.values.iter().zip(&mut self.values);
         for (from, to) in branches.skip(self.spec.prepared.len()) {
             *to = S::from_f64(*from);

@@ -11,6 +11,7 @@ use crate::mechanism::{
     ConstraintKind, ConstraintSpec, Costs, Energy, Equations, OutputSpec, ParamSpec, Solve, Spec,
     Structure, Terms,
 };
+use crate::mechanism::{Mechanism, Prepared};
 use crate::scalar::Scalar;
 use crate::solver::Baumgarte;
 use crate::trajectory::Sample;
@@ -86,6 +87,12 @@ static SPEC: Spec = Spec {
     },
 };
 
+impl From<Pendulum> for Prepared {
+    fn from(mechanism: Pendulum) -> Self {
+        mechanism.prepared()
+    }
+}
+
 impl Mechanism for Pendulum {
     const SPEC: &'static Spec = &SPEC;
 
@@ -141,7 +148,7 @@ fn state(t: f64, angle: f64, rate: f64) -> State {
 }
 
 /// From rest at `angle`.
-fn swing(angle: f64, tolerance: f64) -> Simulation<Pendulum> {
+fn swing(angle: f64, tolerance: f64) -> Simulation {
     let start = state(0.0, angle, 0.0);
     Simulation::new(Pendulum::default())
         .start(start)
@@ -163,7 +170,7 @@ fn distance(a: Sample<'_>, b: Sample<'_>) -> f64 {
 }
 
 #[track_caller]
-fn source(failure: &Failure<Pendulum>) -> (f64, Error) {
+fn source(failure: &Failure) -> (f64, Error) {
     match &failure.error {
         Error::At { t, source, .. } => (*t, (**source).clone()),
         other => panic!("{other:?} has no place"),

@@ -3,6 +3,7 @@ use nalgebra::{DMatrix, DVector};
 use super::*;
 use crate::equations::{kkt, uk, up};
 use crate::fixture::*;
+use crate::mechanism::Mechanism;
 use crate::stabilise::Projector;
 
 mod failures;
@@ -42,19 +43,22 @@ fn printed<M: Mechanism>(mech: &M, t: f64, q: &[f64], v: &[f64]) -> Printed {
     }
 }
 
-fn solver<M: Mechanism>(formula: Formula) -> Solver {
-    Solver::new::<M>(SolverOptions {
-        formula,
-        ..SolverOptions::default()
-    })
+fn solver(mech: &impl Mechanism, formula: Formula) -> Solver {
+    Solver::new(
+        mech,
+        SolverOptions {
+            formula,
+            ..SolverOptions::default()
+        },
+    )
 }
 
 /// A consistent state near (q, v).
 fn consistent<M: Mechanism>(mech: &M, t: f64, q: &[f64], v: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let (mut q, mut v) = (q.to_vec(), v.to_vec());
-    let mut projector = Projector::new::<M>();
-    projector.position(&mech.prepared(), t, &mut q, &v).unwrap();
-    projector.velocity(&mech.prepared(), t, &q, &mut v).unwrap();
+    let mut projector = Projector::new(mech);
+    projector.position(t, &mut q, &v).unwrap();
+    projector.velocity(t, &q, &mut v).unwrap();
     (q, v)
 }
 
@@ -69,9 +73,7 @@ fn close(a: &[f64], b: &[f64], relative: f64, what: &str) {
 fn agree<M: Mechanism>(mech: &M, t: f64, q: &[f64], v: &[f64]) -> Solution {
     let (q, v) = consistent(mech, t, q, v);
     let p = printed(mech, t, &q, &v);
-    let solution = solver::<M>(Formula::Auto)
-        .solve(&mech.prepared(), t, &q, &v)
-        .unwrap();
+    let solution = solver(mech, Formula::Auto).solve(t, &q, &v).unwrap();
     let total = &p.force + &p.nonideal;
     let oracle = up::acceleration(&p.mass, &total, &p.jacobian, &p.rhs, TOLERANCE).unwrap();
     close(&solution.acceleration, oracle.as_slice(), 1e-9, "eq. 19");
@@ -103,13 +105,11 @@ fn agree<M: Mechanism>(mech: &M, t: f64, q: &[f64], v: &[f64]) -> Solution {
         _ => &[Formula::UdwadiaPhohomsiri, Formula::Kkt],
     };
     for formula in formulas {
-        let mut other = solver::<M>(*formula);
+        let mut other = solver(mech, *formula);
         let mut out = vec![f64::NAN; q.len()];
-        other
-            .acceleration(&mech.prepared(), t, &q, &v, &mut out)
-            .unwrap();
+        other.acceleration(t, &q, &v, &mut out).unwrap();
         close(&out, &solution.acceleration, 1e-9, "acceleration()");
-        let other = other.solve(&mech.prepared(), t, &q, &v).unwrap();
+        let other = other.solve(t, &q, &v).unwrap();
         close(
             &other.acceleration,
             &solution.acceleration,
@@ -230,9 +230,7 @@ fn pendulum_tension_and_acceleration() {
     let omega = 1.7;
     let mech = Pendulum::default();
     let (q, v) = ([s, -c], [omega * c, omega * s]);
-    let solution = solver::<Pendulum>(Formula::Auto)
-        .solve(&mech.prepared(), 0.0, &q, &v)
-        .unwrap();
+    let solution = solver(&mech, Formula::Auto).solve(0.0, &q, &v).unwrap();
     // θ̈ = −g sin θ; tension m (g cos θ + ω²) along the rod.
     let alpha = -9.8 * s;
     let expected = [alpha * c - omega * omega * s, alpha * s + omega * omega * c];
@@ -258,9 +256,7 @@ fn without_force_and_with_equal_masses() {
     let (q, v) = ([0.6, -0.8], [1.6, 1.2]);
     let p = printed(&mech, 0.0, &q, &v);
     let force = uk::equal_masses_free(3.0, &p.jacobian, &p.rhs, TOLERANCE);
-    let solution = solver::<Pendulum>(Formula::Auto)
-        .solve(&mech.prepared(), 0.0, &q, &v)
-        .unwrap();
+    let solution = solver(&mech, Formula::Auto).solve(0.0, &q, &v).unwrap();
     close(&solution.ideal_force, force.as_slice(), 1e-14, "eq. 18");
     close(
         force.as_slice(),
@@ -305,28 +301,18 @@ fn springs_in_series_act_as_one() {
 #[test]
 fn a_mass_that_vanishes_at_run_time() {
     let mech = Prescribed { params: vec![0.0] };
-    let mut solver = solver::<Prescribed>(Formula::Auto);
+    let mut solver = solver(&mech, Formula::Auto);
     let mut out = [0.0; 2];
     solver
-        .acceleration(
-            &mech.prepared(),
-            0.5,
-            &[0.5_f64.sin(), 0.0],
-            &[0.5_f64.cos(), 0.0],
-            &mut out,
-        )
+        .acceleration(0.5, &[0.5_f64.sin(), 0.0], &[0.5_f64.cos(), 0.0], &mut out)
         .unwrap();
     close(&out, &[-(0.5_f64.sin()), 3.0], 1e-15, "prescribed");
     assert_eq!(solver.work().fallbacks, 1);
     let pendulum = Pendulum {
         params: vec![0.0, 1.0, 9.8],
     };
-    let result = Solver::new::<Pendulum>(SolverOptions::default()).solve(
-        &pendulum.prepared(),
-        0.0,
-        &[1.0, 0.0],
-        &[0.0; 2],
-    );
+    let result =
+        Solver::new(&pendulum, SolverOptions::default()).solve(0.0, &[1.0, 0.0], &[0.0; 2]);
     assert!(
         matches!(&result, Err(Error::Underdetermined { coordinates, .. }) if coordinates == &["y"]),
         "{result:?}"
@@ -334,12 +320,8 @@ fn a_mass_that_vanishes_at_run_time() {
     let negative = Pendulum {
         params: vec![-1.0, 1.0, 9.8],
     };
-    let result = Solver::new::<Pendulum>(SolverOptions::default()).solve(
-        &negative.prepared(),
-        0.0,
-        &[1.0, 0.0],
-        &[0.0; 2],
-    );
+    let result =
+        Solver::new(&negative, SolverOptions::default()).solve(0.0, &[1.0, 0.0], &[0.0; 2]);
     assert_eq!(
         result,
         Err(Error::IndefiniteMass {
@@ -352,8 +334,8 @@ fn a_mass_that_vanishes_at_run_time() {
 fn a_quaternion_body_obeys_eulers_equations() {
     let mech = Quaternion::default();
     let (q, v) = consistent(&mech, 0.0, &[0.5, 0.6, -0.3, 0.5], &[1.0, -2.0, 0.5, 0.2]);
-    let mut solver = solver::<Quaternion>(Formula::Auto);
-    let solution = solver.solve(&mech.prepared(), 0.0, &q, &v).unwrap();
+    let mut solver = solver(&mech, Formula::Auto);
+    let solution = solver.solve(0.0, &q, &v).unwrap();
     assert_eq!(solution.formula, Formula::UdwadiaPhohomsiri);
     assert_eq!(solver.work().fallbacks, 1);
     // ω = 2 G(e) ė, ω̇ = 2 G(e) ë (G(ė) ė = 0); J ω̇ = J ω × ω.
@@ -379,16 +361,17 @@ fn baumgarte_feeds_the_residuals_back() {
         alpha: 5.0,
         beta: 7.0,
     });
-    let mut solver = Solver::new::<Pendulum>(SolverOptions {
-        baumgarte,
-        ..SolverOptions::default()
-    });
+    let mut solver = Solver::new(
+        &mech,
+        SolverOptions {
+            baumgarte,
+            ..SolverOptions::default()
+        },
+    );
     let (q, v) = ([0.61, -0.83], [0.4, 0.5]);
     let mut out = [0.0; 2];
     for _ in 0..2 {
-        solver
-            .acceleration(&mech.prepared(), 0.0, &q, &v, &mut out)
-            .unwrap();
+        solver.acceleration(0.0, &q, &v, &mut out).unwrap();
         let second = 2.0 * (q[0] * out[0] + q[1] * out[1] + v[0] * v[0] + v[1] * v[1]);
         let first = 2.0 * (q[0] * v[0] + q[1] * v[1]);
         let phi = q[0] * q[0] + q[1] * q[1] - 1.0;

@@ -1,5 +1,6 @@
 use super::*;
 use crate::fixture::*;
+use crate::mechanism::Mechanism;
 
 fn numbers(mut state: u64) -> impl FnMut() -> f64 {
     move || {
@@ -21,13 +22,13 @@ fn residuals<M: Mechanism>(mech: &M, t: f64, q: &[f64], v: &[f64]) -> (f64, f64)
 /// Projects states off by `off` and checks residuals; gives the largest number of steps.
 fn project<M: Mechanism>(mech: &M, t: f64, q: &[f64], v: &[f64], off: f64, within: f64) -> usize {
     let mut next = numbers(11);
-    let mut projector = Projector::new::<M>();
+    let mut projector = Projector::new(mech);
     let mut most = 0;
     for _ in 0..30 {
         let mut q: Vec<f64> = q.iter().map(|q| q + off * next()).collect();
         let mut v: Vec<f64> = v.iter().map(|v| v + off * next()).collect();
-        let position = projector.position(&mech.prepared(), t, &mut q, &v).unwrap();
-        let velocity = projector.velocity(&mech.prepared(), t, &q, &mut v).unwrap();
+        let position = projector.position(t, &mut q, &v).unwrap();
+        let velocity = projector.velocity(t, &q, &mut v).unwrap();
         let (phi, rate) = residuals(mech, t, &q, &v);
         assert_eq!((phi, rate), (position.residual, velocity.residual));
         assert!(
@@ -36,15 +37,9 @@ fn project<M: Mechanism>(mech: &M, t: f64, q: &[f64], v: &[f64], off: f64, withi
             M::SPEC.name
         );
         most = most.max(position.iterations).max(velocity.iterations);
-        let again = projector.position(&mech.prepared(), t, &mut q, &v).unwrap();
+        let again = projector.position(t, &mut q, &v).unwrap();
         assert_eq!((again.iterations, again.norm), (0, 0.0));
-        assert_eq!(
-            projector
-                .velocity(&mech.prepared(), t, &q, &mut v)
-                .unwrap()
-                .iterations,
-            0
-        );
+        assert_eq!(projector.velocity(t, &q, &mut v).unwrap().iterations, 0);
     }
     most
 }
@@ -125,12 +120,10 @@ fn the_change_is_minimal_in_the_mass_metric() {
     let mech = Twice {
         params: vec![1e-3, 1.0, 1.0, 0.0],
     };
-    let mut projector = Projector::new::<Twice>();
+    let mut projector = Projector::new(&mech);
     let q0 = [0.6, -0.8001, 1.2, -1.6];
     let mut q = q0;
-    let correction = projector
-        .position(&mech.prepared(), 0.0, &mut q, &[0.0; 4])
-        .unwrap();
+    let correction = projector.position(0.0, &mut q, &[0.0; 4]).unwrap();
     // Δ = M⁻¹Aᵀμ: stationary.
     let (mut jacobian, m) = ([0.0; 12], [1e-3, 1e-3, 1.0, 1.0]);
     mech.prepared().jacobian(0.0, &q, &[0.0; 4], &mut jacobian);
@@ -159,8 +152,8 @@ fn scaled_constraints_and_masses_project_alike() {
                 params: vec![m, 1.0, scale, 0.0],
             };
             let mut q = [0.61, -0.83, 1.2, -1.55];
-            Projector::new::<Twice>()
-                .position(&mech.prepared(), 0.0, &mut q, &[0.0; 4])
+            Projector::new(&mech)
+                .position(0.0, &mut q, &[0.0; 4])
                 .unwrap();
             let (a, b) = (
                 q[0].hypot(q[1]) - 1.0,
@@ -174,7 +167,7 @@ fn scaled_constraints_and_masses_project_alike() {
 #[test]
 fn what_cannot_be_met_is_named_and_the_state_left_alone() {
     let mech = Contradiction::default();
-    let mut projector = Projector::new::<Contradiction>();
+    let mut projector = Projector::new(&mech);
     let (mut q, mut v) = ([0.1, 0.2], [0.3, 0.0]);
     let names = |e: Error| match e {
         Error::OffConstraint { level, constraints } => (
@@ -183,17 +176,9 @@ fn what_cannot_be_met_is_named_and_the_state_left_alone() {
         ),
         other => panic!("{other:?}"),
     };
-    let position = names(
-        projector
-            .position(&mech.prepared(), 0.0, &mut q, &v)
-            .unwrap_err(),
-    );
+    let position = names(projector.position(0.0, &mut q, &v).unwrap_err());
     assert_eq!(position, ("position", vec!["sine".into(), "cosine".into()]));
-    let velocity = names(
-        projector
-            .velocity(&mech.prepared(), 0.0, &q, &mut v)
-            .unwrap_err(),
-    );
+    let velocity = names(projector.velocity(0.0, &q, &mut v).unwrap_err());
     assert_eq!(velocity, ("velocity", vec!["sine".into(), "cosine".into()]));
     assert_eq!((q, v), ([0.1, 0.2], [0.3, 0.0]));
     // A third crank that is too long for the parallelogram fits only near it, or not at all.
@@ -201,16 +186,11 @@ fn what_cannot_be_met_is_named_and_the_state_left_alone() {
         params: vec![1.0, 4.0],
     };
     let mut q = [0.6, 0.8, 2.6, 0.8];
-    let error = Projector::new::<Parallelogram>()
-        .position(&mech.prepared(), 0.0, &mut q, &[0.0; 4])
+    let error = Projector::new(&mech)
+        .position(0.0, &mut q, &[0.0; 4])
         .unwrap_err();
     assert_eq!(names(error).0, "position");
-    let bad = Projector::new::<Pendulum>().position(
-        &Pendulum::default().prepared(),
-        0.0,
-        &mut [f64::NAN, 0.0],
-        &[0.0; 2],
-    );
+    let bad = Projector::new(&Pendulum::default()).position(0.0, &mut [f64::NAN, 0.0], &[0.0; 2]);
     assert_eq!(
         bad,
         Err(Error::NonFinite {
@@ -226,8 +206,8 @@ fn through_a_singular_configuration() {
     for angle in [1e-2, 1e-4, 1e-6, 1e-8, 0.0_f64] {
         let (s, c) = angle.sin_cos();
         let mut q = [c + 1e-7, s - 1e-7, 2.0 + c, s + 1e-7];
-        let correction = Projector::new::<Parallelogram>()
-            .position(&mech.prepared(), 0.0, &mut q, &[0.0; 4])
+        let correction = Projector::new(&mech)
+            .position(0.0, &mut q, &[0.0; 4])
             .unwrap();
         assert!(correction.residual < 1e-12, "{angle}: {correction:?}");
     }

@@ -125,6 +125,12 @@ pub(super) fn item(
                 #name { #values }
             }
         }
+        #[automatically_derived]
+        impl ::core::convert::From<#name> for ::ukcore::Prepared {
+            fn from(mechanism: #name) -> Self {
+                ::ukcore::Mechanism::prepared(&mechanism)
+            }
+        }
     }
 }
 

@@ -87,7 +87,7 @@ fn starts_are_checked() {
 
 #[test]
 fn settings_are_checked() {
-    type Change = fn(Simulation<Pendulum>) -> Simulation<Pendulum>;
+    type Change = fn(Simulation) -> Simulation;
     let check = |what: &str, change: Change, t_end: f64| {
         let failure = change(swing(1.0, 1e-9)).until(t_end).unwrap_err();
         let Error::InvalidSetting { what: found, .. } = failure.error else {

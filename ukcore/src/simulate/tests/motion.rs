@@ -1,6 +1,7 @@
 //! The motion itself: accuracy, invariants, direction, other mechanisms.
 
 use super::*;
+use crate::mechanism::Mechanism;
 
 #[test]
 fn a_pendulum_returns_after_its_period() {
@@ -158,9 +159,9 @@ fn massless_and_prescribed_coordinates_follow_closed_forms() {
 }
 
 /// From (q, v) at t = 0, projected.
-fn toy<M: Mechanism>(mechanism: M, q: &[f64], v: &[f64]) -> Simulation<M> {
+fn toy<M: Mechanism>(mechanism: M, q: &[f64], v: &[f64]) -> Simulation {
     let (t, q, v) = (0.0, q.to_vec(), v.to_vec());
-    Simulation::new(mechanism)
+    Simulation::new(&mechanism)
         .start(State { t, q, v })
         .tolerance(1e-11)
 }

@@ -7,12 +7,7 @@ fn contradictions_are_named() {
     let mech = Contradiction::default();
     for (t, expected) in [(0.0, true), (1.0, true)] {
         let x = f64::sin(t);
-        let result = solver::<Contradiction>(Formula::Auto).solve(
-            &mech.prepared(),
-            t,
-            &[x, 0.0],
-            &[f64::cos(t), 0.0],
-        );
+        let result = solver(&mech, Formula::Auto).solve(t, &[x, 0.0], &[f64::cos(t), 0.0]);
         assert_eq!(result.is_err(), expected);
         let Err(Error::Inconsistent { constraints }) = result else {
             panic!("{result:?}")
@@ -25,7 +20,7 @@ fn contradictions_are_named() {
             params: vec![1.0, 2.0, scale, 1e-6],
         };
         let (q, v) = ([0.6, -0.8, 1.2, -1.6], [0.0; 4]);
-        let result = solver::<Twice>(Formula::Auto).solve(&mech.prepared(), 0.0, &q, &v);
+        let result = solver(&mech, Formula::Auto).solve(0.0, &q, &v);
         let Err(Error::Inconsistent { constraints }) = result else {
             panic!("{result:?}")
         };
@@ -37,8 +32,7 @@ fn contradictions_are_named() {
 #[test]
 fn undetermined_coordinates_are_named() {
     for formula in [Formula::Auto, Formula::UdwadiaPhohomsiri, Formula::Kkt] {
-        let result =
-            solver::<Loose>(formula).solve(&Loose::default().prepared(), 0.0, &[0.0; 3], &[0.0; 3]);
+        let result = solver(&Loose::default(), formula).solve(0.0, &[0.0; 3], &[0.0; 3]);
         let Err(Error::Underdetermined {
             coordinates,
             rank,
@@ -60,10 +54,11 @@ fn undetermined_coordinates_are_named() {
 
 #[test]
 fn what_is_not_finite_is_named() {
-    let what = |mech: &Skate, t: f64, q: [f64; 3], v: [f64; 3]| match Solver::new::<Skate>(
+    let what = |mech: &Skate, t: f64, q: [f64; 3], v: [f64; 3]| match Solver::new(
+        mech,
         SolverOptions::default(),
     )
-    .solve(&mech.prepared(), t, &q, &v)
+    .solve(t, &q, &v)
     {
         Err(Error::NonFinite { what }) => what,
         other => panic!("{other:?}"),
@@ -89,12 +84,7 @@ fn what_is_not_finite_is_named() {
     let light = Pendulum {
         params: vec![1e-300, 1.0, 1.7e308],
     };
-    let result = Solver::new::<Pendulum>(SolverOptions::default()).solve(
-        &light.prepared(),
-        0.0,
-        &[0.0, 1.0],
-        &[0.0; 2],
-    );
+    let result = Solver::new(&light, SolverOptions::default()).solve(0.0, &[0.0, 1.0], &[0.0; 2]);
     assert_eq!(
         result,
         Err(Error::NonFinite {
@@ -104,12 +94,7 @@ fn what_is_not_finite_is_named() {
     let heavy = Pendulum {
         params: vec![1e300, 1.0, 1e300],
     };
-    let result = Solver::new::<Pendulum>(SolverOptions::default()).solve(
-        &heavy.prepared(),
-        0.0,
-        &[1.0, 0.0],
-        &[0.0; 2],
-    );
+    let result = Solver::new(&heavy, SolverOptions::default()).solve(0.0, &[1.0, 0.0], &[0.0; 2]);
     assert_eq!(
         result,
         Err(Error::NonFinite {
@@ -121,8 +106,8 @@ fn what_is_not_finite_is_named() {
 #[test]
 fn wrong_uses_are_refused() {
     let mech = Pendulum::default();
-    let mut solver = solver::<Pendulum>(Formula::UdwadiaKalaba);
-    let wrong = solver.solve(&mech.prepared(), 0.0, &[0.0; 3], &[0.0; 2]);
+    let mut solver = solver(&mech, Formula::UdwadiaKalaba);
+    let wrong = solver.solve(0.0, &[0.0; 3], &[0.0; 2]);
     assert_eq!(
         wrong,
         Err(Error::WrongLength {
@@ -131,19 +116,14 @@ fn wrong_uses_are_refused() {
             expected: 2
         })
     );
-    let other = solver.solve(&Springs::default().prepared(), 0.0, &[0.0; 2], &[0.0; 2]);
-    assert!(matches!(
-        other,
-        Err(Error::InvalidSetting {
-            what: "mechanism",
-            ..
-        })
-    ));
-    let mut solver = Solver::new::<Springs>(SolverOptions {
-        formula: Formula::UdwadiaKalaba,
-        ..SolverOptions::default()
-    });
-    let singular = solver.solve(&Springs::default().prepared(), 0.0, &[0.0; 2], &[0.0; 2]);
+    let mut solver = Solver::new(
+        &Springs::default(),
+        SolverOptions {
+            formula: Formula::UdwadiaKalaba,
+            ..SolverOptions::default()
+        },
+    );
+    let singular = solver.solve(0.0, &[0.0; 2], &[0.0; 2]);
     assert!(matches!(
         singular,
         Err(Error::InvalidSetting {
