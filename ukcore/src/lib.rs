@@ -27,6 +27,7 @@ pub mod equations;
 pub mod error;
 #[cfg(feature = "simulate")]
 pub mod events;
+mod explain;
 #[cfg(test)]
 mod fixture;
 #[cfg(feature = "simulate")]
@@ -37,6 +38,7 @@ mod lu;
 pub mod mechanism;
 mod metric;
 pub mod model;
+pub mod numbers;
 pub mod pinv;
 pub mod plan;
 mod rounding;
@@ -57,6 +59,7 @@ mod zero;
 pub use assemble::{Residuals, State, assemble, residuals};
 pub use double::DoubleDouble;
 pub use error::Error;
+pub use explain::Explanation;
 pub use lanes::{LaneSolver, Lanes};
 pub use linearise::Linearisation;
 #[doc(hidden)]

@@ -17,6 +17,7 @@ use crate::trajectory::{Ending, Trajectory, Work};
 mod angles;
 #[cfg(feature = "ensemble")]
 pub mod ensemble;
+mod grid;
 mod run;
 #[cfg(test)]
 mod tests;

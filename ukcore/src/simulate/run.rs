@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use super::grid::Grid;
 use super::trouble::{self, Conflict, Pace};
 use crate::diagnose;
 use crate::error::Error;
@@ -47,16 +48,23 @@ pub(super) struct Agenda {
     sampling: Sampling,
     t0: f64,
     t_end: f64,
+    /// Times of samples at equal intervals.
+    grid: Option<Grid>,
     /// Samples taken from it so far.
     pub(super) taken: usize,
 }
 
 impl Agenda {
     pub(super) fn new(sampling: Sampling, t0: f64, t_end: f64) -> Self {
+        let grid = match sampling {
+            Sampling::Every(dt) => Some(Grid::new(t0, dt.copysign(t_end - t0))),
+            Sampling::Steps | Sampling::At(_) => None,
+        };
         Agenda {
             sampling,
             t0,
             t_end,
+            grid,
             taken: 0,
         }
     }
@@ -65,12 +73,11 @@ impl Agenda {
     pub(super) fn next(&self) -> Option<f64> {
         match &self.sampling {
             Sampling::Steps => None,
-            Sampling::Every(dt) => {
-                let span = self.t_end - self.t0;
+            Sampling::Every(_) => {
                 // The start is sample 0.
-                let t = self.t0 + ((self.taken + 1) as f64 * dt).copysign(span);
+                let t = self.grid?.time((self.taken + 1) as f64);
                 let rounding = SAME_TIME * self.t0.abs().max(self.t_end.abs());
-                let left = (self.t_end - t) * span.signum();
+                let left = (self.t_end - t) * (self.t_end - self.t0).signum();
                 (left > rounding).then_some(t)
             }
             Sampling::At(times) => times.get(self.taken).copied(),

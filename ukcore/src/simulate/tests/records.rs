@@ -131,3 +131,19 @@ fn csv_reads_back_as_the_same_numbers() {
     }
     assert_eq!(csv.lines().count(), 1 + run.len());
 }
+
+#[test]
+fn sample_times_are_the_nearest_to_their_decimals() {
+    let times = |t0: f64, dt: f64| {
+        let grid = grid::Grid::new(t0, dt);
+        (1..=4).map(|k| grid.time(f64::from(k))).collect::<Vec<_>>()
+    };
+    assert_eq!(times(0.0, 0.3), [0.3, 0.6, 0.9, 1.2]);
+    assert_eq!(times(0.7, -0.1), [0.6, 0.5, 0.4, 0.3]);
+    assert_eq!(times(1e5, 1e-9)[2], 100_000.000_000_003);
+    // What is no short decimal is added up as it is.
+    let third = 1.0 / 3.0;
+    assert_eq!(times(0.1, third)[1], 0.1 + 2.0 * third);
+    let run = swing(1.0, 1e-9).every(0.3).until(1.0).unwrap();
+    assert_eq!(run.times(), [0.0, 0.3, 0.6, 0.9, 1.0]);
+}

@@ -1,7 +1,8 @@
 //! Numbers as text for reading.
 
 /// A number with `digits` decimals; what rounds to zero has no sign.
-pub(crate) fn fixed(value: f64, digits: usize) -> String {
+#[must_use]
+pub fn fixed(value: f64, digits: usize) -> String {
     let text = format!("{value:.digits$}");
     match text.strip_prefix('-') {
         Some(rest) if rest.bytes().all(|b| b == b'0' || b == b'.') => rest.to_owned(),
@@ -10,13 +11,14 @@ pub(crate) fn fixed(value: f64, digits: usize) -> String {
 }
 
 /// A number with at most `digits` decimals, without trailing zeros; in full if that would lose more than rounding does to a part of 10⁻⁶.
-pub(crate) fn short(value: f64, digits: usize) -> String {
+#[must_use]
+pub fn short(value: f64, digits: usize) -> String {
     let text = fixed(value, digits);
     let lost = text
         .parse::<f64>()
         .map_or(f64::INFINITY, |v| (v - value).abs());
-    if lost > 1e-6 * value.abs() {
-        return value.to_string();
+    if lost > 1e-6 * value.abs() || value.abs() >= HUGE {
+        return full(value);
     }
     if !text.contains('.') {
         return text;
@@ -24,19 +26,16 @@ pub(crate) fn short(value: f64, digits: usize) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// A number of things: `1 step`, `2 steps`.
-pub(crate) fn count(number: usize, thing: &str) -> String {
-    let plural = if number == 1 { "" } else { "s" };
-    format!("{number} {thing}{plural}")
-}
+/// From here on, and below its reciprocal, a number is written as a power of ten.
+const HUGE: f64 = 1e15;
 
-/// The widest of some names, in characters.
-pub(crate) fn width<'a>(names: impl IntoIterator<Item = &'a str>) -> usize {
-    names
-        .into_iter()
-        .map(|n| n.chars().count())
-        .max()
-        .unwrap_or(0)
+/// All digits of a number, but none that only fill it up: `0.25`, `2e200`.
+#[must_use]
+pub fn full(value: f64) -> String {
+    if value == 0.0 || (1.0 / HUGE..HUGE).contains(&value.abs()) {
+        return value.to_string();
+    }
+    format!("{value:e}")
 }
 
 #[cfg(test)]
@@ -57,20 +56,7 @@ mod tests {
         assert_eq!(short(0.0, 6), "0");
         assert_eq!(short(1.23e-9, 6), "0.00000000123");
         assert_eq!(short(100.0, 0), "100");
-        assert_eq!(short(1e20, 6), "100000000000000000000");
-    }
-
-    #[test]
-    fn one_is_not_many() {
-        assert_eq!(
-            [0, 1, 2].map(|n| count(n, "step")),
-            ["0 steps", "1 step", "2 steps"]
-        );
-    }
-
-    #[test]
-    fn widths() {
-        assert_eq!(width(["θ1", "abc"]), 3);
-        assert_eq!(width([]), 0);
+        assert_eq!(short(2e200, 6), "2e200");
+        assert_eq!(short(-1.5e-200, 6), "-1.5e-200");
     }
 }

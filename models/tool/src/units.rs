@@ -46,7 +46,7 @@ const PREFIXES: &[(char, f64)] = &[
 
 /// A value with its dimension.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Quantity {
+pub struct Quantity {
     /// In kg, m, s and rad, or as it stands if no unit was named.
     value: f64,
     /// None if no unit was named.
@@ -58,7 +58,7 @@ impl Quantity {
     ///
     /// # Errors
     /// What is wrong with `text`, with the nearest unit if one is unknown.
-    pub(crate) fn parse(text: &str) -> Result<Self, String> {
+    pub fn parse(text: &str) -> Result<Self, String> {
         let body = text.trim();
         let unsigned = body.strip_prefix(['+', '-', '−']).unwrap_or(body);
         let word = unsigned.to_lowercase();
@@ -80,7 +80,7 @@ impl Quantity {
     ///
     /// # Errors
     /// If the dimensions differ.
-    pub(crate) fn in_unit(self, declared: Option<&str>) -> Result<f64, String> {
+    pub fn in_unit(self, declared: Option<&str>) -> Result<f64, String> {
         let unit = declared.and_then(|name| Some((name, unit(name)?)));
         let (Some(own), Some((name, one))) = (self.dimension, unit) else {
             return Ok(self.value);
@@ -109,7 +109,7 @@ fn unit(text: &str) -> Option<Quantity> {
 }
 
 /// The unit a doc comment ends with: after a comma or "in", or in brackets: "mass of link 1, kg", "span (m)", "phase in rad".
-pub(crate) fn unit_in(doc: &str) -> Option<&str> {
+pub fn unit_in(doc: &str) -> Option<&str> {
     let doc = doc.trim().trim_end_matches('.');
     let inside = |open, close| Some(doc.rsplit_once(open)?.1.split_once(close)?.0);
     let after = |mark| Some(doc.rsplit_once(mark)?.1);
@@ -127,7 +127,7 @@ pub(crate) fn unit_in(doc: &str) -> Option<&str> {
 ///
 /// # Errors
 /// If there is no `=`, no name, or the value is not understood.
-pub(crate) fn assignment(text: &str) -> Result<(String, Quantity), String> {
+pub fn assignment(text: &str) -> Result<(String, Quantity), String> {
     let Some((name, value)) = text.split_once('=') else {
         return Err(format!("`{text}` is not of the form NAME=VALUE"));
     };
@@ -142,7 +142,7 @@ pub(crate) fn assignment(text: &str) -> Result<(String, Quantity), String> {
 ///
 /// # Errors
 /// If the value is not understood or not a time.
-pub(crate) fn seconds(text: &str) -> Result<f64, String> {
+pub fn seconds(text: &str) -> Result<f64, String> {
     Quantity::parse(text)?.in_unit(Some("s"))
 }
 

@@ -7,15 +7,15 @@ use std::path::Path;
 use ukcore::Error;
 
 /// Exit code of a run that failed: the motion could not be computed, or a file not be written.
-pub(crate) const FAILED: u8 = 1;
+pub const FAILED: u8 = 1;
 /// Exit code of a command line that asks for something that is not there. The argument parser uses the same one.
-pub(crate) const USAGE: u8 = 2;
+pub const USAGE: u8 = 2;
 /// Exit code of a run that was interrupted: as shells say of a program ended by the interrupt signal.
-pub(crate) const INTERRUPTED: u8 = 130;
+pub const INTERRUPTED: u8 = 130;
 
 /// Why a command ends early.
 #[derive(Debug)]
-pub(crate) enum Failure {
+pub enum Failure {
     /// The command line is wrong (exit code 2).
     Usage(String),
     /// The command is right and failed (exit code 1).
@@ -27,8 +27,8 @@ pub(crate) enum Failure {
 }
 
 impl Failure {
-    /// The exit code, as documented in `uk --help`.
-    pub(crate) fn code(&self) -> u8 {
+    /// The exit code, as documented by `--help`.
+    pub fn code(&self) -> u8 {
         match self {
             Failure::Usage(_) => USAGE,
             Failure::Failed(_) => FAILED,
@@ -38,7 +38,7 @@ impl Failure {
     }
 
     /// A failure to write standard output.
-    pub(crate) fn stdout(error: &io::Error) -> Self {
+    pub fn stdout(error: &io::Error) -> Self {
         if error.kind() == io::ErrorKind::BrokenPipe {
             Failure::ReaderGone
         } else {
@@ -47,7 +47,7 @@ impl Failure {
     }
 
     /// A failure to write a file.
-    pub(crate) fn file(path: &Path, error: &io::Error) -> Self {
+    pub fn file(path: &Path, error: &io::Error) -> Self {
         Failure::Failed(format!("cannot write {}: {error}", path.display()))
     }
 }
@@ -67,11 +67,6 @@ impl fmt::Display for Failure {
 impl From<Error> for Failure {
     fn from(error: Error) -> Self {
         match error {
-            Error::UnknownName {
-                kind: "model",
-                nearest: None,
-                ..
-            } => Failure::Usage(format!("{error}; `uk list` shows those there are")),
             Error::UnknownName { .. } | Error::InvalidSetting { .. } => {
                 Failure::Usage(error.to_string())
             }

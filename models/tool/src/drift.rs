@@ -6,18 +6,18 @@ use ukcore::Trajectory;
 
 /// The worst of all samples of a trajectory.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
-pub(crate) struct Drift {
+pub struct Drift {
     /// Largest |φ| of the holonomic constraints, in their units.
-    pub(crate) position_residual: f64,
+    pub position_residual: f64,
     /// Largest |φ̇| of the holonomic and |φ| of the nonholonomic constraints, in their units.
-    pub(crate) velocity_residual: f64,
+    pub velocity_residual: f64,
     /// Largest change of T + V since the start, as a part of the energy exchanged; none where energy is not conserved.
-    pub(crate) energy_drift: Option<f64>,
+    pub energy_drift: Option<f64>,
 }
 
 impl Drift {
     /// The drift of `trajectory`.
-    pub(crate) fn of<M: Model>(trajectory: &Trajectory<M>) -> Self {
+    pub fn of<M: Model>(trajectory: &Trajectory<M>) -> Self {
         let (mut position_residual, mut velocity_residual) = (0.0_f64, 0.0_f64);
         for residual in trajectory.residuals() {
             position_residual = position_residual.max(residual.position);

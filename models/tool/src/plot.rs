@@ -15,7 +15,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use crate::failure::Failure;
 
 /// Okabe and Ito's palette, told apart with every common colour vision; the order puts strong contrasts first.
-pub(crate) const COLOURS: [RGBColor; 6] = [
+pub const COLOURS: [RGBColor; 6] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -24,7 +24,7 @@ pub(crate) const COLOURS: [RGBColor; 6] = [
     RGBColor(86, 180, 233),
 ];
 /// Reference curves: free fall, zero, g.
-pub(crate) const GREY: RGBColor = RGBColor(120, 120, 120);
+pub const GREY: RGBColor = RGBColor(120, 120, 120);
 
 const FONT: &str = "Helvetica, Arial, sans-serif";
 const LABEL_SIZE: u32 = 15;
@@ -36,26 +36,26 @@ const FRAME: RGBColor = RGBColor(90, 90, 90);
 
 /// A curve.
 #[derive(Debug, Clone)]
-pub(crate) struct Series {
+pub struct Series {
     /// Entry of the legend; none if empty.
-    pub(crate) label: String,
+    pub label: String,
     /// The points, in order.
-    pub(crate) points: Vec<(f64, f64)>,
+    pub points: Vec<(f64, f64)>,
     /// Colour.
-    pub(crate) colour: RGBColor,
+    pub colour: RGBColor,
     /// Width in pixels.
-    pub(crate) width: u32,
+    pub width: u32,
     /// Dashed.
-    pub(crate) dashed: bool,
+    pub dashed: bool,
     /// Radius of a dot at each point; 0 for none.
-    pub(crate) dots: u32,
+    pub dots: u32,
     /// Points with a ring instead of a dot.
-    pub(crate) rings: Vec<(f64, f64)>,
+    pub rings: Vec<(f64, f64)>,
 }
 
 impl Series {
     /// A plain curve in the colour number `index` of [`COLOURS`].
-    pub(crate) fn new(label: impl Into<String>, index: usize, points: Vec<(f64, f64)>) -> Self {
+    pub fn new(label: impl Into<String>, index: usize, points: Vec<(f64, f64)>) -> Self {
         Series {
             label: label.into(),
             points,
@@ -68,7 +68,7 @@ impl Series {
     }
 
     /// A dashed grey curve to compare with.
-    pub(crate) fn reference(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
+    pub fn reference(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
         Series {
             colour: GREY,
             width: 1,
@@ -80,7 +80,7 @@ impl Series {
 
 /// Where the legend stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Legend {
+pub enum Legend {
     None,
     UpperLeft,
     /// Above the frame, in two columns.
@@ -93,7 +93,7 @@ pub(crate) enum Legend {
 
 /// What the axes are divided by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Scale {
+pub enum Scale {
     /// Equal distances are equal differences.
     Linear,
     /// Equal distances are equal ratios, on both axes; ticks at whole powers of ten. All numbers are positive.
@@ -102,23 +102,23 @@ pub(crate) enum Scale {
 
 /// A chart.
 #[derive(Debug, Clone)]
-pub(crate) struct Chart {
+pub struct Chart {
     /// Label of the horizontal axis, with its unit.
-    pub(crate) x_label: String,
+    pub x_label: String,
     /// Label of the vertical axis, with its unit.
-    pub(crate) y_label: String,
+    pub y_label: String,
     /// Horizontal range, from left to right.
-    pub(crate) x: (f64, f64),
+    pub x: (f64, f64),
     /// Vertical range, from bottom to top; a larger first value makes the axis point down.
-    pub(crate) y: (f64, f64),
+    pub y: (f64, f64),
     /// The curves; later ones lie on top.
-    pub(crate) series: Vec<Series>,
+    pub series: Vec<Series>,
     /// Division of both axes.
-    pub(crate) scale: Scale,
+    pub scale: Scale,
     /// Place of the legend.
-    pub(crate) legend: Legend,
+    pub legend: Legend,
     /// Width and height in pixels.
-    pub(crate) size: (u32, u32),
+    pub size: (u32, u32),
 }
 
 impl Chart {
@@ -126,7 +126,7 @@ impl Chart {
     ///
     /// # Errors
     /// [`Failure::Failed`] if the drawing library fails.
-    pub(crate) fn svg(&self) -> Result<String, Failure> {
+    pub fn svg(&self) -> Result<String, Failure> {
         let mut text = String::new();
         {
             let area = SVGBackend::with_string(&mut text, self.size).into_drawing_area();
@@ -352,7 +352,7 @@ fn power(exponent: f64) -> String {
 }
 
 /// The smallest range of whole decades that holds all of `values` that are positive.
-pub(crate) fn decade_range(values: impl Iterator<Item = f64>) -> (f64, f64) {
+pub fn decade_range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let (low, high) = values
         .filter(|v| *v > 0.0 && v.is_finite())
         .map(f64::log10)
@@ -380,7 +380,7 @@ fn scalable(svg: &str, (width, height): (u32, u32)) -> String {
 }
 
 /// The smallest range of round numbers (1, 2 or 5 times a power of ten) that holds all of `values`.
-pub(crate) fn round_range(values: impl Iterator<Item = f64>) -> (f64, f64) {
+pub fn round_range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let (low, high) = values
         .filter(|v| v.is_finite())
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {

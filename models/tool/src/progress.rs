@@ -13,14 +13,14 @@ const RESOLUTION: f64 = 1000.0;
 
 /// A progress bar that appears after a second; clones share it. Nothing is drawn where standard error is no terminal.
 #[derive(Debug, Clone)]
-pub(crate) struct Progress {
+pub struct Progress {
     bar: ProgressBar,
     started: Instant,
 }
 
 impl Progress {
     /// A bar for `what`.
-    pub(crate) fn new(what: &str) -> Self {
+    pub fn new(what: &str) -> Self {
         let bar =
             ProgressBar::with_draw_target(Some(RESOLUTION as u64), ProgressDrawTarget::hidden());
         bar.set_style(
@@ -36,7 +36,7 @@ impl Progress {
     }
 
     /// The part done, 0 to 1, and what is being done.
-    pub(crate) fn set(&self, fraction: f64, message: impl FnOnce() -> String) {
+    pub fn set(&self, fraction: f64, message: impl FnOnce() -> String) {
         if self.started.elapsed() < PATIENCE {
             return;
         }
@@ -50,7 +50,7 @@ impl Progress {
     }
 
     /// Removes the bar.
-    pub(crate) fn finish(&self) {
+    pub fn finish(&self) {
         self.bar.finish_and_clear();
     }
 }
