@@ -1,6 +1,18 @@
 //! Line charts as SVG text.
 //!
 //! The text of an SVG is set by whoever shows it, so no font is needed here; the drawing library's estimate of text widths is enough.
+//!
+//! ```
+//! use uktool::plot::{Chart, Series, round_range};
+//!
+//! let fall: Vec<(f64, f64)> = (0..=20).map(|k| 0.1 * f64::from(k)).map(|t| (t, 4.9 * t * t)).collect();
+//! let chart = Chart {
+//!     y: round_range(fall.iter().map(|p| p.1)),
+//!     ..Chart::new("time (s)", "fall (m)", (0.0, 2.0), vec![Series::new("free fall", 0, fall)])
+//! };
+//! assert!(chart.svg()?.starts_with("<svg "));
+//! # Ok::<(), uktool::failure::Failure>(())
+//! ```
 
 use std::ops::Range;
 
@@ -11,6 +23,8 @@ use plotters::coord::ranged1d::{
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+pub use plotters::style::RGBColor;
 
 use crate::failure::Failure;
 
@@ -26,7 +40,7 @@ pub const COLOURS: [RGBColor; 6] = [
 /// Reference curves: free fall, zero, g.
 pub const GREY: RGBColor = RGBColor(120, 120, 120);
 
-const FONT: &str = "Helvetica, Arial, sans-serif";
+pub(crate) const FONT: &str = "Helvetica, Arial, sans-serif";
 const LABEL_SIZE: u32 = 15;
 const TICK_SIZE: u32 = 13;
 /// Height of a row of a legend above the frame.
@@ -81,13 +95,19 @@ impl Series {
 /// Where the legend stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Legend {
+    /// Nowhere.
     None,
-    UpperLeft,
     /// Above the frame, in two columns.
     Above,
+    /// Within the frame, like those that follow.
+    UpperLeft,
+    /// At the middle of the upper edge.
     UpperMiddle,
+    /// At the middle of the lower edge.
     LowerMiddle,
+    /// In the lower left corner.
     LowerLeft,
+    /// In the lower right corner.
     LowerRight,
 }
 
@@ -122,19 +142,31 @@ pub struct Chart {
 }
 
 impl Chart {
+    /// A chart with linear axes, the vertical one round about the curves, half a page wide, and a legend in the lower right corner.
+    pub fn new(
+        x_label: impl Into<String>,
+        y_label: impl Into<String>,
+        x: (f64, f64),
+        series: Vec<Series>,
+    ) -> Self {
+        Chart {
+            x_label: x_label.into(),
+            y_label: y_label.into(),
+            x,
+            y: round_range(series.iter().flat_map(|s| s.points.iter().map(|p| p.1))),
+            series,
+            scale: Scale::Linear,
+            legend: Legend::LowerRight,
+            size: (560, 360),
+        }
+    }
+
     /// The chart as the text of an SVG file.
     ///
     /// # Errors
     /// [`Failure::Failed`] if the drawing library fails.
     pub fn svg(&self) -> Result<String, Failure> {
-        let mut text = String::new();
-        {
-            let area = SVGBackend::with_string(&mut text, self.size).into_drawing_area();
-            self.draw(&area)
-                .and_then(|()| area.present())
-                .map_err(|e| Failure::Failed(format!("cannot draw a figure: {e}")))?;
-        }
-        Ok(scalable(&text, self.size))
+        svg(self.size, |area| self.draw(area))
     }
 
     fn draw<'a>(&self, area: &DrawingArea<SVGBackend<'a>, Shift>) -> Result<(), DrawError<'a>> {
@@ -244,7 +276,27 @@ impl Chart {
     }
 }
 
-type DrawError<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
+pub(crate) type DrawError<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
+
+/// What `draw` draws on an area of this size, as the text of an SVG file with a view box, so that a page can scale it. (The drawing library sets one only
+/// in some versions.)
+pub(crate) fn svg(
+    size: (u32, u32),
+    draw: impl for<'a> FnOnce(&DrawingArea<SVGBackend<'a>, Shift>) -> Result<(), DrawError<'a>>,
+) -> Result<String, Failure> {
+    let mut text = String::new();
+    {
+        let area = SVGBackend::with_string(&mut text, size).into_drawing_area();
+        draw(&area)
+            .and_then(|()| area.present())
+            .map_err(|e| Failure::Failed(format!("cannot draw a figure: {e}")))?;
+    }
+    if text.contains("viewBox") {
+        return Ok(text);
+    }
+    let scalable = format!("<svg viewBox=\"0 0 {} {}\" ", size.0, size.1);
+    Ok(text.replacen("<svg ", &scalable, 1))
+}
 
 fn draw_series<'a, X: Ranged<ValueType = f64>, Y: Ranged<ValueType = f64>>(
     chart: &mut ChartContext<'a, SVGBackend<'a>, Cartesian2d<X, Y>>,
@@ -365,18 +417,6 @@ pub fn decade_range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let (low, high) = (low.floor(), high.ceil());
     let high = if high > low { high } else { low + 1.0 };
     (10_f64.powf(low), 10_f64.powf(high))
-}
-
-/// Gives the SVG a view box (the drawing library sets one only in some versions), so that a page can scale it.
-fn scalable(svg: &str, (width, height): (u32, u32)) -> String {
-    if svg.contains("viewBox") {
-        return svg.to_owned();
-    }
-    svg.replacen(
-        "<svg ",
-        &format!("<svg viewBox=\"0 0 {width} {height}\" "),
-        1,
-    )
 }
 
 /// The smallest range of round numbers (1, 2 or 5 times a power of ten) that holds all of `values`.

@@ -67,6 +67,11 @@ impl Start {
         self.settings.is_empty() && self.start.is_none() && !self.guesses()
     }
 
+    /// Whether a start has to be assembled from zeros alone.
+    pub(crate) fn is_unguessed(&self, entry: &Entry) -> bool {
+        entry.starts.is_empty() && !self.guesses()
+    }
+
     fn guesses(&self) -> bool {
         !self.guesses.is_empty() || !self.hold.is_empty()
     }

@@ -1,7 +1,7 @@
 //! The pictures of a motion: error against time, and against evaluations.
 
 use crate::failure::Failure;
-use crate::plot::{COLOURS, Chart, GREY, Legend, Scale, Series, decade_range};
+use crate::plot::{Chart, GREY, Legend, RGBColor, Scale, Series, decade_range};
 
 use super::study::{Curve, Figures, Study};
 use super::variants::{Variant, named};
@@ -96,14 +96,11 @@ fn chart(study: &Study, shown: &[&str], x_label: &str, across: fn(&Figures) -> f
         },
     );
     Chart {
-        x_label: x_label.to_owned(),
-        y_label: "error at the end, scaled".to_owned(),
-        x,
         y,
-        series,
         scale: Scale::Decades,
         legend: Legend::Above,
         size: SIZE,
+        ..Chart::new(x_label, "error at the end, scaled", x, series)
     }
 }
 
@@ -111,7 +108,7 @@ fn chart(study: &Study, shown: &[&str], x_label: &str, across: fn(&Figures) -> f
 const USELESS: f64 = 10.0;
 
 /// Curves in the background.
-const LIGHT: plotters::style::RGBColor = plotters::style::RGBColor(190, 190, 190);
+const LIGHT: RGBColor = RGBColor(190, 190, 190);
 
 fn line(
     study: &Study,
@@ -120,17 +117,13 @@ fn line(
     index: usize,
     place: &dyn Fn(&Figures) -> (f64, f64),
 ) -> Series {
-    let figures = || {
-        curve
-            .figures()
-            .map(|(_, f)| f)
-            .filter(|f| f.error <= USELESS)
-    };
+    let useful = |f: &&Figures| f.error <= USELESS;
+    let figures = || curve.figures().map(|(_, f)| f).filter(useful);
     let at_the_floor = |f: &&Figures| f.error <= study.reference.floor;
     let points = figures().map(place).collect();
     let rings = figures().filter(at_the_floor).map(place).collect();
     Series {
         rings,
-        ..Series::new(label, index % COLOURS.len(), points)
+        ..Series::new(label, index, points)
     }
 }

@@ -1,7 +1,5 @@
 //! report.json and report.csv.
 
-use std::io::{self, Write};
-
 use serde::{Deserialize, Serialize};
 
 use super::study::Study;
@@ -11,7 +9,7 @@ use super::study::Study;
 pub(super) struct Report {
     /// What the numbers are.
     pub(super) about: String,
-    /// The program that measured: only its own numbers are taken over into a later report.
+    /// The program that measured, and what it was asked for: only its own numbers are taken over into a later report.
     pub(super) program: String,
     /// Few settings, one timing of each.
     pub(super) quick: bool,
@@ -28,73 +26,80 @@ pub(super) struct Report {
 }
 
 /// What the numbers are, in report.json.
-pub(super) const ABOUT: &str = "Error against run time. SI units. error: largest difference from the reference at the end, each coordinate and velocity divided by the \
-     largest value of its kind along the motion; error_along: the same over all times of the reference; error_in_units: not divided; off: distance \
-     of the end from the nearest state on the constraints, within: distance of that state from the reference, both scaled; residuals and energy \
-     drift: largest over all steps; knob: tolerance of the integration; seconds: median of the repeats, quartiles beside it.";
+pub(super) const ABOUT: &str = "Error against run time. SI units. error: largest difference from the reference at the end, each coordinate and \
+     velocity divided by the largest value of its kind along the motion; error_along: the same over all times of the reference; error_in_units: not \
+     divided; off: distance of the end from the nearest state on the constraints, within: distance of that state from the reference, both scaled; \
+     residuals and energy drift: largest over all steps; knob: tolerance of the integration; seconds: median of the repeats, quartiles beside it.";
 
-/// The table, one row a run.
-///
-/// # Errors
-/// Those of `out`.
-pub(super) fn csv(report: &Report, out: &mut dyn Write) -> io::Result<()> {
-    writeln!(
-        out,
-        "motion,model,end,combination,knob,seconds,lower_quartile,upper_quartile,repeats,evaluations,jacobians,factorisations,steps,rejected,projections,fallbacks,\
-         error,error_in_units,error_along,reference_error,off,within,position_residual,velocity_residual,energy_drift,failure"
-    )?;
-    for study in &report.studies {
-        for curve in &study.curves {
-            for point in &curve.points {
-                write!(
-                    out,
-                    "{},{},{},{},{:e}",
-                    study.name, study.model, study.end, curve.variant, point.knob
-                )?;
-                let Some(f) = &point.figures else {
-                    let failure = point.failure.as_deref().unwrap_or_default();
-                    writeln!(out, "{}{}", ",".repeat(21), quoted(failure))?;
-                    continue;
-                };
-                let (low, high) = f.quartiles;
-                write!(
-                    out,
-                    ",{:e},{low:e},{high:e},{},{},{},{},{},{},{},{}",
-                    f.seconds,
-                    f.repeats,
-                    f.evaluations,
-                    f.jacobians,
-                    f.factorisations,
-                    f.steps,
-                    f.rejected,
-                    f.projections,
-                    f.fallbacks
-                )?;
-                write!(
-                    out,
-                    ",{:e},{:e},{:e},{:e},{},{}",
-                    f.error,
-                    f.error_in_units,
-                    f.error_along,
-                    study.reference.floor,
-                    number(f.off),
-                    number(f.within)
-                )?;
-                let (position, velocity) = (f.drift.position_residual, f.drift.velocity_residual);
-                let energy = number(f.drift.energy_drift);
-                writeln!(out, ",{position:e},{velocity:e},{energy},")?;
-            }
+/// A row of report.csv.
+#[derive(Debug, Default, Serialize)]
+pub(super) struct Line<'a> {
+    motion: &'a str,
+    model: &'a str,
+    end: f64,
+    combination: &'a str,
+    knob: f64,
+    seconds: Option<f64>,
+    lower_quartile: Option<f64>,
+    upper_quartile: Option<f64>,
+    repeats: Option<usize>,
+    evaluations: Option<usize>,
+    jacobians: Option<usize>,
+    factorisations: Option<usize>,
+    steps: Option<usize>,
+    rejected: Option<usize>,
+    projections: Option<usize>,
+    fallbacks: Option<usize>,
+    error: Option<f64>,
+    error_in_units: Option<f64>,
+    error_along: Option<f64>,
+    reference_error: Option<f64>,
+    off: Option<f64>,
+    within: Option<f64>,
+    position_residual: Option<f64>,
+    velocity_residual: Option<f64>,
+    energy_drift: Option<f64>,
+    failure: &'a str,
+}
+
+/// The rows of a motion, one a run.
+pub(super) fn lines(study: &Study) -> impl Iterator<Item = Line<'_>> {
+    let points = study.curves.iter().flat_map(|c| c.points.iter().map(move |p| (c, p)));
+    points.map(|(curve, point)| {
+        let line = Line {
+            motion: &study.name,
+            model: &study.model,
+            end: study.end,
+            combination: &curve.variant,
+            knob: point.knob,
+            failure: point.failure.as_deref().unwrap_or_default(),
+            ..Line::default()
+        };
+        let Some(f) = &point.figures else {
+            return line;
+        };
+        Line {
+            seconds: Some(f.seconds),
+            lower_quartile: Some(f.quartiles.0),
+            upper_quartile: Some(f.quartiles.1),
+            repeats: Some(f.repeats),
+            evaluations: Some(f.evaluations),
+            jacobians: Some(f.jacobians),
+            factorisations: Some(f.factorisations),
+            steps: Some(f.steps),
+            rejected: Some(f.rejected),
+            projections: Some(f.projections),
+            fallbacks: Some(f.fallbacks),
+            error: Some(f.error),
+            error_in_units: Some(f.error_in_units),
+            error_along: Some(f.error_along),
+            reference_error: Some(study.reference.floor),
+            off: f.off,
+            within: f.within,
+            position_residual: Some(f.drift.position_residual),
+            velocity_residual: Some(f.drift.velocity_residual),
+            energy_drift: f.drift.energy_drift,
+            ..line
         }
-    }
-    Ok(())
-}
-
-/// A number, or an empty field.
-fn number(value: Option<f64>) -> String {
-    value.map_or_else(String::new, |v| format!("{v:e}"))
-}
-
-/// A field that may contain commas and quotes.
-fn quoted(text: &str) -> String {
-    format!("\"{}\"", text.replace('"', "\"\"").replace('\n', " "))
+    })
 }

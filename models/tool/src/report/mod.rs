@@ -1,4 +1,4 @@
-//! `uk report`: error against run time, of each method, formula and stabilisation, on any model.
+//! The command `report`: error against run time, of each method, formula and stabilisation, on any model.
 
 mod argument;
 mod charts;
@@ -12,36 +12,57 @@ mod variants;
 mod verdict;
 
 use std::fs;
-use std::io;
-use std::path::Path;
+use std::io::Write;
+use std::path::{Path, PathBuf};
 use std::time::{Instant, UNIX_EPOCH};
 
-use models::{Model, Reference, Visitor};
+use clap::Args;
+use ukcore::model::{Entry, Reference};
 
-use crate::args::ReportArgs;
+use crate::command::{self, find};
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::numbers;
-use crate::output;
+use crate::output::{self, Directory};
 use crate::progress::Progress;
+use crate::scene::Start;
+use crate::units::{self, Quantity};
 
 use export::Report;
-use measure::Extent;
 use study::Study;
+
+/// The arguments of `report`.
+#[derive(Debug, Args)]
+pub struct ReportArgs {
+    /// Models to measure (see `list`); all of them if none is named
+    #[arg(value_name = "MODEL")]
+    pub models: Vec<String>,
+    /// Directory to write index.html, report.json, report.csv and figures to. What an interrupted report has left there is taken over
+    #[arg(long, value_name = "DIR", default_value = "out/report", value_parser = command::path)]
+    pub out: PathBuf,
+    /// A quick look: few tolerances, each timed once
+    #[arg(long)]
+    pub quick: bool,
+    /// Time to stop at, of one model; its own duration if absent
+    #[arg(long, value_name = "TIME", value_parser = units::seconds)]
+    pub until: Option<f64>,
+    /// The parameters and the start of one model
+    #[command(flatten)]
+    pub start: Start,
+}
 
 /// Measures the models that are asked for and writes the report to `args.out`.
 ///
 /// # Errors
 /// [`Failure::Usage`] for an unknown model; [`Failure::Failed`] if a file cannot be written or a model not be measured, and
 /// [`Failure::Interrupted`]: what was measured up to there is written all the same.
-pub(crate) fn report(args: &ReportArgs) -> Result<(), Failure> {
-    let jobs = jobs(&args.models)?;
-    output::create_directory(&args.out)?;
-    output::check_writable(&args.out.join("index.html"))?;
+pub fn report(models: &[Entry], args: &ReportArgs) -> Result<(), Failure> {
+    let jobs = jobs(models, args)?;
+    let directory = Directory::create(&args.out)?;
     let interrupt = Interrupt::catch()?;
-    let mut report = left_over(&args.out, args.quick).unwrap_or_else(|| Report {
+    let mut report = left_over(&directory, args).unwrap_or_else(|| Report {
         about: export::ABOUT.to_owned(),
-        program: program(),
+        program: program(args),
         quick: args.quick,
         complete: false,
         clock: clock::KIND.to_owned(),
@@ -64,26 +85,21 @@ pub(crate) fn report(args: &ReportArgs) -> Result<(), Failure> {
         let done = |part: f64| {
             progress.set((k as f64 + part) / jobs.len() as f64, || job.name.clone());
         };
-        match job.study(args.quick, &interrupt, &done) {
+        match job.study(args.quick, interrupt, &done) {
             Ok(study) => report.studies.push(study),
-            Err(failure) => report
-                .failures
-                .push((job.name.clone(), failure.to_string())),
+            Err(failure) => report.failures.push((job.name.clone(), failure.to_string())),
         }
     }
     progress.finish();
     report.seconds += started.elapsed().as_secs_f64();
     report.complete = !interrupt.is_set();
-    write_all(&args.out, &report)?;
+    write_all(&directory, &report)?;
     if !report.complete {
-        let (done, all) = (
-            report.studies.iter().filter(|s| s.whole).count(),
-            jobs.len(),
-        );
+        let done = report.studies.iter().filter(|s| s.whole).count();
         return Err(Failure::Interrupted(format!(
             "interrupted; {done} of {} are in {}, and the same command takes them over",
-            numbers::count(all, "motion"),
-            args.out.join("index.html").display()
+            numbers::count(jobs.len(), "motion"),
+            directory.file("index.html").display()
         )));
     }
     tell(&args.out, &report)?;
@@ -93,183 +109,147 @@ pub(crate) fn report(args: &ReportArgs) -> Result<(), Failure> {
     }
 }
 
-/// Parameters with which a model is measured, too, beside those it has by default: where they make another problem of it.
-const VARIATIONS: &[(&str, &[(&str, f64)])] = &[("spring_pendulum", &[("k", 1e8)])];
-
 /// A motion to measure.
-struct Job {
+struct Job<'a> {
     name: String,
-    /// Parameters other than by default.
-    settings: &'static [(&'static str, f64)],
-    model: &'static str,
+    entry: &'a Entry,
+    start: Start,
+    end: f64,
     reference: Option<Reference>,
 }
 
-/// The motions of the models called `names`, or of all.
+/// The motions of the models that are asked for.
 ///
 /// # Errors
-/// [`Failure::Usage`] for an unknown name.
-fn jobs(names: &[String]) -> Result<Vec<Job>, Failure> {
-    let mut jobs = Vec::new();
-    if names.is_empty() {
-        for id in models::ids() {
-            jobs.extend(models::visit(id, Motions)?);
+/// [`Failure::Usage`] for an unknown name, or where a start is given and not the one model that it is for.
+fn jobs<'a>(models: &'a [Entry], args: &ReportArgs) -> Result<Vec<Job<'a>>, Failure> {
+    let mut entries: Vec<&Entry> = Vec::new();
+    for name in &args.models {
+        let entry = find(models, name)?;
+        if entries.iter().all(|e| e.id != entry.id) {
+            entries.push(entry);
         }
     }
-    for name in names {
-        let motions = models::visit(name, Motions)?;
-        let new = |job: &Job| jobs.iter().all(|j: &Job| j.name != job.name);
-        let motions: Vec<Job> = motions.into_iter().filter(new).collect();
-        jobs.extend(motions);
+    if args.models.is_empty() {
+        entries.extend(models);
     }
-    Ok(jobs)
+    if args.start.is_default() && args.until.is_none() {
+        return Ok(entries.into_iter().flat_map(motions).collect());
+    }
+    let [entry] = entries[..] else {
+        let message = "`--set`, `--start`, `--guess`, `--hold` and `--until` are of one model; name it";
+        return Err(Failure::Usage(message.to_owned()));
+    };
+    // What is wrong with them is told before anything is written.
+    args.start.ready(entry)?;
+    Ok(vec![Job {
+        name: entry.id.clone(),
+        entry,
+        start: args.start.clone(),
+        end: args.until.unwrap_or(entry.duration),
+        reference: None,
+    }])
 }
 
-/// Lists the motions of a model: one for each end that a reference has, and its variations.
-struct Motions;
-
-impl Visitor for Motions {
-    type Output = Vec<Job>;
-
-    fn visit<M: Model>(self) -> Vec<Job> {
-        let references = M::references();
-        let several = references.len() > 1;
-        let job = |name, reference| Job {
-            name,
-            settings: &[],
-            model: M::ID,
-            reference,
-        };
-        let mut jobs: Vec<Job> = references
-            .into_iter()
-            .map(|reference| {
-                let end = reference.states.last().map_or(0.0, |s| s.t);
-                let name = if several {
-                    format!("{} to {end} s", M::ID)
-                } else {
-                    M::ID.to_owned()
-                };
-                job(name, Some(reference))
-            })
-            .collect();
-        if jobs.is_empty() {
-            jobs.push(job(M::ID.to_owned(), None));
-        }
-        for (_, settings) in VARIATIONS.iter().filter(|(id, _)| *id == M::ID) {
-            let words = settings
-                .iter()
-                .map(|(name, value)| format!("{name} {value:e}"));
-            let name = format!("{} with {}", M::ID, words.collect::<Vec<_>>().join(", "));
-            jobs.push(Job {
-                settings,
-                ..job(name, None)
-            });
-        }
-        jobs
+/// The motions of a model: one for each end that a reference has, and its variations.
+fn motions(entry: &Entry) -> Vec<Job<'_>> {
+    let references = entry.references();
+    let several = references.len() > 1;
+    let job = |name, reference| Job {
+        name,
+        entry,
+        start: Start::default(),
+        end: entry.duration,
+        reference,
+    };
+    let mut jobs: Vec<Job<'_>> = Vec::new();
+    for reference in references {
+        let end = reference.states.last().map_or(0.0, |s| s.t);
+        let name = if several { format!("{} to {end} s", entry.id) } else { entry.id.clone() };
+        jobs.push(job(name, Some(reference)));
     }
+    if jobs.is_empty() {
+        jobs.push(job(entry.id.clone(), None));
+    }
+    for variation in entry.variations {
+        let words = variation.iter().map(|(name, value)| format!("{name} {value:e}"));
+        let words = words.collect::<Vec<_>>().join(", ");
+        let settings = variation.iter();
+        let settings = settings.map(|(name, value)| ((*name).to_owned(), Quantity::from(*value)));
+        jobs.push(Job {
+            start: Start {
+                settings: settings.collect(),
+                ..Start::default()
+            },
+            ..job(format!("{} with {words}", entry.id), None)
+        });
+    }
+    jobs
 }
 
-impl Job {
+impl Job<'_> {
     /// Measures it.
     fn study(
         &self,
         quick: bool,
-        interrupt: &Interrupt,
+        interrupt: Interrupt,
         done: &dyn Fn(f64),
     ) -> Result<Study, Failure> {
-        struct Measure<'a> {
-            job: &'a Job,
-            quick: bool,
-            interrupt: &'a Interrupt,
-            done: &'a dyn Fn(f64),
-        }
-        impl Visitor for Measure<'_> {
-            type Output = Result<Study, Failure>;
-            fn visit<M: Model>(self) -> Self::Output {
-                let Measure {
-                    job,
-                    quick,
-                    interrupt,
-                    done,
-                } = self;
-                let mut mechanism = M::default();
-                for (name, value) in job.settings {
-                    mechanism.set(name, *value)?;
-                }
-                let reference = job.reference.as_ref();
-                let extent = Extent { quick };
-                measure::study(&job.name, mechanism, reference, extent, interrupt, done)
-            }
-        }
-        models::visit(
-            self.model,
-            Measure {
-                job: self,
-                quick,
-                interrupt,
-                done,
-            },
-        )?
+        let ready = self.start.ready(self.entry)?;
+        let reference = self.reference.as_ref();
+        measure::study(&self.name, &ready, self.end, reference, quick, interrupt, done)
     }
 }
 
-/// What tells this program from another build of it: size and age of its file.
-fn program() -> String {
+/// What tells this program and its order from another: size and age of its file, and what was asked for.
+fn program(args: &ReportArgs) -> String {
     let file = std::env::current_exe().and_then(fs::metadata);
     let identity = file.and_then(|file| {
         let age = file.modified()?.duration_since(UNIX_EPOCH);
         Ok((file.len(), age.map_or(0, |age| age.as_nanos())))
     });
     let (size, age) = identity.unwrap_or((0, 0));
-    format!("{} {size} {age}", env!("CARGO_PKG_VERSION"))
+    let mut program = format!("{} {size} {age}", env!("CARGO_PKG_VERSION"));
+    if !args.start.is_default() || args.until.is_some() {
+        program += &format!(" {:?} {:?}", args.start, args.until);
+    }
+    program
 }
 
-/// The report in `out`, if it was interrupted and this very program has measured it in the same way.
-fn left_over(out: &Path, quick: bool) -> Option<Report> {
-    let text = fs::read_to_string(out.join("report.json")).ok()?;
+/// The report in the directory, if it was interrupted and this very program has measured it in the same way.
+fn left_over(directory: &Directory, args: &ReportArgs) -> Option<Report> {
+    let text = fs::read_to_string(directory.file("report.json")).ok()?;
     let report: Report = serde_json::from_str(&text).ok()?;
-    (!report.complete && report.quick == quick && report.program == program()).then_some(report)
+    let same = report.quick == args.quick && report.program == program(args);
+    (!report.complete && same).then_some(report)
 }
 
-fn write_all(out: &Path, report: &Report) -> Result<(), Failure> {
-    let figures = out.join("figures");
-    output::create_directory(&figures)?;
+fn write_all(directory: &Directory, report: &Report) -> Result<(), Failure> {
     for study in &report.studies {
         for (name, svg) in charts::of(study)? {
-            let path = figures.join(format!("{name}.svg"));
-            output::write_whole(&path, |w| w.write_all(svg.as_bytes()))?;
+            directory.write(&format!("figures/{name}.svg"), svg)?;
         }
     }
-    output::write_whole(&out.join("report.json"), |w| {
-        serde_json::to_writer_pretty(&mut *w, report).map_err(io::Error::from)?;
-        writeln!(w)
-    })?;
-    output::write_whole(&out.join("report.csv"), |w| export::csv(report, w))?;
-    let html = page::html(report);
-    output::write_whole(&out.join("index.html"), |w| w.write_all(html.as_bytes()))
+    directory.json("report.json", report)?;
+    directory.csv("report.csv", report.studies.iter().flat_map(export::lines))?;
+    directory.write("index.html", page::html(report))
 }
 
 /// What a person at the terminal wants to know at once.
 fn tell(out: &Path, report: &Report) -> Result<(), Failure> {
     let wide = numbers::width(report.studies.iter().map(|s| s.name.as_str()));
+    let goals = verdict::looked_at(report.quick, &report.studies);
     output::to_stdout(|w| {
-        writeln!(
-            w,
-            "What to take for which scaled error at the end, with the constraints kept"
-        )?;
+        writeln!(w, "What to take for which scaled error at the end, with the constraints kept")?;
         for study in &report.studies {
-            for (k, goal) in verdict::GOALS.into_iter().enumerate() {
+            for (k, &goal) in goals.iter().enumerate() {
                 let name = if k == 0 { study.name.as_str() } else { "" };
-                match verdict::choice(study, goal, verdict::Among::Kept) {
-                    Some(choice) => writeln!(
-                        w,
-                        "  {name:<wide$}  {goal:.0e}  {:>9}  {} at {:.0e}",
-                        page::duration(choice.cost.seconds),
-                        choice.variant.label,
-                        choice.cost.knob
-                    )?,
-                    None => writeln!(w, "  {name:<wide$}  {goal:.0e}          –")?,
-                }
+                let choice = verdict::choice(study, goal, verdict::Among::Kept);
+                let words = choice.map_or("        –".to_owned(), |choice| {
+                    let (time, knob) = (numbers::duration(choice.cost.seconds), choice.cost.knob);
+                    format!("{time:>9}  {} at {knob:.0e}", choice.variant.label)
+                });
+                writeln!(w, "  {name:<wide$}  {goal:.0e}  {words}")?;
             }
         }
         writeln!(

@@ -154,11 +154,8 @@ impl Study {
 impl Curve {
     /// The runs that succeeded, with their setting.
     pub(super) fn figures(&self) -> impl Iterator<Item = (f64, &Figures)> {
-        let known = |p: &Point| p.figures.is_some();
-        self.points
-            .iter()
-            .filter(move |p| known(p))
-            .filter_map(|p| p.figures.as_ref().map(|f| (p.knob, f)))
+        let points = self.points.iter();
+        points.filter_map(|p| p.figures.as_ref().map(|f| (p.knob, f)))
     }
 
     /// The run with this setting, if it succeeded.

@@ -1,5 +1,7 @@
 //! What follows from the figures: which combination to take for which accuracy, and what it costs.
 
+use crate::numbers::median;
+
 use super::study::{Curve, LongRun, Study};
 use super::variants::{VARIANTS, Variant};
 
@@ -109,6 +111,13 @@ pub(super) struct Tally {
     pub(super) cases: usize,
 }
 
+/// The accuracies to speak of: a quick look has run no tolerance for those that nothing reached.
+pub(super) fn looked_at(quick: bool, studies: &[Study]) -> Vec<f64> {
+    let reached = |goal: f64| studies.iter().any(|s| choice(s, goal, Among::All).is_some());
+    let goals = GOALS.into_iter();
+    goals.filter(|goal| !quick || reached(*goal)).collect()
+}
+
 /// How often each combination is the one to take.
 pub(super) fn tally(studies: &[Study]) -> Vec<Tally> {
     let count = |variant: &'static Variant| {
@@ -208,12 +217,6 @@ pub(super) fn break_even(run: &LongRun, beside: &LongRun) -> Option<f64> {
 
 /// A drift that grows by no more than this from the first tenth of a run to its end has no trend: the extremes of a bounded motion are found late.
 const TREND: f64 = 3.0;
-
-/// The middle one of some numbers.
-pub(super) fn median(mut values: Vec<f64>) -> Option<f64> {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied()
-}
 
 /// What one combination costs beside another.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,16 +3,20 @@
 use std::time::Instant;
 
 use serde::Serialize;
-use ukcore::{Error, Mechanism, Simulation, Trajectory};
+use ukcore::{Error, Simulation, Trajectory};
 
 use crate::interrupt::Interrupt;
+use crate::numbers;
 
 /// What was computed for one value.
 #[derive(Debug, Clone, Copy, Default, Serialize)]
-pub(super) struct Effort {
-    pub(super) steps: usize,
-    pub(super) evaluations: usize,
-    pub(super) fallbacks: usize,
+pub struct Effort {
+    /// Steps, accepted or not.
+    pub steps: usize,
+    /// Evaluations of the accelerations.
+    pub evaluations: usize,
+    /// Evaluations that left the formula first tried.
+    pub fallbacks: usize,
 }
 
 impl Effort {
@@ -20,11 +24,7 @@ impl Effort {
     ///
     /// # Errors
     /// Those of [`Simulation::until`].
-    pub(super) fn run<M: Mechanism>(
-        &mut self,
-        simulation: Simulation<M>,
-        until: f64,
-    ) -> Result<Trajectory<M>, Error> {
+    pub fn run(&mut self, simulation: Simulation, until: f64) -> Result<Trajectory, Error> {
         let (trajectory, error) = match simulation.until(until) {
             Ok(trajectory) => (trajectory, None),
             Err(failure) => (*failure.trajectory, Some(failure.error)),
@@ -37,41 +37,42 @@ impl Effort {
     }
 }
 
-/// The error at one value of what is swept, as a part of the size of the result.
-pub(super) type Measure = fn(f64, &mut Effort) -> Result<f64, Error>;
+/// The error at one value of what is swept, as a part of the size of the result; the work done for it is added to the effort.
+pub type Measure = fn(f64, &mut Effort) -> Result<f64, Error>;
 
 /// A case.
 #[derive(Debug, Clone)]
-pub(super) struct Case {
+pub struct Case {
     /// Name on the command line.
-    pub(super) id: &'static str,
+    pub id: &'static str,
     /// What is swept, in what mechanism.
-    pub(super) swept: &'static str,
+    pub swept: &'static str,
     /// What the results are compared with.
-    pub(super) oracle: &'static str,
+    pub oracle: &'static str,
     /// Errors up to this are full accuracy.
-    pub(super) accurate: f64,
+    pub accurate: f64,
     /// Errors up to this are degraded within bounds; beyond, only an error with a name will do.
-    pub(super) bound: f64,
+    pub bound: f64,
     /// The values, each with the text that stands for it if that is not the number.
-    pub(super) sweep: Sweep,
+    pub sweep: Sweep,
     /// The error at a value.
-    pub(super) measure: Measure,
-    /// What was found before the program was improved for it, and by which change; empty if nothing was.
-    pub(super) before: &'static str,
+    pub measure: Measure,
 }
 
 /// Values in order, and which of them is the ordinary one from which the others move away.
 #[derive(Debug, Clone)]
-pub(super) struct Sweep {
-    pub(super) values: Vec<f64>,
+pub struct Sweep {
+    /// The values.
+    pub values: Vec<f64>,
     /// Text of each value; the number where there is none.
-    pub(super) labels: &'static [&'static str],
-    pub(super) ordinary: usize,
+    pub labels: &'static [&'static str],
+    /// The index of the ordinary value.
+    pub ordinary: usize,
 }
 
 /// Powers of ten from `first` to `last` in steps of `step` decades; the ordinary one is 10^`ordinary`.
-pub(super) fn decades(first: i32, last: i32, step: usize, ordinary: i32) -> Sweep {
+#[must_use]
+pub fn decades(first: i32, last: i32, step: usize, ordinary: i32) -> Sweep {
     let exponents: Vec<i32> = if first <= last {
         (first..=last).step_by(step).collect()
     } else {
@@ -91,7 +92,8 @@ pub(super) fn decades(first: i32, last: i32, step: usize, ordinary: i32) -> Swee
 
 impl Sweep {
     /// The values given, the first one ordinary.
-    pub(super) fn of(values: &[f64]) -> Self {
+    #[must_use]
+    pub fn of(values: &[f64]) -> Self {
         Sweep {
             values: values.to_vec(),
             labels: &[],
@@ -100,7 +102,8 @@ impl Sweep {
     }
 
     /// A sweep over things that are no numbers: their indices.
-    pub(super) fn named(labels: &'static [&'static str]) -> Self {
+    #[must_use]
+    pub fn named(labels: &'static [&'static str]) -> Self {
         Sweep {
             values: (0..labels.len()).map(|i| i as f64).collect(),
             labels,
@@ -108,24 +111,33 @@ impl Sweep {
         }
     }
 
-    /// The same and `value` at its end.
-    pub(super) fn and(mut self, value: f64) -> Self {
+    /// This sweep with `value` at its end.
+    #[must_use]
+    pub fn and(mut self, value: f64) -> Self {
         self.values.push(value);
         self
     }
 
     fn label(&self, index: usize) -> String {
-        let number = || super::short(self.values[index]);
+        let number = || short(self.values[index]);
         self.labels
             .get(index)
             .map_or_else(number, |l| (*l).to_owned())
     }
 }
 
+/// A number in the sweeps: a power of ten as such.
+fn short(value: f64) -> String {
+    if (0.01..1000.0).contains(&value.abs()) || value == 0.0 {
+        return numbers::short(value, 6);
+    }
+    format!("{value:e}")
+}
+
 /// How a value came out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub(super) enum Class {
+pub enum Class {
     /// As exact as at ordinary values.
     Accurate,
     /// Less exact, but within the bound of the case.
@@ -137,14 +149,17 @@ pub(super) enum Class {
 }
 
 impl Class {
-    pub(super) const ALL: [Class; 4] = [
+    /// All of them, from good to bad.
+    pub const ALL: [Class; 4] = [
         Class::Accurate,
         Class::Degraded,
         Class::Refused,
         Class::Wrong,
     ];
 
-    pub(super) fn word(self) -> &'static str {
+    /// One word.
+    #[must_use]
+    pub fn word(self) -> &'static str {
         match self {
             Class::Accurate => "accurate",
             Class::Degraded => "degraded",
@@ -156,36 +171,46 @@ impl Class {
 
 /// One value of a case.
 #[derive(Debug, Clone, Serialize)]
-pub(super) struct Point {
-    pub(super) value: f64,
-    pub(super) label: String,
-    pub(super) class: Class,
+pub struct Point {
+    /// The value.
+    pub value: f64,
+    /// Its text.
+    pub label: String,
+    /// How it came out.
+    pub class: Class,
     /// The error; none where it was refused.
-    pub(super) error: Option<f64>,
+    pub error: Option<f64>,
     /// Name and message of the refusal.
-    pub(super) refusal: Option<(&'static str, String)>,
+    pub refusal: Option<(&'static str, String)>,
+    /// What was computed for it.
     #[serde(flatten)]
-    pub(super) effort: Effort,
+    pub effort: Effort,
     /// Wall time, s.
-    pub(super) seconds: f64,
+    pub seconds: f64,
 }
 
 /// A case with all its values.
 #[derive(Debug, Clone, Serialize)]
-pub(super) struct Row {
-    pub(super) id: &'static str,
-    pub(super) swept: &'static str,
-    pub(super) oracle: &'static str,
-    pub(super) accurate_to: f64,
-    pub(super) bound: f64,
-    pub(super) before: &'static str,
-    pub(super) ordinary: usize,
-    pub(super) points: Vec<Point>,
+pub struct Row {
+    /// [`Case::id`].
+    pub id: &'static str,
+    /// [`Case::swept`].
+    pub swept: &'static str,
+    /// [`Case::oracle`].
+    pub oracle: &'static str,
+    /// [`Case::accurate`].
+    pub accurate_to: f64,
+    /// [`Case::bound`].
+    pub bound: f64,
+    /// [`Sweep::ordinary`].
+    pub ordinary: usize,
+    /// The values.
+    pub points: Vec<Point>,
 }
 
 impl Case {
     /// All values; `None` if interrupted before the last. `done` hears of each value.
-    pub(super) fn row(&self, interrupt: &Interrupt, done: impl Fn()) -> Option<Row> {
+    pub fn row(&self, interrupt: Interrupt, done: impl Fn()) -> Option<Row> {
         let mut points = Vec::with_capacity(self.sweep.values.len());
         for (index, &value) in self.sweep.values.iter().enumerate() {
             if interrupt.is_set() {
@@ -200,7 +225,6 @@ impl Case {
             oracle: self.oracle,
             accurate_to: self.accurate,
             bound: self.bound,
-            before: self.before,
             ordinary: self.sweep.ordinary,
             points,
         })
@@ -230,7 +254,7 @@ impl Case {
 
 impl Row {
     /// The values around the ordinary one, without a gap, that `good` admits; as indices, the last one included.
-    pub(super) fn range(&self, good: impl Fn(Class) -> bool) -> Option<(usize, usize)> {
+    pub fn range(&self, good: impl Fn(Class) -> bool) -> Option<(usize, usize)> {
         let ok = |i: usize| good(self.points[i].class);
         if !ok(self.ordinary) {
             return None;
@@ -243,7 +267,7 @@ impl Row {
     }
 
     /// That range in words: "1e-12 … 1e8", or "to 1e8" where the sweep begins at its ordinary value.
-    pub(super) fn range_text(&self, good: impl Fn(Class) -> bool) -> String {
+    pub fn range_text(&self, good: impl Fn(Class) -> bool) -> String {
         let Some((first, last)) = self.range(good) else {
             return "–".to_owned();
         };
@@ -255,7 +279,7 @@ impl Row {
     }
 
     /// The names of the refusals, each once.
-    pub(super) fn refusals(&self) -> Vec<&'static str> {
+    pub fn refusals(&self) -> Vec<&'static str> {
         let mut names: Vec<&'static str> = Vec::new();
         for (name, _) in self.points.iter().filter_map(|p| p.refusal.as_ref()) {
             if !names.contains(name) {
@@ -266,12 +290,12 @@ impl Row {
     }
 
     /// Values of a class.
-    pub(super) fn count(&self, class: Class) -> usize {
+    pub fn count(&self, class: Class) -> usize {
         self.points.iter().filter(|p| p.class == class).count()
     }
 
     /// Work and time of all values.
-    pub(super) fn total(&self) -> (Effort, f64) {
+    pub fn total(&self) -> (Effort, f64) {
         let mut sum = Effort::default();
         for p in &self.points {
             sum.steps += p.effort.steps;
@@ -299,5 +323,53 @@ fn kind(error: &Error) -> &'static str {
         Error::Jump { .. } => "Jump",
         Error::Singular { .. } => "Singular",
         _ => "Error",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn powers_of_ten_are_short() {
+        for (value, text) in [
+            (1e-12, "1e-12"),
+            (0.1, "0.1"),
+            (17.0, "17"),
+            (1e4, "1e4"),
+            (0.0, "0"),
+        ] {
+            assert_eq!(short(value), text);
+        }
+    }
+
+    /// A root by Newton's method from 1, which has no time to converge where the number is large.
+    fn newton(square: f64, effort: &mut Effort) -> Result<f64, Error> {
+        if square > 1e9 {
+            let reason = format!("is {square:e}");
+            return Err(Error::InvalidSetting { what: "square", reason });
+        }
+        let root = (0..8).fold(1.0, |x: f64, _| 0.5 * (x + square / x));
+        effort.evaluations += 8;
+        Ok((root / square.sqrt() - 1.0).abs())
+    }
+
+    #[test]
+    fn values_are_accurate_degraded_wrong_or_refused() {
+        let case = Case {
+            id: "newton",
+            swept: "a number whose root is sought",
+            oracle: "the root",
+            accurate: 1e-12,
+            bound: 1e-3,
+            sweep: decades(0, 12, 1, 0),
+            measure: newton,
+        };
+        let row = case.row(Interrupt::never(), || ()).expect("not interrupted");
+        let classes: Vec<Class> = row.points.iter().map(|p| p.class).collect();
+        assert_eq!((classes[0], classes[3]), (Class::Accurate, Class::Degraded));
+        assert_eq!((classes[6], classes[12]), (Class::Wrong, Class::Refused));
+        assert_eq!(row.range_text(|c| c == Class::Accurate), "to 100");
+        assert_eq!(row.refusals(), ["InvalidSetting"]);
     }
 }

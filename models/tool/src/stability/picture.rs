@@ -1,107 +1,88 @@
 //! The summary as a picture: a bar a case, a cell a value, coloured by how it came out.
 
-use crate::html::escape;
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::case::{Class, Row};
+use crate::failure::Failure;
+use crate::plot::{DrawError, FONT, svg};
 
-const WIDTH: usize = 800;
-const HEAD: usize = 44;
-const PITCH: usize = 24;
-const BAR: usize = 15;
+const WIDTH: i32 = 800;
+const HEAD: i32 = 44;
+const PITCH: i32 = 24;
+const BAR: i32 = 15;
 /// Left and right end of the bars; names stand before the labels of the first value, remarks after those of the last.
-const LEFT: usize = 200;
-const RIGHT: usize = 556;
+const LEFT: i32 = 200;
+const RIGHT: i32 = 556;
 
-/// Colours that differ in lightness, too (after Okabe and Ito).
-fn colour(class: Class) -> &'static str {
+/// Colours that differ in lightness, too (after Okabe and Ito), and what they mean.
+fn look(class: Class) -> (RGBColor, &'static str) {
     match class {
-        Class::Accurate => "#007a5a",
-        Class::Degraded => "#e6b83d",
-        Class::Refused => "#c4ccd4",
-        Class::Wrong => "#d0021b",
+        Class::Accurate => (RGBColor(0, 122, 90), "accurate"),
+        Class::Degraded => (RGBColor(230, 184, 61), "degraded within its bound"),
+        Class::Refused => (RGBColor(196, 204, 212), "refused by name"),
+        Class::Wrong => (RGBColor(208, 2, 27), "wrong"),
     }
 }
 
-fn meaning(class: Class) -> &'static str {
-    match class {
-        Class::Accurate => "accurate",
-        Class::Degraded => "degraded within its bound",
-        Class::Refused => "refused by name",
-        Class::Wrong => "wrong",
-    }
-}
+type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 /// The picture as the text of an SVG file.
-pub(super) fn svg(rows: &[Row]) -> String {
-    let height = HEAD + PITCH * rows.len() + 10;
-    let mut svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{height}\" viewBox=\"0 0 {WIDTH} {height}\" \
-         font-family=\"Helvetica, Arial, sans-serif\" font-size=\"13\" fill=\"#1c1c1c\">\n\
-         <rect width=\"{WIDTH}\" height=\"{height}\" fill=\"#fff\"/>\n"
-    );
-    let mut x = 14;
-    for class in Class::ALL {
-        let text = meaning(class);
-        svg.push_str(&format!(
-            "<rect x=\"{x}\" y=\"12\" width=\"22\" height=\"14\" fill=\"{}\"/><text x=\"{}\" y=\"24\">{text}</text>\n",
-            colour(class),
-            x + 28
-        ));
-        x += 58 + 7 * text.len();
-    }
-    for (i, row) in rows.iter().enumerate() {
-        svg.push_str(&bar(row, HEAD + i * PITCH));
-    }
-    svg.push_str("</svg>\n");
-    svg
+///
+/// # Errors
+/// [`Failure::Failed`] if the drawing library fails.
+pub(super) fn picture(rows: &[Row]) -> Result<String, Failure> {
+    let height = HEAD + PITCH * rows.len() as i32 + 10;
+    svg((WIDTH as u32, height as u32), |area| {
+        area.fill(&WHITE)?;
+        let mut x = 14;
+        for class in Class::ALL {
+            let (colour, meaning) = look(class);
+            area.draw(&Rectangle::new([(x, 12), (x + 22, 26)], colour.filled()))?;
+            write(area, (x + 28, 19), HPos::Left, 13, meaning)?;
+            x += 58 + 7 * meaning.len() as i32;
+        }
+        let tops = (HEAD..).step_by(PITCH as usize);
+        rows.iter().zip(tops).try_for_each(|(row, top)| bar(area, row, top))
+    })
 }
 
-fn bar(row: &Row, top: usize) -> String {
-    let base = top + 12;
-    let text = |x: usize, anchor: &str, size: usize, text: &str| {
-        format!(
-            "<text x=\"{x}\" y=\"{base}\" text-anchor=\"{anchor}\" font-size=\"{size}\">{}</text>",
-            escape(text)
-        )
-    };
-    let label = |index: Option<usize>| {
-        index
-            .and_then(|i| row.points.get(i))
-            .map_or("", |p| p.label.as_str())
-    };
+fn write<'a>(
+    area: &Area<'a>,
+    place: (i32, i32),
+    side: HPos,
+    size: i32,
+    text: &str,
+) -> Result<(), DrawError<'a>> {
+    let style = (FONT, size).into_text_style(area).pos(Pos::new(side, VPos::Center));
+    area.draw(&Text::new(text, place, style))
+}
+
+fn bar<'a>(area: &Area<'a>, row: &Row, top: i32) -> Result<(), DrawError<'a>> {
+    let middle = top + BAR / 2;
+    write(area, (14, middle), HPos::Left, 13, row.id)?;
     let named = row.points.iter().any(|p| p.label.contains(' '));
-    let (first, last) = if named {
-        ("", "")
-    } else {
-        (label(Some(0)), label(row.points.len().checked_sub(1)))
-    };
-    let mut svg = format!("<g><title>{}</title>", escape(row.swept));
-    svg.push_str(&text(14, "start", 13, row.id));
-    svg.push_str(&text(LEFT - 8, "end", 12, first));
-    svg.push_str(&text(RIGHT + 8, "start", 12, last));
+    if let (Some(first), Some(last), false) = (row.points.first(), row.points.last(), named) {
+        write(area, (LEFT - 8, middle), HPos::Right, 12, &first.label)?;
+        write(area, (RIGHT + 8, middle), HPos::Left, 12, &last.label)?;
+    }
     let refusals = row.refusals();
     let shown = refusals.len().min(2);
     let more = if refusals.len() > shown { ", …" } else { "" };
     let names = format!("{}{more}", refusals[..shown].join(", "));
-    svg.push_str(&text(RIGHT + 58, "start", 12, &names));
-    let width = (RIGHT - LEFT) as f64 / row.points.len().max(1) as f64;
+    write(area, (RIGHT + 58, middle), HPos::Left, 12, &names)?;
+    let width = f64::from(RIGHT - LEFT) / row.points.len().max(1) as f64;
+    let left = |i: f64| LEFT + (i * width).round() as i32;
     for (i, point) in row.points.iter().enumerate() {
-        let x = LEFT as f64 + i as f64 * width;
-        svg.push_str(&format!(
-            "<rect x=\"{x:.1}\" y=\"{top}\" width=\"{:.1}\" height=\"{BAR}\" fill=\"{}\"><title>{}</title></rect>",
-            width - 1.0,
-            colour(point.class),
-            escape(&point.label)
-        ));
+        let (from, to) = (left(i as f64), left(i as f64 + 1.0) - 1);
+        let (colour, _) = look(point.class);
+        area.draw(&Rectangle::new([(from, top), (to, top + BAR)], colour.filled()))?;
     }
     // The ordinary value, where it is not at an end.
     if row.ordinary > 0 && row.ordinary + 1 < row.points.len() {
-        let x = LEFT as f64 + (row.ordinary as f64 + 0.5) * width - 0.5;
-        svg.push_str(&format!(
-            "<circle cx=\"{x:.1}\" cy=\"{}\" r=\"2.5\" fill=\"#fff\"/>",
-            top as f64 + BAR as f64 / 2.0
-        ));
+        let place = (left(row.ordinary as f64 + 0.5), middle);
+        area.draw(&Circle::new(place, 2, WHITE.filled()))?;
     }
-    svg.push_str("</g>\n");
-    svg
+    Ok(())
 }

@@ -1,8 +1,7 @@
 //! Causes of error that belong to a motion: rounding of its start, and what the solver adds.
 
-use models::Model;
 use ukcore::solver::RANK_TOLERANCE;
-use ukcore::{Formula, Prepared, Simulation, Solver, SolverOptions, State};
+use ukcore::{Formula, Simulation, Solver, SolverOptions, State};
 
 use super::Subject;
 use crate::report::study::Limits;
@@ -15,10 +14,9 @@ const NUDGE: f64 = 1e-8;
 /// So many directions are tried: the worst one is then not missed by much.
 const DIRECTIONS: usize = 8;
 
-impl<M: Model> Subject<'_, M> {
+impl Subject<'_> {
     /// Measures them.
     pub(super) fn limits(&self) -> Limits {
-        let mechanism = self.mechanism.prepared();
         let options = |formula, factor: f64| SolverOptions {
             formula,
             rank_tolerance: factor * RANK_TOLERANCE,
@@ -29,27 +27,22 @@ impl<M: Model> Subject<'_, M> {
             rounding: self.rounding(),
             rank: [1e-3, 1e3]
                 .into_iter()
-                .map(|factor| self.compare(&mechanism, usual, options(self.general, factor)))
+                .map(|factor| self.compare(usual, options(self.general, factor)))
                 .try_fold(0.0, |m: f64, x| x.map(|x| m.max(x))),
-            solve: self.compare(&mechanism, usual, options(Formula::Auto, 1.0)),
+            solve: self.compare(usual, options(Formula::Auto, 1.0)),
         }
     }
 
     /// Largest relative difference of q̈ under two settings, at the states of the reference.
-    fn compare(
-        &self,
-        mechanism: &Prepared<M>,
-        one: SolverOptions,
-        other: SolverOptions,
-    ) -> Option<f64> {
-        let n = M::SPEC.n();
-        let mut solvers = [one, other].map(Solver::new::<M>);
+    fn compare(&self, one: SolverOptions, other: SolverOptions) -> Option<f64> {
+        let n = self.mechanism.spec().n();
+        let mut solvers = [one, other].map(|options| Solver::new(&self.mechanism, options));
         let mut largest: f64 = 0.0;
         for (k, &t) in self.truth.times.iter().enumerate() {
             let (q, v) = self.truth.state(k).split_at(n);
             let mut both = [vec![0.0; n], vec![0.0; n]];
             for (solver, out) in solvers.iter_mut().zip(&mut both) {
-                solver.acceleration(mechanism, t, q, v, out).ok()?;
+                solver.acceleration(t, q, v, out).ok()?;
             }
             let [a, b] = &both;
             let size = a.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
@@ -67,7 +60,7 @@ impl<M: Model> Subject<'_, M> {
     /// Change of the end by starts that are rounded differently, from one by starts that differ more.
     fn rounding(&self) -> Option<f64> {
         let end = |start: State| {
-            let run = Simulation::new(self.mechanism.clone())
+            let run = Simulation::new(&self.mechanism)
                 .start(start)
                 .tolerance(FINE)
                 .at(Vec::new())

@@ -1,7 +1,5 @@
 //! Runs a hundred times as long: what the energy does.
 
-use models::Model;
-
 use super::{LONGEST_RUN, Subject};
 use crate::report::study::{Curve, LongRun};
 use crate::report::variants::{Engine, VARIANTS, Variant};
@@ -15,13 +13,13 @@ const TOLERANCES: [f64; 6] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-13];
 /// Steps of RATTLE: the longest with which the short run was not quite wrong, and halves of it.
 const STEPS: usize = 4;
 
-impl<M: Model> Subject<'_, M> {
+impl Subject<'_> {
     /// Runs of the default combination and of RATTLE, for a model that conserves energy and to which RATTLE applies.
     pub(super) fn long_runs(&self, curves: &[Curve]) -> Vec<LongRun> {
         let rattle = VARIANTS.iter().find(|v| v.engine == Engine::Rattle);
         let Some((rattle, curve)) = rattle
             .and_then(|v| Some((v, curves.iter().find(|c| c.variant == v.name)?)))
-            .filter(|_| M::SPEC.structure.conservative)
+            .filter(|_| self.mechanism.spec().structure.conservative)
         else {
             return Vec::new();
         };

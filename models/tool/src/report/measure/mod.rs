@@ -5,14 +5,16 @@ mod long;
 
 use std::ops::ControlFlow;
 
-use models::{Model, Reference};
+use ukcore::model::Reference;
 use ukcore::{
-    Ending, Error, Formula, Projector, Simulation, Solver, SolverOptions, State, Trajectory,
+    Ending, Error, Formula, Prepared, Projector, Simulation, Solver, SolverOptions, State,
+    Trajectory,
 };
 
 use crate::drift::Drift;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
+use crate::scene::Ready;
 
 use super::clock;
 use super::study::{Curve, Figures, LeftOut, Point, Source, Study};
@@ -31,21 +33,15 @@ const LEAST: usize = 3;
 const LONG: f64 = 0.25;
 /// Shorter runs are timed several in a row: far above the resolution of the clock, and the machine's caches know the way, s.
 const BATCH: f64 = 5e-4;
-/// The extent of the measurements.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Extent {
-    /// Few settings, one timing of each.
-    pub(super) quick: bool,
-}
 
 /// One motion, ready to run.
-struct Subject<'a, M> {
-    mechanism: M,
-    start: State,
+struct Subject<'a> {
+    mechanism: &'a Prepared,
+    start: &'a State,
     truth: Truth,
     /// Eq. 13, or 19 where M is singular.
     general: Formula,
-    interrupt: &'a Interrupt,
+    interrupt: Interrupt,
 }
 
 /// A run to be timed, by its place in the curves.
@@ -55,45 +51,41 @@ struct Timing {
     seconds: Vec<f64>,
 }
 
-/// Measures the motion of `mechanism` up to the end of `reference`, or for its duration. `done` hears the part that is done. What was measured
-/// before an interrupt is kept.
+/// Measures the motion called `name` from where it is `ready` up to the end of `reference`, or to `end`; a quick look runs few settings and times each
+/// of them once. `done` hears the part that is done. What was measured before an interrupt is kept.
 ///
 /// # Errors
-/// If there is no start or no reference.
-pub(super) fn study<M: Model>(
+/// If the start has no solution or the motion no reference.
+pub(super) fn study(
     name: &str,
-    mechanism: M,
+    ready: &Ready<'_>,
+    end: f64,
     reference: Option<&Reference>,
-    extent: Extent,
-    interrupt: &Interrupt,
+    quick: bool,
+    interrupt: Interrupt,
     done: &dyn Fn(f64),
 ) -> Result<Study, Failure> {
-    let start = mechanism.default_start()?;
-    let truth = Truth::of(&mechanism, &start, reference)?;
-    let general = Solver::new::<M>(SolverOptions::default())
-        .solve(&mechanism.prepared(), start.t, &start.q, &start.v)?
-        .formula;
+    let (mechanism, start) = (&ready.mechanism, &ready.state);
+    let truth = Truth::of(mechanism, start, end, reference)?;
+    let mut solver = Solver::new(mechanism, SolverOptions::default());
     let subject = Subject {
         mechanism,
         start,
         truth,
-        general,
+        general: solver.solve(start.t, &start.q, &start.v)?.formula,
         interrupt,
     };
     let limits = subject.limits();
-    let (mut curves, left_out) = subject.runs(extent, &|part| done(0.5 * part));
-    if !extent.quick {
+    let (mut curves, left_out) = subject.runs(quick, &|part| done(0.5 * part));
+    let mut long = Vec::new();
+    if !quick {
         subject.repeat(&mut curves, &|part| done(0.5 + 0.4 * part));
+        long = subject.long_runs(&curves);
     }
-    let long = if extent.quick {
-        Vec::new()
-    } else {
-        subject.long_runs(&curves)
-    };
     Ok(Study {
         name: name.to_owned(),
-        model: M::ID.to_owned(),
-        summary: M::summary().to_owned(),
+        model: ready.entry.id.clone(),
+        summary: ready.entry.summary.to_owned(),
         end: subject.truth.end(),
         reference: Source {
             source: subject.truth.source.clone(),
@@ -104,18 +96,18 @@ pub(super) fn study<M: Model>(
         curves,
         left_out,
         long,
-        unconstrained: M::SPEC.m() == 0,
+        unconstrained: mechanism.spec().m() == 0,
         whole: !interrupt.is_set(),
     })
 }
 
-impl<M: Model> Subject<'_, M> {
+impl Subject<'_> {
     /// Every combination once, or those up to an interrupt.
-    fn runs(&self, extent: Extent, done: &dyn Fn(f64)) -> (Vec<Curve>, Vec<LeftOut>) {
+    fn runs(&self, quick: bool, done: &dyn Fn(f64)) -> (Vec<Curve>, Vec<LeftOut>) {
         let (mut curves, mut left_out) = (Vec::new(), Vec::new());
         for (k, variant) in VARIANTS.iter().enumerate() {
             let span = (self.truth.end() - self.start.t).abs();
-            let knobs = variant.knobs(span, extent.quick);
+            let knobs = variant.knobs(span, quick);
             if let Some(reason) = self.senseless(variant, &knobs) {
                 left_out.push(LeftOut {
                     variant: variant.name.to_owned(),
@@ -135,17 +127,14 @@ impl<M: Model> Subject<'_, M> {
                     break;
                 }
                 let too_long = matches!(result, Err(Trouble::TooLong));
-                curve.points.push(match result {
-                    Ok(figures) => Point {
-                        knob,
-                        figures: Some(figures),
-                        failure: None,
-                    },
-                    Err(trouble) => Point {
-                        knob,
-                        figures: None,
-                        failure: Some(trouble.to_string()),
-                    },
+                let (figures, failure) = match result {
+                    Ok(figures) => (Some(figures), None),
+                    Err(trouble) => (None, Some(trouble.to_string())),
+                };
+                curve.points.push(Point {
+                    knob,
+                    figures,
+                    failure,
                 });
                 if too_long {
                     break;
@@ -158,7 +147,7 @@ impl<M: Model> Subject<'_, M> {
 
     /// Why a combination is not run, if so: it is the same as another one, or the simulation refuses it for this model.
     fn senseless(&self, variant: &Variant, knobs: &[f64]) -> Option<String> {
-        if let Some(reason) = variant.senseless(M::SPEC) {
+        if let Some(reason) = variant.senseless(self.mechanism.spec()) {
             return Some(reason.to_owned());
         }
         let simulation = self.simulation(variant, knobs.first().copied()?);
@@ -223,13 +212,13 @@ impl<M: Model> Subject<'_, M> {
     }
 
     /// A simulation under a combination.
-    fn simulation(&self, variant: &Variant, knob: f64) -> Simulation<M> {
-        let simulation = Simulation::new(self.mechanism.clone()).start(self.start.clone());
+    fn simulation(&self, variant: &Variant, knob: f64) -> Simulation {
+        let simulation = Simulation::new(self.mechanism).start(self.start.clone());
         variant.apply(simulation, knob, self.general)
     }
 
     /// The run that is timed: nothing is kept but the end.
-    fn bare(&self, variant: &Variant, knob: f64) -> Result<Trajectory<M>, Error> {
+    fn bare(&self, variant: &Variant, knob: f64) -> Result<Trajectory, Error> {
         self.simulation(variant, knob)
             .at(Vec::new())
             .until(self.truth.end())
@@ -237,12 +226,8 @@ impl<M: Model> Subject<'_, M> {
     }
 
     /// A run that is watched: it ends when the user says so or when it takes too long.
-    fn watched(
-        &self,
-        simulation: Simulation<M>,
-        end: f64,
-    ) -> Result<(Trajectory<M>, f64), Trouble> {
-        let (interrupt, start) = (self.interrupt.clone(), clock::now());
+    fn watched(&self, simulation: Simulation, end: f64) -> Result<(Trajectory, f64), Trouble> {
+        let (interrupt, start) = (self.interrupt, clock::now());
         let mut steps = 0_u32;
         let (result, seconds) = clock::timed(|| {
             simulation
@@ -317,11 +302,10 @@ impl<M: Model> Subject<'_, M> {
 
     /// The nearest state on the constraints.
     fn nearest(&self, state: &State) -> Result<State, Error> {
-        let mechanism = self.mechanism.prepared();
-        let mut projector = Projector::new::<M>();
+        let mut projector = Projector::new(self.mechanism);
         let State { t, mut q, mut v } = state.clone();
-        projector.position(&mechanism, t, &mut q, &v)?;
-        projector.velocity(&mechanism, t, &q, &mut v)?;
+        projector.position(t, &mut q, &v)?;
+        projector.velocity(t, &q, &mut v)?;
         Ok(State { t, q, v })
     }
 }
