@@ -222,7 +222,7 @@ impl<'a, L: Lanes> Group<'a, L> {
     /// Member `index`, checked, with its consistent start in lane `k`.
     fn admit(&mut self, index: usize, k: usize) -> Result<Running, Error> {
         let simulation = self.ensemble.simulation(index);
-        simulation.check(self.t_end)?;
+        simulation.check(self.t_end, true)?;
         let mut work = Work::default();
         let mut projector = Projector::new(&simulation.mechanism);
         let (start, tolerance) = simulation.consistent_start(&mut projector, &mut work)?;
