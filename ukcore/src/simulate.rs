@@ -14,15 +14,18 @@ use crate::solver::{Formula, Solver, SolverOptions};
 use crate::stabilise::{Projector, Stabilisation};
 use crate::trajectory::{Ending, Record, Sample, Trajectory, Work};
 
+mod agenda;
 mod angles;
 #[cfg(feature = "ensemble")]
 pub mod ensemble;
+mod grid;
 mod run;
 #[cfg(test)]
 mod tests;
 mod trouble;
 
-use run::{Agenda, Keeper, Progress, Run, Sampling, Sink, at};
+use agenda::{Agenda, Sampling};
+use run::{Keeper, Progress, Run, Sink, at};
 use trouble::{Conflict, Pace};
 
 /// How far a start may be off the constraints: projection may move a coordinate by this part of the largest one (a
@@ -163,6 +166,8 @@ impl Simulation {
     }
 
     /// Samples at t₀ + k `dt` (t₀ − k `dt` going backward) and at the end, instead of each accepted step.
+    ///
+    /// Times are the numbers nearest to what is written: 0.3 is taken for three tenths and 1.0 / 3.0 for a third, so that sample 3 lies at 0.9 and 1.
     ///
     /// Samples lie on the interpolant, then are projected; they do not influence the steps. Interpolation by DOP853 adds an
     /// error of some ten tolerances to that which the steps have gathered; measured on swings of a pendulum at tolerances

@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use super::agenda::Agenda;
 use super::trouble::{self, Conflict, Pace};
 use crate::diagnose;
 use crate::error::Error;
@@ -14,20 +15,6 @@ use crate::scan::largest;
 use crate::solver::{RANK_CEILING, Solver};
 use crate::stabilise::Projector;
 use crate::trajectory::{Ending, Record, Sample, Trajectory, Work};
-
-/// A sample within so many units of rounding of the end time is the end: k dt and t_end are rounded once each.
-const SAME_TIME: f64 = 4.0 * f64::EPSILON;
-
-/// When samples are taken.
-#[derive(Debug, Clone)]
-pub(super) enum Sampling {
-    /// At each accepted step.
-    Steps,
-    /// At multiples of that time after the start, and at the end.
-    Every(f64),
-    /// At these times only.
-    At(Vec<f64>),
-}
 
 pub(super) type Progress = Box<dyn FnMut(Sample<'_>) -> ControlFlow<()>>;
 
@@ -42,47 +29,6 @@ pub(super) fn at(t: f64, y: &[f64], error: Error) -> Error {
         q: q.to_vec(),
         v: v.to_vec(),
         source: Box::new(error),
-    }
-}
-
-/// Which samples are still to be taken.
-pub(super) struct Agenda {
-    sampling: Sampling,
-    t0: f64,
-    t_end: f64,
-    /// Samples taken from it so far.
-    pub(super) taken: usize,
-}
-
-impl Agenda {
-    pub(super) fn new(sampling: Sampling, t0: f64, t_end: f64) -> Self {
-        Agenda {
-            sampling,
-            t0,
-            t_end,
-            taken: 0,
-        }
-    }
-
-    /// Time of the next sample that does not come by itself at the end of a step.
-    pub(super) fn next(&self) -> Option<f64> {
-        match &self.sampling {
-            Sampling::Steps => None,
-            Sampling::Every(dt) => {
-                let span = self.t_end - self.t0;
-                // The start is sample 0.
-                let t = self.t0 + ((self.taken + 1) as f64 * dt).copysign(span);
-                let rounding = SAME_TIME * self.t0.abs().max(self.t_end.abs());
-                let left = (self.t_end - t) * span.signum();
-                (left > rounding).then_some(t)
-            }
-            Sampling::At(times) => times.get(self.taken).copied(),
-        }
-    }
-
-    /// Whether the end of the run is a sample in any case.
-    pub(super) fn wants_end(&self) -> bool {
-        !matches!(self.sampling, Sampling::At(_))
     }
 }
 
@@ -201,11 +147,7 @@ impl Run<'_, '_> {
 
     /// Events and sample at the start.
     pub(super) fn start(&mut self, t: f64, y: &[f64]) -> Result<(), Error> {
-        let asked = !self.agenda.wants_end() && self.agenda.next() == Some(t);
-        if asked {
-            self.agenda.taken += 1;
-        }
-        if asked || self.agenda.wants_end() {
+        if self.agenda.takes_start(t) {
             self.trajectory.times.push(t);
             self.trajectory.states.extend_from_slice(y);
         }
@@ -257,7 +199,7 @@ impl Run<'_, '_> {
             times, states, end, ..
         } = &mut *self.trajectory;
         if let Some(end) = end
-            && self.agenda.wants_end()
+            && self.agenda.wants_ends()
             && self.sampled.is_some_and(|t| t != end.t)
         {
             times.push(end.t);
@@ -300,7 +242,7 @@ impl Run<'_, '_> {
                 break;
             }
             within.consistent(t, &mut self.between)?;
-            self.agenda.taken += 1;
+            self.agenda.take();
             within.trajectory.times.push(t);
             within.trajectory.states.extend_from_slice(&self.between);
         }
@@ -311,7 +253,7 @@ impl Run<'_, '_> {
             segments,
             ..
         } = within.trajectory;
-        if let Sampling::Steps = self.agenda.sampling {
+        if self.agenda.wants_steps() {
             times.push(t_stop);
             states.extend_from_slice(&self.between);
         }
@@ -470,13 +412,13 @@ impl Problem for Run<'_, '_> {
             let (q, v) = step.y.split_at(self.n);
             keeper.check(self.solver.mechanism().energy(step.t, q, v))?;
         }
-        let taken = self.agenda.taken;
+        let taken = self.agenda.taken();
         let samples = self.trajectory.times.len();
         let events = self.trajectory.events.len();
         let ending = self.trajectory.ending;
         let recorded = self.check_branch(step).and_then(|()| self.record(step));
         if let Err(error) = recorded {
-            self.agenda.taken = taken;
+            self.agenda.return_to(taken);
             self.trajectory.times.truncate(samples);
             self.trajectory.states.truncate(2 * self.n * samples);
             self.trajectory.events.truncate(events);
@@ -500,11 +442,11 @@ impl Problem for Run<'_, '_> {
         if self.trajectory.ending == Ending::Event {
             return Ok(Next::Stop);
         }
-        if (self.handed.is_break() || go_on.is_break()) && self.t != self.agenda.t_end {
+        if (self.handed.is_break() || go_on.is_break()) && self.t != self.agenda.t_end() {
             self.trajectory.ending = Ending::Interrupted;
             return Ok(Next::Stop);
         }
-        if self.pace.hopeless(self.agenda.t_end - self.t) {
+        if self.pace.hopeless(self.agenda.t_end() - self.t) {
             return Ok(Next::Stop);
         }
         Ok(Next::Continue)
