@@ -84,4 +84,4 @@ pub use simulate::ensemble::{Ensemble, Member};
 #[cfg(feature = "simulate")]
 pub use simulate::{Failure, Simulation, Switching};
 #[cfg(feature = "simulate")]
-pub use trajectory::{Ending, Residual, Sample, Trajectory, Work};
+pub use trajectory::{CsvWriter, Drift, Ending, Record, Residual, Sample, Trajectory, Work};

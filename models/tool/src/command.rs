@@ -64,8 +64,8 @@ pub fn main(models: &[Entry]) -> ExitCode {
 /// Reads the command line of this program; ends it where help is asked for or the command line is wrong.
 #[must_use]
 pub fn parse<C: CommandFactory + FromArgMatches>() -> C {
-    let matches = C::command().name(program()).get_matches();
-    C::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
+    let mut matches = C::command().get_matches();
+    C::from_arg_matches_mut(&mut matches).unwrap_or_else(|error| error.exit())
 }
 
 /// Tells of a failure on standard error; the code to end the program with.

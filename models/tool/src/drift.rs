@@ -1,10 +1,9 @@
-//! How well a trajectory keeps the constraints and the energy.
+//! How well a motion keeps the constraints and the energy, as it is told in tables and JSON.
 
-use models::Model;
 use serde::{Deserialize, Serialize};
-use ukcore::Trajectory;
+use ukcore::{Spec, Trajectory};
 
-/// The worst of all samples of a trajectory.
+/// The worst of all samples of a motion.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub struct Drift {
     /// Largest |φ| of the holonomic constraints, in their units.
@@ -16,19 +15,22 @@ pub struct Drift {
 }
 
 impl Drift {
-    /// The drift of `trajectory`.
-    pub fn of<M: Model>(trajectory: &Trajectory<M>) -> Self {
-        let (mut position_residual, mut velocity_residual) = (0.0_f64, 0.0_f64);
-        for residual in trajectory.residuals() {
-            position_residual = position_residual.max(residual.position);
-            velocity_residual = velocity_residual.max(residual.velocity);
-        }
-        let conserved = M::SPEC.structure.conservative;
-        let energy_drift = conserved.then(|| trajectory.energy_drift());
+    /// That of the samples of `trajectory`.
+    #[must_use]
+    pub fn of(trajectory: &Trajectory) -> Self {
+        let mut measured = ukcore::Drift::new(trajectory.mechanism());
+        trajectory.samples().for_each(|sample| measured.add(sample));
+        Drift::measured(&measured, trajectory.spec())
+    }
+
+    /// That of samples that came one by one, of a mechanism with this `spec`.
+    #[must_use]
+    pub fn measured(measured: &ukcore::Drift, spec: &Spec) -> Self {
+        let residual = measured.residual();
         Drift {
-            position_residual,
-            velocity_residual,
-            energy_drift,
+            position_residual: residual.position,
+            velocity_residual: residual.velocity,
+            energy_drift: spec.structure.conservative.then(|| measured.energy()),
         }
     }
 }

@@ -1,10 +1,10 @@
 //! The command `explain`: what the compiler derived and decided, what the solver says at the start, and the emitted code.
 
-use std::io::Write;
 
 use clap::Args;
 use ukcore::model::Entry;
 use ukcore::Explanation;
+use ukcore::code::laid_out;
 
 use crate::command::find;
 use crate::failure::Failure;
@@ -50,7 +50,8 @@ pub fn explain(models: &[Entry], args: &ExplainArgs) -> Result<(), Failure> {
 /// Prints the emitted function called `function`, or all if that is empty.
 fn code(entry: &Entry, function: &str) -> Result<(), Failure> {
     let wanted = |(name, _): &&(&str, &str)| function.is_empty() || *name == function;
-    let texts: Vec<&str> = entry.code.iter().filter(wanted).map(|(_, text)| *text).collect();
+    let texts = entry.code.iter().filter(wanted);
+    let texts: Vec<String> = texts.map(|(_, text)| laid_out(text)).collect();
     if texts.is_empty() {
         let names: Vec<&str> = entry.code.iter().map(|(name, _)| *name).collect();
         return Err(Failure::Usage(format!(

@@ -1,99 +1,123 @@
-//! `uk run`: integrate a model, write samples and a summary.
+//! The command `run`: integrate a model, write samples and a summary.
 
-use std::cell::RefCell;
 use std::io::{self, Write};
 use std::ops::ControlFlow;
-use std::path::Path;
-use std::rc::Rc;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use models::{Model, Visitor};
-use ukcore::{Baumgarte, Ending, Error, Simulation, Stabilisation, Trajectory};
+use clap::Args;
+use ukcore::model::Entry;
+use ukcore::simulate::SMALLEST_TOLERANCE;
+use ukcore::{
+    CsvWriter, Drift, Ending, Error, Method, Record, Simulation, Stabilisation, Trajectory,
+};
 
-use crate::args::{RunArgs, StabiliseArg};
+use crate::command;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
-use crate::output;
+use crate::numbers::full;
+use crate::output::{self, WholeFile};
 use crate::progress::Progress;
-use crate::scene::{self, Ready};
+use crate::scene::{Ready, Scene};
 use crate::summary::Summary;
+use crate::units;
 
-/// Runs a model.
+/// The arguments of `run`.
+#[derive(Debug, Args)]
+pub struct RunArgs {
+    /// The mechanism and its start
+    #[command(flatten)]
+    pub scene: Scene,
+    /// Time to stop at, before 0 to run backward; the model's own duration if absent
+    #[arg(long, value_name = "TIME", value_parser = units::seconds, allow_hyphen_values = true)]
+    pub until: Option<f64>,
+    /// Relative and absolute tolerance of the integration
+    #[arg(
+        long,
+        value_name = "TOL",
+        default_value = "1e-10",
+        value_parser = tolerance,
+        allow_hyphen_values = true
+    )]
+    pub tol: f64,
+    /// Sample at this interval; each accepted step if absent
+    #[arg(long, value_name = "TIME", value_parser = interval, allow_hyphen_values = true)]
+    pub every: Option<f64>,
+    /// Integration method: `dop853` or `dopri5`, Dormand and Prince's of order 8 and 5; `radau5`, implicit of order 5, for stiff mechanisms;
+    /// `rattle=STEP`, symplectic of order 4 with steps of that time, which looks at no tolerance: the energy of a conservative motion has no trend, however
+    /// long the run
+    #[arg(long, value_name = "METHOD", default_value = "dop853", value_parser = method)]
+    pub method: Method,
+    /// How the constraints are kept from drifting: `projection` of positions and velocities after each step; `baumgarte` or
+    /// `baumgarte=ALPHA,BETA`, feedback terms 2 ALPHA φ̇ + BETA² φ with ALPHA and BETA in 1/s, 20 each if absent; `none`
+    #[arg(
+        long,
+        visible_alias = "stabilize",
+        value_name = "WAY",
+        default_value = "projection"
+    )]
+    pub stabilise: Stabilisation,
+    /// Write the samples as CSV; `-` is standard output, which then holds nothing else and gets each row as soon as it is computed.
+    /// Of a run that fails or is interrupted (Ctrl-C), what was computed so far is written
+    #[arg(long, value_name = "FILE", value_parser = command::path)]
+    pub csv: Option<PathBuf>,
+    /// Print the summary as JSON: final state, residuals, energy drift, work
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Runs a model. Samples are written as they come and not kept, so memory does not grow with the run.
 ///
 /// # Errors
 /// [`Failure::Usage`] for what is wrong with the command line; [`Failure::Failed`] if the integration ends early or a file cannot be
 /// written, [`Failure::Interrupted`] if the user ends it. Samples and summary up to there are written all the same.
-pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
-    if args.json && to_stdout(args.csv.as_deref()) {
+pub fn run(models: &[Entry], args: &RunArgs) -> Result<(), Failure> {
+    let to_stdout = args.csv.as_deref().is_some_and(|p| p.as_os_str() == "-");
+    if args.json && to_stdout {
         return Err(Failure::Usage(
             "`--json` and `--csv -` both want standard output; give a file to one of them"
                 .to_owned(),
         ));
     }
-    models::visit(&args.scene.model, Run { args })?
-}
-
-fn to_stdout(path: Option<&Path>) -> bool {
-    path.is_some_and(|p| p.as_os_str() == "-")
-}
-
-struct Run<'a> {
-    args: &'a RunArgs,
-}
-
-impl Visitor for Run<'_> {
-    type Output = Result<(), Failure>;
-
-    fn visit<M: Model>(self) -> Self::Output {
-        let args = self.args;
-        let ready = scene::ready::<M>(&args.scene)?;
-        let csv = args.csv.as_deref();
-        let stream = to_stdout(csv).then(|| Rc::new(RefCell::new(Stream::default())));
-        let file = csv.filter(|_| stream.is_none());
-        if let Some(file) = file {
-            output::check_writable(file)?;
+    let ready = args.scene.ready(models)?;
+    let table = match args.csv.as_deref() {
+        None => None,
+        Some(_) if to_stdout => Some(Table::new(&ready, io::stdout(), None)?),
+        Some(path) => Some(Table::new(&ready, WholeFile::create(path)?, Some(path))?),
+    };
+    let started = Instant::now();
+    let (trajectory, error, samples) = integrate(&ready, args, table)?;
+    let seconds = started.elapsed().as_secs_f64();
+    if let Some(error @ Error::InvalidSetting { .. }) = error {
+        return Err(usage(error));
+    }
+    let failure = match (error, trajectory.last()) {
+        (Some(error), _) => Some(Failure::from(error)),
+        (None, Some(last)) if trajectory.ending() == Ending::Interrupted => {
+            let t = full(last.t);
+            let done = format!("interrupted at t = {t} s; what was computed up to there is kept");
+            Some(Failure::Interrupted(done))
         }
-        let interrupt = Interrupt::catch()?;
-        let started = Instant::now();
-        let (trajectory, error) = integrate(&ready, args, interrupt, stream.clone());
-        let seconds = started.elapsed().as_secs_f64();
-        if let Some(error @ Error::InvalidSetting { .. }) = error {
-            return Err(usage(error));
-        }
-        let failure = match (error, trajectory.last()) {
-            (Some(error), _) => Some(Failure::from(error)),
-            (None, Some(last)) if trajectory.ending() == Ending::Interrupted => {
-                let done = format!(
-                    "interrupted at t = {} s; what was computed up to there is kept",
-                    last.t
-                );
-                Some(Failure::Interrupted(done))
-            }
-            _ => None,
-        };
+        _ => None,
+    };
+    if let Some(table) = samples.table {
+        table.finish()?;
+    }
+    if !to_stdout {
         let message = match &failure {
             Some(Failure::Failed(message)) => Some(message.clone()),
             _ => None,
         };
-        if let Some(stream) = stream {
-            let mut stream = stream.borrow_mut();
-            stream.write(&trajectory);
-            stream.result()?;
-        } else {
-            let summary = Summary::new(&trajectory, &ready, args, seconds, message);
-            output::to_stdout(|out| {
-                if !args.json {
-                    return summary.write(out);
-                }
-                serde_json::to_writer_pretty(&mut *out, &summary).map_err(io::Error::from)?;
-                writeln!(out)
-            })?;
-        }
-        if let Some(file) = file {
-            output::write_whole(file, |mut out| trajectory.write_csv(&mut out))?;
-        }
-        failure.map_or(Ok(()), Err)
+        let summary = Summary::new(&trajectory, &samples.drift, &ready, args, seconds, message);
+        output::to_stdout(|out| {
+            if args.json {
+                output::json(out, &summary)
+            } else {
+                summary.write(out)
+            }
+        })?;
     }
+    failure.map_or(Ok(()), Err)
 }
 
 /// A setting that the simulation refuses, by the name that it has on the command line.
@@ -111,68 +135,81 @@ fn usage(error: Error) -> Failure {
     }
 }
 
-/// The samples on standard output, each as soon as it is computed.
-#[derive(Debug, Default)]
-struct Stream {
-    begun: bool,
-    /// Samples written so far.
-    written: usize,
-    error: Option<io::Error>,
+/// Where the rows go.
+trait Sink: Write {
+    /// After the last row.
+    fn finish(self: Box<Self>) -> Result<(), Failure>;
 }
 
-impl Stream {
-    /// Writes the samples that are new, until it fails for the first time.
-    fn write<M: Model>(&mut self, trajectory: &Trajectory<M>) {
-        if self.error.is_some() || (self.begun && self.written == trajectory.len()) {
-            return;
+impl Sink for WholeFile {
+    fn finish(self: Box<Self>) -> Result<(), Failure> {
+        WholeFile::finish(*self)
+    }
+}
+
+impl Sink for io::Stdout {
+    fn finish(self: Box<Self>) -> Result<(), Failure> {
+        Ok(())
+    }
+}
+
+/// The samples as CSV in a file, or on standard output where there is no `path`.
+struct Table<'a> {
+    rows: CsvWriter<Box<dyn Sink>>,
+    path: Option<&'a Path>,
+}
+
+impl<'a> Table<'a> {
+    fn new(
+        ready: &Ready<'_>,
+        sink: impl Sink + 'static,
+        path: Option<&'a Path>,
+    ) -> Result<Self, Failure> {
+        let sink: Box<dyn Sink> = Box::new(sink);
+        match CsvWriter::new(&ready.mechanism, sink) {
+            Ok(rows) => Ok(Table { rows, path }),
+            Err(error) => Err(failure(path, &error)),
         }
-        let mut out = io::stdout().lock();
-        let head = if self.begun {
-            Ok(())
-        } else {
-            trajectory.write_csv_head(&mut out)
-        };
-        let done = head
-            .and_then(|()| trajectory.write_csv_rows(self.written, &mut out))
-            .and_then(|()| out.flush());
-        self.begun = true;
-        self.written = trajectory.len();
-        self.error = done.err();
     }
 
-    fn result(&self) -> Result<(), Failure> {
-        self.error
-            .as_ref()
-            .map_or(Ok(()), |e| Err(Failure::stdout(e)))
+    fn finish(self) -> Result<(), Failure> {
+        self.rows.into_inner().finish()
     }
 }
 
-/// The trajectory, and why it ends early if it does by an error. Without a reader of `stream` it ends too.
-fn integrate<M: Model>(
-    ready: &Ready<M>,
+fn failure(path: Option<&Path>, error: &io::Error) -> Failure {
+    match path {
+        Some(path) => Failure::file(path, error),
+        None => Failure::stdout(error),
+    }
+}
+
+/// What becomes of the samples.
+struct Samples<'a> {
+    table: Option<Table<'a>>,
+    drift: Drift,
+}
+
+/// The trajectory, why it ends early if it does by an error, and what became of its samples. Where rows cannot be written it ends too.
+///
+/// # Errors
+/// Those of writing.
+fn integrate<'a>(
+    ready: &Ready<'_>,
     args: &RunArgs,
-    interrupt: Interrupt,
-    stream: Option<Rc<RefCell<Stream>>>,
-) -> (Trajectory<M>, Option<Error>) {
+    table: Option<Table<'a>>,
+) -> Result<(Trajectory, Option<Error>, Samples<'a>), Failure> {
     let from = ready.state.t;
-    let until = args.until.unwrap_or_else(M::duration);
-    let progress = Progress::new(M::ID);
+    let until = args.until.unwrap_or(ready.entry.duration);
+    let (interrupt, progress) = (Interrupt::catch()?, Progress::new(&ready.entry.id));
     let bar = progress.clone();
-    let mut simulation = Simulation::new(ready.mechanism.clone())
+    let mut simulation = Simulation::new(&ready.mechanism)
         .start(ready.state.clone())
         .method(args.method)
         .tolerance(args.tol)
-        .stabilise(stabilisation(args.stabilise))
-        .progress(move |run| {
-            let t = run.last().map_or(from, |last| last.t);
-            bar.set((t - from) / (until - from), || format!("t = {t:.3} s"));
-            if let Some(stream) = &stream {
-                let mut stream = stream.borrow_mut();
-                stream.write(run);
-                if stream.error.is_some() {
-                    return ControlFlow::Break(());
-                }
-            }
+        .stabilise(args.stabilise)
+        .progress(move |now| {
+            bar.set((now.t - from) / (until - from), || format!("t = {:.3} s", now.t));
             if interrupt.is_set() {
                 return ControlFlow::Break(());
             }
@@ -181,20 +218,70 @@ fn integrate<M: Model>(
     if let Some(interval) = args.every {
         simulation = simulation.every(interval);
     }
-    let result = simulation.until(until);
+    let drift = Drift::new(&ready.mechanism);
+    let mut samples = Samples { table, drift };
+    let mut broken = None;
+    let result = simulation.stream(until, |record| {
+        let Record::Sample(sample) = record else {
+            return ControlFlow::Continue(());
+        };
+        samples.drift.add(sample);
+        let Some(Table { rows, path }) = &mut samples.table else {
+            return ControlFlow::Continue(());
+        };
+        // Standard output hands on each line at once.
+        match rows.write(sample) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(error) => {
+                broken = Some(failure(*path, &error));
+                ControlFlow::Break(())
+            }
+        }
+    });
     progress.finish();
-    match result {
-        Ok(trajectory) => (trajectory, None),
-        Err(failure) => (*failure.trajectory, Some(failure.error)),
+    if let Some(failure) = broken {
+        return Err(failure);
+    }
+    Ok(match result {
+        Ok(trajectory) => (trajectory, None, samples),
+        Err(failure) => (*failure.trajectory, Some(failure.error), samples),
+    })
+}
+
+/// Reads a method; the step of RATTLE may have a unit.
+fn method(text: &str) -> Result<Method, String> {
+    match text.split_once('=') {
+        Some(("rattle", step)) => Ok(Method::Rattle {
+            step: interval(step)?,
+        }),
+        _ => text.parse().map_err(|e: Error| e.to_string()),
     }
 }
 
-fn stabilisation(arg: StabiliseArg) -> Stabilisation {
-    match arg {
-        StabiliseArg::Projection => Stabilisation::Projection,
-        StabiliseArg::Baumgarte { alpha, beta } => {
-            Stabilisation::Baumgarte(Baumgarte { alpha, beta })
+fn tolerance(text: &str) -> Result<f64, String> {
+    let range = SMALLEST_TOLERANCE..1.0;
+    let number = text.trim().parse().ok().filter(|x| range.contains(x));
+    number.ok_or_else(|| format!("a number from {SMALLEST_TOLERANCE:.1e} to below 1 is needed"))
+}
+
+fn interval(text: &str) -> Result<f64, String> {
+    let seconds = units::seconds(text)?;
+    if seconds > 0.0 {
+        return Ok(seconds);
+    }
+    Err("the interval must be positive".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_step_of_rattle_has_a_unit() {
+        assert_eq!(method("dopri5"), Ok(Method::Dopri5));
+        assert_eq!(method("rattle=2ms"), Ok(Method::Rattle { step: 0.002 }));
+        for text in ["euler", "rattle", "rattle=", "rattle=0", "rattle=1kg"] {
+            assert!(method(text).is_err(), "{text}");
         }
-        StabiliseArg::None => Stabilisation::None,
     }
 }

@@ -2,20 +2,19 @@
 
 use std::io::{self, Write};
 
-use models::Model;
 use serde::Serialize;
 use serde_json::{Map, Value};
 use ukcore::{Ending, Method, Trajectory};
 
-use crate::args::RunArgs;
 use crate::drift::Drift;
-use crate::numbers::{count, fixed, width};
+use crate::numbers::{count, fixed, full, width};
+use crate::run::RunArgs;
 use crate::scene::Ready;
 
 /// What a run was, what came out and what it cost. SI units.
 #[derive(Debug, Serialize)]
 pub(crate) struct Summary {
-    model: &'static str,
+    model: String,
     start: &'static str,
     parameters: Map<String, Value>,
     method: String,
@@ -79,26 +78,25 @@ fn named<'a>(
 }
 
 impl Summary {
-    /// The summary of `trajectory`, which took `seconds`; `error` says why it ended early, if it did.
-    pub(crate) fn new<M: Model>(
-        trajectory: &Trajectory<M>,
-        ready: &Ready<M>,
+    /// The summary of `trajectory`, whose samples were `measured` and which took `seconds`; `error` says why it ended early, if it did.
+    pub(crate) fn new(
+        trajectory: &Trajectory,
+        measured: &ukcore::Drift,
+        ready: &Ready<'_>,
         args: &RunArgs,
         seconds: f64,
         error: Option<String>,
     ) -> Self {
-        let spec = M::SPEC;
-        let mechanism = trajectory.mechanism();
+        let (mechanism, spec) = (trajectory.mechanism(), trajectory.spec());
+        let coords = || spec.coords.iter().copied();
         let last = trajectory.last().map(|last| {
             let mut outputs = vec![0.0; spec.outputs.len()];
-            mechanism
-                .prepared()
-                .outputs(last.t, last.q, last.v, &mut outputs);
-            let energy = mechanism.prepared().energy(last.t, last.q, last.v);
+            mechanism.outputs(last.t, last.q, last.v, &mut outputs);
+            let energy = mechanism.energy(last.t, last.q, last.v);
             Last {
                 t: last.t,
-                q: named(spec.coords.iter().copied(), last.q.iter().copied()),
-                v: named(spec.coords.iter().copied(), last.v.iter().copied()),
+                q: named(coords(), last.q.iter().copied()),
+                v: named(coords(), last.v.iter().copied()),
                 outputs: named(spec.outputs.iter().map(|o| o.name), outputs),
                 energy: Energies {
                     kinetic: energy.kinetic,
@@ -106,10 +104,10 @@ impl Summary {
                 },
             }
         });
-        let values = (0..spec.params.len()).map(|i| ready.mechanism.parameter(i));
+        let values = mechanism.parameters().iter().copied();
         let work = trajectory.work();
         Summary {
-            model: M::ID,
+            model: ready.entry.id.clone(),
             start: ready.start,
             parameters: named(spec.params.iter().map(|p| p.name), values),
             method: args.method.to_string(),
@@ -123,8 +121,8 @@ impl Summary {
             },
             error,
             last,
-            samples: trajectory.len(),
-            drift: Drift::of(trajectory),
+            samples: measured.samples(),
+            drift: Drift::measured(measured, spec),
             work: Counters {
                 steps: work.steps,
                 rejected: work.rejected,
@@ -157,7 +155,7 @@ impl Summary {
         )?;
         if let Some(last) = &self.last {
             let wide = width(last.q.keys().chain(last.outputs.keys()).map(String::as_str));
-            writeln!(out, "\nState at t = {} s", last.t)?;
+            writeln!(out, "\nState at t = {} s", full(last.t))?;
             for ((name, q), v) in last.q.iter().zip(last.v.values()) {
                 writeln!(
                     out,

@@ -92,6 +92,7 @@ impl Quantity {
         Err(format!("a value in {name} is needed, not one in {own}"))
     }
 
+    #[must_use]
     fn times(self, factor: Quantity, power: i32) -> Self {
         let sum = |a: Dimension, b: Dimension| std::array::from_fn(|i| a[i] + power * b[i]);
         let dimension = match (self.dimension, factor.dimension) {
@@ -100,6 +101,16 @@ impl Quantity {
         };
         let value = self.value * factor.value.powi(power);
         Quantity { value, dimension }
+    }
+}
+
+/// A bare number, in whatever unit is declared.
+impl From<f64> for Quantity {
+    fn from(value: f64) -> Self {
+        Quantity {
+            value,
+            dimension: None,
+        }
     }
 }
 
@@ -184,26 +195,21 @@ fn product(text: &str) -> Result<Quantity, String> {
 
 /// The factor that `text` begins with, and what follows it.
 fn factor(text: &str) -> Result<(Quantity, &str), String> {
-    let plain = |value| Quantity {
-        value,
-        dimension: None,
-    };
     match text.chars().next() {
         Some(c) if c.is_ascii_digit() || c == '.' => {
             let (number, rest) = text.split_at(number_length(text));
-            let value = number.parse();
+            let value: Result<f64, _> = number.parse();
             let value = value.map_err(|_| format!("`{number}` is not a number"))?;
-            Ok((plain(value), rest))
+            Ok((Quantity::from(value), rest))
         }
         Some(c) if is_letter(c) => {
             let end = text.find(|c| !is_letter(c)).unwrap_or(text.len());
             let (name, rest) = text.split_at(end);
             if ["PI", "pi", "π"].contains(&name) {
-                return Ok((plain(PI), rest));
+                return Ok((PI.into(), rest));
             }
             let (power, rest) = exponent(rest)?;
-            let one = plain(1.0);
-            Ok((one.times(named(name)?, power), rest))
+            Ok((Quantity::from(1.0).times(named(name)?, power), rest))
         }
         Some(c) => Err(format!("a value is expected at `{c}`")),
         None => Err("a value is missing".to_owned()),

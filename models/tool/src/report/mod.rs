@@ -12,7 +12,6 @@ mod variants;
 mod verdict;
 
 use std::fs;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::{Instant, UNIX_EPOCH};
 

@@ -7,7 +7,6 @@ mod case;
 mod page;
 mod picture;
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -36,7 +36,7 @@ impl Subject<'_> {
     /// Largest relative difference of q̈ under two settings, at the states of the reference.
     fn compare(&self, one: SolverOptions, other: SolverOptions) -> Option<f64> {
         let n = self.mechanism.spec().n();
-        let mut solvers = [one, other].map(|options| Solver::new(&self.mechanism, options));
+        let mut solvers = [one, other].map(|options| Solver::new(self.mechanism, options));
         let mut largest: f64 = 0.0;
         for (k, &t) in self.truth.times.iter().enumerate() {
             let (q, v) = self.truth.state(k).split_at(n);
@@ -60,7 +60,7 @@ impl Subject<'_> {
     /// Change of the end by starts that are rounded differently, from one by starts that differ more.
     fn rounding(&self) -> Option<f64> {
         let end = |start: State| {
-            let run = Simulation::new(&self.mechanism)
+            let run = Simulation::new(self.mechanism)
                 .start(start)
                 .tolerance(FINE)
                 .at(Vec::new())
