@@ -83,7 +83,9 @@ pub fn exit(result: Result<(), Failure>) -> ExitCode {
 
 /// The name of this program, as it was called.
 fn program() -> String {
-    let called = std::env::args_os().next().unwrap_or_else(|| OsString::from("uk"));
+    let called = std::env::args_os()
+        .next()
+        .unwrap_or_else(|| OsString::from("uk"));
     let name = Path::new(&called).file_stem().unwrap_or(&called);
     name.to_string_lossy().into_owned()
 }

@@ -89,7 +89,11 @@ impl Cell {
 /// A table. `heads` are the heads of its columns, with `|` between them; columns under a common head are written `head: one; two`. Heads are HTML
 /// of ours, and not escaped.
 #[must_use]
-pub fn table(caption: impl Render, heads: &str, rows: impl IntoIterator<Item = Vec<Cell>>) -> Markup {
+pub fn table(
+    caption: impl Render,
+    heads: &str,
+    rows: impl IntoIterator<Item = Vec<Cell>>,
+) -> Markup {
     let rows: Vec<Vec<Cell>> = rows.into_iter().collect();
     let known = |column: usize| {
         let mut cells = rows.iter().filter_map(|row| row.get(column));
@@ -100,11 +104,15 @@ pub fn table(caption: impl Render, heads: &str, rows: impl IntoIterator<Item = V
     for head in heads.split('|') {
         let (group, members) = head.split_once(": ").unwrap_or(("", head));
         let members = members.split(';').map(str::trim);
-        let members = members.filter(|_| columns.next().is_some_and(known)).collect();
+        let members = members
+            .filter(|_| columns.next().is_some_and(known))
+            .collect();
         groups.push((group.trim(), members));
     }
     let shown: usize = groups.iter().map(|(_, members)| members.len()).sum();
-    let grouped = groups.iter().any(|(group, members)| !group.is_empty() && !members.is_empty());
+    let grouped = groups
+        .iter()
+        .any(|(group, members)| !group.is_empty() && !members.is_empty());
     html! {
         figure.table {
             figcaption { (caption) }
@@ -232,7 +240,11 @@ mod tests {
         assert_eq!(fixed(-0.0001, 3), "0.000");
         assert_eq!(signed(0.0004, 3), "0.000");
         assert_eq!(signed(0.0006, 3), "+0.001");
-        for (value, text) in [(-2.34e-13, "−2.3·10<sup>−13</sup>"), (1e-10, "10<sup>−10</sup>"), (0.0, "0")] {
+        for (value, text) in [
+            (-2.34e-13, "−2.3·10<sup>−13</sup>"),
+            (1e-10, "10<sup>−10</sup>"),
+            (0.0, "0"),
+        ] {
             assert_eq!(power_of_ten(value).into_string(), text);
         }
     }
@@ -240,15 +252,24 @@ mod tests {
     #[test]
     fn what_html_reserves_is_escaped() {
         let figure = figure("a.svg", "x < 1", "b & c").into_string();
-        assert!(figure.contains("alt=\"x &lt; 1\"") && figure.contains("b &amp; c"), "{figure}");
+        assert!(
+            figure.contains("alt=\"x &lt; 1\"") && figure.contains("b &amp; c"),
+            "{figure}"
+        );
     }
 
     #[test]
     fn a_table_has_its_cells_but_no_empty_column() {
         let row = |name, cell| vec![Cell::text(name), Cell::Missing, cell, Cell::Missing];
-        let rows = [row("a", Cell::fixed(1.0, 0)), row("b", Cell::Rest(html! { i { "no" } }))];
+        let rows = [
+            row("a", Cell::fixed(1.0, 0)),
+            row("b", Cell::Rest(html! { i { "no" } })),
+        ];
         let html = table("c", "name | both: here; there | nowhere: x", rows).into_string();
-        assert!(html.contains("<th class=\"group\" colspan=\"1\">both</th>"), "{html}");
+        assert!(
+            html.contains("<th class=\"group\" colspan=\"1\">both</th>"),
+            "{html}"
+        );
         assert!(html.contains("<th>name</th><th>there</th></tr>"), "{html}");
         assert!(html.contains("<td>a</td><td class=\"n\">1</td>"), "{html}");
         assert!(html.contains("<td colspan=\"1\"><i>no</i></td>"), "{html}");
@@ -256,16 +277,30 @@ mod tests {
 
     #[test]
     fn a_page_links_what_it_has() {
-        let section = |id, body| Section { id, link: id, title: "Title", body };
+        let section = |id, body| Section {
+            id,
+            link: id,
+            title: "Title",
+            body,
+        };
         let page = Page {
             title: "A & B",
             head: html! {},
             files: &[("a.json", "JSON")],
-            sections: vec![section("empty", html! {}), section("full", html! { p { "text" } })],
+            sections: vec![
+                section("empty", html! {}),
+                section("full", html! { p { "text" } }),
+            ],
             foot: html! {},
         };
         let html = page.render();
-        assert!(html.contains("<title>A &amp; B</title>") && !html.contains("empty"), "{html}");
-        assert!(html.contains("<a href=\"#full\">full</a>") && html.contains("<h2 id=\"full\">1. Title</h2>"));
+        assert!(
+            html.contains("<title>A &amp; B</title>") && !html.contains("empty"),
+            "{html}"
+        );
+        assert!(
+            html.contains("<a href=\"#full\">full</a>")
+                && html.contains("<h2 id=\"full\">1. Title</h2>")
+        );
     }
 }

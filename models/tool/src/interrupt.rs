@@ -27,7 +27,9 @@ impl Interrupt {
         let caught = CAUGHT.get_or_init(|| ctrlc::set_handler(handle).map_err(|e| e.to_string()));
         match caught {
             Ok(()) => Ok(Interrupt(&ASKED)),
-            Err(e) => Err(Failure::Failed(format!("cannot catch the interrupt signal: {e}"))),
+            Err(e) => Err(Failure::Failed(format!(
+                "cannot catch the interrupt signal: {e}"
+            ))),
         }
     }
 

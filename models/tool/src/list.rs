@@ -34,7 +34,12 @@ fn entry(out: &mut dyn Write, model: &Entry, wide: usize) -> io::Result<()> {
         }
     }
     if model.starts.is_empty() {
-        let coordinates = model.mechanism.spec().coords.iter().map(|c| (*c).to_owned());
+        let coordinates = model
+            .mechanism
+            .spec()
+            .coords
+            .iter()
+            .map(|c| (*c).to_owned());
         paragraph(out, "guess", coordinates)?;
     }
     let params = model.mechanism.spec().params.iter().map(|p| {

@@ -251,7 +251,9 @@ mod tests {
         let first = Directory::create(&path).expect("nobody else");
         let second = Directory::create(&path);
         assert!(matches!(second, Err(Failure::Failed(m)) if m.contains("another program")));
-        first.write("figures/a.svg", "<svg/>").expect("a directory below");
+        first
+            .write("figures/a.svg", "<svg/>")
+            .expect("a directory below");
         drop(first);
         Directory::create(&path).expect("nobody any more");
     }

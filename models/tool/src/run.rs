@@ -209,7 +209,9 @@ fn integrate<'a>(
         .tolerance(args.tol)
         .stabilise(args.stabilise)
         .progress(move |now| {
-            bar.set((now.t - from) / (until - from), || format!("t = {:.3} s", now.t));
+            bar.set((now.t - from) / (until - from), || {
+                format!("t = {:.3} s", now.t)
+            });
             if interrupt.is_set() {
                 return ControlFlow::Break(());
             }

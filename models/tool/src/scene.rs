@@ -110,12 +110,13 @@ impl Start {
         &self,
         entry: &Entry,
     ) -> Result<(Prepared, Option<&'static StartSpec>, StartOptions), Failure> {
-        let start = match &self.start {
-            None => entry.starts.first(),
-            Some(name) => Some(entry.starts.iter().find(|s| s.name == name).ok_or_else(|| {
-                Error::unknown_name("start", name, &mut entry.starts.iter().map(|s| s.name))
-            })?),
-        };
+        let start =
+            match &self.start {
+                None => entry.starts.first(),
+                Some(name) => Some(entry.starts.iter().find(|s| s.name == name).ok_or_else(
+                    || Error::unknown_name("start", name, &mut entry.starts.iter().map(|s| s.name)),
+                )?),
+            };
         let offered = start.map_or(&[][..], |s| s.options);
         let mut mechanism = entry.mechanism.clone();
         let mut options = StartOptions::new();
@@ -140,7 +141,11 @@ impl Start {
         let spec = mechanism.spec();
         for (name, quantity) in &self.guesses {
             let velocity = name.strip_prefix("dot(").and_then(|n| n.strip_suffix(')'));
-            let values = if velocity.is_some() { &mut state.v } else { &mut state.q };
+            let values = if velocity.is_some() {
+                &mut state.v
+            } else {
+                &mut state.q
+            };
             let value = quantity.in_unit(None).map_err(Failure::Usage)?;
             for index in coordinates(spec, velocity.unwrap_or(name))? {
                 values[index] = value;
@@ -159,7 +164,8 @@ impl Start {
 
 /// The coordinate called `name`, or all members of the family of this bare name.
 fn coordinates(spec: &Spec, name: &str) -> Result<Vec<usize>, Error> {
-    let members = (0..spec.n()).filter(|&i| spec.coords[i].contains('[') && family(spec.coords[i]) == name);
+    let members =
+        (0..spec.n()).filter(|&i| spec.coords[i].contains('[') && family(spec.coords[i]) == name);
     let members: Vec<usize> = members.collect();
     if members.is_empty() {
         return Ok(vec![spec.coordinate_index(name)?]);

@@ -1,51 +1,61 @@
-//! The command line `uk`: reproduce the paper, list, run and explain models.
+//! The command line `uk`: reproduce the paper; list, run, explain and measure the models of this repository.
 
 #![forbid(unsafe_code)]
 
-mod args;
-mod drift;
-mod explain;
-mod failure;
-mod html;
-mod interrupt;
-mod list;
-mod numbers;
-mod output;
 mod paper;
-mod parallel;
-mod plot;
-mod progress;
-mod report;
-mod run;
-mod scene;
-mod stability;
-mod summary;
-mod units;
 
-use std::io::{self, Write};
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::{Parser, Subcommand};
+use uktool::command::{self, HELP};
 
-use args::{Cli, Command, PaperArgs};
-use failure::Failure;
+use paper::PaperArgs;
+
+/// Dynamics of constrained multibody systems after Udwadia and Kalaba.
+///
+/// Without a command, `uk paper`. How far stiff and extreme cases go is shown by a program of its own, `uk-stability`.
+#[derive(Debug, Parser)]
+#[command(name = "uk", version, after_help = HELP)]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Reproduce the paper (Zhao, Zhen & Chen 2013): tables, figures and a verdict on each claim
+    Paper(PaperArgs),
+    #[command(flatten)]
+    Tool(command::Command),
+}
 
 fn main() -> ExitCode {
-    let result = match Cli::parse().command {
+    let cli: Cli = command::parse();
+    command::exit(match cli.command {
         None => paper::paper(&PaperArgs::default()),
         Some(Command::Paper(args)) => paper::paper(&args),
-        Some(Command::Report(args)) => report::report(&args),
-        Some(Command::Stability(args)) => stability::stability(&args),
-        Some(Command::List) => list::list(),
-        Some(Command::Run(args)) => run::run(&args),
-        Some(Command::Explain(args)) => explain::explain(&args),
-    };
-    let Err(failure) = result else {
-        return ExitCode::SUCCESS;
-    };
-    if !matches!(failure, Failure::ReaderGone) {
-        // Standard error may be closed too; the exit code still tells.
-        let _ = writeln!(io::stderr(), "{failure}");
+        Some(Command::Tool(command)) => command.run(&models::entries()),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_parser_is_consistent() {
+        Cli::command().debug_assert();
     }
-    ExitCode::from(failure.code())
+
+    #[test]
+    fn the_paper_is_the_default() {
+        let cli = Cli::try_parse_from(["uk"]).expect("arguments");
+        assert!(cli.command.is_none());
+        let cli = Cli::try_parse_from(["uk", "paper"]).expect("arguments");
+        let Some(Command::Paper(paper)) = cli.command else {
+            panic!("not the paper")
+        };
+        assert_eq!(paper.out, PaperArgs::default().out);
+    }
 }

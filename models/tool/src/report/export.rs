@@ -64,7 +64,10 @@ pub(super) struct Line<'a> {
 
 /// The rows of a motion, one a run.
 pub(super) fn lines(study: &Study) -> impl Iterator<Item = Line<'_>> {
-    let points = study.curves.iter().flat_map(|c| c.points.iter().map(move |p| (c, p)));
+    let points = study
+        .curves
+        .iter()
+        .flat_map(|c| c.points.iter().map(move |p| (c, p)));
     points.map(|(curve, point)| {
         let line = Line {
             motion: &study.name,

@@ -86,7 +86,9 @@ pub fn report(models: &[Entry], args: &ReportArgs) -> Result<(), Failure> {
         };
         match job.study(args.quick, interrupt, &done) {
             Ok(study) => report.studies.push(study),
-            Err(failure) => report.failures.push((job.name.clone(), failure.to_string())),
+            Err(failure) => report
+                .failures
+                .push((job.name.clone(), failure.to_string())),
         }
     }
     progress.finish();
@@ -136,7 +138,8 @@ fn jobs<'a>(models: &'a [Entry], args: &ReportArgs) -> Result<Vec<Job<'a>>, Fail
         return Ok(entries.into_iter().flat_map(motions).collect());
     }
     let [entry] = entries[..] else {
-        let message = "`--set`, `--start`, `--guess`, `--hold` and `--until` are of one model; name it";
+        let message =
+            "`--set`, `--start`, `--guess`, `--hold` and `--until` are of one model; name it";
         return Err(Failure::Usage(message.to_owned()));
     };
     // What is wrong with them is told before anything is written.
@@ -164,14 +167,20 @@ fn motions(entry: &Entry) -> Vec<Job<'_>> {
     let mut jobs: Vec<Job<'_>> = Vec::new();
     for reference in references {
         let end = reference.states.last().map_or(0.0, |s| s.t);
-        let name = if several { format!("{} to {end} s", entry.id) } else { entry.id.clone() };
+        let name = if several {
+            format!("{} to {end} s", entry.id)
+        } else {
+            entry.id.clone()
+        };
         jobs.push(job(name, Some(reference)));
     }
     if jobs.is_empty() {
         jobs.push(job(entry.id.clone(), None));
     }
     for variation in entry.variations {
-        let words = variation.iter().map(|(name, value)| format!("{name} {value:e}"));
+        let words = variation
+            .iter()
+            .map(|(name, value)| format!("{name} {value:e}"));
         let words = words.collect::<Vec<_>>().join(", ");
         let settings = variation.iter();
         let settings = settings.map(|(name, value)| ((*name).to_owned(), Quantity::from(*value)));
@@ -196,7 +205,9 @@ impl Job<'_> {
     ) -> Result<Study, Failure> {
         let ready = self.start.ready(self.entry)?;
         let reference = self.reference.as_ref();
-        measure::study(&self.name, &ready, self.end, reference, quick, interrupt, done)
+        measure::study(
+            &self.name, &ready, self.end, reference, quick, interrupt, done,
+        )
     }
 }
 
@@ -239,7 +250,10 @@ fn tell(out: &Path, report: &Report) -> Result<(), Failure> {
     let wide = numbers::width(report.studies.iter().map(|s| s.name.as_str()));
     let goals = verdict::looked_at(report.quick, &report.studies);
     output::to_stdout(|w| {
-        writeln!(w, "What to take for which scaled error at the end, with the constraints kept")?;
+        writeln!(
+            w,
+            "What to take for which scaled error at the end, with the constraints kept"
+        )?;
         for study in &report.studies {
             for (k, &goal) in goals.iter().enumerate() {
                 let name = if k == 0 { study.name.as_str() } else { "" };

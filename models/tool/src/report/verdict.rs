@@ -113,7 +113,11 @@ pub(super) struct Tally {
 
 /// The accuracies to speak of: a quick look has run no tolerance for those that nothing reached.
 pub(super) fn looked_at(quick: bool, studies: &[Study]) -> Vec<f64> {
-    let reached = |goal: f64| studies.iter().any(|s| choice(s, goal, Among::All).is_some());
+    let reached = |goal: f64| {
+        studies
+            .iter()
+            .any(|s| choice(s, goal, Among::All).is_some())
+    };
     let goals = GOALS.into_iter();
     goals.filter(|goal| !quick || reached(*goal)).collect()
 }

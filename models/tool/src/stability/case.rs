@@ -347,7 +347,10 @@ mod tests {
     fn newton(square: f64, effort: &mut Effort) -> Result<f64, Error> {
         if square > 1e9 {
             let reason = format!("is {square:e}");
-            return Err(Error::InvalidSetting { what: "square", reason });
+            return Err(Error::InvalidSetting {
+                what: "square",
+                reason,
+            });
         }
         let root = (0..8).fold(1.0, |x: f64, _| 0.5 * (x + square / x));
         effort.evaluations += 8;
@@ -365,7 +368,9 @@ mod tests {
             sweep: decades(0, 12, 1, 0),
             measure: newton,
         };
-        let row = case.row(Interrupt::never(), || ()).expect("not interrupted");
+        let row = case
+            .row(Interrupt::never(), || ())
+            .expect("not interrupted");
         let classes: Vec<Class> = row.points.iter().map(|p| p.class).collect();
         assert_eq!((classes[0], classes[3]), (Class::Accurate, Class::Degraded));
         assert_eq!((classes[6], classes[12]), (Class::Wrong, Class::Refused));

@@ -49,8 +49,7 @@ struct Stability {
     seconds: f64,
 }
 
-const ABOUT: &str =
-    "Errors are parts of the size of the result; `ordinary` is the index of the value at which nothing is extreme.";
+const ABOUT: &str = "Errors are parts of the size of the result; `ordinary` is the index of the value at which nothing is extreme.";
 
 /// A row of stability.csv.
 #[derive(Serialize)]

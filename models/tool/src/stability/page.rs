@@ -11,7 +11,10 @@ pub(super) fn html(report: &Stability) -> String {
     let page = Page {
         title: "Stiff and extreme cases",
         head: head(report),
-        files: &[("stability.json", "All numbers (JSON)"), ("stability.csv", "CSV")],
+        files: &[
+            ("stability.json", "All numbers (JSON)"),
+            ("stability.csv", "CSV"),
+        ],
         sections: vec![
             Section {
                 id: "cases",
@@ -63,7 +66,9 @@ fn summary(rows: &[Row]) -> Markup {
         let (effort, seconds) = row.total();
         let wrong = row.count(Class::Wrong);
         vec![
-            Cell::Text(html! { a href=(format!("#{}", row.id)) { (row.id) } br; small { (row.swept) } }),
+            Cell::Text(
+                html! { a href=(format!("#{}", row.id)) { (row.id) } br; small { (row.swept) } },
+            ),
             Cell::text(row.range_text(|c| c == Class::Accurate)),
             Cell::text(row.range_text(|c| c == Class::Accurate || c == Class::Degraded)),
             Cell::power(row.bound),

@@ -44,7 +44,9 @@ pub(super) fn picture(rows: &[Row]) -> Result<String, Failure> {
             x += 58 + 7 * meaning.len() as i32;
         }
         let tops = (HEAD..).step_by(PITCH as usize);
-        rows.iter().zip(tops).try_for_each(|(row, top)| bar(area, row, top))
+        rows.iter()
+            .zip(tops)
+            .try_for_each(|(row, top)| bar(area, row, top))
     })
 }
 
@@ -55,7 +57,9 @@ fn write<'a>(
     size: i32,
     text: &str,
 ) -> Result<(), DrawError<'a>> {
-    let style = (FONT, size).into_text_style(area).pos(Pos::new(side, VPos::Center));
+    let style = (FONT, size)
+        .into_text_style(area)
+        .pos(Pos::new(side, VPos::Center));
     area.draw(&Text::new(text, place, style))
 }
 
@@ -77,7 +81,10 @@ fn bar<'a>(area: &Area<'a>, row: &Row, top: i32) -> Result<(), DrawError<'a>> {
     for (i, point) in row.points.iter().enumerate() {
         let (from, to) = (left(i as f64), left(i as f64 + 1.0) - 1);
         let (colour, _) = look(point.class);
-        area.draw(&Rectangle::new([(from, top), (to, top + BAR)], colour.filled()))?;
+        area.draw(&Rectangle::new(
+            [(from, top), (to, top + BAR)],
+            colour.filled(),
+        ))?;
     }
     // The ordinary value, where it is not at an end.
     if row.ordinary > 0 && row.ordinary + 1 < row.points.len() {

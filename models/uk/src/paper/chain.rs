@@ -3,9 +3,8 @@
 use models::uchain::TABLE_1;
 use models::{Model, StartOptions, UChain};
 use serde::Serialize;
-use ukcore::{Direction, Event};
-
-use crate::failure::Failure;
+use ukcore::{Direction, Event, Mechanism};
+use uktool::failure::Failure;
 
 use super::measure;
 use super::motion::{Motion, RunRow, times};
@@ -102,7 +101,7 @@ pub(super) fn compute(start: &str, x0: f64) -> Result<Chain, Failure> {
     let g = mechanism.g;
     let start = mechanism.start(start, &StartOptions::new().with("x0", x0))?;
     let turn = Event::new("turn", |_, _, v| v[TIP_Y]).direction(Direction::Falling);
-    let (mut motion, run) = Motion::new(&name, mechanism.clone(), start, UNTIL, Some(turn))?;
+    let (mut motion, run) = Motion::new(&name, &mechanism.prepared(), start, UNTIL, Some(turn))?;
     let hit = motion.trajectory().events("turn")?.next().ok_or_else(|| {
         Failure::Failed(format!(
             "{name}: the tip does not turn before t = {UNTIL} s"
@@ -166,7 +165,7 @@ pub(super) fn compute(start: &str, x0: f64) -> Result<Chain, Failure> {
 
 /// Place and value of the least of `sign` ÿ1 among the samples where `near` holds, refined between their neighbours.
 fn extremum(
-    motion: &mut Motion<UChain>,
+    motion: &mut Motion,
     samples: &[(f64, f64)],
     sign: f64,
     near: impl Fn(f64) -> bool,

@@ -2,11 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use plotters::style::RGBColor;
-
-use crate::failure::Failure;
-use crate::html::fixed;
-use crate::plot::{COLOURS, Chart, Legend, Scale, Series, round_range};
+use uktool::failure::Failure;
+use uktool::html::fixed;
+use uktool::plot::{COLOURS, Chart, Legend, RGBColor, Series, round_range};
 
 use super::chain::Chain;
 use super::fish::{self, Fish};
@@ -21,13 +19,17 @@ type Pick = fn(&Fish) -> &Curve;
 /// The name of a fish in a legend.
 type Label = fn(&Fish) -> String;
 
-/// Half a page wide.
-const HALF: (u32, u32) = (560, 360);
 /// A whole page wide.
 const WHOLE: (u32, u32) = (1000, 400);
+/// The time of a whole run, s.
+const WHOLE_RUN: (f64, f64) = (0.0, 10.0);
 /// What the paper's figures of the fish show settles in this time, s; it turns over later.
 const FISH_TIME: f64 = 5.0;
 const TIME: &str = "time t (s)";
+const SPEED: &str = "forward velocity −ẋ1 (m/s)";
+const ACCELERATION: &str = "acceleration ẍ1 (m/s²)";
+const SWING: &str = "swing angle θ1 (°)";
+const TIP: &str = "tip acceleration ÿ1 (m/s²)";
 
 /// All figures.
 ///
@@ -47,40 +49,30 @@ pub(super) fn all(chains: &[Chain], fishes: &[Fish]) -> Result<Figures, Failure>
     charts.push(("chain-fall".to_owned(), fall(chains)));
     charts.extend(by_amplitude(fishes));
     for (k, (name, label)) in SWEEPS.iter().enumerate() {
-        let of = |curve: Pick| sweep_curves(fishes, k, curve, *label);
-        charts.push((
-            format!("fish-{name}-speed"),
-            chart(
-                "forward velocity −ẋ1 (m/s)",
-                (0.0, FISH_TIME),
-                of(|f| &f.speed),
-                Legend::LowerRight,
-            ),
-        ));
+        let mut add = |kind: &str, label_of_y, curve: Pick, legend| {
+            let curves = sweep_curves(fishes, k, curve, *label);
+            let chart = chart(label_of_y, (0.0, FISH_TIME), curves, legend);
+            charts.push((format!("fish-{name}-{kind}"), chart));
+        };
+        add("speed", SPEED, |f| &f.speed, Legend::LowerRight);
         // Those of the amplitude are Figs. 13-16, in one range.
         if k > 0 {
-            charts.push((
-                format!("fish-{name}-acceleration"),
-                chart(
-                    "acceleration ẍ1 (m/s²)",
-                    (0.0, FISH_TIME),
-                    of(|f| &f.acceleration),
-                    Legend::LowerMiddle,
-                ),
-            ));
+            add(
+                "acceleration",
+                ACCELERATION,
+                |f| &f.acceleration,
+                Legend::LowerMiddle,
+            );
         }
-        charts.push((
-            format!("fish-{name}-swing"),
-            chart(
-                "swing angle θ1 (°)",
-                (0.0, FISH_TIME),
-                of(|f| &f.swing),
-                Legend::UpperLeft,
-            ),
-        ));
+        add("swing", SWING, |f| &f.swing, Legend::UpperLeft);
     }
-    charts.push(("fish-turning".to_owned(), turning(fishes)));
-    charts.push(("fish-turning-speed".to_owned(), turning_speed(fishes)));
+    // The instability that the paper does not mention.
+    let across = horizontal("across (90°)", 90.0, WHOLE_RUN);
+    let turning = whole_run(fishes, SWING, across, |f| &f.swing, Legend::UpperLeft);
+    charts.push(("fish-turning".to_owned(), turning));
+    let zero = horizontal("", 0.0, WHOLE_RUN);
+    let speed = whole_run(fishes, SPEED, zero, |f| &f.speed, Legend::LowerRight);
+    charts.push(("fish-turning-speed".to_owned(), speed));
     charts
         .into_iter()
         .map(|(name, chart)| Ok((name, chart.svg()?)))
@@ -89,17 +81,10 @@ pub(super) fn all(chains: &[Chain], fishes: &[Fish]) -> Result<Figures, Failure>
 
 /// A chart over time whose vertical range holds all of its curves.
 fn chart(y_label: &str, x: (f64, f64), curves: Vec<Series>, legend: Legend) -> Chart {
-    let series: Vec<Series> = curves.into_iter().map(|s| cut(s, x)).collect();
-    let y = round_range(series.iter().flat_map(|s| s.points.iter().map(|p| p.1)));
+    let series = curves.into_iter().map(|s| cut(s, x)).collect();
     Chart {
-        x_label: TIME.to_owned(),
-        y_label: y_label.to_owned(),
-        x,
-        y,
-        series,
-        scale: Scale::Linear,
         legend,
-        size: HALF,
+        ..Chart::new(TIME, y_label, x, series)
     }
 }
 
@@ -140,14 +125,10 @@ fn falling(chain: &Chain) -> Chart {
     let width = 560;
     let height = frame_y + (f64::from(width - frame_x) * (depth + above) / (x.1 - x.0)) as u32;
     Chart {
-        x_label: "x (m)".to_owned(),
-        y_label: "y, downwards (m)".to_owned(),
-        x,
         y: (depth, -above),
-        series,
-        scale: Scale::Linear,
         legend: Legend::UpperMiddle,
         size: (width, height),
+        ..Chart::new("x (m)", "y, downwards (m)", x, series)
     }
 }
 
@@ -176,7 +157,7 @@ fn tip_accelerations(chains: &[Chain]) -> Vec<(String, Chart)> {
                 horizontal("g", GRAVITY, x),
                 Series::new(format!("x0 = {} m", c.row.x0), 0, c.acceleration.clone()),
             ];
-            let chart = chart("tip acceleration ÿ1 (m/s²)", x, series, Legend::LowerLeft);
+            let chart = chart(TIP, x, series, Legend::LowerLeft);
             (format!("fig{}", c.row.paper.figure), Chart { y, ..chart })
         })
         .collect()
@@ -192,7 +173,7 @@ fn tip_accelerations_together(chains: &[Chain]) -> Chart {
             .map(|(k, c)| Series::new(format!("x0 = {} m", c.row.x0), k, c.acceleration.clone())),
     );
     // What the paper speaks of, accelerations above g, would be a thin line next to the peaks.
-    let chart = chart("tip acceleration ÿ1 (m/s²)", x, series, Legend::LowerLeft);
+    let chart = chart(TIP, x, series, Legend::LowerLeft);
     Chart {
         y: (-30.0, 30.0),
         series: chart
@@ -285,8 +266,8 @@ fn by_amplitude(fishes: &[Fish]) -> Vec<(String, Chart)> {
     let chosen = fish::sweep(fishes, 0, |f| &f.row);
     let mut charts = Vec::new();
     let curves: [(usize, &str, Pick); 2] = [
-        (9, "forward velocity −ẋ1 (m/s)", |f| &f.speed),
-        (13, "acceleration ẍ1 (m/s²)", |f| &f.acceleration),
+        (9, SPEED, |f| &f.speed),
+        (13, ACCELERATION, |f| &f.acceleration),
     ];
     for (figure, label, curve) in curves {
         let y = round_range(
@@ -303,23 +284,12 @@ fn by_amplitude(fishes: &[Fish]) -> Vec<(String, Chart)> {
     charts
 }
 
-/// θ1 over the whole run: the instability that the paper does not mention.
-fn turning(fishes: &[Fish]) -> Chart {
-    let x = (0.0, 10.0);
-    let mut series = vec![horizontal("across (90°)", 90.0, x)];
-    series.extend(sweep_curves(fishes, 0, |f| &f.swing, SWEEPS[0].1));
+/// A curve of each amplitude over the whole run.
+fn whole_run(fishes: &[Fish], y_label: &str, level: Series, curve: Pick, legend: Legend) -> Chart {
+    let mut series = vec![level];
+    series.extend(sweep_curves(fishes, 0, curve, SWEEPS[0].1));
     Chart {
         size: WHOLE,
-        ..chart("swing angle θ1 (°)", x, series, Legend::UpperLeft)
-    }
-}
-
-fn turning_speed(fishes: &[Fish]) -> Chart {
-    let x = (0.0, 10.0);
-    let mut series = vec![horizontal("", 0.0, x)];
-    series.extend(sweep_curves(fishes, 0, |f| &f.speed, SWEEPS[0].1));
-    Chart {
-        size: WHOLE,
-        ..chart("forward velocity −ẋ1 (m/s)", x, series, Legend::LowerRight)
+        ..chart(y_label, WHOLE_RUN, series, legend)
     }
 }

@@ -4,8 +4,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use models::{FishRobot, Model, StartOptions};
 use serde::Serialize;
-
-use crate::failure::Failure;
+use ukcore::Mechanism;
+use uktool::failure::Failure;
 
 use super::measure::{self, Oscillation};
 use super::motion::{Motion, RunRow, times};
@@ -47,39 +47,23 @@ const BASE: Gait = Gait {
 
 /// The amplitude sweep, then the frequency sweep, then the phase sweep; the base gait, which all share, once.
 pub(super) fn gaits() -> Vec<Gait> {
-    let mut all: Vec<Gait> = AMPLITUDES.iter().map(|&a3| Gait { a3, ..BASE }).collect();
-    all.extend(
-        FREQUENCIES_PI
-            .iter()
-            .map(|&omega_pi| Gait { omega_pi, ..BASE })
-            .filter(|g| *g != BASE),
-    );
-    all.extend(
-        PHASES_DEG
-            .iter()
-            .map(|&phi_deg| Gait { phi_deg, ..BASE })
-            .filter(|g| *g != BASE),
-    );
-    all
+    let amplitudes = AMPLITUDES.map(|a3| Gait { a3, ..BASE });
+    let frequencies = FREQUENCIES_PI.map(|omega_pi| Gait { omega_pi, ..BASE });
+    let phases = PHASES_DEG.map(|phi_deg| Gait { phi_deg, ..BASE });
+    let others = frequencies.into_iter().chain(phases);
+    let others = others.filter(|gait| *gait != BASE);
+    amplitudes.into_iter().chain(others).collect()
 }
 
 impl Gait {
     /// Which of the sweeps it belongs to: amplitude, frequency, phase.
     pub(super) fn sweeps(self) -> [bool; 3] {
-        [
-            Gait {
-                a3: BASE.a3,
-                ..self
-            } == BASE,
-            Gait {
-                omega_pi: BASE.omega_pi,
-                ..self
-            } == BASE,
-            Gait {
-                phi_deg: BASE.phi_deg,
-                ..self
-            } == BASE,
-        ]
+        let same = [
+            self.a3 == BASE.a3,
+            self.omega_pi == BASE.omega_pi,
+            self.phi_deg == BASE.phi_deg,
+        ];
+        [same[1] && same[2], same[0] && same[2], same[0] && same[1]]
     }
 }
 
@@ -156,7 +140,7 @@ pub(super) fn compute(gait: Gait) -> Result<Fish, Failure> {
         ..FishRobot::default()
     };
     let start = mechanism.start("table3", &StartOptions::new())?;
-    let (mut motion, run) = Motion::new(&name, mechanism, start, UNTIL, None)?;
+    let (mut motion, run) = Motion::new(&name, &mechanism.prepared(), start, UNTIL, None)?;
 
     let (mut speed, mut acceleration, mut swing) = (Vec::new(), Vec::new(), Vec::new());
     for t in times(0.0, UNTIL, POINTS) {

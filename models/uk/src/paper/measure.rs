@@ -121,11 +121,6 @@ pub(super) fn spread(values: impl Iterator<Item = f64>) -> f64 {
     high - low
 }
 
-/// Whether each value is larger than the one before.
-pub(super) fn increases(values: &[f64]) -> bool {
-    values.windows(2).all(|w| w[0] < w[1])
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -156,9 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn order_of_values() {
-        assert!(increases(&[1.0, 2.0, 3.0]));
-        assert!(!increases(&[1.0, 1.0]));
+    fn the_spread_of_values() {
         assert_eq!(spread([1.0, -2.0, 0.5].into_iter()), 3.0);
     }
 }

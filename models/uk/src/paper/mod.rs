@@ -9,18 +9,18 @@ mod motion;
 mod page;
 mod published;
 
-use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
+use clap::Args;
 use models::uchain::TABLE_1;
+use rayon::prelude::*;
 use serde::Serialize;
-
-use crate::args::PaperArgs;
-use crate::failure::Failure;
-use crate::output;
-use crate::parallel;
-use crate::progress::Progress;
+use uktool::command;
+use uktool::failure::Failure;
+use uktool::output::{self, Directory};
+use uktool::progress::Progress;
 
 use chain::{Chain, ChainRow};
 use claims::{Claim, Verdict};
@@ -30,6 +30,22 @@ use motion::RunRow;
 /// Tolerance of all integrations, relative and absolute. Tighter by four orders than the digits shown, since the chain amplifies an error
 /// a hundredfold until its tip turns.
 const TOLERANCE: f64 = 1e-10;
+
+/// The arguments of `paper`.
+#[derive(Debug, Args)]
+pub(crate) struct PaperArgs {
+    /// Directory to write index.html, paper.json, figures and CSV files to
+    #[arg(long, value_name = "DIR", default_value = OUT, value_parser = command::path)]
+    pub(crate) out: PathBuf,
+}
+
+const OUT: &str = "out/paper";
+
+impl Default for PaperArgs {
+    fn default() -> Self {
+        PaperArgs { out: OUT.into() }
+    }
+}
 
 /// Every number on the page.
 #[derive(Debug, Serialize)]
@@ -78,12 +94,16 @@ struct Results {
 /// replaced by files that are each whole, and index.html is written last.
 pub(crate) fn paper(args: &PaperArgs) -> Result<(), Failure> {
     let started = Instant::now();
-    output::create_directory(&args.out)?;
-    output::check_writable(&args.out.join("index.html"))?;
+    let directory = Directory::create(&args.out)?;
     let results = compute()?;
-    let uchain = rows(&results.chains, |c| &c.row);
-    let fish = rows(&results.fishes, |f| &f.row);
-    let figures = figures::all(&results.chains, &results.fishes)?;
+    let uchain: Vec<ChainRow> = results.chains.iter().map(|c| c.row.clone()).collect();
+    let fish: Vec<FishRow> = results.fishes.iter().map(|f| f.row.clone()).collect();
+    for (name, svg) in figures::all(&results.chains, &results.fishes)? {
+        directory.write(&format!("figures/{name}.svg"), svg)?;
+    }
+    for (run, csv) in results.samples() {
+        directory.write(&format!("csv/{}.csv", run.name), csv)?;
+    }
     let paper = Paper {
         about: ABOUT,
         signs: SIGNS,
@@ -96,7 +116,8 @@ pub(crate) fn paper(args: &PaperArgs) -> Result<(), Failure> {
         runs: results.samples().map(|(run, _)| run.clone()).collect(),
         seconds: started.elapsed().as_secs_f64(),
     };
-    write_all(&args.out, &paper, &figures, &results)?;
+    directory.json("paper.json", &paper)?;
+    directory.write("index.html", page::html(&paper))?;
     report(&args.out, &paper)
 }
 
@@ -109,10 +130,6 @@ impl Results {
     }
 }
 
-fn rows<T, R: Clone>(items: &[T], row: impl Fn(&T) -> &R) -> Vec<R> {
-    items.iter().map(|i| row(i).clone()).collect()
-}
-
 fn compute() -> Result<Results, Failure> {
     let table = TABLE_1
         .iter()
@@ -123,23 +140,23 @@ fn compute() -> Result<Results, Failure> {
         .chain(fish::gaits().into_iter().map(Job::Fish))
         .collect();
     let progress = Progress::new("paper");
-    let outcomes = parallel::map(
-        &jobs,
-        |job| match job {
+    let (done, all) = (AtomicUsize::new(0), jobs.len());
+    let run = |job: &Job| {
+        let outcome = match job {
             Job::Chain(start, x0) => chain::compute(start, *x0).map(Outcome::Chain),
             Job::Fish(gait) => fish::compute(*gait).map(Outcome::Fish),
-        },
-        |done| {
-            progress.set(done as f64 / jobs.len() as f64, || {
-                format!("{done} of {} runs", jobs.len())
-            })
-        },
-    );
+        };
+        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+        progress.set(done as f64 / all as f64, || format!("{done} of {all} runs"));
+        outcome
+    };
+    let outcomes: Result<Vec<Outcome>, Failure> =
+        jobs.par_iter().with_max_len(1).map(run).collect();
     progress.finish();
     let (mut chains, mut fishes) = (Vec::new(), Vec::new());
     // In the order of the jobs: the catenary comes first.
-    for outcome in outcomes {
-        match outcome? {
+    for outcome in outcomes? {
+        match outcome {
             Outcome::Chain(chain) => chains.push(chain),
             Outcome::Fish(fish) => fishes.push(fish),
         }
@@ -150,33 +167,6 @@ fn compute() -> Result<Results, Failure> {
         catenary,
         fishes,
     })
-}
-
-fn write_all(
-    out: &Path,
-    paper: &Paper,
-    figures: &figures::Figures,
-    results: &Results,
-) -> Result<(), Failure> {
-    for dir in ["figures", "csv"] {
-        output::create_directory(&out.join(dir))?;
-    }
-    for (name, svg) in figures {
-        output::write_whole(&out.join("figures").join(format!("{name}.svg")), |w| {
-            w.write_all(svg.as_bytes())
-        })?;
-    }
-    for (run, csv) in results.samples() {
-        output::write_whole(&out.join("csv").join(format!("{}.csv", run.name)), |w| {
-            w.write_all(csv)
-        })?;
-    }
-    output::write_whole(&out.join("paper.json"), |w| {
-        serde_json::to_writer_pretty(&mut *w, paper).map_err(io::Error::from)?;
-        writeln!(w)
-    })?;
-    let html = page::html(paper);
-    output::write_whole(&out.join("index.html"), |w| w.write_all(html.as_bytes()))
 }
 
 /// What a person at the terminal wants to know at once.
@@ -217,13 +207,12 @@ fn report(out: &Path, paper: &Paper) -> Result<(), Failure> {
             count(Verdict::Nearly),
             count(Verdict::Fails)
         )?;
-        let index = out.join("index.html");
         writeln!(
             w,
             "{} runs in {:.1} s; the report is {}",
             paper.runs.len(),
             paper.seconds,
-            index.display()
+            out.join("index.html").display()
         )
     })
 }

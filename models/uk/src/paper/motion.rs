@@ -2,12 +2,10 @@
 
 use std::time::Instant;
 
-use models::Model;
 use serde::Serialize;
-use ukcore::{Event, Simulation, Solver, SolverOptions, State, Trajectory};
-
-use crate::drift::Drift;
-use crate::failure::Failure;
+use ukcore::{Event, Prepared, Simulation, Solver, SolverOptions, State, Trajectory};
+use uktool::drift::Drift;
+use uktool::failure::Failure;
 
 use super::TOLERANCE;
 
@@ -15,10 +13,9 @@ use super::TOLERANCE;
 const SAMPLES: f64 = 0.01;
 
 /// A computed motion, and its accelerations.
-pub(super) struct Motion<M> {
-    mechanism: M,
+pub(super) struct Motion {
     solver: Solver,
-    trajectory: Trajectory<M>,
+    trajectory: Trajectory,
 }
 
 /// Cost and quality of one integration.
@@ -45,20 +42,20 @@ pub(super) struct RunRow {
     pub(super) seconds: f64,
 }
 
-impl<M: Model> Motion<M> {
+impl Motion {
     /// Integrates `mechanism` from `start` to `until`, with an event.
     ///
     /// # Errors
     /// [`Failure::Failed`] naming the run.
     pub(super) fn new(
         name: &str,
-        mechanism: M,
+        mechanism: &Prepared,
         start: State,
         until: f64,
         event: Option<Event>,
     ) -> Result<(Self, RunRow), Failure> {
         let started = Instant::now();
-        let mut simulation = Simulation::new(mechanism.clone())
+        let mut simulation = Simulation::new(mechanism)
             .start(start)
             .tolerance(TOLERANCE)
             .every(SAMPLES)
@@ -82,19 +79,12 @@ impl<M: Model> Motion<M> {
             drift: Drift::of(&trajectory),
             seconds,
         };
-        let solver = Solver::new::<M>(SolverOptions::default());
-        Ok((
-            Motion {
-                mechanism,
-                solver,
-                trajectory,
-            },
-            run,
-        ))
+        let solver = Solver::new(mechanism, SolverOptions::default());
+        Ok((Motion { solver, trajectory }, run))
     }
 
     /// The trajectory.
-    pub(super) fn trajectory(&self) -> &Trajectory<M> {
+    pub(super) fn trajectory(&self) -> &Trajectory {
         &self.trajectory
     }
 
@@ -113,8 +103,8 @@ impl<M: Model> Motion<M> {
     pub(super) fn acceleration(&mut self, t: f64) -> Result<Vec<f64>, Failure> {
         let state = self.state(t)?;
         let mut out = vec![0.0; state.q.len()];
-        self.solver
-            .acceleration(&self.mechanism.prepared(), t, &state.q, &state.v, &mut out)?;
+        let solver = &mut self.solver;
+        solver.acceleration(t, &state.q, &state.v, &mut out)?;
         Ok(out)
     }
 
@@ -124,9 +114,8 @@ impl<M: Model> Motion<M> {
     /// [`Failure::Failed`] if they cannot be formatted.
     pub(super) fn csv(&self) -> Result<Vec<u8>, Failure> {
         let mut text = Vec::new();
-        self.trajectory
-            .write_csv(&mut text)
-            .map_err(|e| Failure::Failed(format!("cannot format CSV: {e}")))?;
+        let written = self.trajectory.write_csv(&mut text);
+        written.map_err(|e| Failure::Failed(format!("cannot format CSV: {e}")))?;
         Ok(text)
     }
 }

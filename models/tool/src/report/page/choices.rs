@@ -13,7 +13,9 @@ use crate::report::verdict::{self, Among, DEFAULT_TOLERANCE, GOALS, TIE};
 
 /// The heads of columns for these accuracies.
 fn heads(goals: &[f64], between: &str, before: &str) -> String {
-    let heads = goals.iter().map(|g| format!("{before}{}", power_of_ten(*g).0));
+    let heads = goals
+        .iter()
+        .map(|g| format!("{before}{}", power_of_ten(*g).0));
     heads.collect::<Vec<_>>().join(between)
 }
 
@@ -30,7 +32,11 @@ pub(super) fn choices(report: &Report) -> Markup {
         let recommended = goals.iter().map(|&goal| recommended(study, goal));
         [name(study)].into_iter().chain(recommended).collect()
     });
-    table(caption, &format!("motion|{}", heads(&goals, "|", "error ")), rows)
+    table(
+        caption,
+        &format!("motion|{}", heads(&goals, "|", "error ")),
+        rows,
+    )
 }
 
 fn recommended(study: &Study, goal: f64) -> Cell {
@@ -38,9 +44,8 @@ fn recommended(study: &Study, goal: f64) -> Cell {
         return Cell::number(unreached(study, goal));
     };
     let all = verdict::choice(study, goal, Among::All);
-    let faster = all.filter(|all| {
-        all.variant != kept.variant && all.cost.seconds < kept.cost.seconds
-    });
+    let faster =
+        all.filter(|all| all.variant != kept.variant && all.cost.seconds < kept.cost.seconds);
     Cell::Number(html! {
         b { (duration(kept.cost.seconds)) } br;
         small { (kept.variant.label) br; (kept.variant.knob_name()) " " (power_of_ten(kept.cost.knob)) }
@@ -78,7 +83,8 @@ pub(super) fn tallied(report: &Report) -> Markup {
             n => Cell::Number(html! { b { (n) } }),
         };
         let asked = |(_, goal): &(&usize, f64)| goals.contains(goal);
-        let [kept, all] = [&row.kept, &row.all].map(|n| n.iter().zip(GOALS).filter(asked).map(count));
+        let [kept, all] =
+            [&row.kept, &row.all].map(|n| n.iter().zip(GOALS).filter(asked).map(count));
         let cells = [Cell::Text(label)].into_iter().chain(kept).chain(all);
         cells.chain([Cell::number(row.cases)]).collect()
     });
@@ -134,7 +140,9 @@ fn default_row(study: &Study) -> Option<Vec<Cell>> {
     for factor in [1e3, 1e-3] {
         let beside = own.at(factor * DEFAULT_TOLERANCE);
         row.push(Cell::or_missing(beside, |f| claimed(study, f.error)));
-        row.push(Cell::or_missing(beside, |f| percent(f.seconds / here.seconds)));
+        row.push(Cell::or_missing(beside, |f| {
+            percent(f.seconds / here.seconds)
+        }));
     }
     Some(row)
 }

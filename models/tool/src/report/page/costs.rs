@@ -38,7 +38,9 @@ fn price_row(study: &Study) -> Vec<Cell> {
     vec![
         name(study),
         Cell::or_missing(projection, |(p, _)| percent(p.time)),
-        Cell::or_missing(projection, |(_, ratio)| Cell::number(format!("× {}", fixed(ratio, 2)))),
+        Cell::or_missing(projection, |(_, ratio)| {
+            Cell::number(format!("× {}", fixed(ratio, 2)))
+        }),
         Cell::or_missing(free.and_then(|f| f.off), Cell::power),
         Cell::or_missing(free, |f| {
             Cell::power(f.drift.position_residual.max(f.drift.velocity_residual))
@@ -74,7 +76,9 @@ fn cause_row(study: &Study) -> Vec<Cell> {
     let at = |curve: Option<&Curve>, knob: f64| curve.and_then(|c| c.at(knob)).copied();
     let within = |knob| at(own, knob).and_then(|f| f.within);
     let off = |knob| at(free, knob).and_then(|f| f.off);
-    let errors = own.into_iter().flat_map(|c| c.figures().map(|(_, f)| f.error));
+    let errors = own
+        .into_iter()
+        .flat_map(|c| c.figures().map(|(_, f)| f.error));
     vec![
         name(study),
         Cell::or_missing(within(1e-6), |e| claimed(study, e)),

@@ -57,7 +57,9 @@ fn all_runs(study: &Study) -> Markup {
             let mut row = vec![Cell::text(combination), Cell::power(point.knob)];
             match &point.figures {
                 Some(f) => row.extend(cells(study, f)),
-                None => row.push(Cell::Rest(html! { i { (point.failure.as_deref().unwrap_or_default()) } })),
+                None => row.push(Cell::Rest(
+                    html! { i { (point.failure.as_deref().unwrap_or_default()) } },
+                )),
             }
             row
         })

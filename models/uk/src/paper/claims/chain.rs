@@ -1,11 +1,12 @@
 //! Claims on the falling U-chain.
 
-use crate::html::fixed;
+use uktool::html::fixed;
 
 use super::super::chain::ChainRow;
-use super::super::measure::increases;
 use super::super::published::{ABOVE_G, PEAKS, PULL, TABLE_1_DIGIT};
-use super::{Claim, Verdict, at_least, column, list, percent, range, reversed};
+use super::{
+    Claim, Verdict, between, column, growing, larger, list, percent, reversed, throughout, up_to,
+};
 
 /// All of them.
 pub(super) fn claims(rows: &[ChainRow]) -> Vec<Claim> {
@@ -41,7 +42,11 @@ fn table_1(rows: &[ChainRow]) -> Vec<Claim> {
     };
     let h = largest(&|r| r.h_max - r.paper.h_max);
     let t = largest(&|r| r.t_max - r.paper.t_max);
-    let digits = Verdict::of(h <= TABLE_1_DIGIT && t <= TABLE_1_DIGIT);
+    let digits = if h.max(t) <= TABLE_1_DIGIT {
+        Verdict::Holds
+    } else {
+        Verdict::Fails
+    };
     vec![chain_claim(
         "5, Table 1",
         "Greatest fall of the tip and its time, for five separations",
@@ -78,14 +83,14 @@ fn falling(rows: &[ChainRow]) -> Vec<Claim> {
                 list(&lead, 3)
             ),
             least.clone(),
-            Verdict::of(least.iter().all(|l| *l > 0.0)),
+            larger(least.iter().map(|lead| (1.0 + lead, 1.0))),
         ),
         chain_claim(
             "5, 11",
             "Greatest fall and its time shrink with x0",
             format!("h_max {} m; t_max {} s", list(&h_max, 3), list(&t_max, 3)),
             [h_max.clone(), t_max.clone()].concat(),
-            Verdict::of(increases(&h_max) && increases(&t_max)),
+            growing(&h_max).and(growing(&t_max)),
         ),
         chain_claim(
             "5, 11",
@@ -96,21 +101,21 @@ fn falling(rows: &[ChainRow]) -> Vec<Claim> {
                 percent(&share, 0)
             ),
             part.clone(),
-            at_least(&part, 1.0),
+            throughout(&part),
         ),
         chain_claim(
             "5",
             "It is above g for longer as x0 shrinks",
             format!("until {} s", list(&until, 3)),
             until.clone(),
-            Verdict::of(increases(&reversed(&until))),
+            growing(&reversed(&until)),
         ),
         chain_claim(
             "5",
             "ÿ1 exceeds g by more as x0 shrinks",
             format!("mean excess {} m/s²", list(&mean, 3)),
             mean.clone(),
-            Verdict::of(increases(&reversed(&mean))),
+            growing(&reversed(&mean)),
         ),
         chain_claim(
             "5",
@@ -121,7 +126,7 @@ fn falling(rows: &[ChainRow]) -> Vec<Claim> {
                 highest.len()
             ),
             highest.clone(),
-            range(&highest, ABOVE_G),
+            between(&highest, ABOVE_G),
         ),
     ]
 }
@@ -131,32 +136,27 @@ fn peaks(rows: &[ChainRow]) -> Vec<Claim> {
     let depth = column(rows, |r| -r.peak);
     let time = column(rows, |r| r.t_peak);
     let pull = column(rows, |r| r.pull);
-    let greatest = pull.iter().copied().fold(0.0, f64::max);
     vec![
         chain_claim(
             "5, Figs. 2-6",
             "The negative peaks of ÿ1 lie between −200 and −350 m/s²",
             format!("{} m/s²", list(&peak, 1)),
             peak.clone(),
-            range(&peak, PEAKS),
+            between(&peak, PEAKS),
         ),
         chain_claim(
             "5",
             "The peaks, and their times, shrink with x0",
             format!("{} m/s² at {} s", list(&peak, 1), list(&time, 3)),
             [depth.clone(), time.clone()].concat(),
-            Verdict::of(increases(&depth) && increases(&time)),
+            growing(&depth).and(growing(&time)),
         ),
         chain_claim(
             "11",
             "The pull on the tip goes up to 40 weights of a link",
             format!("{} weights", list(&pull, 1)),
             pull.clone(),
-            if (0.5 * PULL..=PULL).contains(&greatest) {
-                Verdict::Holds
-            } else {
-                Verdict::Fails
-            },
+            up_to(&pull, PULL),
         ),
     ]
 }

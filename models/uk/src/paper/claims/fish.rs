@@ -1,10 +1,10 @@
 //! Claims on the fish robot.
 
-use crate::html::{fixed, joined, signed};
+use uktool::html::{fixed, joined, signed};
 
 use super::super::fish::{FishRow, WINDOW, sweep};
-use super::super::measure::{increases, spread};
-use super::{Claim, Verdict, at_least, column, list, percent, reversed};
+use super::super::measure::spread;
+use super::{Claim, Verdict, at_most, column, growing, larger, list, percent, reversed};
 
 /// An oscillation fitted to three periods has its frequency to about a hundredth; twice that is called equal.
 const SAME_FREQUENCY: f64 = 0.02;
@@ -42,26 +42,26 @@ fn trend(
     rows: &[Vec<FishRow>; 3],
     value: impl Fn(&FishRow) -> f64,
     digits: usize,
-) -> (String, Vec<f64>, bool) {
+) -> (String, Vec<f64>, Verdict) {
     let values = rows.each_ref().map(|r| column(r, &value));
-    let holds = increases(&values[0]) && increases(&values[1]) && increases(&reversed(&values[2]));
+    let falling = growing(&reversed(&values[2]));
+    let verdict = growing(&values[0]).and(growing(&values[1])).and(falling);
     let text = format!(
         "with A3 {}; with ω {}; with φ {}",
         list(&values[0], digits),
         list(&values[1], digits),
         list(&values[2], digits)
     );
-    (text, values.concat(), holds)
+    (text, values.concat(), verdict)
 }
 
 fn speed(sweeps: &[Vec<FishRow>; 3]) -> Vec<Claim> {
-    let (text, numbers, holds) = trend(sweeps, |r| -r.mean_speed, 4);
+    let (text, numbers, verdict) = trend(sweeps, |r| -r.mean_speed, 4);
     let rows = &sweeps[0];
     let rise = column(rows, |r| r.t_up_to_speed);
     let ripple = column(rows, |r| r.ripple);
     let gains: Vec<Vec<f64>> = rows.iter().map(gains).collect();
     let settling = column(&gains, |g| g[2] / g[0]);
-    let largest = |values: &[f64]| values.iter().map(|v| v.abs()).fold(0.0, f64::max);
     let [a3, omega, phi] = sweeps
         .each_ref()
         .map(|s| spread(s.iter().map(|r| r.mean_speed)));
@@ -76,19 +76,19 @@ fn speed(sweeps: &[Vec<FishRow>; 3]) -> Vec<Claim> {
                 percent(&settling, 0)
             ),
             [rise.clone(), settling.clone()].concat(),
-            Verdict::of(largest(&rise) < WINDOW.0 && largest(&settling) <= SETTLING),
+            at_most(&rise, WINDOW.0).and(at_most(&settling, SETTLING)),
         ),
         fish_claim(
             "It then fluctuates slightly about its mean",
             format!("by ± {} %", percent(&ripple, 1)),
             ripple.clone(),
-            Verdict::of(largest(&ripple) <= SMALL_RIPPLE),
+            at_most(&ripple, SMALL_RIPPLE),
         ),
         fish_claim(
             "It grows with the fin's amplitude and frequency and falls with its phase",
             format!("{text} m/s"),
             numbers,
-            Verdict::of(holds),
+            verdict,
         ),
         fish_claim(
             "The phase has less influence on it than amplitude and frequency",
@@ -99,7 +99,7 @@ fn speed(sweeps: &[Vec<FishRow>; 3]) -> Vec<Claim> {
                 fixed(phi, 4)
             ),
             vec![a3, omega, phi],
-            at_least(&[a3.min(omega)], phi),
+            larger([(a3, phi), (omega, phi)]),
         ),
     ]
 }
@@ -111,7 +111,7 @@ fn gains(row: &FishRow) -> Vec<f64> {
 }
 
 fn starting(sweeps: &[Vec<FishRow>; 3]) -> Vec<Claim> {
-    let (text, numbers, holds) = trend(sweeps, |r| -r.start_acceleration, 3);
+    let (text, numbers, verdict) = trend(sweeps, |r| -r.start_acceleration, 3);
     let part = column(&sweeps[0], |r| r.mean_acceleration / r.start_acceleration);
     let frequency = column(&sweeps[1], |r| r.acceleration_omega);
     vec![
@@ -119,7 +119,7 @@ fn starting(sweeps: &[Vec<FishRow>; 3]) -> Vec<Claim> {
             "The starting acceleration grows with amplitude and frequency and falls with phase",
             format!("{text} m/s²"),
             numbers,
-            Verdict::of(holds),
+            verdict,
         ),
         fish_claim(
             "The acceleration then fluctuates about zero",
@@ -130,7 +130,7 @@ fn starting(sweeps: &[Vec<FishRow>; 3]) -> Vec<Claim> {
                 joined(part.iter().map(|p| signed(100.0 * p, 2)))
             ),
             part.clone(),
-            Verdict::of(part.iter().all(|p| p.abs() <= NO_ACCELERATION)),
+            at_most(&column(&part, |p| p.abs()), NO_ACCELERATION),
         ),
         fish_claim(
             "The frequency of that fluctuation grows with ω",
@@ -140,7 +140,7 @@ fn starting(sweeps: &[Vec<FishRow>; 3]) -> Vec<Claim> {
                 list(&column(&sweeps[1], |r| hertz(r.omega)), 2)
             ),
             frequency.clone(),
-            Verdict::of(increases(&frequency)),
+            growing(&frequency),
         ),
     ]
 }
@@ -168,13 +168,13 @@ fn swinging(sweeps: &[Vec<FishRow>; 3]) -> Vec<Claim> {
                 fixed(100.0 * largest, 1)
             ),
             ratio,
-            Verdict::of(largest <= SAME_FREQUENCY),
+            at_most(&[largest], SAME_FREQUENCY),
         ),
         fish_claim(
             "The amplitude of the swing grows slightly with that of the fin",
             format!("{}°", list(&by_amplitude, 2)),
             by_amplitude.clone(),
-            Verdict::of(increases(&by_amplitude)),
+            growing(&by_amplitude),
         ),
         fish_claim(
             "ω has little influence on the amplitude of the swing",
@@ -184,13 +184,13 @@ fn swinging(sweeps: &[Vec<FishRow>; 3]) -> Vec<Claim> {
                 fixed(100.0 * varies, 1)
             ),
             by_frequency.clone(),
-            Verdict::of(varies <= LITTLE),
+            at_most(&[varies], LITTLE),
         ),
         fish_claim(
             "The amplitude of the swing falls as the phase grows",
             format!("{}°", list(&by_phase, 2)),
             by_phase.clone(),
-            Verdict::of(increases(&reversed(&by_phase))),
+            growing(&reversed(&by_phase)),
         ),
     ]
 }

@@ -5,11 +5,11 @@ use ukcore::equations::precise;
 use ukcore::solver::RANK_TOLERANCE;
 use ukcore::{Error, Formula, Mechanism, Simulation, Solver, SolverOptions, State};
 
-use super::super::case::{Case, Effort, decades};
-use super::super::mechanisms::{Copies, NearPlanes, ScaledRows};
 use super::{REGULAR, accelerations_off, off, worse};
+use crate::mechanisms::{Copies, NearPlanes, ScaledRows};
+use uktool::stability::{Case, Effort, decades};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(crate) fn cases() -> Vec<Case> {
     vec![
         Case {
             id: "rows-scaled",
@@ -19,7 +19,6 @@ pub(super) fn cases() -> Vec<Case> {
             bound: 1e-6,
             sweep: decades(-150, 150, 15, 0),
             measure: rows_scaled,
-            before: "",
         },
         Case {
             id: "rows-copied",
@@ -29,7 +28,6 @@ pub(super) fn cases() -> Vec<Case> {
             bound: 1e-6,
             sweep: decades(-150, 150, 15, 0),
             measure: rows_copied,
-            before: "",
         },
         Case {
             id: "rows-near",
@@ -39,7 +37,6 @@ pub(super) fn cases() -> Vec<Case> {
             bound: 1e-10,
             sweep: decades(-1, -16, 1, -1),
             measure: rows_near,
-            before: "errors by eq. 13 of 5e-11 at 1e-5 growing to 3e-7 at 1e-10; now what rounding left of the constraints is solved for once more",
         },
     ]
 }
@@ -74,8 +71,8 @@ fn rows_copied(s: f64, effort: &mut Effort) -> Result<f64, Error> {
     copies.set("r", 1.0 / s)?;
     let pendulum = Pendulum::default();
     let start = pendulum.default_start()?;
-    let mut solver = Solver::new::<Copies>(SolverOptions::default());
-    let solution = solver.solve(&copies.prepared(), 0.0, &start.q, &start.v)?;
+    let mut solver = Solver::new(&copies, SolverOptions::default());
+    let solution = solver.solve(0.0, &start.q, &start.v)?;
     if solution.rank != 1 || solution.redundant.len() != 2 {
         return Ok(f64::INFINITY);
     }
@@ -95,8 +92,8 @@ fn rows_near(d: f64, effort: &mut Effort) -> Result<f64, Error> {
     let mut planes = NearPlanes::default();
     planes.set("d", d)?;
     let state = State::zeros::<NearPlanes>();
-    let mut solver = Solver::new::<NearPlanes>(SolverOptions::default());
-    let solution = solver.solve(&planes.prepared(), 0.0, &state.q, &state.v)?;
+    let mut solver = Solver::new(&planes, SolverOptions::default());
+    let solution = solver.solve(0.0, &state.q, &state.v)?;
     if solution.redundant.is_empty() {
         let expected = [0.0, 0.0, 3.0];
         return accelerations_off(&planes, &state, &REGULAR, &expected, effort);

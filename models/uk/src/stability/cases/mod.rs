@@ -11,10 +11,10 @@ mod times;
 use ukcore::equations::precise;
 use ukcore::{Error, Formula, Mechanism, Solver, SolverOptions, State};
 
-use super::case::{Case, Effort};
+use uktool::stability::{Case, Effort};
 
 /// All cases, in the order of the table.
-pub(super) fn all() -> Vec<Case> {
+pub(crate) fn all() -> Vec<Case> {
     [
         masses::cases(),
         stiff::cases(),
@@ -57,16 +57,16 @@ fn accelerations_off<M: Mechanism>(
     expected: &[f64],
     effort: &mut Effort,
 ) -> Result<f64, Error> {
-    let prepared = mechanism.prepared();
+    let mechanism = mechanism.prepared();
     let mut worst = 0.0;
     for formula in [Formula::Auto].iter().chain(formulas) {
         let options = SolverOptions {
             formula: *formula,
             ..SolverOptions::default()
         };
-        let mut solver = Solver::new::<M>(options);
+        let mut solver = Solver::new(&mechanism, options);
         let mut found = vec![0.0; M::SPEC.n()];
-        let result = solver.acceleration(&prepared, state.t, &state.q, &state.v, &mut found);
+        let result = solver.acceleration(state.t, &state.q, &state.v, &mut found);
         effort.evaluations += solver.work().evaluations;
         effort.fallbacks += solver.work().fallbacks;
         result?;

@@ -3,11 +3,11 @@
 use models::Pendulum;
 use ukcore::{Error, Mechanism, Method, Simulation, State};
 
-use super::super::case::{Case, Effort, decades};
-use super::super::mechanisms::{Elastic, Incline};
 use super::{off, worse};
+use crate::mechanisms::{Elastic, Incline};
+use uktool::stability::{Case, Effort, decades};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(crate) fn cases() -> Vec<Case> {
     vec![
         Case {
             id: "spring",
@@ -17,7 +17,6 @@ pub(super) fn cases() -> Vec<Case> {
             bound: 1e-4,
             sweep: decades(2, 12, 1, 2),
             measure: |k, effort| spring(k, Method::Dop853, effort),
-            before: "",
         },
         Case {
             id: "spring-implicit",
@@ -27,7 +26,6 @@ pub(super) fn cases() -> Vec<Case> {
             bound: 1e-4,
             sweep: decades(2, 12, 1, 2),
             measure: |k, effort| spring(k, Method::Radau5, effort),
-            before: "",
         },
         Case {
             id: "drag",
@@ -37,7 +35,6 @@ pub(super) fn cases() -> Vec<Case> {
             bound: 1e-6,
             sweep: decades(0, 8, 1, 0),
             measure: drag,
-            before: "accurate to 100, errors of 3e-8 at 1e3 and 7e-7 at 1e6, with one absolute tolerance for all; now Simulation::absolute_tolerance tells the size of what matters",
         },
     ]
 }

@@ -3,12 +3,12 @@
 use std::f64::consts::TAU;
 
 use models::{DoublePendulum, KapitzaPendulum, Model, Pendulum, StartOptions};
-use ukcore::{Error, Mechanism, Method, Projector, Simulation};
+use ukcore::{Error, Method, Projector, Simulation};
 
-use super::super::case::{Case, Effort, decades};
 use super::{off, worse};
+use uktool::stability::{Case, Effort, decades};
 
-pub(super) fn cases() -> Vec<Case> {
+pub(crate) fn cases() -> Vec<Case> {
     vec![
         Case {
             id: "long-pendulum",
@@ -18,7 +18,6 @@ pub(super) fn cases() -> Vec<Case> {
             bound: 1e-3,
             sweep: decades(0, 4, 1, 0),
             measure: long_pendulum,
-            before: "",
         },
         Case {
             id: "long-double",
@@ -28,7 +27,6 @@ pub(super) fn cases() -> Vec<Case> {
             bound: 1e-4,
             sweep: decades(0, 4, 1, 0),
             measure: long_double,
-            before: "",
         },
         Case {
             id: "long-rattle",
@@ -38,7 +36,6 @@ pub(super) fn cases() -> Vec<Case> {
             bound: 1e-3,
             sweep: decades(0, 4, 1, 0),
             measure: long_rattle,
-            before: "",
         },
         Case {
             id: "late-pendulum",
@@ -48,7 +45,6 @@ pub(super) fn cases() -> Vec<Case> {
             bound: 1e-5,
             sweep: decades(0, 15, 1, 0),
             measure: late_pendulum,
-            before: "",
         },
         Case {
             id: "late-start",
@@ -58,7 +54,6 @@ pub(super) fn cases() -> Vec<Case> {
             bound: 1e-3,
             sweep: decades(0, 16, 1, 0),
             measure: late_start,
-            before: "",
         },
     ]
 }
@@ -120,10 +115,9 @@ fn late_start(periods: f64, effort: &mut Effort) -> Result<f64, Error> {
         let mut start = start.clone();
         start.t = t;
         // The pivot's velocity at the late time, which is rounded, is not quite that at t = 0.
-        let mut projector = Projector::new::<KapitzaPendulum>();
-        let prepared = kapitza.prepared();
-        projector.position(&prepared, t, &mut start.q, &start.v)?;
-        projector.velocity(&prepared, t, &start.q, &mut start.v)?;
+        let mut projector = Projector::new(&kapitza);
+        projector.position(t, &mut start.q, &start.v)?;
+        projector.velocity(t, &start.q, &mut start.v)?;
         let simulation = Simulation::new(kapitza.clone())
             .start(start)
             .tolerance(1e-8);
