@@ -1,7 +1,7 @@
 //! Files that are either complete or not there, directories that one program at a time writes to, and standard output.
 
 use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, Stdout, Write};
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
@@ -13,8 +13,8 @@ use crate::failure::Failure;
 /// a part. A symbolic link is followed; a device or pipe (`/dev/stdout`) is written to directly.
 #[derive(Debug)]
 pub struct WholeFile {
-    /// The name that was asked for.
-    path: PathBuf,
+    /// The name that was asked for; none for standard output.
+    path: Option<PathBuf>,
     kind: Kind,
 }
 
@@ -22,6 +22,7 @@ pub struct WholeFile {
 enum Kind {
     Temporary(BufWriter<NamedTempFile>, PathBuf),
     Direct(BufWriter<File>),
+    Stdout(Stdout),
 }
 
 impl WholeFile {
@@ -39,10 +40,19 @@ impl WholeFile {
             }
             _ => temporary(&target).map(|file| Kind::Temporary(BufWriter::new(file), target)),
         };
-        let path = path.to_path_buf();
+        let path = Some(path.to_path_buf());
         match kind {
             Ok(kind) => Ok(WholeFile { path, kind }),
-            Err(error) => Err(Failure::file(&path, &error)),
+            Err(error) => Err(failure(path.as_deref(), &error)),
+        }
+    }
+
+    /// Standard output, of which each line is handed on at once.
+    #[must_use]
+    pub fn stdout() -> Self {
+        WholeFile {
+            path: None,
+            kind: Kind::Stdout(io::stdout()),
         }
     }
 
@@ -52,13 +62,22 @@ impl WholeFile {
     /// [`Failure::Failed`] naming the file.
     pub fn finish(self) -> Result<(), Failure> {
         let done = match self.kind {
+            Kind::Stdout(mut out) => out.flush(),
             Kind::Direct(mut file) => file.flush(),
             Kind::Temporary(file, target) => match file.into_inner() {
                 Ok(file) => file.persist(target).map(drop).map_err(|e| e.error),
                 Err(error) => Err(error.into_error()),
             },
         };
-        done.map_err(|e| Failure::file(&self.path, &e))
+        done.map_err(|e| failure(self.path.as_deref(), &e))
+    }
+}
+
+/// A failure to write the file `path`, or standard output.
+pub(crate) fn failure(path: Option<&Path>, error: &io::Error) -> Failure {
+    match path {
+        Some(path) => Failure::file(path, error),
+        None => Failure::stdout(error),
     }
 }
 
@@ -67,6 +86,7 @@ impl Write for WholeFile {
         match &mut self.kind {
             Kind::Temporary(file, _) => file.write(bytes),
             Kind::Direct(file) => file.write(bytes),
+            Kind::Stdout(out) => out.write(bytes),
         }
     }
 
@@ -74,6 +94,7 @@ impl Write for WholeFile {
         match &mut self.kind {
             Kind::Temporary(file, _) => file.flush(),
             Kind::Direct(file) => file.flush(),
+            Kind::Stdout(out) => out.flush(),
         }
     }
 }

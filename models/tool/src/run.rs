@@ -1,6 +1,5 @@
 //! The command `run`: integrate a model, write samples and a summary.
 
-use std::io::{self, Write};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -72,7 +71,7 @@ pub struct RunArgs {
 /// [`Failure::Usage`] for what is wrong with the command line; [`Failure::Failed`] if the integration ends early or a file cannot be
 /// written, [`Failure::Interrupted`] if the user ends it. Samples and summary up to there are written all the same.
 pub fn run(models: &[Entry], args: &RunArgs) -> Result<(), Failure> {
-    let to_stdout = args.csv.as_deref().is_some_and(|p| p.as_os_str() == "-");
+    let to_stdout = args.csv.as_deref().is_some_and(is_stdout);
     if args.json && to_stdout {
         return Err(Failure::Usage(
             "`--json` and `--csv -` both want standard output; give a file to one of them"
@@ -80,13 +79,20 @@ pub fn run(models: &[Entry], args: &RunArgs) -> Result<(), Failure> {
         ));
     }
     let ready = args.scene.ready(models)?;
-    let table = match args.csv.as_deref() {
+    let file = match args.csv.as_deref() {
         None => None,
-        Some(_) if to_stdout => Some(Table::new(&ready, io::stdout(), None)?),
-        Some(path) => Some(Table::new(&ready, WholeFile::create(path)?, Some(path))?),
+        Some(_) if to_stdout => Some(WholeFile::stdout()),
+        Some(path) => Some(WholeFile::create(path)?),
+    };
+    let begin = |file| CsvWriter::new(&ready.mechanism, file);
+    let rows = file.map(begin).transpose();
+    let path = args.csv.as_deref().filter(|_| !to_stdout);
+    let samples = Samples {
+        rows: rows.map_err(|e| output::failure(path, &e))?,
+        drift: Drift::new(&ready.mechanism),
     };
     let started = Instant::now();
-    let (trajectory, error, samples) = integrate(&ready, args, table)?;
+    let (trajectory, error, samples) = integrate(&ready, args, samples)?;
     let seconds = started.elapsed().as_secs_f64();
     if let Some(error @ Error::InvalidSetting { .. }) = error {
         return Err(usage(error));
@@ -100,21 +106,25 @@ pub fn run(models: &[Entry], args: &RunArgs) -> Result<(), Failure> {
         }
         _ => None,
     };
-    if let Some(table) = samples.table {
-        table.finish()?;
+    if let Some(rows) = samples.rows {
+        rows.into_inner().finish()?;
     }
     if !to_stdout {
         let message = match &failure {
             Some(Failure::Failed(message)) => Some(message.clone()),
             _ => None,
         };
-        let summary = Summary::new(&trajectory, &samples.drift, &ready, args, seconds, message);
-        output::to_stdout(|out| {
-            if args.json {
-                output::json(out, &summary)
-            } else {
-                summary.write(out)
-            }
+        let summary = Summary {
+            trajectory: &trajectory,
+            measured: &samples.drift,
+            ready: &ready,
+            args,
+            seconds,
+            error: message,
+        };
+        output::to_stdout(|out| match args.json {
+            true => output::json(out, &summary.json()),
+            false => summary.write(out),
         })?;
     }
     failure.map_or(Ok(()), Err)
@@ -135,58 +145,9 @@ fn usage(error: Error) -> Failure {
     }
 }
 
-/// Where the rows go.
-trait Sink: Write {
-    /// After the last row.
-    fn finish(self: Box<Self>) -> Result<(), Failure>;
-}
-
-impl Sink for WholeFile {
-    fn finish(self: Box<Self>) -> Result<(), Failure> {
-        WholeFile::finish(*self)
-    }
-}
-
-impl Sink for io::Stdout {
-    fn finish(self: Box<Self>) -> Result<(), Failure> {
-        Ok(())
-    }
-}
-
-/// The samples as CSV in a file, or on standard output where there is no `path`.
-struct Table<'a> {
-    rows: CsvWriter<Box<dyn Sink>>,
-    path: Option<&'a Path>,
-}
-
-impl<'a> Table<'a> {
-    fn new(
-        ready: &Ready<'_>,
-        sink: impl Sink + 'static,
-        path: Option<&'a Path>,
-    ) -> Result<Self, Failure> {
-        let sink: Box<dyn Sink> = Box::new(sink);
-        match CsvWriter::new(&ready.mechanism, sink) {
-            Ok(rows) => Ok(Table { rows, path }),
-            Err(error) => Err(failure(path, &error)),
-        }
-    }
-
-    fn finish(self) -> Result<(), Failure> {
-        self.rows.into_inner().finish()
-    }
-}
-
-fn failure(path: Option<&Path>, error: &io::Error) -> Failure {
-    match path {
-        Some(path) => Failure::file(path, error),
-        None => Failure::stdout(error),
-    }
-}
-
 /// What becomes of the samples.
-struct Samples<'a> {
-    table: Option<Table<'a>>,
+struct Samples {
+    rows: Option<CsvWriter<WholeFile>>,
     drift: Drift,
 }
 
@@ -194,11 +155,11 @@ struct Samples<'a> {
 ///
 /// # Errors
 /// Those of writing.
-fn integrate<'a>(
+fn integrate(
     ready: &Ready<'_>,
     args: &RunArgs,
-    table: Option<Table<'a>>,
-) -> Result<(Trajectory, Option<Error>, Samples<'a>), Failure> {
+    mut samples: Samples,
+) -> Result<(Trajectory, Option<Error>, Samples), Failure> {
     let from = ready.state.t;
     let until = args.until.unwrap_or(ready.entry.duration);
     let (interrupt, progress) = (Interrupt::catch()?, Progress::new(&ready.entry.id));
@@ -218,36 +179,42 @@ fn integrate<'a>(
             ControlFlow::Continue(())
         });
     if let Some(interval) = args.every {
+        let number = (until - from).abs() / interval;
+        if number > MOST_SAMPLES {
+            return Err(Failure::Usage(format!(
+                "`--every` is {interval:?}, which asks for {number:.1e} samples; at most {MOST_SAMPLES:.0e} are written"
+            )));
+        }
         simulation = simulation.every(interval);
     }
-    let drift = Drift::new(&ready.mechanism);
-    let mut samples = Samples { table, drift };
     let mut broken = None;
     let result = simulation.stream(until, |record| {
-        let Record::Sample(sample) = record else {
-            return ControlFlow::Continue(());
-        };
-        samples.drift.add(sample);
-        let Some(Table { rows, path }) = &mut samples.table else {
-            return ControlFlow::Continue(());
-        };
-        // Standard output hands on each line at once.
-        match rows.write(sample) {
-            Ok(()) => ControlFlow::Continue(()),
-            Err(error) => {
-                broken = Some(failure(*path, &error));
-                ControlFlow::Break(())
+        if let Record::Sample(sample) = record {
+            samples.drift.add(sample);
+            let row = samples.rows.as_mut().map(|rows| rows.write(sample));
+            if let Some(Err(error)) = row {
+                broken = Some(error);
+                return ControlFlow::Break(());
             }
         }
+        ControlFlow::Continue(())
     });
     progress.finish();
-    if let Some(failure) = broken {
-        return Err(failure);
+    if let Some(error) = broken {
+        let path = args.csv.as_deref().filter(|path| !is_stdout(path));
+        return Err(output::failure(path, &error));
     }
     Ok(match result {
         Ok(trajectory) => (trajectory, None, samples),
         Err(failure) => (*failure.trajectory, Some(failure.error), samples),
     })
+}
+
+/// A slip in the unit of an interval must not fill the disk.
+const MOST_SAMPLES: f64 = 1e8;
+
+fn is_stdout(path: &Path) -> bool {
+    path.as_os_str() == "-"
 }
 
 /// Reads a method; the step of RATTLE may have a unit.

@@ -2,8 +2,7 @@
 
 use std::io::{self, Write};
 
-use serde::Serialize;
-use serde_json::{Map, Value};
+use serde_json::{Map, Value, json};
 use ukcore::{Ending, Method, Trajectory};
 
 use crate::drift::Drift;
@@ -12,130 +11,93 @@ use crate::run::RunArgs;
 use crate::scene::Ready;
 
 /// What a run was, what came out and what it cost. SI units.
-#[derive(Debug, Serialize)]
-pub(crate) struct Summary {
-    model: String,
-    start: &'static str,
-    parameters: Map<String, Value>,
-    method: String,
-    stabilise: String,
-    /// `null` where the method looks at none.
-    tolerance: Option<f64>,
-    /// `"completed"`, `"interrupted"`, or `"failed"` with `error` saying why.
-    ending: &'static str,
-    error: Option<String>,
-    /// The last state that was computed.
-    #[serde(rename = "final")]
-    last: Option<Last>,
-    samples: usize,
-    /// Largest of all samples.
-    #[serde(flatten)]
-    drift: Drift,
-    work: Counters,
+pub(crate) struct Summary<'a> {
+    pub(crate) trajectory: &'a Trajectory,
+    /// Its samples.
+    pub(crate) measured: &'a ukcore::Drift,
+    pub(crate) ready: &'a Ready<'a>,
+    pub(crate) args: &'a RunArgs,
     /// Wall time of the integration, s.
-    seconds: f64,
-}
-
-#[derive(Debug, Serialize)]
-struct Last {
-    t: f64,
-    q: Map<String, Value>,
-    /// Rates, by the names of the coordinates.
-    v: Map<String, Value>,
-    outputs: Map<String, Value>,
-    energy: Energies,
-}
-
-#[derive(Debug, Serialize)]
-struct Energies {
-    kinetic: f64,
-    potential: f64,
-}
-
-#[derive(Debug, Serialize)]
-struct Counters {
-    steps: usize,
-    rejected: usize,
-    switches: usize,
-    evaluations: usize,
-    jacobians: usize,
-    factorisations: usize,
-    projections: usize,
-    projection_iterations: usize,
-    fallbacks: usize,
+    pub(crate) seconds: f64,
+    /// Why it ended early, if it did.
+    pub(crate) error: Option<String>,
 }
 
 /// Names with values; a value that is not finite becomes null, as JSON has no other word for it.
-fn named<'a>(
-    names: impl IntoIterator<Item = &'a str>,
-    values: impl IntoIterator<Item = f64>,
-) -> Map<String, Value> {
-    names
-        .into_iter()
-        .zip(values)
-        .map(|(name, value)| (name.to_owned(), Value::from(value)))
+fn named<'a>(names: impl IntoIterator<Item = &'a str>, values: &[f64]) -> Map<String, Value> {
+    let pairs = names.into_iter().zip(values);
+    pairs
+        .map(|(name, value)| (name.to_owned(), Value::from(*value)))
         .collect()
 }
 
-impl Summary {
-    /// The summary of `trajectory`, whose samples were `measured` and which took `seconds`; `error` says why it ended early, if it did.
-    pub(crate) fn new(
-        trajectory: &Trajectory,
-        measured: &ukcore::Drift,
-        ready: &Ready<'_>,
-        args: &RunArgs,
-        seconds: f64,
-        error: Option<String>,
-    ) -> Self {
-        let (mechanism, spec) = (trajectory.mechanism(), trajectory.spec());
-        let coords = || spec.coords.iter().copied();
-        let last = trajectory.last().map(|last| {
-            let mut outputs = vec![0.0; spec.outputs.len()];
-            mechanism.outputs(last.t, last.q, last.v, &mut outputs);
-            let energy = mechanism.energy(last.t, last.q, last.v);
-            Last {
-                t: last.t,
-                q: named(coords(), last.q.iter().copied()),
-                v: named(coords(), last.v.iter().copied()),
-                outputs: named(spec.outputs.iter().map(|o| o.name), outputs),
-                energy: Energies {
-                    kinetic: energy.kinetic,
-                    potential: energy.potential,
-                },
-            }
-        });
-        let values = mechanism.parameters().iter().copied();
-        let work = trajectory.work();
-        Summary {
-            model: ready.entry.id.clone(),
-            start: ready.start,
-            parameters: named(spec.params.iter().map(|p| p.name), values),
-            method: args.method.to_string(),
-            stabilise: args.stabilise.to_string(),
-            tolerance: (!matches!(args.method, Method::Rattle { .. })).then_some(args.tol),
-            ending: match trajectory.ending() {
-                Ending::Completed => "completed",
-                Ending::Event => "event",
-                Ending::Interrupted => "interrupted",
-                Ending::Failed => "failed",
-            },
-            error,
-            last,
-            samples: measured.samples(),
-            drift: Drift::measured(measured, spec),
-            work: Counters {
-                steps: work.steps,
-                rejected: work.rejected,
-                switches: work.switches,
-                evaluations: work.evaluations,
-                jacobians: work.jacobians,
-                factorisations: work.factorisations,
-                projections: work.projections,
-                projection_iterations: work.projection_iterations,
-                fallbacks: work.fallbacks,
-            },
-            seconds,
+impl Summary<'_> {
+    fn ending(&self) -> &'static str {
+        match self.trajectory.ending() {
+            Ending::Completed => "completed",
+            Ending::Event => "event",
+            Ending::Interrupted => "interrupted",
+            Ending::Failed => "failed",
         }
+    }
+
+    /// None where the method looks at none.
+    fn tolerance(&self) -> Option<f64> {
+        (!matches!(self.args.method, Method::Rattle { .. })).then_some(self.args.tol)
+    }
+
+    fn drift(&self) -> Drift {
+        Drift::measured(self.measured, self.trajectory.spec())
+    }
+
+    /// The last state that was computed: time, coordinates, their rates by the names of the coordinates, outputs, energy.
+    fn last(&self) -> Option<Value> {
+        let (mechanism, spec) = (self.trajectory.mechanism(), self.trajectory.spec());
+        let last = self.trajectory.last()?;
+        let mut outputs = vec![0.0; spec.outputs.len()];
+        mechanism.outputs(last.t, last.q, last.v, &mut outputs);
+        let energy = mechanism.energy(last.t, last.q, last.v);
+        let coords = || spec.coords.iter().copied();
+        Some(json!({
+            "t": last.t,
+            "q": named(coords(), last.q),
+            "v": named(coords(), last.v),
+            "outputs": named(spec.outputs.iter().map(|o| o.name), &outputs),
+            "energy": { "kinetic": energy.kinetic, "potential": energy.potential },
+        }))
+    }
+
+    /// The summary as JSON.
+    pub(crate) fn json(&self) -> Value {
+        let (work, drift) = (self.trajectory.work(), self.drift());
+        let params = self.trajectory.spec().params.iter().map(|p| p.name);
+        json!({
+            "model": self.ready.entry.id,
+            "start": self.ready.start,
+            "parameters": named(params, self.trajectory.mechanism().parameters()),
+            "method": self.args.method.to_string(),
+            "stabilise": self.args.stabilise.to_string(),
+            "tolerance": self.tolerance(),
+            "ending": self.ending(),
+            "error": self.error,
+            "final": self.last(),
+            "samples": self.measured.samples(),
+            "position_residual": drift.position_residual,
+            "velocity_residual": drift.velocity_residual,
+            "energy_drift": drift.energy_drift,
+            "work": {
+                "steps": work.steps,
+                "rejected": work.rejected,
+                "switches": work.switches,
+                "evaluations": work.evaluations,
+                "jacobians": work.jacobians,
+                "factorisations": work.factorisations,
+                "projections": work.projections,
+                "projection_iterations": work.projection_iterations,
+                "fallbacks": work.fallbacks,
+            },
+            "seconds": self.seconds,
+        })
     }
 
     /// Writes the summary for reading.
@@ -143,43 +105,21 @@ impl Summary {
     /// # Errors
     /// Those of `out`.
     pub(crate) fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        writeln!(
-            out,
-            "{} from `{}`, {}{}, {}",
-            self.model,
-            self.start,
-            self.method,
-            self.tolerance
-                .map_or(String::new(), |tol| format!(" at tolerance {tol:e}")),
-            self.ending
-        )?;
-        if let Some(last) = &self.last {
-            let wide = width(last.q.keys().chain(last.outputs.keys()).map(String::as_str));
-            writeln!(out, "\nState at t = {} s", full(last.t))?;
-            for ((name, q), v) in last.q.iter().zip(last.v.values()) {
-                writeln!(
-                    out,
-                    "  {name:<wide$} {:>18}   dot {:>18}",
-                    number(q),
-                    number(v)
-                )?;
-            }
-            if !last.outputs.is_empty() {
-                writeln!(out, "\nOutputs")?;
-                for (name, value) in &last.outputs {
-                    writeln!(out, "  {name:<wide$} {:>18}", number(value))?;
-                }
-            }
-        }
-        let (d, w) = (&self.drift, &self.work);
+        let tolerance = self.tolerance();
+        let tolerance = tolerance.map_or(String::new(), |tol| format!(" at tolerance {tol:e}"));
+        let (id, start) = (&self.ready.entry.id, self.ready.start);
+        let (method, ending) = (self.args.method, self.ending());
+        writeln!(out, "{id} from `{start}`, {method}{tolerance}, {ending}")?;
+        let (drift, w) = (self.drift(), self.trajectory.work());
+        self.write_last(out)?;
         writeln!(
             out,
             "\nResiduals: position {:.1e}, velocity {:.1e} at most over {}",
-            d.position_residual,
-            d.velocity_residual,
-            count(self.samples, "sample")
+            drift.position_residual,
+            drift.velocity_residual,
+            count(self.measured.samples(), "sample")
         )?;
-        match d.energy_drift {
+        match drift.energy_drift {
             Some(drift) => writeln!(out, "Energy drift: {drift:.1e} of the energy exchanged")?,
             None => writeln!(out, "Energy is not conserved in this model")?,
         }
@@ -204,10 +144,36 @@ impl Summary {
             self.seconds
         )
     }
+
+    fn write_last(&self, out: &mut dyn Write) -> io::Result<()> {
+        let (mechanism, spec) = (self.trajectory.mechanism(), self.trajectory.spec());
+        let Some(last) = self.trajectory.last() else {
+            return Ok(());
+        };
+        let names = spec.outputs.iter().map(|o| o.name);
+        let wide = width(spec.coords.iter().copied().chain(names.clone()));
+        writeln!(out, "\nState at t = {} s", full(last.t))?;
+        for ((name, q), v) in spec.coords.iter().zip(last.q).zip(last.v) {
+            let [q, v] = [q, v].map(|x| number(*x));
+            writeln!(out, "  {name:<wide$} {q:>18}   dot {v:>18}")?;
+        }
+        if !spec.outputs.is_empty() {
+            writeln!(out, "\nOutputs")?;
+        }
+        let mut outputs = vec![0.0; spec.outputs.len()];
+        mechanism.outputs(last.t, last.q, last.v, &mut outputs);
+        for (name, value) in names.zip(outputs) {
+            writeln!(out, "  {name:<wide$} {:>18}", number(value))?;
+        }
+        Ok(())
+    }
 }
 
-fn number(value: &Value) -> String {
-    value
-        .as_f64()
-        .map_or_else(|| "not finite".to_owned(), |v| fixed(v, 12))
+/// Twelve decimals, unless there are so many digits before them that nobody would count them.
+fn number(value: f64) -> String {
+    match value.abs() {
+        size if !size.is_finite() => "not finite".to_owned(),
+        size if size >= 1e15 => full(value),
+        _ => fixed(value, 12),
+    }
 }

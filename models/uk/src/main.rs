@@ -13,7 +13,7 @@ use paper::PaperArgs;
 
 /// Dynamics of constrained multibody systems after Udwadia and Kalaba.
 ///
-/// Without a command, `uk paper`. How far stiff and extreme cases go is shown by a program of its own, `uk-stability`.
+/// Without a command, `uk paper`.
 #[derive(Debug, Parser)]
 #[command(name = "uk", version, after_help = HELP)]
 struct Cli {

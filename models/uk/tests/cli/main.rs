@@ -3,7 +3,6 @@
 mod paper;
 mod refusals;
 mod report;
-mod stability;
 mod streams;
 
 use std::fs;
@@ -16,11 +15,14 @@ const DONE: i32 = 0;
 const FAILED: i32 = 1;
 const USAGE: i32 = 2;
 
+fn command(args: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_uk"));
+    command.args(args);
+    command
+}
+
 fn uk(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_uk"))
-        .args(args)
-        .output()
-        .expect("uk starts")
+    command(args).output().expect("uk starts")
 }
 
 fn text(bytes: &[u8]) -> String {
@@ -228,6 +230,47 @@ fn list_shows_the_parameters_with_their_defaults() {
     );
     let longest = list.lines().map(|l| l.chars().count()).max();
     assert!(longest.is_some_and(|n| n < 130), "{longest:?}");
+}
+
+#[test]
+fn sample_times_are_decimals() {
+    let csv = output(&[
+        "run", "pendulum", "--until", "1.2", "--every", "0.3", "--csv", "-",
+    ]);
+    let times: Vec<&str> = csv.lines().filter_map(|l| l.split(',').next()).collect();
+    assert_eq!(times, ["t", "0.0", "0.3", "0.6", "0.9", "1.2"]);
+}
+
+#[test]
+fn a_start_is_assembled_from_a_guess() {
+    let guess = [
+        "run",
+        "slider_crank",
+        "--until",
+        "0",
+        "--json",
+        "--guess",
+        "th1=0.5",
+        "--guess",
+        "dot(th1)=2",
+        "--hold",
+        "th1",
+    ];
+    let run = json(&guess);
+    assert_eq!(run["start"], "assembled");
+    let state = &run["final"];
+    assert_eq!(
+        (&state["q"]["th1"], &state["v"]["th1"]),
+        (&0.5.into(), &2.0.into())
+    );
+    for residual in ["position_residual", "velocity_residual"] {
+        assert!(run[residual].as_f64().is_some_and(|r| r < 1e-14), "{run}");
+    }
+    fails(
+        &["run", "slider_crank", "--guess", "th4=1"],
+        USAGE,
+        "no coordinate is called `th4`",
+    );
 }
 
 #[test]

@@ -77,6 +77,10 @@ fn wrong_values_are_refused() {
         "`--every` is 1e-12",
     );
     fails(&["run", "fish", "--until", "inf"], USAGE, "not a finite");
+    for value in ["1.5.2", "1 000"] {
+        let setting = format!("phi={value}");
+        fails(&["run", "fish", "--set", &setting], USAGE, value);
+    }
     fails(&["run", "fish", "--csv", ""], USAGE, "a path is needed");
     fails(&["paper", "--out", ""], USAGE, "a path is needed");
     fails(

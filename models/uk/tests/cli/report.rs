@@ -91,6 +91,55 @@ fn a_report_has_its_files_and_its_errors_fall_with_the_tolerance() {
     for source in sources {
         assert!(read(source).trim_end().ends_with("</svg>"), "{source}");
     }
+    // No link leads nowhere, and no table has a column without a number.
+    for target in html
+        .split("href=\"#")
+        .skip(1)
+        .filter_map(|s| s.split('"').next())
+    {
+        assert!(html.contains(&format!("id=\"{target}\"")), "{target}");
+    }
+    for table in html
+        .split("<tbody>")
+        .skip(1)
+        .filter_map(|t| t.split("</tbody>").next())
+    {
+        let rows: Vec<Vec<&str>> = table
+            .split("<tr>")
+            .skip(1)
+            .map(|row| row.split("</td>").collect())
+            .filter(|row: &Vec<&str>| !row[row.len() - 2].contains("colspan"))
+            .collect();
+        for column in 0..rows[0].len() - 1 {
+            assert!(
+                rows.iter().any(|row| !row[column].ends_with("–")),
+                "{column} in {table}"
+            );
+        }
+    }
+    assert!(
+        !html.contains("never recommended"),
+        "long runs were not tried"
+    );
+}
+
+/// A start of one's own is measured too, of one model.
+#[test]
+fn a_report_of_a_guess() {
+    let scratch = Scratch::new("report-guess");
+    let out = scratch.path("out");
+    let guess = [
+        "--guess", "x=0.6", "--until", "0.5", "--quick", "--out", &out,
+    ];
+    output(&[&["report", "pendulum"], &guess[..]].concat());
+    let report = fs::read_to_string(scratch.0.join("out/report.json")).expect("file");
+    let report: Value = serde_json::from_str(&report).expect("JSON");
+    assert_eq!(report["studies"][0]["end"], 0.5);
+    fails(
+        &[&["report"], &guess[..]].concat(),
+        USAGE,
+        "are of one model; name it",
+    );
 }
 
 /// What an interrupted report has left is taken over, if the same program left it.

@@ -5,8 +5,7 @@ use super::*;
 #[test]
 fn a_reader_that_leaves_is_no_error() {
     // It ends the run too, which would take hours.
-    let mut child = Command::new(env!("CARGO_BIN_EXE_uk"))
-        .args(["run", "pendulum", "--until", "1e8", "--csv", "-"])
+    let mut child = command(&["run", "pendulum", "--until", "1e8", "--csv", "-"])
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
@@ -17,11 +16,11 @@ fn a_reader_that_leaves_is_no_error() {
     assert_eq!(output.status.code(), Some(DONE));
 }
 
-/// Ctrl-C.
+/// Ctrl-C, or what asks a program to end otherwise.
 #[cfg(unix)]
-fn interrupt(child: &std::process::Child) {
+fn interrupt(child: &std::process::Child, signal: &str) {
     let id = child.id().to_string();
-    let sent = Command::new("kill").args(["-INT", &id]).status();
+    let sent = Command::new("kill").args([signal, &id]).status();
     assert!(sent.expect("kill").success());
 }
 
@@ -31,8 +30,7 @@ fn rows_are_streamed_and_an_interrupted_stream_ends_with_a_whole_row() {
     use std::io::{BufRead, BufReader, Read};
 
     // Would take hours.
-    let mut child = Command::new(env!("CARGO_BIN_EXE_uk"))
-        .args(["run", "pendulum", "--until", "1e8", "--every", "1s"])
+    let mut child = command(&["run", "pendulum", "--until", "1e8", "--every", "1s"])
         .args(["--csv", "-"])
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
@@ -47,7 +45,7 @@ fn rows_are_streamed_and_an_interrupted_stream_ends_with_a_whole_row() {
     }
     assert!(lines[0].starts_with("t,x,y,"), "{lines:?}");
     assert!(lines[3].starts_with("2.0,"), "{lines:?}");
-    interrupt(&child);
+    interrupt(&child, "-INT");
     let mut rest = String::new();
     rows.read_to_string(&mut rest).expect("UTF-8");
     let output = child.wait_with_output().expect("uk ends");
@@ -65,27 +63,38 @@ fn rows_are_streamed_and_an_interrupted_stream_ends_with_a_whole_row() {
     );
 }
 
+/// What a program that runs for hours leaves when it is asked to end. The signal must not come before it can be caught; how long that takes
+/// depends on the machine.
 #[cfg(unix)]
-#[test]
-fn an_interrupted_run_keeps_what_was_computed() {
-    let scratch = Scratch::new("interrupted");
-    let path = scratch.path("run.csv");
-    // The signal must not come before it can be caught; how long that takes depends on the machine.
+#[track_caller]
+fn interrupted(args: &[&str], signal: &str) -> Output {
     for patience in [0.2, 1.0, 5.0, 25.0] {
-        let child = Command::new(env!("CARGO_BIN_EXE_uk"))
-            .args(["run", "pendulum", "--until", "1e8", "--every", "100s"])
-            .args(["--csv", &path, "--json"])
+        let child = command(args)
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
             .spawn()
             .expect("uk starts");
         std::thread::sleep(std::time::Duration::from_secs_f64(patience));
-        interrupt(&child);
+        interrupt(&child, signal);
         let output = child.wait_with_output().expect("uk ends");
-        let Some(code) = output.status.code() else {
-            continue;
-        };
-        assert_eq!(code, 130);
+        if let Some(code) = output.status.code() {
+            assert_eq!(code, 130, "{}", text(&output.stderr));
+            return output;
+        }
+    }
+    panic!("the program never caught the signal");
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupted_run_keeps_what_was_computed() {
+    let scratch = Scratch::new("interrupted");
+    let path = scratch.path("run.csv");
+    let args = [
+        "run", "pendulum", "--until", "1e8", "--every", "100s", "--csv", &path, "--json",
+    ];
+    for signal in ["-INT", "-TERM"] {
+        let output = interrupted(&args, signal);
         assert!(text(&output.stderr).starts_with("interrupted at t = "));
         let summary: Value = serde_json::from_slice(&output.stdout).expect("JSON");
         assert_eq!(summary["ending"], "interrupted");
@@ -99,9 +108,32 @@ fn an_interrupted_run_keeps_what_was_computed() {
         // The JSON reader of this test may miss the last digit.
         assert!((last - t).abs() <= 1e-12 * t, "{last} is not {t}");
         assert_eq!(scratch.names(), ["run.csv"]);
-        return;
     }
-    panic!("the run never caught the signal");
+}
+
+/// While one report is being made in a directory, a second one stays out of it.
+#[cfg(unix)]
+#[test]
+fn a_directory_has_one_report_at_a_time() {
+    let scratch = Scratch::new("report-locked");
+    let out = scratch.path("out");
+    let mut first = command(&["report", "uchain", "--out", &out])
+        .stdout(Stdio::null())
+        .spawn()
+        .expect("uk starts");
+    let page = scratch.0.join("out");
+    while !page.exists() {
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    std::thread::sleep(std::time::Duration::from_millis(200));
+    fails(
+        &["report", "pendulum", "--quick", "--out", &out],
+        FAILED,
+        "another program is writing its report to ",
+    );
+    first.kill().expect("still running");
+    first.wait().expect("uk ends");
+    output(&["report", "pendulum", "--quick", "--out", &out]);
 }
 
 #[test]
@@ -110,9 +142,8 @@ fn runs_into_one_file_at_once_leave_one_of_their_results() {
     let path = scratch.path("run.csv");
     let children: Vec<_> = (1..=6)
         .map(|k| {
-            Command::new(env!("CARGO_BIN_EXE_uk"))
-                .args(["run", "pendulum", "--set", &format!("rate={k}")])
-                .args(["--csv", &path])
+            let rate = format!("rate={k}");
+            command(&["run", "pendulum", "--set", &rate, "--csv", &path])
                 .stdout(Stdio::null())
                 .spawn()
                 .expect("uk starts")

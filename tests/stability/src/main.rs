@@ -1,4 +1,4 @@
-//! `uk-stability`: how far stiff and extreme cases go. A program of its own, since its mechanisms and cases take long to build and are seldom asked for.
+//! How far stiff and extreme cases go: each sweeps one thing until it breaks, and compares with an oracle.
 
 #![forbid(unsafe_code)]
 
