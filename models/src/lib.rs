@@ -32,12 +32,11 @@ pub use kapitza::KapitzaPendulum;
 pub use knife_edge::KnifeEdge;
 pub use massless_spring::MasslessSpring;
 pub use pendulum::Pendulum;
-pub use ukcore::model::{Model, Reference, StartOption, StartOptions, StartSpec};
-
-pub use registry::{Visitor, ids, visit};
+pub use registry::{Visitor, entries, ids, visit};
 pub use rigid_body::RigidBody;
 pub use rough_block::RoughBlock;
 pub use slider_crank::SliderCrank;
 pub use slider_crank_redundant::SliderCrankRedundant;
 pub use spring_pendulum::SpringPendulum;
 pub use uchain::UChain;
+pub use ukcore::model::{Entry, Model, Reference, StartOption, StartOptions, StartSpec};

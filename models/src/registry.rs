@@ -1,7 +1,7 @@
 //! All models, by name.
 
 use crate::{
-    DoublePendulum, DoublePendulumAngles, FishRobot, FourBars, KapitzaPendulum, KnifeEdge,
+    DoublePendulum, DoublePendulumAngles, Entry, FishRobot, FourBars, KapitzaPendulum, KnifeEdge,
     MasslessSpring, Model, Pendulum, RigidBody, RoughBlock, SliderCrank, SliderCrankRedundant,
     SpringPendulum, UChain,
 };
@@ -17,6 +17,12 @@ pub trait Visitor {
 
 macro_rules! registry {
     ($($model:ty),* $(,)?) => {
+        /// All models, as tools handle them.
+        #[must_use]
+        pub fn entries() -> Vec<Entry> {
+            vec![$(Entry::of::<$model>()),*]
+        }
+
         /// Names of all models.
         #[must_use]
         pub fn ids() -> Vec<&'static str> {

@@ -77,6 +77,11 @@ impl Model for SpringPendulum {
         })
     }
 
+    /// A hard spring makes it stiff.
+    fn variations() -> &'static [&'static [(&'static str, f64)]] {
+        &[&[("k", 1e8)]]
+    }
+
     fn duration() -> f64 {
         2.0
     }

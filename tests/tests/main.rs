@@ -24,4 +24,5 @@ mod redundant_loop;
 mod registry;
 mod stability;
 mod stiff;
+mod streaming;
 mod switches;

@@ -28,6 +28,7 @@ pub mod equations;
 pub mod error;
 #[cfg(feature = "simulate")]
 pub mod events;
+mod explain;
 #[cfg(test)]
 mod fixture;
 #[cfg(feature = "simulate")]
@@ -38,6 +39,7 @@ mod lu;
 pub mod mechanism;
 mod metric;
 pub mod model;
+pub mod numbers;
 pub mod pinv;
 pub mod plan;
 mod rounding;
@@ -58,6 +60,7 @@ mod zero;
 pub use assemble::{Residuals, State, assemble, residuals};
 pub use double::DoubleDouble;
 pub use error::Error;
+pub use explain::Explanation;
 pub use lanes::{LaneSolver, Lanes};
 pub use linearise::Linearisation;
 #[doc(hidden)]
@@ -81,4 +84,4 @@ pub use simulate::ensemble::{Ensemble, Member};
 #[cfg(feature = "simulate")]
 pub use simulate::{Failure, Simulation, Switching};
 #[cfg(feature = "simulate")]
-pub use trajectory::{Ending, Residual, Sample, Trajectory, Work};
+pub use trajectory::{CsvWriter, Drift, Ending, Record, Residual, Sample, Trajectory, Work};

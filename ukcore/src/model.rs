@@ -1,42 +1,52 @@
-//! What a mechanism may say of itself beyond its equations: a name, start states with options, a duration, known motions.
+//! What a mechanism may say of itself beyond its equations, and a mechanism as tools handle it.
+//!
+//! [`Model`] is a trait of defaults: a name, start states with options, a duration, motions that are known otherwise. [`Entry`] carries any
+//! mechanism, with what it says or without, under a name; a slice of entries is a registry.
 
 use std::collections::BTreeMap;
+use std::fmt;
+use std::marker::PhantomData;
 
 use crate::assemble::State;
 use crate::error::Error;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, Prepared};
 
-/// A mechanism that says more of itself than its equations: a name, consistent start states, a typical duration, what is known of its motion.
+/// What a mechanism says of itself beyond its equations. Everything has a default; what is given serves the tools.
 pub trait Model: Mechanism {
-    /// Name on the command line, such as `"uchain"`.
-    const ID: &'static str = Self::SPEC.name;
+    /// Name on the command line, such as `"uchain"`; if empty, the name of the type as [`kebab_case`].
+    const ID: &'static str = "";
 
-    /// The model in one line: the first of its documentation where nothing else is said.
+    /// The model in one line; the first line of the declaration's doc comment if not given.
     #[must_use]
     fn summary() -> &'static str {
-        Self::SPEC.doc.trim().lines().next().unwrap_or_default()
+        first_line(Self::SPEC.doc)
     }
 
-    /// The start states on offer; the first is the default.
+    /// The start states on offer; the first is the default. Where there is none, a start is [assembled](crate::assemble()) from a guess.
     #[must_use]
     fn starts() -> &'static [StartSpec] {
         &[]
     }
 
-    /// A state on all constraints, for the parameters of `self`.
+    /// The start state called `name`, on all constraints, for the parameters of `self`. It takes the options by [`Chosen::of`].
     ///
     /// # Errors
     /// [`Error::UnknownName`] for an unknown start or option, [`Error::InvalidSetting`] for a value with which the mechanism cannot
     /// be put together.
     fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
         Chosen::of::<Self>(name, options)?;
-        Ok(State::zeros::<Self>())
+        let reason =
+            format!("`{name}` is in the list of starts, but `Model::start` does not make it");
+        Err(Error::InvalidSetting {
+            what: "start",
+            reason,
+        })
     }
 
-    /// Duration of a typical run, s: 10 s where nothing else is said.
+    /// Duration of a typical run, s.
     #[must_use]
     fn duration() -> f64 {
-        10.0
+        DURATION
     }
 
     /// What is known about the motion from [`default_start`](Model::default_start) with default parameters, once for each end that is of
@@ -46,15 +56,24 @@ pub trait Model: Mechanism {
         Vec::new()
     }
 
+    /// Sets of parameters, besides the defaults, that make another problem of the mechanism, so that it is worth being measured with them too.
+    #[must_use]
+    fn variations() -> &'static [&'static [(&'static str, f64)]] {
+        &[]
+    }
+
     /// The first start with default options.
     ///
     /// # Errors
-    /// [`Error::InvalidSetting`] if the parameters of `self` do not admit it.
+    /// [`Error::InvalidSetting`] if the parameters of `self` do not admit it, or if there is no start.
     fn default_start(&self) -> Result<State, Error> {
         let name = Self::starts().first().map_or("", |s| s.name);
         self.start(name, &StartOptions::new())
     }
 }
+
+/// Duration of a run, s, where a model gives none.
+const DURATION: f64 = 10.0;
 
 /// A start state on offer.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -158,10 +177,10 @@ impl Chosen {
     }
 }
 
-/// Checks a value that a start was given.
+/// Checks a length or another value that only a positive number makes sense of, for [`Model::start`].
 ///
 /// # Errors
-/// [`Error::InvalidSetting`], which calls it `what`, unless `value` is positive and finite.
+/// [`Error::InvalidSetting`] unless `value` is positive and finite.
 pub fn positive(what: &'static str, value: f64) -> Result<(), Error> {
     if value > 0.0 && value.is_finite() {
         return Ok(());
@@ -185,8 +204,7 @@ pub struct Reference {
 const INTERVALS: u32 = 16;
 
 impl Reference {
-    /// The closed form `at` time t of q and q̇, at equal intervals up to the duration of `M`.
-    #[must_use]
+    /// The closed form `at` time t of q and q̇, at equal intervals up to the duration of `M`; `error` bounds what its evaluation is off.
     pub fn closed<M: Model>(error: f64, at: impl Fn(f64) -> (Vec<f64>, Vec<f64>)) -> Self {
         let states = (1..=INTERVALS).map(|k| {
             let t = M::duration() * f64::from(k) / f64::from(INTERVALS);
@@ -200,11 +218,226 @@ impl Reference {
         }
     }
 
-    /// These states up to the time `end`.
+    /// The same motion up to the time `end`.
     #[must_use]
     pub fn up_to(&self, end: f64) -> Self {
         let mut shorter = self.clone();
         shorter.states.retain(|state| state.t <= end);
         shorter
+    }
+}
+
+/// Makes a start: mechanism, name and options.
+type Start = fn(&Prepared, &str, &StartOptions) -> Result<State, Error>;
+
+/// A mechanism as tools handle it: an object with a name, its default parameters, and what it says of itself.
+#[derive(Clone)]
+pub struct Entry {
+    /// Name on the command line: [`Model::ID`], or the name of the type as [`kebab_case`].
+    pub id: String,
+    /// The mechanism in one line.
+    pub summary: &'static str,
+    /// The mechanism with its default parameters.
+    pub mechanism: Prepared,
+    /// The start states on offer; the first is the default.
+    pub starts: &'static [StartSpec],
+    /// Duration of a typical run, s.
+    pub duration: f64,
+    /// [`Model::variations`].
+    pub variations: &'static [&'static [(&'static str, f64)]],
+    /// The emitted functions: name and text.
+    pub code: &'static [(&'static str, &'static str)],
+    start: Option<Start>,
+    references: fn() -> Vec<Reference>,
+}
+
+impl Entry {
+    /// The model `M`.
+    #[must_use]
+    pub fn of<M: Model>() -> Self {
+        let start: Start = |mechanism, name, options| {
+            let mut model = M::default();
+            for (i, value) in mechanism.parameters().iter().enumerate() {
+                model.set_parameter(i, *value);
+            }
+            model.start(name, options)
+        };
+        let named = Entry::plain::<M>();
+        Entry {
+            id: if M::ID.is_empty() {
+                named.id
+            } else {
+                M::ID.to_owned()
+            },
+            summary: M::summary(),
+            starts: M::starts(),
+            duration: M::duration(),
+            variations: M::variations(),
+            start: Some(start),
+            references: M::references,
+            ..named
+        }
+    }
+
+    /// The mechanism `M` with the defaults of [`Model`], whether it is one or not.
+    #[must_use]
+    pub fn plain<M: Mechanism>() -> Self {
+        Entry {
+            id: kebab_case(M::SPEC.name),
+            summary: first_line(M::SPEC.doc),
+            mechanism: M::default().prepared(),
+            starts: &[],
+            duration: DURATION,
+            variations: &[],
+            code: M::CODE,
+            start: None,
+            references: Vec::new,
+        }
+    }
+
+    /// The start called `name`, for the parameters of `mechanism`, which is this one with other values.
+    ///
+    /// # Errors
+    /// Those of [`Model::start`]; [`Error::UnknownName`] where nothing but equations is known of the mechanism.
+    pub fn start(
+        &self,
+        mechanism: &Prepared,
+        name: &str,
+        options: &StartOptions,
+    ) -> Result<State, Error> {
+        match self.start {
+            Some(start) => start(mechanism, name, options),
+            None => Err(Error::unknown_name("start", name, &mut std::iter::empty())),
+        }
+    }
+
+    /// [`Model::references`].
+    #[must_use]
+    pub fn references(&self) -> Vec<Reference> {
+        (self.references)()
+    }
+}
+
+impl fmt::Debug for Entry {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Entry")
+            .field("id", &self.id)
+            .field("mechanism", &self.mechanism)
+            .field("starts", &self.starts)
+            .finish_non_exhaustive()
+    }
+}
+
+/// The entry of a mechanism type, as [`Entry::of`] where it is a [`Model`], as [`Entry::plain`] where it is not.
+///
+/// ```
+/// ukcore::multibody! {
+///     /// A mass that falls.
+///     pub FallingMass { coords { y } mass { y: 1.0 } potential { 9.81 * y } }
+/// }
+///
+/// let entry = ukcore::entry!(FallingMass);
+/// assert_eq!((entry.id.as_str(), entry.summary), ("falling-mass", "A mass that falls."));
+/// ```
+#[macro_export]
+macro_rules! entry {
+    ($mechanism:ty) => {{
+        #[allow(unused_imports, reason = "one of the two is used")]
+        use $crate::model::{AsMechanism as _, AsModel as _};
+        // A method that takes its receiver as it is comes before one that borrows it once more.
+        (&$crate::model::Type::<$mechanism>::NEW).entry()
+    }};
+}
+
+/// A type, for [`entry!`](crate::entry).
+#[doc(hidden)]
+pub struct Type<M>(PhantomData<M>);
+
+impl<M> Type<M> {
+    /// The only value.
+    pub const NEW: Self = Type(PhantomData);
+}
+
+/// For [`entry!`](crate::entry).
+#[doc(hidden)]
+pub trait AsModel {
+    fn entry(&self) -> Entry;
+}
+
+impl<M: Model> AsModel for Type<M> {
+    fn entry(&self) -> Entry {
+        Entry::of::<M>()
+    }
+}
+
+/// For [`entry!`](crate::entry).
+#[doc(hidden)]
+pub trait AsMechanism {
+    fn entry(&self) -> Entry;
+}
+
+impl<M: Mechanism> AsMechanism for &Type<M> {
+    fn entry(&self) -> Entry {
+        Entry::plain::<M>()
+    }
+}
+
+/// The name of a type as it is written on a command line: `UChain` as `u-chain`, `HTTPServer2` as `http-server2`.
+#[must_use]
+pub fn kebab_case(name: &str) -> String {
+    let letters: Vec<char> = name.chars().collect();
+    let mut text = String::new();
+    for (i, letter) in letters.iter().enumerate() {
+        let after_small = i > 0 && !letters[i - 1].is_uppercase();
+        let before_small = i > 0 && letters.get(i + 1).is_some_and(|next| next.is_lowercase());
+        if letter.is_uppercase() && (after_small || before_small) {
+            text.push('-');
+        }
+        text.extend(letter.to_lowercase());
+    }
+    text.replace("_", "-").replace("--", "-")
+}
+
+fn first_line(doc: &'static str) -> &'static str {
+    doc.trim().lines().next().unwrap_or_default().trim()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fixture::{Pendulum, Twice};
+
+    impl Model for Twice {
+        const ID: &'static str = "two";
+
+        fn duration() -> f64 {
+            3.0
+        }
+    }
+
+    #[test]
+    fn what_is_no_model_has_the_defaults() {
+        let plain = crate::entry!(Pendulum);
+        assert_eq!((plain.id.as_str(), plain.duration), ("pendulum", DURATION));
+        let model = crate::entry!(Twice);
+        assert_eq!((model.id.as_str(), model.duration), ("two", 3.0));
+        let error = plain.start(&plain.mechanism, "rest", &StartOptions::new());
+        assert!(matches!(
+            error,
+            Err(Error::UnknownName { kind: "start", .. })
+        ));
+    }
+
+    #[test]
+    fn names_of_types_are_written_in_kebab_case() {
+        for (name, written) in [
+            ("Cart", "cart"),
+            ("UChain", "u-chain"),
+            ("DoublePendulum", "double-pendulum"),
+            ("HTTPServer2", "http-server2"),
+            ("Two_Bars", "two-bars"),
+        ] {
+            assert_eq!(kebab_case(name), written);
+        }
     }
 }

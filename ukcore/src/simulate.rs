@@ -12,17 +12,20 @@ use crate::mechanism::{Prepared, Spec};
 use crate::scan::largest;
 use crate::solver::{Formula, Solver, SolverOptions};
 use crate::stabilise::{Projector, Stabilisation};
-use crate::trajectory::{Ending, Trajectory, Work};
+use crate::trajectory::{Ending, Record, Sample, Trajectory, Work};
 
+mod agenda;
 mod angles;
 #[cfg(feature = "ensemble")]
 pub mod ensemble;
+mod grid;
 mod run;
 #[cfg(test)]
 mod tests;
 mod trouble;
 
-use run::{Agenda, Keeper, Progress, Run, Sampling, at};
+use agenda::{Agenda, Sampling};
+use run::{Keeper, Progress, Run, Sink, at};
 use trouble::{Conflict, Pace};
 
 /// How far a start may be off the constraints: projection may move a coordinate by this part of the largest one (a
@@ -164,6 +167,8 @@ impl Simulation {
 
     /// Samples at t₀ + k `dt` (t₀ − k `dt` going backward) and at the end, instead of each accepted step.
     ///
+    /// Times are the numbers nearest to what is written: 0.3 is taken for three tenths and 1.0 / 3.0 for a third, so that sample 3 lies at 0.9 and 1.
+    ///
     /// Samples lie on the interpolant, then are projected; they do not influence the steps. Interpolation by DOP853 adds an
     /// error of some ten tolerances to that which the steps have gathered; measured on swings of a pendulum at tolerances
     /// 1e-4 to 1e-12 against runs that end at the sample times, the largest error of samples was up to 9 times larger within
@@ -217,10 +222,9 @@ impl Simulation {
         self
     }
 
-    /// Calls `f` after every accepted step with the motion so far (its end is [`Trajectory::last`]; its cost is counted when the
-    /// run has ended); `Break` ends the run there, which is no failure.
+    /// Calls `f` after every accepted step with the state that the run has reached; `Break` ends the run there, which is no failure.
     #[must_use]
-    pub fn progress(mut self, f: impl FnMut(&Trajectory) -> ControlFlow<()> + 'static) -> Self {
+    pub fn progress(mut self, f: impl FnMut(Sample<'_>) -> ControlFlow<()> + 'static) -> Self {
         self.progress = Some(Box::new(f));
         self
     }
@@ -232,6 +236,28 @@ impl Simulation {
     /// [`Error::OffConstraint`] for a bad start; on the way [`Error::At`] with time, state and cause: what the solver or
     /// the projection reports, [`Error::StepTooSmall`], [`Error::TooManySteps`], [`Error::Chattering`]. The trajectory up to there is in the [`Failure`].
     pub fn until(self, t_end: f64) -> Result<Trajectory, Failure> {
+        self.run(t_end, None)
+    }
+
+    /// Runs from the start to `t_end` as [`until`](Simulation::until) does, and hands each sample and each event to `sink` instead of keeping it, so that
+    /// memory does not grow with the run. [`CsvWriter`](crate::CsvWriter) writes samples as they come, [`Drift`](crate::Drift) measures them.
+    ///
+    /// They come in the order in which the run passes them, each once, as soon as its step is accepted; those of the start and the end are among them.
+    /// `Break` ends the run after the step in hand, which is no failure; nothing more is handed over then. The trajectory has neither samples nor events, but how the run
+    /// [ended](Trajectory::ending), with which [state](Trajectory::last), at what [cost](Trajectory::work). [`dense`](Simulation::dense) keeps the
+    /// interpolant all the same.
+    ///
+    /// # Errors
+    /// Those of [`until`](Simulation::until).
+    pub fn stream(
+        self,
+        t_end: f64,
+        mut sink: impl FnMut(Record<'_>) -> ControlFlow<()>,
+    ) -> Result<Trajectory, Failure> {
+        self.run(t_end, Some(&mut sink))
+    }
+
+    fn run(self, t_end: f64, sink: Option<Sink<'_>>) -> Result<Trajectory, Failure> {
         let baumgarte = match self.stabilisation {
             Stabilisation::Baumgarte(baumgarte) => Some(baumgarte),
             Stabilisation::Projection | Stabilisation::None => None,
@@ -248,7 +274,7 @@ impl Simulation {
             error,
             trajectory: Box::new(trajectory),
         };
-        if let Err(error) = self.check(t_end) {
+        if let Err(error) = self.check(t_end, sink.is_none()) {
             return Err(fail(error, trajectory));
         }
         let spec = self.mechanism.spec();
@@ -291,6 +317,9 @@ impl Simulation {
             agenda: Agenda::new(self.sampling, t0, t_end),
             watch: Watch::new(self.events, n),
             progress: self.progress,
+            sink,
+            handed: ControlFlow::Continue(()),
+            sampled: None,
             t: t0,
             y: y.clone(),
             between: vec![0.0; 2 * n],
@@ -302,6 +331,10 @@ impl Simulation {
         let error = run.start(t0, &y).and_then(|()| {
             if t_end == t0 {
                 run.trajectory.ending = Ending::Completed;
+                return Ok(());
+            }
+            if run.handed.is_break() {
+                run.trajectory.ending = Ending::Interrupted;
                 return Ok(());
             }
             let report = self.method.run(&mut run, t0, &y, t_end, &settings);
@@ -332,8 +365,8 @@ impl Simulation {
         }
     }
 
-    /// Ranges of all settings.
-    fn check(&self, t_end: f64) -> Result<(), Error> {
+    /// Ranges of all settings of a run to `t_end` whose samples are `kept` or not.
+    fn check(&self, t_end: f64, kept: bool) -> Result<(), Error> {
         let invalid = |what, reason: String| Err(Error::InvalidSetting { what, reason });
         if !(SMALLEST_TOLERANCE..1.0).contains(&self.tolerance) {
             let tolerance = self.tolerance;
@@ -390,9 +423,9 @@ impl Simulation {
                 return invalid("every", reason);
             }
             let samples = (t_end - start.t).abs() / dt;
-            if samples > MAX_SAMPLES {
+            if kept && samples > MAX_SAMPLES {
                 let reason = format!(
-                    "is {dt:?}, which asks for {samples:.1e} samples; at most {MAX_SAMPLES:.0e} are kept"
+                    "is {dt:?}, which asks for {samples:.1e} samples; at most {MAX_SAMPLES:.0e} are kept, and any number by `stream`"
                 );
                 return invalid("every", reason);
             }

@@ -5,9 +5,13 @@
 //! certificate holds, else by the rank-revealing solve; near the manifold the factors of the
 //! first step serve for the following ones too, since each step then still divides the residual by 1/δ for a state at distance δ.
 
+use std::fmt;
+use std::str::FromStr;
+
 use crate::diagnose;
 use crate::error::Error;
 use crate::mechanism::{Branch, Constraints, Prepared};
+use crate::numbers::full;
 use crate::rounding::Rounded;
 use crate::scan::largest;
 use crate::solver::Baumgarte;
@@ -45,6 +49,50 @@ pub enum Stabilisation {
     Baumgarte(Baumgarte),
     /// Nothing: A q̈ = b alone.
     None,
+}
+
+/// As it is read by [`FromStr`]: `projection`, `baumgarte=20,20`, `none`.
+impl fmt::Display for Stabilisation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Stabilisation::Projection => f.write_str("projection"),
+            Stabilisation::Baumgarte(Baumgarte { alpha, beta }) => {
+                write!(f, "baumgarte={},{}", full(*alpha), full(*beta))
+            }
+            Stabilisation::None => f.write_str("none"),
+        }
+    }
+}
+
+/// Reads `projection`, `none`, `baumgarte` with the rates of [`Baumgarte::default`], or `baumgarte=ALPHA,BETA` with rates in 1/s.
+impl FromStr for Stabilisation {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let rate = |text: &str| {
+            let number = text.trim().parse().ok();
+            number.filter(|x| (0.0..f64::INFINITY).contains(x))
+        };
+        let reason = match text.split_once('=') {
+            None if text == "projection" => return Ok(Stabilisation::Projection),
+            None if text == "none" => return Ok(Stabilisation::None),
+            None if text == "baumgarte" => {
+                return Ok(Stabilisation::Baumgarte(Baumgarte::default()));
+            }
+            Some(("baumgarte", rates)) => {
+                let rates = rates.split_once(',');
+                if let Some((Some(alpha), Some(beta))) = rates.map(|(a, b)| (rate(a), rate(b))) {
+                    return Ok(Stabilisation::Baumgarte(Baumgarte { alpha, beta }));
+                }
+                "two rates in 1/s are needed, not negative: baumgarte=20,20"
+            }
+            _ => "it is `projection`, `baumgarte`, `baumgarte=ALPHA,BETA` or `none`",
+        };
+        Err(Error::InvalidSetting {
+            what: "stabilise",
+            reason: format!("is `{text}`; {reason}"),
+        })
+    }
 }
 
 /// What a projection did.

@@ -11,6 +11,13 @@ use crate::mechanism::{Energy, Prepared, Spec};
 use crate::solver::{Solution, Solver, SolverOptions};
 use crate::stabilise::Projector;
 
+mod csv;
+mod drift;
+
+pub use csv::CsvWriter;
+pub use drift::{Drift, Residual};
+use drift::{EnergyDrift, Gauge};
+
 /// One row of a [`Trajectory`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample<'a> {
@@ -32,6 +39,15 @@ impl Sample<'_> {
             v: self.v.to_vec(),
         }
     }
+}
+
+/// What a [streamed](crate::Simulation::stream) run hands over.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Record<'a> {
+    /// A sample of the motion.
+    Sample(Sample<'a>),
+    /// A located event.
+    Event(&'a EventHit),
 }
 
 /// What a run cost.
@@ -57,23 +73,6 @@ pub struct Work {
     pub fallbacks: usize,
 }
 
-/// How far a sample is off the constraints.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Residual {
-    /// Largest |φ| of the holonomic constraints, in their units.
-    pub position: f64,
-    /// Largest |φ̇| of the holonomic and |φ| of the nonholonomic constraints, in their units.
-    pub velocity: f64,
-}
-
-impl Residual {
-    /// The larger one of the two.
-    #[must_use]
-    pub fn largest(self) -> f64 {
-        nan_max(self.position, self.velocity)
-    }
-}
-
 /// Why a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Ending {
@@ -81,7 +80,7 @@ pub enum Ending {
     Completed,
     /// A terminal event.
     Event,
-    /// [`progress`](crate::Simulation::progress) asked for it.
+    /// The closure of [`progress`](crate::Simulation::progress) or [`stream`](crate::Simulation::stream) asked for it.
     Interrupted,
     /// An error, which [`Failure`](crate::Failure) carries.
     #[default]
@@ -90,7 +89,8 @@ pub enum Ending {
 
 /// Samples of a motion, its events, its cost; and what follows from the samples.
 ///
-/// Its methods compute at each sample anew what is asked for; nothing but states is stored.
+/// Its methods compute at each sample anew what is asked for; nothing but states is stored. That of a [streamed](crate::Simulation::stream) run has neither
+/// samples nor events.
 #[derive(Clone)]
 pub struct Trajectory {
     mechanism: Prepared,
@@ -316,28 +316,16 @@ impl Trajectory {
     /// is conserved ([`Structure::conservative`](crate::Structure::conservative)).
     #[must_use]
     pub fn energy_drift(&self) -> f64 {
-        let energy = self.energy();
-        let Some(first) = energy.first() else {
-            return 0.0;
-        };
-        let (mut drift, mut scale) = (0.0, 0.0);
-        for e in &energy {
-            // V − V₀ first: a large constant in V must not hide the rest.
-            let change = (e.potential - first.potential) + (e.kinetic - first.kinetic);
-            drift = nan_max(drift, change.abs());
-            scale = nan_max(scale, e.kinetic.abs());
-            scale = nan_max(scale, (e.potential - first.potential).abs());
-        }
-        if scale == 0.0 { drift } else { drift / scale }
+        let mut drift = EnergyDrift::default();
+        self.energy().into_iter().for_each(|now| drift.add(now));
+        drift.share()
     }
 
     /// How far the samples are off the constraints.
     #[must_use]
     pub fn residuals(&self) -> Vec<Residual> {
-        let mut gauge = Gauge::new(self.spec());
-        self.samples()
-            .map(|s| gauge.residual(&self.mechanism, s))
-            .collect()
+        let mut gauge = Gauge::new(self.mechanism.clone());
+        self.samples().map(|s| gauge.residual(s)).collect()
     }
 
     /// Accelerations q̈ at the samples, by the formula of the run.
@@ -369,94 +357,15 @@ impl Trajectory {
         self.samples().map(&mut solve).collect()
     }
 
-    /// Writes the samples as comma-separated values under a line of names: `t`, the coordinates (`x[0]`), their rates
-    /// (`dot(x[0])`), the outputs, `energy` (T + V), `residual` ([`Residual::largest`]).
-    ///
-    /// Numbers have the fewest digits that read back as the same number.
+    /// Writes all samples as comma-separated values, as [`CsvWriter`] does one by one.
     ///
     /// # Errors
     /// Those of `writer`.
     pub fn write_csv(&self, writer: &mut (impl Write + ?Sized)) -> io::Result<()> {
-        self.write_csv_head(writer)?;
-        self.write_csv_rows(0, writer)
+        let mut csv = CsvWriter::new(&self.mechanism, io::BufWriter::new(writer))?;
+        self.samples().try_for_each(|sample| csv.write(sample))?;
+        csv.into_inner().flush()
     }
-
-    /// The line of names of [`write_csv`](Trajectory::write_csv).
-    ///
-    /// # Errors
-    /// Those of `writer`.
-    pub fn write_csv_head(&self, writer: &mut (impl Write + ?Sized)) -> io::Result<()> {
-        let spec = self.spec();
-        let mut line = "t".to_owned();
-        for name in spec.coords {
-            line += &format!(",{name}");
-        }
-        for name in spec.coords {
-            line += &format!(",dot({name})");
-        }
-        for output in spec.outputs {
-            line += &format!(",{}", output.name);
-        }
-        writeln!(writer, "{line},energy,residual")
-    }
-
-    /// The rows of [`write_csv`](Trajectory::write_csv) from sample `first` on: from [`progress`](crate::Simulation::progress), the
-    /// samples can so be written while they are computed.
-    ///
-    /// # Errors
-    /// Those of `writer`.
-    pub fn write_csv_rows(
-        &self,
-        first: usize,
-        writer: &mut (impl Write + ?Sized),
-    ) -> io::Result<()> {
-        let mut writer = io::BufWriter::new(writer);
-        let mut gauge = Gauge::new(self.spec());
-        let mut outputs = vec![0.0; self.spec().outputs.len()];
-        for sample in self.samples().skip(first) {
-            let Sample { t, q, v } = sample;
-            self.mechanism.outputs(t, q, v, &mut outputs);
-            write!(writer, "{t:?}")?;
-            for value in q.iter().chain(v).chain(&outputs) {
-                write!(writer, ",{value:?}")?;
-            }
-            let energy = self.mechanism.energy(t, q, v).total();
-            let residual = gauge.residual(&self.mechanism, sample).largest();
-            writeln!(writer, ",{energy:?},{residual:?}")?;
-        }
-        writer.flush()
-    }
-}
-
-/// Measures [`Residual`]s.
-struct Gauge {
-    position: Vec<f64>,
-    velocity: Vec<f64>,
-}
-
-impl Gauge {
-    fn new(spec: &Spec) -> Self {
-        Gauge {
-            position: vec![0.0; spec.holonomic],
-            velocity: vec![0.0; spec.m()],
-        }
-    }
-
-    fn residual(&mut self, mech: &Prepared, sample: Sample<'_>) -> Residual {
-        let Sample { t, q, v } = sample;
-        mech.residual(t, q, &mut self.position);
-        mech.residual_rate(t, q, v, &mut self.velocity);
-        let largest = |values: &[f64]| values.iter().fold(0.0, |m, r| nan_max(m, r.abs()));
-        Residual {
-            position: largest(&self.position),
-            velocity: largest(&self.velocity),
-        }
-    }
-}
-
-/// The larger one, or NaN if either is.
-fn nan_max(a: f64, b: f64) -> f64 {
-    if a.is_nan() || a > b { a } else { b }
 }
 
 fn at(sample: Sample<'_>, error: Error) -> Error {

@@ -33,9 +33,11 @@ mod tableau;
 mod tests;
 
 use std::fmt;
+use std::str::FromStr;
 
 use crate::error::Error;
 use crate::mechanism::Branch;
+use crate::numbers::full;
 #[cfg(feature = "ensemble")]
 pub(crate) use control::{Guess, Plan, StepSize};
 #[cfg(feature = "ensemble")]
@@ -75,8 +77,33 @@ impl fmt::Display for Method {
             Method::Dop853 => f.write_str("dop853"),
             Method::Dopri5 => f.write_str("dopri5"),
             Method::Radau5 => f.write_str("radau5"),
-            Method::Rattle { step } => write!(f, "rattle={step}"),
+            Method::Rattle { step } => write!(f, "rattle={}", full(*step)),
         }
+    }
+}
+
+/// Reads what `Display` writes: `dop853`, `dopri5`, `radau5`, `rattle=STEP` with the step in units of time.
+impl FromStr for Method {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let reason = match text.split_once('=') {
+            None if text == "dop853" => return Ok(Method::Dop853),
+            None if text == "dopri5" => return Ok(Method::Dopri5),
+            None if text == "radau5" => return Ok(Method::Radau5),
+            None if text == "rattle" => "it needs its step: rattle=0.001",
+            Some(("rattle", step)) => match step.parse() {
+                Ok(step) if step > 0.0 && step < f64::INFINITY => {
+                    return Ok(Method::Rattle { step });
+                }
+                _ => "its step must be a positive number",
+            },
+            _ => "it is `dop853`, `dopri5`, `radau5` or `rattle=STEP`",
+        };
+        Err(Error::InvalidSetting {
+            what: "method",
+            reason: format!("is `{text}`; {reason}"),
+        })
     }
 }
 

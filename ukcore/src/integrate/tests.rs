@@ -522,3 +522,32 @@ fn errors_that_grow_are_expected_to_go_on_growing() {
     let h = size.accepted(control, 0.1, 0.5);
     assert!((h - 0.09 * 0.5_f64.powf(-0.125)).abs() < 1e-15);
 }
+
+#[test]
+fn methods_are_read_as_they_are_written() {
+    for text in [
+        "dop853",
+        "dopri5",
+        "radau5",
+        "rattle=0.001",
+        "rattle=1e-200",
+    ] {
+        let read: Method = text.parse().expect(text);
+        assert_eq!(read.to_string(), text);
+    }
+    for text in [
+        "euler",
+        "rattle",
+        "rattle=",
+        "rattle=0",
+        "rattle=inf",
+        "rattle=1kg",
+        "dop853=1",
+    ] {
+        let read: Result<Method, Error> = text.parse();
+        assert!(
+            matches!(read, Err(Error::InvalidSetting { what: "method", .. })),
+            "{text}"
+        );
+    }
+}

@@ -11,7 +11,8 @@ use std::sync::atomic::AtomicUsize;
 
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
-use super::{Sampling, Simulation};
+use super::Simulation;
+use super::agenda::Sampling;
 use crate::assemble::State;
 use crate::error::Error;
 use crate::mechanism::{Mechanism, Prepared};

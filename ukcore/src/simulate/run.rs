@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use super::agenda::Agenda;
 use super::trouble::{self, Conflict, Pace};
 use crate::diagnose;
 use crate::error::Error;
@@ -13,23 +14,12 @@ use crate::scalar::Dual;
 use crate::scan::largest;
 use crate::solver::{RANK_CEILING, Solver};
 use crate::stabilise::Projector;
-use crate::trajectory::{Ending, Trajectory, Work};
+use crate::trajectory::{Ending, Record, Sample, Trajectory, Work};
 
-/// A sample within so many units of rounding of the end time is the end: k dt and t_end are rounded once each.
-const SAME_TIME: f64 = 4.0 * f64::EPSILON;
+pub(super) type Progress = Box<dyn FnMut(Sample<'_>) -> ControlFlow<()>>;
 
-/// When samples are taken.
-#[derive(Debug, Clone)]
-pub(super) enum Sampling {
-    /// At each accepted step.
-    Steps,
-    /// At multiples of that time after the start, and at the end.
-    Every(f64),
-    /// At these times only.
-    At(Vec<f64>),
-}
-
-pub(super) type Progress = Box<dyn FnMut(&Trajectory) -> ControlFlow<()>>;
+/// What takes the samples and events of a streamed run.
+pub(super) type Sink<'a> = &'a mut dyn FnMut(Record<'_>) -> ControlFlow<()>;
 
 /// `error` with the place where it arose.
 pub(super) fn at(t: f64, y: &[f64], error: Error) -> Error {
@@ -42,49 +32,8 @@ pub(super) fn at(t: f64, y: &[f64], error: Error) -> Error {
     }
 }
 
-/// Which samples are still to be taken.
-pub(super) struct Agenda {
-    sampling: Sampling,
-    t0: f64,
-    t_end: f64,
-    /// Samples taken from it so far.
-    pub(super) taken: usize,
-}
-
-impl Agenda {
-    pub(super) fn new(sampling: Sampling, t0: f64, t_end: f64) -> Self {
-        Agenda {
-            sampling,
-            t0,
-            t_end,
-            taken: 0,
-        }
-    }
-
-    /// Time of the next sample that does not come by itself at the end of a step.
-    pub(super) fn next(&self) -> Option<f64> {
-        match &self.sampling {
-            Sampling::Steps => None,
-            Sampling::Every(dt) => {
-                let span = self.t_end - self.t0;
-                // The start is sample 0.
-                let t = self.t0 + ((self.taken + 1) as f64 * dt).copysign(span);
-                let rounding = SAME_TIME * self.t0.abs().max(self.t_end.abs());
-                let left = (self.t_end - t) * span.signum();
-                (left > rounding).then_some(t)
-            }
-            Sampling::At(times) => times.get(self.taken).copied(),
-        }
-    }
-
-    /// Whether the end of the run is a sample in any case.
-    pub(super) fn wants_end(&self) -> bool {
-        !matches!(self.sampling, Sampling::At(_))
-    }
-}
-
 /// The simulation as a problem for the integrator.
-pub(super) struct Run<'a> {
+pub(super) struct Run<'a, 's> {
     /// For the derivatives of switching functions, if steps are to go onto their zeros.
     pub(super) located: Option<Prepared<Dual, dyn Dynamics<Dual>>>,
     pub(super) solver: Solver,
@@ -94,6 +43,11 @@ pub(super) struct Run<'a> {
     pub(super) agenda: Agenda,
     pub(super) watch: Watch,
     pub(super) progress: Option<Progress>,
+    /// Takes what is not to be kept, until it wants no more.
+    pub(super) sink: Option<Sink<'s>>,
+    pub(super) handed: ControlFlow<()>,
+    /// Time of the last sample.
+    pub(super) sampled: Option<f64>,
     /// Time and state at the end of the last accepted step; the time is that of the event where a terminal one ended it.
     pub(super) t: f64,
     pub(super) y: Vec<f64>,
@@ -154,7 +108,7 @@ impl Keeper {
 /// Significance of a constraint, √ε, below which the state cannot tell on which side of a singular position it is.
 const SINGULAR: f64 = 1.5e-8;
 
-impl Run<'_> {
+impl Run<'_, '_> {
     /// Refuses a step that ends where constraints all but imply each other and that did not begin there.
     ///
     /// A significance δ leaves q off by ε/δ, so below √ε the state does not say on which side of the singular position it is, nor which branch of the motion it
@@ -193,16 +147,47 @@ impl Run<'_> {
 
     /// Events and sample at the start.
     pub(super) fn start(&mut self, t: f64, y: &[f64]) -> Result<(), Error> {
-        let asked = !self.agenda.wants_end() && self.agenda.next() == Some(t);
-        if asked {
-            self.agenda.taken += 1;
-        }
-        if asked || self.agenda.wants_end() {
+        if self.agenda.takes_start(t) {
             self.trajectory.times.push(t);
             self.trajectory.states.extend_from_slice(y);
         }
         let watched = self.watch.start(t, y);
-        watched.map_err(|error| at(t, y, error))
+        watched.map_err(|error| at(t, y, error))?;
+        self.hand_over();
+        Ok(())
+    }
+
+    /// Gives samples and events to the sink, if there is one, in the order in which the run passes them.
+    fn hand_over(&mut self) {
+        let Trajectory {
+            times,
+            states,
+            events,
+            start,
+            ..
+        } = &mut *self.trajectory;
+        self.sampled = times.last().copied().or(self.sampled);
+        let Some(sink) = &mut self.sink else {
+            return;
+        };
+        let mut hand_all = || {
+            let mut events = events.iter().peekable();
+            let passed = |t: f64| (t - *start).abs();
+            for (t, y) in times.iter().zip(states.chunks_exact((2 * self.n).max(1))) {
+                while let Some(event) = events.next_if(|event| passed(event.t) <= passed(*t)) {
+                    sink(Record::Event(event))?;
+                }
+                let (q, v) = y.split_at(self.n);
+                sink(Record::Sample(Sample { t: *t, q, v }))?;
+            }
+            events.try_for_each(|event| sink(Record::Event(event)))
+        };
+        if self.handed.is_continue() {
+            self.handed = hand_all();
+        }
+        times.clear();
+        states.clear();
+        events.clear();
     }
 
     /// The state with which the run ended becomes its last sample, if samples are not at given times only.
@@ -214,13 +199,14 @@ impl Run<'_> {
             times, states, end, ..
         } = &mut *self.trajectory;
         if let Some(end) = end
-            && self.agenda.wants_end()
-            && times.last().is_some_and(|t| *t != end.t)
+            && self.agenda.wants_ends()
+            && self.sampled.is_some_and(|t| t != end.t)
         {
             times.push(end.t);
             states.extend_from_slice(&end.q);
             states.extend_from_slice(&end.v);
         }
+        self.hand_over();
     }
 
     /// What is to be kept of an accepted step.
@@ -256,7 +242,7 @@ impl Run<'_> {
                 break;
             }
             within.consistent(t, &mut self.between)?;
-            self.agenda.taken += 1;
+            self.agenda.take();
             within.trajectory.times.push(t);
             within.trajectory.states.extend_from_slice(&self.between);
         }
@@ -267,7 +253,7 @@ impl Run<'_> {
             segments,
             ..
         } = within.trajectory;
-        if let Sampling::Steps = self.agenda.sampling {
+        if self.agenda.wants_steps() {
             times.push(t_stop);
             states.extend_from_slice(&self.between);
         }
@@ -279,7 +265,7 @@ impl Run<'_> {
     }
 }
 
-impl Problem for Run<'_> {
+impl Problem for Run<'_, '_> {
     fn derivative(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Error> {
         let (q, v) = y.split_at(self.n);
         let (q_rate, v_rate) = rate.split_at_mut(self.n);
@@ -426,13 +412,13 @@ impl Problem for Run<'_> {
             let (q, v) = step.y.split_at(self.n);
             keeper.check(self.solver.mechanism().energy(step.t, q, v))?;
         }
-        let taken = self.agenda.taken;
+        let taken = self.agenda.taken();
         let samples = self.trajectory.times.len();
         let events = self.trajectory.events.len();
         let ending = self.trajectory.ending;
         let recorded = self.check_branch(step).and_then(|()| self.record(step));
         if let Err(error) = recorded {
-            self.agenda.taken = taken;
+            self.agenda.return_to(taken);
             self.trajectory.times.truncate(samples);
             self.trajectory.states.truncate(2 * self.n * samples);
             self.trajectory.events.truncate(events);
@@ -448,16 +434,19 @@ impl Problem for Run<'_> {
             end.q.copy_from_slice(&self.between[..self.n]);
             end.v.copy_from_slice(&self.between[self.n..]);
         }
-        let trajectory = &*self.trajectory;
-        let go_on = self.progress.as_mut().map(|progress| progress(trajectory));
+        self.hand_over();
+        let go_on = match (&mut self.progress, self.trajectory.last()) {
+            (Some(progress), Some(last)) => progress(last),
+            _ => ControlFlow::Continue(()),
+        };
         if self.trajectory.ending == Ending::Event {
             return Ok(Next::Stop);
         }
-        if go_on == Some(ControlFlow::Break(())) && self.t != self.agenda.t_end {
+        if (self.handed.is_break() || go_on.is_break()) && self.t != self.agenda.t_end() {
             self.trajectory.ending = Ending::Interrupted;
             return Ok(Next::Stop);
         }
-        if self.pace.hopeless(self.agenda.t_end - self.t) {
+        if self.pace.hopeless(self.agenda.t_end() - self.t) {
             return Ok(Next::Stop);
         }
         Ok(Next::Continue)

@@ -13,12 +13,13 @@ use crate::mechanism::{
 use crate::mechanism::{Mechanism, Prepared};
 use crate::scalar::Scalar;
 use crate::solver::Baumgarte;
-use crate::trajectory::Sample;
+use crate::trajectory::{Residual, Sample};
 
 mod events;
 mod failures;
 mod motion;
 mod records;
+mod streams;
 
 /// A particle on a circle, in Cartesian coordinates; y points up. With a force that exists until t = `limit` only.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,5 +1,7 @@
 //! What a solver is told, and what it tells.
 
+use std::fmt;
+
 use super::RANK_TOLERANCE;
 use crate::diagnose::Diagnosis;
 use crate::mechanism::Spec;
@@ -19,6 +21,18 @@ pub enum Formula {
     Kkt,
 }
 
+/// The formula in words, with its equation.
+impl fmt::Display for Formula {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Formula::Auto => "chosen by the rank of M",
+            Formula::UdwadiaKalaba => "Udwadia-Kalaba (eq. 13; M is regular)",
+            Formula::UdwadiaPhohomsiri => "Udwadia-Phohomsiri (eq. 19; M is singular)",
+            Formula::Kkt => "saddle-point system",
+        })
+    }
+}
+
 /// Baumgarte's stabilisation: b − 2αφ̇ − β²φ for holonomic, b − αψ for nonholonomic constraints.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Baumgarte {
@@ -26,6 +40,18 @@ pub struct Baumgarte {
     pub alpha: f64,
     /// β in 1/s; β = α is critical damping.
     pub beta: f64,
+}
+
+/// α = β = 20/s: critical damping, under which an error decays in a twentieth of a second, fast against the seconds that mechanisms move for, and
+/// slow against the steps of an explicit method.
+impl Default for Baumgarte {
+    fn default() -> Self {
+        let rate = 20.0;
+        Baumgarte {
+            alpha: rate,
+            beta: rate,
+        }
+    }
 }
 
 impl Baumgarte {

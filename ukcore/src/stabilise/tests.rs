@@ -212,3 +212,34 @@ fn through_a_singular_configuration() {
         assert!(correction.residual < 1e-12, "{angle}: {correction:?}");
     }
 }
+
+#[test]
+fn ways_to_stabilise_are_read_as_they_are_written() {
+    for text in ["projection", "none", "baumgarte=5,2.5"] {
+        let read: Stabilisation = text.parse().expect(text);
+        assert_eq!(read.to_string(), text);
+    }
+    let usual: Result<Stabilisation, _> = "baumgarte".parse();
+    assert_eq!(usual, "baumgarte=20,20".parse());
+    for text in [
+        "glue",
+        "none=1",
+        "baumgarte=",
+        "baumgarte=1",
+        "baumgarte=1,-1",
+        "baumgarte=1,inf",
+        "baumgarte=1,2,3",
+    ] {
+        let read: Result<Stabilisation, Error> = text.parse();
+        assert!(
+            matches!(
+                read,
+                Err(Error::InvalidSetting {
+                    what: "stabilise",
+                    ..
+                })
+            ),
+            "{text}"
+        );
+    }
+}

@@ -11,7 +11,8 @@ use crate::integrate::{
 };
 use crate::lanes::{LaneProjector, LaneSolver, Lanes};
 use crate::mechanism::Prepared;
-use crate::simulate::run::{Agenda, at, project};
+use crate::simulate::agenda::Agenda;
+use crate::simulate::run::{at, project};
 use crate::simulate::trouble::{Conflict, Pace};
 use crate::stabilise::Projector;
 use crate::trajectory::Work;
@@ -222,7 +223,7 @@ impl<'a, L: Lanes> Group<'a, L> {
     /// Member `index`, checked, with its consistent start in lane `k`.
     fn admit(&mut self, index: usize, k: usize) -> Result<Running, Error> {
         let simulation = self.ensemble.simulation(index);
-        simulation.check(self.t_end)?;
+        simulation.check(self.t_end, true)?;
         let mut work = Work::default();
         let mut projector = Projector::new(&simulation.mechanism);
         let (start, tolerance) = simulation.consistent_start(&mut projector, &mut work)?;
@@ -232,11 +233,7 @@ impl<'a, L: Lanes> Group<'a, L> {
         }
         let mut agenda = Agenda::new(simulation.sampling, t0, t_end);
         let mut samples = Vec::new();
-        let asked = !agenda.wants_end() && agenda.next() == Some(t0);
-        if asked {
-            agenda.taken += 1;
-        }
-        if asked || agenda.wants_end() {
+        if agenda.takes_start(t0) {
             samples.push(start);
         }
         let sign = if t_end < t0 { -1.0 } else { 1.0 };
@@ -436,7 +433,7 @@ impl<'a, L: Lanes> Group<'a, L> {
             return;
         }
         let end = state(running.now.1, &lane(&self.y, k));
-        if running.agenda.wants_end() && running.samples.last().is_none_or(|s| s.t != end.t) {
+        if running.agenda.wants_ends() && running.samples.last().is_none_or(|s| s.t != end.t) {
             running.samples.push(end.clone());
         }
         running.work.rejected = running.attempts - running.work.steps;
@@ -534,7 +531,7 @@ impl<'a, L: Lanes> Group<'a, L> {
             h: running.plan.size,
             coefficients: &coefficients,
         };
-        let before = (running.agenda.taken, running.samples.len());
+        let before = (running.agenda.taken(), running.samples.len());
         let sign = running.clock.sign;
         while let Some(t) = running.agenda.next() {
             if sign * (t - running.plan.t) > 0.0 {
@@ -547,12 +544,12 @@ impl<'a, L: Lanes> Group<'a, L> {
                 let work = &mut running.work;
                 if let Err(error) = project(&mut running.projector, work, t, &mut y) {
                     running.refuse(t, raw, error);
-                    running.agenda.taken = before.0;
+                    running.agenda.return_to(before.0);
                     running.samples.truncate(before.1);
                     return false;
                 }
             }
-            running.agenda.taken += 1;
+            running.agenda.take();
             running.samples.push(state(t, &y));
         }
         true

@@ -56,7 +56,8 @@ fn energy_and_constraints_hold_at_all_samples() {
         }
         assert_eq!(run.len(), 1 + (20.0_f64 / 0.013) as usize + 1);
         for (k, sample) in run.samples().enumerate().take(run.len() - 1) {
-            assert_eq!(sample.t, k as f64 * 0.013);
+            // The nearest number to the decimal.
+            assert_eq!(sample.t, (13 * k) as f64 / 1000.0);
         }
         assert_eq!(run.samples().next_back().unwrap().t, 20.0);
     }

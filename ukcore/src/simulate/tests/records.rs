@@ -42,12 +42,28 @@ fn samples_at_given_times_include_start_and_end_only_if_asked_for() {
 }
 
 #[test]
+fn equidistant_samples_lie_at_the_decimals_that_were_asked_for() {
+    let times = |dt: f64, t0: f64, t_end: f64| {
+        let start = state(t0, 1.0, 0.0);
+        let run = Simulation::new(Pendulum::default()).start(start).every(dt);
+        run.until(t_end).unwrap().times().to_vec()
+    };
+    assert_eq!(times(0.3, 0.0, 1.3), [0.0, 0.3, 0.6, 0.9, 1.2, 1.3]);
+    assert_eq!(times(0.1, 0.2, 0.7), [0.2, 0.3, 0.4, 0.5, 0.6, 0.7]);
+    assert_eq!(times(0.3, 0.0, -1.0), [0.0, -0.3, -0.6, -0.9, -1.0]);
+    assert_eq!(times(0.05, 0.1, -0.1), [0.1, 0.05, 0.0, -0.05, -0.1]);
+    let third = 1.0 / 3.0;
+    assert_eq!(times(third, 0.0, 1.1), [0.0, third, 2.0 * third, 1.0, 1.1]);
+    assert_eq!(times(1e-3, 0.0, 1.0)[999], 0.999);
+}
+
+#[test]
 fn counters_are_consistent() {
     let seen = Rc::new(RefCell::new(Vec::new()));
     let times = Rc::clone(&seen);
     let run = swing(3.0, 1e-9)
-        .progress(move |run| {
-            times.borrow_mut().extend(run.last().map(|last| last.t));
+        .progress(move |now| {
+            times.borrow_mut().push(now.t);
             ControlFlow::Continue(())
         })
         .until(10.0)
@@ -65,8 +81,8 @@ fn counters_are_consistent() {
 
 #[test]
 fn progress_can_end_a_run() {
-    let run = swing(1.0, 1e-9).progress(|run| {
-        if run.last().unwrap().t > 1.0 {
+    let run = swing(1.0, 1e-9).progress(|now| {
+        if now.t > 1.0 {
             ControlFlow::Break(())
         } else {
             ControlFlow::Continue(())

@@ -1,0 +1,144 @@
+//! The command line: which commands there are, and a program of them.
+
+use std::ffi::OsString;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use ukcore::Error;
+use ukcore::model::Entry;
+
+use crate::explain::{ExplainArgs, explain};
+use crate::failure::Failure;
+use crate::list::list;
+use crate::report::{ReportArgs, report};
+use crate::run::{RunArgs, run};
+
+/// The exit codes, and how values are written: the end of `--help`.
+pub const HELP: &str = "\
+Exit codes: 0 done; 1 the computation or the writing of a file failed; 2 the command line is wrong; 130 interrupted.
+Values may have units: 15deg, 12mm, 9.81 m/s^2, 2.5*PI. A bare number is in the parameter's own unit.";
+
+/// A command of the tool. A program with more commands flattens it into its own.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// List the models, their starts and start options
+    List,
+    /// Integrate a model
+    Run(RunArgs),
+    /// Show what is known about a model: M, Q, A, b, rank, degrees of freedom, how its motion is computed; or the emitted code
+    Explain(ExplainArgs),
+    /// Measure error against run time, for each method, formula and stabilisation, and say which to take for which accuracy
+    Report(ReportArgs),
+}
+
+impl Command {
+    /// Does what is asked, with these models.
+    ///
+    /// # Errors
+    /// [`Failure`], whose display is a line for standard error and whose [`code`](Failure::code) is the one to exit with.
+    pub fn run(&self, models: &[Entry]) -> Result<(), Failure> {
+        match self {
+            Command::List => list(models),
+            Command::Run(args) => run(models, args),
+            Command::Explain(args) => explain(models, args),
+            Command::Report(args) => report(models, args),
+        }
+    }
+}
+
+#[derive(Debug, Parser)]
+#[command(about = "Dynamics of constrained multibody systems", after_help = HELP)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// A whole program: reads the command line and does what it asks with these models. [`main!`](crate::main) is what calls it.
+#[must_use]
+pub fn main(models: &[Entry]) -> ExitCode {
+    exit(parse::<Cli>().command.run(models))
+}
+
+/// Reads the command line of this program; ends it where help is asked for or the command line is wrong.
+#[must_use]
+pub fn parse<C: CommandFactory + FromArgMatches>() -> C {
+    let mut matches = C::command().get_matches();
+    C::from_arg_matches_mut(&mut matches).unwrap_or_else(|error| error.exit())
+}
+
+/// Tells of a failure on standard error; the code to end the program with.
+#[must_use]
+pub fn exit(result: Result<(), Failure>) -> ExitCode {
+    let Err(failure) = result else {
+        return ExitCode::SUCCESS;
+    };
+    if !matches!(failure, Failure::ReaderGone) {
+        // Standard error may be closed too; the exit code still tells.
+        let _ = writeln!(io::stderr(), "{failure}");
+    }
+    ExitCode::from(failure.code())
+}
+
+/// The name of this program, as it was called.
+fn program() -> String {
+    let called = std::env::args_os()
+        .next()
+        .unwrap_or_else(|| OsString::from("uk"));
+    let name = Path::new(&called).file_stem().unwrap_or(&called);
+    name.to_string_lossy().into_owned()
+}
+
+/// The model called `id`.
+///
+/// # Errors
+/// [`Failure::Usage`] with the nearest name.
+pub(crate) fn find<'a>(models: &'a [Entry], id: &str) -> Result<&'a Entry, Failure> {
+    models.iter().find(|m| m.id == id).ok_or_else(|| {
+        let error = Error::unknown_name("model", id, &mut models.iter().map(|m| m.id.as_str()));
+        match error {
+            Error::UnknownName { nearest: None, .. } => Failure::Usage(format!(
+                "no model is called `{id}`; `{} list` shows those there are",
+                program()
+            )),
+            _ => error.into(),
+        }
+    })
+}
+
+/// Reads the path of a file or directory, which must not be empty.
+///
+/// # Errors
+/// What is wrong.
+pub fn path(text: &str) -> Result<PathBuf, String> {
+    if text.is_empty() {
+        return Err("a path is needed".to_owned());
+    }
+    Ok(PathBuf::from(text))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ukcore::Stabilisation;
+
+    #[test]
+    fn the_parser_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn a_run_is_read() {
+        let line = "uk run fish --set phi=15deg --set a3=0.4 --until 2min --every 10ms --stabilise none --guess dot(x)=-1 --hold s,th";
+        let cli = Cli::try_parse_from(line.split(' ')).expect("arguments");
+        let Command::Run(run) = cli.command else {
+            panic!("not a run")
+        };
+        assert_eq!(run.scene.start.settings.len(), 2);
+        assert_eq!(run.scene.start.hold, ["s", "th"]);
+        assert_eq!(run.until, Some(120.0));
+        assert_eq!(run.every, Some(0.01));
+        assert_eq!(run.stabilise, Stabilisation::None);
+    }
+}

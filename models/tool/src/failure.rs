@@ -1,0 +1,101 @@
+//! How a command fails, and with which exit code.
+
+use std::fmt;
+use std::io;
+use std::path::Path;
+
+use ukcore::Error;
+
+/// Exit code of a run that failed: the motion could not be computed, or a file not be written.
+pub const FAILED: u8 = 1;
+/// Exit code of a command line that asks for something that is not there. The argument parser uses the same one.
+pub const USAGE: u8 = 2;
+/// Exit code of a run that was interrupted: as shells say of a program ended by the interrupt signal.
+pub const INTERRUPTED: u8 = 130;
+
+/// Why a command ends early.
+#[derive(Debug)]
+pub enum Failure {
+    /// The command line is wrong (exit code 2).
+    Usage(String),
+    /// The command is right and failed (exit code 1).
+    Failed(String),
+    /// The user has interrupted the run (exit code 130).
+    Interrupted(String),
+    /// Whoever read our output has stopped reading (`uk list | head`): nobody is left to tell, and nothing went wrong.
+    ReaderGone,
+}
+
+impl Failure {
+    /// The exit code, as documented by `--help`.
+    pub fn code(&self) -> u8 {
+        match self {
+            Failure::Usage(_) => USAGE,
+            Failure::Failed(_) => FAILED,
+            Failure::Interrupted(_) => INTERRUPTED,
+            Failure::ReaderGone => 0,
+        }
+    }
+
+    /// A failure to write standard output.
+    pub fn stdout(error: &io::Error) -> Self {
+        if error.kind() == io::ErrorKind::BrokenPipe {
+            Failure::ReaderGone
+        } else {
+            Failure::Failed(format!("cannot write standard output: {error}"))
+        }
+    }
+
+    /// A failure to write a file.
+    pub fn file(path: &Path, error: &io::Error) -> Self {
+        Failure::Failed(format!("cannot write {}: {error}", path.display()))
+    }
+}
+
+/// The line for standard error.
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Failure::Usage(message) | Failure::Failed(message) => write!(f, "error: {message}"),
+            Failure::Interrupted(message) => f.write_str(message),
+            Failure::ReaderGone => f.write_str("the reader of standard output is gone"),
+        }
+    }
+}
+
+/// Names and settings come from the command line, so they are usage errors; all else failed in the computation.
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        match error {
+            Error::UnknownName { .. } | Error::InvalidSetting { .. } => {
+                Failure::Usage(error.to_string())
+            }
+            _ => Failure::Failed(error.to_string()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_usage_errors_and_the_rest_is_not() {
+        let unknown = Error::unknown_name("model", "uchian", &mut ["uchain", "fish"].into_iter());
+        let failure = Failure::from(unknown);
+        assert_eq!(failure.code(), USAGE);
+        assert!(failure.to_string().contains("did you mean `uchain`"));
+        assert_eq!(
+            Failure::from(Error::TooManySteps { steps: 3 }).code(),
+            FAILED
+        );
+    }
+
+    #[test]
+    fn a_closed_pipe_is_no_failure() {
+        let gone = io::Error::from(io::ErrorKind::BrokenPipe);
+        assert_eq!(Failure::stdout(&gone).code(), 0);
+        let full = io::Error::from(io::ErrorKind::StorageFull);
+        assert_eq!(Failure::stdout(&full).code(), FAILED);
+    }
+}

@@ -1,0 +1,48 @@
+//! The signals that ask a program to end (Ctrl-C, and what `kill` sends): they end a run in order.
+
+use std::process;
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use crate::failure::{Failure, INTERRUPTED};
+
+/// Whether the user has asked for an end.
+#[derive(Debug, Clone, Copy)]
+pub struct Interrupt(&'static AtomicBool);
+
+static ASKED: AtomicBool = AtomicBool::new(false);
+static CAUGHT: OnceLock<Result<(), String>> = OnceLock::new();
+
+impl Interrupt {
+    /// From here on the first signal is noted, and a second one ends the program at once: nobody has to wait for a step that does not end.
+    ///
+    /// # Errors
+    /// [`Failure::Failed`] if the system does not let the signal be caught.
+    pub fn catch() -> Result<Self, Failure> {
+        let handle = || {
+            if ASKED.swap(true, Ordering::Relaxed) {
+                process::exit(i32::from(INTERRUPTED));
+            }
+        };
+        let caught = CAUGHT.get_or_init(|| ctrlc::set_handler(handle).map_err(|e| e.to_string()));
+        match caught {
+            Ok(()) => Ok(Interrupt(&ASKED)),
+            Err(e) => Err(Failure::Failed(format!(
+                "cannot catch the interrupt signal: {e}"
+            ))),
+        }
+    }
+
+    /// One that never comes, for a computation that nobody interrupts.
+    #[must_use]
+    pub fn never() -> Self {
+        static NEVER: AtomicBool = AtomicBool::new(false);
+        Interrupt(&NEVER)
+    }
+
+    /// Whether it has come.
+    #[must_use]
+    pub fn is_set(self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}

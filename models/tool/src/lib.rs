@@ -1,0 +1,63 @@
+//! Tools for mechanisms declared with [`ukcore::multibody!`]: commands, pages, plots.
+//!
+//! [`main!`] beside a declaration makes a program of it, with the commands `list`, `run`, `explain` and `report`:
+//!
+//! ```no_run
+//! ukcore::multibody! {
+//!     /// A cart on a spring with a pendulum hanging from it; y points up.
+//!     pub Cart {
+//!         params { big = 2.0, m = 1.0, l = 0.5, k = 40.0, g = 9.81 }
+//!         coords { s, x, y }
+//!         mass { s: big, x: m, y: m }
+//!         potential { 0.5 * k * sq(s), m * g * y }
+//!         holonomic { rod: sq(x - s) + sq(y) = sq(l) }
+//!         output { angle = atan2(x - s, -y) }
+//!     }
+//! }
+//!
+//! uktool::main!(Cart);
+//! ```
+//!
+//! `cargo run -- run cart --guess x=0.4 --guess y=-0.2 --hold s --until 2 --csv -` then prints its motion. A mechanism that implements
+//! [`ukcore::model::Model`] has starts, a duration and references of its own besides.
+//!
+//! The same as functions: [`list`](list::list), [`run`](run::run), [`explain`](explain::explain), [`report`](report::report) and
+//! [`stability`](stability::stability) take models as [`Entry`], or cases, and their arguments; [`plot`] draws charts and [`html`] makes pages.
+
+#![forbid(unsafe_code)]
+#![deny(missing_docs)]
+
+pub mod command;
+pub mod drift;
+pub mod explain;
+pub mod failure;
+pub mod html;
+pub mod interrupt;
+pub mod list;
+pub mod numbers;
+pub mod output;
+pub mod plot;
+pub mod progress;
+pub mod report;
+pub mod run;
+pub mod scene;
+pub mod stability;
+mod summary;
+pub mod units;
+
+pub use ukcore::model::Entry;
+
+/// The whole of a program for the mechanisms declared beside it: a `main` function with the commands `list`, `run`, `explain` and `report`.
+///
+/// The mechanisms are called like their types, in lower case and with dashes (`Cart` as `cart`, `UChain` as `u-chain`), and have no starts; unless they
+/// implement [`ukcore::model::Model`] and say more of themselves. See the [crate] for an example.
+#[macro_export]
+macro_rules! main {
+    ($($mechanism:ty),+ $(,)?) => {
+        fn main() -> ::std::process::ExitCode {
+            $crate::command::main(&[$($crate::entry!($mechanism)),+])
+        }
+    };
+}
+
+pub use ukcore::entry;

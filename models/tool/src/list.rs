@@ -1,0 +1,79 @@
+//! The command `list`.
+
+use std::io::{self, Write};
+
+use ukcore::model::Entry;
+
+use crate::failure::Failure;
+use crate::numbers::{short, width};
+use crate::output;
+use crate::units;
+
+/// Width of a list of parameters; with what stands before them, lines are within 100 characters.
+const LINE: usize = 84;
+
+/// Prints every model with its starts, their options, and the parameters, all with their defaults.
+///
+/// # Errors
+/// If standard output cannot be written.
+pub fn list(models: &[Entry]) -> Result<(), Failure> {
+    let wide = width(models.iter().map(|m| m.id.as_str()));
+    output::to_stdout(|out| models.iter().try_for_each(|model| entry(out, model, wide)))
+}
+
+/// `wide` is the width of the column of names.
+fn entry(out: &mut dyn Write, model: &Entry, wide: usize) -> io::Result<()> {
+    writeln!(out, "{:<wide$}  {}", model.id, model.summary)?;
+    for (i, start) in model.starts.iter().enumerate() {
+        let default = if i == 0 { " (default)" } else { "" };
+        writeln!(out, "    start {}{default}: {}", start.name, start.doc)?;
+        for option in start.options {
+            let value = short(option.default, 6);
+            let setting = format!("{} = {value} {}", option.name, option.unit);
+            writeln!(out, "        {:<24}{}", setting.trim_end(), option.doc)?;
+        }
+    }
+    if model.starts.is_empty() {
+        let coordinates = model
+            .mechanism
+            .spec()
+            .coords
+            .iter()
+            .map(|c| (*c).to_owned());
+        paragraph(out, "guess", coordinates)?;
+    }
+    let params = model.mechanism.spec().params.iter().map(|p| {
+        let unit = units::unit_in(p.doc).unwrap_or_default();
+        let setting = format!("{} = {} {unit}", p.name, short(p.default, 8));
+        setting.trim_end().to_owned()
+    });
+    paragraph(out, "parameters", params)?;
+    writeln!(out)
+}
+
+/// Entries with commas between them, in lines of at most [`LINE`] characters where the entries allow it.
+fn paragraph(
+    out: &mut dyn Write,
+    head: &str,
+    entries: impl Iterator<Item = String>,
+) -> io::Result<()> {
+    let mut lines: Vec<String> = Vec::new();
+    for entry in entries {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 2 + entry.chars().count() <= LINE => {
+                *line += ", ";
+                *line += &entry;
+            }
+            Some(line) => {
+                line.push(',');
+                lines.push(entry);
+            }
+            None => lines.push(entry),
+        }
+    }
+    for (i, line) in lines.iter().enumerate() {
+        let head = if i == 0 { head } else { "" };
+        writeln!(out, "    {head:<10} {line}")?;
+    }
+    Ok(())
+}

@@ -1,0 +1,281 @@
+//! Files that are either complete or not there, directories that one program at a time writes to, and standard output.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Stdout, Write};
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+use tempfile::NamedTempFile;
+
+use crate::failure::Failure;
+
+/// A file being written: a temporary one beside it, which takes its name once all is written. A reader sees the old file or the new one, never
+/// a part. A symbolic link is followed; a device or pipe (`/dev/stdout`) is written to directly.
+#[derive(Debug)]
+pub struct WholeFile {
+    /// The name that was asked for; none for standard output.
+    path: Option<PathBuf>,
+    kind: Kind,
+}
+
+#[derive(Debug)]
+enum Kind {
+    Temporary(BufWriter<NamedTempFile>, PathBuf),
+    Direct(BufWriter<File>),
+    Stdout(Stdout),
+}
+
+impl WholeFile {
+    /// Begins the file `path`. Where that is not possible it is known here, before a long computation whose result would be lost.
+    ///
+    /// # Errors
+    /// [`Failure::Failed`] naming the file.
+    pub fn create(path: &Path) -> Result<Self, Failure> {
+        let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
+        let kind = match fs::metadata(&target) {
+            Ok(there) if there.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
+            Ok(there) if !there.is_file() => {
+                let file = File::options().write(true).open(&target);
+                file.map(|file| Kind::Direct(BufWriter::new(file)))
+            }
+            _ => temporary(&target).map(|file| Kind::Temporary(BufWriter::new(file), target)),
+        };
+        let path = Some(path.to_path_buf());
+        match kind {
+            Ok(kind) => Ok(WholeFile { path, kind }),
+            Err(error) => Err(failure(path.as_deref(), &error)),
+        }
+    }
+
+    /// Standard output, of which each line is handed on at once.
+    #[must_use]
+    pub fn stdout() -> Self {
+        WholeFile {
+            path: None,
+            kind: Kind::Stdout(io::stdout()),
+        }
+    }
+
+    /// Gives the file its name.
+    ///
+    /// # Errors
+    /// [`Failure::Failed`] naming the file.
+    pub fn finish(self) -> Result<(), Failure> {
+        let done = match self.kind {
+            Kind::Stdout(mut out) => out.flush(),
+            Kind::Direct(mut file) => file.flush(),
+            Kind::Temporary(file, target) => match file.into_inner() {
+                Ok(file) => file.persist(target).map(drop).map_err(|e| e.error),
+                Err(error) => Err(error.into_error()),
+            },
+        };
+        done.map_err(|e| failure(self.path.as_deref(), &e))
+    }
+}
+
+/// A failure to write the file `path`, or standard output.
+pub(crate) fn failure(path: Option<&Path>, error: &io::Error) -> Failure {
+    match path {
+        Some(path) => Failure::file(path, error),
+        None => Failure::stdout(error),
+    }
+}
+
+impl Write for WholeFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match &mut self.kind {
+            Kind::Temporary(file, _) => file.write(bytes),
+            Kind::Direct(file) => file.write(bytes),
+            Kind::Stdout(out) => out.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match &mut self.kind {
+            Kind::Temporary(file, _) => file.flush(),
+            Kind::Direct(file) => file.flush(),
+            Kind::Stdout(out) => out.flush(),
+        }
+    }
+}
+
+/// A hidden file in the directory of `target`, so that renaming stays within one file system.
+fn temporary(target: &Path) -> io::Result<NamedTempFile> {
+    let directory = target.parent().filter(|d| !d.as_os_str().is_empty());
+    let name = target.file_name().unwrap_or_default().to_string_lossy();
+    let prefix = format!(".{name}.");
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(&prefix).suffix(".part");
+    // As any other file that is created: for all whom the user's mask admits.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(directory.unwrap_or(Path::new(".")))
+}
+
+/// Writes the [whole file](WholeFile) `path` through `fill`.
+///
+/// # Errors
+/// [`Failure::Failed`] naming the file; what stood there before stands there still.
+pub fn write_whole(
+    path: &Path,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), Failure> {
+    let mut file = WholeFile::create(path)?;
+    fill(&mut file).map_err(|e| Failure::file(path, &e))?;
+    file.finish()
+}
+
+/// A directory of a report, which no other program writes a report to meanwhile.
+#[derive(Debug)]
+pub struct Directory {
+    path: PathBuf,
+    /// The lock, held as long as it is open.
+    _lock: Option<File>,
+}
+
+impl Directory {
+    /// Creates the directory `path` with its parents, unless it is there, and sees to it that a page can be written to it.
+    ///
+    /// # Errors
+    /// [`Failure::Failed`] naming the directory, also where another program is writing to it.
+    pub fn create(path: &Path) -> Result<Self, Failure> {
+        let place = path.display();
+        fs::create_dir_all(path)
+            .map_err(|e| Failure::Failed(format!("cannot create directory {place}: {e}")))?;
+        // Elsewhere a directory cannot be opened as a file.
+        let lock = File::open(path).ok().filter(|_| cfg!(unix));
+        if let Some(Err(fs::TryLockError::WouldBlock)) = lock.as_ref().map(File::try_lock) {
+            return Err(Failure::Failed(format!(
+                "another program is writing its report to {place}; wait for it, or take another directory with `--out`"
+            )));
+        }
+        let directory = Directory {
+            path: path.to_path_buf(),
+            _lock: lock,
+        };
+        WholeFile::create(&directory.file("index.html"))?;
+        Ok(directory)
+    }
+
+    /// The path of a file in it.
+    #[must_use]
+    pub fn file(&self, name: &str) -> PathBuf {
+        self.path.join(name)
+    }
+
+    /// Writes the [whole file](WholeFile) `name`, which may lie in a directory below.
+    ///
+    /// # Errors
+    /// [`Failure::Failed`] naming the file.
+    pub fn write(&self, name: &str, bytes: impl AsRef<[u8]>) -> Result<(), Failure> {
+        let path = self.file(name);
+        if let Some(parent) = path.parent() {
+            fs::create_dir_all(parent).map_err(|e| Failure::file(&path, &e))?;
+        }
+        write_whole(&path, |w| w.write_all(bytes.as_ref()))
+    }
+
+    /// Writes `value` as JSON to the [whole file](WholeFile) `name`.
+    ///
+    /// # Errors
+    /// [`Failure::Failed`] naming the file.
+    pub fn json(&self, name: &str, value: &impl Serialize) -> Result<(), Failure> {
+        write_whole(&self.file(name), |w| json(w, value))
+    }
+
+    /// Writes `rows` as comma-separated values, under the names of their fields, to the [whole file](WholeFile) `name`.
+    ///
+    /// # Errors
+    /// [`Failure::Failed`] naming the file.
+    pub fn csv<R: Serialize>(
+        &self,
+        name: &str,
+        rows: impl IntoIterator<Item = R>,
+    ) -> Result<(), Failure> {
+        write_whole(&self.file(name), |w| {
+            let mut table = csv::Writer::from_writer(w);
+            for row in rows {
+                table.serialize(row).map_err(io::Error::other)?;
+            }
+            table.flush()
+        })
+    }
+}
+
+/// Writes `value` as JSON with a line's end.
+///
+/// # Errors
+/// Those of `out`.
+pub fn json(out: &mut dyn Write, value: &impl Serialize) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, value)?;
+    writeln!(out)
+}
+
+/// Writes to standard output through `fill`; a reader that stops reading is no error.
+///
+/// # Errors
+/// [`Failure::ReaderGone`] or [`Failure::Failed`].
+pub fn to_stdout(fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
+    let mut out = BufWriter::new(io::stdout().lock());
+    fill(&mut out)
+        .and_then(|()| out.flush())
+        .map_err(|e| Failure::stdout(&e))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failed_write_leaves_the_old_file_and_nothing_else() {
+        let scratch = tempfile::tempdir().expect("directory");
+        let path = scratch.path().join("a.csv");
+        write_whole(&path, |w| w.write_all(b"old")).expect("first write");
+        let failure = write_whole(&path, |w| {
+            w.write_all(b"half")?;
+            Err(io::Error::other("interrupted"))
+        });
+        assert!(failure.is_err());
+        assert_eq!(fs::read(&path).expect("file"), b"old");
+        assert_eq!(fs::read_dir(scratch.path()).expect("directory").count(), 1);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_are_followed_and_devices_written_to() {
+        use std::os::unix::fs::PermissionsExt;
+        let scratch = tempfile::tempdir().expect("directory");
+        let (file, link) = (scratch.path().join("file"), scratch.path().join("link"));
+        fs::write(&file, "old").expect("file");
+        let usual = fs::metadata(&file).expect("file").permissions().mode();
+        std::os::unix::fs::symlink(&file, &link).expect("link");
+        write_whole(&link, |w| w.write_all(b"new")).expect("write");
+        assert_eq!(fs::read(&file).expect("file"), b"new");
+        let mode = fs::metadata(&file).expect("file").permissions().mode();
+        assert_eq!(mode, usual, "readable by whom a new file is");
+        assert!(fs::symlink_metadata(&link).expect("link").is_symlink());
+        write_whole(Path::new("/dev/null"), |w| w.write_all(b"gone")).expect("device");
+        assert!(!fs::metadata("/dev/null").expect("device").is_file());
+    }
+
+    #[test]
+    fn a_directory_that_is_missing_is_named() {
+        let failure = WholeFile::create(Path::new("/nonexistent/x.csv"));
+        assert!(matches!(failure, Err(Failure::Failed(m)) if m.contains("/nonexistent/x.csv")));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_directory_has_one_writer() {
+        let scratch = tempfile::tempdir().expect("directory");
+        let path = scratch.path().join("out/report");
+        let first = Directory::create(&path).expect("nobody else");
+        let second = Directory::create(&path);
+        assert!(matches!(second, Err(Failure::Failed(m)) if m.contains("another program")));
+        first
+            .write("figures/a.svg", "<svg/>")
+            .expect("a directory below");
+        drop(first);
+        Directory::create(&path).expect("nobody any more");
+    }
+}

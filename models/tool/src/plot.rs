@@ -1,0 +1,507 @@
+//! Line charts as SVG text.
+//!
+//! The text of an SVG is set by whoever shows it, so no font is needed here; the drawing library's estimate of text widths is enough.
+//!
+//! ```
+//! use uktool::plot::{Chart, Series, round_range};
+//!
+//! let fall: Vec<(f64, f64)> = (0..=20).map(|k| 0.1 * f64::from(k)).map(|t| (t, 4.9 * t * t)).collect();
+//! let chart = Chart {
+//!     y: round_range(fall.iter().map(|p| p.1)),
+//!     ..Chart::new("time (s)", "fall (m)", (0.0, 2.0), vec![Series::new("free fall", 0, fall)])
+//! };
+//! assert!(chart.svg()?.starts_with("<svg "));
+//! # Ok::<(), uktool::failure::Failure>(())
+//! ```
+
+use std::ops::Range;
+
+use plotters::coord::Shift;
+use plotters::coord::ranged1d::{
+    AsRangedCoord, DefaultFormatting, KeyPointHint, Ranged, ValueFormatter,
+};
+use plotters::coord::types::RangedCoordf64;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+pub use plotters::style::RGBColor;
+
+use crate::failure::Failure;
+
+/// Okabe and Ito's palette, told apart with every common colour vision; the order puts strong contrasts first.
+pub const COLOURS: [RGBColor; 6] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
+];
+/// Reference curves: free fall, zero, g.
+pub const GREY: RGBColor = RGBColor(120, 120, 120);
+
+pub(crate) const FONT: &str = "Helvetica, Arial, sans-serif";
+const LABEL_SIZE: u32 = 15;
+const TICK_SIZE: u32 = 13;
+/// Height of a row of a legend above the frame.
+const ROW: i32 = 18;
+const GRID: RGBColor = RGBColor(226, 226, 226);
+const FRAME: RGBColor = RGBColor(90, 90, 90);
+
+/// A curve.
+#[derive(Debug, Clone)]
+pub struct Series {
+    /// Entry of the legend; none if empty.
+    pub label: String,
+    /// The points, in order.
+    pub points: Vec<(f64, f64)>,
+    /// Colour.
+    pub colour: RGBColor,
+    /// Width in pixels.
+    pub width: u32,
+    /// Dashed.
+    pub dashed: bool,
+    /// Radius of a dot at each point; 0 for none.
+    pub dots: u32,
+    /// Points with a ring instead of a dot.
+    pub rings: Vec<(f64, f64)>,
+}
+
+impl Series {
+    /// A plain curve in the colour number `index` of [`COLOURS`].
+    pub fn new(label: impl Into<String>, index: usize, points: Vec<(f64, f64)>) -> Self {
+        Series {
+            label: label.into(),
+            points,
+            colour: COLOURS[index % COLOURS.len()],
+            width: 2,
+            dashed: false,
+            dots: 0,
+            rings: Vec::new(),
+        }
+    }
+
+    /// A dashed grey curve to compare with.
+    pub fn reference(label: impl Into<String>, points: Vec<(f64, f64)>) -> Self {
+        Series {
+            colour: GREY,
+            width: 1,
+            dashed: true,
+            ..Series::new(label, 0, points)
+        }
+    }
+}
+
+/// Where the legend stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Legend {
+    /// Nowhere.
+    None,
+    /// Above the frame, in two columns.
+    Above,
+    /// Within the frame, like those that follow.
+    UpperLeft,
+    /// At the middle of the upper edge.
+    UpperMiddle,
+    /// At the middle of the lower edge.
+    LowerMiddle,
+    /// In the lower left corner.
+    LowerLeft,
+    /// In the lower right corner.
+    LowerRight,
+}
+
+/// What the axes are divided by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scale {
+    /// Equal distances are equal differences.
+    Linear,
+    /// Equal distances are equal ratios, on both axes; ticks at whole powers of ten. All numbers are positive.
+    Decades,
+}
+
+/// A chart.
+#[derive(Debug, Clone)]
+pub struct Chart {
+    /// Label of the horizontal axis, with its unit.
+    pub x_label: String,
+    /// Label of the vertical axis, with its unit.
+    pub y_label: String,
+    /// Horizontal range, from left to right.
+    pub x: (f64, f64),
+    /// Vertical range, from bottom to top; a larger first value makes the axis point down.
+    pub y: (f64, f64),
+    /// The curves; later ones lie on top.
+    pub series: Vec<Series>,
+    /// Division of both axes.
+    pub scale: Scale,
+    /// Place of the legend.
+    pub legend: Legend,
+    /// Width and height in pixels.
+    pub size: (u32, u32),
+}
+
+impl Chart {
+    /// A chart with linear axes, the vertical one round about the curves, half a page wide, and a legend in the lower right corner.
+    pub fn new(
+        x_label: impl Into<String>,
+        y_label: impl Into<String>,
+        x: (f64, f64),
+        series: Vec<Series>,
+    ) -> Self {
+        Chart {
+            x_label: x_label.into(),
+            y_label: y_label.into(),
+            x,
+            y: round_range(series.iter().flat_map(|s| s.points.iter().map(|p| p.1))),
+            series,
+            scale: Scale::Linear,
+            legend: Legend::LowerRight,
+            size: (560, 360),
+        }
+    }
+
+    /// The chart as the text of an SVG file.
+    ///
+    /// # Errors
+    /// [`Failure::Failed`] if the drawing library fails.
+    pub fn svg(&self) -> Result<String, Failure> {
+        svg(self.size, |area| self.draw(area))
+    }
+
+    fn draw<'a>(&self, area: &DrawingArea<SVGBackend<'a>, Shift>) -> Result<(), DrawError<'a>> {
+        let (x, y) = (self.x.0..self.x.1, self.y.0..self.y.1);
+        match self.scale {
+            Scale::Linear => self.draw_on(area, x, y, tick),
+            Scale::Decades => self.draw_on(area, Exponents::new(&x), Exponents::new(&y), power),
+        }
+    }
+
+    fn draw_on<'a, X, Y>(
+        &self,
+        area: &DrawingArea<SVGBackend<'a>, Shift>,
+        x: X,
+        y: Y,
+        tick: fn(f64) -> String,
+    ) -> Result<(), DrawError<'a>>
+    where
+        X: AsRangedCoord<Value = f64>,
+        Y: AsRangedCoord<Value = f64>,
+        X::CoordDescType: ValueFormatter<f64>,
+        Y::CoordDescType: ValueFormatter<f64>,
+    {
+        area.fill(&WHITE)?;
+        let frame = self.draw_legend_above(area)?;
+        let area = frame.as_ref().unwrap_or(area);
+        let mut chart = ChartBuilder::on(area)
+            .margin(10)
+            .margin_right(18)
+            .x_label_area_size(46)
+            .y_label_area_size(64)
+            .build_cartesian_2d(x, y)?;
+        chart
+            .configure_mesh()
+            .light_line_style(TRANSPARENT)
+            .bold_line_style(GRID)
+            .axis_style(FRAME)
+            .label_style((FONT, TICK_SIZE))
+            .axis_desc_style((FONT, LABEL_SIZE))
+            .x_desc(self.x_label.as_str())
+            .y_desc(self.y_label.as_str())
+            .x_label_formatter(&|v| tick(*v))
+            .y_label_formatter(&|v| tick(*v))
+            .x_labels(8)
+            .y_labels(8)
+            .draw()?;
+        for series in &self.series {
+            draw_series(&mut chart, series, self.scale)?;
+        }
+        let position = match self.legend {
+            Legend::None | Legend::Above => return Ok(()),
+            Legend::UpperLeft => SeriesLabelPosition::UpperLeft,
+            Legend::UpperMiddle => SeriesLabelPosition::UpperMiddle,
+            Legend::LowerMiddle => SeriesLabelPosition::LowerMiddle,
+            Legend::LowerLeft => SeriesLabelPosition::LowerLeft,
+            Legend::LowerRight => SeriesLabelPosition::LowerRight,
+        };
+        chart
+            .configure_series_labels()
+            .position(position)
+            .margin(8)
+            .legend_area_size(30)
+            .background_style(WHITE.mix(0.85))
+            .label_font((FONT, TICK_SIZE))
+            .draw()
+    }
+}
+
+impl Chart {
+    /// The legend, if it stands above the frame; what is left of the area for the frame then.
+    fn draw_legend_above<'a>(
+        &self,
+        area: &DrawingArea<SVGBackend<'a>, Shift>,
+    ) -> Result<Option<DrawingArea<SVGBackend<'a>, Shift>>, DrawError<'a>> {
+        if self.legend != Legend::Above {
+            return Ok(None);
+        }
+        // What lies on top comes first.
+        let named = || self.series.iter().rev().filter(|s| !s.label.is_empty());
+        let rows = named().count().div_ceil(2);
+        let height = 8 + ROW * rows as i32;
+        let (legend, frame) = area.split_vertically(height);
+        let column = self.size.0 as i32 / 2 - 10;
+        let text = (FONT, TICK_SIZE)
+            .into_text_style(&legend)
+            .pos(Pos::new(HPos::Left, VPos::Center));
+        for (k, series) in named().enumerate() {
+            let (x, y) = (
+                16 + column * (k / rows) as i32,
+                8 + ROW / 2 + ROW * (k % rows) as i32,
+            );
+            let style = series.colour.stroke_width(series.width);
+            let line = [(x, y), (x + 26, y)];
+            if series.dashed {
+                legend.draw(&PathElement::new([(x, y), (x + 9, y)], style))?;
+                legend.draw(&PathElement::new([(x + 17, y), (x + 26, y)], style))?;
+            } else {
+                legend.draw(&PathElement::new(line, style))?;
+            }
+            if series.dots > 0 {
+                let dot = Circle::new((x + 13, y), series.dots, series.colour.filled());
+                legend.draw(&dot)?;
+            }
+            legend.draw(&Text::new(series.label.as_str(), (x + 34, y), text.clone()))?;
+        }
+        Ok(Some(frame))
+    }
+}
+
+pub(crate) type DrawError<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
+
+/// What `draw` draws on an area of this size, as the text of an SVG file with a view box, so that a page can scale it. (The drawing library sets one only
+/// in some versions.)
+pub(crate) fn svg(
+    size: (u32, u32),
+    draw: impl for<'a> FnOnce(&DrawingArea<SVGBackend<'a>, Shift>) -> Result<(), DrawError<'a>>,
+) -> Result<String, Failure> {
+    let mut text = String::new();
+    {
+        let area = SVGBackend::with_string(&mut text, size).into_drawing_area();
+        draw(&area)
+            .and_then(|()| area.present())
+            .map_err(|e| Failure::Failed(format!("cannot draw a figure: {e}")))?;
+    }
+    if text.contains("viewBox") {
+        return Ok(text);
+    }
+    let scalable = format!("<svg viewBox=\"0 0 {} {}\" ", size.0, size.1);
+    Ok(text.replacen("<svg ", &scalable, 1))
+}
+
+fn draw_series<'a, X: Ranged<ValueType = f64>, Y: Ranged<ValueType = f64>>(
+    chart: &mut ChartContext<'a, SVGBackend<'a>, Cartesian2d<X, Y>>,
+    series: &Series,
+    scale: Scale,
+) -> Result<(), DrawError<'a>> {
+    let style = series.colour.stroke_width(series.width);
+    let place = |&(x, y): &(f64, f64)| match scale {
+        Scale::Linear => (x, y),
+        Scale::Decades => (x.log10(), y.log10()),
+    };
+    let points = series.points.iter().map(place);
+    let annotation = if series.dashed {
+        chart.draw_series(DashedLineSeries::new(points, 6, 4, style))?
+    } else {
+        chart.draw_series(LineSeries::new(points, style))?
+    };
+    if !series.label.is_empty() {
+        let dashed = series.dashed;
+        annotation
+            .label(series.label.as_str())
+            .legend(move |(x, y)| {
+                let gap = if dashed { 9 } else { 0 };
+                EmptyElement::at((x, y))
+                    + PathElement::new(vec![(0, 0), (11 - gap / 3, 0)], style)
+                    + PathElement::new(vec![(11 + gap / 3, 0), (22, 0)], style)
+            });
+    }
+    if series.dots > 0 {
+        chart.draw_series(
+            series
+                .points
+                .iter()
+                .filter(|p| !series.rings.contains(p))
+                .map(|p| Circle::new(place(p), series.dots, series.colour.filled())),
+        )?;
+    }
+    let ring = |p| Circle::new(place(p), series.dots.max(2) + 1, style);
+    chart.draw_series(series.rings.iter().map(ring))?;
+    Ok(())
+}
+
+/// A tick's number: shortest form, with a minus sign, and no "-0".
+fn tick(value: f64) -> String {
+    // Ticks are multiples of a power of ten; what is below a millionth of it is rounding.
+    let rounded = (value * 1e6).round() / 1e6;
+    if rounded == 0.0 {
+        return "0".to_owned();
+    }
+    rounded.to_string().replace('-', "−")
+}
+
+/// The exponents of an axis with ticks at whole powers of ten.
+struct Exponents {
+    line: RangedCoordf64,
+    ticks: Vec<f64>,
+}
+
+impl Exponents {
+    fn new(range: &Range<f64>) -> Self {
+        let (low, high) = (range.start.log10(), range.end.log10());
+        Exponents {
+            line: (low..high).into(),
+            ticks: decades(low, high),
+        }
+    }
+}
+
+impl Ranged for Exponents {
+    type FormatOption = DefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
+        self.line.map(value, limit)
+    }
+
+    fn key_points<Hint: KeyPointHint>(&self, _hint: Hint) -> Vec<f64> {
+        self.ticks.clone()
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.line.range()
+    }
+}
+
+/// The whole powers of ten between two exponents, at most twelve of them.
+fn decades(low: f64, high: f64) -> Vec<f64> {
+    let (first, last) = (low.ceil() as i32, high.floor() as i32);
+    let stride = ((last - first) / 12 + 1).max(1) as usize;
+    (first..=last).step_by(stride).map(f64::from).collect()
+}
+
+/// 10 to the power of a tick.
+fn power(exponent: f64) -> String {
+    let digit = |c: char| match c {
+        '-' => '⁻',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        // The others follow each other from U+2070 on.
+        c => char::from_u32(0x2070 + c.to_digit(10).unwrap_or(0)).unwrap_or(c),
+    };
+    let exponent = format!("{:.0}", exponent.round());
+    format!("10{}", exponent.chars().map(digit).collect::<String>())
+}
+
+/// The smallest range of whole decades that holds all of `values` that are positive.
+pub fn decade_range(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    let (low, high) = values
+        .filter(|v| *v > 0.0 && v.is_finite())
+        .map(f64::log10)
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
+            (l.min(v), h.max(v))
+        });
+    if low > high {
+        return (0.1, 1.0);
+    }
+    let (low, high) = (low.floor(), high.ceil());
+    let high = if high > low { high } else { low + 1.0 };
+    (10_f64.powf(low), 10_f64.powf(high))
+}
+
+/// The smallest range of round numbers (1, 2 or 5 times a power of ten) that holds all of `values`.
+pub fn round_range(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    let (low, high) = values
+        .filter(|v| v.is_finite())
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
+            (l.min(v), h.max(v))
+        });
+    if low > high {
+        return (0.0, 1.0);
+    }
+    let span = if high > low {
+        high - low
+    } else {
+        high.abs().max(1.0)
+    };
+    let step = round_step(span / 10.0);
+    let (low, high) = ((low / step).floor() * step, (high / step).ceil() * step);
+    (low, if high > low { high } else { low + step })
+}
+
+fn round_step(at_least: f64) -> f64 {
+    let power = 10.0_f64.powf(at_least.log10().floor());
+    let factor = [1.0, 2.0, 5.0]
+        .into_iter()
+        .find(|f| f * power >= at_least)
+        .unwrap_or(10.0);
+    factor * power
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_are_round_and_hold_the_values() {
+        assert_eq!(round_range([-336.6, 24.1].into_iter()), (-350.0, 50.0));
+        assert_eq!(round_range([3.0, 3.0].into_iter()), (3.0, 3.5));
+        assert_eq!(round_range(std::iter::empty()), (0.0, 1.0));
+        assert_eq!(round_range([0.0, f64::NAN, 0.0].into_iter()), (0.0, 0.1));
+        let (low, high) = round_range([0.013, 0.0994].into_iter());
+        assert!(low <= 0.013 && (0.0994..0.12).contains(&high));
+    }
+
+    #[test]
+    fn ticks_read_well() {
+        assert_eq!(tick(-0.30000000000000004), "−0.3");
+        assert_eq!(tick(-0.0), "0");
+        assert_eq!(tick(250.0), "250");
+    }
+
+    #[test]
+    fn decades_are_whole() {
+        assert_eq!(power(-13.0), "10⁻¹³");
+        assert_eq!(power(0.0), "10⁰");
+        assert_eq!(power(4.0), "10⁴");
+        assert_eq!(decades(-3.2, 1.0), [-3.0, -2.0, -1.0, 0.0, 1.0]);
+        assert!(decades(-300.0, 300.0).len() <= 13);
+        let (low, high) = decade_range([3e-7, 0.0, 2.0, f64::NAN].into_iter());
+        assert!((low / 1e-7 - 1.0).abs() < 1e-12 && (high / 10.0 - 1.0).abs() < 1e-12);
+        assert_eq!(decade_range(std::iter::empty()), (0.1, 1.0));
+    }
+
+    #[test]
+    fn a_chart_is_drawn_without_fonts() {
+        let chart = Chart {
+            x_label: "t (s)".into(),
+            y_label: "ÿ < 1 (m/s²)".into(),
+            x: (0.0, 2.0),
+            y: (17.0, 0.0),
+            series: vec![
+                Series::new("chain", 0, vec![(0.0, 1.0), (1.0, 16.0)]),
+                Series::reference("free fall", vec![(0.0, 0.0), (2.0, 5.0)]),
+            ],
+            scale: Scale::Linear,
+            legend: Legend::LowerRight,
+            size: (480, 300),
+        };
+        let svg = chart.svg().expect("figure");
+        assert!(svg.starts_with("<svg "));
+        assert!(svg.trim_end().ends_with("</svg>"));
+        assert!(svg.contains("viewBox=\"0 0 480 300\""));
+        for text in ["t (s)", "ÿ &lt; 1 (m/s²)", "free fall"] {
+            assert!(svg.contains(text), "{text} in {svg}");
+        }
+    }
+}

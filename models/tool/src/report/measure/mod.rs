@@ -1,0 +1,328 @@
+//! Runs and times the combinations for one motion.
+
+mod limits;
+mod long;
+
+use std::ops::ControlFlow;
+
+use ukcore::model::Reference;
+use ukcore::{
+    Ending, Error, Formula, Prepared, Projector, Simulation, Solver, SolverOptions, State,
+    Trajectory,
+};
+
+use crate::drift::Drift;
+use crate::failure::Failure;
+use crate::interrupt::Interrupt;
+use crate::scene::Ready;
+
+use super::clock;
+use super::study::{Curve, Figures, LeftOut, Point, Source, Study};
+use super::truth::{Truth, stacked};
+use super::variants::{VARIANTS, Variant};
+
+/// No run may take longer, s; a combination ends with the setting at which one would.
+const LONGEST_RUN: f64 = 2.0;
+/// Time for repeats of all runs of a motion together, s.
+const REPEATS: f64 = 10.0;
+/// Repeats at most.
+const MOST: usize = 21;
+/// Repeats at least, of runs shorter than [`LONG`].
+const LEAST: usize = 3;
+/// From here on a run is long enough for its time to be told from the first one, s.
+const LONG: f64 = 0.25;
+/// Shorter runs are timed several in a row: far above the resolution of the clock, and the machine's caches know the way, s.
+const BATCH: f64 = 5e-4;
+
+/// One motion, ready to run.
+struct Subject<'a> {
+    mechanism: &'a Prepared,
+    start: &'a State,
+    truth: Truth,
+    /// Eq. 13, or 19 where M is singular.
+    general: Formula,
+    interrupt: Interrupt,
+}
+
+/// A run to be timed, by its place in the curves.
+struct Timing {
+    curve: usize,
+    point: usize,
+    seconds: Vec<f64>,
+}
+
+/// Measures the motion called `name` from where it is `ready` up to the end of `reference`, or to `end`; a quick look runs few settings and times each
+/// of them once. `done` hears the part that is done. What was measured before an interrupt is kept.
+///
+/// # Errors
+/// If the start has no solution or the motion no reference.
+pub(super) fn study(
+    name: &str,
+    ready: &Ready<'_>,
+    end: f64,
+    reference: Option<&Reference>,
+    quick: bool,
+    interrupt: Interrupt,
+    done: &dyn Fn(f64),
+) -> Result<Study, Failure> {
+    let (mechanism, start) = (&ready.mechanism, &ready.state);
+    let truth = Truth::of(mechanism, start, end, reference)?;
+    let mut solver = Solver::new(mechanism, SolverOptions::default());
+    let subject = Subject {
+        mechanism,
+        start,
+        truth,
+        general: solver.solve(start.t, &start.q, &start.v)?.formula,
+        interrupt,
+    };
+    let limits = subject.limits();
+    let (mut curves, left_out) = subject.runs(quick, &|part| done(0.5 * part));
+    let mut long = Vec::new();
+    if !quick {
+        subject.repeat(&mut curves, &|part| done(0.5 + 0.4 * part));
+        long = subject.long_runs(&curves);
+    }
+    Ok(Study {
+        name: name.to_owned(),
+        model: ready.entry.id.clone(),
+        summary: ready.entry.summary.to_owned(),
+        end: subject.truth.end(),
+        reference: Source {
+            source: subject.truth.source.clone(),
+            floor: subject.truth.floor,
+            times: subject.truth.times.clone(),
+        },
+        limits,
+        curves,
+        left_out,
+        long,
+        unconstrained: mechanism.spec().m() == 0,
+        whole: !interrupt.is_set(),
+    })
+}
+
+impl Subject<'_> {
+    /// Every combination once, or those up to an interrupt.
+    fn runs(&self, quick: bool, done: &dyn Fn(f64)) -> (Vec<Curve>, Vec<LeftOut>) {
+        let (mut curves, mut left_out) = (Vec::new(), Vec::new());
+        for (k, variant) in VARIANTS.iter().enumerate() {
+            let span = (self.truth.end() - self.start.t).abs();
+            let knobs = variant.knobs(span, quick);
+            if let Some(reason) = self.senseless(variant, &knobs) {
+                left_out.push(LeftOut {
+                    variant: variant.name.to_owned(),
+                    reason,
+                });
+                continue;
+            }
+            let mut curve = Curve {
+                variant: variant.name.to_owned(),
+                points: Vec::new(),
+            };
+            for (i, &knob) in knobs.iter().enumerate() {
+                let part = i as f64 / knobs.len() as f64;
+                done((k as f64 + part) / VARIANTS.len() as f64);
+                let result = self.run(variant, knob);
+                if self.interrupt.is_set() {
+                    break;
+                }
+                let too_long = matches!(result, Err(Trouble::TooLong));
+                let (figures, failure) = match result {
+                    Ok(figures) => (Some(figures), None),
+                    Err(trouble) => (None, Some(trouble.to_string())),
+                };
+                curve.points.push(Point {
+                    knob,
+                    figures,
+                    failure,
+                });
+                if too_long {
+                    break;
+                }
+            }
+            curves.push(curve);
+        }
+        (curves, left_out)
+    }
+
+    /// Why a combination is not run, if so: it is the same as another one, or the simulation refuses it for this model.
+    fn senseless(&self, variant: &Variant, knobs: &[f64]) -> Option<String> {
+        if let Some(reason) = variant.senseless(self.mechanism.spec()) {
+            return Some(reason.to_owned());
+        }
+        let simulation = self.simulation(variant, knobs.first().copied()?);
+        match simulation.until(self.start.t).map_err(|f| f.error) {
+            Err(Error::InvalidSetting { what, reason }) => Some(format!("the {what} {reason}")),
+            _ => None,
+        }
+    }
+
+    /// Repeats the runs that succeeded, one after the other round by round, so that what disturbs the machine for a while meets all alike.
+    fn repeat(&self, curves: &mut [Curve], done: &dyn Fn(f64)) {
+        let mut timings = Vec::new();
+        for (curve, c) in curves.iter().enumerate() {
+            for (point, p) in c.points.iter().enumerate() {
+                if p.figures.is_some_and(|f| f.seconds < LONG) {
+                    timings.push(Timing {
+                        curve,
+                        point,
+                        seconds: Vec::new(),
+                    });
+                }
+            }
+        }
+        let all = timings.len();
+        let share = REPEATS / all.max(1) as f64;
+        for round in 0..MOST {
+            for (k, timing) in timings.iter_mut().enumerate() {
+                let used: f64 = timing.seconds.iter().sum();
+                if self.interrupt.is_set() || (round >= LEAST && used > share) {
+                    continue;
+                }
+                let curve = &curves[timing.curve];
+                let point = &curve.points[timing.point];
+                let (Some(variant), Some(first)) =
+                    (super::variants::named(&curve.variant), point.figures)
+                else {
+                    continue;
+                };
+                let batch = (BATCH / first.seconds).ceil().clamp(1.0, 1000.0);
+                let ((), seconds) = clock::timed(|| {
+                    for _ in 0..batch as usize {
+                        let run = self.bare(variant, point.knob);
+                        std::hint::black_box(&run);
+                    }
+                });
+                timing.seconds.push(seconds / batch);
+                done((round as f64 + k as f64 / all as f64) / MOST as f64);
+            }
+        }
+        for mut timing in timings.into_iter().filter(|t| !t.seconds.is_empty()) {
+            timing.seconds.sort_by(f64::total_cmp);
+            let quantile = |part: f64| {
+                let last = timing.seconds.len().saturating_sub(1);
+                timing.seconds[(part * last as f64).round() as usize]
+            };
+            if let Some(figures) = &mut curves[timing.curve].points[timing.point].figures {
+                figures.seconds = quantile(0.5);
+                figures.quartiles = (quantile(0.25), quantile(0.75));
+                figures.repeats = timing.seconds.len();
+            }
+        }
+    }
+
+    /// A simulation under a combination.
+    fn simulation(&self, variant: &Variant, knob: f64) -> Simulation {
+        let simulation = Simulation::new(self.mechanism).start(self.start.clone());
+        variant.apply(simulation, knob, self.general)
+    }
+
+    /// The run that is timed: nothing is kept but the end.
+    fn bare(&self, variant: &Variant, knob: f64) -> Result<Trajectory, Error> {
+        self.simulation(variant, knob)
+            .at(Vec::new())
+            .until(self.truth.end())
+            .map_err(|failure| failure.error)
+    }
+
+    /// A run that is watched: it ends when the user says so or when it takes too long.
+    fn watched(&self, simulation: Simulation, end: f64) -> Result<(Trajectory, f64), Trouble> {
+        let (interrupt, start) = (self.interrupt, clock::now());
+        let mut steps = 0_u32;
+        let (result, seconds) = clock::timed(|| {
+            simulation
+                .progress(move |_| {
+                    steps = steps.wrapping_add(1);
+                    // The clock is asked now and then: it takes as long as some steps.
+                    let asked = steps.is_multiple_of(16);
+                    let long = || (clock::now() - start).as_secs_f64() > LONGEST_RUN;
+                    if interrupt.is_set() || (asked && long()) {
+                        return ControlFlow::Break(());
+                    }
+                    ControlFlow::Continue(())
+                })
+                .until(end)
+        });
+        match result {
+            Ok(run) if run.ending() == Ending::Interrupted => Err(Trouble::TooLong),
+            Ok(run) => Ok((run, seconds)),
+            Err(failure) => Err(Trouble::Failed(failure.error)),
+        }
+    }
+
+    /// One run and its errors.
+    fn run(&self, variant: &Variant, knob: f64) -> Result<Figures, Trouble> {
+        let truth = &self.truth;
+        let (run, seconds) = self.watched(self.simulation(variant, knob), truth.end())?;
+        let times = truth.times.clone();
+        let (sampled, _) = self.watched(self.simulation(variant, knob).at(times), truth.end())?;
+        let mut error_along: f64 = 0.0;
+        for (k, sample) in sampled.samples().enumerate() {
+            error_along = error_along.max(truth.errors(k, &stacked(&sample.to_state())).scaled);
+        }
+        let Some(end) = run.last() else {
+            return Err(Trouble::NoNumber);
+        };
+        let end = end.to_state();
+        // From far off the constraints the way back may not be found.
+        let nearest = self.nearest(&end).ok().map(|nearest| stacked(&nearest));
+        let (last, end) = (truth.last(), stacked(&end));
+        let error = truth.errors(last, &end);
+        let drift = Drift::of(&run);
+        let work = run.work();
+        let figures = Figures {
+            seconds,
+            quartiles: (seconds, seconds),
+            repeats: 1,
+            evaluations: work.evaluations,
+            jacobians: work.jacobians,
+            factorisations: work.factorisations,
+            steps: work.steps,
+            rejected: work.rejected,
+            projections: work.projections,
+            fallbacks: work.fallbacks,
+            error: error.scaled,
+            error_in_units: error.absolute,
+            error_along: error_along.max(error.scaled),
+            off: nearest.as_ref().map(|n| truth.distance(&end, n).scaled),
+            within: nearest.as_ref().map(|n| truth.errors(last, n).scaled),
+            drift,
+        };
+        let numbers = [
+            figures.error,
+            drift.position_residual,
+            drift.velocity_residual,
+        ];
+        if numbers.iter().all(|x| x.is_finite()) {
+            Ok(figures)
+        } else {
+            Err(Trouble::NoNumber)
+        }
+    }
+
+    /// The nearest state on the constraints.
+    fn nearest(&self, state: &State) -> Result<State, Error> {
+        let mut projector = Projector::new(self.mechanism);
+        let State { t, mut q, mut v } = state.clone();
+        projector.position(t, &mut q, &v)?;
+        projector.velocity(t, &q, &mut v)?;
+        Ok(State { t, q, v })
+    }
+}
+
+/// Why there are no figures of a run.
+enum Trouble {
+    TooLong,
+    NoNumber,
+    Failed(Error),
+}
+
+impl std::fmt::Display for Trouble {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Trouble::TooLong => write!(f, "given up after {LONGEST_RUN} s"),
+            Trouble::NoNumber => f.write_str("the end is not a finite number"),
+            Trouble::Failed(error) => write!(f, "{error}"),
+        }
+    }
+}

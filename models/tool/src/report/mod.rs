@@ -1,0 +1,276 @@
+//! The command `report`: error against run time, of each method, formula and stabilisation, on any model.
+
+mod argument;
+mod charts;
+mod clock;
+mod export;
+mod measure;
+mod page;
+mod study;
+mod truth;
+mod variants;
+mod verdict;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::{Instant, UNIX_EPOCH};
+
+use clap::Args;
+use ukcore::model::{Entry, Reference};
+
+use crate::command::{self, find};
+use crate::failure::Failure;
+use crate::interrupt::Interrupt;
+use crate::numbers;
+use crate::output::{self, Directory};
+use crate::progress::Progress;
+use crate::scene::Start;
+use crate::units::{self, Quantity};
+
+use export::Report;
+use study::Study;
+
+/// The arguments of `report`.
+#[derive(Debug, Args)]
+pub struct ReportArgs {
+    /// Models to measure (see `list`); all of them if none is named
+    #[arg(value_name = "MODEL")]
+    pub models: Vec<String>,
+    /// Directory to write index.html, report.json, report.csv and figures to. What an interrupted report has left there is taken over
+    #[arg(long, value_name = "DIR", default_value = "out/report", value_parser = command::path)]
+    pub out: PathBuf,
+    /// A quick look: few tolerances, each timed once
+    #[arg(long)]
+    pub quick: bool,
+    /// Time to stop at, of one model; its own duration if absent
+    #[arg(long, value_name = "TIME", value_parser = units::seconds)]
+    pub until: Option<f64>,
+    /// The parameters and the start of one model
+    #[command(flatten)]
+    pub start: Start,
+}
+
+/// Measures the models that are asked for and writes the report to `args.out`.
+///
+/// # Errors
+/// [`Failure::Usage`] for an unknown model; [`Failure::Failed`] if a file cannot be written or a model not be measured, and
+/// [`Failure::Interrupted`]: what was measured up to there is written all the same.
+pub fn report(models: &[Entry], args: &ReportArgs) -> Result<(), Failure> {
+    let jobs = jobs(models, args)?;
+    let directory = Directory::create(&args.out)?;
+    let interrupt = Interrupt::catch()?;
+    let mut report = left_over(&directory, args).unwrap_or_else(|| Report {
+        about: export::ABOUT.to_owned(),
+        program: program(args),
+        quick: args.quick,
+        complete: false,
+        clock: clock::KIND.to_owned(),
+        seconds: 0.0,
+        failures: Vec::new(),
+        studies: Vec::new(),
+    });
+    let known = std::mem::take(&mut report.studies);
+    report.failures.clear();
+    let started = Instant::now();
+    let progress = Progress::new("report");
+    for (k, job) in jobs.iter().enumerate() {
+        if let Some(study) = known.iter().find(|s| s.name == job.name && s.whole) {
+            report.studies.push(study.clone());
+            continue;
+        }
+        if interrupt.is_set() {
+            break;
+        }
+        let done = |part: f64| {
+            progress.set((k as f64 + part) / jobs.len() as f64, || job.name.clone());
+        };
+        match job.study(args.quick, interrupt, &done) {
+            Ok(study) => report.studies.push(study),
+            Err(failure) => report
+                .failures
+                .push((job.name.clone(), failure.to_string())),
+        }
+    }
+    progress.finish();
+    report.seconds += started.elapsed().as_secs_f64();
+    report.complete = !interrupt.is_set();
+    write_all(&directory, &report)?;
+    if !report.complete {
+        let done = report.studies.iter().filter(|s| s.whole).count();
+        return Err(Failure::Interrupted(format!(
+            "interrupted; {done} of {} are in {}, and the same command takes them over",
+            numbers::count(jobs.len(), "motion"),
+            directory.file("index.html").display()
+        )));
+    }
+    tell(&args.out, &report)?;
+    match report.failures.first() {
+        None => Ok(()),
+        Some((name, message)) => Err(Failure::Failed(format!("`{name}`: {message}"))),
+    }
+}
+
+/// A motion to measure.
+struct Job<'a> {
+    name: String,
+    entry: &'a Entry,
+    start: Start,
+    end: f64,
+    reference: Option<Reference>,
+}
+
+/// The motions of the models that are asked for.
+///
+/// # Errors
+/// [`Failure::Usage`] for an unknown name, or where a start is given and not the one model that it is for.
+fn jobs<'a>(models: &'a [Entry], args: &ReportArgs) -> Result<Vec<Job<'a>>, Failure> {
+    let mut entries: Vec<&Entry> = Vec::new();
+    for name in &args.models {
+        let entry = find(models, name)?;
+        if entries.iter().all(|e| e.id != entry.id) {
+            entries.push(entry);
+        }
+    }
+    if args.models.is_empty() {
+        entries.extend(models);
+    }
+    if args.start.is_default() && args.until.is_none() {
+        return Ok(entries.into_iter().flat_map(motions).collect());
+    }
+    let [entry] = entries[..] else {
+        let message =
+            "`--set`, `--start`, `--guess`, `--hold` and `--until` are of one model; name it";
+        return Err(Failure::Usage(message.to_owned()));
+    };
+    // What is wrong with them is told before anything is written.
+    args.start.ready(entry)?;
+    Ok(vec![Job {
+        name: entry.id.clone(),
+        entry,
+        start: args.start.clone(),
+        end: args.until.unwrap_or(entry.duration),
+        reference: None,
+    }])
+}
+
+/// The motions of a model: one for each end that a reference has, and its variations.
+fn motions(entry: &Entry) -> Vec<Job<'_>> {
+    let references = entry.references();
+    let several = references.len() > 1;
+    let job = |name, reference| Job {
+        name,
+        entry,
+        start: Start::default(),
+        end: entry.duration,
+        reference,
+    };
+    let mut jobs: Vec<Job<'_>> = Vec::new();
+    for reference in references {
+        let end = reference.states.last().map_or(0.0, |s| s.t);
+        let name = if several {
+            format!("{} to {end} s", entry.id)
+        } else {
+            entry.id.clone()
+        };
+        jobs.push(job(name, Some(reference)));
+    }
+    if jobs.is_empty() {
+        jobs.push(job(entry.id.clone(), None));
+    }
+    for variation in entry.variations {
+        let words = variation
+            .iter()
+            .map(|(name, value)| format!("{name} {value:e}"));
+        let words = words.collect::<Vec<_>>().join(", ");
+        let settings = variation.iter();
+        let settings = settings.map(|(name, value)| ((*name).to_owned(), Quantity::from(*value)));
+        jobs.push(Job {
+            start: Start {
+                settings: settings.collect(),
+                ..Start::default()
+            },
+            ..job(format!("{} with {words}", entry.id), None)
+        });
+    }
+    jobs
+}
+
+impl Job<'_> {
+    /// Measures it.
+    fn study(
+        &self,
+        quick: bool,
+        interrupt: Interrupt,
+        done: &dyn Fn(f64),
+    ) -> Result<Study, Failure> {
+        let ready = self.start.ready(self.entry)?;
+        let reference = self.reference.as_ref();
+        measure::study(
+            &self.name, &ready, self.end, reference, quick, interrupt, done,
+        )
+    }
+}
+
+/// What tells this program and its order from another: size and age of its file, and what was asked for.
+fn program(args: &ReportArgs) -> String {
+    let file = std::env::current_exe().and_then(fs::metadata);
+    let identity = file.and_then(|file| {
+        let age = file.modified()?.duration_since(UNIX_EPOCH);
+        Ok((file.len(), age.map_or(0, |age| age.as_nanos())))
+    });
+    let (size, age) = identity.unwrap_or((0, 0));
+    let mut program = format!("{} {size} {age}", env!("CARGO_PKG_VERSION"));
+    if !args.start.is_default() || args.until.is_some() {
+        program += &format!(" {:?} {:?}", args.start, args.until);
+    }
+    program
+}
+
+/// The report in the directory, if it was interrupted and this very program has measured it in the same way.
+fn left_over(directory: &Directory, args: &ReportArgs) -> Option<Report> {
+    let text = fs::read_to_string(directory.file("report.json")).ok()?;
+    let report: Report = serde_json::from_str(&text).ok()?;
+    let same = report.quick == args.quick && report.program == program(args);
+    (!report.complete && same).then_some(report)
+}
+
+fn write_all(directory: &Directory, report: &Report) -> Result<(), Failure> {
+    for study in &report.studies {
+        for (name, svg) in charts::of(study)? {
+            directory.write(&format!("figures/{name}.svg"), svg)?;
+        }
+    }
+    directory.json("report.json", report)?;
+    directory.csv("report.csv", report.studies.iter().flat_map(export::lines))?;
+    directory.write("index.html", page::html(report))
+}
+
+/// What a person at the terminal wants to know at once.
+fn tell(out: &Path, report: &Report) -> Result<(), Failure> {
+    let wide = numbers::width(report.studies.iter().map(|s| s.name.as_str()));
+    let goals = verdict::looked_at(report.quick, &report.studies);
+    output::to_stdout(|w| {
+        writeln!(
+            w,
+            "What to take for which scaled error at the end, with the constraints kept"
+        )?;
+        for study in &report.studies {
+            for (k, &goal) in goals.iter().enumerate() {
+                let name = if k == 0 { study.name.as_str() } else { "" };
+                let choice = verdict::choice(study, goal, verdict::Among::Kept);
+                let words = choice.map_or("        –".to_owned(), |choice| {
+                    let (time, knob) = (numbers::duration(choice.cost.seconds), choice.cost.knob);
+                    format!("{time:>9}  {} at {knob:.0e}", choice.variant.label)
+                });
+                writeln!(w, "  {name:<wide$}  {goal:.0e}  {words}")?;
+            }
+        }
+        writeln!(
+            w,
+            "{} in {:.1} s; the report is {}",
+            numbers::count(report.studies.len(), "motion"),
+            report.seconds,
+            out.join("index.html").display()
+        )
+    })
+}

@@ -1,0 +1,199 @@
+//! From the command line to a mechanism with its parameters and a consistent start.
+
+use clap::Args;
+use ukcore::model::{Entry, StartOptions, StartSpec};
+use ukcore::{Error, Prepared, Spec, State, assemble};
+
+use crate::command::find;
+use crate::failure::Failure;
+use crate::units::{self, Quantity};
+
+/// Which mechanism, with which parameters, from where.
+#[derive(Debug, Args)]
+pub struct Scene {
+    /// Model (see `list`)
+    pub model: String,
+    /// Its parameters and its start
+    #[command(flatten)]
+    pub start: Start,
+}
+
+/// With which parameters, and from where.
+#[derive(Debug, Default, Clone, Args)]
+pub struct Start {
+    /// Set a parameter or an option of the start; may be repeated
+    #[arg(long = "set", value_name = "NAME=VALUE", value_parser = units::assignment)]
+    pub settings: Vec<(String, Quantity)>,
+    /// Start configuration (see `list`); the first one if absent
+    #[arg(long, value_name = "NAME")]
+    pub start: Option<String>,
+    /// Guess a coordinate, or by `dot(NAME)=VALUE` a velocity, of the start; may be repeated. The start is then the nearest state that satisfies
+    /// the constraints. What is not guessed has the value of the start configuration, or 0 where the model has none
+    #[arg(long = "guess", value_name = "NAME=VALUE", value_parser = units::assignment)]
+    pub guesses: Vec<(String, Quantity)>,
+    /// Coordinates that keep the value and velocity guessed; may be repeated
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    pub hold: Vec<String>,
+}
+
+/// A mechanism with the parameters asked for, at the start asked for.
+#[derive(Debug, Clone)]
+pub struct Ready<'a> {
+    /// The model.
+    pub entry: &'a Entry,
+    /// The mechanism with its parameters.
+    pub mechanism: Prepared,
+    /// Name of the start; `"assembled"` where it was found from a guess.
+    pub start: &'static str,
+    /// The state there.
+    pub state: State,
+}
+
+impl Scene {
+    /// The mechanism that is asked for, at its start.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] for unknown names, values in the wrong unit, and settings that the start refuses; [`Failure::Failed`] where nothing
+    /// near the guess satisfies the constraints.
+    pub fn ready<'a>(&self, models: &'a [Entry]) -> Result<Ready<'a>, Failure> {
+        self.start.ready(find(models, &self.model)?)
+    }
+}
+
+impl Start {
+    /// Whether nothing is asked for: the model as it is.
+    #[must_use]
+    pub fn is_default(&self) -> bool {
+        self.settings.is_empty() && self.start.is_none() && !self.guesses()
+    }
+
+    /// Whether a start has to be assembled from zeros alone.
+    pub(crate) fn is_unguessed(&self, entry: &Entry) -> bool {
+        entry.starts.is_empty() && !self.guesses()
+    }
+
+    fn guesses(&self) -> bool {
+        !self.guesses.is_empty() || !self.hold.is_empty()
+    }
+
+    /// `entry` with these parameters, at this start.
+    ///
+    /// # Errors
+    /// Those of [`Scene::ready`].
+    pub fn ready<'a>(&self, entry: &'a Entry) -> Result<Ready<'a>, Failure> {
+        let (mechanism, start, options) = self.settings(entry)?;
+        let mut state = match start {
+            Some(spec) => entry.start(&mechanism, spec.name, &options)?,
+            None => State {
+                t: 0.0,
+                q: vec![0.0; mechanism.spec().n()],
+                v: vec![0.0; mechanism.spec().n()],
+            },
+        };
+        let name = start.filter(|_| !self.guesses()).map(|spec| spec.name);
+        if name.is_none() {
+            state = self.assembled(&mechanism, state)?;
+        }
+        Ok(Ready {
+            entry,
+            mechanism,
+            start: name.unwrap_or("assembled"),
+            state,
+        })
+    }
+
+    /// The mechanism with its parameters, which are set first since the start depends on them, and the start with its options.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] for unknown names and values in the wrong unit.
+    pub fn settings(
+        &self,
+        entry: &Entry,
+    ) -> Result<(Prepared, Option<&'static StartSpec>, StartOptions), Failure> {
+        let start =
+            match &self.start {
+                None => entry.starts.first(),
+                Some(name) => Some(entry.starts.iter().find(|s| s.name == name).ok_or_else(
+                    || Error::unknown_name("start", name, &mut entry.starts.iter().map(|s| s.name)),
+                )?),
+            };
+        let offered = start.map_or(&[][..], |s| s.options);
+        let mut mechanism = entry.mechanism.clone();
+        let mut options = StartOptions::new();
+        for (name, quantity) in &self.settings {
+            let in_unit = |unit| {
+                let value = quantity.in_unit(unit);
+                value.map_err(|e| Failure::Usage(format!("`{name}`: {e}")))
+            };
+            if let Some(option) = offered.iter().find(|o| o.name == *name) {
+                options.set(name, in_unit(Some(option.unit))?);
+            } else if let Some(doc) = parameter_doc(mechanism.spec(), name) {
+                mechanism.set(name, in_unit(units::unit_in(doc))?)?;
+            } else {
+                return Err(unknown_setting(entry, name, start));
+            }
+        }
+        Ok((mechanism, start, options))
+    }
+
+    /// The nearest consistent state to `state` with the guesses in it.
+    fn assembled(&self, mechanism: &Prepared, mut state: State) -> Result<State, Failure> {
+        let spec = mechanism.spec();
+        for (name, quantity) in &self.guesses {
+            let velocity = name.strip_prefix("dot(").and_then(|n| n.strip_suffix(')'));
+            let values = if velocity.is_some() {
+                &mut state.v
+            } else {
+                &mut state.q
+            };
+            let value = quantity.in_unit(None).map_err(Failure::Usage)?;
+            for index in coordinates(spec, velocity.unwrap_or(name))? {
+                values[index] = value;
+            }
+        }
+        let hold: Vec<&str> = self.hold.iter().map(String::as_str).collect();
+        assemble(mechanism, state, &hold).map_err(|error| match error {
+            error @ Error::NotAssembled { .. } => Failure::Failed(format!(
+                "{error}; `--guess NAME=VALUE` gives one, of {}",
+                spec.coords.join(", ")
+            )),
+            other => other.into(),
+        })
+    }
+}
+
+/// The coordinate called `name`, or all members of the family of this bare name.
+fn coordinates(spec: &Spec, name: &str) -> Result<Vec<usize>, Error> {
+    let members =
+        (0..spec.n()).filter(|&i| spec.coords[i].contains('[') && family(spec.coords[i]) == name);
+    let members: Vec<usize> = members.collect();
+    if members.is_empty() {
+        return Ok(vec![spec.coordinate_index(name)?]);
+    }
+    Ok(members)
+}
+
+/// Doc comment of a parameter, or of a family named without index.
+fn parameter_doc(spec: &Spec, name: &str) -> Option<&'static str> {
+    let named = |p: &&ukcore::ParamSpec| p.name == name || family(p.name) == name;
+    spec.params.iter().find(named).map(|p| p.doc)
+}
+
+fn family(name: &str) -> &str {
+    name.split_once('[').map_or(name, |(family, _)| family)
+}
+
+fn unknown_setting(entry: &Entry, name: &str, start: Option<&StartSpec>) -> Failure {
+    let has = |s: &&StartSpec| s.options.iter().any(|o| o.name == name);
+    if let (Some(other), Some(start)) = (entry.starts.iter().find(has), start) {
+        return Failure::Usage(format!(
+            "`{name}` is an option of the start `{}`, not of `{}`; add `--start {}`",
+            other.name, start.name, other.name
+        ));
+    }
+    let params = || entry.mechanism.spec().params.iter().map(|p| p.name);
+    let options = start.map_or(&[][..], |s| s.options).iter().map(|o| o.name);
+    let families = params().filter(|p| p.ends_with("[0]")).map(family);
+    let mut known = options.chain(params()).chain(families);
+    Error::unknown_name("parameter or start option", name, &mut known).into()
+}

@@ -1,0 +1,380 @@
+//! A case: something swept over a range, and how far the results are off at each value.
+
+use std::time::Instant;
+
+use serde::Serialize;
+use ukcore::{Error, Simulation, Trajectory};
+
+use crate::interrupt::Interrupt;
+use crate::numbers;
+
+/// What was computed for one value.
+#[derive(Debug, Clone, Copy, Default, Serialize)]
+pub struct Effort {
+    /// Steps, accepted or not.
+    pub steps: usize,
+    /// Evaluations of the accelerations.
+    pub evaluations: usize,
+    /// Evaluations that left the formula first tried.
+    pub fallbacks: usize,
+}
+
+impl Effort {
+    /// Runs `simulation`; its work counts whether it succeeds or not.
+    ///
+    /// # Errors
+    /// Those of [`Simulation::until`].
+    pub fn run(&mut self, simulation: Simulation, until: f64) -> Result<Trajectory, Error> {
+        let (trajectory, error) = match simulation.until(until) {
+            Ok(trajectory) => (trajectory, None),
+            Err(failure) => (*failure.trajectory, Some(failure.error)),
+        };
+        let work = trajectory.work();
+        self.steps += work.steps + work.rejected;
+        self.evaluations += work.evaluations;
+        self.fallbacks += work.fallbacks;
+        error.map_or(Ok(trajectory), Err)
+    }
+}
+
+/// The error at one value of what is swept, as a part of the size of the result; the work done for it is added to the effort.
+pub type Measure = fn(f64, &mut Effort) -> Result<f64, Error>;
+
+/// A case.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// Name on the command line.
+    pub id: &'static str,
+    /// What is swept, in what mechanism.
+    pub swept: &'static str,
+    /// What the results are compared with.
+    pub oracle: &'static str,
+    /// Errors up to this are full accuracy.
+    pub accurate: f64,
+    /// Errors up to this are degraded within bounds; beyond, only an error with a name will do.
+    pub bound: f64,
+    /// The values, each with the text that stands for it if that is not the number.
+    pub sweep: Sweep,
+    /// The error at a value.
+    pub measure: Measure,
+}
+
+/// Values in order, and which of them is the ordinary one from which the others move away.
+#[derive(Debug, Clone)]
+pub struct Sweep {
+    /// The values.
+    pub values: Vec<f64>,
+    /// Text of each value; the number where there is none.
+    pub labels: &'static [&'static str],
+    /// The index of the ordinary value.
+    pub ordinary: usize,
+}
+
+/// Powers of ten from `first` to `last` in steps of `step` decades; the ordinary one is 10^`ordinary`.
+#[must_use]
+pub fn decades(first: i32, last: i32, step: usize, ordinary: i32) -> Sweep {
+    let exponents: Vec<i32> = if first <= last {
+        (first..=last).step_by(step).collect()
+    } else {
+        (last..=first).rev().step_by(step).collect()
+    };
+    let nearest = |i: &usize| (exponents[*i] - ordinary).abs();
+    Sweep {
+        ordinary: (0..exponents.len()).min_by_key(nearest).unwrap_or(0),
+        // Read as text, since powers by multiplication are rounded.
+        values: exponents
+            .iter()
+            .map(|e| format!("1e{e}").parse().unwrap_or(0.0))
+            .collect(),
+        labels: &[],
+    }
+}
+
+impl Sweep {
+    /// The values given, the first one ordinary.
+    #[must_use]
+    pub fn of(values: &[f64]) -> Self {
+        Sweep {
+            values: values.to_vec(),
+            labels: &[],
+            ordinary: 0,
+        }
+    }
+
+    /// A sweep over things that are no numbers: their indices.
+    #[must_use]
+    pub fn named(labels: &'static [&'static str]) -> Self {
+        Sweep {
+            values: (0..labels.len()).map(|i| i as f64).collect(),
+            labels,
+            ordinary: 0,
+        }
+    }
+
+    /// This sweep with `value` at its end.
+    #[must_use]
+    pub fn and(mut self, value: f64) -> Self {
+        self.values.push(value);
+        self
+    }
+
+    fn label(&self, index: usize) -> String {
+        let number = || short(self.values[index]);
+        self.labels
+            .get(index)
+            .map_or_else(number, |l| (*l).to_owned())
+    }
+}
+
+/// A number in the sweeps: a power of ten as such.
+fn short(value: f64) -> String {
+    if (0.01..1000.0).contains(&value.abs()) || value == 0.0 {
+        return numbers::short(value, 6);
+    }
+    format!("{value:e}")
+}
+
+/// How a value came out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Class {
+    /// As exact as at ordinary values.
+    Accurate,
+    /// Less exact, but within the bound of the case.
+    Degraded,
+    /// Refused with an error that has a name.
+    Refused,
+    /// A result whose error exceeds the bound, and nothing said so: what must not be.
+    Wrong,
+}
+
+impl Class {
+    /// All of them, from good to bad.
+    pub const ALL: [Class; 4] = [
+        Class::Accurate,
+        Class::Degraded,
+        Class::Refused,
+        Class::Wrong,
+    ];
+
+    /// One word.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Class::Accurate => "accurate",
+            Class::Degraded => "degraded",
+            Class::Refused => "refused",
+            Class::Wrong => "wrong",
+        }
+    }
+}
+
+/// One value of a case.
+#[derive(Debug, Clone, Serialize)]
+pub struct Point {
+    /// The value.
+    pub value: f64,
+    /// Its text.
+    pub label: String,
+    /// How it came out.
+    pub class: Class,
+    /// The error; none where it was refused.
+    pub error: Option<f64>,
+    /// Name and message of the refusal.
+    pub refusal: Option<(&'static str, String)>,
+    /// What was computed for it.
+    #[serde(flatten)]
+    pub effort: Effort,
+    /// Wall time, s.
+    pub seconds: f64,
+}
+
+/// A case with all its values.
+#[derive(Debug, Clone, Serialize)]
+pub struct Row {
+    /// [`Case::id`].
+    pub id: &'static str,
+    /// [`Case::swept`].
+    pub swept: &'static str,
+    /// [`Case::oracle`].
+    pub oracle: &'static str,
+    /// [`Case::accurate`].
+    pub accurate_to: f64,
+    /// [`Case::bound`].
+    pub bound: f64,
+    /// [`Sweep::ordinary`].
+    pub ordinary: usize,
+    /// The values.
+    pub points: Vec<Point>,
+}
+
+impl Case {
+    /// All values; `None` if interrupted before the last. `done` hears of each value.
+    pub fn row(&self, interrupt: Interrupt, done: impl Fn()) -> Option<Row> {
+        let mut points = Vec::with_capacity(self.sweep.values.len());
+        for (index, &value) in self.sweep.values.iter().enumerate() {
+            if interrupt.is_set() {
+                return None;
+            }
+            points.push(self.point(index, value));
+            done();
+        }
+        Some(Row {
+            id: self.id,
+            swept: self.swept,
+            oracle: self.oracle,
+            accurate_to: self.accurate,
+            bound: self.bound,
+            ordinary: self.sweep.ordinary,
+            points,
+        })
+    }
+
+    fn point(&self, index: usize, value: f64) -> Point {
+        let mut effort = Effort::default();
+        let started = Instant::now();
+        let result = (self.measure)(value, &mut effort);
+        let class = match &result {
+            Err(_) => Class::Refused,
+            Ok(error) if *error <= self.accurate => Class::Accurate,
+            Ok(error) if *error <= self.bound => Class::Degraded,
+            Ok(_) => Class::Wrong,
+        };
+        Point {
+            value,
+            label: self.sweep.label(index),
+            class,
+            error: result.as_ref().ok().copied(),
+            refusal: result.err().map(|e| (kind(&e), e.to_string())),
+            effort,
+            seconds: started.elapsed().as_secs_f64(),
+        }
+    }
+}
+
+impl Row {
+    /// The values around the ordinary one, without a gap, that `good` admits; as indices, the last one included.
+    pub fn range(&self, good: impl Fn(Class) -> bool) -> Option<(usize, usize)> {
+        let ok = |i: usize| good(self.points[i].class);
+        if !ok(self.ordinary) {
+            return None;
+        }
+        let first = (0..=self.ordinary).rev().take_while(|i| ok(*i)).last();
+        let last = (self.ordinary..self.points.len())
+            .take_while(|i| ok(*i))
+            .last();
+        first.zip(last)
+    }
+
+    /// That range in words: "1e-12 … 1e8", or "to 1e8" where the sweep begins at its ordinary value.
+    pub fn range_text(&self, good: impl Fn(Class) -> bool) -> String {
+        let Some((first, last)) = self.range(good) else {
+            return "–".to_owned();
+        };
+        let label = |i: usize| self.points[i].label.as_str();
+        if self.ordinary == 0 {
+            return format!("to {}", label(last));
+        }
+        format!("{} … {}", label(first), label(last))
+    }
+
+    /// The names of the refusals, each once.
+    pub fn refusals(&self) -> Vec<&'static str> {
+        let mut names: Vec<&'static str> = Vec::new();
+        for (name, _) in self.points.iter().filter_map(|p| p.refusal.as_ref()) {
+            if !names.contains(name) {
+                names.push(name);
+            }
+        }
+        names
+    }
+
+    /// Values of a class.
+    pub fn count(&self, class: Class) -> usize {
+        self.points.iter().filter(|p| p.class == class).count()
+    }
+
+    /// Work and time of all values.
+    pub fn total(&self) -> (Effort, f64) {
+        let mut sum = Effort::default();
+        for p in &self.points {
+            sum.steps += p.effort.steps;
+            sum.evaluations += p.effort.evaluations;
+            sum.fallbacks += p.effort.fallbacks;
+        }
+        (sum, self.points.iter().map(|p| p.seconds).sum())
+    }
+}
+
+/// The name of an error, whatever place it carries.
+fn kind(error: &Error) -> &'static str {
+    match error {
+        Error::At { source, .. } => kind(source),
+        Error::Underdetermined { .. } => "Underdetermined",
+        Error::Inconsistent { .. } => "Inconsistent",
+        Error::OffConstraint { .. } => "OffConstraint",
+        Error::NotAssembled { .. } => "NotAssembled",
+        Error::NonFinite { .. } => "NonFinite",
+        Error::IndefiniteMass { .. } => "IndefiniteMass",
+        Error::InvalidSetting { .. } => "InvalidSetting",
+        Error::StepTooSmall { .. } => "StepTooSmall",
+        Error::TooManySteps { .. } => "TooManySteps",
+        Error::Chattering { .. } => "Chattering",
+        Error::Jump { .. } => "Jump",
+        Error::Singular { .. } => "Singular",
+        _ => "Error",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn powers_of_ten_are_short() {
+        for (value, text) in [
+            (1e-12, "1e-12"),
+            (0.1, "0.1"),
+            (17.0, "17"),
+            (1e4, "1e4"),
+            (0.0, "0"),
+        ] {
+            assert_eq!(short(value), text);
+        }
+    }
+
+    /// A root by Newton's method from 1, which has no time to converge where the number is large.
+    fn newton(square: f64, effort: &mut Effort) -> Result<f64, Error> {
+        if square > 1e9 {
+            let reason = format!("is {square:e}");
+            return Err(Error::InvalidSetting {
+                what: "square",
+                reason,
+            });
+        }
+        let root = (0..8).fold(1.0, |x: f64, _| 0.5 * (x + square / x));
+        effort.evaluations += 8;
+        Ok((root / square.sqrt() - 1.0).abs())
+    }
+
+    #[test]
+    fn values_are_accurate_degraded_wrong_or_refused() {
+        let case = Case {
+            id: "newton",
+            swept: "a number whose root is sought",
+            oracle: "the root",
+            accurate: 1e-12,
+            bound: 1e-3,
+            sweep: decades(0, 12, 1, 0),
+            measure: newton,
+        };
+        let row = case
+            .row(Interrupt::never(), || ())
+            .expect("not interrupted");
+        let classes: Vec<Class> = row.points.iter().map(|p| p.class).collect();
+        assert_eq!((classes[0], classes[3]), (Class::Accurate, Class::Degraded));
+        assert_eq!((classes[6], classes[12]), (Class::Wrong, Class::Refused));
+        assert_eq!(row.range_text(|c| c == Class::Accurate), "to 100");
+        assert_eq!(row.refusals(), ["InvalidSetting"]);
+    }
+}

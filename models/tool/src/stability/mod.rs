@@ -1,0 +1,218 @@
+//! The command `stability`: how far stiff and extreme cases go.
+//!
+//! Each [`Case`] sweeps one thing until it breaks. Every value comes out accurate, degraded within a stated bound, or refused with an error that has
+//! a name. A result that is off by more, without a word, is the one thing that must not be: it makes the command fail.
+
+mod case;
+mod page;
+mod picture;
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+use clap::Parser;
+use rayon::prelude::*;
+use serde::Serialize;
+use ukcore::Error;
+
+use crate::command::{self, HELP};
+use crate::failure::Failure;
+use crate::interrupt::Interrupt;
+use crate::numbers;
+use crate::output::{self, Directory};
+use crate::progress::Progress;
+
+pub use case::{Case, Class, Effort, Measure, Point, Row, Sweep, decades};
+
+/// Stiff and extreme cases: how far each one goes with full accuracy, how far within a bound, and what is refused beyond.
+#[derive(Debug, Parser)]
+#[command(about, after_help = HELP)]
+pub struct StabilityArgs {
+    /// Cases to run; all of them if absent (a wrong name lists them)
+    #[arg(value_name = "CASE")]
+    pub cases: Vec<String>,
+    /// Directory to write index.html, stability.svg, stability.json and stability.csv to
+    #[arg(long, value_name = "DIR", default_value = "out/stability", value_parser = command::path)]
+    pub out: PathBuf,
+}
+
+/// Every number on the page.
+#[derive(Debug, Serialize)]
+struct Stability {
+    about: &'static str,
+    /// All that was asked for is there.
+    complete: bool,
+    cases: Vec<Row>,
+    /// Wall time, s.
+    seconds: f64,
+}
+
+const ABOUT: &str = "Errors are parts of the size of the result; `ordinary` is the index of the value at which nothing is extreme.";
+
+/// A row of stability.csv.
+#[derive(Serialize)]
+struct Line<'a> {
+    case: &'a str,
+    value: f64,
+    label: &'a str,
+    class: &'a str,
+    error: Option<f64>,
+    refusal: &'a str,
+    message: &'a str,
+    steps: usize,
+    evaluations: usize,
+    fallbacks: usize,
+    seconds: f64,
+}
+
+/// A whole program: reads the command line and runs these cases.
+#[must_use]
+pub fn main(cases: &[Case]) -> ExitCode {
+    command::exit(stability(cases, &command::parse()))
+}
+
+/// Runs the cases that are asked for and writes the report to `args.out`.
+///
+/// # Errors
+/// [`Failure::Usage`] for a case that is not there; [`Failure::Failed`] if a result is wrong, or a file cannot be written; [`Failure::Interrupted`]
+/// after Ctrl-C, with the cases that were finished written.
+pub fn stability(cases: &[Case], args: &StabilityArgs) -> Result<(), Failure> {
+    let started = Instant::now();
+    let chosen = chosen(cases, &args.cases)?;
+    let directory = Directory::create(&args.out)?;
+    let rows = compute(&chosen, Interrupt::catch()?);
+    let report = Stability {
+        about: ABOUT,
+        complete: rows.len() == chosen.len(),
+        cases: rows,
+        seconds: started.elapsed().as_secs_f64(),
+    };
+    directory.write("stability.svg", picture::picture(&report.cases)?)?;
+    directory.json("stability.json", &report)?;
+    directory.csv("stability.csv", report.cases.iter().flat_map(lines))?;
+    directory.write("index.html", page::html(&report))?;
+    print(&args.out, &report)?;
+    if !report.complete {
+        return Err(Failure::Interrupted(format!(
+            "interrupted; {} of {} are written",
+            report.cases.len(),
+            numbers::count(chosen.len(), "case")
+        )));
+    }
+    match report.cases.iter().map(|r| r.count(Class::Wrong)).sum() {
+        0 => Ok(()),
+        wrong => Err(Failure::Failed(format!(
+            "{} off by more than the bound of the case, and no error said so",
+            match wrong {
+                1 => "1 result is".to_owned(),
+                _ => format!("{wrong} results are"),
+            }
+        ))),
+    }
+}
+
+/// The cases with these names, in their own order; all if there is no name.
+fn chosen<'a>(cases: &'a [Case], names: &[String]) -> Result<Vec<&'a Case>, Failure> {
+    for name in names {
+        if !cases.iter().any(|c| c.id == name) {
+            let ids: Vec<&str> = cases.iter().map(|c| c.id).collect();
+            let unknown = Error::unknown_name("case", name, &mut ids.iter().copied());
+            let known = ids.join(", ");
+            return Err(Failure::Usage(format!("{unknown}; there are {known}")));
+        }
+    }
+    let asked = |c: &&Case| names.is_empty() || names.iter().any(|n| n == c.id);
+    Ok(cases.iter().filter(asked).collect())
+}
+
+/// The rows of the cases that were finished.
+fn compute(cases: &[&Case], interrupt: Interrupt) -> Vec<Row> {
+    let progress = Progress::new("stability");
+    let all: usize = cases.iter().map(|c| c.sweep.values.len()).sum();
+    let done = AtomicUsize::new(0);
+    let row = |case: &&Case| {
+        case.row(interrupt, || {
+            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+            progress.set(done as f64 / all as f64, || case.id.to_owned());
+        })
+    };
+    // One case after the other to whoever is free: they differ in length.
+    let rows: Vec<Option<Row>> = cases.par_iter().with_max_len(1).map(row).collect();
+    progress.finish();
+    rows.into_iter().flatten().collect()
+}
+
+fn lines(row: &Row) -> impl Iterator<Item = Line<'_>> {
+    row.points.iter().map(|p| {
+        let (refusal, message) = match &p.refusal {
+            Some((name, message)) => (*name, message.as_str()),
+            None => ("", ""),
+        };
+        Line {
+            case: row.id,
+            value: p.value,
+            label: &p.label,
+            class: p.class.word(),
+            error: p.error,
+            refusal,
+            message,
+            steps: p.effort.steps,
+            evaluations: p.effort.evaluations,
+            fallbacks: p.effort.fallbacks,
+            seconds: p.seconds,
+        }
+    })
+}
+
+/// The table at the terminal.
+fn print(out: &Path, report: &Stability) -> Result<(), Failure> {
+    output::to_stdout(|w| {
+        let width = numbers::width(report.cases.iter().map(|r| r.id));
+        let accurate = |c| c == Class::Accurate;
+        let bounded = |c| c == Class::Accurate || c == Class::Degraded;
+        writeln!(
+            w,
+            "{:width$}  {:17} {:17} {:>6}  {:>11} {:>9} {:>6}  beyond",
+            "case", "accurate", "within bound", "bound", "evaluations", "fallbacks", "s"
+        )?;
+        for row in &report.cases {
+            let (effort, seconds) = row.total();
+            writeln!(
+                w,
+                "{:width$}  {:17} {:17} {:>6.0e}  {:>11} {:>9} {:>6.1}  {}",
+                row.id,
+                row.range_text(accurate),
+                row.range_text(bounded),
+                row.bound,
+                effort.evaluations,
+                effort.fallbacks,
+                seconds,
+                beyond(row)
+            )?;
+        }
+        let count = |class| -> usize { report.cases.iter().map(|r| r.count(class)).sum() };
+        let counts = Class::ALL.map(|c| format!("{} {}", count(c), c.word()));
+        writeln!(
+            w,
+            "{} in {:.1} s; the report is {}",
+            counts.join(", "),
+            report.seconds,
+            out.join("index.html").display()
+        )
+    })
+}
+
+/// What happens beyond the bound, in a few words.
+fn beyond(row: &Row) -> String {
+    let mut words = row.refusals().join(", ");
+    let wrong = row.count(Class::Wrong);
+    if wrong > 0 {
+        if !words.is_empty() {
+            words.push_str("; ");
+        }
+        words.push_str(&format!("WRONG at {}", numbers::count(wrong, "value")));
+    }
+    words
+}

@@ -1,0 +1,179 @@
+//! The summary of a run, for reading and as JSON.
+
+use std::io::{self, Write};
+
+use serde_json::{Map, Value, json};
+use ukcore::{Ending, Method, Trajectory};
+
+use crate::drift::Drift;
+use crate::numbers::{count, fixed, full, width};
+use crate::run::RunArgs;
+use crate::scene::Ready;
+
+/// What a run was, what came out and what it cost. SI units.
+pub(crate) struct Summary<'a> {
+    pub(crate) trajectory: &'a Trajectory,
+    /// Its samples.
+    pub(crate) measured: &'a ukcore::Drift,
+    pub(crate) ready: &'a Ready<'a>,
+    pub(crate) args: &'a RunArgs,
+    /// Wall time of the integration, s.
+    pub(crate) seconds: f64,
+    /// Why it ended early, if it did.
+    pub(crate) error: Option<String>,
+}
+
+/// Names with values; a value that is not finite becomes null, as JSON has no other word for it.
+fn named<'a>(names: impl IntoIterator<Item = &'a str>, values: &[f64]) -> Map<String, Value> {
+    let pairs = names.into_iter().zip(values);
+    pairs
+        .map(|(name, value)| (name.to_owned(), Value::from(*value)))
+        .collect()
+}
+
+impl Summary<'_> {
+    fn ending(&self) -> &'static str {
+        match self.trajectory.ending() {
+            Ending::Completed => "completed",
+            Ending::Event => "event",
+            Ending::Interrupted => "interrupted",
+            Ending::Failed => "failed",
+        }
+    }
+
+    /// None where the method looks at none.
+    fn tolerance(&self) -> Option<f64> {
+        (!matches!(self.args.method, Method::Rattle { .. })).then_some(self.args.tol)
+    }
+
+    fn drift(&self) -> Drift {
+        Drift::measured(self.measured, self.trajectory.spec())
+    }
+
+    /// The last state that was computed: time, coordinates, their rates by the names of the coordinates, outputs, energy.
+    fn last(&self) -> Option<Value> {
+        let (mechanism, spec) = (self.trajectory.mechanism(), self.trajectory.spec());
+        let last = self.trajectory.last()?;
+        let mut outputs = vec![0.0; spec.outputs.len()];
+        mechanism.outputs(last.t, last.q, last.v, &mut outputs);
+        let energy = mechanism.energy(last.t, last.q, last.v);
+        let coords = || spec.coords.iter().copied();
+        Some(json!({
+            "t": last.t,
+            "q": named(coords(), last.q),
+            "v": named(coords(), last.v),
+            "outputs": named(spec.outputs.iter().map(|o| o.name), &outputs),
+            "energy": { "kinetic": energy.kinetic, "potential": energy.potential },
+        }))
+    }
+
+    /// The summary as JSON.
+    pub(crate) fn json(&self) -> Value {
+        let (work, drift) = (self.trajectory.work(), self.drift());
+        let params = self.trajectory.spec().params.iter().map(|p| p.name);
+        json!({
+            "model": self.ready.entry.id,
+            "start": self.ready.start,
+            "parameters": named(params, self.trajectory.mechanism().parameters()),
+            "method": self.args.method.to_string(),
+            "stabilise": self.args.stabilise.to_string(),
+            "tolerance": self.tolerance(),
+            "ending": self.ending(),
+            "error": self.error,
+            "final": self.last(),
+            "samples": self.measured.samples(),
+            "position_residual": drift.position_residual,
+            "velocity_residual": drift.velocity_residual,
+            "energy_drift": drift.energy_drift,
+            "work": {
+                "steps": work.steps,
+                "rejected": work.rejected,
+                "switches": work.switches,
+                "evaluations": work.evaluations,
+                "jacobians": work.jacobians,
+                "factorisations": work.factorisations,
+                "projections": work.projections,
+                "projection_iterations": work.projection_iterations,
+                "fallbacks": work.fallbacks,
+            },
+            "seconds": self.seconds,
+        })
+    }
+
+    /// Writes the summary for reading.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub(crate) fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        let tolerance = self.tolerance();
+        let tolerance = tolerance.map_or(String::new(), |tol| format!(" at tolerance {tol:e}"));
+        let (id, start) = (&self.ready.entry.id, self.ready.start);
+        let (method, ending) = (self.args.method, self.ending());
+        writeln!(out, "{id} from `{start}`, {method}{tolerance}, {ending}")?;
+        let (drift, w) = (self.drift(), self.trajectory.work());
+        self.write_last(out)?;
+        writeln!(
+            out,
+            "\nResiduals: position {:.1e}, velocity {:.1e} at most over {}",
+            drift.position_residual,
+            drift.velocity_residual,
+            count(self.measured.samples(), "sample")
+        )?;
+        match drift.energy_drift {
+            Some(drift) => writeln!(out, "Energy drift: {drift:.1e} of the energy exchanged")?,
+            None => writeln!(out, "Energy is not conserved in this model")?,
+        }
+        let implicit = match (w.jacobians, w.factorisations) {
+            (0, 0) => String::new(),
+            (jacobians, factorisations) => format!(
+                ", {}, {}",
+                count(jacobians, "Jacobian"),
+                count(factorisations, "factorisation")
+            ),
+        };
+        writeln!(
+            out,
+            "Work: {} ({} rejected, {} onto switches), {}{implicit}, {} ({}), {}; {:.3} s",
+            count(w.steps, "step"),
+            w.rejected,
+            w.switches,
+            count(w.evaluations, "evaluation"),
+            count(w.projections, "projection"),
+            count(w.projection_iterations, "iteration"),
+            count(w.fallbacks, "fallback"),
+            self.seconds
+        )
+    }
+
+    fn write_last(&self, out: &mut dyn Write) -> io::Result<()> {
+        let (mechanism, spec) = (self.trajectory.mechanism(), self.trajectory.spec());
+        let Some(last) = self.trajectory.last() else {
+            return Ok(());
+        };
+        let names = spec.outputs.iter().map(|o| o.name);
+        let wide = width(spec.coords.iter().copied().chain(names.clone()));
+        writeln!(out, "\nState at t = {} s", full(last.t))?;
+        for ((name, q), v) in spec.coords.iter().zip(last.q).zip(last.v) {
+            let [q, v] = [q, v].map(|x| number(*x));
+            writeln!(out, "  {name:<wide$} {q:>18}   dot {v:>18}")?;
+        }
+        if !spec.outputs.is_empty() {
+            writeln!(out, "\nOutputs")?;
+        }
+        let mut outputs = vec![0.0; spec.outputs.len()];
+        mechanism.outputs(last.t, last.q, last.v, &mut outputs);
+        for (name, value) in names.zip(outputs) {
+            writeln!(out, "  {name:<wide$} {:>18}", number(value))?;
+        }
+        Ok(())
+    }
+}
+
+/// Twelve decimals, unless there are so many digits before them that nobody would count them.
+fn number(value: f64) -> String {
+    match value.abs() {
+        size if !size.is_finite() => "not finite".to_owned(),
+        size if size >= 1e15 => full(value),
+        _ => fixed(value, 12),
+    }
+}

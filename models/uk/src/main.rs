@@ -1,0 +1,61 @@
+//! The command line `uk`: reproduce the paper; list, run, explain and measure the models of this repository.
+
+#![forbid(unsafe_code)]
+
+mod paper;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use uktool::command::{self, HELP};
+
+use paper::PaperArgs;
+
+/// Dynamics of constrained multibody systems after Udwadia and Kalaba.
+///
+/// Without a command, `uk paper`.
+#[derive(Debug, Parser)]
+#[command(name = "uk", version, after_help = HELP)]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Reproduce the paper (Zhao, Zhen & Chen 2013): tables, figures and a verdict on each claim
+    Paper(PaperArgs),
+    #[command(flatten)]
+    Tool(command::Command),
+}
+
+fn main() -> ExitCode {
+    let cli: Cli = command::parse();
+    command::exit(match cli.command {
+        None => paper::paper(&PaperArgs::default()),
+        Some(Command::Paper(args)) => paper::paper(&args),
+        Some(Command::Tool(command)) => command.run(&models::entries()),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_parser_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn the_paper_is_the_default() {
+        let cli = Cli::try_parse_from(["uk"]).expect("arguments");
+        assert!(cli.command.is_none());
+        let cli = Cli::try_parse_from(["uk", "paper"]).expect("arguments");
+        let Some(Command::Paper(paper)) = cli.command else {
+            panic!("not the paper")
+        };
+        assert_eq!(paper.out, PaperArgs::default().out);
+    }
+}

@@ -1,0 +1,218 @@
+//! `uk paper`: the two cases of Zhao, Zhen & Chen 2013, computed, drawn and compared.
+
+mod chain;
+mod claims;
+mod figures;
+mod fish;
+mod measure;
+mod motion;
+mod page;
+mod published;
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+use clap::Args;
+use models::uchain::TABLE_1;
+use rayon::prelude::*;
+use serde::Serialize;
+use uktool::command;
+use uktool::failure::Failure;
+use uktool::output::{self, Directory};
+use uktool::progress::Progress;
+
+use chain::{Chain, ChainRow};
+use claims::{Claim, Verdict};
+use fish::{Fish, FishRow, Gait};
+use motion::RunRow;
+
+/// Tolerance of all integrations, relative and absolute. Tighter by four orders than the digits shown, since the chain amplifies an error
+/// a hundredfold until its tip turns.
+const TOLERANCE: f64 = 1e-10;
+
+/// The arguments of `paper`.
+#[derive(Debug, Args)]
+pub(crate) struct PaperArgs {
+    /// Directory to write index.html, paper.json, figures and CSV files to
+    #[arg(long, value_name = "DIR", default_value = OUT, value_parser = command::path)]
+    pub(crate) out: PathBuf,
+}
+
+const OUT: &str = "out/paper";
+
+impl Default for PaperArgs {
+    fn default() -> Self {
+        PaperArgs { out: OUT.into() }
+    }
+}
+
+/// Every number on the page.
+#[derive(Debug, Serialize)]
+struct Paper {
+    about: &'static str,
+    signs: &'static str,
+    method: &'static str,
+    tolerance: f64,
+    uchain: Vec<ChainRow>,
+    /// Not the paper's start: the chain hanging in equilibrium before its tip is let go.
+    uchain_catenary: ChainRow,
+    fish: Vec<FishRow>,
+    claims: Vec<Claim>,
+    runs: Vec<RunRow>,
+    /// Wall time of computing and drawing, s.
+    seconds: f64,
+}
+
+const ABOUT: &str = "Zhao, Zhen & Chen, Chin. J. Mech. Eng. 26 (2013) 839-850, recomputed. SI units; angles in the unit that the name ends with, else radians.";
+const SIGNS: &str = "Chain: y points down, peak is the least acceleration of the tip. Fish: start_acceleration is x1'' at t = 0 and mean_speed is x1(4 s) - x1(3 s) over 1 s; both are negative where the fish swims forward, towards -x.";
+
+/// One integration to do.
+#[derive(Debug, Clone, Copy)]
+enum Job {
+    Chain(&'static str, f64),
+    Fish(Gait),
+}
+
+enum Outcome {
+    Chain(Chain),
+    Fish(Fish),
+}
+
+/// All runs.
+struct Results {
+    /// Table 1's, in order of x0.
+    chains: Vec<Chain>,
+    catenary: Chain,
+    fishes: Vec<Fish>,
+}
+
+/// Computes both cases and writes the report to `args.out`.
+///
+/// # Errors
+/// [`Failure::Failed`] if an integration fails or a file cannot be written; a report that stood there before is then still whole or partly
+/// replaced by files that are each whole, and index.html is written last.
+pub(crate) fn paper(args: &PaperArgs) -> Result<(), Failure> {
+    let started = Instant::now();
+    let directory = Directory::create(&args.out)?;
+    let results = compute()?;
+    let uchain: Vec<ChainRow> = results.chains.iter().map(|c| c.row.clone()).collect();
+    let fish: Vec<FishRow> = results.fishes.iter().map(|f| f.row.clone()).collect();
+    for (name, svg) in figures::all(&results.chains, &results.fishes)? {
+        directory.write(&format!("figures/{name}.svg"), svg)?;
+    }
+    for (run, csv) in results.samples() {
+        directory.write(&format!("csv/{}.csv", run.name), csv)?;
+    }
+    let paper = Paper {
+        about: ABOUT,
+        signs: SIGNS,
+        method: "DOP853 with projection onto the constraints after each step",
+        tolerance: TOLERANCE,
+        claims: claims::judge(&uchain, &fish),
+        uchain,
+        uchain_catenary: results.catenary.row.clone(),
+        fish,
+        runs: results.samples().map(|(run, _)| run.clone()).collect(),
+        seconds: started.elapsed().as_secs_f64(),
+    };
+    directory.json("paper.json", &paper)?;
+    directory.write("index.html", page::html(&paper))?;
+    report(&args.out, &paper)
+}
+
+impl Results {
+    /// Each run with its samples as CSV.
+    fn samples(&self) -> impl Iterator<Item = (&RunRow, &[u8])> {
+        let chains = self.chains.iter().chain([&self.catenary]);
+        let fishes = self.fishes.iter().map(|f| (&f.run, f.csv.as_slice()));
+        chains.map(|c| (&c.run, c.csv.as_slice())).chain(fishes)
+    }
+}
+
+fn compute() -> Result<Results, Failure> {
+    let table = TABLE_1
+        .iter()
+        .map(|row| Job::Chain(chain::PAPER_START, row.x0));
+    let jobs: Vec<Job> = [Job::Chain(chain::OTHER_START, TABLE_1[0].x0)]
+        .into_iter()
+        .chain(table)
+        .chain(fish::gaits().into_iter().map(Job::Fish))
+        .collect();
+    let progress = Progress::new("paper");
+    let (done, all) = (AtomicUsize::new(0), jobs.len());
+    let run = |job: &Job| {
+        let outcome = match job {
+            Job::Chain(start, x0) => chain::compute(start, *x0).map(Outcome::Chain),
+            Job::Fish(gait) => fish::compute(*gait).map(Outcome::Fish),
+        };
+        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+        progress.set(done as f64 / all as f64, || format!("{done} of {all} runs"));
+        outcome
+    };
+    let outcomes: Result<Vec<Outcome>, Failure> =
+        jobs.par_iter().with_max_len(1).map(run).collect();
+    progress.finish();
+    let (mut chains, mut fishes) = (Vec::new(), Vec::new());
+    // In the order of the jobs: the catenary comes first.
+    for outcome in outcomes? {
+        match outcome {
+            Outcome::Chain(chain) => chains.push(chain),
+            Outcome::Fish(fish) => fishes.push(fish),
+        }
+    }
+    let catenary = chains.remove(0);
+    Ok(Results {
+        chains,
+        catenary,
+        fishes,
+    })
+}
+
+/// What a person at the terminal wants to know at once.
+fn report(out: &Path, paper: &Paper) -> Result<(), Failure> {
+    let count = |verdict| paper.claims.iter().filter(|c| c.verdict == verdict).count();
+    output::to_stdout(|w| {
+        writeln!(
+            w,
+            "Falling U-chain, Table 1: greatest fall of the tip, its time, deepest acceleration"
+        )?;
+        writeln!(w, "   x0      h_max (m)          t_max (s)     tip (m/s²)")?;
+        writeln!(w, "        paper     here     paper    here        here")?;
+        for r in &paper.uchain {
+            let (h, t) = (r.paper.h_max, r.paper.t_max);
+            writeln!(
+                w,
+                "   {:2} {h:8.3} {:8.3}   {t:7.3} {:7.3}    {:8.1}",
+                r.x0, r.h_max, r.t_max, r.peak
+            )?;
+        }
+        writeln!(
+            w,
+            "Fish robot: start acceleration and mean speed over 3-4 s; negative is forward"
+        )?;
+        writeln!(w, "   A3   ω (rad/s)   φ (°)   (m/s²)    (m/s)")?;
+        for r in &paper.fish {
+            writeln!(
+                w,
+                "  {:3.1} {:11.4} {:7} {:8.4} {:8.4}",
+                r.a3, r.omega, r.phi_deg, r.start_acceleration, r.mean_speed
+            )?;
+        }
+        writeln!(
+            w,
+            "Of {} claims of the paper {} are borne out, {} nearly, {} not",
+            paper.claims.len(),
+            count(Verdict::Holds),
+            count(Verdict::Nearly),
+            count(Verdict::Fails)
+        )?;
+        writeln!(
+            w,
+            "{} runs in {:.1} s; the report is {}",
+            paper.runs.len(),
+            paper.seconds,
+            out.join("index.html").display()
+        )
+    })
+}

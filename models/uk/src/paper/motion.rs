@@ -1,0 +1,126 @@
+//! One integration of the report, and what is told of every one of them.
+
+use std::time::Instant;
+
+use serde::Serialize;
+use ukcore::{Event, Prepared, Simulation, Solver, SolverOptions, State, Trajectory};
+use uktool::drift::Drift;
+use uktool::failure::Failure;
+
+use super::TOLERANCE;
+
+/// Interval of the samples that are written as CSV and whose drift is told, s.
+const SAMPLES: f64 = 0.01;
+
+/// A computed motion, and its accelerations.
+pub(super) struct Motion {
+    solver: Solver,
+    trajectory: Trajectory,
+}
+
+/// Cost and quality of one integration.
+#[derive(Debug, Clone, Serialize)]
+pub(super) struct RunRow {
+    /// Name, also of the CSV file.
+    pub(super) name: String,
+    /// End, s.
+    pub(super) until: f64,
+    /// Accepted steps.
+    pub(super) steps: usize,
+    /// Rejected steps.
+    pub(super) rejected: usize,
+    /// Evaluations of the accelerations.
+    pub(super) evaluations: usize,
+    /// Projections onto the constraints.
+    pub(super) projections: usize,
+    /// Evaluations that fell back to a more general formula.
+    pub(super) fallbacks: usize,
+    /// Largest residuals, and drift of the energy.
+    #[serde(flatten)]
+    pub(super) drift: Drift,
+    /// Wall time, s.
+    pub(super) seconds: f64,
+}
+
+impl Motion {
+    /// Integrates `mechanism` from `start` to `until`, with an event.
+    ///
+    /// # Errors
+    /// [`Failure::Failed`] naming the run.
+    pub(super) fn new(
+        name: &str,
+        mechanism: &Prepared,
+        start: State,
+        until: f64,
+        event: Option<Event>,
+    ) -> Result<(Self, RunRow), Failure> {
+        let started = Instant::now();
+        let mut simulation = Simulation::new(mechanism)
+            .start(start)
+            .tolerance(TOLERANCE)
+            .every(SAMPLES)
+            .dense();
+        if let Some(event) = event {
+            simulation = simulation.event(event);
+        }
+        let trajectory = simulation
+            .until(until)
+            .map_err(|f| Failure::Failed(format!("{name}: {}", f.error)))?;
+        let seconds = started.elapsed().as_secs_f64();
+        let work = trajectory.work();
+        let run = RunRow {
+            name: name.to_owned(),
+            until,
+            steps: work.steps,
+            rejected: work.rejected,
+            evaluations: work.evaluations,
+            projections: work.projections,
+            fallbacks: work.fallbacks,
+            drift: Drift::of(&trajectory),
+            seconds,
+        };
+        let solver = Solver::new(mechanism, SolverOptions::default());
+        Ok((Motion { solver, trajectory }, run))
+    }
+
+    /// The trajectory.
+    pub(super) fn trajectory(&self) -> &Trajectory {
+        &self.trajectory
+    }
+
+    /// The state at `t`.
+    ///
+    /// # Errors
+    /// As [`Trajectory::at`].
+    pub(super) fn state(&self, t: f64) -> Result<State, Failure> {
+        Ok(self.trajectory.at(t)?)
+    }
+
+    /// q̈ at `t`.
+    ///
+    /// # Errors
+    /// As [`Trajectory::at`] and [`Solver::acceleration`].
+    pub(super) fn acceleration(&mut self, t: f64) -> Result<Vec<f64>, Failure> {
+        let state = self.state(t)?;
+        let mut out = vec![0.0; state.q.len()];
+        let solver = &mut self.solver;
+        solver.acceleration(t, &state.q, &state.v, &mut out)?;
+        Ok(out)
+    }
+
+    /// The samples as CSV.
+    ///
+    /// # Errors
+    /// [`Failure::Failed`] if they cannot be formatted.
+    pub(super) fn csv(&self) -> Result<Vec<u8>, Failure> {
+        let mut text = Vec::new();
+        let written = self.trajectory.write_csv(&mut text);
+        written.map_err(|e| Failure::Failed(format!("cannot format CSV: {e}")))?;
+        Ok(text)
+    }
+}
+
+/// `count` + 1 times from `from` to `to`, both included.
+pub(super) fn times(from: f64, to: f64, count: u32) -> impl Iterator<Item = f64> {
+    (0..=count).map(move |k| from + (to - from) * f64::from(k) / f64::from(count))
+}

@@ -1,0 +1,105 @@
+//! Constraints that are scaled, repeated, or nearly so.
+
+use models::{DoublePendulum, Model, Pendulum};
+use ukcore::equations::precise;
+use ukcore::solver::RANK_TOLERANCE;
+use ukcore::{Error, Formula, Mechanism, Simulation, Solver, SolverOptions, State};
+
+use super::{REGULAR, accelerations_off, off, worse};
+use crate::mechanisms::{Copies, NearPlanes, ScaledRows};
+use uktool::stability::{Case, Effort, decades};
+
+pub(crate) fn cases() -> Vec<Case> {
+    vec![
+        Case {
+            id: "rows-scaled",
+            swept: "one row of a double pendulum times s, the other by s",
+            oracle: "the rows as they are: accelerations in 31 digits, and the run",
+            accurate: 1e-9,
+            bound: 1e-6,
+            sweep: decades(-150, 150, 15, 0),
+            measure: rows_scaled,
+        },
+        Case {
+            id: "rows-copied",
+            swept: "rod of a pendulum declared again times s, and by s",
+            oracle: "closed form of the pendulum; the copies are named as redundant",
+            accurate: 1e-9,
+            bound: 1e-6,
+            sweep: decades(-150, 150, 15, 0),
+            measure: rows_copied,
+        },
+        Case {
+            id: "rows-near",
+            swept: "angle between two planes that a particle is held on",
+            oracle: "closed form; or, where the second plane is named as redundant, that it is met to the rank tolerance",
+            accurate: 1e-12,
+            bound: 1e-10,
+            sweep: decades(-1, -16, 1, -1),
+            measure: rows_near,
+        },
+    ]
+}
+
+fn rows_scaled(s: f64, effort: &mut Effort) -> Result<f64, Error> {
+    let plain = ScaledRows::default();
+    let mut scaled = plain.clone();
+    scaled.set("s", s)?;
+    scaled.set("r", 1.0 / s)?;
+    let double = DoublePendulum::default();
+    let (q, v) = double.at_angles([0.9, -0.4], [1.0, 2.0]);
+    let state = State {
+        t: 0.0,
+        q: q.to_vec(),
+        v: v.to_vec(),
+    };
+    let expected = precise::accelerations(&plain, 0.0, &state.q, &state.v);
+    let expected = expected.unwrap_or_else(|| vec![f64::NAN; 4]);
+    let now = accelerations_off(&scaled, &state, &REGULAR, &expected, effort)?;
+    let mut ends = Vec::new();
+    for mechanism in [plain, scaled] {
+        let simulation = Simulation::new(mechanism).start(state.clone());
+        let run = effort.run(simulation.tolerance(1e-11), 1.0)?;
+        ends.push(run.last().map_or(Vec::new(), |s| s.q.to_vec()));
+    }
+    Ok(worse(now, off(&ends[1], &ends[0])))
+}
+
+fn rows_copied(s: f64, effort: &mut Effort) -> Result<f64, Error> {
+    let mut copies = Copies::default();
+    copies.set("s", s)?;
+    copies.set("r", 1.0 / s)?;
+    let pendulum = Pendulum::default();
+    let start = pendulum.default_start()?;
+    let mut solver = Solver::new(&copies, SolverOptions::default());
+    let solution = solver.solve(0.0, &start.q, &start.v)?;
+    if solution.rank != 1 || solution.redundant.len() != 2 {
+        return Ok(f64::INFINITY);
+    }
+    let expected = [0.0, -9.81];
+    let formulas = [Formula::UdwadiaPhohomsiri, Formula::Kkt];
+    let now = accelerations_off(&copies, &start, &formulas, &expected, effort)?;
+    let run = effort.run(Simulation::new(copies).start(start).tolerance(1e-11), 1.0)?;
+    let (angle, _) = pendulum.swing(-std::f64::consts::FRAC_PI_2, 1.0);
+    let (q, _) = pendulum.at_angle(angle, 0.0);
+    Ok(worse(
+        now,
+        run.last().map_or(f64::NAN, |last| off(last.q, &q)),
+    ))
+}
+
+fn rows_near(d: f64, effort: &mut Effort) -> Result<f64, Error> {
+    let mut planes = NearPlanes::default();
+    planes.set("d", d)?;
+    let state = State::zeros::<NearPlanes>();
+    let mut solver = Solver::new(&planes, SolverOptions::default());
+    let solution = solver.solve(0.0, &state.q, &state.v)?;
+    if solution.redundant.is_empty() {
+        let expected = [0.0, 0.0, 3.0];
+        return accelerations_off(&planes, &state, &REGULAR, &expected, effort);
+    }
+    let free = accelerations_off(&planes, &state, &[], &[-0.5, 0.5, 3.0], effort)?;
+    // Of the force that the plane would have to bear, this part is let through.
+    let let_through = d * solution.acceleration[1] / 2.0;
+    Ok(worse(worse(free, let_through), RANK_TOLERANCE))
+}

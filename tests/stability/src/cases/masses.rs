@@ -1,0 +1,211 @@
+//! Masses and lengths out of proportion, masses that vanish.
+
+use models::RigidBody;
+use ukcore::{Error, Formula, Mechanism, Projector, Simulation, State};
+
+use super::{REGULAR, accelerations_imprecise, accelerations_off, largest, worse};
+use crate::mechanisms::{Chain, Wheel};
+use uktool::stability::{Case, Effort, Sweep, decades};
+
+pub(crate) fn cases() -> Vec<Case> {
+    let ratio = || decades(-12, 12, 2, 0);
+    vec![
+        Case {
+            id: "mass-ratio",
+            swept: "mass ratio of neighbours in a chain, accelerations",
+            oracle: "the same equations in 31 digits; all four formulas",
+            accurate: 1e-12,
+            bound: 1e-8,
+            sweep: ratio(),
+            measure: mass_ratio,
+        },
+        Case {
+            id: "mass-ratio-run",
+            swept: "mass ratio of neighbours in a chain, 0.5 s of motion",
+            oracle: "energy, as a part of that exchanged, and lengths",
+            accurate: 1e-8,
+            bound: 1e-5,
+            sweep: ratio(),
+            measure: mass_ratio_run,
+        },
+        Case {
+            id: "length-ratio",
+            swept: "length ratio of neighbours in a chain, accelerations",
+            oracle: "the same equations in 31 digits; all four formulas",
+            accurate: 1e-12,
+            bound: 1e-8,
+            sweep: decades(-8, 8, 1, 0),
+            measure: length_ratio,
+        },
+        Case {
+            id: "length-ratio-run",
+            swept: "length ratio of neighbours in a chain, 0.5 s of motion",
+            oracle: "energy, as a part of that exchanged, and lengths",
+            accurate: 1e-8,
+            bound: 1e-5,
+            sweep: decades(-8, 8, 1, 0),
+            measure: length_ratio_run,
+        },
+        Case {
+            id: "mass-to-zero",
+            swept: "inertia of a massless angle (UP limit), accelerations and one second",
+            oracle: "closed form for every inertia, 0 included",
+            accurate: 1e-9,
+            bound: 1e-6,
+            sweep: inertias(),
+            measure: inertia_to_zero,
+        },
+        Case {
+            id: "bob-to-zero",
+            swept: "mass of the bob against the inertia of its angle",
+            oracle: "closed form for every mass, 0 included",
+            accurate: 1e-9,
+            bound: 1e-6,
+            sweep: inertias(),
+            measure: bob_to_zero,
+        },
+        Case {
+            id: "quaternion",
+            swept: "turn of a rigid body from the identity quaternion, rad (singular M)",
+            oracle: "the same equations in 31 digits; both formulas for singular M",
+            accurate: 1e-12,
+            bound: 1e-8,
+            sweep: decades(0, -16, 1, 0).and(0.0),
+            measure: near_identity,
+        },
+    ]
+}
+
+/// A body turned by `distance` from where its quaternion is the identity, spinning; M there is singular along the quaternion.
+fn near_identity(distance: f64, effort: &mut Effort) -> Result<f64, Error> {
+    let (sin, cos) = (0.5 * distance).sin_cos();
+    let axis = [0.48, 0.6, 0.64];
+    let e = [cos, sin * axis[0], sin * axis[1], sin * axis[2]];
+    // ė = ½ G(e)ᵀ ω.
+    let w = [1.0, -0.7, 0.4];
+    let v = vec![
+        0.5 * (-e[1] * w[0] - e[2] * w[1] - e[3] * w[2]),
+        0.5 * (e[0] * w[0] - e[3] * w[1] + e[2] * w[2]),
+        0.5 * (e[3] * w[0] + e[0] * w[1] - e[1] * w[2]),
+        0.5 * (-e[2] * w[0] + e[1] * w[1] + e[0] * w[2]),
+    ];
+    let state = State {
+        t: 0.0,
+        q: e.to_vec(),
+        v,
+    };
+    let formulas = [Formula::UdwadiaPhohomsiri, Formula::Kkt];
+    accelerations_imprecise(&RigidBody::default(), &state, &formulas, effort)
+}
+
+fn inertias() -> Sweep {
+    Sweep::of(&[
+        1.0, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14, 1e-16, 1e-18, 1e-24, 1e-32, 1e-64,
+        1e-128, 1e-300,
+    ])
+    .and(0.0)
+}
+
+/// A chain with every other mass multiplied by `mass` and every other rod by `length`, bent and moving.
+fn chain(mass: f64, length: f64) -> Result<(Chain, State), Error> {
+    let mut chain = Chain::default();
+    for name in ["m[1]", "m[3]"] {
+        chain.set(name, mass)?;
+    }
+    for name in ["l[1]", "l[3]"] {
+        chain.set(name, length)?;
+    }
+    let lengths = [1.0, length, 1.0, length];
+    let (angles, rates) = ([0.4_f64, -0.3, 0.8, 0.2], [1.0, -2.0, 0.5, 1.5]);
+    let mut state = State::zeros::<Chain>();
+    let (mut at, mut speed) = ([0.0; 2], [0.0; 2]);
+    for i in 0..4 {
+        let (sin, cos) = angles[i].sin_cos();
+        at = [at[0] + lengths[i] * sin, at[1] - lengths[i] * cos];
+        // The tip of each rod at about one speed, and none faster than its length allows.
+        let tip = rates[i] * lengths[i].min(1.0);
+        speed = [speed[0] + tip * cos, speed[1] + tip * sin];
+        (state.q[Chain::X[i]], state.q[Chain::Y[i]]) = (at[0], at[1]);
+        (state.v[Chain::X[i]], state.v[Chain::Y[i]]) = (speed[0], speed[1]);
+    }
+    let mut projector = Projector::new(&chain);
+    projector.position(0.0, &mut state.q, &state.v)?;
+    projector.velocity(0.0, &state.q, &mut state.v)?;
+    Ok((chain, state))
+}
+
+fn mass_ratio(ratio: f64, effort: &mut Effort) -> Result<f64, Error> {
+    let (chain, state) = chain(ratio, 1.0)?;
+    accelerations_imprecise(&chain, &state, &REGULAR, effort)
+}
+
+fn length_ratio(ratio: f64, effort: &mut Effort) -> Result<f64, Error> {
+    let (chain, state) = chain(1.0, ratio)?;
+    accelerations_imprecise(&chain, &state, &REGULAR, effort)
+}
+
+fn mass_ratio_run(ratio: f64, effort: &mut Effort) -> Result<f64, Error> {
+    let (chain, state) = chain(ratio, 1.0)?;
+    conserved(chain, state, effort)
+}
+
+fn length_ratio_run(ratio: f64, effort: &mut Effort) -> Result<f64, Error> {
+    let (chain, state) = chain(1.0, ratio)?;
+    conserved(chain, state, effort)
+}
+
+/// Drift of energy, and of the rods' lengths as parts of the longest one.
+fn conserved(chain: Chain, start: State, effort: &mut Effort) -> Result<f64, Error> {
+    let simulation = Simulation::new(chain).start(start).tolerance(1e-11);
+    let simulation = simulation.max_steps(2_000_000).every(0.01);
+    let trajectory = effort.run(simulation, 0.5)?;
+    let size = trajectory.last().map_or(1.0, |s| largest(s.q)).max(1.0);
+    let residuals = trajectory.residuals();
+    // φ = length² − l²: divided by size² it is twice the relative error.
+    let drift = residuals.iter().map(|r| r.position / (size * size));
+    Ok(drift.fold(trajectory.energy_drift(), worse))
+}
+
+/// The bob on its angle with the inertia `i` and the mass `m`: (m l² + i) s̈ = −m g l sin s.
+fn wheel(m: f64, i: f64, effort: &mut Effort) -> Result<f64, Error> {
+    let mut wheel = Wheel::default();
+    wheel.set("m", m)?;
+    wheel.set("i", i)?;
+    let (angle, rate) = (1.2_f64, 0.7_f64);
+    let (sin, cos) = angle.sin_cos();
+    let state = State {
+        t: 0.0,
+        q: vec![sin, -cos, angle],
+        v: vec![rate * cos, rate * sin, rate],
+    };
+    let gravity = m * 9.81 / (m + i);
+    let turn = -gravity * sin;
+    let expected = [
+        cos * turn - sin * rate * rate,
+        sin * turn + cos * rate * rate,
+        turn,
+    ];
+    let formulas = [Formula::UdwadiaPhohomsiri, Formula::Kkt];
+    let now = accelerations_off(&wheel, &state, &formulas, &expected, effort)?;
+    // Released at rest, one second.
+    let rest = State {
+        v: vec![0.0; 3],
+        ..state
+    };
+    let simulation = Simulation::new(wheel).start(rest).tolerance(1e-11);
+    let end = effort.run(simulation.at(vec![1.0]), 1.0)?;
+    let found = end.coordinate("s")?.last().copied().unwrap_or(f64::NAN);
+    let pendulum = models::Pendulum {
+        g: gravity,
+        ..models::Pendulum::default()
+    };
+    Ok(worse(now, found - pendulum.swing(angle, 1.0).0))
+}
+
+fn inertia_to_zero(i: f64, effort: &mut Effort) -> Result<f64, Error> {
+    wheel(1.0, i, effort)
+}
+
+fn bob_to_zero(m: f64, effort: &mut Effort) -> Result<f64, Error> {
+    wheel(m, 1.0, effort)
+}

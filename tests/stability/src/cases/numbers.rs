@@ -1,0 +1,142 @@
+//! Units, many turns, and steps at the edge of what numbers can hold.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use models::{DoublePendulumAngles, Model, Pendulum, UChain};
+use ukcore::{Error, Simulation, State};
+
+use super::{off, worse};
+use uktool::stability::{Case, Effort, Sweep, decades};
+
+pub(crate) fn cases() -> Vec<Case> {
+    let scale = |id, swept, sweep, measure| Case {
+        id,
+        swept,
+        oracle: "the motion in SI units, scaled",
+        accurate: 1e-7,
+        bound: 1e-4,
+        sweep,
+        measure,
+    };
+    vec![
+        scale(
+            "unit-length",
+            "unit of length of a U-chain's fall",
+            decades(-30, 30, 3, 0),
+            |s, e| in_units(s, 1.0, 1.0, e),
+        ),
+        scale(
+            "unit-mass",
+            "unit of mass of a U-chain's fall",
+            decades(-300, 300, 50, 0),
+            |s, e| in_units(1.0, s, 1.0, e),
+        ),
+        scale(
+            "unit-time",
+            "unit of time of a U-chain's fall",
+            decades(-30, 30, 3, 0),
+            |s, e| in_units(1.0, 1.0, s, e),
+        ),
+        Case {
+            id: "turns",
+            swept: "whole turns by which a double pendulum starts advanced, 2 s",
+            oracle: "the same start without them",
+            accurate: 1e-8,
+            bound: 1e-4,
+            sweep: decades(0, 16, 1, 0),
+            measure: turns,
+        },
+        Case {
+            id: "first-step",
+            swept: "first step of a pendulum's run, s",
+            oracle: "closed form",
+            accurate: 1e-8,
+            bound: 1e-6,
+            sweep: Sweep::of(&[
+                1e-2, 1e-4, 1e-8, 1e-12, 1e-16, 1e-20, 1e-24, 1e-28, 1e-32, 1e-40, 1e-80, 1e-160,
+                1e-320,
+            ]),
+            measure: first_step,
+        },
+        Case {
+            id: "short-run",
+            swept: "length of a pendulum's run, s",
+            oracle: "its Taylor series to the third order",
+            accurate: 1e-15,
+            bound: 1e-12,
+            sweep: Sweep::of(&[
+                1e-4, 1e-8, 1e-16, 1e-32, 1e-64, 1e-128, 1e-256, 1e-300, 1e-310, 1e-320,
+            ]),
+            measure: short_run,
+        },
+    ]
+}
+
+/// The U-chain's fall to t = 1.5 s in other units, and back; the largest coordinate is 1.
+fn in_units(length: f64, mass: f64, time: f64, effort: &mut Effort) -> Result<f64, Error> {
+    let chain = UChain::default();
+    let start = chain.default_start()?;
+    let other = UChain {
+        m: chain.m * mass,
+        l: chain.l * length,
+        g: chain.g * length / time / time,
+    };
+    let mut ends = Vec::new();
+    for (chain, length, time) in [(chain, 1.0, 1.0), (other, length, time)] {
+        let start = State {
+            q: start.q.iter().map(|q| q * length).collect(),
+            ..start.clone()
+        };
+        let simulation = Simulation::new(chain).start(start).tolerance(1e-10);
+        let run = effort.run(simulation.max_steps(100_000), 1.5 * time)?;
+        let last = run.last().map_or(Vec::new(), |s| s.q.to_vec());
+        ends.push(last.iter().map(|q| q / length).collect::<Vec<_>>());
+    }
+    Ok(off(&ends[1], &ends[0]))
+}
+
+fn turns(turns: f64, effort: &mut Effort) -> Result<f64, Error> {
+    let double = DoublePendulumAngles::default();
+    let start = double.default_start()?;
+    let mut ends = Vec::new();
+    for turns in [0.0, turns] {
+        let mut start = start.clone();
+        start.q.iter_mut().for_each(|q| *q += TAU * turns);
+        let simulation = Simulation::new(double.clone())
+            .start(start)
+            .tolerance(1e-11);
+        let run = effort.run(simulation.max_steps(100_000), 2.0)?;
+        ends.push(run.last().map_or(Vec::new(), |s| s.q.to_vec()));
+    }
+    let difference = ends[1].iter().zip(&ends[0]);
+    let difference = difference.map(|(turned, plain)| turned - TAU * turns - plain);
+    Ok(difference.fold(0.0, worse))
+}
+
+fn first_step(step: f64, effort: &mut Effort) -> Result<f64, Error> {
+    let pendulum = Pendulum::default();
+    let start = pendulum.default_start()?;
+    let simulation = Simulation::new(pendulum.clone()).start(start);
+    let run = effort.run(simulation.first_step(step).tolerance(1e-10), 1.0)?;
+    let (angle, _) = pendulum.swing(-FRAC_PI_2, 1.0);
+    let (q, _) = pendulum.at_angle(angle, 0.0);
+    Ok(run.last().map_or(f64::NAN, |last| off(last.q, &q)))
+}
+
+fn short_run(length: f64, effort: &mut Effort) -> Result<f64, Error> {
+    let pendulum = Pendulum::default();
+    let (q, v) = pendulum.at_angle(0.8, 3.0);
+    let start = State {
+        t: 0.0,
+        q: q.to_vec(),
+        v: v.to_vec(),
+    };
+    let run = effort.run(Simulation::new(pendulum.clone()).start(start), length)?;
+    // θ̈ = −(g/l) sin θ.
+    let bend = -9.81 * 0.8_f64.sin();
+    let bend_rate = -9.81 * 0.8_f64.cos() * 3.0;
+    let angle = 0.8 + length * (3.0 + length * (bend / 2.0 + length * bend_rate / 6.0));
+    let (expected, _) = pendulum.at_angle(angle, 0.0);
+    let last = run.last().filter(|last| last.t == length);
+    Ok(last.map_or(f64::INFINITY, |last| off(last.q, &expected)))
+}

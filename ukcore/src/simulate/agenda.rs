@@ -1,0 +1,106 @@
+//! When samples are taken.
+
+use super::grid::Grid;
+
+/// A sample within so many units of rounding of the end time is the end: both are rounded once.
+const SAME_TIME: f64 = 4.0 * f64::EPSILON;
+
+/// When samples are taken.
+#[derive(Debug, Clone)]
+pub(super) enum Sampling {
+    /// At each accepted step.
+    Steps,
+    /// At multiples of that time after the start, and at the end.
+    Every(f64),
+    /// At these times only.
+    At(Vec<f64>),
+}
+
+/// The samples that are still to be taken.
+pub(super) struct Agenda {
+    sampling: Sampling,
+    /// The times of [`Sampling::Every`].
+    grid: Grid,
+    t_end: f64,
+    /// 1 going forward, −1 going backward.
+    sign: f64,
+    /// Times nearer to the end than this are the end.
+    rounding: f64,
+    /// Samples taken so far that did not come by themselves, and the time of the next one.
+    taken: usize,
+    next: Option<f64>,
+}
+
+impl Agenda {
+    pub(super) fn new(sampling: Sampling, t0: f64, t_end: f64) -> Self {
+        let sign = 1_f64.copysign(t_end - t0);
+        let dt = match sampling {
+            Sampling::Every(dt) => dt,
+            Sampling::Steps | Sampling::At(_) => 0.0,
+        };
+        let mut agenda = Agenda {
+            sampling,
+            grid: Grid::new(t0, sign * dt),
+            t_end,
+            sign,
+            rounding: SAME_TIME * t0.abs().max(t_end.abs()),
+            taken: 0,
+            next: None,
+        };
+        agenda.return_to(0);
+        agenda
+    }
+
+    /// Time of the next sample that does not come by itself at the end of a step.
+    pub(super) fn next(&self) -> Option<f64> {
+        self.next
+    }
+
+    /// The next sample is taken.
+    pub(super) fn take(&mut self) {
+        self.return_to(self.taken + 1);
+    }
+
+    /// Number of samples taken so far, to [return to](Agenda::return_to).
+    pub(super) fn taken(&self) -> usize {
+        self.taken
+    }
+
+    /// Only `taken` samples count as taken.
+    pub(super) fn return_to(&mut self, taken: usize) {
+        self.taken = taken;
+        self.next = match &self.sampling {
+            Sampling::Steps => None,
+            Sampling::Every(_) => {
+                // The start is sample 0.
+                let t = self.grid.time(taken + 1);
+                (self.sign * (self.t_end - t) > self.rounding).then_some(t)
+            }
+            Sampling::At(times) => times.get(taken).copied(),
+        };
+    }
+
+    /// Whether each step ends in a sample.
+    pub(super) fn wants_steps(&self) -> bool {
+        matches!(self.sampling, Sampling::Steps)
+    }
+
+    /// Whether start and end of the run are samples in any case.
+    pub(super) fn wants_ends(&self) -> bool {
+        !matches!(self.sampling, Sampling::At(_))
+    }
+
+    /// Whether the start of the run at `t0` is a sample; it is then taken.
+    pub(super) fn takes_start(&mut self, t0: f64) -> bool {
+        let asked = !self.wants_ends() && self.next == Some(t0);
+        if asked {
+            self.take();
+        }
+        asked || self.wants_ends()
+    }
+
+    /// End of the run.
+    pub(super) fn t_end(&self) -> f64 {
+        self.t_end
+    }
+}

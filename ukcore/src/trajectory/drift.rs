@@ -1,0 +1,138 @@
+//! How far samples are off the constraints, and how far off the energy of the first one.
+
+use super::Sample;
+use crate::mechanism::{Energy, Prepared};
+
+/// How far a sample is off the constraints.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Residual {
+    /// Largest |φ| of the holonomic constraints, in their units.
+    pub position: f64,
+    /// Largest |φ̇| of the holonomic and |φ| of the nonholonomic constraints, in their units.
+    pub velocity: f64,
+}
+
+impl Residual {
+    /// The larger one of the two.
+    #[must_use]
+    pub fn largest(self) -> f64 {
+        nan_max(self.position, self.velocity)
+    }
+}
+
+/// The largest residuals and the energy drift of samples that come one by one, as those of a [streamed](crate::Simulation::stream) run do.
+#[derive(Debug, Clone)]
+pub struct Drift {
+    gauge: Gauge,
+    samples: usize,
+    residual: Residual,
+    energy: EnergyDrift,
+}
+
+impl Drift {
+    /// The drift of `mechanism` over no sample yet.
+    #[must_use]
+    pub fn new(mechanism: impl Into<Prepared>) -> Self {
+        Drift {
+            gauge: Gauge::new(mechanism.into()),
+            samples: 0,
+            residual: Residual::default(),
+            energy: EnergyDrift::default(),
+        }
+    }
+
+    /// Takes one more sample into account.
+    ///
+    /// # Panics
+    /// If the sample has not as many coordinates as the mechanism.
+    pub fn add(&mut self, sample: Sample<'_>) {
+        self.samples += 1;
+        let Residual { position, velocity } = self.gauge.residual(sample);
+        self.residual.position = nan_max(self.residual.position, position);
+        self.residual.velocity = nan_max(self.residual.velocity, velocity);
+        let Sample { t, q, v } = sample;
+        self.energy.add(self.gauge.mechanism.energy(t, q, v));
+    }
+
+    /// Number of samples so far.
+    #[must_use]
+    pub fn samples(&self) -> usize {
+        self.samples
+    }
+
+    /// Largest residual of the samples at either level; not a number if that of any sample is not.
+    #[must_use]
+    pub fn residual(&self) -> Residual {
+        self.residual
+    }
+
+    /// Energy drift of the samples, as [`Trajectory::energy_drift`](super::Trajectory::energy_drift) defines it.
+    #[must_use]
+    pub fn energy(&self) -> f64 {
+        self.energy.share()
+    }
+}
+
+/// Measures [`Residual`]s.
+#[derive(Debug, Clone)]
+pub(super) struct Gauge {
+    pub(super) mechanism: Prepared,
+    position: Vec<f64>,
+    velocity: Vec<f64>,
+}
+
+impl Gauge {
+    pub(super) fn new(mechanism: Prepared) -> Self {
+        let spec = mechanism.spec();
+        Gauge {
+            position: vec![0.0; spec.holonomic],
+            velocity: vec![0.0; spec.m()],
+            mechanism,
+        }
+    }
+
+    pub(super) fn residual(&mut self, sample: Sample<'_>) -> Residual {
+        let Sample { t, q, v } = sample;
+        self.mechanism.residual(t, q, &mut self.position);
+        self.mechanism.residual_rate(t, q, v, &mut self.velocity);
+        let largest = |values: &[f64]| values.iter().fold(0.0, |m, r| nan_max(m, r.abs()));
+        Residual {
+            position: largest(&self.position),
+            velocity: largest(&self.velocity),
+        }
+    }
+}
+
+/// The largest change of the energy since the first sample, and the largest energy exchanged.
+#[derive(Debug, Clone, Default)]
+pub(super) struct EnergyDrift {
+    first: Option<Energy>,
+    change: f64,
+    exchanged: f64,
+}
+
+impl EnergyDrift {
+    pub(super) fn add(&mut self, now: Energy) {
+        let first = self.first.get_or_insert(now);
+        // V − V₀ first: a large constant in V must not hide the rest.
+        let gained = now.potential - first.potential;
+        let change = gained + (now.kinetic - first.kinetic);
+        self.change = nan_max(self.change, change.abs());
+        self.exchanged = nan_max(self.exchanged, now.kinetic.abs());
+        self.exchanged = nan_max(self.exchanged, gained.abs());
+    }
+
+    /// The change as a share of the energy exchanged; as it is where nothing moves.
+    pub(super) fn share(&self) -> f64 {
+        if self.exchanged == 0.0 {
+            self.change
+        } else {
+            self.change / self.exchanged
+        }
+    }
+}
+
+/// The larger one, or NaN if either is.
+fn nan_max(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a > b { a } else { b }
+}
