@@ -34,6 +34,7 @@ pub mod integrate;
 pub mod lanes;
 pub mod linearise;
 mod lu;
+pub mod manifold;
 pub mod mechanism;
 mod metric;
 pub mod model;
@@ -47,7 +48,6 @@ mod scan;
 pub mod simulate;
 pub mod solver;
 mod spec;
-pub mod stabilise;
 #[cfg(feature = "simulate")]
 pub mod trajectory;
 mod workspace;
@@ -59,6 +59,7 @@ pub use double::DoubleDouble;
 pub use error::Error;
 pub use lanes::{LaneSolver, Lanes};
 pub use linearise::Linearisation;
+pub use manifold::{Correction, Projector, Stabilisation};
 #[doc(hidden)]
 pub use mechanism::emitted;
 pub use mechanism::{
@@ -68,7 +69,6 @@ pub use mechanism::{
 pub use plan::Plan;
 pub use scalar::{Dual, Scalar};
 pub use solver::{Baumgarte, Formula, Solution, Solver, SolverOptions, SolverWork};
-pub use stabilise::{Correction, Projector, Stabilisation};
 pub use ukmacros::multibody;
 
 #[cfg(feature = "simulate")]

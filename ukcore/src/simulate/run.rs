@@ -8,11 +8,11 @@ use crate::error::Error;
 use crate::events::{EventHit, States, Watch};
 use crate::integrate::{Next, Problem, Step};
 use crate::linearise::Slopes;
+use crate::manifold::Projector;
 use crate::mechanism::{Branch, Dynamics, Energy, Prepared};
 use crate::scalar::Dual;
 use crate::scan::largest;
 use crate::solver::{RANK_CEILING, Solver};
-use crate::stabilise::Projector;
 use crate::trajectory::{Ending, Trajectory, Work};
 
 /// A sample within so many units of rounding of the end time is the end: k dt and t_end are rounded once each.
