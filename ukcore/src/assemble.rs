@@ -1,23 +1,19 @@
 //! From a rough guess to a consistent state.
 //!
 //! Closed loops cannot be drawn by hand to rounding. [`assemble`] takes a guess and coordinates to hold and finds a state near it
-//! that satisfies every constraint: damped Gauss-Newton (Levenberg-Marquardt) on φ, then one linear solve for the velocities
-//! (Newton, if nonholonomic constraints are nonlinear). Each constraint is scaled to a row of A of unit norm, and each
-//! coordinate by the root of its inertia, so that the state found is near in the mass metric.
+//! that satisfies every constraint: damped Gauss-Newton (Levenberg-Marquardt) finds the place, and projection in the mass metric gives the last digits; velocities that
+//! enter linearly it gives at once. For the search each constraint is scaled to a row of A of unit norm, and each coordinate by the root of its inertia, so that the
+//! state found is near in the mass metric.
 
 use nalgebra::DMatrix;
 
 use crate::diagnose;
 use crate::error::Error;
-use crate::mechanism::{Constraints, Mechanism, Prepared};
+use crate::manifold::{At, Level, Manifold};
+use crate::mechanism::{Mechanism, Prepared};
 use crate::pinv::Decomposition;
-use crate::rounding::Rounded;
-use crate::scalar::Scalar;
+use crate::scan::largest;
 use crate::solver::RANK_TOLERANCE;
-
-/// A residual counts as zero below this many ε of the rounding that its evaluation carries to first order; see `stabilise`, whose
-/// projection does the last digits where nothing is held.
-const ROUNDING: f64 = 64.0;
 
 /// Steps at most from one guess. Levenberg-Marquardt converges quadratically at the end; a long chain laid out wrongly takes some
 /// tens of steps to unfold.
@@ -38,6 +34,9 @@ const DAMPING_FACTOR: f64 = 10.0;
 
 /// Beyond this damping steps are below rounding: a minimum that is not zero.
 const DAMPING_LIMIT: f64 = 1e16;
+
+/// Where the search ends as near to the constraints as this share of lengths, √ε, it has found the place, and Newton's method does the rest.
+const NEAR: f64 = 1.5e-8;
 
 /// A time, coordinates and velocities.
 #[derive(Debug, Clone, PartialEq)]
@@ -128,173 +127,124 @@ pub fn assemble(
     let mech: Prepared = mechanism.into();
     guess.check(&mech)?;
     let spec = mech.spec();
-    let mut free = vec![true; spec.n()];
+    let mut held = Vec::new();
     for name in hold {
         let member = |c: &str| c.split_once('[').is_some_and(|(family, _)| family == *name);
-        let members: Vec<usize> = (0..spec.n()).filter(|&j| member(spec.coords[j])).collect();
-        if members.is_empty() {
-            free[spec.coordinate_index(name)?] = false;
+        let before = held.len();
+        held.extend((0..spec.n()).filter(|&j| member(spec.coords[j])));
+        if held.len() == before {
+            held.push(spec.coordinate_index(name)?);
         }
-        members.into_iter().for_each(|j| free[j] = false);
     }
-    search(&mech, &guess, &free).map_err(|error| blame(&mech, &guess, &free, error))
+    held.sort_unstable();
+    held.dedup();
+    search(&mech, &guess, &held).map_err(|error| blame(&mech, &guess, &held, error))
 }
 
-fn search(mech: &Prepared, guess: &State, free: &[bool]) -> Result<State, Error> {
-    let mut problem = Problem::new(mech, guess, free);
-    let q = problem.find(Level::Position, &guess.q, &guess.v)?;
-    let v = problem.find(Level::Velocity, &guess.v, &q)?;
+fn search(mech: &Prepared, guess: &State, held: &[usize]) -> Result<State, Error> {
+    let mut search = Search::new(mech, guess, held);
+    let q = search.find(&At::new(mech, Level::Position, guess.t, &guess.v), &guess.q)?;
+    let v = search.find(&At::new(mech, Level::Velocity, guess.t, &q), &guess.v)?;
     Ok(State { t: guess.t, q, v })
 }
 
 /// `error` with the held coordinates that cause it: those that help if let go alone; if none does, all, provided that letting all go helps.
-fn blame(mech: &Prepared, guess: &State, free: &[bool], error: Error) -> Error {
-    let Error::NotAssembled {
-        level, constraints, ..
-    } = error
-    else {
-        return error;
-    };
-    let held: Vec<usize> = (0..free.len()).filter(|&j| !free[j]).collect();
-    let helps = |let_go: &[usize]| {
-        let mut free = free.to_vec();
-        let_go.iter().for_each(|&j| free[j] = true);
-        search(mech, guess, &free).is_ok()
-    };
-    let mut cause = Vec::new();
-    if !held.is_empty() && helps(&held) {
-        cause = held.clone();
-        cause.retain(|&j| helps(&[j]));
-        if cause.is_empty() {
-            cause = held;
-        }
+fn blame(mech: &Prepared, guess: &State, held: &[usize], mut error: Error) -> Error {
+    if let Error::NotAssembled { held: cause, .. } = &mut error
+        && !held.is_empty()
+        && search(mech, guess, &[]).is_ok()
+    {
+        let mut blamed = held.to_vec();
+        blamed.retain(|j| {
+            let others: Vec<usize> = held.iter().copied().filter(|other| other != j).collect();
+            search(mech, guess, &others).is_ok()
+        });
+        let blamed = if blamed.is_empty() { held } else { &blamed };
+        let names = blamed.iter().map(|&j| mech.spec().coords[j].to_owned());
+        cause.extend(names);
     }
-    Error::NotAssembled {
-        level,
-        constraints,
-        held: cause
-            .into_iter()
-            .map(|j| mech.spec().coords[j].to_owned())
-            .collect(),
-    }
+    error
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Level {
-    Position,
-    Velocity,
-}
-
-/// The least-squares problem of one level at a time.
-struct Problem<'a> {
-    mech: &'a Prepared,
-    rounded: Prepared<Rounded, dyn Constraints<Rounded>>,
-    t: f64,
+/// The search for q, then for q̇.
+struct Search {
+    manifold: Manifold,
     /// Indices of the coordinates that may change, and 1/√M_jj for each.
     free: Vec<usize>,
     scale: Vec<f64>,
-    jacobian: Vec<f64>,
 }
 
-/// One point of the search: scaled residual and Jacobian.
+/// One point of the search.
 struct Point {
     x: Vec<f64>,
     residual: Vec<f64>,
-    /// What rounding each residual carries, in units of ε.
-    rounding: Vec<f64>,
     /// 1/‖row‖ over the free coordinates; over all where that is zero.
     row_scale: Vec<f64>,
     /// Rows scaled, columns scaled, free columns only.
     matrix: DMatrix<f64>,
+    /// Whether the residuals will do, and whether Newton's method will make them do.
+    met: bool,
+    near: bool,
 }
 
 impl Point {
-    /// ½ Σ (s_c φ_c)².
+    /// Σ (s_c φ_c)².
     fn cost(&self, residual: &[f64]) -> f64 {
-        residual
-            .iter()
-            .zip(&self.row_scale)
-            .map(|(r, s)| (r * s).powi(2))
-            .sum()
+        let scaled = residual.iter().zip(&self.row_scale);
+        scaled.map(|(r, s)| (r * s).powi(2)).sum()
     }
 
-    fn met(&self, c: usize) -> bool {
-        self.residual[c].abs() <= ROUNDING * f64::EPSILON * self.rounding[c]
-    }
-
-    fn all_met(&self) -> bool {
-        (0..self.residual.len()).all(|c| self.met(c))
+    /// d that minimises |J d + φ|² + μ|d|², by the decomposition of \[J; √μ I\].
+    fn step(&self, mu: f64) -> Vec<f64> {
+        let (rows, k) = self.matrix.shape();
+        let mut decomposition = Decomposition::new(rows + k, k);
+        let columns = decomposition.load(rows + k).chunks_exact_mut(k);
+        for (c, column) in columns.enumerate() {
+            column.fill(0.0);
+            if c < rows {
+                let row = self.matrix.row(c);
+                column.iter_mut().zip(&row).for_each(|(x, a)| *x = *a);
+            } else {
+                column[c - rows] = mu.sqrt();
+            }
+        }
+        decomposition.factor(&vec![1.0; k], &vec![1.0; rows + k], RANK_TOLERANCE);
+        let scaled = self.residual.iter().zip(&self.row_scale);
+        let mut right: Vec<f64> = scaled.map(|(r, s)| -r * s).collect();
+        right.resize(rows + k, 0.0);
+        let mut d = vec![0.0; k];
+        decomposition.solve(&right, &mut d);
+        d
     }
 }
 
-impl<'a> Problem<'a> {
-    fn new(mech: &'a Prepared, guess: &State, free: &[bool]) -> Self {
+impl Search {
+    fn new(mech: &Prepared, guess: &State, held: &[usize]) -> Self {
         let n = mech.spec().n();
         let mut mass = vec![0.0; n * n];
         mech.mass_matrix(guess.t, &guess.q, &mut mass);
-        let inertia: Vec<f64> = (0..n).map(|j| mass[j * n + j]).collect();
-        let massive: Vec<f64> = inertia
-            .iter()
-            .copied()
-            .filter(|m| *m > 0.0 && m.is_finite())
-            .collect();
+        let inertia = |j: usize| Some(mass[j * n + j]).filter(|m| *m > 0.0 && m.is_finite());
+        let massive: Vec<f64> = (0..n).filter_map(inertia).map(f64::ln).collect();
         // Massless coordinates move as readily as the middling massive ones.
-        let typical = match massive.len() {
-            0 => 1.0,
-            k => (massive.iter().map(|m| m.ln()).sum::<f64>() / k as f64).exp(),
-        };
-        let free: Vec<usize> = (0..n).filter(|&j| free[j]).collect();
-        let scale = free.iter().map(|&j| match inertia[j] {
-            m if m > 0.0 && m.is_finite() => m.sqrt().recip(),
-            _ => typical.sqrt().recip(),
-        });
-        Problem {
-            mech,
-            rounded: mech.rounded(),
-            t: guess.t,
-            scale: scale.collect(),
+        let typical = (massive.iter().sum::<f64>() / massive.len().max(1) as f64).exp();
+        let free: Vec<usize> = (0..n).filter(|j| !held.contains(j)).collect();
+        let scale = free.iter().map(|&j| inertia(j).unwrap_or(typical).sqrt());
+        Search {
+            manifold: Manifold::new(mech, held.to_vec()),
+            scale: scale.map(f64::recip).collect(),
             free,
-            jacobian: vec![0.0; n * mech.spec().m()],
         }
     }
 
-    fn residual<S: Scalar, C: ?Sized + Constraints<S>>(
-        &self,
-        mech: &Prepared<S, C>,
-        level: Level,
-        x: &[S],
-        other: &[S],
-    ) -> Vec<S> {
-        let (spec, t, zero) = (mech.spec(), S::from_f64(self.t), S::from_f64(0.0));
-        match level {
-            Level::Position => {
-                let mut phi = vec![zero; spec.holonomic];
-                mech.residual(t, x, &mut phi);
-                phi
-            }
-            Level::Velocity => {
-                let mut rate = vec![zero; spec.m()];
-                mech.residual_rate(t, other, x, &mut rate);
-                rate
-            }
-        }
-    }
-
-    fn point(&mut self, level: Level, x: Vec<f64>, other: &[f64]) -> Point {
-        let (n, m) = (self.mech.spec().n(), self.mech.spec().m());
-        let residual = self.residual(self.mech, level, &x, other);
-        match level {
-            Level::Position => self.mech.jacobian(self.t, &x, other, &mut self.jacobian),
-            Level::Velocity => self.mech.jacobian(self.t, other, &x, &mut self.jacobian),
-        }
-        let rows = residual.len();
-        let a = &self.jacobian;
-        let mut matrix = DMatrix::zeros(rows, self.free.len());
-        for (k, (&j, scale)) in self.free.iter().zip(&self.scale).enumerate() {
-            for c in 0..rows {
-                matrix[(c, k)] = a[j * m + c] * scale;
-            }
-        }
+    /// The point `x`. Coordinates that are zero are measured by `size`.
+    fn point(&mut self, at: &At<'_, f64>, x: Vec<f64>, size: f64) -> Point {
+        let (n, m, rows) = (x.len(), at.mech.spec().m(), at.rows());
+        let met = self.manifold.meets(at, &x, size);
+        let (newton, length) = (&self.manifold.newton, self.manifold.length(at));
+        let (a, residual) = (&newton.jacobian, newton.residual[..rows].to_vec());
+        let mut matrix = DMatrix::from_fn(rows, self.free.len(), |c, k| {
+            a[self.free[k] * m + c] * self.scale[k]
+        });
         let mut row_scale = vec![1.0; rows];
         for c in 0..rows {
             let norm = matrix.row(c).norm();
@@ -304,23 +254,27 @@ impl<'a> Problem<'a> {
             }
             matrix.row_mut(c).scale_mut(row_scale[c]);
         }
-        let fixed: Vec<Rounded> = other.iter().map(|x| Rounded::exact(*x)).collect();
-        let given: Vec<Rounded> = x.iter().map(|x| Rounded::unknown(*x)).collect();
-        let rounded = self.residual(&self.rounded, level, &given, &fixed);
         Point {
-            x,
+            near: met || newton.acceptance.distance(&residual) <= NEAR * length,
+            met,
             residual,
-            rounding: rounded.iter().map(|r| r.bound()).collect(),
             row_scale,
             matrix,
+            x,
         }
     }
 
     /// The solution for one level; tries the guess, then perturbations of it.
-    fn find(&mut self, level: Level, guess: &[f64], other: &[f64]) -> Result<Vec<f64>, Error> {
-        let size = guess.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
-        let size = if size > 0.0 { size } else { 1.0 };
-        let mut best: Option<(f64, Point)> = None;
+    fn find(&mut self, at: &At<'_, f64>, guess: &[f64]) -> Result<Vec<f64>, Error> {
+        let mut x = guess.to_vec();
+        if at.linear() && self.arrive(at, &mut x) {
+            return Ok(x);
+        }
+        let size = match largest(guess) {
+            size if size > 0.0 => size,
+            _ => 1.0,
+        };
+        let mut best: Option<(f64, Vec<f64>)> = None;
         for shake in SHAKES {
             let mut x = guess.to_vec();
             for (k, &j) in self.free.iter().enumerate() {
@@ -328,109 +282,64 @@ impl<'a> Problem<'a> {
                 let share = ((k as f64 + 1.0) * GOLDEN).fract();
                 x[j] += shake * size * (2.0 * share - 1.0);
             }
-            let point = self.descend(level, x, other);
-            if point.all_met() {
+            let mut point = self.descend(at, x, size);
+            if point.near && self.arrive(at, &mut point.x) {
                 return Ok(point.x);
             }
             let cost = point.cost(&point.residual);
             if best.as_ref().is_none_or(|(least, _)| cost < *least) {
-                best = Some((cost, point));
+                best = Some((cost, point.x));
             }
-            let spec = self.mech.spec();
-            if level == Level::Velocity && spec.holonomic == spec.m() {
-                // Linear: nothing else to find.
+            if at.linear() {
+                // Nothing else to find.
                 break;
             }
         }
-        match best {
-            Some((_, point)) => Err(self.conflict(level, &point)),
-            None => Ok(guess.to_vec()),
+        let x = best.map_or(x, |(_, x)| x);
+        match self.manifold.refusal(at, &x) {
+            None => Ok(x),
+            Some(Error::OffConstraint { level, constraints }) => Err(Error::NotAssembled {
+                level,
+                constraints,
+                held: Vec::new(),
+            }),
+            Some(error) => Err(error),
         }
     }
 
+    /// The last digits: whether `x` is on the constraints then. What cannot be projected may be there already.
+    fn arrive(&mut self, at: &At<'_, f64>, x: &mut [f64]) -> bool {
+        self.manifold.project(at, x).is_ok() || self.manifold.refusal(at, x).is_none()
+    }
+
     /// Levenberg-Marquardt from `x`, to a solution or as near to one as it comes.
-    fn descend(&mut self, level: Level, x: Vec<f64>, other: &[f64]) -> Point {
-        let mut point = self.point(level, x, other);
+    fn descend(&mut self, at: &At<'_, f64>, x: Vec<f64>, size: f64) -> Point {
+        let mut point = self.point(at, x, size);
         let (mut damping, mut stalls) = (DAMPING, 0);
         for _ in 0..MAX_STEPS {
-            if point.all_met() || self.free.is_empty() || stalls > 3 {
+            let hopeless = stalls > 3 || damping > DAMPING_LIMIT;
+            if point.met || hopeless || self.free.is_empty() {
                 break;
             }
             let cost = point.cost(&point.residual);
             // √cost → 0 takes the damping with it: quadratic convergence at the end.
-            let step = self.step(&point, damping * cost.sqrt().min(1.0));
+            let step = point.step(damping * cost.sqrt().min(1.0));
             let mut x = point.x.clone();
             for ((&j, scale), d) in self.free.iter().zip(&self.scale).zip(&step) {
                 x[j] += scale * d;
             }
-            let trial = self.residual(self.mech, level, &x, other);
-            let trial_cost = point.cost(&trial);
-            if trial_cost < cost {
+            self.manifold.newton.evaluate(at, &x);
+            let trial = point.cost(&self.manifold.newton.residual[..at.rows()]);
+            if trial < cost {
                 // At the rounding level costs may fall for ever by tiny amounts.
-                stalls = if trial_cost > 0.99 * cost {
-                    stalls + 1
-                } else {
-                    0
-                };
+                stalls = if trial > 0.99 * cost { stalls + 1 } else { 0 };
                 damping = (damping / DAMPING_FACTOR).max(f64::EPSILON);
-                point = self.point(level, x, other);
+                point = self.point(at, x, size);
             } else {
                 damping *= DAMPING_FACTOR;
-                if damping > DAMPING_LIMIT {
-                    break;
-                }
             }
         }
         point
-    }
-
-    /// d that minimises |J d + φ|² + μ|d|², by the decomposition of \[J; √μ I\].
-    fn step(&self, point: &Point, mu: f64) -> Vec<f64> {
-        let (rows, k) = point.matrix.shape();
-        let root = mu.sqrt();
-        let mut decomposition = Decomposition::new(rows + k, k);
-        let columns = decomposition.load(rows + k);
-        columns.fill(0.0);
-        for (c, column) in columns.chunks_exact_mut(k).enumerate() {
-            if c < rows {
-                column
-                    .iter_mut()
-                    .zip(point.matrix.row(c).iter())
-                    .for_each(|(x, a)| *x = *a);
-            } else {
-                column[c - rows] = root;
-            }
-        }
-        decomposition.factor(&vec![1.0; k], &vec![1.0; rows + k], RANK_TOLERANCE);
-        let mut right = vec![0.0; rows + k];
-        let scaled = point.residual.iter().zip(&point.row_scale);
-        right
-            .iter_mut()
-            .zip(scaled)
-            .for_each(|(b, (r, s))| *b = -r * s);
-        let mut d = vec![0.0; k];
-        decomposition.solve(&right, &mut d);
-        d
-    }
-
-    fn conflict(&self, level: Level, point: &Point) -> Error {
-        let mut residual = point.residual.clone();
-        if residual.iter().any(|r| !r.is_finite()) {
-            return diagnose::non_finite_residual(self.mech.spec(), &residual);
-        }
-        for (c, r) in residual.iter_mut().enumerate() {
-            if point.met(c) {
-                *r = 0.0;
-            }
-        }
-        Error::NotAssembled {
-            level: match level {
-                Level::Position => "position",
-                Level::Velocity => "velocity",
-            },
-            constraints: diagnose::offending(self.mech.spec(), &residual, &point.row_scale),
-            held: Vec::new(),
-        }
     }
 }
 

@@ -36,6 +36,7 @@ pub mod integrate;
 pub mod lanes;
 pub mod linearise;
 mod lu;
+pub mod manifold;
 pub mod mechanism;
 mod metric;
 pub mod model;
@@ -50,7 +51,6 @@ mod scan;
 pub mod simulate;
 pub mod solver;
 mod spec;
-pub mod stabilise;
 #[cfg(feature = "simulate")]
 pub mod trajectory;
 mod workspace;
@@ -63,6 +63,7 @@ pub use error::Error;
 pub use explain::Explanation;
 pub use lanes::{LaneSolver, Lanes};
 pub use linearise::Linearisation;
+pub use manifold::{Correction, Projector, Stabilisation};
 #[doc(hidden)]
 pub use mechanism::emitted;
 pub use mechanism::{
@@ -72,7 +73,6 @@ pub use mechanism::{
 pub use plan::Plan;
 pub use scalar::{Dual, Scalar};
 pub use solver::{Baumgarte, Formula, Solution, Solver, SolverOptions, SolverWork};
-pub use stabilise::{Correction, Projector, Stabilisation};
 pub use ukmacros::multibody;
 
 #[cfg(feature = "simulate")]

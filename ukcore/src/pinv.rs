@@ -317,17 +317,18 @@ impl Decomposition {
     }
 
     /// Writes an orthonormal basis of the null space of Cᵀ (the dependences among the rows of C), m − rank columns of length m.
-    pub fn dependences(&self, basis: &mut [f64]) {
+    pub fn dependences(&mut self, basis: &mut [f64]) {
         let (m, r) = (self.m, self.rank);
-        let mut y = vec![0.0; m];
+        let mut y = std::mem::take(&mut self.work_m);
         for (j, column) in basis.chunks_exact_mut(m).take(m - r).enumerate() {
             y.fill(0.0);
             y[r + j] = 1.0;
             (0..r).for_each(|i| self.reflect_z(i, &mut y));
-            for (y, &c) in y.iter().zip(&self.col) {
+            for (y, &c) in y.iter().zip(&self.col[..m]) {
                 column[c] = *y;
             }
         }
+        self.work_m = y;
     }
 }
 

@@ -36,6 +36,11 @@ pub trait Scalar:
     fn neg_mul_add(self, b: Self, c: Self) -> Self {
         c - self * b
     }
+    /// The larger one, by the fastest instruction there is. If one is NaN, it is open which of the two it gives; `f64` gives `other`.
+    #[inline]
+    fn larger(self, other: Self) -> Self {
+        Self::select_le(self, other, other, self)
+    }
     /// Whether the value is 0, in all lanes: emitted code then leaves early. Never doing so is right, too.
     #[inline]
     fn is_zero(self) -> bool {
@@ -107,6 +112,10 @@ macro_rules! float {
             #[inline]
             fn select_le(a: Self, b: Self, then: Self, otherwise: Self) -> Self {
                 if a <= b { then } else { otherwise }
+            }
+            #[inline]
+            fn larger(self, other: Self) -> Self {
+                if self > other { self } else { other }
             }
             #[inline]
             fn is_zero(self) -> bool {

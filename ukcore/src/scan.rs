@@ -16,21 +16,16 @@ pub(crate) fn sum<S: Scalar>(x: &[S]) -> S {
     reduce(x, x, |x, _| x, |s, x| s + x)
 }
 
-/// max|x|, 0 of none. Passes over NaN.
+/// max|x|, 0 of none. Passes over NaN in an `f64`.
 #[inline]
-pub(crate) fn largest(x: &[f64]) -> f64 {
-    reduce(x, x, |x, _| x.abs(), larger)
+pub(crate) fn largest<S: Scalar>(x: &[S]) -> S {
+    reduce(x, x, |x, _| x.abs(), |s, x| x.larger(s))
 }
 
-/// max|x − y|, 0 of none. Passes over NaN.
+/// max|x − y|, 0 of none. Passes over NaN in an `f64`.
 #[inline]
-pub(crate) fn largest_difference(x: &[f64], y: &[f64]) -> f64 {
-    reduce(x, y, |x, y| (x - y).abs(), larger)
-}
-
-#[inline(always)]
-fn larger(s: f64, x: f64) -> f64 {
-    if x > s { x } else { s }
+pub(crate) fn largest_difference<S: Scalar>(x: &[S], y: &[S]) -> S {
+    reduce(x, y, |x, y| (x - y).abs(), |s, x| x.larger(s))
 }
 
 /// Joins what `f` makes of each pair of numbers, starting from 0.
@@ -57,10 +52,11 @@ fn reduce<S: Scalar>(x: &[S], y: &[S], f: impl Fn(S, S) -> S, join: impl Fn(S, S
     join(s[0], rest)
 }
 
-/// Whether each |d_j| is at most `share` (|x_j| + `least`). Passes over NaN.
+/// 0 where each |d_j| is at most `share` (|x_j| + `least`), else more. Passes over NaN in an `f64`.
 #[inline]
-pub(crate) fn is_within(d: &[f64], x: &[f64], share: f64, least: f64) -> bool {
-    reduce(d, x, |d, x| d.abs() - share * (x.abs() + least), larger) <= 0.0
+pub(crate) fn excess<S: Scalar>(d: &[S], x: &[S], share: S, least: S) -> S {
+    let beyond = |d: S, x: S| d.abs() - share * (x.abs() + least);
+    reduce(d, x, beyond, |s, x| x.larger(s))
 }
 
 /// Whether `holds` of each pair. Looks at all, which is faster than to stop at the first of which it does not.
@@ -89,7 +85,7 @@ mod tests {
                 }
             }
         }
-        assert!(all_finite(&[]) && largest(&[]) == 0.0);
+        assert!(all_finite(&[]) && largest::<f64>(&[]) == 0.0);
         assert_eq!(largest_difference(&[1.0, -2.0, 3.0], &[1.0, 3.0, 4.0]), 5.0);
     }
 
@@ -99,11 +95,11 @@ mod tests {
             for place in 0..len {
                 let (mut d, x) = (vec![1e-6; len], vec![1.0; len]);
                 d[place] = -3e-6;
-                assert!(is_within(&d, &x, 2e-6, 0.6), "{place} of {len}");
-                assert!(!is_within(&d, &x, 2e-6, 0.4), "{place} of {len}");
+                assert!(excess(&d, &x, 2e-6, 0.6) == 0.0, "{place} of {len}");
+                assert!(excess(&d, &x, 2e-6, 0.4) > 0.0, "{place} of {len}");
             }
         }
-        assert!(is_within(&[0.0], &[0.0], 1.0, 0.0));
+        assert_eq!(excess(&[0.0], &[0.0], 1.0, 0.0), 0.0);
     }
 
     #[test]

@@ -8,10 +8,10 @@ use crate::diagnose;
 use crate::error::Error;
 use crate::events::{Event, Watch};
 use crate::integrate::{Method, Outcome, Settings, Tolerance};
+use crate::manifold::{Projector, Stabilisation};
 use crate::mechanism::{Prepared, Spec};
 use crate::scan::largest;
 use crate::solver::{Formula, Solver, SolverOptions};
-use crate::stabilise::{Projector, Stabilisation};
 use crate::trajectory::{Ending, Record, Sample, Trajectory, Work};
 
 mod agenda;

@@ -7,9 +7,9 @@ use crate::assemble::State;
 use crate::error::Error;
 use crate::events::EventHit;
 use crate::integrate::Segment;
+use crate::manifold::Projector;
 use crate::mechanism::{Energy, Prepared, Spec};
 use crate::solver::{Solution, Solver, SolverOptions};
-use crate::stabilise::Projector;
 
 mod csv;
 mod drift;

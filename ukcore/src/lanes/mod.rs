@@ -10,14 +10,10 @@
 
 #[cfg(feature = "lanes")]
 mod numbers;
-#[cfg(feature = "ensemble")]
-mod projector;
 mod solver;
 
 use crate::scalar::Scalar;
 
-#[cfg(feature = "ensemble")]
-pub(crate) use projector::LaneProjector;
 pub use solver::LaneSolver;
 
 /// A number made of lanes, on which arithmetic works lane by lane.

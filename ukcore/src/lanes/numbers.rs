@@ -76,6 +76,10 @@ macro_rules! lanes {
                 $L::max(self, other)
             }
             #[inline]
+            fn larger(self, other: Self) -> Self {
+                $L::fast_max(self, other)
+            }
+            #[inline]
             fn sign(self) -> Self {
                 let zero = $L::splat(0.0);
                 let one = $L::splat(1.0);

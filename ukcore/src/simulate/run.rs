@@ -9,11 +9,11 @@ use crate::error::Error;
 use crate::events::{EventHit, States, Watch};
 use crate::integrate::{Next, Problem, Step};
 use crate::linearise::Slopes;
+use crate::manifold::Projector;
 use crate::mechanism::{Branch, Dynamics, Energy, Prepared};
 use crate::scalar::Dual;
 use crate::scan::largest;
 use crate::solver::{RANK_CEILING, Solver};
-use crate::stabilise::Projector;
 use crate::trajectory::{Ending, Record, Sample, Trajectory, Work};
 
 pub(super) type Progress = Box<dyn FnMut(Sample<'_>) -> ControlFlow<()>>;

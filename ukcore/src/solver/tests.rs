@@ -3,8 +3,8 @@ use nalgebra::{DMatrix, DVector};
 use super::*;
 use crate::equations::{kkt, uk, up};
 use crate::fixture::*;
+use crate::manifold::Projector;
 use crate::mechanism::Mechanism;
-use crate::stabilise::Projector;
 
 mod failures;
 mod rank;

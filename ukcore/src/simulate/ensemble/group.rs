@@ -9,12 +9,12 @@ use crate::error::Error;
 use crate::integrate::{
     Clock, Guess, Interpolant, PROJECTION_LIMIT, Plan, StepSize, Stepper, Tolerance, error_norm,
 };
-use crate::lanes::{LaneProjector, LaneSolver, Lanes};
+use crate::lanes::{LaneSolver, Lanes};
+use crate::manifold::{Newton, Projector};
 use crate::mechanism::Prepared;
 use crate::simulate::agenda::Agenda;
 use crate::simulate::run::{at, project};
 use crate::simulate::trouble::{Conflict, Pace};
-use crate::stabilise::Projector;
 use crate::trajectory::Work;
 
 /// An error and where it arose.
@@ -63,7 +63,7 @@ pub(super) struct Group<'a, L: Lanes> {
     /// Lanes that are used.
     capacity: usize,
     stepper: Stepper<L>,
-    projector: LaneProjector<L>,
+    newton: Newton<L>,
     equations: Option<Equations<L>>,
     y: Vec<L>,
     raw: Vec<L>,
@@ -153,7 +153,7 @@ impl<'a, L: Lanes> Group<'a, L> {
             next,
             capacity: capacity.min(L::WIDTH),
             stepper: Stepper::dop853(2 * n),
-            projector: LaneProjector::new(spec),
+            newton: Newton::new(spec),
             equations,
             y: zeros(),
             raw: zeros(),
@@ -457,11 +457,8 @@ impl<'a, L: Lanes> Group<'a, L> {
         let wanted = mask::<L>(&equations.alive);
         let t = equations.each(|r| r.plan.t);
         let (q, v) = new.split_at_mut(new.len() / 2);
-        let mut steps = L::from_f64(0.0);
         let prepared = equations.solver.prepared();
-        let good = self
-            .projector
-            .project(prepared, t, q, v, wanted, &mut steps);
+        let (good, steps) = self.newton.project(prepared, t, [q, v], wanted);
         let Equations { lanes, alive, .. } = equations;
         for (k, running) in lanes.iter_mut().enumerate() {
             let Some(running) = running.as_mut().filter(|_| alive[k]) else {

@@ -190,7 +190,7 @@ fn what_cannot_be_met_is_named_and_the_state_left_alone() {
         .position(0.0, &mut q, &[0.0; 4])
         .unwrap_err();
     assert_eq!(names(error).0, "position");
-    let bad = Projector::new(&Pendulum::default()).position(0.0, &mut [f64::NAN, 0.0], &[0.0; 2]);
+    let bad = Projector::new(Pendulum::default()).position(0.0, &mut [f64::NAN, 0.0], &[0.0; 2]);
     assert_eq!(
         bad,
         Err(Error::NonFinite {

@@ -1,0 +1,335 @@
+//! The manifold of states that satisfy the constraints, and the ways onto it.
+//!
+//! The smallest change of q (in the metric M) with φ(q, t) = 0 solves, to first order, minimise ½ Δᵀ M Δ subject to A Δ = −φ: the
+//! constrained solve of eqs. 13 and 19 with Q = 0 and b = −φ. Newton's method repeats it, by the emitted elimination where there is one and its
+//! certificate holds, else by the rank-revealing solve; near the manifold the factors of the
+//! first step serve for the following ones too, since each step then still divides the residual by 1/δ for a state at distance δ.
+//!
+//! What counts as zero is decided in one place, for whoever asks: projection, in lanes or alone, RATTLE, assembly.
+
+use std::fmt;
+use std::str::FromStr;
+
+use crate::diagnose;
+use crate::error::Error;
+use crate::mechanism::Prepared;
+use crate::numbers::full;
+use crate::scan::{all_finite, largest_difference};
+use crate::solver::Baumgarte;
+
+mod acceptance;
+mod level;
+mod newton;
+mod rank_revealing;
+
+pub(crate) use level::{At, Level};
+pub(crate) use newton::Newton;
+
+use acceptance::Rounding;
+#[cfg(feature = "simulate")]
+use newton::Steps;
+use rank_revealing::Factors;
+
+/// How drift off the constraints is kept down during integration.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Stabilisation {
+    /// Projection of q and q̇ after each accepted step.
+    #[default]
+    Projection,
+    /// Feedback in b.
+    Baumgarte(Baumgarte),
+    /// Nothing: A q̈ = b alone.
+    None,
+}
+
+/// As it is read by [`FromStr`]: `projection`, `baumgarte=20,20`, `none`.
+impl fmt::Display for Stabilisation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Stabilisation::Projection => f.write_str("projection"),
+            Stabilisation::Baumgarte(Baumgarte { alpha, beta }) => {
+                write!(f, "baumgarte={},{}", full(*alpha), full(*beta))
+            }
+            Stabilisation::None => f.write_str("none"),
+        }
+    }
+}
+
+/// Reads `projection`, `none`, `baumgarte` with the rates of [`Baumgarte::default`], or `baumgarte=ALPHA,BETA` with rates in 1/s.
+impl FromStr for Stabilisation {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let rate = |text: &str| {
+            let number = text.trim().parse().ok();
+            number.filter(|x| (0.0..f64::INFINITY).contains(x))
+        };
+        let reason = match text.split_once('=') {
+            None if text == "projection" => return Ok(Stabilisation::Projection),
+            None if text == "none" => return Ok(Stabilisation::None),
+            None if text == "baumgarte" => {
+                return Ok(Stabilisation::Baumgarte(Baumgarte::default()));
+            }
+            Some(("baumgarte", rates)) => {
+                let rates = rates.split_once(',');
+                if let Some((Some(alpha), Some(beta))) = rates.map(|(a, b)| (rate(a), rate(b))) {
+                    return Ok(Stabilisation::Baumgarte(Baumgarte { alpha, beta }));
+                }
+                "two rates in 1/s are needed, not negative: baumgarte=20,20"
+            }
+            _ => "it is `projection`, `baumgarte`, `baumgarte=ALPHA,BETA` or `none`",
+        };
+        Err(Error::InvalidSetting {
+            what: "stabilise",
+            reason: format!("is `{text}`; {reason}"),
+        })
+    }
+}
+
+/// What a projection did.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Correction {
+    /// Size of the change: the largest |Δq_j| (or |Δq̇_j|) over all coordinates, in their own units.
+    pub norm: f64,
+    /// Newton steps; 0 if the state was consistent already, or one that changes it by rounding alone.
+    pub iterations: usize,
+    /// Largest |φ| (or |φ̇|, |ψ|) left, in the constraints' own units.
+    pub residual: f64,
+}
+
+/// Projects states onto the constraints, in buffers allocated once.
+#[derive(Debug, Clone)]
+pub struct Projector {
+    mechanism: Prepared,
+    manifold: Manifold,
+}
+
+impl Projector {
+    /// A projector for `mechanism`: a reference to one that is declared, or a [`Prepared`] one.
+    #[must_use]
+    pub fn new(mechanism: impl Into<Prepared>) -> Self {
+        let mechanism = mechanism.into();
+        Projector {
+            manifold: Manifold::new(&mechanism, Vec::new()),
+            mechanism,
+        }
+    }
+
+    /// Minimal change of q in the mass metric with φ(q, t) = 0 to rounding level. Massless coordinates follow the constraints.
+    /// Allocates nothing unless it fails; then `q` is left as it was.
+    ///
+    /// # Errors
+    /// [`Error::OffConstraint`] with the constraints that cannot be met near q; [`Error::NonFinite`], [`Error::IndefiniteMass`],
+    /// [`Error::WrongLength`].
+    pub fn position(&mut self, t: f64, q: &mut [f64], v: &[f64]) -> Result<Correction, Error> {
+        self.check_lengths(q, v)?;
+        let at = At::new(&self.mechanism, Level::Position, t, v);
+        self.manifold.project(&at, q)
+    }
+
+    /// Minimal change of q̇ in the mass metric with φ̇ = 0 and ψ = 0 (all constraints) to rounding level; nonholonomic ones may be
+    /// nonlinear in q̇. Allocates nothing unless it fails; then `v` is left as it was.
+    ///
+    /// # Errors
+    /// As [`Projector::position`].
+    pub fn velocity(&mut self, t: f64, q: &[f64], v: &mut [f64]) -> Result<Correction, Error> {
+        self.check_lengths(q, v)?;
+        let at = At::new(&self.mechanism, Level::Velocity, t, q);
+        self.manifold.project(&at, v)
+    }
+
+    /// Moves `q` onto φ(q, t) = 0 along M⁻¹A(`base`)ᵀ, for mechanisms with holonomic constraints alone; `shift` is the sum of all moves, which is more exact than the
+    /// difference of coordinates.
+    ///
+    /// # Errors
+    /// [`Error::OffConstraint`] with the constraints that cannot be met that way; [`Error::NonFinite`], [`Error::IndefiniteMass`].
+    #[cfg(feature = "simulate")]
+    pub(crate) fn position_along(
+        &mut self,
+        t: f64,
+        base: &[f64],
+        q: &mut [f64],
+        shift: &mut [f64],
+    ) -> Result<Correction, Error> {
+        let at = At::new(&self.mechanism, Level::Position, t, base);
+        self.manifold.reach(&at, q, shift)
+    }
+
+    /// The largest length in a holonomic constraint at q, in the unit of the coordinates: what rounding makes of φ, over ε max|A_cj|. 0 without such constraints.
+    #[cfg(feature = "simulate")]
+    pub(crate) fn length(&mut self, t: f64, q: &[f64], v: &[f64]) -> f64 {
+        let at = At::new(&self.mechanism, Level::Position, t, v);
+        self.manifold.meets(&at, q, 0.0);
+        self.manifold.length(&at)
+    }
+
+    /// The mechanism, with the parameters whose constraints count.
+    #[must_use]
+    pub fn mechanism(&self) -> &Prepared {
+        &self.mechanism
+    }
+
+    /// Holds switch `switch` in `branch`, or follows it again.
+    #[cfg(feature = "simulate")]
+    pub(crate) fn hold(&mut self, switch: usize, branch: crate::mechanism::Branch) {
+        self.mechanism.hold(switch, branch);
+        self.manifold.rounding.mechanism.hold(switch, branch);
+    }
+
+    fn check_lengths(&self, q: &[f64], v: &[f64]) -> Result<(), Error> {
+        let n = self.mechanism.spec().n();
+        diagnose::check_length("q", q.len(), n)?;
+        diagnose::check_length("v", v.len(), n)
+    }
+}
+
+/// What all ways onto the constraints share, for one mechanism.
+#[derive(Debug, Clone)]
+pub(crate) struct Manifold {
+    pub(crate) newton: Newton<f64>,
+    rounding: Rounding,
+    factors: Factors,
+    start: Vec<f64>,
+}
+
+impl Manifold {
+    /// For `mechanism`, with coordinates `held` that keep their values and velocities.
+    pub(crate) fn new(mechanism: &Prepared, held: Vec<usize>) -> Self {
+        Manifold {
+            newton: Newton::new(mechanism.spec()),
+            rounding: Rounding::new(mechanism),
+            factors: Factors::new(mechanism, held),
+            start: vec![0.0; mechanism.spec().n()],
+        }
+    }
+
+    /// The minimal change of `x`. Where there is none, `x` is left as it was.
+    pub(crate) fn project(&mut self, at: &At<'_, f64>, x: &mut [f64]) -> Result<Correction, Error> {
+        if at.rows() == 0 {
+            return Ok(Correction::default());
+        }
+        self.start.copy_from_slice(x);
+        let mut count = None;
+        if at.straight_line() && self.factors.held.is_empty() {
+            let (good, stalled, steps) = self.newton.eliminate(at, x, 1.0);
+            if good > 0.5 || stalled > 0.5 && self.accept(at, x, false) {
+                count = Some(steps);
+            } else {
+                x.copy_from_slice(&self.start);
+            }
+        }
+        let count = match count {
+            Some(count) => count,
+            None => {
+                let steps = self.reveal(at, x);
+                steps.inspect_err(|_| x.copy_from_slice(&self.start))?
+            }
+        };
+        Ok(self.correction(x, count))
+    }
+
+    /// What `count` steps to `x` have done.
+    fn correction(&self, x: &[f64], count: f64) -> Correction {
+        let norm = if count > 0.0 {
+            largest_difference(x, &self.start)
+        } else {
+            0.0
+        };
+        Correction {
+            norm,
+            iterations: count as usize,
+            residual: self.newton.off,
+        }
+    }
+
+    /// Moves `q` in directions that are those of `at.other`; see [`Projector::position_along`].
+    #[cfg(feature = "simulate")]
+    fn reach(
+        &mut self,
+        at: &At<'_, f64>,
+        q: &mut [f64],
+        shift: &mut [f64],
+    ) -> Result<Correction, Error> {
+        shift.fill(0.0);
+        if at.rows() == 0 {
+            return Ok(Correction::default());
+        }
+        self.start.copy_from_slice(q);
+        let (base, factors) = (at.other, &mut self.factors);
+        let (mut begun, mut factored, mut failure) = (false, false, None);
+        let newton = &mut self.newton;
+        let (good, _, count) = newton.direct(at, q, 1.0, Steps::Elsewhere, |newton, _| {
+            if begun {
+                let sums = shift.iter_mut().zip(&newton.step);
+                sums.for_each(|(sum, d)| *sum += d);
+            }
+            begun = true;
+            if !factored && at.straight_line() {
+                let safe = at.correction(base, &newton.residual, &mut newton.step);
+                if safe > 0.5 && all_finite(&newton.step) {
+                    return safe;
+                }
+            }
+            at.jacobian(base, &mut newton.jacobian);
+            if !factored {
+                failure = factors.begin(at, base, &mut newton.jacobian).err();
+                factored = failure.is_none();
+            }
+            if factored {
+                factors.solve(at, newton);
+            }
+            f64::from(u8::from(factored))
+        });
+        match failure {
+            Some(error) => Err(error),
+            None if good > 0.5 || self.accept(at, q, factored) => Ok(self.correction(q, count)),
+            None => Err(self.error(at, q)),
+        }
+    }
+
+    /// Whether residuals, known at `x`, will do where no step makes them less; for what is `factored`, constraints that imply each other included.
+    fn accept(&mut self, at: &At<'_, f64>, x: &[f64], factored: bool) -> bool {
+        self.newton.weigh(at, x);
+        let dense = factored.then_some(&mut self.factors.dense);
+        self.rounding.measure(at, x, dense);
+        let mut violated = self.rounding.violated(at, &self.newton, x);
+        violated.next().is_none()
+    }
+
+    /// Why they will not.
+    fn error(&self, at: &At<'_, f64>, x: &[f64]) -> Error {
+        let residual = &self.newton.residual[..at.rows()];
+        if !all_finite(residual) {
+            return at.non_finite(x, residual);
+        }
+        let (mut violations, mut scale) = (vec![0.0; residual.len()], vec![1.0; residual.len()]);
+        for c in self.rounding.violated(at, &self.newton, x) {
+            violations[c] = residual[c];
+            scale[c] = self.newton.acceptance.scale(c).recip();
+        }
+        Error::OffConstraint {
+            level: at.level.name(),
+            constraints: diagnose::offending(at.mech.spec(), &violations, &scale),
+        }
+    }
+
+    /// Takes residuals, A and sizes at `x`, where coordinates that are zero are measured by `size`. Whether x is on the constraints.
+    pub(crate) fn meets(&mut self, at: &At<'_, f64>, x: &[f64], size: f64) -> bool {
+        self.newton.acceptance.size = size;
+        self.newton.evaluate(at, x);
+        self.accept(at, x, false)
+    }
+
+    /// The largest length in the constraints there, in the unit of x.
+    pub(crate) fn length(&self, at: &At<'_, f64>) -> f64 {
+        self.newton.acceptance.length(at.rows(), &self.rounding)
+    }
+
+    /// Why `x` is not on the constraints, if it is not.
+    pub(crate) fn refusal(&mut self, at: &At<'_, f64>, x: &[f64]) -> Option<Error> {
+        (!self.meets(at, x, 0.0)).then(|| self.error(at, x))
+    }
+}
+
+#[cfg(test)]
+mod tests;

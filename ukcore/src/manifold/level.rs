@@ -1,0 +1,117 @@
+//! The constraints as equations for q, or for q̇.
+
+use crate::diagnose;
+use crate::error::Error;
+use crate::mechanism::{Constraints, Prepared};
+use crate::scalar::Scalar;
+
+/// Position (φ) or velocity (φ̇ and ψ).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Level {
+    Position,
+    Velocity,
+}
+
+impl Level {
+    /// For messages.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Level::Position => "position",
+            Level::Velocity => "velocity",
+        }
+    }
+
+    /// q and q̇ of `x` and `other`.
+    fn state<'a, S>(self, x: &'a [S], other: &'a [S]) -> (&'a [S], &'a [S]) {
+        match self {
+            Level::Position => (x, other),
+            Level::Velocity => (other, x),
+        }
+    }
+
+    /// φ, or φ̇ and ψ, into the first of `out`.
+    pub(super) fn residual<S: Scalar, C: ?Sized + Constraints<S>>(
+        self,
+        mech: &Prepared<S, C>,
+        t: S,
+        x: &[S],
+        other: &[S],
+        out: &mut [S],
+    ) {
+        match self {
+            Level::Position => mech.residual(t, x, &mut out[..mech.spec().holonomic]),
+            Level::Velocity => mech.residual_rate(t, other, x, out),
+        }
+    }
+}
+
+/// The equations of one level at one time for x: q where `other` is q̇, or q̇ where `other` is q.
+#[derive(Clone, Copy)]
+pub(crate) struct At<'a, S: Scalar> {
+    pub(crate) mech: &'a Prepared<S>,
+    pub(crate) level: Level,
+    pub(crate) t: S,
+    pub(crate) other: &'a [S],
+}
+
+impl<'a, S: Scalar> At<'a, S> {
+    pub(crate) fn new(mech: &'a Prepared<S>, level: Level, t: S, other: &'a [S]) -> Self {
+        At {
+            mech,
+            level,
+            t,
+            other,
+        }
+    }
+
+    /// How many constraints there are at this level.
+    pub(crate) fn rows(&self) -> usize {
+        match self.level {
+            Level::Position => self.mech.spec().holonomic,
+            Level::Velocity => self.mech.spec().m(),
+        }
+    }
+
+    /// Whether the equations are linear in x.
+    pub(crate) fn linear(&self) -> bool {
+        let spec = self.mech.spec();
+        self.level == Level::Velocity && spec.holonomic == spec.m()
+    }
+
+    /// Whether an elimination for these rows was emitted: there is one of all rows together.
+    pub(super) fn straight_line(&self) -> bool {
+        let spec = self.mech.spec();
+        spec.structure.straight_line && self.rows() == spec.m()
+    }
+
+    pub(super) fn residual(&self, x: &[S], out: &mut [S]) {
+        self.level.residual(self.mech, self.t, x, self.other, out);
+    }
+
+    /// A, all rows.
+    pub(super) fn jacobian(&self, x: &[S], out: &mut [S]) {
+        let (q, v) = self.level.state(x, self.other);
+        self.mech.jacobian(self.t, q, v, out);
+    }
+
+    /// The smallest Δ with A Δ = −`residual`, and its certificate.
+    pub(super) fn correction(&self, x: &[S], residual: &[S], out: &mut [S]) -> S {
+        let (q, v) = self.level.state(x, self.other);
+        self.mech.correction(self.t, q, v, residual, out)
+    }
+}
+
+impl At<'_, f64> {
+    /// M.
+    pub(super) fn mass_matrix(&self, x: &[f64], out: &mut [f64]) {
+        let (q, _) = self.level.state(x, self.other);
+        self.mech.mass_matrix(self.t, q, out);
+    }
+
+    /// Why residuals at `x` are not finite.
+    pub(super) fn non_finite(&self, x: &[f64], residual: &[f64]) -> Error {
+        let (q, v) = self.level.state(x, self.other);
+        diagnose::bad_input(self.mech, self.t, q, v)
+            .unwrap_or_else(|| diagnose::non_finite_residual(self.mech.spec(), residual))
+    }
+}

@@ -1,0 +1,207 @@
+//! Newton's method, lane by lane: one iteration for all ways onto the constraints, which differ in where their steps come from.
+
+use super::acceptance::{Acceptance, NEIGHBOUR, ROUNDING};
+use super::level::At;
+use crate::lanes::Lanes;
+use crate::mechanism::Spec;
+use crate::scan::{excess, largest, sum};
+
+/// Buffers of the method: what is known at a place, and the step from there.
+#[derive(Debug, Clone)]
+pub(crate) struct Newton<L> {
+    pub(crate) residual: Vec<L>,
+    /// The largest of them.
+    pub(super) off: L,
+    /// A, all rows.
+    pub(crate) jacobian: Vec<L>,
+    pub(super) step: Vec<L>,
+    pub(crate) acceptance: Acceptance<L>,
+}
+
+/// Where steps come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Steps {
+    /// Newton's method: from the place itself.
+    Here,
+    /// From another place: they converge linearly, for a place at a distance h as h^k. What is left each time would add up in such a method, so steps go on
+    /// for as long as they fall.
+    #[cfg(feature = "simulate")]
+    Elsewhere,
+}
+
+impl Steps {
+    /// How many there are at most (what has not converged after eight is too far off for a method without a safeguard); what does not divide a step by how much does
+    /// not converge; and the share of itself by which the last step changes every coordinate at most.
+    ///
+    /// A step of a share of 1e-9 leaves residuals of second order, a share of 1e-18 of the coordinates, below ε even where the lengths in a constraint are a
+    /// hundredth of the coordinates. Where the constraints are linear in what is changed only rounding remains, of which the elimination may have made a thousand
+    /// ε of the change.
+    fn rule<L: Lanes>(self, at: &At<'_, L>) -> (usize, f64, f64) {
+        match self {
+            Steps::Here if at.linear() => (8, 0.1, 1e-3),
+            Steps::Here => (8, 0.1, 1e-9),
+            #[cfg(feature = "simulate")]
+            Steps::Elsewhere => (50, 0.5, 0.0),
+        }
+    }
+}
+
+fn zero<L: Lanes>() -> L {
+    L::from_f64(0.0)
+}
+
+/// 1 in the lanes where a ≤ b and `mask` is 1, 0 in the others.
+fn le<L: Lanes>(a: L, b: L, mask: L) -> L {
+    L::select_le(a, b, mask, zero())
+}
+
+/// Whether `mask` is not 0 in every lane.
+fn any<L: Lanes>(mask: L) -> bool {
+    (0..L::WIDTH).any(|k| mask.lane(k) != 0.0)
+}
+
+impl<L: Lanes> Newton<L> {
+    pub(crate) fn new(spec: &Spec) -> Self {
+        let (n, m) = (spec.n(), spec.m());
+        let zeros = |len: usize| vec![zero(); len];
+        Newton {
+            residual: zeros(m),
+            off: zero(),
+            jacobian: zeros(m * n),
+            step: zeros(n),
+            acceptance: Acceptance::new(m),
+        }
+    }
+
+    /// Moves `x` onto the constraints in the lanes where `left` is 1 (and not 0), by at most `most` steps. At each place `look` gives two such masks: of the lanes
+    /// that have arrived, and of those with a step to take, which is then in `step`. Returns the lanes that have arrived, and the number of steps in each.
+    pub(super) fn iterate(
+        &mut self,
+        at: &At<'_, L>,
+        x: &mut [L],
+        mut left: L,
+        mut most: usize,
+        mut look: impl FnMut(&mut Self, &[L], L) -> (L, L),
+    ) -> (L, L) {
+        let (mut good, mut count, half) = (zero(), zero(), L::from_f64(0.5));
+        self.acceptance.size = largest(x);
+        loop {
+            self.evaluate(at, x);
+            let (met, go) = look(self, x, left);
+            (good, left) = (good + met, go);
+            if most == 0 || !any(left) {
+                return (good, count);
+            }
+            let pairs = x.iter_mut().zip(&self.step);
+            if any(L::from_f64(1.0) - left) {
+                pairs.for_each(|(x, d)| *x = L::select_le(half, left, *x + *d, *x));
+            } else {
+                pairs.for_each(|(x, d)| *x = *x + *d);
+            }
+            (count, most) = (count + left, most - 1);
+        }
+    }
+
+    /// By steps that need no matrix, for all lanes at once, and that tell by their size where they end. `make` makes them, and their certificate. Returns the lanes
+    /// that have arrived, those where steps no longer became smaller, and the number of steps in each.
+    pub(super) fn direct(
+        &mut self,
+        at: &At<'_, L>,
+        x: &mut [L],
+        wanted: L,
+        steps: Steps,
+        mut make: impl FnMut(&mut Self, &[L]) -> L,
+    ) -> (L, L, L) {
+        let (most, progress, trusted) = steps.rule(at);
+        let exact = trusted == 0.0;
+        let (half, rounding) = (L::from_f64(0.5), L::from_f64(ROUNDING));
+        // Sizes of the last step, and of the residual before it; the lanes where it was to be the last.
+        let (mut previous, mut before) = (L::from_f64(f64::INFINITY), zero());
+        let (mut last, mut stalled) = (zero(), zero());
+        let (good, count) = self.iterate(at, x, wanted, most, |newton, x, left| {
+            let mut met = le(newton.off, before, left * last);
+            if !any(left - met) {
+                return (met, zero());
+            }
+            // What is not finite makes the certificate NaN.
+            let safe = make(newton, x) + zero::<L>() * sum(&newton.step);
+            let go = le(half, safe, left - met);
+            let (change, size) = (largest(&newton.step), newton.acceptance.size);
+            let least = L::from_f64(if exact { 0.0 } else { NEIGHBOUR }) * size;
+            let falls = le(change, L::from_f64(progress) * previous, go);
+            let small = le(change, rounding * size, go);
+            if any(small) {
+                // Where rounding alone is left: as |φ_c| ≤ Σ|A_cj Δ_j|, Δ at the rounding of x has φ at rounding level.
+                let within = le(excess(&newton.step, x, rounding, least), zero(), small);
+                let rest = small - within;
+                met = met + within;
+                if any(rest) && exact {
+                    met = met + (rest - le(half, falls, rest));
+                } else if any(rest) {
+                    // The rows say it more exactly, but cost more than a step.
+                    newton.weigh(at, x);
+                    let strict = newton.acceptance.strict(&newton.residual[..at.rows()]);
+                    met = met + le(half, strict, rest);
+                }
+            }
+            let go = le(met, zero(), go);
+            stalled = go - le(half, falls, go);
+            if !exact {
+                let trusted = L::from_f64(trusted);
+                last = le(excess(&newton.step, x, trusted, least), zero(), go);
+            }
+            (previous, before) = (change, newton.off);
+            (met, go - stalled)
+        });
+        (good, stalled, count)
+    }
+
+    /// By the emitted elimination.
+    pub(super) fn eliminate(&mut self, at: &At<'_, L>, x: &mut [L], wanted: L) -> (L, L, L) {
+        self.direct(at, x, wanted, Steps::Here, |newton, x| {
+            at.correction(x, &newton.residual, &mut newton.step)
+        })
+    }
+
+    /// Projects q, then q̇, by the emitted elimination, in the lanes where `wanted` is 1 (and not 0). Returns 1 for those that are consistent then, and the
+    /// number of steps in each.
+    #[cfg(feature = "ensemble")]
+    pub(crate) fn project(
+        &mut self,
+        mech: &crate::mechanism::Prepared<L>,
+        t: L,
+        [q, v]: [&mut [L]; 2],
+        wanted: L,
+    ) -> (L, L) {
+        use super::Level;
+        let (mut good, mut count) = (wanted, zero());
+        for level in [Level::Position, Level::Velocity] {
+            let (x, other) = match level {
+                Level::Position => (&mut *q, &*v),
+                Level::Velocity => (&mut *v, &*q),
+            };
+            let at = At::new(mech, level, t, other);
+            if at.rows() > 0 && !at.straight_line() {
+                good = zero();
+            } else if at.rows() > 0 {
+                let (arrived, _, steps) = self.eliminate(&at, x, good);
+                (good, count) = (arrived, count + steps);
+            }
+        }
+        (good, count)
+    }
+
+    /// Takes the residuals at `x`.
+    #[inline]
+    pub(crate) fn evaluate(&mut self, at: &At<'_, L>, x: &[L]) {
+        at.residual(x, &mut self.residual);
+        self.off = largest(&self.residual[..at.rows()]);
+    }
+
+    /// Takes A and the sizes of the constraints' terms at `x`.
+    pub(super) fn weigh(&mut self, at: &At<'_, L>, x: &[L]) {
+        at.jacobian(x, &mut self.jacobian);
+        let pattern = at.mech.spec().structure.jacobian_pattern;
+        self.acceptance.weigh(pattern, &self.jacobian, x);
+    }
+}

@@ -1,0 +1,194 @@
+//! Steps by the rank-revealing solve, for any mechanism and any state.
+
+use super::Manifold;
+use super::level::{At, Level};
+use super::newton::Newton;
+use crate::diagnose;
+use crate::error::Error;
+use crate::mechanism::Prepared;
+use crate::metric::MassFault;
+use crate::scan::all_finite;
+use crate::solver::{RANK_CEILING, RANK_TOLERANCE, leading, mass_error};
+use crate::workspace::{Dense, Route, Rows};
+
+/// Progress: a Newton step that does not divide the distance by this is not converging quadratically.
+const PROGRESS: f64 = 0.1;
+
+/// The factors of an earlier step are used again while they divide the distance by this.
+const KEEP_FACTORS: f64 = 1e-2;
+
+/// Newton steps at most. Quadratic convergence needs about six from any useful state; some more for states far off.
+const MAX_STEPS: usize = 40;
+
+/// Steps without progress before giving up: far from the manifold the residual need not fall at once.
+const MAX_STALLS: usize = 6;
+
+/// Factors of M and A.
+#[derive(Debug, Clone)]
+pub(super) struct Factors {
+    pub(super) dense: Dense,
+    mass: Vec<f64>,
+    rhs: Vec<f64>,
+    /// The nearest place so far.
+    best: Vec<f64>,
+    /// Time and position up to which they hold all rows of A, for the velocity projection that follows.
+    place: Option<f64>,
+    q: Vec<f64>,
+    /// Coordinates that no step moves.
+    pub(super) held: Vec<usize>,
+    /// Whether rows below the ceiling are left out.
+    cautious: bool,
+}
+
+impl Factors {
+    pub(super) fn new(mechanism: &Prepared, held: Vec<usize>) -> Self {
+        let (n, m) = (mechanism.spec().n(), mechanism.spec().m());
+        Factors {
+            dense: Dense::new(n, m, mechanism.spec().structure.mass_diagonal),
+            mass: vec![0.0; n * n],
+            rhs: vec![0.0; m],
+            best: vec![0.0; n],
+            place: None,
+            q: vec![0.0; n],
+            held,
+            cautious: true,
+        }
+    }
+
+    /// Factors for all steps from one place, `x`.
+    #[cfg(feature = "simulate")]
+    pub(super) fn begin(
+        &mut self,
+        at: &At<'_, f64>,
+        x: &[f64],
+        jacobian: &mut [f64],
+    ) -> Result<(), Error> {
+        (self.place, self.cautious) = (None, true);
+        self.factor(at, x, jacobian)
+    }
+
+    /// Takes M and A (all rows, of which those of the level count) at `x`. While `cautious`, rows of a significance below the ceiling are left out: off the
+    /// manifold nobody can tell whether they are implied; if they are not, the residual will not fall, and they are taken in.
+    fn factor(&mut self, at: &At<'_, f64>, x: &[f64], jacobian: &mut [f64]) -> Result<(), Error> {
+        let spec = at.mech.spec();
+        at.mass_matrix(x, &mut self.mass);
+        if !all_finite(&self.mass) || !all_finite(jacobian) {
+            let what = diagnose::non_finite_matrices(spec, &self.mass, jacobian);
+            return Err(Error::NonFinite { what });
+        }
+        self.hold(jacobian);
+        let (a, dense, mass) = (rows(at, jacobian), &mut self.dense, &self.mass);
+        let route = if spec.structure.massless.is_empty() {
+            Route::Regular
+        } else {
+            Route::Singular
+        };
+        let factored = match dense.factor(route, mass, a, RANK_TOLERANCE) {
+            Err(MassFault::Singular(_)) => dense.factor(Route::Singular, mass, a, RANK_TOLERANCE),
+            result => result,
+        };
+        let ranked = factored.and_then(|()| {
+            let pivots = dense.cod.pivots();
+            let all = pivots.len();
+            let rank = if self.cautious {
+                leading(pivots, RANK_CEILING)
+            } else {
+                all
+            };
+            dense.set_rank(rank, mass)
+        });
+        ranked.map_err(|fault| mass_error(spec, fault))
+    }
+
+    /// Takes what is held out of A, and makes it a part by itself of M.
+    fn hold(&mut self, jacobian: &mut [f64]) {
+        let (n, m) = (self.q.len(), self.rhs.len());
+        for &j in &self.held {
+            jacobian[j * m..(j + 1) * m].fill(0.0);
+            self.mass[j * n..(j + 1) * n].fill(0.0);
+            (0..n).for_each(|i| self.mass[i * n + j] = 0.0);
+            self.mass[j * n + j] = 1.0;
+        }
+    }
+
+    /// The minimal Δ with A Δ = −φ into the step.
+    pub(super) fn solve(&mut self, at: &At<'_, f64>, newton: &mut Newton<f64>) {
+        let rhs = self.rhs.iter_mut().zip(&newton.residual);
+        rhs.for_each(|(b, r)| *b = -r);
+        let (a, rhs) = (rows(at, &newton.jacobian), &self.rhs[..at.rows()]);
+        let out = &mut newton.step;
+        self.dense.solve(&self.mass, a, None, rhs, out);
+    }
+}
+
+impl Manifold {
+    /// Moves `x` onto the constraints, and returns the number of steps. Here the rows say where it ends, since those left out show in no step.
+    pub(super) fn reveal(&mut self, at: &At<'_, f64>, x: &mut [f64]) -> Result<f64, Error> {
+        let (rounding, factors) = (&mut self.rounding, &mut self.factors);
+        let kept = factors.place.take() == Some(at.t);
+        let mut factored = kept && at.level == Level::Velocity && factors.q == at.other;
+        factors.cautious |= !factored;
+        factors.best.copy_from_slice(x);
+        let (mut least, mut previous) = (f64::INFINITY, f64::INFINITY);
+        let (mut stalls, mut fresh, mut failure) = (0, false, None);
+        let (good, count) = self.newton.iterate(at, x, 1.0, MAX_STEPS, |newton, x, _| {
+            newton.weigh(at, x);
+            let off = newton.acceptance.distance(&newton.residual[..at.rows()]);
+            if off < least {
+                least = off;
+                factors.best.copy_from_slice(x);
+            }
+            if off == 0.0 {
+                return (1.0, 0.0);
+            }
+            if fresh && (off > PROGRESS * previous || off.is_nan()) {
+                // Fresh factors and no progress: rows left out are not implied after all, or this is rounding, or far away.
+                if factors.cautious && factors.dense.cod.rank() < factors.dense.cod.pivots().len() {
+                    factors.cautious = false;
+                } else {
+                    stalls += 1;
+                    rounding.measure(at, x, Some(&mut factors.dense));
+                    if stalls > MAX_STALLS || rounding.violated(at, newton, x).next().is_none() {
+                        return (0.0, 0.0);
+                    }
+                }
+            }
+            fresh = !(factored && off <= KEEP_FACTORS * previous);
+            previous = off;
+            if fresh && off.is_finite() {
+                failure = factors.factor(at, x, &mut newton.jacobian).err();
+                factored = failure.is_none();
+            }
+            if !factored || !off.is_finite() {
+                return (0.0, 0.0);
+            }
+            factors.solve(at, newton);
+            (0.0, 1.0)
+        });
+        if let Some(error) = failure {
+            return Err(error);
+        }
+        if good < 0.5 {
+            x.copy_from_slice(&self.factors.best);
+            self.newton.evaluate(at, x);
+            if !self.accept(at, x, true) {
+                return Err(self.error(at, x));
+            }
+        }
+        let factors = &mut self.factors;
+        if factored && at.level == Level::Position && at.rows() == factors.rhs.len() {
+            // They belong to a q that differs by the correction: good enough for what is then a chord step.
+            factors.place = Some(at.t);
+            factors.q.copy_from_slice(x);
+        }
+        Ok(count)
+    }
+}
+
+fn rows<'a>(at: &At<'_, f64>, jacobian: &'a [f64]) -> Rows<'a> {
+    Rows {
+        jacobian,
+        stride: at.mech.spec().m(),
+        rows: at.rows(),
+    }
+}
