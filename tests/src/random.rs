@@ -35,7 +35,14 @@ impl Random {
         let mut mechanism = M::default();
         for i in 0..M::SPEC.params.len() {
             let value = mechanism.parameter(i);
-            mechanism.set_parameter(i, value * (1.0 + part * self.signed()));
+            // What is 0 by default, such as a torque, is not left out.
+            let change = part * self.signed();
+            let value = if value == 0.0 {
+                change
+            } else {
+                value * (1.0 + change)
+            };
+            mechanism.set_parameter(i, value);
         }
         mechanism
     }

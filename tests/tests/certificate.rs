@@ -5,7 +5,7 @@
 
 use models::{Model, SliderCrank, UChain};
 use nalgebra::{DMatrix, DVector};
-use tests::{Dense, Random, pseudo_inverse, singular_values};
+use tests::{Check, Dense, Random, every_model, pseudo_inverse, singular_values};
 use ukcore::{Mechanism, Pivot, Solver, SolverOptions, State};
 
 /// Largest distance that may be refused.
@@ -308,4 +308,20 @@ fn wrong_masses() {
         }
     }
     tests::every_model(&Wrong);
+}
+
+#[test]
+fn shares_of_the_elimination_and_significances_of_rows_have_one_ceiling() {
+    // A share d/G is the square of a significance.
+    struct Shares;
+    impl Check for Shares {
+        fn check<M: Model>(&self) {
+            let structure = &M::SPEC.structure;
+            if structure.straight_line {
+                let ceiling = ukcore::solver::RANK_CEILING;
+                assert_eq!(structure.solve.least_share, ceiling * ceiling, "{}", M::ID);
+            }
+        }
+    }
+    every_model(&Shares);
 }

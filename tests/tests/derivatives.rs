@@ -268,6 +268,12 @@ fn force_is_lagrange() {
                 return;
             }
             random_states::<M>(34, |model, state| {
+                let torque = M::SPEC.params.iter().position(|p| p.name == "torque");
+                assert!(
+                    torque.is_none_or(|i| model.parameter(i) != 0.0),
+                    "{}",
+                    M::ID
+                );
                 let dense = Dense::of(model, state);
                 let scale = largest(dense.force.iter()).max(1.0);
                 for i in 0..M::SPEC.n() {

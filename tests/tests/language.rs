@@ -492,3 +492,27 @@ fn the_emitted_elimination_agrees_with_the_formulas() {
     check::<Hoop>(&mut random);
     check::<Ball>(&mut random);
 }
+
+/// A crate that offers `ukcore` under a name of its own.
+mod toolbox {
+    pub(super) use ukcore as dynamics;
+}
+
+toolbox::dynamics::multibody! {
+    /// A body that falls, declared by way of another crate.
+    #[ukcore(crate = crate::language::toolbox::dynamics)]
+    Falling {
+        params { g = 9.81 }
+        coords { y }
+        mass { y: 2.0 }
+        force { y: -2.0 * g }
+    }
+}
+
+#[test]
+fn ukcore_may_have_another_name() {
+    let mut fall = Solver::new(Falling::default(), SolverOptions::default());
+    let found = fall.solve(0.0, &[0.0], &[0.0]);
+    let found = found.expect("a regular system").acceleration[0];
+    assert!((found + 9.81).abs() < 1e-14, "{found}");
+}

@@ -137,6 +137,7 @@ fn ukcore() {
             "zero",
             "spec",
             "plan",
+            "code",
             "mechanism",
             "pinv",
             "lu",

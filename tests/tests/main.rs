@@ -7,6 +7,7 @@ mod derivatives;
 mod ensemble;
 mod equilibrium;
 mod failures;
+mod fallback;
 mod formulas;
 mod invariants;
 mod kinks;

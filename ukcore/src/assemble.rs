@@ -70,7 +70,7 @@ impl State {
         let n = mech.spec().n();
         diagnose::check_length("q", self.q.len(), n)?;
         diagnose::check_length("v", self.v.len(), n)?;
-        diagnose::non_finite_input(mech, self.t, &self.q, &self.v).map_or(Ok(()), Err)
+        diagnose::bad_input(mech, self.t, &self.q, &self.v).map_or(Ok(()), Err)
     }
 }
 

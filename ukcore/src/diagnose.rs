@@ -75,8 +75,8 @@ pub(crate) fn offending(spec: &Spec, residual: &[f64], scale: &[f64]) -> Vec<(St
         .collect()
 }
 
-/// An [`Error::NonFinite`] for the state or parameters, if any of those is not finite.
-pub(crate) fn non_finite_input(mech: &Prepared, t: f64, q: &[f64], v: &[f64]) -> Option<Error> {
+/// An error for the state or parameters, if any of those is not finite or a parameter has lost digits.
+pub(crate) fn bad_input(mech: &Prepared, t: f64, q: &[f64], v: &[f64]) -> Option<Error> {
     let spec = mech.spec();
     let mut what = Vec::new();
     for (i, p) in spec.params.iter().enumerate() {
@@ -95,7 +95,25 @@ pub(crate) fn non_finite_input(mech: &Prepared, t: f64, q: &[f64], v: &[f64]) ->
             what.push(format!("velocity dot({name})"));
         }
     }
-    (!what.is_empty()).then_some(Error::NonFinite { what })
+    if !what.is_empty() {
+        return Some(Error::NonFinite { what });
+    }
+    subnormal(mech).err()
+}
+
+/// Refuses a parameter so small that an `f64` holds it with fewer digits: what is computed from it is wrong without any other sign.
+pub(crate) fn subnormal(mech: &Prepared) -> Result<(), Error> {
+    let Some(i) = mech.parameters().iter().position(|p| p.is_subnormal()) else {
+        return Ok(());
+    };
+    let (name, value) = (mech.spec().params[i].name, mech.parameters()[i]);
+    Err(Error::InvalidSetting {
+        what: "parameter",
+        reason: format!(
+            "`{name}` is {value:e}: below {:.1e} numbers lose digits; take other units",
+            f64::MIN_POSITIVE
+        ),
+    })
 }
 
 /// An [`Error::NonFinite`] for the terms of the equations, in order: mass and constraints, forces, b.

@@ -3,10 +3,15 @@
 use std::fmt;
 
 /// What can go wrong in solving, assembling and integrating a mechanism.
-#[derive(Clone, PartialEq)]
+#[derive(Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// rank [M | Aᵀ] < n (the condition of eq. 19): these coordinates have neither mass nor constraint in some direction.
+    #[error(
+        "the motion is not determined: rank [M | Aᵀ] is {rank}, not {needed}; {} can accelerate without mass or constraint; give mass or add a \
+         constraint",
+        quoted(coordinates)
+    )]
     Underdetermined {
         /// Names of the coordinates that move in the undetermined directions.
         coordinates: Vec<String>,
@@ -16,11 +21,20 @@ pub enum Error {
         needed: usize,
     },
     /// A q̈ = b has no solution: these constraints contradict each other.
+    #[error(
+        "constraints contradict each other (residual of A q̈ − b): {}; remove one of them or make them agree",
+        named(constraints)
+    )]
     Inconsistent {
         /// Names of the constraints involved, with the residual of A q̈ − b.
         constraints: Vec<(String, f64)>,
     },
     /// The state does not satisfy these constraints (φ or φ̇), and no nearby state does or was asked for.
+    #[error(
+        "the state violates constraints at {level} level (residual): {}; a start has to be consistent, as one from `assemble` is, and on the way the \
+         constraints must not come to contradict each other",
+        named(constraints)
+    )]
     OffConstraint {
         /// `"position"` or `"velocity"`.
         level: &'static str,
@@ -28,6 +42,11 @@ pub enum Error {
         constraints: Vec<(String, f64)>,
     },
     /// `assemble` found no state near the guess.
+    #[error(
+        "no state near the guess satisfies the constraints at {level} level (residual that remains): {}; {}",
+        named(constraints),
+        remedy(held)
+    )]
     NotAssembled {
         /// `"position"` or `"velocity"`.
         level: &'static str,
@@ -37,16 +56,22 @@ pub enum Error {
         held: Vec<String>,
     },
     /// A value is NaN or infinite.
+    #[error("not a finite number: {}", what.join(", "))]
     NonFinite {
         /// What: `"parameter m"`, `"coordinate x[3]"`, `"force on th1"`, `"constraint link[2]"`.
         what: Vec<String>,
     },
     /// M has a negative eigenvalue, or is not what a mass matrix can be.
+    #[error(
+        "the mass matrix is not positive semidefinite at {}; masses must not be negative",
+        quoted(coordinates)
+    )]
     IndefiniteMass {
         /// Coordinates at which the factorisation failed.
         coordinates: Vec<String>,
     },
     /// A name that is not there.
+    #[error("no {kind} is called `{name}`{}", alternatives(nearest.as_deref(), known))]
     UnknownName {
         /// `"parameter"`, `"coordinate"`, `"model"`, ….
         kind: &'static str,
@@ -58,6 +83,7 @@ pub enum Error {
         known: Vec<String>,
     },
     /// A vector of the wrong length.
+    #[error("`{what}` has length {found}, but {expected} is needed")]
     WrongLength {
         /// Which vector.
         what: &'static str,
@@ -67,6 +93,7 @@ pub enum Error {
         expected: usize,
     },
     /// A setting outside of its range.
+    #[error("`{what}` {reason}")]
     InvalidSetting {
         /// Which setting.
         what: &'static str,
@@ -74,11 +101,21 @@ pub enum Error {
         reason: String,
     },
     /// These constraints all but imply the others here: a singular position, from which the motion can go on in several ways.
+    #[error(
+        "a singular position, where the others imply {}: the state does not tell in which way the motion goes on; a looser tolerance lets steps pass \
+         over the place, or start a run behind it",
+        quoted(constraints)
+    )]
     Singular {
         /// Their names.
         constraints: Vec<String>,
     },
     /// These constraints move away from the motion faster than any step follows: prescribed motion that jumps.
+    #[error(
+        "constraints jump at {level} level (residual after a step of no length): {}; a prescribed motion must not jump, nor its velocity: smooth it, \
+         or end the run there and start another behind it",
+        named(constraints)
+    )]
     Jump {
         /// `"position"` or `"velocity"`.
         level: &'static str,
@@ -86,16 +123,27 @@ pub enum Error {
         constraints: Vec<(String, f64)>,
     },
     /// The step size fell below rounding at time `t`.
+    #[error("{}", too_small(*step))]
     StepTooSmall {
         /// Step size.
         step: f64,
     },
     /// The number of steps allowed was used up.
+    #[error(
+        "{steps} steps were not enough; raise `max_steps`, loosen the tolerance, or soften stiff forces"
+    )]
     TooManySteps {
         /// The number.
         steps: usize,
     },
     /// Steps became tiny about a place where sign, abs, min or max switch, as where dry friction brings a body to rest.
+    #[error(
+        "{} a switch of sign, abs, min or max in the {}{}; dry friction that brings a body to rest is not found to stick: end the run at rest by a \
+         terminal event, or smooth the switch, as by tanh(v / 1e-3) for sign(v)",
+        if *step == 0.0 { "both branches of".to_owned() } else { format!("steps fell to {step:.1e} about") },
+        terms.join(", "),
+        if *step == 0.0 { " drive the motion back onto it" } else { "" }
+    )]
     Chattering {
         /// Size of the last steps; 0 where both branches were found to drive the motion back onto the switch.
         step: f64,
@@ -103,6 +151,7 @@ pub enum Error {
         terms: Vec<String>,
     },
     /// Another error that arose during integration, with the time and state where it did.
+    #[error("at t = {}: {source}", plain(*t))]
     At {
         /// Time.
         t: f64,
@@ -157,16 +206,12 @@ fn distance(a: &str, b: &str) -> usize {
     row[b.len()]
 }
 
-struct Named<'a>(&'a [(String, f64)]);
-
-impl fmt::Display for Named<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (i, (name, residual)) in self.0.iter().enumerate() {
-            let comma = if i > 0 { ", " } else { "" };
-            write!(f, "{comma}`{name}` ({residual:.3e})")?;
-        }
-        Ok(())
-    }
+/// Names with their residuals.
+fn named(constraints: &[(String, f64)]) -> String {
+    let texts = constraints
+        .iter()
+        .map(|(name, residual)| format!("`{name}` ({residual:.3e})"));
+    texts.collect::<Vec<_>>().join(", ")
 }
 
 fn quoted(names: &[String]) -> String {
@@ -182,129 +227,48 @@ fn quoted(names: &[String]) -> String {
     text.join(", ")
 }
 
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Error::Underdetermined {
-                coordinates,
-                rank,
-                needed,
-            } => write!(
-                f,
-                "the motion is not determined: rank [M | Aᵀ] is {rank}, not {needed}; {} can accelerate without mass or constraint; give mass or add a constraint",
-                quoted(coordinates)
-            ),
-            Error::Inconsistent { constraints } => write!(
-                f,
-                "constraints contradict each other (residual of A q̈ − b): {}; remove one of them or make them agree",
-                Named(constraints)
-            ),
-            Error::OffConstraint { level, constraints } => write!(
-                f,
-                "the state violates constraints at {level} level (residual): {}; a start has to be consistent, as one from `assemble` is, and on the way the constraints must not come to contradict each other",
-                Named(constraints)
-            ),
-            Error::NotAssembled {
-                level,
-                constraints,
-                held,
-            } => {
-                write!(
-                    f,
-                    "no state near the guess satisfies the constraints at {level} level (residual that remains): {}; ",
-                    Named(constraints)
-                )?;
-                match held.len() {
-                    0 => write!(f, "make them agree, or give a nearer guess"),
-                    1 => write!(
-                        f,
-                        "the cause is that {} is held: let it go, or give it another value",
-                        quoted(held)
-                    ),
-                    _ => write!(
-                        f,
-                        "the cause is that {} are held: let one of them go, or give it another value",
-                        quoted(held)
-                    ),
-                }
-            }
-            Error::NonFinite { what } => write!(f, "not a finite number: {}", what.join(", ")),
-            Error::IndefiniteMass { coordinates } => write!(
-                f,
-                "the mass matrix is not positive semidefinite at {}; masses must not be negative",
-                quoted(coordinates)
-            ),
-            Error::UnknownName {
-                kind,
-                name,
-                nearest,
-                known,
-            } => {
-                write!(f, "no {kind} is called `{name}`")?;
-                if let Some(n) = nearest {
-                    write!(f, "; did you mean `{n}`?")?;
-                }
-                match (nearest, known.len()) {
-                    (Some(_), 0 | 1) => Ok(()),
-                    (None, 0) => write!(f, "; there is none"),
-                    (Some(_), 2..=MOST_LISTED) => write!(f, " There are {}", quoted(known)),
-                    (None, 1..=MOST_LISTED) => write!(f, "; there is {}", quoted(known)),
-                    _ => Ok(()),
-                }
-            }
-            Error::WrongLength {
-                what,
-                found,
-                expected,
-            } => {
-                write!(f, "`{what}` has length {found}, but {expected} is needed")
-            }
-            Error::InvalidSetting { what, reason } => write!(f, "`{what}` {reason}"),
-            Error::Singular { constraints } => write!(
-                f,
-                "a singular position, where the others imply {}: the state does not tell in which way the motion goes on; a looser tolerance lets steps pass over the place, or start a run behind it",
-                quoted(constraints)
-            ),
-            Error::Jump { level, constraints } => write!(
-                f,
-                "constraints jump at {level} level (residual after a step of no length): {}; a prescribed motion must not jump, nor its velocity: smooth it, or end the run there and start another behind it",
-                Named(constraints)
-            ),
-            Error::StepTooSmall { step: 0.0 } => write!(
-                f,
-                "no step from here succeeds, however small; the motion may have a singularity here, or masses or forces are out of all proportion"
-            ),
-            Error::StepTooSmall { step } => write!(
-                f,
-                "the step size fell to {step:.1e}, below rounding; the motion may have a singularity here, or the tolerance is too tight"
-            ),
-            Error::TooManySteps { steps } => write!(
-                f,
-                "{steps} steps were not enough; raise `max_steps`, loosen the tolerance, or soften stiff forces"
-            ),
-            Error::Chattering { step, terms } => {
-                match *step {
-                    0.0 => write!(f, "both branches of")?,
-                    step => write!(f, "steps fell to {step:.1e} about")?,
-                }
-                write!(
-                    f,
-                    " a switch of sign, abs, min or max in the {}",
-                    terms.join(", ")
-                )?;
-                if *step == 0.0 {
-                    write!(f, " drive the motion back onto it")?;
-                }
-                write!(
-                    f,
-                    "; dry friction that brings a body to rest is not found to stick: end the run at rest by a terminal event, or smooth the switch, as by tanh(v / 1e-3) for sign(v)"
-                )
-            }
-            Error::At { t, source, .. } if *t != 0.0 && t.abs() < 1e-4 => {
-                write!(f, "at t = {t:e}: {source}")
-            }
-            Error::At { t, source, .. } => write!(f, "at t = {t}: {source}"),
+/// What to do where holding these coordinates is the cause, or is not.
+fn remedy(held: &[String]) -> String {
+    match held.len() {
+        0 => "make them agree, or give a nearer guess".to_owned(),
+        1 => format!(
+            "the cause is that {} is held: let it go, or give it another value",
+            quoted(held)
+        ),
+        _ => format!(
+            "the cause is that {} are held: let one of them go, or give it another value",
+            quoted(held)
+        ),
+    }
+}
+
+fn alternatives(nearest: Option<&str>, known: &[String]) -> String {
+    match (nearest, known.len()) {
+        (Some(nearest), 2..=MOST_LISTED) => {
+            format!("; did you mean `{nearest}`? There are {}", quoted(known))
         }
+        (Some(nearest), _) => format!("; did you mean `{nearest}`?"),
+        (None, 0) => "; there is none".to_owned(),
+        (None, 1..=MOST_LISTED) => format!("; there is {}", quoted(known)),
+        (None, _) => String::new(),
+    }
+}
+
+fn too_small(step: f64) -> String {
+    if step == 0.0 {
+        return "no step from here succeeds, however small; the motion may have a singularity here, or masses or forces are out of all proportion".to_owned();
+    }
+    format!(
+        "the step size fell to {step:.1e}, below rounding; the motion may have a singularity here, or the tolerance is too tight"
+    )
+}
+
+/// A number as it is read: with an exponent where it is tiny or huge.
+pub(crate) fn plain(x: f64) -> String {
+    if x == 0.0 || (1e-4..1e15).contains(&x.abs()) {
+        format!("{x}")
+    } else {
+        format!("{x:e}")
     }
 }
 
@@ -312,15 +276,6 @@ impl fmt::Display for Error {
 impl fmt::Debug for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Display::fmt(self, f)
-    }
-}
-
-impl std::error::Error for Error {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match self {
-            Error::At { source, .. } => Some(source.as_ref()),
-            _ => None,
-        }
     }
 }
 

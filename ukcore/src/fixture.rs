@@ -4,8 +4,8 @@
 //! is independent of the macro's symbolic derivatives.
 
 use crate::mechanism::{
-    ConstraintKind, ConstraintSpec, Costs, Energy, Equations, Mechanism, ParamSpec, Prepared,
-    Solve, Spec, Structure, Terms,
+    ConstraintKind, ConstraintSpec, Energy, Mechanism, ParamSpec, Prepared, Solve, Spec, Structure,
+    Terms,
 };
 use crate::scalar::{Dual, Scalar};
 
@@ -149,39 +149,14 @@ impl<T: Toy> Mechanism for T {
 }
 
 const EMPTY: Spec = Spec {
-    name: "",
-    doc: "",
-    params: &[],
-    prepared: &[],
-    coords: &[],
-    constraints: &[],
-    holonomic: 0,
-    outputs: &[],
-    switches: &[],
     structure: Structure {
-        straight_line: false,
         solve: Solve::none("it is written by hand"),
-        mass_pattern: &[],
-        jacobian_pattern: &[],
         mass_diagonal: true,
         mass_constant: true,
-        jacobian_constant: false,
-        massless: &[],
         scleronomic: true,
-        nonideal: false,
-        potential: false,
-        conservative: false,
-        left_out: &[],
-        costs: Costs::NONE,
+        ..Structure::EMPTY
     },
-    equations: Equations {
-        definitions: &[],
-        mass: &[],
-        force: &[],
-        nonideal: &[],
-        jacobian: &[],
-        rhs: &[],
-    },
+    ..Spec::EMPTY
 };
 
 const fn holonomic(name: &'static str) -> ConstraintSpec {

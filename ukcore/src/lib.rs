@@ -21,6 +21,7 @@
 #![deny(missing_docs)]
 
 pub mod assemble;
+pub mod code;
 pub mod diagnose;
 pub mod double;
 pub mod equations;

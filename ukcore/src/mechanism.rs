@@ -30,8 +30,8 @@ pub trait Mechanism: Clone + Default + Into<Prepared> + Send + Sync + 'static {
     /// Names, structure and readable equations.
     const SPEC: &'static Spec;
 
-    /// The emitted functions, in the order of this trait: name and formatted text. The numbers in it are those that run. Nothing of it is
-    /// in a program that does not read it.
+    /// The emitted functions, in the order of this trait: name and text, which [`code::laid_out`](crate::code::laid_out) makes readable.
+    /// The numbers in it are those that run. Nothing of it is in a program that does not read it.
     const CODE: &'static [(&'static str, &'static str)] = &[];
 
     /// Value of parameter `index` (order of `SPEC.params`).

@@ -503,7 +503,7 @@ impl Simulation {
         diagnose::check_length("q", q.len(), spec.n())?;
         diagnose::check_length("v", v.len(), spec.n())?;
         let mech = &self.mechanism;
-        if let Some(error) = diagnose::non_finite_input(mech, t, &q, &v) {
+        if let Some(error) = diagnose::bad_input(mech, t, &q, &v) {
             return Err(error);
         }
         angles::check(spec, &q)?;

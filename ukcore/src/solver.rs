@@ -155,6 +155,7 @@ impl Solver {
         diagnose::check_length("out", out.len(), self.n)?;
         diagnose::check_length("q", q.len(), self.n)?;
         diagnose::check_length("v", v.len(), self.n)?;
+        diagnose::subnormal(&self.mechanism)?;
         // A coordinate that no equation contains must not hide that it is not a number.
         if t.is_finite() && all_finite(q) && all_finite(v) {
             self.acceleration_in_run(t, q, v, out)
@@ -356,6 +357,7 @@ impl Solver {
     fn decide(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<Decided, Error> {
         diagnose::check_length("q", q.len(), self.n)?;
         diagnose::check_length("v", v.len(), self.n)?;
+        diagnose::subnormal(&self.mechanism)?;
         self.here.dynamics(&self.mechanism, t, q, v);
         self.work.evaluations += 1;
         self.drift.known = false;
@@ -376,7 +378,7 @@ impl Solver {
         let given = t.is_finite() && all_finite(q) && all_finite(v);
         if !(given && evaluated.iter().all(|x| all_finite(x))) {
             return Err(
-                diagnose::non_finite_input(&self.mechanism, t, q, v).unwrap_or_else(|| {
+                diagnose::bad_input(&self.mechanism, t, q, v).unwrap_or_else(|| {
                     diagnose::non_finite_terms(self.mechanism.spec(), terms, &self.rhs)
                 }),
             );

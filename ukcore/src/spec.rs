@@ -98,6 +98,8 @@ pub struct Structure {
     pub jacobian_constant: bool,
     /// Coordinates whose row of M is zero: they need the Udwadia-Phohomsiri equation (eq. 19).
     pub massless: &'static [usize],
+    /// Coordinates that are angles: those in the argument of a sine, cosine or tangent of M, Q, c, A or b.
+    pub angles: &'static [usize],
     /// No explicit time anywhere.
     pub scleronomic: bool,
     /// A `nonideal` section exists (c of eq. 8).
@@ -265,7 +267,55 @@ pub struct Equations {
     pub rhs: &'static [(usize, &'static str)],
 }
 
+impl Structure {
+    /// Of a mechanism about which nothing is known.
+    pub const EMPTY: Structure = Structure {
+        straight_line: false,
+        solve: Solve::none(""),
+        mass_pattern: &[],
+        jacobian_pattern: &[],
+        mass_diagonal: false,
+        mass_constant: false,
+        jacobian_constant: false,
+        massless: &[],
+        angles: &[],
+        scleronomic: false,
+        nonideal: false,
+        potential: false,
+        conservative: false,
+        left_out: &[],
+        costs: Costs::NONE,
+    };
+}
+
+impl Equations {
+    /// No equations.
+    pub const NONE: Equations = Equations {
+        definitions: &[],
+        mass: &[],
+        force: &[],
+        nonideal: &[],
+        jacobian: &[],
+        rhs: &[],
+    };
+}
+
 impl Spec {
+    /// Of a mechanism without coordinates; to be filled in by struct update.
+    pub const EMPTY: Spec = Spec {
+        name: "",
+        doc: "",
+        params: &[],
+        prepared: &[],
+        coords: &[],
+        constraints: &[],
+        holonomic: 0,
+        outputs: &[],
+        switches: &[],
+        structure: Structure::EMPTY,
+        equations: Equations::NONE,
+    };
+
     /// Number n of coordinates.
     #[must_use]
     pub const fn n(&self) -> usize {

@@ -76,13 +76,6 @@ impl ::core::default::Default for KnifeEdge {
         }
     }
 }
-#[automatically_derived]
-impl ::core::convert::From<KnifeEdge> for ::ukcore::Prepared {
-    fn from(mechanism: KnifeEdge) -> Self {
-        ::ukcore::Mechanism::prepared(&mechanism)
-    }
-}
-#[automatically_derived]
 #[allow(dead_code)]
 impl KnifeEdge {
     /// Position in q of coordinate `x`.
@@ -98,370 +91,385 @@ impl KnifeEdge {
     /// Position of output `spin`.
     pub const OUT_SPIN: usize = 1;
 }
-#[automatically_derived]
-#[allow(unused_variables, clippy::all, clippy::pedantic)]
-impl ::ukcore::Mechanism for KnifeEdge {
-    const SPEC: &'static ::ukcore::Spec = &::ukcore::Spec {
-        name: "KnifeEdge",
-        doc: "Knife edge (a skate) on a plane inclined by `slope`; x points down the slope, y across it. The edge touches at its centre of mass\nand does not slip sideways: a nonholonomic constraint. Set turning, it drifts across the slope and never gets down.",
-        params: &[
-            ::ukcore::ParamSpec {
-                name: "m",
-                doc: "Mass, kg",
-                default: 1.0,
-            },
-            ::ukcore::ParamSpec {
-                name: "i",
-                doc: "Moment of inertia about the normal of the plane, kg m^2",
-                default: 0.1,
-            },
-            ::ukcore::ParamSpec {
-                name: "g",
-                doc: "Acceleration of gravity, m/s^2",
-                default: 9.81,
-            },
-            ::ukcore::ParamSpec {
-                name: "slope",
-                doc: "Inclination of the plane, rad",
-                default: 0.5235987755982988,
-            },
-        ],
-        prepared: &[
-            ("right_x", "m*g*sin(slope)"),
-            ("m", "m"),
-            ("i", "i"),
-            ("g_sin_slope", "g*sin(slope)"),
-            (
-                "safe_x",
-                "1 if the pivots that depend on m, i alone are positive and finite, else 0",
-            ),
-        ],
-        coords: &["x", "y", "th"],
-        constraints: &[
-            ::ukcore::ConstraintSpec {
-                name: "edge",
-                kind: ::ukcore::ConstraintKind::Nonholonomic,
-                equation: "dot(x)*sin(th) - dot(y)*cos(th) = 0",
-            },
-        ],
-        holonomic: 0,
-        outputs: &[
-            ::ukcore::OutputSpec {
-                name: "speed",
-                doc: "Speed along the edge, m/s",
-            },
-            ::ukcore::OutputSpec {
-                name: "spin",
-                doc: "Angular velocity, rad/s",
-            },
-        ],
-        switches: &[],
-        structure: ::ukcore::Structure {
-            straight_line: true,
-            solve: ::ukcore::Solve {
-                refusal: "",
-                pivots: &[
-                    ::ukcore::Pivot::Coordinate(2),
-                    ::ukcore::Pivot::Coordinate(0),
-                    ::ukcore::Pivot::Coordinate(1),
-                    ::ukcore::Pivot::Constraint(0),
-                ],
-                fill: &[],
-                checks: &[
-                    ::ukcore::Check::Positive(2),
-                    ::ukcore::Check::Positive(0),
-                    ::ukcore::Check::Positive(3),
-                ],
-                least_share: 0.0009765625,
-            },
-            mass_pattern: &[(0, 0), (1, 1), (2, 2)],
-            jacobian_pattern: &[(0, 0), (0, 1)],
-            mass_diagonal: true,
-            mass_constant: true,
-            jacobian_constant: false,
-            massless: &[],
-            scleronomic: true,
-            nonideal: false,
-            potential: true,
-            conservative: true,
-            left_out: &[
-                "1 of the 3 entries of A: structurally zero, never written",
-                "off-diagonal entries of M: M is diagonal, its square root is taken entry by entry",
-                "∂/∂t terms: no equation contains the time",
-                "non-ideal force c (eq. 12): all constraints are ideal",
-                "2 of 3 entries of Q: identically zero",
-                "Udwadia-Phohomsiri formula (eq. 19): no coordinate is massless while the parameters are positive",
+const _: () = {
+    use ::ukcore as ukcore;
+    #[automatically_derived]
+    impl ::core::convert::From<KnifeEdge> for ukcore::Prepared {
+        fn from(mechanism: KnifeEdge) -> Self {
+            ukcore::Mechanism::prepared(&mechanism)
+        }
+    }
+    #[automatically_derived]
+    #[allow(unused_variables, clippy::all, clippy::pedantic)]
+    impl ukcore::Mechanism for KnifeEdge {
+        const SPEC: &'static ukcore::Spec = &ukcore::Spec {
+            name: "KnifeEdge",
+            doc: "Knife edge (a skate) on a plane inclined by `slope`; x points down the slope, y across it. The edge touches at its centre of mass\nand does not slip sideways: a nonholonomic constraint. Set turning, it drifts across the slope and never gets down.",
+            params: &[
+                ukcore::ParamSpec {
+                    name: "m",
+                    doc: "Mass, kg",
+                    default: 1.0,
+                },
+                ukcore::ParamSpec {
+                    name: "i",
+                    doc: "Moment of inertia about the normal of the plane, kg m^2",
+                    default: 0.1,
+                },
+                ukcore::ParamSpec {
+                    name: "g",
+                    doc: "Acceleration of gravity, m/s^2",
+                    default: 9.81,
+                },
+                ukcore::ParamSpec {
+                    name: "slope",
+                    doc: "Inclination of the plane, rad",
+                    default: 0.5235987755982988,
+                },
             ],
-            costs: ::ukcore::Costs {
-                dynamics: ::ukcore::Operations {
-                    additions: 3,
-                    multiplications: 4,
-                    divisions: 0,
-                    square_roots: 0,
-                    transcendentals: 1,
-                    selections: 0,
+            prepared: &[
+                ("right_x", "m*g*sin(slope)"),
+                ("m", "m"),
+                ("i", "i"),
+                ("g_sin_slope", "g*sin(slope)"),
+                (
+                    "safe_x",
+                    "1 if the pivots that depend on m, i alone are positive and finite, else 0",
+                ),
+            ],
+            coords: &["x", "y", "th"],
+            constraints: &[
+                ukcore::ConstraintSpec {
+                    name: "edge",
+                    kind: ukcore::ConstraintKind::Nonholonomic,
+                    equation: "dot(x)*sin(th) - dot(y)*cos(th) = 0",
                 },
-                dense: ::ukcore::Operations {
-                    additions: 22,
-                    multiplications: 32,
-                    divisions: 4,
-                    square_roots: 0,
-                    transcendentals: 0,
-                    selections: 0,
+            ],
+            holonomic: 0,
+            outputs: &[
+                ukcore::OutputSpec {
+                    name: "speed",
+                    doc: "Speed along the edge, m/s",
                 },
-                unprepared: ::ukcore::Operations {
-                    additions: 4,
-                    multiplications: 13,
-                    divisions: 1,
-                    square_roots: 0,
-                    transcendentals: 2,
-                    selections: 5,
+                ukcore::OutputSpec {
+                    name: "spin",
+                    doc: "Angular velocity, rad/s",
                 },
-                acceleration: ::ukcore::Operations {
-                    additions: 4,
-                    multiplications: 11,
-                    divisions: 1,
-                    square_roots: 0,
-                    transcendentals: 1,
-                    selections: 1,
+            ],
+            switches: &[],
+            structure: ukcore::Structure {
+                straight_line: true,
+                solve: ukcore::Solve {
+                    refusal: "",
+                    pivots: &[
+                        ukcore::Pivot::Coordinate(2),
+                        ukcore::Pivot::Coordinate(0),
+                        ukcore::Pivot::Coordinate(1),
+                        ukcore::Pivot::Constraint(0),
+                    ],
+                    fill: &[],
+                    checks: &[
+                        ukcore::Check::Positive(2),
+                        ukcore::Check::Positive(0),
+                        ukcore::Check::Positive(3),
+                    ],
+                    least_share: 0.0009765625,
                 },
-                correction: ::ukcore::Operations {
-                    additions: 2,
-                    multiplications: 6,
-                    divisions: 1,
-                    square_roots: 0,
-                    transcendentals: 1,
-                    selections: 1,
-                },
-                prepare: ::ukcore::Operations {
-                    additions: 0,
-                    multiplications: 3,
-                    divisions: 0,
-                    square_roots: 0,
-                    transcendentals: 1,
-                    selections: 4,
+                mass_pattern: &[(0, 0), (1, 1), (2, 2)],
+                jacobian_pattern: &[(0, 0), (0, 1)],
+                mass_diagonal: true,
+                mass_constant: true,
+                jacobian_constant: false,
+                massless: &[],
+                angles: &[2],
+                scleronomic: true,
+                nonideal: false,
+                potential: true,
+                conservative: true,
+                left_out: &[
+                    "1 of the 3 entries of A: structurally zero, never written",
+                    "off-diagonal entries of M: M is diagonal, its square root is taken entry by entry",
+                    "∂/∂t terms: no equation contains the time",
+                    "non-ideal force c (eq. 12): all constraints are ideal",
+                    "2 of 3 entries of Q: identically zero",
+                    "Udwadia-Phohomsiri formula (eq. 19): no coordinate is massless while the parameters are positive",
+                ],
+                costs: ukcore::Costs {
+                    dynamics: ukcore::Operations {
+                        additions: 3,
+                        multiplications: 4,
+                        divisions: 0,
+                        square_roots: 0,
+                        transcendentals: 1,
+                        selections: 0,
+                    },
+                    dense: ukcore::Operations {
+                        additions: 22,
+                        multiplications: 32,
+                        divisions: 4,
+                        square_roots: 0,
+                        transcendentals: 0,
+                        selections: 0,
+                    },
+                    unprepared: ukcore::Operations {
+                        additions: 4,
+                        multiplications: 13,
+                        divisions: 1,
+                        square_roots: 0,
+                        transcendentals: 2,
+                        selections: 5,
+                    },
+                    acceleration: ukcore::Operations {
+                        additions: 4,
+                        multiplications: 11,
+                        divisions: 1,
+                        square_roots: 0,
+                        transcendentals: 1,
+                        selections: 1,
+                    },
+                    correction: ukcore::Operations {
+                        additions: 2,
+                        multiplications: 6,
+                        divisions: 1,
+                        square_roots: 0,
+                        transcendentals: 1,
+                        selections: 1,
+                    },
+                    prepare: ukcore::Operations {
+                        additions: 0,
+                        multiplications: 3,
+                        divisions: 0,
+                        square_roots: 0,
+                        transcendentals: 1,
+                        selections: 4,
+                    },
                 },
             },
-        },
-        equations: ::ukcore::Equations {
-            definitions: &[],
-            mass: &[(0, 0, "m"), (1, 1, "m"), (2, 2, "i")],
-            force: &[(0, "m*g*sin(slope)")],
-            nonideal: &[],
-            jacobian: &[(0, 0, "sin(th)"), (0, 1, "-cos(th)")],
-            rhs: &[(0, "-(dot(x)*cos(th)*dot(th) + sin(th)*dot(y)*dot(th))")],
-        },
-    };
-    fn parameter(&self, index: usize) -> f64 {
-        match index {
-            0 => self.m,
-            1 => self.i,
-            2 => self.g,
-            3 => self.slope,
-            _ => ::ukcore::emitted::no_parameter(index),
+            equations: ukcore::Equations {
+                definitions: &[],
+                mass: &[(0, 0, "m"), (1, 1, "m"), (2, 2, "i")],
+                force: &[(0, "m*g*sin(slope)")],
+                nonideal: &[],
+                jacobian: &[(0, 0, "sin(th)"), (0, 1, "-cos(th)")],
+                rhs: &[(0, "-(dot(x)*cos(th)*dot(th) + sin(th)*dot(y)*dot(th))")],
+            },
+        };
+        fn parameter(&self, index: usize) -> f64 {
+            match index {
+                0 => self.m,
+                1 => self.i,
+                2 => self.g,
+                3 => self.slope,
+                _ => ukcore::emitted::no_parameter(index),
+            }
+        }
+        fn set_parameter(&mut self, index: usize, value: f64) {
+            match index {
+                0 => self.m = value,
+                1 => self.i = value,
+                2 => self.g = value,
+                3 => self.slope = value,
+                _ => ukcore::emitted::no_parameter(index),
+            }
+        }
+        fn prepare<S: ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
+            let prepared = ukcore::emitted::exact_mut::<S, 5>(prepared, "prepared");
+            let [m, i, g, slope] = *ukcore::emitted::exact::<S, 4>(given, "given");
+            let lit = S::from_f64;
+            let sin_slope = slope.sin();
+            let right_x = m * g * sin_slope;
+            prepared[0] = right_x;
+            prepared[1] = m;
+            prepared[2] = i;
+            prepared[3] = g * sin_slope;
+            let safe_th = S::select_le(
+                i,
+                lit(1.7976931348623157e308),
+                S::select_le(lit(2.2250738585072014e-308), i, lit(1.0), lit(0.0)),
+                lit(0.0),
+            );
+            let safe_x = S::select_le(
+                m,
+                lit(1.7976931348623157e308),
+                S::select_le(lit(2.2250738585072014e-308), m, safe_th, lit(0.0)),
+                lit(0.0),
+            );
+            prepared[4] = safe_x;
+        }
+        /// 3 additions, 4 multiplications, 0 divisions, 0 square roots, 1 transcendentals, 0 selections.
+        fn dynamics<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            out: &mut ukcore::Terms<'_, S>,
+        ) {
+            let mass = ukcore::emitted::exact_mut::<S, 9>(out.mass, "mass");
+            let force = ukcore::emitted::exact_mut::<S, 3>(out.force, "force");
+            let nonideal = ukcore::emitted::exact_mut::<S, 3>(out.nonideal, "nonideal");
+            let jacobian = ukcore::emitted::exact_mut::<S, 3>(out.jacobian, "jacobian");
+            let rhs = ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
+            let [right_x, m, i, _, _] = *ukcore::emitted::exact::<
+                S,
+                5,
+            >(prepared, "prepared");
+            let [_, _, th] = *ukcore::emitted::exact::<S, 3>(q, "q");
+            let [dot_x, dot_y, dot_th] = *ukcore::emitted::exact::<S, 3>(v, "v");
+            let lit = S::from_f64;
+            mass[0] = m;
+            mass[4] = m;
+            mass[8] = i;
+            force[0] = right_x;
+            force[1] = lit(0.0);
+            force[2] = lit(0.0);
+            nonideal[0] = lit(0.0);
+            nonideal[1] = lit(0.0);
+            nonideal[2] = lit(0.0);
+            let (sin_th, cos_th) = th.sin_cos();
+            jacobian[0] = sin_th;
+            jacobian[1] = -cos_th;
+            rhs[0] = (dot_y * dot_th).neg_mul_add(sin_th, -(dot_x * dot_th * cos_th));
+        }
+        fn mass_matrix<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            mass: &mut [S],
+        ) {
+            let mass = ukcore::emitted::exact_mut::<S, 9>(mass, "mass");
+            let [_, m, i, _, _] = *ukcore::emitted::exact::<S, 5>(prepared, "prepared");
+            mass[0] = m;
+            mass[4] = m;
+            mass[8] = i;
+        }
+        fn jacobian<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            jacobian: &mut [S],
+        ) {
+            let jacobian = ukcore::emitted::exact_mut::<S, 3>(jacobian, "jacobian");
+            let [_, _, th] = *ukcore::emitted::exact::<S, 3>(q, "q");
+            let (sin_th, cos_th) = th.sin_cos();
+            jacobian[0] = sin_th;
+            jacobian[1] = -cos_th;
+        }
+        fn residual<S: ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
+            let phi = ukcore::emitted::exact_mut::<S, 0>(phi, "phi");
+        }
+        fn residual_rate<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            rate: &mut [S],
+        ) {
+            let rate = ukcore::emitted::exact_mut::<S, 1>(rate, "rate");
+            let [_, _, th] = *ukcore::emitted::exact::<S, 3>(q, "q");
+            let [dot_x, dot_y, _] = *ukcore::emitted::exact::<S, 3>(v, "v");
+            let (sin_th, cos_th) = th.sin_cos();
+            rate[0] = dot_y.neg_mul_add(cos_th, dot_x * sin_th);
+        }
+        fn energy<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+        ) -> ukcore::Energy<S> {
+            let [right_x, m, i, _, _] = *ukcore::emitted::exact::<
+                S,
+                5,
+            >(prepared, "prepared");
+            let [x, _, _] = *ukcore::emitted::exact::<S, 3>(q, "q");
+            let [dot_x, dot_y, dot_th] = *ukcore::emitted::exact::<S, 3>(v, "v");
+            let lit = S::from_f64;
+            let kinetic = lit(0.5)
+                * (dot_th * dot_th)
+                    .mul_add(i, (dot_y * dot_y).mul_add(m, dot_x * dot_x * m));
+            let potential = -(x * right_x);
+            ukcore::Energy {
+                kinetic,
+                potential,
+            }
+        }
+        fn outputs<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            outputs: &mut [S],
+        ) {
+            let outputs = ukcore::emitted::exact_mut::<S, 2>(outputs, "outputs");
+            let [_, _, th] = *ukcore::emitted::exact::<S, 3>(q, "q");
+            let [dot_x, dot_y, dot_th] = *ukcore::emitted::exact::<S, 3>(v, "v");
+            let (sin_th, cos_th) = th.sin_cos();
+            outputs[0] = dot_y.mul_add(sin_th, dot_x * cos_th);
+            outputs[1] = dot_th;
+        }
+        /// 4 additions, 11 multiplications, 1 divisions, 0 square roots, 1 transcendentals, 1 selections.
+        fn acceleration<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            out: &mut [S],
+        ) -> S {
+            let out = ukcore::emitted::exact_mut::<S, 3>(out, "out");
+            let [_, _, _, g_sin_slope, safe_x] = *ukcore::emitted::exact::<
+                S,
+                5,
+            >(prepared, "prepared");
+            let [_, _, th] = *ukcore::emitted::exact::<S, 3>(q, "q");
+            let [dot_x, dot_y, dot_th] = *ukcore::emitted::exact::<S, 3>(v, "v");
+            let lit = S::from_f64;
+            let (sin_th, cos_th) = th.sin_cos();
+            let pivot_edge = cos_th.mul_add(cos_th, sin_th * sin_th);
+            let per_pivot_edge = pivot_edge.recip();
+            let safe_edge = S::select_le(
+                lit(2.2250738585072014e-308),
+                pivot_edge,
+                safe_x,
+                lit(0.0),
+            );
+            let right_edge = g_sin_slope * sin_th
+                + (dot_y * dot_th).mul_add(sin_th, dot_x * dot_th * cos_th);
+            out[2] = lit(0.0);
+            let safe = safe_edge;
+            out[1] = cos_th * right_edge * per_pivot_edge;
+            out[0] = (sin_th * right_edge).neg_mul_add(per_pivot_edge, g_sin_slope);
+            safe
+        }
+        fn correction<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            residual: &[S],
+            out: &mut [S],
+        ) -> S {
+            let out = ukcore::emitted::exact_mut::<S, 3>(out, "out");
+            let [_, _, _, _, safe_x] = *ukcore::emitted::exact::<
+                S,
+                5,
+            >(prepared, "prepared");
+            let [_, _, th] = *ukcore::emitted::exact::<S, 3>(q, "q");
+            let [residual_0] = *ukcore::emitted::exact::<S, 1>(residual, "residual");
+            let lit = S::from_f64;
+            let (sin_th, cos_th) = th.sin_cos();
+            let pivot_edge = cos_th.mul_add(cos_th, sin_th * sin_th);
+            let per_pivot_edge = pivot_edge.recip();
+            let safe_edge = S::select_le(
+                lit(2.2250738585072014e-308),
+                pivot_edge,
+                safe_x,
+                lit(0.0),
+            );
+            out[2] = lit(0.0);
+            let safe = safe_edge;
+            out[1] = residual_0 * cos_th * per_pivot_edge;
+            out[0] = -(residual_0 * sin_th * per_pivot_edge);
+            safe
         }
     }
-    fn set_parameter(&mut self, index: usize, value: f64) {
-        match index {
-            0 => self.m = value,
-            1 => self.i = value,
-            2 => self.g = value,
-            3 => self.slope = value,
-            _ => ::ukcore::emitted::no_parameter(index),
-        }
-    }
-    fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
-        let prepared = ::ukcore::emitted::exact_mut::<S, 5>(prepared, "prepared");
-        let [m, i, g, slope] = *::ukcore::emitted::exact::<S, 4>(given, "given");
-        let lit = S::from_f64;
-        let sin_slope = slope.sin();
-        let right_x = m * g * sin_slope;
-        prepared[0] = right_x;
-        prepared[1] = m;
-        prepared[2] = i;
-        prepared[3] = g * sin_slope;
-        let safe_th = S::select_le(
-            i,
-            lit(1.7976931348623157e308),
-            S::select_le(lit(2.2250738585072014e-308), i, lit(1.0), lit(0.0)),
-            lit(0.0),
-        );
-        let safe_x = S::select_le(
-            m,
-            lit(1.7976931348623157e308),
-            S::select_le(lit(2.2250738585072014e-308), m, safe_th, lit(0.0)),
-            lit(0.0),
-        );
-        prepared[4] = safe_x;
-    }
-    /// 3 additions, 4 multiplications, 0 divisions, 0 square roots, 1 transcendentals, 0 selections.
-    fn dynamics<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-        out: &mut ::ukcore::Terms<'_, S>,
-    ) {
-        let mass = ::ukcore::emitted::exact_mut::<S, 9>(out.mass, "mass");
-        let force = ::ukcore::emitted::exact_mut::<S, 3>(out.force, "force");
-        let nonideal = ::ukcore::emitted::exact_mut::<S, 3>(out.nonideal, "nonideal");
-        let jacobian = ::ukcore::emitted::exact_mut::<S, 3>(out.jacobian, "jacobian");
-        let rhs = ::ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
-        let [right_x, m, i, _, _] = *::ukcore::emitted::exact::<
-            S,
-            5,
-        >(prepared, "prepared");
-        let [_, _, th] = *::ukcore::emitted::exact::<S, 3>(q, "q");
-        let [dot_x, dot_y, dot_th] = *::ukcore::emitted::exact::<S, 3>(v, "v");
-        let lit = S::from_f64;
-        mass[0] = m;
-        mass[4] = m;
-        mass[8] = i;
-        force[0] = right_x;
-        force[1] = lit(0.0);
-        force[2] = lit(0.0);
-        nonideal[0] = lit(0.0);
-        nonideal[1] = lit(0.0);
-        nonideal[2] = lit(0.0);
-        let (sin_th, cos_th) = th.sin_cos();
-        jacobian[0] = sin_th;
-        jacobian[1] = -cos_th;
-        rhs[0] = (dot_y * dot_th).neg_mul_add(sin_th, -(dot_x * dot_th * cos_th));
-    }
-    fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
-        let mass = ::ukcore::emitted::exact_mut::<S, 9>(mass, "mass");
-        let [_, m, i, _, _] = *::ukcore::emitted::exact::<S, 5>(prepared, "prepared");
-        mass[0] = m;
-        mass[4] = m;
-        mass[8] = i;
-    }
-    fn jacobian<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-        jacobian: &mut [S],
-    ) {
-        let jacobian = ::ukcore::emitted::exact_mut::<S, 3>(jacobian, "jacobian");
-        let [_, _, th] = *::ukcore::emitted::exact::<S, 3>(q, "q");
-        let (sin_th, cos_th) = th.sin_cos();
-        jacobian[0] = sin_th;
-        jacobian[1] = -cos_th;
-    }
-    fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
-        let phi = ::ukcore::emitted::exact_mut::<S, 0>(phi, "phi");
-    }
-    fn residual_rate<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-        rate: &mut [S],
-    ) {
-        let rate = ::ukcore::emitted::exact_mut::<S, 1>(rate, "rate");
-        let [_, _, th] = *::ukcore::emitted::exact::<S, 3>(q, "q");
-        let [dot_x, dot_y, _] = *::ukcore::emitted::exact::<S, 3>(v, "v");
-        let (sin_th, cos_th) = th.sin_cos();
-        rate[0] = dot_y.neg_mul_add(cos_th, dot_x * sin_th);
-    }
-    fn energy<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-    ) -> ::ukcore::Energy<S> {
-        let [right_x, m, i, _, _] = *::ukcore::emitted::exact::<
-            S,
-            5,
-        >(prepared, "prepared");
-        let [x, _, _] = *::ukcore::emitted::exact::<S, 3>(q, "q");
-        let [dot_x, dot_y, dot_th] = *::ukcore::emitted::exact::<S, 3>(v, "v");
-        let lit = S::from_f64;
-        let kinetic = lit(0.5)
-            * (dot_th * dot_th)
-                .mul_add(i, (dot_y * dot_y).mul_add(m, dot_x * dot_x * m));
-        let potential = -(x * right_x);
-        ::ukcore::Energy {
-            kinetic,
-            potential,
-        }
-    }
-    fn outputs<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-        outputs: &mut [S],
-    ) {
-        let outputs = ::ukcore::emitted::exact_mut::<S, 2>(outputs, "outputs");
-        let [_, _, th] = *::ukcore::emitted::exact::<S, 3>(q, "q");
-        let [dot_x, dot_y, dot_th] = *::ukcore::emitted::exact::<S, 3>(v, "v");
-        let (sin_th, cos_th) = th.sin_cos();
-        outputs[0] = dot_y.mul_add(sin_th, dot_x * cos_th);
-        outputs[1] = dot_th;
-    }
-    /// 4 additions, 11 multiplications, 1 divisions, 0 square roots, 1 transcendentals, 1 selections.
-    fn acceleration<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-        out: &mut [S],
-    ) -> S {
-        let out = ::ukcore::emitted::exact_mut::<S, 3>(out, "out");
-        let [_, _, _, g_sin_slope, safe_x] = *::ukcore::emitted::exact::<
-            S,
-            5,
-        >(prepared, "prepared");
-        let [_, _, th] = *::ukcore::emitted::exact::<S, 3>(q, "q");
-        let [dot_x, dot_y, dot_th] = *::ukcore::emitted::exact::<S, 3>(v, "v");
-        let lit = S::from_f64;
-        let (sin_th, cos_th) = th.sin_cos();
-        let pivot_edge = cos_th.mul_add(cos_th, sin_th * sin_th);
-        let per_pivot_edge = pivot_edge.recip();
-        let safe_edge = S::select_le(
-            lit(2.2250738585072014e-308),
-            pivot_edge,
-            safe_x,
-            lit(0.0),
-        );
-        let right_edge = g_sin_slope * sin_th
-            + (dot_y * dot_th).mul_add(sin_th, dot_x * dot_th * cos_th);
-        out[2] = lit(0.0);
-        let safe = safe_edge;
-        out[1] = cos_th * right_edge * per_pivot_edge;
-        out[0] = (sin_th * right_edge).neg_mul_add(per_pivot_edge, g_sin_slope);
-        safe
-    }
-    fn correction<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-        residual: &[S],
-        out: &mut [S],
-    ) -> S {
-        let out = ::ukcore::emitted::exact_mut::<S, 3>(out, "out");
-        let [_, _, _, _, safe_x] = *::ukcore::emitted::exact::<
-            S,
-            5,
-        >(prepared, "prepared");
-        let [_, _, th] = *::ukcore::emitted::exact::<S, 3>(q, "q");
-        let [residual_0] = *::ukcore::emitted::exact::<S, 1>(residual, "residual");
-        let lit = S::from_f64;
-        let (sin_th, cos_th) = th.sin_cos();
-        let pivot_edge = cos_th.mul_add(cos_th, sin_th * sin_th);
-        let per_pivot_edge = pivot_edge.recip();
-        let safe_edge = S::select_le(
-            lit(2.2250738585072014e-308),
-            pivot_edge,
-            safe_x,
-            lit(0.0),
-        );
-        out[2] = lit(0.0);
-        let safe = safe_edge;
-        out[1] = residual_0 * cos_th * per_pivot_edge;
-        out[0] = -(residual_0 * sin_th * per_pivot_edge);
-        safe
-    }
-}
+};

@@ -64,13 +64,6 @@ impl ::core::default::Default for MasslessSpring {
         }
     }
 }
-#[automatically_derived]
-impl ::core::convert::From<MasslessSpring> for ::ukcore::Prepared {
-    fn from(mechanism: MasslessSpring) -> Self {
-        ::ukcore::Mechanism::prepared(&mechanism)
-    }
-}
-#[automatically_derived]
 #[allow(dead_code)]
 impl MasslessSpring {
     /// Position in q of coordinate `joint`.
@@ -82,258 +75,279 @@ impl MasslessSpring {
     /// Position of output `spring_force`.
     pub const OUT_SPRING_FORCE: usize = 0;
 }
-#[automatically_derived]
-#[allow(unused_variables, clippy::all, clippy::pedantic)]
-impl ::ukcore::Mechanism for MasslessSpring {
-    const SPEC: &'static ::ukcore::Spec = &::ukcore::Spec {
-        name: "MasslessSpring",
-        doc: "Wall, spring k1, massless joint, spring k2, mass: all along one line. The joint has no mass, so the forces of the springs on it\nbalance at all times; declared as a constraint this makes [M | Aᵀ] regular (the condition of eq. 19), and its constraint\nforce is zero. Both positions are measured from where the springs are relaxed.",
-        params: &[
-            ::ukcore::ParamSpec {
-                name: "m",
-                doc: "Mass, kg",
-                default: 1.0,
-            },
-            ::ukcore::ParamSpec {
-                name: "k1",
-                doc: "Stiffness of the spring at the wall, N/m",
-                default: 30.0,
-            },
-            ::ukcore::ParamSpec {
-                name: "k2",
-                doc: "Stiffness of the spring at the mass, N/m",
-                default: 60.0,
-            },
-        ],
-        prepared: &[
-            ("k1", "k1"),
-            ("k2", "k2"),
-            ("m", "m"),
-            ("half_m", "0.5*m"),
-            ("k1_and_k2", "k1 + k2"),
-        ],
-        coords: &["joint", "x"],
-        constraints: &[
-            ::ukcore::ConstraintSpec {
-                name: "balance",
-                kind: ::ukcore::ConstraintKind::Holonomic,
-                equation: "k1*joint + k2*(joint - x) = 0",
-            },
-        ],
-        holonomic: 1,
-        outputs: &[
-            ::ukcore::OutputSpec {
-                name: "spring_force",
-                doc: "Force that the springs transmit, N",
-            },
-        ],
-        switches: &[],
-        structure: ::ukcore::Structure {
-            straight_line: false,
-            solve: ::ukcore::Solve::none(
-                "`joint` has no mass, and no constraint in which its coefficient is a number",
-            ),
-            mass_pattern: &[(1, 1)],
-            jacobian_pattern: &[(0, 0), (0, 1)],
-            mass_diagonal: true,
-            mass_constant: true,
-            jacobian_constant: true,
-            massless: &[0],
-            scleronomic: true,
-            nonideal: false,
-            potential: true,
-            conservative: true,
-            left_out: &[
-                "off-diagonal entries of M: M is diagonal, its square root is taken entry by entry",
-                "∂/∂t terms: no equation contains the time",
-                "non-ideal force c (eq. 12): all constraints are ideal",
-                "1 of 1 entries of b: identically zero",
+const _: () = {
+    use ::ukcore as ukcore;
+    #[automatically_derived]
+    impl ::core::convert::From<MasslessSpring> for ukcore::Prepared {
+        fn from(mechanism: MasslessSpring) -> Self {
+            ukcore::Mechanism::prepared(&mechanism)
+        }
+    }
+    #[automatically_derived]
+    #[allow(unused_variables, clippy::all, clippy::pedantic)]
+    impl ukcore::Mechanism for MasslessSpring {
+        const SPEC: &'static ukcore::Spec = &ukcore::Spec {
+            name: "MasslessSpring",
+            doc: "Wall, spring k1, massless joint, spring k2, mass: all along one line. The joint has no mass, so the forces of the springs on it\nbalance at all times; declared as a constraint this makes [M | Aᵀ] regular (the condition of eq. 19), and its constraint\nforce is zero. Both positions are measured from where the springs are relaxed.",
+            params: &[
+                ukcore::ParamSpec {
+                    name: "m",
+                    doc: "Mass, kg",
+                    default: 1.0,
+                },
+                ukcore::ParamSpec {
+                    name: "k1",
+                    doc: "Stiffness of the spring at the wall, N/m",
+                    default: 30.0,
+                },
+                ukcore::ParamSpec {
+                    name: "k2",
+                    doc: "Stiffness of the spring at the mass, N/m",
+                    default: 60.0,
+                },
             ],
-            costs: ::ukcore::Costs {
-                dynamics: ::ukcore::Operations {
-                    additions: 4,
-                    multiplications: 2,
-                    divisions: 0,
-                    square_roots: 0,
-                    transcendentals: 0,
-                    selections: 0,
+            prepared: &[
+                ("k1", "k1"),
+                ("k2", "k2"),
+                ("m", "m"),
+                ("half_m", "0.5*m"),
+                ("k1_and_k2", "k1 + k2"),
+            ],
+            coords: &["joint", "x"],
+            constraints: &[
+                ukcore::ConstraintSpec {
+                    name: "balance",
+                    kind: ukcore::ConstraintKind::Holonomic,
+                    equation: "k1*joint + k2*(joint - x) = 0",
                 },
-                dense: ::ukcore::Operations {
-                    additions: 10,
-                    multiplications: 16,
-                    divisions: 3,
-                    square_roots: 0,
-                    transcendentals: 0,
-                    selections: 0,
+            ],
+            holonomic: 1,
+            outputs: &[
+                ukcore::OutputSpec {
+                    name: "spring_force",
+                    doc: "Force that the springs transmit, N",
                 },
-                unprepared: ::ukcore::Operations {
-                    additions: 0,
-                    multiplications: 0,
-                    divisions: 0,
-                    square_roots: 0,
-                    transcendentals: 0,
-                    selections: 0,
-                },
-                acceleration: ::ukcore::Operations {
-                    additions: 0,
-                    multiplications: 0,
-                    divisions: 0,
-                    square_roots: 0,
-                    transcendentals: 0,
-                    selections: 0,
-                },
-                correction: ::ukcore::Operations {
-                    additions: 0,
-                    multiplications: 0,
-                    divisions: 0,
-                    square_roots: 0,
-                    transcendentals: 0,
-                    selections: 0,
-                },
-                prepare: ::ukcore::Operations {
-                    additions: 1,
-                    multiplications: 1,
-                    divisions: 0,
-                    square_roots: 0,
-                    transcendentals: 0,
-                    selections: 0,
+            ],
+            switches: &[],
+            structure: ukcore::Structure {
+                straight_line: false,
+                solve: ukcore::Solve::none(
+                    "`joint` has no mass, and no constraint in which its coefficient is a number",
+                ),
+                mass_pattern: &[(1, 1)],
+                jacobian_pattern: &[(0, 0), (0, 1)],
+                mass_diagonal: true,
+                mass_constant: true,
+                jacobian_constant: true,
+                massless: &[0],
+                angles: &[],
+                scleronomic: true,
+                nonideal: false,
+                potential: true,
+                conservative: true,
+                left_out: &[
+                    "off-diagonal entries of M: M is diagonal, its square root is taken entry by entry",
+                    "∂/∂t terms: no equation contains the time",
+                    "non-ideal force c (eq. 12): all constraints are ideal",
+                    "1 of 1 entries of b: identically zero",
+                ],
+                costs: ukcore::Costs {
+                    dynamics: ukcore::Operations {
+                        additions: 4,
+                        multiplications: 2,
+                        divisions: 0,
+                        square_roots: 0,
+                        transcendentals: 0,
+                        selections: 0,
+                    },
+                    dense: ukcore::Operations {
+                        additions: 10,
+                        multiplications: 16,
+                        divisions: 3,
+                        square_roots: 0,
+                        transcendentals: 0,
+                        selections: 0,
+                    },
+                    unprepared: ukcore::Operations {
+                        additions: 0,
+                        multiplications: 0,
+                        divisions: 0,
+                        square_roots: 0,
+                        transcendentals: 0,
+                        selections: 0,
+                    },
+                    acceleration: ukcore::Operations {
+                        additions: 0,
+                        multiplications: 0,
+                        divisions: 0,
+                        square_roots: 0,
+                        transcendentals: 0,
+                        selections: 0,
+                    },
+                    correction: ukcore::Operations {
+                        additions: 0,
+                        multiplications: 0,
+                        divisions: 0,
+                        square_roots: 0,
+                        transcendentals: 0,
+                        selections: 0,
+                    },
+                    prepare: ukcore::Operations {
+                        additions: 1,
+                        multiplications: 1,
+                        divisions: 0,
+                        square_roots: 0,
+                        transcendentals: 0,
+                        selections: 0,
+                    },
                 },
             },
-        },
-        equations: ::ukcore::Equations {
-            definitions: &[],
-            mass: &[(1, 1, "m")],
-            force: &[(0, "-(k1*joint + k2*(joint - x))"), (1, "k2*(joint - x)")],
-            nonideal: &[],
-            jacobian: &[(0, 0, "k1 + k2"), (0, 1, "-k2")],
-            rhs: &[],
-        },
-    };
-    fn parameter(&self, index: usize) -> f64 {
-        match index {
-            0 => self.m,
-            1 => self.k1,
-            2 => self.k2,
-            _ => ::ukcore::emitted::no_parameter(index),
+            equations: ukcore::Equations {
+                definitions: &[],
+                mass: &[(1, 1, "m")],
+                force: &[(0, "-(k1*joint + k2*(joint - x))"), (1, "k2*(joint - x)")],
+                nonideal: &[],
+                jacobian: &[(0, 0, "k1 + k2"), (0, 1, "-k2")],
+                rhs: &[],
+            },
+        };
+        fn parameter(&self, index: usize) -> f64 {
+            match index {
+                0 => self.m,
+                1 => self.k1,
+                2 => self.k2,
+                _ => ukcore::emitted::no_parameter(index),
+            }
+        }
+        fn set_parameter(&mut self, index: usize, value: f64) {
+            match index {
+                0 => self.m = value,
+                1 => self.k1 = value,
+                2 => self.k2 = value,
+                _ => ukcore::emitted::no_parameter(index),
+            }
+        }
+        fn prepare<S: ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
+            let prepared = ukcore::emitted::exact_mut::<S, 5>(prepared, "prepared");
+            let [m, k1, k2] = *ukcore::emitted::exact::<S, 3>(given, "given");
+            let lit = S::from_f64;
+            prepared[0] = k1;
+            prepared[1] = k2;
+            prepared[2] = m;
+            prepared[3] = lit(0.5) * m;
+            prepared[4] = k1 + k2;
+        }
+        /// 4 additions, 2 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
+        fn dynamics<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            out: &mut ukcore::Terms<'_, S>,
+        ) {
+            let mass = ukcore::emitted::exact_mut::<S, 4>(out.mass, "mass");
+            let force = ukcore::emitted::exact_mut::<S, 2>(out.force, "force");
+            let nonideal = ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
+            let jacobian = ukcore::emitted::exact_mut::<S, 2>(out.jacobian, "jacobian");
+            let rhs = ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
+            let [k1, k2, m, _, k1_and_k2] = *ukcore::emitted::exact::<
+                S,
+                5,
+            >(prepared, "prepared");
+            let [joint, x] = *ukcore::emitted::exact::<S, 2>(q, "q");
+            let lit = S::from_f64;
+            mass[3] = m;
+            let force_0_part = k2 * (joint - x);
+            force[0] = -(joint * k1) - force_0_part;
+            force[1] = force_0_part;
+            nonideal[0] = lit(0.0);
+            nonideal[1] = lit(0.0);
+            jacobian[0] = k1_and_k2;
+            jacobian[1] = -k2;
+            rhs[0] = lit(0.0);
+        }
+        fn mass_matrix<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            mass: &mut [S],
+        ) {
+            let mass = ukcore::emitted::exact_mut::<S, 4>(mass, "mass");
+            let [_, _, m, _, _] = *ukcore::emitted::exact::<S, 5>(prepared, "prepared");
+            mass[3] = m;
+        }
+        fn jacobian<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            jacobian: &mut [S],
+        ) {
+            let jacobian = ukcore::emitted::exact_mut::<S, 2>(jacobian, "jacobian");
+            let [_, k2, _, _, k1_and_k2] = *ukcore::emitted::exact::<
+                S,
+                5,
+            >(prepared, "prepared");
+            jacobian[0] = k1_and_k2;
+            jacobian[1] = -k2;
+        }
+        fn residual<S: ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
+            let phi = ukcore::emitted::exact_mut::<S, 1>(phi, "phi");
+            let [k1, k2, _, _, _] = *ukcore::emitted::exact::<
+                S,
+                5,
+            >(prepared, "prepared");
+            let [joint, x] = *ukcore::emitted::exact::<S, 2>(q, "q");
+            phi[0] = k2.mul_add((joint - x), joint * k1);
+        }
+        fn residual_rate<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            rate: &mut [S],
+        ) {
+            let rate = ukcore::emitted::exact_mut::<S, 1>(rate, "rate");
+            let [k1, k2, _, _, _] = *ukcore::emitted::exact::<
+                S,
+                5,
+            >(prepared, "prepared");
+            let [dot_joint, dot_x] = *ukcore::emitted::exact::<S, 2>(v, "v");
+            rate[0] = k2.neg_mul_add((dot_x - dot_joint), dot_joint * k1);
+        }
+        fn energy<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+        ) -> ukcore::Energy<S> {
+            let [k1, k2, _, half_m, _] = *ukcore::emitted::exact::<
+                S,
+                5,
+            >(prepared, "prepared");
+            let [joint, x] = *ukcore::emitted::exact::<S, 2>(q, "q");
+            let [_, dot_x] = *ukcore::emitted::exact::<S, 2>(v, "v");
+            let lit = S::from_f64;
+            let kinetic = dot_x * dot_x * half_m;
+            let joint_minus_x = joint - x;
+            let potential = lit(0.5)
+                * (k2 * joint_minus_x).mul_add(joint_minus_x, joint * joint * k1);
+            ukcore::Energy {
+                kinetic,
+                potential,
+            }
+        }
+        fn outputs<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            outputs: &mut [S],
+        ) {
+            let outputs = ukcore::emitted::exact_mut::<S, 1>(outputs, "outputs");
+            let [k1, _, _, _, _] = *ukcore::emitted::exact::<S, 5>(prepared, "prepared");
+            let [joint, _] = *ukcore::emitted::exact::<S, 2>(q, "q");
+            outputs[0] = joint * k1;
         }
     }
-    fn set_parameter(&mut self, index: usize, value: f64) {
-        match index {
-            0 => self.m = value,
-            1 => self.k1 = value,
-            2 => self.k2 = value,
-            _ => ::ukcore::emitted::no_parameter(index),
-        }
-    }
-    fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
-        let prepared = ::ukcore::emitted::exact_mut::<S, 5>(prepared, "prepared");
-        let [m, k1, k2] = *::ukcore::emitted::exact::<S, 3>(given, "given");
-        let lit = S::from_f64;
-        prepared[0] = k1;
-        prepared[1] = k2;
-        prepared[2] = m;
-        prepared[3] = lit(0.5) * m;
-        prepared[4] = k1 + k2;
-    }
-    /// 4 additions, 2 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
-    fn dynamics<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-        out: &mut ::ukcore::Terms<'_, S>,
-    ) {
-        let mass = ::ukcore::emitted::exact_mut::<S, 4>(out.mass, "mass");
-        let force = ::ukcore::emitted::exact_mut::<S, 2>(out.force, "force");
-        let nonideal = ::ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
-        let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(out.jacobian, "jacobian");
-        let rhs = ::ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
-        let [k1, k2, m, _, k1_and_k2] = *::ukcore::emitted::exact::<
-            S,
-            5,
-        >(prepared, "prepared");
-        let [joint, x] = *::ukcore::emitted::exact::<S, 2>(q, "q");
-        let lit = S::from_f64;
-        mass[3] = m;
-        let force_0_part = k2 * (joint - x);
-        force[0] = -(joint * k1) - force_0_part;
-        force[1] = force_0_part;
-        nonideal[0] = lit(0.0);
-        nonideal[1] = lit(0.0);
-        jacobian[0] = k1_and_k2;
-        jacobian[1] = -k2;
-        rhs[0] = lit(0.0);
-    }
-    fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
-        let mass = ::ukcore::emitted::exact_mut::<S, 4>(mass, "mass");
-        let [_, _, m, _, _] = *::ukcore::emitted::exact::<S, 5>(prepared, "prepared");
-        mass[3] = m;
-    }
-    fn jacobian<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-        jacobian: &mut [S],
-    ) {
-        let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(jacobian, "jacobian");
-        let [_, k2, _, _, k1_and_k2] = *::ukcore::emitted::exact::<
-            S,
-            5,
-        >(prepared, "prepared");
-        jacobian[0] = k1_and_k2;
-        jacobian[1] = -k2;
-    }
-    fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
-        let phi = ::ukcore::emitted::exact_mut::<S, 1>(phi, "phi");
-        let [k1, k2, _, _, _] = *::ukcore::emitted::exact::<S, 5>(prepared, "prepared");
-        let [joint, x] = *::ukcore::emitted::exact::<S, 2>(q, "q");
-        phi[0] = k2.mul_add((joint - x), joint * k1);
-    }
-    fn residual_rate<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-        rate: &mut [S],
-    ) {
-        let rate = ::ukcore::emitted::exact_mut::<S, 1>(rate, "rate");
-        let [k1, k2, _, _, _] = *::ukcore::emitted::exact::<S, 5>(prepared, "prepared");
-        let [dot_joint, dot_x] = *::ukcore::emitted::exact::<S, 2>(v, "v");
-        rate[0] = k2.neg_mul_add((dot_x - dot_joint), dot_joint * k1);
-    }
-    fn energy<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-    ) -> ::ukcore::Energy<S> {
-        let [k1, k2, _, half_m, _] = *::ukcore::emitted::exact::<
-            S,
-            5,
-        >(prepared, "prepared");
-        let [joint, x] = *::ukcore::emitted::exact::<S, 2>(q, "q");
-        let [_, dot_x] = *::ukcore::emitted::exact::<S, 2>(v, "v");
-        let lit = S::from_f64;
-        let kinetic = dot_x * dot_x * half_m;
-        let joint_minus_x = joint - x;
-        let potential = lit(0.5)
-            * (k2 * joint_minus_x).mul_add(joint_minus_x, joint * joint * k1);
-        ::ukcore::Energy {
-            kinetic,
-            potential,
-        }
-    }
-    fn outputs<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-        outputs: &mut [S],
-    ) {
-        let outputs = ::ukcore::emitted::exact_mut::<S, 1>(outputs, "outputs");
-        let [k1, _, _, _, _] = *::ukcore::emitted::exact::<S, 5>(prepared, "prepared");
-        let [joint, _] = *::ukcore::emitted::exact::<S, 2>(q, "q");
-        outputs[0] = joint * k1;
-    }
-}
+};

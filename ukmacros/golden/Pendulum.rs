@@ -71,13 +71,6 @@ impl ::core::default::Default for Pendulum {
         }
     }
 }
-#[automatically_derived]
-impl ::core::convert::From<Pendulum> for ::ukcore::Prepared {
-    fn from(mechanism: Pendulum) -> Self {
-        ::ukcore::Mechanism::prepared(&mechanism)
-    }
-}
-#[automatically_derived]
 #[allow(dead_code)]
 impl Pendulum {
     /// Position in q of coordinate `x`.
@@ -91,349 +84,367 @@ impl Pendulum {
     /// Position of output `tension`.
     pub const OUT_TENSION: usize = 1;
 }
-#[automatically_derived]
-#[allow(unused_variables, clippy::all, clippy::pedantic)]
-impl ::ukcore::Mechanism for Pendulum {
-    const SPEC: &'static ::ukcore::Spec = &::ukcore::Spec {
-        name: "Pendulum",
-        doc: "Point mass on a massless rigid rod about a pivot at the origin; y points up.",
-        params: &[
-            ::ukcore::ParamSpec {
-                name: "m",
-                doc: "Mass, kg",
-                default: 1.0,
-            },
-            ::ukcore::ParamSpec {
-                name: "l",
-                doc: "Length of the rod, m",
-                default: 1.0,
-            },
-            ::ukcore::ParamSpec {
-                name: "g",
-                doc: "Acceleration of gravity, m/s^2",
-                default: 9.81,
-            },
-        ],
-        prepared: &[
-            ("m_g", "m*g"),
-            ("sq_l", "sq(l)"),
-            ("g", "g"),
-            ("m_per_l", "m/l"),
-            ("m", "m"),
-            (
-                "safe_x",
-                "1 if the pivots that depend on m alone are positive and finite, else 0",
-            ),
-        ],
-        coords: &["x", "y"],
-        constraints: &[
-            ::ukcore::ConstraintSpec {
-                name: "rod",
-                kind: ::ukcore::ConstraintKind::Holonomic,
-                equation: "sq(x) + sq(y) - sq(l) = 0",
-            },
-        ],
-        holonomic: 1,
-        outputs: &[
-            ::ukcore::OutputSpec {
-                name: "angle",
-                doc: "Angle from the downward vertical, counter-clockwise, rad",
-            },
-            ::ukcore::OutputSpec {
-                name: "tension",
-                doc: "Tension of the rod, N",
-            },
-        ],
-        switches: &[],
-        structure: ::ukcore::Structure {
-            straight_line: true,
-            solve: ::ukcore::Solve {
-                refusal: "",
-                pivots: &[
-                    ::ukcore::Pivot::Coordinate(0),
-                    ::ukcore::Pivot::Coordinate(1),
-                    ::ukcore::Pivot::Constraint(0),
-                ],
-                fill: &[],
-                checks: &[::ukcore::Check::Positive(0), ::ukcore::Check::Positive(2)],
-                least_share: 0.0009765625,
-            },
-            mass_pattern: &[(0, 0), (1, 1)],
-            jacobian_pattern: &[(0, 0), (0, 1)],
-            mass_diagonal: true,
-            mass_constant: true,
-            jacobian_constant: false,
-            massless: &[],
-            scleronomic: true,
-            nonideal: false,
-            potential: true,
-            conservative: true,
-            left_out: &[
-                "off-diagonal entries of M: M is diagonal, its square root is taken entry by entry",
-                "∂/∂t terms: no equation contains the time",
-                "non-ideal force c (eq. 12): all constraints are ideal",
-                "1 of 2 entries of Q: identically zero",
-                "Udwadia-Phohomsiri formula (eq. 19): no coordinate is massless while the parameters are positive",
+const _: () = {
+    use ::ukcore as ukcore;
+    #[automatically_derived]
+    impl ::core::convert::From<Pendulum> for ukcore::Prepared {
+        fn from(mechanism: Pendulum) -> Self {
+            ukcore::Mechanism::prepared(&mechanism)
+        }
+    }
+    #[automatically_derived]
+    #[allow(unused_variables, clippy::all, clippy::pedantic)]
+    impl ukcore::Mechanism for Pendulum {
+        const SPEC: &'static ukcore::Spec = &ukcore::Spec {
+            name: "Pendulum",
+            doc: "Point mass on a massless rigid rod about a pivot at the origin; y points up.",
+            params: &[
+                ukcore::ParamSpec {
+                    name: "m",
+                    doc: "Mass, kg",
+                    default: 1.0,
+                },
+                ukcore::ParamSpec {
+                    name: "l",
+                    doc: "Length of the rod, m",
+                    default: 1.0,
+                },
+                ukcore::ParamSpec {
+                    name: "g",
+                    doc: "Acceleration of gravity, m/s^2",
+                    default: 9.81,
+                },
             ],
-            costs: ::ukcore::Costs {
-                dynamics: ::ukcore::Operations {
-                    additions: 2,
-                    multiplications: 5,
-                    divisions: 0,
-                    square_roots: 0,
-                    transcendentals: 0,
-                    selections: 0,
+            prepared: &[
+                ("m_g", "m*g"),
+                ("sq_l", "sq(l)"),
+                ("g", "g"),
+                ("m_per_l", "m/l"),
+                ("m", "m"),
+                (
+                    "safe_x",
+                    "1 if the pivots that depend on m alone are positive and finite, else 0",
+                ),
+            ],
+            coords: &["x", "y"],
+            constraints: &[
+                ukcore::ConstraintSpec {
+                    name: "rod",
+                    kind: ukcore::ConstraintKind::Holonomic,
+                    equation: "sq(x) + sq(y) - sq(l) = 0",
                 },
-                dense: ::ukcore::Operations {
-                    additions: 10,
-                    multiplications: 16,
-                    divisions: 3,
-                    square_roots: 0,
-                    transcendentals: 0,
-                    selections: 0,
+            ],
+            holonomic: 1,
+            outputs: &[
+                ukcore::OutputSpec {
+                    name: "angle",
+                    doc: "Angle from the downward vertical, counter-clockwise, rad",
                 },
-                unprepared: ::ukcore::Operations {
-                    additions: 5,
-                    multiplications: 9,
-                    divisions: 1,
-                    square_roots: 0,
-                    transcendentals: 0,
-                    selections: 3,
+                ukcore::OutputSpec {
+                    name: "tension",
+                    doc: "Tension of the rod, N",
                 },
-                acceleration: ::ukcore::Operations {
-                    additions: 6,
-                    multiplications: 9,
-                    divisions: 1,
-                    square_roots: 0,
-                    transcendentals: 0,
-                    selections: 1,
+            ],
+            switches: &[],
+            structure: ukcore::Structure {
+                straight_line: true,
+                solve: ukcore::Solve {
+                    refusal: "",
+                    pivots: &[
+                        ukcore::Pivot::Coordinate(0),
+                        ukcore::Pivot::Coordinate(1),
+                        ukcore::Pivot::Constraint(0),
+                    ],
+                    fill: &[],
+                    checks: &[ukcore::Check::Positive(0), ukcore::Check::Positive(2)],
+                    least_share: 0.0009765625,
                 },
-                correction: ::ukcore::Operations {
-                    additions: 3,
-                    multiplications: 7,
-                    divisions: 1,
-                    square_roots: 0,
-                    transcendentals: 0,
-                    selections: 1,
-                },
-                prepare: ::ukcore::Operations {
-                    additions: 0,
-                    multiplications: 2,
-                    divisions: 1,
-                    square_roots: 0,
-                    transcendentals: 0,
-                    selections: 2,
+                mass_pattern: &[(0, 0), (1, 1)],
+                jacobian_pattern: &[(0, 0), (0, 1)],
+                mass_diagonal: true,
+                mass_constant: true,
+                jacobian_constant: false,
+                massless: &[],
+                angles: &[],
+                scleronomic: true,
+                nonideal: false,
+                potential: true,
+                conservative: true,
+                left_out: &[
+                    "off-diagonal entries of M: M is diagonal, its square root is taken entry by entry",
+                    "∂/∂t terms: no equation contains the time",
+                    "non-ideal force c (eq. 12): all constraints are ideal",
+                    "1 of 2 entries of Q: identically zero",
+                    "Udwadia-Phohomsiri formula (eq. 19): no coordinate is massless while the parameters are positive",
+                ],
+                costs: ukcore::Costs {
+                    dynamics: ukcore::Operations {
+                        additions: 2,
+                        multiplications: 5,
+                        divisions: 0,
+                        square_roots: 0,
+                        transcendentals: 0,
+                        selections: 0,
+                    },
+                    dense: ukcore::Operations {
+                        additions: 10,
+                        multiplications: 16,
+                        divisions: 3,
+                        square_roots: 0,
+                        transcendentals: 0,
+                        selections: 0,
+                    },
+                    unprepared: ukcore::Operations {
+                        additions: 5,
+                        multiplications: 9,
+                        divisions: 1,
+                        square_roots: 0,
+                        transcendentals: 0,
+                        selections: 3,
+                    },
+                    acceleration: ukcore::Operations {
+                        additions: 6,
+                        multiplications: 9,
+                        divisions: 1,
+                        square_roots: 0,
+                        transcendentals: 0,
+                        selections: 1,
+                    },
+                    correction: ukcore::Operations {
+                        additions: 3,
+                        multiplications: 7,
+                        divisions: 1,
+                        square_roots: 0,
+                        transcendentals: 0,
+                        selections: 1,
+                    },
+                    prepare: ukcore::Operations {
+                        additions: 0,
+                        multiplications: 2,
+                        divisions: 1,
+                        square_roots: 0,
+                        transcendentals: 0,
+                        selections: 2,
+                    },
                 },
             },
-        },
-        equations: ::ukcore::Equations {
-            definitions: &[],
-            mass: &[(0, 0, "m"), (1, 1, "m")],
-            force: &[(1, "-m*g")],
-            nonideal: &[],
-            jacobian: &[(0, 0, "2*x"), (0, 1, "2*y")],
-            rhs: &[(0, "-2*(sq(dot(x)) + sq(dot(y)))")],
-        },
-    };
-    fn parameter(&self, index: usize) -> f64 {
-        match index {
-            0 => self.m,
-            1 => self.l,
-            2 => self.g,
-            _ => ::ukcore::emitted::no_parameter(index),
+            equations: ukcore::Equations {
+                definitions: &[],
+                mass: &[(0, 0, "m"), (1, 1, "m")],
+                force: &[(1, "-m*g")],
+                nonideal: &[],
+                jacobian: &[(0, 0, "2*x"), (0, 1, "2*y")],
+                rhs: &[(0, "-2*(sq(dot(x)) + sq(dot(y)))")],
+            },
+        };
+        fn parameter(&self, index: usize) -> f64 {
+            match index {
+                0 => self.m,
+                1 => self.l,
+                2 => self.g,
+                _ => ukcore::emitted::no_parameter(index),
+            }
+        }
+        fn set_parameter(&mut self, index: usize, value: f64) {
+            match index {
+                0 => self.m = value,
+                1 => self.l = value,
+                2 => self.g = value,
+                _ => ukcore::emitted::no_parameter(index),
+            }
+        }
+        fn prepare<S: ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
+            let prepared = ukcore::emitted::exact_mut::<S, 6>(prepared, "prepared");
+            let [m, l, g] = *ukcore::emitted::exact::<S, 3>(given, "given");
+            let lit = S::from_f64;
+            prepared[0] = m * g;
+            prepared[1] = l * l;
+            prepared[2] = g;
+            prepared[3] = m / l;
+            prepared[4] = m;
+            let safe_x = S::select_le(
+                m,
+                lit(1.7976931348623157e308),
+                S::select_le(lit(2.2250738585072014e-308), m, lit(1.0), lit(0.0)),
+                lit(0.0),
+            );
+            prepared[5] = safe_x;
+        }
+        /// 2 additions, 5 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
+        fn dynamics<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            out: &mut ukcore::Terms<'_, S>,
+        ) {
+            let mass = ukcore::emitted::exact_mut::<S, 4>(out.mass, "mass");
+            let force = ukcore::emitted::exact_mut::<S, 2>(out.force, "force");
+            let nonideal = ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
+            let jacobian = ukcore::emitted::exact_mut::<S, 2>(out.jacobian, "jacobian");
+            let rhs = ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
+            let [m_g, _, _, _, m, _] = *ukcore::emitted::exact::<
+                S,
+                6,
+            >(prepared, "prepared");
+            let [x, y] = *ukcore::emitted::exact::<S, 2>(q, "q");
+            let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
+            let lit = S::from_f64;
+            mass[0] = m;
+            mass[3] = m;
+            force[0] = lit(0.0);
+            force[1] = -m_g;
+            nonideal[0] = lit(0.0);
+            nonideal[1] = lit(0.0);
+            jacobian[0] = lit(2.0) * x;
+            jacobian[1] = lit(2.0) * y;
+            rhs[0] = lit(-2.0) * dot_y.mul_add(dot_y, dot_x * dot_x);
+        }
+        fn mass_matrix<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            mass: &mut [S],
+        ) {
+            let mass = ukcore::emitted::exact_mut::<S, 4>(mass, "mass");
+            let [_, _, _, _, m, _] = *ukcore::emitted::exact::<
+                S,
+                6,
+            >(prepared, "prepared");
+            mass[0] = m;
+            mass[3] = m;
+        }
+        fn jacobian<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            jacobian: &mut [S],
+        ) {
+            let jacobian = ukcore::emitted::exact_mut::<S, 2>(jacobian, "jacobian");
+            let [x, y] = *ukcore::emitted::exact::<S, 2>(q, "q");
+            let lit = S::from_f64;
+            jacobian[0] = lit(2.0) * x;
+            jacobian[1] = lit(2.0) * y;
+        }
+        fn residual<S: ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
+            let phi = ukcore::emitted::exact_mut::<S, 1>(phi, "phi");
+            let [_, sq_l, _, _, _, _] = *ukcore::emitted::exact::<
+                S,
+                6,
+            >(prepared, "prepared");
+            let [x, y] = *ukcore::emitted::exact::<S, 2>(q, "q");
+            phi[0] = y.mul_add(y, x * x - sq_l);
+        }
+        fn residual_rate<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            rate: &mut [S],
+        ) {
+            let rate = ukcore::emitted::exact_mut::<S, 1>(rate, "rate");
+            let [x, y] = *ukcore::emitted::exact::<S, 2>(q, "q");
+            let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
+            let lit = S::from_f64;
+            rate[0] = lit(2.0) * y.mul_add(dot_y, x * dot_x);
+        }
+        fn energy<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+        ) -> ukcore::Energy<S> {
+            let [m_g, _, _, _, m, _] = *ukcore::emitted::exact::<
+                S,
+                6,
+            >(prepared, "prepared");
+            let [_, y] = *ukcore::emitted::exact::<S, 2>(q, "q");
+            let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
+            let lit = S::from_f64;
+            let kinetic = lit(0.5) * (dot_y * dot_y).mul_add(m, dot_x * dot_x * m);
+            let potential = y * m_g;
+            ukcore::Energy {
+                kinetic,
+                potential,
+            }
+        }
+        fn outputs<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            outputs: &mut [S],
+        ) {
+            let outputs = ukcore::emitted::exact_mut::<S, 2>(outputs, "outputs");
+            let [_, _, g, m_per_l, _, _] = *ukcore::emitted::exact::<
+                S,
+                6,
+            >(prepared, "prepared");
+            let [x, y] = *ukcore::emitted::exact::<S, 2>(q, "q");
+            let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
+            outputs[0] = x.atan2(-y);
+            outputs[1] = m_per_l * y.neg_mul_add(g, dot_y.mul_add(dot_y, dot_x * dot_x));
+        }
+        /// 6 additions, 9 multiplications, 1 divisions, 0 square roots, 0 transcendentals, 1 selections.
+        fn acceleration<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            out: &mut [S],
+        ) -> S {
+            let out = ukcore::emitted::exact_mut::<S, 2>(out, "out");
+            let [_, _, g, _, _, safe_x] = *ukcore::emitted::exact::<
+                S,
+                6,
+            >(prepared, "prepared");
+            let [x, y] = *ukcore::emitted::exact::<S, 2>(q, "q");
+            let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
+            let lit = S::from_f64;
+            let pivot_rod = y.mul_add(y, x * x);
+            let per_pivot_rod = pivot_rod.recip();
+            let safe_rod = S::select_le(
+                lit(2.2250738585072014e-308),
+                pivot_rod,
+                safe_x,
+                lit(0.0),
+            );
+            let right_rod = y.neg_mul_add(g, dot_y.mul_add(dot_y, dot_x * dot_x));
+            let safe = safe_rod;
+            out[0] = -(x * right_rod * per_pivot_rod);
+            out[1] = (y * right_rod).neg_mul_add(per_pivot_rod, -g);
+            safe
+        }
+        fn correction<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            residual: &[S],
+            out: &mut [S],
+        ) -> S {
+            let out = ukcore::emitted::exact_mut::<S, 2>(out, "out");
+            let [_, _, _, _, _, safe_x] = *ukcore::emitted::exact::<
+                S,
+                6,
+            >(prepared, "prepared");
+            let [x, y] = *ukcore::emitted::exact::<S, 2>(q, "q");
+            let [residual_0] = *ukcore::emitted::exact::<S, 1>(residual, "residual");
+            let lit = S::from_f64;
+            let pivot_rod = y.mul_add(y, x * x);
+            let per_pivot_rod = pivot_rod.recip();
+            let safe_rod = S::select_le(
+                lit(2.2250738585072014e-308),
+                pivot_rod,
+                safe_x,
+                lit(0.0),
+            );
+            let right_rod = lit(0.5) * residual_0;
+            let safe = safe_rod;
+            out[0] = -(x * right_rod * per_pivot_rod);
+            out[1] = -(y * right_rod * per_pivot_rod);
+            safe
         }
     }
-    fn set_parameter(&mut self, index: usize, value: f64) {
-        match index {
-            0 => self.m = value,
-            1 => self.l = value,
-            2 => self.g = value,
-            _ => ::ukcore::emitted::no_parameter(index),
-        }
-    }
-    fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
-        let prepared = ::ukcore::emitted::exact_mut::<S, 6>(prepared, "prepared");
-        let [m, l, g] = *::ukcore::emitted::exact::<S, 3>(given, "given");
-        let lit = S::from_f64;
-        prepared[0] = m * g;
-        prepared[1] = l * l;
-        prepared[2] = g;
-        prepared[3] = m / l;
-        prepared[4] = m;
-        let safe_x = S::select_le(
-            m,
-            lit(1.7976931348623157e308),
-            S::select_le(lit(2.2250738585072014e-308), m, lit(1.0), lit(0.0)),
-            lit(0.0),
-        );
-        prepared[5] = safe_x;
-    }
-    /// 2 additions, 5 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
-    fn dynamics<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-        out: &mut ::ukcore::Terms<'_, S>,
-    ) {
-        let mass = ::ukcore::emitted::exact_mut::<S, 4>(out.mass, "mass");
-        let force = ::ukcore::emitted::exact_mut::<S, 2>(out.force, "force");
-        let nonideal = ::ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
-        let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(out.jacobian, "jacobian");
-        let rhs = ::ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
-        let [m_g, _, _, _, m, _] = *::ukcore::emitted::exact::<
-            S,
-            6,
-        >(prepared, "prepared");
-        let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
-        let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
-        let lit = S::from_f64;
-        mass[0] = m;
-        mass[3] = m;
-        force[0] = lit(0.0);
-        force[1] = -m_g;
-        nonideal[0] = lit(0.0);
-        nonideal[1] = lit(0.0);
-        jacobian[0] = lit(2.0) * x;
-        jacobian[1] = lit(2.0) * y;
-        rhs[0] = lit(-2.0) * dot_y.mul_add(dot_y, dot_x * dot_x);
-    }
-    fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
-        let mass = ::ukcore::emitted::exact_mut::<S, 4>(mass, "mass");
-        let [_, _, _, _, m, _] = *::ukcore::emitted::exact::<S, 6>(prepared, "prepared");
-        mass[0] = m;
-        mass[3] = m;
-    }
-    fn jacobian<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-        jacobian: &mut [S],
-    ) {
-        let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(jacobian, "jacobian");
-        let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
-        let lit = S::from_f64;
-        jacobian[0] = lit(2.0) * x;
-        jacobian[1] = lit(2.0) * y;
-    }
-    fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
-        let phi = ::ukcore::emitted::exact_mut::<S, 1>(phi, "phi");
-        let [_, sq_l, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            6,
-        >(prepared, "prepared");
-        let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
-        phi[0] = y.mul_add(y, x * x - sq_l);
-    }
-    fn residual_rate<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-        rate: &mut [S],
-    ) {
-        let rate = ::ukcore::emitted::exact_mut::<S, 1>(rate, "rate");
-        let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
-        let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
-        let lit = S::from_f64;
-        rate[0] = lit(2.0) * y.mul_add(dot_y, x * dot_x);
-    }
-    fn energy<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-    ) -> ::ukcore::Energy<S> {
-        let [m_g, _, _, _, m, _] = *::ukcore::emitted::exact::<
-            S,
-            6,
-        >(prepared, "prepared");
-        let [_, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
-        let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
-        let lit = S::from_f64;
-        let kinetic = lit(0.5) * (dot_y * dot_y).mul_add(m, dot_x * dot_x * m);
-        let potential = y * m_g;
-        ::ukcore::Energy {
-            kinetic,
-            potential,
-        }
-    }
-    fn outputs<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-        outputs: &mut [S],
-    ) {
-        let outputs = ::ukcore::emitted::exact_mut::<S, 2>(outputs, "outputs");
-        let [_, _, g, m_per_l, _, _] = *::ukcore::emitted::exact::<
-            S,
-            6,
-        >(prepared, "prepared");
-        let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
-        let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
-        outputs[0] = x.atan2(-y);
-        outputs[1] = m_per_l * y.neg_mul_add(g, dot_y.mul_add(dot_y, dot_x * dot_x));
-    }
-    /// 6 additions, 9 multiplications, 1 divisions, 0 square roots, 0 transcendentals, 1 selections.
-    fn acceleration<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-        out: &mut [S],
-    ) -> S {
-        let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
-        let [_, _, g, _, _, safe_x] = *::ukcore::emitted::exact::<
-            S,
-            6,
-        >(prepared, "prepared");
-        let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
-        let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
-        let lit = S::from_f64;
-        let pivot_rod = y.mul_add(y, x * x);
-        let per_pivot_rod = pivot_rod.recip();
-        let safe_rod = S::select_le(
-            lit(2.2250738585072014e-308),
-            pivot_rod,
-            safe_x,
-            lit(0.0),
-        );
-        let right_rod = y.neg_mul_add(g, dot_y.mul_add(dot_y, dot_x * dot_x));
-        let safe = safe_rod;
-        out[0] = -(x * right_rod * per_pivot_rod);
-        out[1] = (y * right_rod).neg_mul_add(per_pivot_rod, -g);
-        safe
-    }
-    fn correction<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-        residual: &[S],
-        out: &mut [S],
-    ) -> S {
-        let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
-        let [_, _, _, _, _, safe_x] = *::ukcore::emitted::exact::<
-            S,
-            6,
-        >(prepared, "prepared");
-        let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
-        let [residual_0] = *::ukcore::emitted::exact::<S, 1>(residual, "residual");
-        let lit = S::from_f64;
-        let pivot_rod = y.mul_add(y, x * x);
-        let per_pivot_rod = pivot_rod.recip();
-        let safe_rod = S::select_le(
-            lit(2.2250738585072014e-308),
-            pivot_rod,
-            safe_x,
-            lit(0.0),
-        );
-        let right_rod = lit(0.5) * residual_0;
-        let safe = safe_rod;
-        out[0] = -(x * right_rod * per_pivot_rod);
-        out[1] = -(y * right_rod * per_pivot_rod);
-        safe
-    }
-}
+};

@@ -89,13 +89,6 @@ impl ::core::default::Default for RoughBlock {
         }
     }
 }
-#[automatically_derived]
-impl ::core::convert::From<RoughBlock> for ::ukcore::Prepared {
-    fn from(mechanism: RoughBlock) -> Self {
-        ::ukcore::Mechanism::prepared(&mechanism)
-    }
-}
-#[automatically_derived]
 #[allow(dead_code)]
 impl RoughBlock {
     /// Position in q of coordinate `x`.
@@ -111,405 +104,423 @@ impl RoughBlock {
     /// Position of output `friction_force`.
     pub const OUT_FRICTION_FORCE: usize = 2;
 }
-#[automatically_derived]
-#[allow(unused_variables, clippy::all, clippy::pedantic)]
-impl ::ukcore::Mechanism for RoughBlock {
-    const SPEC: &'static ::ukcore::Spec = &::ukcore::Spec {
-        name: "RoughBlock",
-        doc: "Block on a slope that falls towards +x; y points up. The slope's constraint is not ideal: it rubs with Coulomb's friction\nmu N against the motion, where N = m g cos(slope) is the ideal constraint force, known beforehand. Friction is of sliding only:\nthe slope has to be steeper than the angle of repose, mu < tan(slope), or the block would have to stick.",
-        params: &[
-            ::ukcore::ParamSpec {
-                name: "m",
-                doc: "Mass, kg",
-                default: 1.0,
-            },
-            ::ukcore::ParamSpec {
-                name: "g",
-                doc: "Acceleration of gravity, m/s^2",
-                default: 9.81,
-            },
-            ::ukcore::ParamSpec {
-                name: "slope",
-                doc: "Inclination of the slope, rad",
-                default: 0.5235987755982988,
-            },
-            ::ukcore::ParamSpec {
-                name: "mu",
-                doc: "Coefficient of friction",
-                default: 0.2,
-            },
-        ],
-        prepared: &[
-            ("cos_slope", "cos(slope)"),
-            ("sin_slope", "sin(slope)"),
-            ("cos_slope_mu_m_g", "cos(slope)*mu*m*g"),
-            ("m_g", "m*g"),
-            ("m", "m"),
-            ("sq_cos_slope_mu_m_g", "sq(cos(slope))*mu*m*g"),
-            ("cos_slope_sin_slope_mu_m_g", "cos(slope)*sin(slope)*mu*m*g"),
-            ("cos_slope_sin_slope_mu", "cos(slope)*sin(slope)*mu"),
-            ("prepared_part", "sq(cos(slope))/(sq(sin(slope)) + sq(cos(slope)))"),
-            ("g", "g"),
-            ("cos_slope_mu", "cos(slope)*mu"),
-            ("prepared_part_2", "sin(slope)/(sq(sin(slope)) + sq(cos(slope)))"),
-            ("cos_slope_g", "cos(slope)*g"),
-            ("prepared_part_3", "cos(slope)/(sq(sin(slope)) + sq(cos(slope)))"),
-            (
-                "safe_plane",
-                "1 if the pivots that depend on m, slope alone are positive and finite, else 0",
-            ),
-        ],
-        coords: &["x", "y"],
-        constraints: &[
-            ::ukcore::ConstraintSpec {
-                name: "plane",
-                kind: ::ukcore::ConstraintKind::Holonomic,
-                equation: "x*sin(slope) + cos(slope)*y = 0",
-            },
-        ],
-        holonomic: 1,
-        outputs: &[
-            ::ukcore::OutputSpec {
-                name: "way",
-                doc: "Way down the slope, m",
-            },
-            ::ukcore::OutputSpec {
-                name: "speed",
-                doc: "Speed down the slope, m/s",
-            },
-            ::ukcore::OutputSpec {
-                name: "friction_force",
-                doc: "Friction, positive down the slope, N",
-            },
-        ],
-        switches: &[
-            ::ukcore::SwitchSpec {
-                function: "speed_down",
-                terms: &["non-ideal force on `x`", "non-ideal force on `y`"],
-            },
-        ],
-        structure: ::ukcore::Structure {
-            straight_line: true,
-            solve: ::ukcore::Solve {
-                refusal: "",
-                pivots: &[
-                    ::ukcore::Pivot::Coordinate(0),
-                    ::ukcore::Pivot::Coordinate(1),
-                    ::ukcore::Pivot::Constraint(0),
+const _: () = {
+    use ::ukcore as ukcore;
+    #[automatically_derived]
+    impl ::core::convert::From<RoughBlock> for ukcore::Prepared {
+        fn from(mechanism: RoughBlock) -> Self {
+            ukcore::Mechanism::prepared(&mechanism)
+        }
+    }
+    #[automatically_derived]
+    #[allow(unused_variables, clippy::all, clippy::pedantic)]
+    impl ukcore::Mechanism for RoughBlock {
+        const SPEC: &'static ukcore::Spec = &ukcore::Spec {
+            name: "RoughBlock",
+            doc: "Block on a slope that falls towards +x; y points up. The slope's constraint is not ideal: it rubs with Coulomb's friction\nmu N against the motion, where N = m g cos(slope) is the ideal constraint force, known beforehand. Friction is of sliding only:\nthe slope has to be steeper than the angle of repose, mu < tan(slope), or the block would have to stick.",
+            params: &[
+                ukcore::ParamSpec {
+                    name: "m",
+                    doc: "Mass, kg",
+                    default: 1.0,
+                },
+                ukcore::ParamSpec {
+                    name: "g",
+                    doc: "Acceleration of gravity, m/s^2",
+                    default: 9.81,
+                },
+                ukcore::ParamSpec {
+                    name: "slope",
+                    doc: "Inclination of the slope, rad",
+                    default: 0.5235987755982988,
+                },
+                ukcore::ParamSpec {
+                    name: "mu",
+                    doc: "Coefficient of friction",
+                    default: 0.2,
+                },
+            ],
+            prepared: &[
+                ("cos_slope", "cos(slope)"),
+                ("sin_slope", "sin(slope)"),
+                ("cos_slope_mu_m_g", "cos(slope)*mu*m*g"),
+                ("m_g", "m*g"),
+                ("m", "m"),
+                ("sq_cos_slope_mu_m_g", "sq(cos(slope))*mu*m*g"),
+                ("cos_slope_sin_slope_mu_m_g", "cos(slope)*sin(slope)*mu*m*g"),
+                ("cos_slope_sin_slope_mu", "cos(slope)*sin(slope)*mu"),
+                ("prepared_part", "sq(cos(slope))/(sq(sin(slope)) + sq(cos(slope)))"),
+                ("g", "g"),
+                ("cos_slope_mu", "cos(slope)*mu"),
+                ("prepared_part_2", "sin(slope)/(sq(sin(slope)) + sq(cos(slope)))"),
+                ("cos_slope_g", "cos(slope)*g"),
+                ("prepared_part_3", "cos(slope)/(sq(sin(slope)) + sq(cos(slope)))"),
+                (
+                    "safe_plane",
+                    "1 if the pivots that depend on m, slope alone are positive and finite, else 0",
+                ),
+            ],
+            coords: &["x", "y"],
+            constraints: &[
+                ukcore::ConstraintSpec {
+                    name: "plane",
+                    kind: ukcore::ConstraintKind::Holonomic,
+                    equation: "x*sin(slope) + cos(slope)*y = 0",
+                },
+            ],
+            holonomic: 1,
+            outputs: &[
+                ukcore::OutputSpec {
+                    name: "way",
+                    doc: "Way down the slope, m",
+                },
+                ukcore::OutputSpec {
+                    name: "speed",
+                    doc: "Speed down the slope, m/s",
+                },
+                ukcore::OutputSpec {
+                    name: "friction_force",
+                    doc: "Friction, positive down the slope, N",
+                },
+            ],
+            switches: &[
+                ukcore::SwitchSpec {
+                    function: "speed_down",
+                    terms: &["non-ideal force on `x`", "non-ideal force on `y`"],
+                },
+            ],
+            structure: ukcore::Structure {
+                straight_line: true,
+                solve: ukcore::Solve {
+                    refusal: "",
+                    pivots: &[
+                        ukcore::Pivot::Coordinate(0),
+                        ukcore::Pivot::Coordinate(1),
+                        ukcore::Pivot::Constraint(0),
+                    ],
+                    fill: &[],
+                    checks: &[ukcore::Check::Positive(0), ukcore::Check::Positive(2)],
+                    least_share: 0.0009765625,
+                },
+                mass_pattern: &[(0, 0), (1, 1)],
+                jacobian_pattern: &[(0, 0), (0, 1)],
+                mass_diagonal: true,
+                mass_constant: true,
+                jacobian_constant: true,
+                massless: &[],
+                angles: &[],
+                scleronomic: true,
+                nonideal: true,
+                potential: true,
+                conservative: false,
+                left_out: &[
+                    "off-diagonal entries of M: M is diagonal, its square root is taken entry by entry",
+                    "∂/∂t terms: no equation contains the time",
+                    "1 of 1 entries of b: identically zero",
+                    "1 of 2 entries of Q: identically zero",
+                    "Udwadia-Phohomsiri formula (eq. 19): no coordinate is massless while the parameters are positive",
                 ],
-                fill: &[],
-                checks: &[::ukcore::Check::Positive(0), ::ukcore::Check::Positive(2)],
-                least_share: 0.0009765625,
-            },
-            mass_pattern: &[(0, 0), (1, 1)],
-            jacobian_pattern: &[(0, 0), (0, 1)],
-            mass_diagonal: true,
-            mass_constant: true,
-            jacobian_constant: true,
-            massless: &[],
-            scleronomic: true,
-            nonideal: true,
-            potential: true,
-            conservative: false,
-            left_out: &[
-                "off-diagonal entries of M: M is diagonal, its square root is taken entry by entry",
-                "∂/∂t terms: no equation contains the time",
-                "1 of 1 entries of b: identically zero",
-                "1 of 2 entries of Q: identically zero",
-                "Udwadia-Phohomsiri formula (eq. 19): no coordinate is massless while the parameters are positive",
-            ],
-            costs: ::ukcore::Costs {
-                dynamics: ::ukcore::Operations {
-                    additions: 3,
-                    multiplications: 4,
-                    divisions: 0,
-                    square_roots: 0,
-                    transcendentals: 0,
-                    selections: 2,
-                },
-                dense: ::ukcore::Operations {
-                    additions: 10,
-                    multiplications: 16,
-                    divisions: 3,
-                    square_roots: 0,
-                    transcendentals: 0,
-                    selections: 0,
-                },
-                unprepared: ::ukcore::Operations {
-                    additions: 8,
-                    multiplications: 17,
-                    divisions: 1,
-                    square_roots: 0,
-                    transcendentals: 1,
-                    selections: 6,
-                },
-                acceleration: ::ukcore::Operations {
-                    additions: 7,
-                    multiplications: 8,
-                    divisions: 0,
-                    square_roots: 0,
-                    transcendentals: 0,
-                    selections: 2,
-                },
-                correction: ::ukcore::Operations {
-                    additions: 2,
-                    multiplications: 2,
-                    divisions: 0,
-                    square_roots: 0,
-                    transcendentals: 0,
-                    selections: 0,
-                },
-                prepare: ::ukcore::Operations {
-                    additions: 1,
-                    multiplications: 22,
-                    divisions: 1,
-                    square_roots: 0,
-                    transcendentals: 1,
-                    selections: 4,
+                costs: ukcore::Costs {
+                    dynamics: ukcore::Operations {
+                        additions: 3,
+                        multiplications: 4,
+                        divisions: 0,
+                        square_roots: 0,
+                        transcendentals: 0,
+                        selections: 2,
+                    },
+                    dense: ukcore::Operations {
+                        additions: 10,
+                        multiplications: 16,
+                        divisions: 3,
+                        square_roots: 0,
+                        transcendentals: 0,
+                        selections: 0,
+                    },
+                    unprepared: ukcore::Operations {
+                        additions: 8,
+                        multiplications: 17,
+                        divisions: 1,
+                        square_roots: 0,
+                        transcendentals: 1,
+                        selections: 6,
+                    },
+                    acceleration: ukcore::Operations {
+                        additions: 7,
+                        multiplications: 8,
+                        divisions: 0,
+                        square_roots: 0,
+                        transcendentals: 0,
+                        selections: 2,
+                    },
+                    correction: ukcore::Operations {
+                        additions: 2,
+                        multiplications: 2,
+                        divisions: 0,
+                        square_roots: 0,
+                        transcendentals: 0,
+                        selections: 0,
+                    },
+                    prepare: ukcore::Operations {
+                        additions: 1,
+                        multiplications: 22,
+                        divisions: 1,
+                        square_roots: 0,
+                        transcendentals: 1,
+                        selections: 4,
+                    },
                 },
             },
-        },
-        equations: ::ukcore::Equations {
-            definitions: &[("speed_down", "dot(x)*cos(slope) - dot(y)*sin(slope)")],
-            mass: &[(0, 0, "m"), (1, 1, "m")],
-            force: &[(1, "-m*g")],
-            nonideal: &[
-                (0, "-sq(cos(slope))*mu*m*g*sign(speed_down)"),
-                (1, "cos(slope)*sin(slope)*mu*m*g*sign(speed_down)"),
-            ],
-            jacobian: &[(0, 0, "sin(slope)"), (0, 1, "cos(slope)")],
-            rhs: &[],
-        },
-    };
-    fn parameter(&self, index: usize) -> f64 {
-        match index {
-            0 => self.m,
-            1 => self.g,
-            2 => self.slope,
-            3 => self.mu,
-            _ => ::ukcore::emitted::no_parameter(index),
+            equations: ukcore::Equations {
+                definitions: &[("speed_down", "dot(x)*cos(slope) - dot(y)*sin(slope)")],
+                mass: &[(0, 0, "m"), (1, 1, "m")],
+                force: &[(1, "-m*g")],
+                nonideal: &[
+                    (0, "-sq(cos(slope))*mu*m*g*sign(speed_down)"),
+                    (1, "cos(slope)*sin(slope)*mu*m*g*sign(speed_down)"),
+                ],
+                jacobian: &[(0, 0, "sin(slope)"), (0, 1, "cos(slope)")],
+                rhs: &[],
+            },
+        };
+        fn parameter(&self, index: usize) -> f64 {
+            match index {
+                0 => self.m,
+                1 => self.g,
+                2 => self.slope,
+                3 => self.mu,
+                _ => ukcore::emitted::no_parameter(index),
+            }
+        }
+        fn set_parameter(&mut self, index: usize, value: f64) {
+            match index {
+                0 => self.m = value,
+                1 => self.g = value,
+                2 => self.slope = value,
+                3 => self.mu = value,
+                _ => ukcore::emitted::no_parameter(index),
+            }
+        }
+        fn prepare<S: ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
+            let prepared = ukcore::emitted::exact_mut::<S, 15>(prepared, "prepared");
+            let [m, g, slope, mu] = *ukcore::emitted::exact::<S, 4>(given, "given");
+            let lit = S::from_f64;
+            let (sin_slope, cos_slope) = slope.sin_cos();
+            prepared[0] = cos_slope;
+            prepared[1] = sin_slope;
+            prepared[2] = mu * m * g * cos_slope;
+            prepared[3] = m * g;
+            prepared[4] = m;
+            prepared[5] = mu * m * g * cos_slope * cos_slope;
+            prepared[6] = mu * m * g * cos_slope * sin_slope;
+            prepared[7] = mu * cos_slope * sin_slope;
+            let pivot_plane = cos_slope.mul_add(cos_slope, sin_slope * sin_slope);
+            let per_pivot_plane = pivot_plane.recip();
+            prepared[8] = cos_slope * cos_slope * per_pivot_plane;
+            prepared[9] = g;
+            prepared[10] = mu * cos_slope;
+            prepared[11] = sin_slope * per_pivot_plane;
+            prepared[12] = g * cos_slope;
+            prepared[13] = cos_slope * per_pivot_plane;
+            let safe_x = S::select_le(
+                m,
+                lit(1.7976931348623157e308),
+                S::select_le(lit(2.2250738585072014e-308), m, lit(1.0), lit(0.0)),
+                lit(0.0),
+            );
+            let safe_plane = S::select_le(
+                pivot_plane,
+                lit(1.7976931348623157e308),
+                S::select_le(
+                    lit(2.2250738585072014e-308),
+                    pivot_plane,
+                    safe_x,
+                    lit(0.0),
+                ),
+                lit(0.0),
+            );
+            prepared[14] = safe_plane;
+        }
+        /// 3 additions, 4 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 2 selections.
+        fn dynamics<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            out: &mut ukcore::Terms<'_, S>,
+        ) {
+            let mass = ukcore::emitted::exact_mut::<S, 4>(out.mass, "mass");
+            let force = ukcore::emitted::exact_mut::<S, 2>(out.force, "force");
+            let nonideal = ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
+            let jacobian = ukcore::emitted::exact_mut::<S, 2>(out.jacobian, "jacobian");
+            let rhs = ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
+            let [cos_slope, sin_slope, _, m_g, m, sq_cos_slope_mu_m_g,
+            cos_slope_sin_slope_mu_m_g, _, _, _, _, _, _, _, _, held_speed_down] = *ukcore::emitted::exact::<
+                S,
+                16,
+            >(prepared, "prepared");
+            let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
+            let lit = S::from_f64;
+            mass[0] = m;
+            mass[3] = m;
+            force[0] = lit(0.0);
+            force[1] = -m_g;
+            let speed_down = dot_y.neg_mul_add(sin_slope, dot_x * cos_slope);
+            let right_x = speed_down.branch(held_speed_down).sign();
+            nonideal[0] = -(sq_cos_slope_mu_m_g * right_x);
+            nonideal[1] = cos_slope_sin_slope_mu_m_g * right_x;
+            jacobian[0] = sin_slope;
+            jacobian[1] = cos_slope;
+            rhs[0] = lit(0.0);
+        }
+        fn mass_matrix<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            mass: &mut [S],
+        ) {
+            let mass = ukcore::emitted::exact_mut::<S, 4>(mass, "mass");
+            let [_, _, _, _, m, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
+                S,
+                16,
+            >(prepared, "prepared");
+            mass[0] = m;
+            mass[3] = m;
+        }
+        fn jacobian<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            jacobian: &mut [S],
+        ) {
+            let jacobian = ukcore::emitted::exact_mut::<S, 2>(jacobian, "jacobian");
+            let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
+                S,
+                16,
+            >(prepared, "prepared");
+            jacobian[0] = sin_slope;
+            jacobian[1] = cos_slope;
+        }
+        fn residual<S: ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
+            let phi = ukcore::emitted::exact_mut::<S, 1>(phi, "phi");
+            let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
+                S,
+                16,
+            >(prepared, "prepared");
+            let [x, y] = *ukcore::emitted::exact::<S, 2>(q, "q");
+            phi[0] = y.mul_add(cos_slope, x * sin_slope);
+        }
+        fn residual_rate<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            rate: &mut [S],
+        ) {
+            let rate = ukcore::emitted::exact_mut::<S, 1>(rate, "rate");
+            let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
+                S,
+                16,
+            >(prepared, "prepared");
+            let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
+            rate[0] = dot_y.mul_add(cos_slope, dot_x * sin_slope);
+        }
+        fn energy<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+        ) -> ukcore::Energy<S> {
+            let [_, _, _, m_g, m, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
+                S,
+                16,
+            >(prepared, "prepared");
+            let [_, y] = *ukcore::emitted::exact::<S, 2>(q, "q");
+            let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
+            let lit = S::from_f64;
+            let kinetic = lit(0.5) * (dot_y * dot_y).mul_add(m, dot_x * dot_x * m);
+            let potential = y * m_g;
+            ukcore::Energy {
+                kinetic,
+                potential,
+            }
+        }
+        fn outputs<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            outputs: &mut [S],
+        ) {
+            let outputs = ukcore::emitted::exact_mut::<S, 3>(outputs, "outputs");
+            let [cos_slope, sin_slope, cos_slope_mu_m_g, _, _, _, _, _, _, _, _, _, _, _,
+            _, _] = *ukcore::emitted::exact::<S, 16>(prepared, "prepared");
+            let [x, y] = *ukcore::emitted::exact::<S, 2>(q, "q");
+            let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
+            outputs[0] = y.neg_mul_add(sin_slope, x * cos_slope);
+            let speed_down = dot_y.neg_mul_add(sin_slope, dot_x * cos_slope);
+            outputs[1] = speed_down;
+            let neg_friction = cos_slope_mu_m_g * speed_down.sign();
+            outputs[2] = -neg_friction;
+        }
+        fn switching<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            switching: &mut [S],
+        ) {
+            let switching = ukcore::emitted::exact_mut::<S, 1>(switching, "switching");
+            let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
+                S,
+                16,
+            >(prepared, "prepared");
+            let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
+            let speed_down = dot_y.neg_mul_add(sin_slope, dot_x * cos_slope);
+            switching[0] = speed_down;
+        }
+        /// 7 additions, 8 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 2 selections.
+        fn acceleration<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            out: &mut [S],
+        ) -> S {
+            let out = ukcore::emitted::exact_mut::<S, 2>(out, "out");
+            let [cos_slope, sin_slope, _, _, _, _, _, cos_slope_sin_slope_mu,
+            prepared_part, g, cos_slope_mu, prepared_part_2, cos_slope_g, _, safe_plane,
+            held_speed_down] = *ukcore::emitted::exact::<S, 16>(prepared, "prepared");
+            let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
+            let lit = S::from_f64;
+            let speed_down = dot_y.neg_mul_add(sin_slope, dot_x * cos_slope);
+            let right_x = speed_down.branch(held_speed_down).sign();
+            let right_x_cos_slope_sin_slope_mu = cos_slope_sin_slope_mu * right_x;
+            let right_y = lit(1.0) - right_x_cos_slope_sin_slope_mu;
+            let right_plane = right_x_cos_slope_sin_slope_mu + right_y;
+            let safe = safe_plane;
+            out[0] = -(cos_slope_g
+                * prepared_part_2.neg_mul_add(right_plane, cos_slope_mu * right_x));
+            out[1] = -(g * prepared_part.neg_mul_add(right_plane, right_y));
+            safe
+        }
+        fn correction<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            residual: &[S],
+            out: &mut [S],
+        ) -> S {
+            let out = ukcore::emitted::exact_mut::<S, 2>(out, "out");
+            let [_, _, _, _, _, _, _, _, _, _, _, prepared_part_2, _, prepared_part_3,
+            safe_plane, _] = *ukcore::emitted::exact::<S, 16>(prepared, "prepared");
+            let [residual_0] = *ukcore::emitted::exact::<S, 1>(residual, "residual");
+            let safe = safe_plane;
+            out[0] = -(residual_0 * prepared_part_2);
+            out[1] = -(residual_0 * prepared_part_3);
+            safe
         }
     }
-    fn set_parameter(&mut self, index: usize, value: f64) {
-        match index {
-            0 => self.m = value,
-            1 => self.g = value,
-            2 => self.slope = value,
-            3 => self.mu = value,
-            _ => ::ukcore::emitted::no_parameter(index),
-        }
-    }
-    fn prepare<S: ::ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
-        let prepared = ::ukcore::emitted::exact_mut::<S, 15>(prepared, "prepared");
-        let [m, g, slope, mu] = *::ukcore::emitted::exact::<S, 4>(given, "given");
-        let lit = S::from_f64;
-        let (sin_slope, cos_slope) = slope.sin_cos();
-        prepared[0] = cos_slope;
-        prepared[1] = sin_slope;
-        prepared[2] = mu * m * g * cos_slope;
-        prepared[3] = m * g;
-        prepared[4] = m;
-        prepared[5] = mu * m * g * cos_slope * cos_slope;
-        prepared[6] = mu * m * g * cos_slope * sin_slope;
-        prepared[7] = mu * cos_slope * sin_slope;
-        let pivot_plane = cos_slope.mul_add(cos_slope, sin_slope * sin_slope);
-        let per_pivot_plane = pivot_plane.recip();
-        prepared[8] = cos_slope * cos_slope * per_pivot_plane;
-        prepared[9] = g;
-        prepared[10] = mu * cos_slope;
-        prepared[11] = sin_slope * per_pivot_plane;
-        prepared[12] = g * cos_slope;
-        prepared[13] = cos_slope * per_pivot_plane;
-        let safe_x = S::select_le(
-            m,
-            lit(1.7976931348623157e308),
-            S::select_le(lit(2.2250738585072014e-308), m, lit(1.0), lit(0.0)),
-            lit(0.0),
-        );
-        let safe_plane = S::select_le(
-            pivot_plane,
-            lit(1.7976931348623157e308),
-            S::select_le(lit(2.2250738585072014e-308), pivot_plane, safe_x, lit(0.0)),
-            lit(0.0),
-        );
-        prepared[14] = safe_plane;
-    }
-    /// 3 additions, 4 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 2 selections.
-    fn dynamics<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-        out: &mut ::ukcore::Terms<'_, S>,
-    ) {
-        let mass = ::ukcore::emitted::exact_mut::<S, 4>(out.mass, "mass");
-        let force = ::ukcore::emitted::exact_mut::<S, 2>(out.force, "force");
-        let nonideal = ::ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
-        let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(out.jacobian, "jacobian");
-        let rhs = ::ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
-        let [cos_slope, sin_slope, _, m_g, m, sq_cos_slope_mu_m_g,
-        cos_slope_sin_slope_mu_m_g, _, _, _, _, _, _, _, _, held_speed_down] = *::ukcore::emitted::exact::<
-            S,
-            16,
-        >(prepared, "prepared");
-        let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
-        let lit = S::from_f64;
-        mass[0] = m;
-        mass[3] = m;
-        force[0] = lit(0.0);
-        force[1] = -m_g;
-        let speed_down = dot_y.neg_mul_add(sin_slope, dot_x * cos_slope);
-        let right_x = speed_down.branch(held_speed_down).sign();
-        nonideal[0] = -(sq_cos_slope_mu_m_g * right_x);
-        nonideal[1] = cos_slope_sin_slope_mu_m_g * right_x;
-        jacobian[0] = sin_slope;
-        jacobian[1] = cos_slope;
-        rhs[0] = lit(0.0);
-    }
-    fn mass_matrix<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], mass: &mut [S]) {
-        let mass = ::ukcore::emitted::exact_mut::<S, 4>(mass, "mass");
-        let [_, _, _, _, m, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            16,
-        >(prepared, "prepared");
-        mass[0] = m;
-        mass[3] = m;
-    }
-    fn jacobian<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-        jacobian: &mut [S],
-    ) {
-        let jacobian = ::ukcore::emitted::exact_mut::<S, 2>(jacobian, "jacobian");
-        let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            16,
-        >(prepared, "prepared");
-        jacobian[0] = sin_slope;
-        jacobian[1] = cos_slope;
-    }
-    fn residual<S: ::ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
-        let phi = ::ukcore::emitted::exact_mut::<S, 1>(phi, "phi");
-        let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            16,
-        >(prepared, "prepared");
-        let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
-        phi[0] = y.mul_add(cos_slope, x * sin_slope);
-    }
-    fn residual_rate<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-        rate: &mut [S],
-    ) {
-        let rate = ::ukcore::emitted::exact_mut::<S, 1>(rate, "rate");
-        let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            16,
-        >(prepared, "prepared");
-        let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
-        rate[0] = dot_y.mul_add(cos_slope, dot_x * sin_slope);
-    }
-    fn energy<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-    ) -> ::ukcore::Energy<S> {
-        let [_, _, _, m_g, m, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            16,
-        >(prepared, "prepared");
-        let [_, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
-        let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
-        let lit = S::from_f64;
-        let kinetic = lit(0.5) * (dot_y * dot_y).mul_add(m, dot_x * dot_x * m);
-        let potential = y * m_g;
-        ::ukcore::Energy {
-            kinetic,
-            potential,
-        }
-    }
-    fn outputs<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-        outputs: &mut [S],
-    ) {
-        let outputs = ::ukcore::emitted::exact_mut::<S, 3>(outputs, "outputs");
-        let [cos_slope, sin_slope, cos_slope_mu_m_g, _, _, _, _, _, _, _, _, _, _, _, _,
-        _] = *::ukcore::emitted::exact::<S, 16>(prepared, "prepared");
-        let [x, y] = *::ukcore::emitted::exact::<S, 2>(q, "q");
-        let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
-        outputs[0] = y.neg_mul_add(sin_slope, x * cos_slope);
-        let speed_down = dot_y.neg_mul_add(sin_slope, dot_x * cos_slope);
-        outputs[1] = speed_down;
-        let neg_friction = cos_slope_mu_m_g * speed_down.sign();
-        outputs[2] = -neg_friction;
-    }
-    fn switching<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-        switching: &mut [S],
-    ) {
-        let switching = ::ukcore::emitted::exact_mut::<S, 1>(switching, "switching");
-        let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *::ukcore::emitted::exact::<
-            S,
-            16,
-        >(prepared, "prepared");
-        let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
-        let speed_down = dot_y.neg_mul_add(sin_slope, dot_x * cos_slope);
-        switching[0] = speed_down;
-    }
-    /// 7 additions, 8 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 2 selections.
-    fn acceleration<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-        out: &mut [S],
-    ) -> S {
-        let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
-        let [cos_slope, sin_slope, _, _, _, _, _, cos_slope_sin_slope_mu, prepared_part,
-        g, cos_slope_mu, prepared_part_2, cos_slope_g, _, safe_plane, held_speed_down] = *::ukcore::emitted::exact::<
-            S,
-            16,
-        >(prepared, "prepared");
-        let [dot_x, dot_y] = *::ukcore::emitted::exact::<S, 2>(v, "v");
-        let lit = S::from_f64;
-        let speed_down = dot_y.neg_mul_add(sin_slope, dot_x * cos_slope);
-        let right_x = speed_down.branch(held_speed_down).sign();
-        let right_x_cos_slope_sin_slope_mu = cos_slope_sin_slope_mu * right_x;
-        let right_y = lit(1.0) - right_x_cos_slope_sin_slope_mu;
-        let right_plane = right_x_cos_slope_sin_slope_mu + right_y;
-        let safe = safe_plane;
-        out[0] = -(cos_slope_g
-            * prepared_part_2.neg_mul_add(right_plane, cos_slope_mu * right_x));
-        out[1] = -(g * prepared_part.neg_mul_add(right_plane, right_y));
-        safe
-    }
-    fn correction<S: ::ukcore::Scalar>(
-        prepared: &[S],
-        t: S,
-        q: &[S],
-        v: &[S],
-        residual: &[S],
-        out: &mut [S],
-    ) -> S {
-        let out = ::ukcore::emitted::exact_mut::<S, 2>(out, "out");
-        let [_, _, _, _, _, _, _, _, _, _, _, prepared_part_2, _, prepared_part_3,
-        safe_plane, _] = *::ukcore::emitted::exact::<S, 16>(prepared, "prepared");
-        let [residual_0] = *::ukcore::emitted::exact::<S, 1>(residual, "residual");
-        let safe = safe_plane;
-        out[0] = -(residual_0 * prepared_part_2);
-        out[1] = -(residual_0 * prepared_part_3);
-        safe
-    }
-}
+};

@@ -80,10 +80,13 @@ use proc_macro2::TokenStream;
 /// `T::SPEC`. Two names that would become one constant are an error. Further,
 /// `impl ukcore::Mechanism for T`.
 ///
+/// What is emitted names the crate `::ukcore`. Where it has another name, or is reached through another crate, the declaration says so before the type:
+/// `#[ukcore(crate = my::path::to::ukcore)]`.
+///
 /// # Grammar
 ///
 /// ```text
-/// declaration = docs, [vis], NAME, "{", { section }, "}" ;
+/// declaration = docs, ["#[ukcore(crate = path)]"], [vis], NAME, "{", { section }, "}" ;
 /// section     = "const", NAME, ":", ("usize" | "f64"), "=", expr, ";"
 ///             | "let", NAME, "=", (expr | function), ";"
 ///             | "let", block(key, "=", (expr | function))
@@ -119,52 +122,42 @@ fn expand(input: TokenStream) -> (TokenStream, diag::Diagnostics) {
     let heard = if trusted { &diag } else { &quiet };
     let mut system = expr::lower(&decl, &model, heard);
     let constants = analysis::constants(&model, &system, heard);
-    if diag.is_empty() {
-        let dynamics = analysis::derive(&mut system, model.coord_elements.len());
-        analysis::check(&system, &dynamics, &model, &diag);
-        if diag.is_empty() {
-            if cfg!(debug_assertions) {
-                for what in analysis::verify(&system, &dynamics, model.coord_elements.len()) {
-                    diag.error(
-                        decl.name.span(),
-                        format!(
-                            "defect in `multibody!`: wrong derivatives of {what}; please report it"
-                        ),
-                    );
-                }
-            }
-            let structure = analysis::structure(&mut system, &dynamics);
-            let coordinates = model.coord_elements.iter().map(|c| c.name.clone());
-            let constraints = system.constraints.iter().map(|c| c.item.text());
-            let names: Vec<String> = coordinates.chain(constraints).collect();
-            let (held, switches) = analysis::hold(&mut system, &dynamics, &names);
-            let straight = analysis::eliminate(&held, &names, &mut system.graph)
-                .map(|elimination| analysis::Straight::new(elimination, &mut system));
-            let plan = analysis::plan(structure, &held, &straight, &system.graph);
-            let hoisted = analysis::hoist(&mut system, &held, &straight, &switches);
-            if cfg!(debug_assertions)
-                && let Some(k) = analysis::verify_hoisting(&system, &held, &straight, &hoisted)
-            {
-                diag.error(
-                    decl.name.span(),
-                    format!(
-                        "defect in `multibody!`: value {k} changed by hoisting; please report it"
-                    ),
-                );
-            }
-            let derived = emit::Derived {
-                dynamics: &dynamics,
-                switches: &switches,
-                plan: &plan,
-                hoisted: &hoisted,
-            };
-            let code = emit::emit(&decl, &model, &system, &constants, &derived);
-            if diag.is_empty() {
-                return (code, diag);
-            }
-        }
+    if let Some(analysis) = analysed(&decl, &model, &mut system, &diag) {
+        let code = emit::emit(&decl, &model, &system, &constants, &analysis);
+        return (code, diag);
     }
     let mut tokens = diag.to_tokens();
     tokens.extend(emit::fallback(&decl, &model, &system, &constants));
     (tokens, diag)
+}
+
+/// What is known about a mechanism, if there is no error.
+fn analysed(
+    decl: &parse::Declaration,
+    model: &model::Model,
+    system: &mut expr::System,
+    diag: &diag::Diagnostics,
+) -> Option<analysis::Analysis> {
+    if !diag.is_empty() {
+        return None;
+    }
+    let n = model.coord_elements.len();
+    let dynamics = analysis::derive(system, n);
+    analysis::check(system, &dynamics, model, diag);
+    if !diag.is_empty() {
+        return None;
+    }
+    let mut defects = Vec::new();
+    if cfg!(debug_assertions) {
+        let wrong = analysis::verify(system, &dynamics, n).into_iter();
+        defects.extend(wrong.map(|what| format!("wrong derivatives of {what}")));
+    }
+    let analysis = analysis::analyse(system, model, dynamics);
+    let changed = analysis.defect.iter();
+    defects.extend(changed.map(|k| format!("value {k} changed by hoisting")));
+    for defect in defects {
+        let message = format!("defect in `multibody!`: {defect}; please report it");
+        diag.error(decl.name.span(), message);
+    }
+    diag.is_empty().then_some(analysis)
 }

@@ -7,6 +7,8 @@
 #![forbid(unsafe_code)]
 
 mod accelerations;
+#[cfg(feature = "ivp")]
+mod by_hand;
 mod chain;
 mod dense;
 mod fish;

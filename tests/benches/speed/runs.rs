@@ -2,9 +2,6 @@
 
 use std::hint::black_box;
 
-use ivp::ivp::FirstOrderSystem;
-use ivp::methods::{DOP853, IntegrationResult, Tolerance};
-use ivp::solout::{ControlFlag, SolOut};
 use models::{Model, UChain};
 use serde_json::Value;
 use ukcore::{Ensemble, LaneSolver, Lanes, Mechanism, Simulation, Stabilisation, State};
@@ -15,69 +12,15 @@ use crate::chain::{self, Chain};
 use crate::harness::{Contender, Group};
 
 /// Links.
-const N: usize = 17;
-const END: f64 = 1.5;
+pub(crate) const N: usize = 17;
+pub(crate) const END: f64 = 1.5;
 
-fn parameters(mech: &UChain) -> Chain {
+pub(crate) fn parameters(mech: &UChain) -> Chain {
     black_box(Chain {
         m: mech.m,
         l: mech.l,
         g: mech.g,
     })
-}
-
-/// ẏ of y = (q, q̇), by hand.
-struct RightHandSide(Chain);
-
-impl FirstOrderSystem for RightHandSide {
-    fn derivative(&self, _t: f64, y: &[f64], rate: &mut [f64]) {
-        let (q, v) = y.split_at(2 * N);
-        let (dq, dv) = rate.split_at_mut(2 * N);
-        dq.copy_from_slice(v);
-        chain::both_ends_minors::<N>(&self.0, q, v, dv);
-    }
-}
-
-/// Keeps the last state.
-struct Last(Vec<f64>);
-
-impl SolOut for Last {
-    fn solout(
-        &mut self,
-        _before: f64,
-        _t: &mut f64,
-        y: &mut [f64],
-        _interpolant: Option<&ivp::dense::StepInterpolant<'_>>,
-    ) -> ControlFlag {
-        self.0.copy_from_slice(y);
-        ControlFlag::Continue
-    }
-}
-
-/// The run by DOP853 alone, with neither projection nor trajectory: last state, and the integrator's report.
-fn bare(chain: Chain, start: &State, tolerance: f64) -> (Vec<f64>, IntegrationResult) {
-    let mut y = start.q.clone();
-    y.extend(&start.v);
-    let mut last = Last(y.clone());
-    let method = DOP853 {
-        stiff_test: usize::MAX,
-        dense_output: false,
-        ..DOP853::default()
-    };
-    let tolerance = Tolerance::Scalar(tolerance);
-    let report = method
-        .solve(
-            &RightHandSide(chain),
-            0.0,
-            &y,
-            END,
-            tolerance.clone(),
-            tolerance,
-            Some(&mut last),
-        )
-        .expect("the settings are valid");
-    assert!(report.is_ok(), "the run succeeds");
-    (last.0, report)
 }
 
 /// The run by ours: last state, and evaluations.
@@ -113,7 +56,7 @@ fn reference() -> Vec<f64> {
 }
 
 /// Largest error of a coordinate or velocity.
-fn error(y: &[f64]) -> f64 {
+pub(crate) fn error(y: &[f64]) -> f64 {
     let reference = reference();
     assert_eq!(y.len(), reference.len());
     tests::largest(
@@ -125,7 +68,7 @@ fn error(y: &[f64]) -> f64 {
 }
 
 /// The loosest tolerance from which on a run's error at the end stays below `wanted`, of eight in a decade.
-fn tolerance_for(wanted: f64, run: impl Fn(f64) -> Vec<f64>) -> f64 {
+pub(crate) fn tolerance_for(wanted: f64, run: impl Fn(f64) -> Vec<f64>) -> f64 {
     let mut found = None;
     for k in 8 * 4..8 * 14 {
         let tolerance = 10_f64.powf(-f64::from(k) / 8.0);
@@ -139,7 +82,7 @@ fn tolerance_for(wanted: f64, run: impl Fn(f64) -> Vec<f64>) -> f64 {
 }
 
 /// Tolerance, evaluations and error, in words.
-fn remark(tolerance: f64, y: &[f64], evaluations: usize) -> String {
+pub(crate) fn remark(tolerance: f64, y: &[f64], evaluations: usize) -> String {
     format!(
         "tolerance {tolerance:.0e}, {evaluations} evaluations, error {:.0e}",
         error(y)
@@ -156,16 +99,7 @@ pub(crate) fn uchain17() -> Vec<Value> {
         ("run/uchain17/1e-12", 1e-12),
     ];
     let run = |(name, wanted)| {
-        let (chain, mech, start) = (parameters(&mech), &mech, &start);
-        let tolerance = tolerance_for(wanted, |tolerance| bare(chain, start, tolerance).0);
-        let (y, report) = bare(chain, start, tolerance);
-        let by_hand = Contender {
-            name: "by hand, DOP853 without projection".to_owned(),
-            by_hand: true,
-            evaluations: 1,
-            work: Box::new(move || drop(black_box(bare(chain, start, tolerance)))),
-            remark: remark(tolerance, &y, report.evals.ode),
-        };
+        let (mech, start) = (&mech, &start);
         let contender = |name: &str, stabilisation| {
             let run = |tolerance| ours_alone(mech, start, tolerance, stabilisation).0;
             let tolerance = tolerance_for(wanted, run);
@@ -182,10 +116,14 @@ pub(crate) fn uchain17() -> Vec<Value> {
         };
         let projected = contender("Simulation, with projection", Stabilisation::Projection);
         let drifting = contender("Simulation, without projection", Stabilisation::None);
+        #[cfg_attr(not(feature = "ivp"), allow(unused_mut))]
+        let mut contenders = vec![projected, drifting];
+        #[cfg(feature = "ivp")]
+        contenders.insert(0, crate::by_hand::contender(mech, start, wanted));
         let group = Group {
             name,
             remarks: Vec::new(),
-            contenders: vec![by_hand, projected, drifting],
+            contenders,
         };
         group.run()
     };
@@ -310,20 +248,6 @@ pub(crate) fn ensemble() -> Value {
             .expect("the chain reaches")
     };
     let starts: Vec<State> = (0..CHAINS).map(start).collect();
-    let chain = parameters(&mech);
-    let mut turn = 0;
-    let by_hand = Contender {
-        name: "by hand, one by one, without projection".to_owned(),
-        by_hand: true,
-        evaluations: MEASURED,
-        work: Box::new(|| {
-            for _ in 0..MEASURED {
-                turn = (turn + 1) % CHAINS;
-                black_box(bare(chain, &starts[turn], 1e-9));
-            }
-        }),
-        remark: String::new(),
-    };
     let mut own = 0;
     let ours = Contender {
         name: "Simulation, one by one".to_owned(),
@@ -363,7 +287,10 @@ pub(crate) fn ensemble() -> Value {
         }),
         remark: format!("{rejected} steps rejected in all"),
     };
-    let contenders = vec![by_hand, ours, in_lanes];
+    #[cfg_attr(not(feature = "ivp"), allow(unused_mut))]
+    let mut contenders = vec![ours, in_lanes];
+    #[cfg(feature = "ivp")]
+    contenders.insert(0, crate::by_hand::ensemble(&mech, &starts, MEASURED));
     let group = Group {
         name: "ensemble/uchain17",
         remarks: vec!["time per chain".to_owned()],

@@ -8,8 +8,7 @@ use super::*;
 use crate::events::Direction;
 use crate::fixture;
 use crate::mechanism::{
-    ConstraintKind, ConstraintSpec, Costs, Energy, Equations, OutputSpec, ParamSpec, Solve, Spec,
-    Structure, Terms,
+    ConstraintKind, ConstraintSpec, Energy, OutputSpec, ParamSpec, Solve, Spec, Structure, Terms,
 };
 use crate::mechanism::{Mechanism, Prepared};
 use crate::scalar::Scalar;
@@ -47,7 +46,6 @@ const fn param(name: &'static str, default: f64) -> ParamSpec {
 
 static SPEC: Spec = Spec {
     name: "Pendulum",
-    doc: "",
     params: &[param("l", 1.0), param("g", 9.8), param("limit", 1e6)],
     prepared: &[("l", "l"), ("g", "g"), ("limit", "limit")],
     coords: &["x", "y"],
@@ -61,31 +59,18 @@ static SPEC: Spec = Spec {
         name: "angle",
         doc: "",
     }],
-    switches: &[],
     structure: Structure {
-        straight_line: false,
         solve: Solve::none("it is written by hand"),
         mass_pattern: &[(0, 0), (1, 1)],
         jacobian_pattern: &[(0, 0), (0, 1)],
         mass_diagonal: true,
         mass_constant: true,
-        jacobian_constant: false,
-        massless: &[],
         scleronomic: true,
-        nonideal: false,
         potential: true,
         conservative: true,
-        left_out: &[],
-        costs: Costs::NONE,
+        ..Structure::EMPTY
     },
-    equations: Equations {
-        definitions: &[],
-        mass: &[],
-        force: &[],
-        nonideal: &[],
-        jacobian: &[],
-        rhs: &[],
-    },
+    ..Spec::EMPTY
 };
 
 impl From<Pendulum> for Prepared {

@@ -191,7 +191,7 @@ impl Projector {
         } else {
             (other, x)
         };
-        diagnose::non_finite_input(&self.mechanism, t, q, v).unwrap_or_else(|| {
+        diagnose::bad_input(&self.mechanism, t, q, v).unwrap_or_else(|| {
             diagnose::non_finite_residual(self.mechanism.spec(), &self.residual[..rows])
         })
     }

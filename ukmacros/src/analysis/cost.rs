@@ -1,5 +1,7 @@
 //! Operation counts.
 
+use super::elimination::Straight;
+use super::functions::{Function, Role};
 use super::schedule::{Sequence, schedule};
 use crate::expr::{Func, Graph, Id, Node};
 use std::collections::{HashMap, HashSet};
@@ -26,6 +28,44 @@ impl Operations {
             self.transcendentals,
             self.selections,
         ]
+    }
+}
+
+/// Operations of one call of each function, and of what they replace.
+pub(crate) struct Costs {
+    pub(crate) dynamics: Operations,
+    /// Of a dense LDLᵀ of [M Aᵀ; A 0] after that.
+    pub(crate) dense: Operations,
+    /// Of the straight line with nothing hoisted.
+    pub(crate) unprepared: Operations,
+    pub(crate) acceleration: Operations,
+    pub(crate) correction: Operations,
+    pub(crate) prepare: Operations,
+}
+
+/// The costs of `functions` for `size` coordinates and constraints; `straight` is the solve before anything was hoisted.
+pub(crate) fn costs(
+    functions: &[Function],
+    size: usize,
+    straight: Option<&Straight>,
+    g: &Graph,
+) -> Costs {
+    let of = |role: Role| {
+        let function = functions.iter().find(|f| f.role == role);
+        function.map_or(Operations::default(), |f| f.operations)
+    };
+    let unprepared = straight.map(|straight| {
+        let mut values = straight.elimination.acceleration.clone();
+        values.push(straight.certificate);
+        cost(g, &values)
+    });
+    Costs {
+        dynamics: of(Role::Dynamics),
+        dense: dense(size),
+        unprepared: unprepared.unwrap_or_default(),
+        acceleration: of(Role::Acceleration),
+        correction: of(Role::Correction),
+        prepare: of(Role::Prepare),
     }
 }
 
@@ -71,13 +111,13 @@ pub(crate) fn count(g: &Graph, needed: &HashSet<Id>, reciprocals: &HashSet<Id>) 
 }
 
 /// Operations of computing `values`.
-pub(crate) fn cost(g: &Graph, values: &[Id]) -> Operations {
+fn cost(g: &Graph, values: &[Id]) -> Operations {
     let program = schedule(g, values, &HashMap::new(), Sequence::Roots);
     count(g, &program.needed, &program.reciprocals)
 }
 
 /// Operations of solving a dense symmetric system of `size` equations by LDLᵀ without pivoting, one reciprocal a pivot.
-pub(crate) fn dense(size: usize) -> Operations {
+fn dense(size: usize) -> Operations {
     let pairs = size * size.saturating_sub(1) / 2;
     // With k rows left below a pivot: their k factors, and k (k + 1)/2 entries of the lower triangle.
     let updates = size.saturating_sub(1) * size * (size + 1) / 6;

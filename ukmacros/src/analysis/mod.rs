@@ -1,12 +1,13 @@
-//! From equations of a mechanism to what is emitted: derivatives, structure, checks.
+//! From equations of a mechanism to what is emitted: derivatives, structure, checks, the solve, programs and their costs.
 
 mod check;
 mod constants;
 mod cost;
 mod dynamics;
 mod elimination;
+mod functions;
+mod hoist;
 mod plan;
-mod presolve;
 mod schedule;
 mod sparsity;
 mod structure;
@@ -15,12 +16,66 @@ mod verify;
 
 pub(crate) use check::check;
 pub(crate) use constants::{Constant, ConstantValue, Positions, constants};
-pub(crate) use cost::{Operations, count};
+pub(crate) use cost::{Costs, Operations};
 pub(crate) use dynamics::{Dynamics, derive};
-pub(crate) use elimination::{Elimination, Straight, eliminate};
-pub(crate) use plan::{Chosen, Plan, plan};
-pub(crate) use presolve::{Hoisted, hoist, verify_hoisting};
-pub(crate) use schedule::{Program, Sequence, Step, schedule};
-pub(crate) use structure::{Structure, structure};
-pub(crate) use switches::{Switch, hold};
+pub(crate) use elimination::SAFE_SHARE;
+#[cfg(test)]
+pub(crate) use elimination::{Straight, eliminate};
+pub(crate) use functions::{Function, Place, Role, Slice};
+pub(crate) use plan::{Chosen, Solve};
+pub(crate) use schedule::{Program, Step};
+pub(crate) use structure::Structure;
+pub(crate) use switches::Switch;
 pub(crate) use verify::verify;
+
+use crate::expr::{Id, System};
+use crate::model::Model;
+
+/// What is known about a mechanism, and the programs that compute it.
+pub(crate) struct Analysis {
+    /// The equations, to be read.
+    pub(crate) dynamics: Dynamics,
+    pub(crate) structure: Structure,
+    pub(crate) switches: Vec<Switch>,
+    /// How q̈ is solved for, or why there is no straight line.
+    pub(crate) solve: Result<Solve, String>,
+    /// Values that depend on parameters only.
+    pub(crate) prepared: Vec<Id>,
+    /// Switching functions, as they are computed.
+    pub(crate) switching: Vec<Id>,
+    pub(crate) functions: Vec<Function>,
+    pub(crate) costs: Costs,
+    /// In debug builds, a value that hoisting changed: a defect of this compiler.
+    pub(crate) defect: Option<usize>,
+}
+
+/// Analyses equations without errors.
+pub(crate) fn analyse(system: &mut System, model: &Model, dynamics: Dynamics) -> Analysis {
+    let coordinates = model.coord_elements.iter().map(|c| c.name.clone());
+    let constraints = system.constraints.iter().map(|c| c.item.text());
+    let names: Vec<String> = coordinates.chain(constraints).collect();
+    let structure = structure::structure(system, &dynamics);
+    let (held, switches) = switches::hold(system, &dynamics, &names);
+    let straight = elimination::eliminate(&held, &names, &mut system.graph)
+        .map(|elimination| elimination::Straight::new(elimination, system));
+    let solve = straight.as_ref().map_err(String::clone);
+    let solve = solve.map(|straight| plan::solve(&held, straight, &system.graph));
+    let hoisted = hoist::hoist(system, &held, &straight, &switches);
+    let defect = cfg!(debug_assertions)
+        .then(|| hoist::verify(system, &held, &straight, &hoisted))
+        .flatten();
+    let functions = functions::functions(system, &hoisted);
+    let straight = straight.as_ref().ok();
+    let costs = cost::costs(&functions, names.len(), straight, &system.graph);
+    Analysis {
+        dynamics,
+        structure,
+        switches,
+        solve,
+        prepared: hoisted.values,
+        switching: hoisted.switches,
+        functions,
+        costs,
+        defect,
+    }
+}

@@ -1,84 +1,53 @@
-//! What was decided about the solve and what it costs, for the reader of `Mechanism::plan`.
+//! What was decided about the solve, for the reader.
 
-use super::cost::{Operations, cost, dense};
 use super::dynamics::Dynamics;
-use super::elimination::{Pivoting, SAFE_SHARE, Straight};
-use super::structure::Structure;
+use super::elimination::{Pivoting, Straight};
 use crate::expr::Graph;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Decisions and costs. Positions: coordinate i is i, constraint i is n + i.
-pub(crate) struct Plan {
-    /// The facts it rests on.
-    pub(crate) structure: Structure,
-    /// The order, or why there is none.
-    pub(crate) pivots: Result<Vec<Chosen>, String>,
+/// How q̈ is solved for. Positions: coordinate i is i, constraint i is n + i.
+pub(crate) struct Solve {
+    /// The pivots in their order.
+    pub(crate) pivots: Vec<Chosen>,
     /// Positions (row > column) that are zero in [M Aᵀ; A 0] and filled by its elimination.
     pub(crate) fill: Vec<(usize, usize)>,
     /// What the certificate compares: positions, and whether against the diagonal that the pivot started from (else against zero).
     pub(crate) checks: Vec<(usize, bool)>,
-    /// The least share of that diagonal.
-    pub(crate) least_share: f64,
-    /// Of a dense LDLᵀ.
-    pub(crate) dense: Operations,
-    /// Of the straight line with nothing hoisted.
-    pub(crate) unprepared: Operations,
 }
 
 /// A pivot and why it is one.
 pub(crate) enum Chosen {
     /// Coordinate and constraint (row) with its coefficient; the coordinate has inertia.
     Prescribed(usize, usize, f64),
-    /// The same; the coordinate has none.
+    /// Coordinate and constraint (row) with its coefficient; the coordinate has no inertia.
     Massless(usize, usize, f64),
     Coordinate(usize),
     /// Row.
     Constraint(usize),
 }
 
-/// Collects what is to be told of `straight`, before anything is hoisted.
-pub(crate) fn plan(
-    structure: Structure,
-    d: &Dynamics,
-    straight: &Result<Straight, String>,
-    g: &Graph,
-) -> Plan {
+/// What is to be told of `straight`.
+pub(crate) fn solve(d: &Dynamics, straight: &Straight, g: &Graph) -> Solve {
     let n = d.force.len();
-    let mut plan = Plan {
-        structure,
-        pivots: Ok(Vec::new()),
-        fill: Vec::new(),
-        checks: Vec::new(),
-        least_share: SAFE_SHARE,
-        dense: dense(n + d.rhs.len()),
-        unprepared: Operations::default(),
-    };
-    match straight {
-        Err(reason) => plan.pivots = Err(reason.clone()),
-        Ok(straight) => {
-            let elimination = &straight.elimination;
-            let chosen = elimination.order.iter().map(|step| match *step {
-                Pivoting::One(k) if k < n => Chosen::Coordinate(k),
-                Pivoting::One(k) => Chosen::Constraint(k - n),
-                Pivoting::Two(j, c) => {
-                    let row = c - n;
-                    let a = d.jacobian.get(&(row, j)).and_then(|a| g.as_const(*a));
-                    let a = a.unwrap_or(f64::NAN);
-                    match d.mass.contains_key(&(j, j)) {
-                        true => Chosen::Prescribed(j, row, a),
-                        false => Chosen::Massless(j, row, a),
-                    }
-                }
-            });
-            plan.pivots = Ok(chosen.collect());
-            plan.fill = fill(d, &elimination.order);
-            plan.checks.clone_from(&straight.checks);
-            let mut values = elimination.acceleration.clone();
-            values.push(straight.certificate);
-            plan.unprepared = cost(g, &values);
+    let elimination = &straight.elimination;
+    let chosen = elimination.order.iter().map(|step| match *step {
+        Pivoting::One(k) if k < n => Chosen::Coordinate(k),
+        Pivoting::One(k) => Chosen::Constraint(k - n),
+        Pivoting::Two(j, c) => {
+            let row = c - n;
+            let a = d.jacobian.get(&(row, j)).and_then(|a| g.as_const(*a));
+            let a = a.unwrap_or(f64::NAN);
+            match d.mass.contains_key(&(j, j)) {
+                true => Chosen::Prescribed(j, row, a),
+                false => Chosen::Massless(j, row, a),
+            }
         }
+    });
+    Solve {
+        pivots: chosen.collect(),
+        fill: fill(d, &elimination.order),
+        checks: straight.checks.clone(),
     }
-    plan
 }
 
 /// What eliminating in this `order` fills in.

@@ -1,8 +1,8 @@
 //! Facts about a mechanism that solver and reader use, and what the emitted code leaves out because of them.
 
 use super::dynamics::Dynamics;
-use crate::expr::{Derivative, Graph, Id, Kind, Node, Symbol, System};
-use std::collections::HashSet;
+use crate::expr::{Derivative, Func, Graph, Id, Kind, Node, Symbol, System};
+use std::collections::{BTreeSet, HashSet};
 
 /// Facts known at compile time.
 pub(crate) struct Structure {
@@ -10,6 +10,8 @@ pub(crate) struct Structure {
     pub(crate) mass_constant: bool,
     pub(crate) jacobian_constant: bool,
     pub(crate) massless: Vec<usize>,
+    /// Coordinates in the argument of a sine, cosine or tangent of the equations.
+    pub(crate) angles: Vec<usize>,
     pub(crate) scleronomic: bool,
     pub(crate) nonideal: bool,
     pub(crate) potential: bool,
@@ -53,6 +55,7 @@ pub(crate) fn structure(system: &mut System, dynamics: &Dynamics) -> Structure {
         mass_constant,
         jacobian_constant,
         massless,
+        angles: angles(dynamics, g),
         scleronomic,
         nonideal,
         potential: system.potential.is_some(),
@@ -61,6 +64,36 @@ pub(crate) fn structure(system: &mut System, dynamics: &Dynamics) -> Structure {
     };
     structure.left_out = left_out(&structure, system, dynamics);
     structure
+}
+
+/// Coordinates in the argument of a sine, cosine or tangent of M, Q, c, A or b, unless within a function there that is no angle's: of
+/// sin(asin(x)) and cos(atan2(y, x)) none is an angle.
+fn angles(d: &Dynamics, g: &Graph) -> Vec<usize> {
+    let matrices = d.mass.values().chain(d.jacobian.values());
+    let vectors = d.force.iter().chain(&d.nonideal).chain(&d.rhs);
+    let roots: Vec<Id> = matrices.chain(vectors).copied().collect();
+    let turning = |id: &Id| {
+        matches!(
+            g.node(*id),
+            Node::Call(Func::Sin | Func::Cos | Func::Tan, _)
+        )
+    };
+    let calls = g.reachable(&roots).into_iter().filter(turning);
+    let mut stack: Vec<Id> = calls.flat_map(|id| g.operands(id)).collect();
+    let mut seen = HashSet::new();
+    let mut angles = BTreeSet::new();
+    while let Some(id) = stack.pop() {
+        if !seen.insert(id) {
+            continue;
+        }
+        match *g.node(id) {
+            Node::Symbol(Symbol::Coord(i)) => drop(angles.insert(i)),
+            Node::Call(Func::Abs | Func::Min | Func::Max, _) => stack.extend(g.operands(id)),
+            Node::Call(..) => {}
+            _ => stack.extend(g.operands(id)),
+        }
+    }
+    angles.into_iter().collect()
 }
 
 fn left_out(s: &Structure, system: &System, dynamics: &Dynamics) -> Vec<String> {

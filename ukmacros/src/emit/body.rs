@@ -1,45 +1,38 @@
 //! Statements of one emitted function.
 
-use super::names::{Namer, Slots};
-use crate::analysis::{Operations, Program, Sequence, Step, count, schedule};
+use super::names::{Namer, Slots, plain};
+use crate::analysis::{Function, Place, Program, Role, Slice, Step};
 use crate::expr::{Graph, Id, Node, Symbol, System};
 use crate::model::Model;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
+use std::collections::HashSet;
 
-/// A value to compute, where it goes, and what for (names its helpers).
-pub(super) struct Root {
-    pub(super) id: Id,
-    pub(super) place: TokenStream,
-    pub(super) purpose: String,
+/// A function to write.
+pub(super) struct Writing<'a> {
+    pub(super) system: &'a System,
+    pub(super) model: &'a Model,
+    pub(super) prepared: Slots<'a>,
+    pub(super) function: &'a Function,
 }
 
-/// A function's statements and their cost.
-#[derive(Default)]
-pub(super) struct Body {
-    pub(super) tokens: TokenStream,
-    pub(super) operations: Operations,
-}
-
-/// Writes straight-line code for `roots`, with the coordinates, velocities and parameters that it reads. After each of `exits` it returns
-/// that value if it is zero.
-pub(super) fn body(
-    system: &System,
-    model: &Model,
-    prepared: Slots<'_>,
-    roots: &[Root],
-    sequence: Sequence<'_>,
-    exits: &[Id],
-) -> Body {
-    let g = &system.graph;
-    let ids: Vec<Id> = roots.iter().map(|r| r.id).collect();
+/// Writes the straight-line code of a function, with the coordinates, velocities and parameters that it reads.
+pub(super) fn body(writing: &Writing<'_>) -> TokenStream {
+    let Writing {
+        system,
+        model,
+        prepared,
+        function,
+    } = *writing;
+    let (g, roots, program) = (&system.graph, &function.roots, &function.program);
     let hints = system.all_hints();
-    let program = schedule(g, &ids, &hints, sequence);
     let mut writer = Writer {
         graph: g,
         namer: Namer::new(g, model, system.constraints.len(), &hints, prepared),
     };
-    let inputs = writer.inputs(model, system.constraints.len(), prepared, &program);
+    let inputs = writer.inputs(model, system.constraints.len(), prepared, program);
+    let purpose = |root: usize| writing.purpose(roots[root].0);
+    let exits: HashSet<Id> = function.exits.iter().copied().collect();
     let mut statements = TokenStream::new();
     // Helpers are named for the value whose computation needs them first: the next one stored.
     let mut next = 0;
@@ -48,10 +41,9 @@ pub(super) fn body(
             Step::Let(id) => {
                 let value = writer.definition(id);
                 // The value itself, if it is stored in several places; else a part of it.
-                let purpose = &roots[next].purpose;
-                let purpose = match roots[next].id == id {
-                    true => purpose.clone(),
-                    false => format!("{purpose}_part"),
+                let purpose = match roots[next].1 == id {
+                    true => purpose(next),
+                    false => format!("{}_part", purpose(next)),
                 };
                 let name = writer.namer.declare(id, &purpose);
                 statements.extend(quote! { let #name = #value; });
@@ -61,27 +53,70 @@ pub(super) fn body(
             }
             Step::Reciprocal(id) => {
                 let receiver = writer.receiver(id);
-                let name = writer.namer.declare_reciprocal(id, &roots[next].purpose);
+                let name = writer.namer.declare_reciprocal(id, &purpose(next));
                 statements.extend(quote! { let #name = #receiver.recip(); });
             }
             Step::SinCos { sin, cos } => {
                 let argument = g.operands(sin)[0];
                 let argument = writer.receiver(argument);
-                let sin = writer.namer.declare(sin, &roots[next].purpose);
-                let cos = writer.namer.declare(cos, &roots[next].purpose);
+                let sin = writer.namer.declare(sin, &purpose(next));
+                let cos = writer.namer.declare(cos, &purpose(next));
                 statements.extend(quote! { let (#sin, #cos) = #argument.sin_cos(); });
             }
             Step::Store(k) => {
-                let place = &roots[k].place;
-                let value = writer.expression(roots[k].id);
+                let (place, id) = roots[k];
+                let value = writer.expression(id);
+                let place = stored(place);
                 statements.extend(quote! { #place = #value; });
                 next = (k + 1).min(roots.len() - 1);
             }
         }
     }
-    Body {
-        tokens: quote! { #inputs #statements },
-        operations: count(g, &program.needed, &program.reciprocals),
+    quote! { #inputs #statements }
+}
+
+/// The left side of an assignment to `place`.
+fn stored(place: Place) -> TokenStream {
+    match place {
+        Place::Element(slice, at) => {
+            let (slice, at) = (
+                format_ident!("{}", slice.name()),
+                Literal::usize_unsuffixed(at),
+            );
+            quote! { #slice[#at] }
+        }
+        Place::Kinetic => quote! { let kinetic },
+        Place::Potential => quote! { let potential },
+        Place::Certificate => quote! { let safe },
+    }
+}
+
+impl Writing<'_> {
+    /// What a value at `place` is for: the name of its helpers.
+    fn purpose(&self, place: Place) -> String {
+        let Place::Element(slice, at) = place else {
+            let name = match place {
+                Place::Kinetic => "kinetic",
+                Place::Potential => "potential",
+                _ => "safe",
+            };
+            return name.to_owned();
+        };
+        let n = self.model.coord_elements.len();
+        let coord = |i: usize| plain(&self.model.coord_elements[i].name);
+        match slice {
+            Slice::Mass => format!("mass_{}_{}", coord(at % n), coord(at / n)).to_lowercase(),
+            Slice::Jacobian => {
+                let constraints = &self.system.constraints;
+                let constraint = constraints[at % constraints.len()].item.text();
+                format!("a_{}", plain(&constraint)).to_lowercase()
+            }
+            Slice::Rhs => format!("b_{at}"),
+            Slice::Outputs => format!("output_{at}"),
+            Slice::Out if self.function.role == Role::Correction => format!("correction_{at}"),
+            Slice::Out => format!("acceleration_{at}"),
+            slice => format!("{}_{at}", slice.name()),
+        }
     }
 }
 
@@ -111,11 +146,11 @@ impl Writer<'_> {
         prepared: Slots<'_>,
         program: &Program,
     ) -> TokenStream {
-        let used = |symbol: Symbol| {
-            let node = program.needed.iter();
-            let mut nodes = node.map(|id| self.graph.node(*id));
-            nodes.any(|n| *n == Node::Symbol(symbol))
+        let symbol = |id: &Id| match self.graph.node(*id) {
+            Node::Symbol(symbol) => Some(*symbol),
+            _ => None,
         };
+        let used: HashSet<Symbol> = program.needed.iter().filter_map(symbol).collect();
         let mut out = TokenStream::new();
         let n = model.coord_elements.len();
         let params = model.param_elements.len();
@@ -130,7 +165,7 @@ impl Writer<'_> {
             let slice = format_ident!("{text}");
             let names: Vec<Option<Ident>> = symbols
                 .iter()
-                .map(|s| used(*s).then(|| self.namer.symbol(*s)))
+                .map(|s| used.contains(s).then(|| self.namer.symbol(*s)))
                 .collect();
             if names.iter().any(Option::is_some) {
                 let patterns = names.iter().map(|name| match name {
@@ -139,7 +174,7 @@ impl Writer<'_> {
                 });
                 let n = Literal::usize_unsuffixed(symbols.len());
                 out.extend(quote! {
-                    let [#(#patterns),*] = *::ukcore::emitted::exact::<S, #n>(#slice, #text);
+                    let [#(#patterns),*] = *ukcore::emitted::exact::<S, #n>(#slice, #text);
                 });
             }
         }

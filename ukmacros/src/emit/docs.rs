@@ -1,255 +1,123 @@
-//! The derived equations as text, for rustdoc and `SPEC`.
+//! The emitted type's documentation.
 
-use super::impls::Derived;
-use super::names::{Namer, Slots};
-use super::spec::Costs;
-use crate::analysis::{Chosen, Plan};
-use crate::expr::{Id, Node, Printer, Symbol, System};
+use super::listing::Listing;
+use crate::analysis::{Analysis, Chosen};
+use crate::expr::System;
 use crate::model::Model;
-use std::collections::{HashMap, HashSet};
 use std::fmt::Write as _;
 
-/// A shared subexpression of at least this many symbols gets a name of its own.
-const ABBREVIATE: usize = 12;
-/// Rows of a block shown in rustdoc before the middle is left out.
+/// Rows of a block shown before the middle is left out.
 const ROWS: usize = 12;
 
-/// The equations, row by row.
-pub(super) struct Listing {
-    pub(super) definitions: Vec<(String, String)>,
-    pub(super) mass: Vec<(usize, usize, String)>,
-    pub(super) force: Vec<(usize, String)>,
-    pub(super) nonideal: Vec<(usize, String)>,
-    pub(super) jacobian: Vec<(usize, usize, String)>,
-    pub(super) rhs: Vec<(usize, String)>,
-    pub(super) phi: Vec<String>,
-    /// Name and expression of the prepared values.
-    pub(super) prepared: Vec<(String, String)>,
-    /// Switching functions, and the terms that turn at their zeros.
-    pub(super) switches: Vec<(String, Vec<String>)>,
-}
-
-/// Prints the equations of `system`.
-pub(super) fn listing(system: &System, derived: &Derived<'_>, model: &Model) -> Listing {
-    let dynamics = derived.dynamics;
-    let prepared: &[Id] = &derived.hoisted.values;
-    let coords: Vec<String> = model
-        .coord_elements
-        .iter()
-        .map(|e| e.name.clone())
-        .collect();
-    let params: Vec<String> = model
-        .param_elements
-        .iter()
-        .map(|e| e.name.clone())
-        .collect();
-    let mut printer = Printer {
-        graph: &system.graph,
-        coords: &coords,
-        params: &params,
-        named: HashMap::new(),
-    };
-    let phis: Vec<Id> = system.constraints.iter().map(|c| c.phi).collect();
-    let roots: Vec<Id> = dynamics
-        .mass
-        .values()
-        .chain(&dynamics.force)
-        .chain(&dynamics.nonideal)
-        .chain(dynamics.jacobian.values())
-        .chain(&dynamics.rhs)
-        .copied()
-        .chain(phis.iter().copied())
-        .collect();
-    let families = model.coords.iter().chain(&model.params);
-    let taken = families.map(|f| f.name.to_string());
-    let taken = taken.chain(system.hints.values().cloned()).collect();
-    let definitions = abbreviate(system, &roots, &taken, &mut printer);
-    let g = &system.graph;
-    let vector = |ids: &[Id]| -> Vec<(usize, String)> {
-        let present = ids.iter().enumerate().filter(|(_, id)| !g.is_zero(**id));
-        present.map(|(i, id)| (i, printer.text(*id))).collect()
-    };
-    let matrix = |entries: &std::collections::BTreeMap<(usize, usize), Id>| {
-        entries
-            .iter()
-            .map(|((i, j), id)| (*i, *j, printer.text(*id)))
-            .collect()
-    };
-    let names = prepared_names(system, model, prepared);
-    let texts = prepared.iter().map(|id| match g.node(*id) {
-        // The part of the certificate that parameters decide.
-        Node::Select { .. } => format!(
-            "1 if the pivots that depend on {} alone are positive and finite, else 0",
-            parameters_of(*id, system, &params)
-        ),
-        _ => printer.text(*id),
-    });
-    let switches = derived.switches.iter();
-    let switches = switches.map(|s| (printer.text(s.function), s.terms.clone()));
-    Listing {
-        switches: switches.collect(),
-        prepared: names.into_iter().zip(texts).collect(),
-        mass: matrix(&dynamics.mass),
-        force: vector(&dynamics.force),
-        nonideal: vector(&dynamics.nonideal),
-        jacobian: matrix(&dynamics.jacobian),
-        rhs: vector(&dynamics.rhs),
-        phi: phis
-            .iter()
-            .map(|id| format!("{} = 0", printer.text(*id)))
-            .collect(),
-        definitions,
-    }
-}
-
-/// Names what is long and used more than once, and what the modeller named by `let`. Names that are `taken` are not made.
-fn abbreviate(
+/// What the emitted type's documentation says after the user's own.
+pub(super) fn derived(
+    listing: &Listing,
+    analysis: &Analysis,
     system: &System,
-    roots: &[Id],
-    taken: &HashSet<String>,
-    printer: &mut Printer<'_>,
-) -> Vec<(String, String)> {
-    let g = &system.graph;
-    let mut readers: HashMap<Id, usize> = HashMap::new();
-    let mut stack = roots.to_vec();
-    while let Some(id) = stack.pop() {
-        let count = readers.entry(id).or_insert(0);
-        *count += 1;
-        if *count == 1 {
-            stack.extend(g.operands(id));
-        }
-    }
-    let mut order: Vec<Id> = readers.keys().copied().collect();
-    order.sort_unstable();
-    let mut sizes: HashMap<Id, usize> = HashMap::new();
-    let mut definitions = Vec::new();
-    let mut free = (1_usize..)
-        .map(|k| format!("s{k}"))
-        .filter(|name| !taken.contains(name));
-    for id in order {
-        let operands = g.operands(id);
-        let size = 1 + operands.iter().map(|o| sizes[o]).sum::<usize>();
-        let hint = system.hints.get(&id).filter(|_| size >= ABBREVIATE / 2);
-        let shared = readers[&id] > 1 && size >= ABBREVIATE;
-        if operands.is_empty() || !(hint.is_some() || shared) {
-            sizes.insert(id, size);
-            continue;
-        }
-        let Some(name) = hint.cloned().or_else(|| free.next()) else {
-            break;
-        };
-        definitions.push((name.clone(), printer.definition(id)));
-        printer.named.insert(id, name);
-        sizes.insert(id, 1);
-    }
-    definitions
+    model: &Model,
+) -> String {
+    let equations = equations(listing, system, model);
+    let computed = computed(analysis, system, model);
+    format!(
+        "# Equations of motion\n\nDerived from the declaration at compile time, in the notation of Zhao, Zhen & Chen 2013: \
+         M q̈ = Q is the unconstrained motion, A q̈ = b what the constraints demand.\n\n{equations}{computed}"
+    )
 }
 
-impl Listing {
-    /// Markdown of the equations for the emitted type's docs.
-    pub(super) fn markdown(&self, system: &System, model: &Model) -> String {
-        let coord = |i: usize| &model.coord_elements[i].name;
-        let constraint = |i: usize| system.constraints[i].item.text();
-        let mut out = String::new();
-        let mut block = |title: &str, rows: Vec<String>| {
-            if rows.is_empty() {
-                return;
-            }
-            let _ = writeln!(out, "{title}\n\n```text");
-            let hidden = rows.len().saturating_sub(ROWS);
-            let shown = if hidden > 0 { ROWS - 2 } else { rows.len() };
-            for row in &rows[..shown] {
-                let _ = writeln!(out, "{row}");
-            }
-            if hidden > 0 {
-                let _ = writeln!(
-                    out,
-                    "… {} rows like these …\n{}",
-                    rows.len() - shown - 1,
-                    rows[rows.len() - 1]
-                );
-            }
-            let _ = writeln!(out, "```\n");
-        };
-        let definitions = self.definitions.iter().map(|(n, t)| format!("{n} = {t}"));
-        let mass = self
-            .mass
-            .iter()
-            .map(|(i, j, t)| format!("M[{}, {}] = {t}", coord(*i), coord(*j)));
-        let force = self
-            .force
-            .iter()
-            .map(|(i, t)| format!("Q[{}] = {t}", coord(*i)));
-        let nonideal = self
-            .nonideal
-            .iter()
-            .map(|(i, t)| format!("c[{}] = {t}", coord(*i)));
-        let phi = self
-            .phi
-            .iter()
-            .enumerate()
-            .map(|(i, t)| format!("{}: {t}", constraint(i)));
-        let jacobian = self
-            .jacobian
-            .iter()
-            .map(|(i, j, t)| format!("A[{}, {}] = {t}", constraint(*i), coord(*j)));
-        let rhs = self
-            .rhs
-            .iter()
-            .map(|(i, t)| format!("b[{}] = {t}", constraint(*i)));
-        block("Abbreviations:", definitions.collect());
-        block("Mass matrix M (lower triangle), eq. 1:", mass.collect());
-        block("Generalised force Q, eq. 1:", force.collect());
-        block("Constraints φ, eqs. 3 and 4:", phi.collect());
-        block("Constraint Jacobian A, eq. 5:", jacobian.collect());
-        block("Right-hand side b, eq. 5:", rhs.collect());
-        block("Non-ideal force c, eq. 8:", nonideal.collect());
-        let switches = self.switches.iter();
-        let switches = switches.map(|(g, terms)| format!("{g}: {}", terms.join(", ")));
-        block(
-            "Switches, functions at whose zeros abs, sign, min or max change their branch, with the terms that contain them:",
-            switches.collect(),
-        );
-        out
-    }
-}
-
-/// Names of the prepared values, as in the emitted code.
-fn prepared_names(system: &System, model: &Model, prepared: &[Id]) -> Vec<String> {
-    let constraints = system.constraints.len();
-    let hints = system.all_hints();
-    let slots = Slots {
-        values: prepared,
-        switches: &[],
+/// Markdown of the equations for the emitted type's docs.
+fn equations(listing: &Listing, system: &System, model: &Model) -> String {
+    let coord = |i: usize| &model.coord_elements[i].name;
+    let constraint = |i: usize| system.constraints[i].item.text();
+    let mut out = String::new();
+    let mut block = |title: &str, rows: Vec<String>| {
+        if rows.is_empty() {
+            return;
+        }
+        let _ = writeln!(out, "{title}\n\n```text");
+        let hidden = rows.len().saturating_sub(ROWS);
+        let shown = if hidden > 0 { ROWS - 2 } else { rows.len() };
+        for row in &rows[..shown] {
+            let _ = writeln!(out, "{row}");
+        }
+        if hidden > 0 {
+            let _ = writeln!(
+                out,
+                "… {} rows like these …\n{}",
+                rows.len() - shown - 1,
+                rows[rows.len() - 1]
+            );
+        }
+        let _ = writeln!(out, "```\n");
     };
-    let namer = Namer::new(&system.graph, model, constraints, &hints, slots);
-    let symbols = (0..prepared.len()).map(Symbol::Prepared);
-    symbols.map(|s| namer.symbol(s).to_string()).collect()
+    let definitions = listing
+        .definitions
+        .iter()
+        .map(|(n, t)| format!("{n} = {t}"));
+    let mass = listing
+        .mass
+        .iter()
+        .map(|(i, j, t)| format!("M[{}, {}] = {t}", coord(*i), coord(*j)));
+    let force = listing
+        .force
+        .iter()
+        .map(|(i, t)| format!("Q[{}] = {t}", coord(*i)));
+    let nonideal = listing
+        .nonideal
+        .iter()
+        .map(|(i, t)| format!("c[{}] = {t}", coord(*i)));
+    let phi = listing
+        .phi
+        .iter()
+        .enumerate()
+        .map(|(i, t)| format!("{}: {t}", constraint(i)));
+    let jacobian = listing
+        .jacobian
+        .iter()
+        .map(|(i, j, t)| format!("A[{}, {}] = {t}", constraint(*i), coord(*j)));
+    let rhs = listing
+        .rhs
+        .iter()
+        .map(|(i, t)| format!("b[{}] = {t}", constraint(*i)));
+    block("Abbreviations:", definitions.collect());
+    block("Mass matrix M (lower triangle), eq. 1:", mass.collect());
+    block("Generalised force Q, eq. 1:", force.collect());
+    block("Constraints φ, eqs. 3 and 4:", phi.collect());
+    block("Constraint Jacobian A, eq. 5:", jacobian.collect());
+    block("Right-hand side b, eq. 5:", rhs.collect());
+    block("Non-ideal force c, eq. 8:", nonideal.collect());
+    let switches = listing.switches.iter();
+    let switches = switches.map(|(g, terms)| format!("{g}: {}", terms.join(", ")));
+    block(
+        "Switches, functions at whose zeros abs, sign, min or max change their branch, with the terms that contain them:",
+        switches.collect(),
+    );
+    out
 }
 
 /// How q̈ is computed, in short, for the emitted type's docs. `Mechanism::plan` tells the rest.
-pub(super) fn computed(plan: &Plan, costs: &Costs, system: &System, model: &Model) -> String {
+fn computed(analysis: &Analysis, system: &System, model: &Model) -> String {
     let mut out = "# How it is computed\n\n".to_owned();
     let coord = |i: usize| model.coord_elements[i].name.as_str();
     let constraint = |row: usize| system.constraints[row].item.text();
+    let costs = &analysis.costs;
     let mut rows = vec![
         ("M, Q, c, A and b", costs.dynamics),
         ("dense LDLᵀ of [M Aᵀ; A 0] after that", costs.dense),
     ];
-    match &plan.pivots {
+    match &analysis.solve {
         Err(refusal) => {
             let _ = writeln!(
                 out,
                 "By the dense, rank-revealing solve: there is no straight line, since {refusal}."
             );
         }
-        Ok(pivots) => {
+        Ok(solve) => {
             let _ = writeln!(
                 out,
                 "By straight-line code: [M Aᵀ; A 0] is eliminated at compile time, which fills in {} of its entries.",
-                2 * plan.fill.len()
+                2 * solve.fill.len()
             );
-            for pivot in pivots {
+            for pivot in &solve.pivots {
                 let (i, row, why) = match *pivot {
                     Chosen::Prescribed(i, row, _) => (i, row, "prescribes it alone"),
                     Chosen::Massless(i, row, _) => (i, row, "replaces the inertia it lacks"),
@@ -278,16 +146,4 @@ pub(super) fn computed(plan: &Plan, costs: &Costs, system: &System, model: &Mode
     }
     out += "\n`Mechanism::plan` tells the order, what is hoisted and left out, and draws the sparsity; `Mechanism::CODE` is the code.";
     out
-}
-
-/// Names of the parameters that `id` depends on.
-fn parameters_of(id: Id, system: &System, names: &[String]) -> String {
-    let below = system.graph.reachable(&[id]);
-    let parameter = |id: &Id| match system.graph.node(*id) {
-        Node::Symbol(Symbol::Param(i)) => Some(*i),
-        _ => None,
-    };
-    let found: std::collections::BTreeSet<usize> = below.iter().filter_map(parameter).collect();
-    let found: Vec<&str> = found.iter().map(|i| names[*i].as_str()).collect();
-    found.join(", ")
 }

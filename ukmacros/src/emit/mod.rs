@@ -1,12 +1,58 @@
-//! Program to Rust. The only place that writes code.
+//! Programs to Rust. The only place that writes code.
 
 mod body;
 mod docs;
 mod fallback;
-mod impls;
+mod functions;
+mod item;
+mod listing;
 mod names;
-mod print;
 mod spec;
 
 pub(crate) use fallback::fallback;
-pub(crate) use impls::{Derived, emit};
+
+use crate::analysis::{Analysis, Constant};
+use crate::expr::System;
+use crate::model::Model;
+use crate::parse::Declaration;
+use proc_macro2::TokenStream;
+use quote::quote;
+
+/// Everything the declaration becomes.
+pub(crate) fn emit(
+    decl: &Declaration,
+    model: &Model,
+    system: &System,
+    constants: &[Constant],
+    analysis: &Analysis,
+) -> TokenStream {
+    let listing = listing::listing(system, model, analysis);
+    let docs = docs::derived(&listing, analysis, system, model);
+    let item = item::item(decl, model, &system.defaults, &docs);
+    let constants = item::associated(decl, constants);
+    let spec = spec::spec(decl, model, system, analysis, &listing);
+    let parameters = item::parameters(model);
+    let functions = functions::functions(system, model, analysis);
+    let implementation = implementation(decl, &quote! { #spec #parameters #functions });
+    quote! { #item #constants #implementation }
+}
+
+/// `impl Mechanism` with these `members`, where `ukcore` is known by that name, whatever it is called in the user's crate.
+fn implementation(decl: &Declaration, members: &TokenStream) -> TokenStream {
+    let name = &decl.name;
+    let runtime = decl.runtime.clone().unwrap_or_else(|| quote! { ::ukcore });
+    quote! {
+        const _: () = {
+            use #runtime as ukcore;
+            #[automatically_derived]
+            impl ::core::convert::From<#name> for ukcore::Prepared {
+                fn from(mechanism: #name) -> Self {
+                    ukcore::Mechanism::prepared(&mechanism)
+                }
+            }
+            #[automatically_derived]
+            #[allow(unused_variables, clippy::all, clippy::pedantic)]
+            impl ukcore::Mechanism for #name { #members }
+        };
+    }
+}

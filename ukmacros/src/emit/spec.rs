@@ -1,206 +1,196 @@
 //! `const SPEC` of an emitted type: names, structure, costs, readable equations.
 
 use super::body::float;
-use super::docs::Listing;
-use crate::analysis::{Chosen, Dynamics, Operations, Plan, Structure};
+use super::listing::Listing;
+use crate::analysis::{Analysis, Chosen, Costs, Operations, SAFE_SHARE, Solve, Structure};
 use crate::expr::{Kind, System};
 use crate::model::Model;
 use crate::parse::Declaration;
 use proc_macro2::{Literal, TokenStream};
-use quote::quote;
+use quote::{format_ident, quote};
 
-/// What is known about a mechanism.
-pub(super) struct Facts<'a> {
-    pub(super) system: &'a System,
-    pub(super) model: &'a Model,
-    pub(super) dynamics: &'a Dynamics,
-    pub(super) plan: &'a Plan,
-    pub(super) costs: &'a Costs,
-}
-
-/// Operations of one call of each function, and of what they replace.
-pub(super) struct Costs {
-    pub(super) dynamics: Operations,
-    pub(super) dense: Operations,
-    pub(super) unprepared: Operations,
-    pub(super) acceleration: Operations,
-    pub(super) correction: Operations,
-    pub(super) prepare: Operations,
-}
-
-impl Costs {
-    fn literal(&self) -> TokenStream {
-        let [
-            dynamics,
-            dense,
-            unprepared,
-            acceleration,
-            correction,
-            prepare,
-        ] = [
-            self.dynamics,
-            self.dense,
-            self.unprepared,
-            self.acceleration,
-            self.correction,
-            self.prepare,
-        ]
-        .map(operations_literal);
-        quote! {
-            ::ukcore::Costs {
-                dynamics: #dynamics,
-                dense: #dense,
-                unprepared: #unprepared,
-                acceleration: #acceleration,
-                correction: #correction,
-                prepare: #prepare,
-            }
-        }
-    }
-}
-
-impl Facts<'_> {
-    /// `const SPEC`.
-    pub(super) fn spec(&self, decl: &Declaration, listing: &Listing) -> TokenStream {
-        let name = decl.name.to_string();
-        let docs = decl.docs.join("\n");
-        let params = self.model.param_elements.iter().enumerate().map(|(i, e)| {
-            let (name, docs) = (&e.name, self.model.params[e.family].docs.join(" "));
-            let default = float(self.system.defaults[i]);
-            quote! { ::ukcore::ParamSpec { name: #name, doc: #docs, default: #default } }
-        });
-        let coords = self.model.coord_elements.iter().map(|e| &e.name);
-        let constraints = self.system.constraints.iter().zip(&listing.phi).map(|(c, equation)| {
-            let name = c.item.text();
-            let kind = match c.kind {
-                Kind::Holonomic => quote! { Holonomic },
-                Kind::Nonholonomic => quote! { Nonholonomic },
-            };
-            quote! { ::ukcore::ConstraintSpec { name: #name, kind: ::ukcore::ConstraintKind::#kind, equation: #equation } }
-        });
-        let holonomic = Literal::usize_unsuffixed(self.dynamics.phi.len());
-        let outputs = self.system.outputs.iter().map(|o| {
-            let (name, docs) = (o.item.text(), o.docs.join(" "));
-            quote! { ::ukcore::OutputSpec { name: #name, doc: #docs } }
-        });
-        let prepared = listing.prepared.iter().map(|(n, t)| quote! { (#n, #t) });
-        let switches = listing.switches.iter().map(|(function, terms)| {
-            quote! { ::ukcore::SwitchSpec { function: #function, terms: &[#(#terms),*] } }
-        });
-        let structure = self.structure();
-        let equations = equations(listing);
-        quote! {
-            const SPEC: &'static ::ukcore::Spec = &::ukcore::Spec {
-                name: #name,
-                doc: #docs,
-                params: &[#(#params),*],
-                prepared: &[#(#prepared),*],
-                coords: &[#(#coords),*],
-                constraints: &[#(#constraints),*],
-                holonomic: #holonomic,
-                outputs: &[#(#outputs),*],
-                switches: &[#(#switches),*],
-                structure: #structure,
-                equations: #equations,
-            };
-        }
-    }
-
-    fn structure(&self) -> TokenStream {
-        let s = &self.plan.structure;
-        let pair = |i: usize, j: usize| {
-            let (i, j) = (Literal::usize_unsuffixed(i), Literal::usize_unsuffixed(j));
-            quote! { (#i, #j) }
+/// `const SPEC`.
+pub(super) fn spec(
+    decl: &Declaration,
+    model: &Model,
+    system: &System,
+    analysis: &Analysis,
+    listing: &Listing,
+) -> TokenStream {
+    let name = decl.name.to_string();
+    let docs = decl.docs.join("\n");
+    let params = model.param_elements.iter().enumerate().map(|(i, e)| {
+        let (name, docs) = (&e.name, model.params[e.family].docs.join(" "));
+        let default = float(system.defaults[i]);
+        quote! { ukcore::ParamSpec { name: #name, doc: #docs, default: #default } }
+    });
+    let coords = model.coord_elements.iter().map(|e| &e.name);
+    let constraints = system.constraints.iter().zip(&listing.phi).map(|(c, equation)| {
+        let name = c.item.text();
+        let kind = match c.kind {
+            Kind::Holonomic => quote! { Holonomic },
+            Kind::Nonholonomic => quote! { Nonholonomic },
         };
-        let mut mass: Vec<(usize, usize)> = Vec::new();
-        for (i, j) in self.dynamics.mass.keys() {
-            mass.push((*i, *j));
-            if i != j {
-                mass.push((*j, *i));
-            }
-        }
-        mass.sort_unstable();
-        let mass = mass.into_iter().map(|(i, j)| pair(i, j));
-        let jacobian = self.dynamics.jacobian.keys().map(|(i, j)| pair(*i, *j));
-        let massless = s.massless.iter().map(|i| Literal::usize_unsuffixed(*i));
-        let left_out = &s.left_out;
-        let Structure {
-            mass_diagonal,
-            mass_constant,
-            jacobian_constant,
-            scleronomic,
-            nonideal,
-            potential,
-            conservative,
-            ..
-        } = s;
-        let straight_line = self.plan.pivots.is_ok();
-        let solve = self.solve();
-        let costs = self.costs.literal();
-        quote! {
-            ::ukcore::Structure {
-                straight_line: #straight_line,
-                solve: #solve,
-                mass_pattern: &[#(#mass),*],
-                jacobian_pattern: &[#(#jacobian),*],
-                mass_diagonal: #mass_diagonal,
-                mass_constant: #mass_constant,
-                jacobian_constant: #jacobian_constant,
-                massless: &[#(#massless),*],
-                scleronomic: #scleronomic,
-                nonideal: #nonideal,
-                potential: #potential,
-                conservative: #conservative,
-                left_out: &[#(#left_out),*],
-                costs: #costs,
-            }
+        quote! { ukcore::ConstraintSpec { name: #name, kind: ukcore::ConstraintKind::#kind, equation: #equation } }
+    });
+    let holonomic = number(analysis.dynamics.phi.len());
+    let outputs = system.outputs.iter().map(|o| {
+        let (name, docs) = (o.item.text(), o.docs.join(" "));
+        quote! { ukcore::OutputSpec { name: #name, doc: #docs } }
+    });
+    let prepared = listing.prepared.iter().map(|(n, t)| quote! { (#n, #t) });
+    let switches = listing.switches.iter().map(|(function, terms)| {
+        quote! { ukcore::SwitchSpec { function: #function, terms: &[#(#terms),*] } }
+    });
+    let structure = structure(analysis);
+    let equations = equations(listing);
+    quote! {
+        const SPEC: &'static ukcore::Spec = &ukcore::Spec {
+            name: #name,
+            doc: #docs,
+            params: &[#(#params),*],
+            prepared: &[#(#prepared),*],
+            coords: &[#(#coords),*],
+            constraints: &[#(#constraints),*],
+            holonomic: #holonomic,
+            outputs: &[#(#outputs),*],
+            switches: &[#(#switches),*],
+            structure: #structure,
+            equations: #equations,
+        };
+    }
+}
+
+fn number(n: usize) -> Literal {
+    Literal::usize_unsuffixed(n)
+}
+
+fn pair(i: usize, j: usize) -> TokenStream {
+    let (i, j) = (number(i), number(j));
+    quote! { (#i, #j) }
+}
+
+fn structure(analysis: &Analysis) -> TokenStream {
+    let mut mass: Vec<(usize, usize)> = Vec::new();
+    for (i, j) in analysis.dynamics.mass.keys() {
+        mass.push((*i, *j));
+        if i != j {
+            mass.push((*j, *i));
         }
     }
+    mass.sort_unstable();
+    let mass = mass.into_iter().map(|(i, j)| pair(i, j));
+    let jacobian = analysis.dynamics.jacobian.keys();
+    let jacobian = jacobian.map(|(i, j)| pair(*i, *j));
+    let Structure {
+        mass_diagonal,
+        mass_constant,
+        jacobian_constant,
+        massless,
+        angles,
+        scleronomic,
+        nonideal,
+        potential,
+        conservative,
+        left_out,
+    } = &analysis.structure;
+    let massless = massless.iter().map(|i| number(*i));
+    let angles = angles.iter().map(|i| number(*i));
+    let straight_line = analysis.solve.is_ok();
+    let solve = match &analysis.solve {
+        Ok(solve) => self::solve(solve),
+        Err(refusal) => quote! { ukcore::Solve::none(#refusal) },
+    };
+    let costs = costs(&analysis.costs);
+    quote! {
+        ukcore::Structure {
+            straight_line: #straight_line,
+            solve: #solve,
+            mass_pattern: &[#(#mass),*],
+            jacobian_pattern: &[#(#jacobian),*],
+            mass_diagonal: #mass_diagonal,
+            mass_constant: #mass_constant,
+            jacobian_constant: #jacobian_constant,
+            massless: &[#(#massless),*],
+            angles: &[#(#angles),*],
+            scleronomic: #scleronomic,
+            nonideal: #nonideal,
+            potential: #potential,
+            conservative: #conservative,
+            left_out: &[#(#left_out),*],
+            costs: #costs,
+        }
+    }
+}
 
-    fn solve(&self) -> TokenStream {
-        let pivots = match &self.plan.pivots {
-            Ok(pivots) => pivots,
-            Err(refusal) => return quote! { ::ukcore::Solve::none(#refusal) },
+fn solve(solve: &Solve) -> TokenStream {
+    let pivots = solve.pivots.iter().map(|pivot| {
+        let (kind, values) = match *pivot {
+            Chosen::Prescribed(i, row, a) => ("Prescribed", (i, Some((row, a)))),
+            Chosen::Massless(i, row, a) => ("Massless", (i, Some((row, a)))),
+            Chosen::Coordinate(i) => ("Coordinate", (i, None)),
+            Chosen::Constraint(row) => ("Constraint", (row, None)),
         };
-        let number = Literal::usize_unsuffixed;
-        let pivots = pivots.iter().map(|pivot| match *pivot {
-            Chosen::Prescribed(i, row, a) => {
-                let (i, row, a) = (number(i), number(row), a.to_string());
-                quote! { ::ukcore::Pivot::Prescribed(#i, #row, #a) }
-            }
-            Chosen::Massless(i, row, a) => {
-                let (i, row, a) = (number(i), number(row), a.to_string());
-                quote! { ::ukcore::Pivot::Massless(#i, #row, #a) }
-            }
-            Chosen::Coordinate(i) => {
-                let i = number(i);
-                quote! { ::ukcore::Pivot::Coordinate(#i) }
-            }
-            Chosen::Constraint(row) => {
-                let row = number(row);
-                quote! { ::ukcore::Pivot::Constraint(#row) }
-            }
+        let (kind, first) = (format_ident!("{kind}"), number(values.0));
+        let rest = values.1.map(|(row, a)| {
+            let (row, a) = (number(row), a.to_string());
+            quote! { , #row, #a }
         });
-        let fill = self.plan.fill.iter().map(|(i, j)| {
-            let (i, j) = (number(*i), number(*j));
-            quote! { (#i, #j) }
-        });
-        let checks = self.plan.checks.iter().map(|(k, share)| {
-            let k = number(*k);
-            match share {
-                true => quote! { ::ukcore::Check::Share(#k) },
-                false => quote! { ::ukcore::Check::Positive(#k) },
-            }
-        });
-        let least_share = float(self.plan.least_share);
-        quote! {
-            ::ukcore::Solve {
-                refusal: "",
-                pivots: &[#(#pivots),*],
-                fill: &[#(#fill),*],
-                checks: &[#(#checks),*],
-                least_share: #least_share,
-            }
+        quote! { ukcore::Pivot::#kind(#first #rest) }
+    });
+    let fill = solve.fill.iter().map(|(i, j)| pair(*i, *j));
+    let checks = solve.checks.iter().map(|(k, share)| {
+        let k = number(*k);
+        match share {
+            true => quote! { ukcore::Check::Share(#k) },
+            false => quote! { ukcore::Check::Positive(#k) },
+        }
+    });
+    let least_share = float(SAFE_SHARE);
+    quote! {
+        ukcore::Solve {
+            refusal: "",
+            pivots: &[#(#pivots),*],
+            fill: &[#(#fill),*],
+            checks: &[#(#checks),*],
+            least_share: #least_share,
+        }
+    }
+}
+
+fn costs(costs: &Costs) -> TokenStream {
+    let Costs {
+        dynamics,
+        dense,
+        unprepared,
+        acceleration,
+        correction,
+        prepare,
+    } = costs;
+    let all = [
+        dynamics,
+        dense,
+        unprepared,
+        acceleration,
+        correction,
+        prepare,
+    ];
+    let [
+        dynamics,
+        dense,
+        unprepared,
+        acceleration,
+        correction,
+        prepare,
+    ] = all.map(|operations| operations_literal(*operations));
+    quote! {
+        ukcore::Costs {
+            dynamics: #dynamics,
+            dense: #dense,
+            unprepared: #unprepared,
+            acceleration: #acceleration,
+            correction: #correction,
+            prepare: #prepare,
         }
     }
 }
@@ -209,7 +199,7 @@ fn equations(listing: &Listing) -> TokenStream {
     let triple = |rows: &[(usize, usize, String)]| -> Vec<TokenStream> {
         rows.iter()
             .map(|(i, j, text)| {
-                let (i, j) = (Literal::usize_unsuffixed(*i), Literal::usize_unsuffixed(*j));
+                let (i, j) = (number(*i), number(*j));
                 quote! { (#i, #j, #text) }
             })
             .collect()
@@ -217,7 +207,7 @@ fn equations(listing: &Listing) -> TokenStream {
     let pairs = |rows: &[(usize, String)]| -> Vec<TokenStream> {
         rows.iter()
             .map(|(i, text)| {
-                let i = Literal::usize_unsuffixed(*i);
+                let i = number(*i);
                 quote! { (#i, #text) }
             })
             .collect()
@@ -230,7 +220,7 @@ fn equations(listing: &Listing) -> TokenStream {
         pairs(&listing.rhs),
     );
     quote! {
-        ::ukcore::Equations {
+        ukcore::Equations {
             definitions: &[#(#definitions),*],
             mass: &[#(#mass),*],
             force: &[#(#force),*],
@@ -249,9 +239,9 @@ fn operations_literal(o: Operations) -> TokenStream {
         square_roots,
         transcendentals,
         selections,
-    ] = o.counts().map(Literal::usize_unsuffixed);
+    ] = o.counts().map(number);
     quote! {
-        ::ukcore::Operations {
+        ukcore::Operations {
             additions: #additions,
             multiplications: #multiplications,
             divisions: #divisions,

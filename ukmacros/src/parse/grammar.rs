@@ -1,7 +1,7 @@
 //! Sections and entries.
 //!
 //! ```ebnf
-//! declaration = docs, [vis], NAME, "{", { section }, "}" ;
+//! declaration = docs, ["#[ukcore(crate = path)]"], [vis], NAME, "{", { section }, "}" ;
 //! section     = "const", NAME, ":", ("usize" | "f64"), "=", expr, ";"
 //!             | "let", NAME, "=", (expr | function), ";"
 //!             | "let", block(key, "=", (expr | function))
@@ -62,12 +62,13 @@ pub(crate) fn parse(mut tokens: TokenStream, diag: &Diagnostics) -> Option<Decla
 }
 
 fn declaration(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Declaration> {
-    let docs = docs(input, diag)?;
+    let Attributes { docs, runtime } = attributes(input, diag)?;
     let vis: syn::Visibility = input.parse()?;
     let _: Option<Token![struct]> = input.parse()?;
     let name: Ident = input.parse()?;
     let mut out = Declaration {
         docs,
+        runtime,
         vis: vis.to_token_stream(),
         name,
         consts: Vec::new(),
@@ -178,9 +179,17 @@ fn list(names: &[&str]) -> String {
     quoted.join(", ")
 }
 
-/// The text of leading doc comments; other attributes are refused.
-fn docs(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Vec<String>> {
-    let mut docs = Vec::new();
+/// What stands before a declaration, a section or an entry.
+struct Attributes {
+    /// The text of doc comments.
+    docs: Vec<String>,
+    /// The path in `#[ukcore(crate = path)]`.
+    runtime: Option<TokenStream>,
+}
+
+/// Doc comments, and before a declaration the path of the crate `ukcore`.
+fn attributes(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Attributes> {
+    let (mut docs, mut runtime) = (Vec::new(), None);
     for attribute in input.call(syn::Attribute::parse_outer)? {
         match &attribute.meta {
             syn::Meta::NameValue(syn::MetaNameValue {
@@ -194,8 +203,33 @@ fn docs(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Vec<String>> 
             }) if path.is_ident("doc") => {
                 docs.extend(text.value().lines().map(|l| l.trim().to_owned()));
             }
+            syn::Meta::List(list) if list.path.is_ident("ukcore") => {
+                let named = |input: ParseStream<'_>| {
+                    let _: Token![crate] = input.parse()?;
+                    let _: Token![=] = input.parse()?;
+                    input.call(syn::Path::parse_mod_style)
+                };
+                match list.parse_args_with(named) {
+                    Ok(path) => runtime = Some(path.to_token_stream()),
+                    Err(_) => diag.error(
+                        Loc::of(&attribute.meta),
+                        "this attribute is written `#[ukcore(crate = my::path::to::ukcore)]`",
+                    ),
+                }
+            }
             other => diag.error(Loc::of(other), "only doc comments are allowed here"),
         }
+    }
+    Ok(Attributes { docs, runtime })
+}
+
+/// The text of doc comments; other attributes are refused.
+fn docs(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Vec<String>> {
+    let place = input.span();
+    let Attributes { docs, runtime } = attributes(input, diag)?;
+    if runtime.is_some() {
+        let message = "`#[ukcore(crate = …)]` stands before the whole declaration";
+        diag.error(place, message);
     }
     Ok(docs)
 }

@@ -7,6 +7,8 @@ use proc_macro2::{Ident, TokenStream};
 /// A whole declaration.
 pub(crate) struct Declaration {
     pub(crate) docs: Vec<String>,
+    /// Path of the crate `ukcore`, where `#[ukcore(crate = path)]` says it.
+    pub(crate) runtime: Option<TokenStream>,
     /// Visibility, as written.
     pub(crate) vis: TokenStream,
     pub(crate) name: Ident,

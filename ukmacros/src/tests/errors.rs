@@ -1,65 +1,181 @@
-//! Every error: its text and the tokens it points at, which the cases mark as `«…»`.
+//! Every error: its text and the tokens it points at, read off what rustc is given.
 
 use super::expand;
-use proc_macro2::LineColumn;
+use expect_test::{Expect, expect};
+use proc_macro2::{LineColumn, TokenStream, TokenTree};
+use std::fmt::Write as _;
+
+/// An error as rustc is told of it: a `compile_error!` whose first and last token carry its place.
+struct Found {
+    start: LineColumn,
+    end: LineColumn,
+    message: String,
+}
+
+/// The errors that `source` gives, in the order of their places. What else is emitted is the type, so that what uses it gives no second message.
+fn errors(source: &str) -> Vec<Found> {
+    let (code, collected) = expand(source);
+    let text = code.to_string();
+    let mut found = compile_errors(code);
+    assert_eq!(found.len(), collected.len(), "each error is emitted once");
+    found.sort_by_key(|f| f.start);
+    if source.starts_with("pub ") {
+        for part in ["struct", "Mechanism for"] {
+            assert!(text.contains(part), "the fallback has its `{part}`");
+        }
+    }
+    syn::parse_str::<syn::File>(&text).expect("the fallback is Rust");
+    for Found { message, .. } in &found {
+        let capital = message.starts_with(char::is_uppercase) && !message.starts_with("M ");
+        assert!(!capital, "messages start in lower case: {message}");
+    }
+    found
+}
+
+/// All `::core::compile_error! { "message" }` in `code`.
+fn compile_errors(code: TokenStream) -> Vec<Found> {
+    let tokens: Vec<TokenTree> = code.into_iter().collect();
+    let names = |tree: &TokenTree| matches!(tree, TokenTree::Ident(i) if i == "compile_error");
+    let places = (0..tokens.len()).filter(|at| names(&tokens[*at]));
+    let error = |at: usize| {
+        let TokenTree::Group(message) = &tokens[at + 2] else {
+            panic!("a message in braces")
+        };
+        let text: syn::LitStr = syn::parse2(message.stream()).expect("a message");
+        Found {
+            start: tokens[at - 5].span().start(),
+            end: message.span().end(),
+            message: text.value(),
+        }
+    };
+    places.map(error).collect()
+}
+
+/// Expects the errors of `source`, shown as rustc shows them.
+#[track_caller]
+fn check_shown(source: &str, expected: &Expect) {
+    let mut shown = String::new();
+    for Found {
+        start,
+        end,
+        message,
+    } in errors(source)
+    {
+        let LineColumn { line, column } = start;
+        let text = source.lines().nth(line - 1).expect("the line is there");
+        let (margin, carets) = (" ".repeat(line.to_string().len()), end.column - column);
+        let _ = writeln!(shown, "error: {message}");
+        let _ = writeln!(shown, "{margin}--> {line}:{}", column + 1);
+        let _ = writeln!(shown, "{line} | {text}");
+        let _ = writeln!(shown, "{margin} | {:column$}{}", "", "^".repeat(carets));
+    }
+    expected.assert_eq(&shown);
+}
+
+#[test]
+fn errors_as_they_are_shown() {
+    check_shown(
+        "pub Pendulum {
+    params { m = 1.0, l = 1.0, g = 9.81 }
+    coords { x, y }
+    mass { x: m, y: m }
+    potential { m * g * y }
+    holonomic { rod: sq(x) + y ^ 2 = sq(length) }
+    output { angle = atan2(x, -y) }
+}",
+        &expect![[r#"
+            error: `^` is not a power in Rust; write `x.powi(2)`, `x.powf(y)` or `sq(x)`
+             --> 6:32
+            6 |     holonomic { rod: sq(x) + y ^ 2 = sq(length) }
+              |                                ^
+            error: unknown name `length`; declare it under `params`, `coords` or by `let` before its use
+             --> 6:41
+            6 |     holonomic { rod: sq(x) + y ^ 2 = sq(length) }
+              |                                         ^^^^^^
+        "#]],
+    );
+    check_shown(
+        "pub Cart {
+    params { m = 1.0, k = 1.0 }
+    coords { x, y }
+    mass { x: m }
+    force { x: -k * x, y: -k * y }
+}",
+        &expect![[r#"
+            error: coordinate `y` has neither mass nor constraint, so nothing determines its motion; give it mass, constrain it, or remove it
+             --> 3:17
+            3 |     coords { x, y }
+              |                 ^
+        "#]],
+    );
+    check_shown(
+        "pub Chain {
+    const N: usize = 3;
+    params { m = 1.0 }
+    coords { x[N] }
+    mass { for i in 0..N { x[i]: m } }
+    force { x[3]: 1.0, y[0]: 1.0 }
+    holonomic {
+        for i in 0..N - 1 { link[i]: x[i + 1] - x[i] = dot(x[i]) }
+        end: x[0] = t
+        end: x[2] = 1.0
+    }
+}",
+        &expect![[r#"
+            error: index 3 is out of range: `x` has 3 members, `x[0]` to `x[2]`
+             --> 6:15
+            6 |     force { x[3]: 1.0, y[0]: 1.0 }
+              |               ^
+            error: `y` is not a coordinate; coordinates are `x`
+             --> 6:24
+            6 |     force { x[3]: 1.0, y[0]: 1.0 }
+              |                        ^
+            error: a velocity in a holonomic constraint; move the constraint under `nonholonomic`
+             --> 8:56
+            8 |         for i in 0..N - 1 { link[i]: x[i + 1] - x[i] = dot(x[i]) }
+              |                                                        ^^^^^^^^^
+            error: constraint `end` is declared twice; names must be unique
+              --> 10:9
+            10 |         end: x[2] = 1.0
+               |         ^^^
+        "#]],
+    );
+}
 
 /// Where `«` and `»` stand, and the source without them.
 fn unmark(marked: &str) -> (String, Vec<(LineColumn, LineColumn)>) {
     let (mut source, mut spans, mut open) = (String::new(), Vec::new(), Vec::new());
-    let mut at = LineColumn { line: 1, column: 0 };
     for c in marked.chars() {
+        // Declarations of the cases are one line each.
+        let at = LineColumn {
+            line: 1,
+            column: source.chars().count(),
+        };
         match c {
             '«' => open.push(at),
             '»' => spans.push((open.pop().expect("« before »"), at)),
-            '\n' => {
-                source.push(c);
-                at = LineColumn {
-                    line: at.line + 1,
-                    column: 0,
-                };
-            }
-            _ => {
-                source.push(c);
-                at.column += 1;
-            }
+            _ => source.push(c),
         }
     }
     (source, spans)
 }
 
-/// Expects exactly the marked errors, in order, each starting with its message.
+/// Expects exactly the errors that `marked` marks, in order, each with its message.
 #[track_caller]
 fn check(marked: &str, messages: &[&str]) {
     let (source, spans) = unmark(&format!("pub T {{ {marked} }}"));
-    let (code, mut found) = expand(&source);
-    let shown: Vec<_> = found.iter().map(|d| d.message.as_str()).collect();
+    let found = errors(&source);
+    let shown: Vec<_> = found.iter().map(|f| f.message.as_str()).collect();
     assert_eq!(found.len(), messages.len(), "errors found: {shown:#?}");
     assert_eq!(spans.len(), messages.len(), "one mark per message");
-    found.sort_by_key(|d| d.loc.start.start());
-    for ((diagnostic, message), span) in found.iter().zip(messages).zip(spans) {
+    for ((f, expected), span) in found.iter().zip(messages).zip(spans) {
+        let text = &f.message;
         assert!(
-            diagnostic.message.contains(message),
-            "expected «{message}»\n   found «{}»",
-            diagnostic.message
+            text.contains(expected),
+            "expected «{expected}»\n   found «{text}»"
         );
-        let (start, end) = (diagnostic.loc.start.start(), diagnostic.loc.end.end());
-        assert_eq!((start, end), span, "place of «{}»", diagnostic.message);
-        let first = diagnostic.message.chars().next();
-        assert!(
-            first.is_some_and(|c| !c.is_uppercase() || diagnostic.message.starts_with("M ")),
-            "messages start in lower case: {}",
-            diagnostic.message
-        );
+        assert_eq!((f.start, f.end), span, "place of «{text}»");
     }
-    // An error does not take the type away: what uses it gives no second message.
-    let code = code.to_string();
-    assert!(code.contains("compile_error"), "the error is emitted");
-    assert!(code.contains("struct T"), "the fallback keeps the type");
-    assert!(
-        code.contains("Mechanism for T"),
-        "the fallback keeps the trait"
-    );
-    syn::parse_str::<syn::File>(&code).expect("the fallback is Rust");
 }
 
 macro_rules! cases {
@@ -107,6 +223,8 @@ cases! {
     unknown_section: "coords { x } mass { x: 1.0 } «forces» { x: 1.0 }" => "unknown section `forces`; did you mean `force`?";
     repeated_section: "coords { x } «coords» { y } mass { x: 1.0, y: 1.0 }" => "section `coords` appears twice";
     attribute: "coords { #[«allow(dead_code)»] x } mass { x: 1.0 }" => "only doc comments are allowed here";
+    crate_without_path: "#[«ukcore(runtime)»] coords { x } mass { x: 1.0 }" => "this attribute is written `#[ukcore(crate = my::path::to::ukcore)]`";
+    crate_of_an_entry: "coords { «#»[ukcore(crate = a)] x } mass { x: 1.0 }" => "stands before the whole declaration";
     open_range: "coords { x[3] } mass { for i in «0..» { x[i]: 1.0 } }" => "a range needs both ends";
     no_range: "coords { x[3] } mass { for i in «3» { x[i]: 1.0 } }" => "expected a range such as `0..N`";
     // Indices and loops.
@@ -232,23 +350,18 @@ fn several_errors_are_reported_together() {
 
 #[test]
 fn no_coordinates() {
-    let (_, found) = expand("pub T { params { m = 1.0 } coords { } }");
-    assert_eq!(found.len(), 1);
-    assert!(found[0].message.contains("`T` has no coordinates"));
-    assert_eq!(found[0].loc.start.start().column, 4);
-}
-
-#[test]
-fn no_coords_section() {
-    let (_, found) =
-        expand("pub T { params { m = 1.0 } mass { x: m, y: m } holonomic { c: x = y } }");
-    assert_eq!(found.len(), 1, "{found:?}");
-    assert!(found[0].message.contains("`T` has no coordinates"));
+    for source in [
+        "pub T { params { m = 1.0 } coords { } }",
+        "pub T { params { m = 1.0 } mass { x: m, y: m } holonomic { c: x = y } }",
+    ] {
+        let found = errors(source);
+        assert_eq!(found.len(), 1);
+        assert!(found[0].message.contains("`T` has no coordinates"));
+        assert_eq!(found[0].start.column, 4);
+    }
 }
 
 #[test]
 fn an_unreadable_name_still_gives_one_error() {
-    let (code, found) = expand("42 { coords { x } }");
-    assert_eq!(found.len(), 1);
-    assert!(code.to_string().contains("compile_error"));
+    assert_eq!(errors("42 { coords { x } }").len(), 1);
 }

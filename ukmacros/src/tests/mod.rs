@@ -4,6 +4,7 @@ mod constants;
 mod derivatives;
 mod elimination;
 mod errors;
+mod facts;
 mod golden;
 mod limits;
 mod random;

@@ -36,9 +36,9 @@ impl Visitor for Code<'_> {
 
     fn visit<M: Model>(self) -> Self::Output {
         let wanted = |name: &str| self.function.is_empty() || name == self.function;
-        let texts: Vec<&str> = M::CODE
+        let texts: Vec<String> = M::CODE
             .iter()
-            .filter_map(|(name, text)| wanted(name).then_some(*text))
+            .filter_map(|(name, text)| wanted(name).then(|| ukcore::code::laid_out(text)))
             .collect();
         if texts.is_empty() {
             let names: Vec<&str> = M::CODE.iter().map(|(name, _)| *name).collect();

@@ -132,3 +132,45 @@ fn wrong_uses_are_refused() {
         })
     ));
 }
+
+#[test]
+fn a_parameter_that_has_lost_digits_is_named() {
+    let mech = Pendulum {
+        params: vec![1e-320, 1.0, 9.8],
+    };
+    let mut solver = solver(&mech, Formula::Auto);
+    let (q, v) = ([0.6, -0.8], [0.0; 2]);
+    let refused = |result: Result<(), Error>| match result {
+        Err(Error::InvalidSetting { what, reason }) => {
+            assert!(
+                what == "parameter" && reason.starts_with("`m` is 1e-320: below 2.2e-308"),
+                "{reason}"
+            );
+        }
+        other => panic!("{other:?}"),
+    };
+    refused(solver.acceleration(0.0, &q, &v, &mut [0.0; 2]));
+    refused(solver.solve(0.0, &q, &v).map(drop));
+    let (t, q, v) = (0.0, q.to_vec(), v.to_vec());
+    let state = crate::assemble::State { t, q, v };
+    refused(
+        crate::simulate::Simulation::new(&mech)
+            .start(state)
+            .until(1.0)
+            .map(drop)
+            .map_err(|f| f.error),
+    );
+    // The least that has all its digits moves like any other.
+    let [light, ordinary] = [f64::MIN_POSITIVE, 1.0].map(|m| {
+        let mech = Pendulum {
+            params: vec![m, 1.0, 9.8],
+        };
+        let mut out = [0.0; 2];
+        let mut solver = super::solver(&mech, Formula::Auto);
+        solver
+            .acceleration(0.0, &[0.6, -0.8], &[0.0; 2], &mut out)
+            .unwrap();
+        out
+    });
+    close(&light, &ordinary, 1e-13, "light");
+}

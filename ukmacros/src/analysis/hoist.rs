@@ -188,7 +188,7 @@ impl<'g> Pass<'g> {
 }
 
 /// Whether both forms of the equations agree at a point, checked in debug builds of the macro: numbers of the first value that does not.
-pub(crate) fn verify_hoisting(
+pub(crate) fn verify(
     system: &System,
     dynamics: &Dynamics,
     straight: &Result<Straight, String>,

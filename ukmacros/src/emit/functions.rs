@@ -1,0 +1,137 @@
+//! The emitted functions.
+
+use super::body::{Writing, body};
+use super::item::doc;
+use super::names::Slots;
+use crate::analysis::{Analysis, Function, Role, Slice};
+use crate::expr::System;
+use crate::model::Model;
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+
+/// All functions, and `const CODE`, their text.
+pub(super) fn functions(system: &System, model: &Model, analysis: &Analysis) -> TokenStream {
+    let mut texts = TokenStream::new();
+    let mut functions = TokenStream::new();
+    for function in &analysis.functions {
+        let (role, operations) = (function.role, function.operations);
+        let signature = signature(role);
+        let statements = statements(function, system, model, analysis);
+        let (name, text) = (role.name(), format!("{signature} {{ {statements} }}"));
+        texts.extend(quote! { (#name, #text), });
+        let counted = [Role::Dynamics, Role::Acceleration].contains(&role);
+        let counts = counted.then(|| {
+            let [add, multiply, divide, root, function, select] = operations.counts();
+            doc(&format!(
+                "{add} additions, {multiply} multiplications, {divide} divisions, {root} square roots, \
+                 {function} transcendentals, {select} selections."
+            ))
+        });
+        functions.extend(quote! { #counts #signature { #statements } });
+    }
+    quote! {
+        const CODE: &'static [(&'static str, &'static str)] = &[#texts];
+        #functions
+    }
+}
+
+/// `fn name<S: ukcore::Scalar>(…) -> …`.
+pub(super) fn signature(role: Role) -> TokenStream {
+    let name = format_ident!("{}", role.name());
+    let position = quote! { prepared: &[S], t: S, q: &[S] };
+    let state = quote! { #position, v: &[S] };
+    let (arguments, result) = match role {
+        Role::Prepare => (quote! { given: &[S], prepared: &mut [S] }, None),
+        Role::Dynamics => (quote! { #state, out: &mut ukcore::Terms<'_, S> }, None),
+        Role::MassMatrix => (quote! { #position, mass: &mut [S] }, None),
+        Role::Residual => (quote! { #position, phi: &mut [S] }, None),
+        Role::Jacobian => (quote! { #state, jacobian: &mut [S] }, None),
+        Role::ResidualRate => (quote! { #state, rate: &mut [S] }, None),
+        Role::Outputs => (quote! { #state, outputs: &mut [S] }, None),
+        Role::Switching => (quote! { #state, switching: &mut [S] }, None),
+        Role::Energy => (state, Some(quote! { -> ukcore::Energy<S> })),
+        Role::Acceleration => (quote! { #state, out: &mut [S] }, Some(quote! { -> S })),
+        Role::Correction => (
+            quote! { #state, residual: &[S], out: &mut [S] },
+            Some(quote! { -> S }),
+        ),
+    };
+    quote! { fn #name<S: ukcore::Scalar>(#arguments) #result }
+}
+
+/// The slices that `function` writes to with their lengths, what it computes, and its result.
+fn statements(
+    function: &Function,
+    system: &System,
+    model: &Model,
+    analysis: &Analysis,
+) -> TokenStream {
+    let role = function.role;
+    let prepared = match role {
+        Role::Prepare => Slots::default(),
+        _ => Slots {
+            values: &analysis.prepared,
+            switches: &analysis.switching,
+        },
+    };
+    let slices = function.slices.iter();
+    // There may be nothing to prepare.
+    let slices = slices.filter(|(_, len)| role != Role::Prepare || *len > 0);
+    let slices = slices.map(|(slice, len)| {
+        let (text, len) = (slice.name(), Literal::usize_unsuffixed(*len));
+        let name = format_ident!("{text}");
+        let given = match role {
+            Role::Dynamics => quote! { out.#name },
+            _ => quote! { #name },
+        };
+        quote! { let #name = ukcore::emitted::exact_mut::<S, #len>(#given, #text); }
+    });
+    let body = body(&Writing {
+        system,
+        model,
+        prepared,
+        function,
+    });
+    let result = match role {
+        Role::Energy => Some(quote! { ukcore::Energy { kinetic, potential } }),
+        Role::Acceleration | Role::Correction => Some(quote! { safe }),
+        _ => None,
+    };
+    quote! { #(#slices)* #body #result }
+}
+
+impl Role {
+    fn name(self) -> &'static str {
+        match self {
+            Role::Prepare => "prepare",
+            Role::Dynamics => "dynamics",
+            Role::MassMatrix => "mass_matrix",
+            Role::Jacobian => "jacobian",
+            Role::Residual => "residual",
+            Role::ResidualRate => "residual_rate",
+            Role::Energy => "energy",
+            Role::Outputs => "outputs",
+            Role::Switching => "switching",
+            Role::Acceleration => "acceleration",
+            Role::Correction => "correction",
+        }
+    }
+}
+
+impl Slice {
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Slice::Prepared => "prepared",
+            Slice::Mass => "mass",
+            Slice::Force => "force",
+            Slice::Nonideal => "nonideal",
+            Slice::Jacobian => "jacobian",
+            Slice::Rhs => "rhs",
+            Slice::Phi => "phi",
+            Slice::Rate => "rate",
+            Slice::Outputs => "outputs",
+            Slice::Switching => "switching",
+            Slice::Out => "out",
+        }
+    }
+}

@@ -1,0 +1,153 @@
+//! The emitted type: a struct of its parameters, its constants, and access to parameters by position.
+
+use super::body::float;
+use crate::analysis::{Constant, ConstantValue, Positions};
+use crate::model::Model;
+use crate::parse::Declaration;
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+
+/// `"…"` for each line of a doc comment.
+pub(super) fn doc(text: &str) -> TokenStream {
+    text.lines()
+        .map(|line| {
+            let line = if line.is_empty() {
+                String::new()
+            } else {
+                format!(" {line}")
+            };
+            quote! { #[doc = #line] }
+        })
+        .collect()
+}
+
+/// The struct of parameters, and its default.
+pub(super) fn item(
+    decl: &Declaration,
+    model: &Model,
+    defaults: &[f64],
+    extra: &str,
+) -> TokenStream {
+    let (vis, name) = (&decl.vis, &decl.name);
+    let own = if decl.docs.is_empty() {
+        format!("Mechanism `{name}`.")
+    } else {
+        decl.docs.join("\n")
+    };
+    let docs = doc(&format!("{own}\n\n{extra}"));
+    let mut fields = TokenStream::new();
+    let mut values = TokenStream::new();
+    for family in &model.params {
+        let field = &family.name;
+        let text = if family.docs.is_empty() {
+            format!("Parameter `{field}`.")
+        } else {
+            family.docs.join("\n")
+        };
+        let docs = doc(&text);
+        let numbers: Vec<TokenStream> = family
+            .members
+            .iter()
+            .map(|i| float(defaults.get(*i).copied().unwrap_or(f64::NAN)))
+            .collect();
+        if family.indexed {
+            let len = Literal::usize_unsuffixed(family.members.len());
+            fields.extend(quote! { #docs pub #field: [f64; #len], });
+            values.extend(quote! { #field: [#(#numbers),*], });
+        } else {
+            fields.extend(quote! { #docs pub #field: f64, });
+            values.extend(quote! { #field: #(#numbers)*, });
+        }
+    }
+    quote! {
+        #docs
+        #[derive(Clone, Debug, PartialEq)]
+        #[allow(non_snake_case, clippy::approx_constant)]
+        #vis struct #name { #fields }
+
+        #[automatically_derived]
+        #[allow(clippy::approx_constant, clippy::derivable_impls, clippy::unreadable_literal)]
+        impl ::core::default::Default for #name {
+            fn default() -> Self {
+                #name { #values }
+            }
+        }
+    }
+}
+
+/// The associated constants.
+pub(super) fn associated(decl: &Declaration, constants: &[Constant]) -> TokenStream {
+    let name = &decl.name;
+    let constants = constants.iter().map(|constant| {
+        let docs = doc(&constant.docs.join("\n"));
+        let ident = format_ident!("{}", constant.name);
+        let (ty, value) = match &constant.value {
+            ConstantValue::Integer(n) => {
+                let n = Literal::i64_unsuffixed(*n);
+                (quote! { usize }, quote! { #n })
+            }
+            ConstantValue::Float(x) => (quote! { f64 }, float(*x)),
+            ConstantValue::Position(positions) => array(positions),
+        };
+        // Lints on what a user may well write: letters without an upper case, 3.14.
+        let caseless = constant.name.chars().any(char::is_lowercase);
+        let caseless = caseless.then(|| quote! { #[allow(non_upper_case_globals)] });
+        let float = matches!(constant.value, ConstantValue::Float(_));
+        let float =
+            float.then(|| quote! { #[allow(clippy::approx_constant, clippy::unreadable_literal)] });
+        quote! { #docs #caseless #float pub const #ident: #ty = #value; }
+    });
+    quote! {
+        #[allow(dead_code)]
+        impl #name { #(#constants)* }
+    }
+}
+
+/// Type and value: a number, an array for families, an array of arrays for families of vectors.
+fn array(positions: &Positions) -> (TokenStream, TokenStream) {
+    match positions {
+        Positions::One(place) => {
+            let place = Literal::usize_unsuffixed(*place);
+            (quote! { usize }, quote! { #place })
+        }
+        Positions::Many(members) => {
+            let len = Literal::usize_unsuffixed(members.len());
+            let (types, values): (Vec<_>, Vec<_>) = members.iter().map(array).unzip();
+            let inner = types.into_iter().next().unwrap_or_else(|| quote! { usize });
+            (quote! { [#inner; #len] }, quote! { [#(#values),*] })
+        }
+    }
+}
+
+/// Access to parameters by position.
+pub(super) fn parameters(model: &Model) -> TokenStream {
+    let places: Vec<TokenStream> = model
+        .param_elements
+        .iter()
+        .map(|element| {
+            let field = &model.params[element.family].name;
+            match element.index {
+                None => quote! { self.#field },
+                Some(k) => {
+                    let k = Literal::usize_unsuffixed(k);
+                    quote! { self.#field[#k] }
+                }
+            }
+        })
+        .collect();
+    let numbers: Vec<Literal> = (0..places.len()).map(Literal::usize_unsuffixed).collect();
+    quote! {
+        fn parameter(&self, index: usize) -> f64 {
+            match index {
+                #(#numbers => #places,)*
+                _ => ukcore::emitted::no_parameter(index),
+            }
+        }
+        fn set_parameter(&mut self, index: usize, value: f64) {
+            match index {
+                #(#numbers => #places = value,)*
+                _ => ukcore::emitted::no_parameter(index),
+            }
+        }
+    }
+}
