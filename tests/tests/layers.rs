@@ -129,6 +129,7 @@ fn ukcore() {
     check_order(
         "ukcore",
         &[
+            "numbers",
             "error",
             "scalar",
             "double",
@@ -143,13 +144,14 @@ fn ukcore() {
             "lu",
             "equations",
             "metric",
-            "workspace",
+            "dense",
             "saddle",
             "diagnose",
             "solver",
             "lanes",
             "manifold",
             "assemble",
+            "explain",
             "model",
             "linearise",
             "integrate",

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::error::Error;
+use crate::integrate::sample::Sample;
 use crate::zero::{PARTS, locate};
 
 /// Parts into which each step is divided in the search for sign changes, ends included.
@@ -141,10 +142,9 @@ impl Watch {
     }
 
     /// Evaluates the events at the start of the run.
-    pub(crate) fn start(&mut self, t: f64, y: &[f64]) -> Result<(), Error> {
-        let (q, v) = y.split_at(y.len() / 2);
+    pub(crate) fn start(&mut self, at: Sample<'_>) -> Result<(), Error> {
         for (event, value) in self.events.iter_mut().zip(&mut self.accepted) {
-            *value = evaluate(event, t, q, v)?;
+            *value = evaluate(event, at)?;
         }
         Ok(())
     }
@@ -168,7 +168,6 @@ impl Watch {
             return Ok(());
         }
         current.copy_from_slice(accepted);
-        let n = state.len() / 2;
         let mut a = t_old;
         for part in 1..=EVENT_PARTS {
             let b = if part == EVENT_PARTS {
@@ -180,7 +179,7 @@ impl Watch {
             let found = crossings.len();
             for (i, event) in events.iter_mut().enumerate() {
                 let before = current[i];
-                let after = evaluate(event, b, &state[..n], &state[n..])?;
+                let after = evaluate(event, Sample::of(b, state))?;
                 current[i] = after;
                 let direction = match before {
                     g if g < 0.0 && after >= 0.0 => Direction::Rising,
@@ -199,7 +198,7 @@ impl Watch {
                 let event = &mut events[crossing.event];
                 let mut g = |t: f64| {
                     states.consistent(t, state)?;
-                    evaluate(event, t, &state[..n], &state[n..])
+                    evaluate(event, Sample::of(t, state))
                 };
                 let sign = match crossing.direction {
                     Direction::Falling => -1.0,
@@ -230,8 +229,8 @@ impl Watch {
     }
 }
 
-fn evaluate(event: &mut Event, t: f64, q: &[f64], v: &[f64]) -> Result<f64, Error> {
-    let value = (event.function)(t, q, v);
+fn evaluate(event: &mut Event, at: Sample<'_>) -> Result<f64, Error> {
+    let value = (event.function)(at.t, at.q, at.v);
     if value.is_nan() {
         let what = vec![format!("event {}", event.name)];
         return Err(Error::NonFinite { what });
@@ -256,7 +255,8 @@ mod tests {
 
     fn crossings(events: Vec<Event>, steps: &[f64]) -> Vec<(usize, f64, Direction)> {
         let mut watch = Watch::new(events, 1);
-        watch.start(steps[0], &[steps[0], 0.0]).unwrap();
+        let start = [steps[0], 0.0];
+        watch.start(Sample::of(steps[0], &start)).unwrap();
         let mut found = Vec::new();
         for step in steps.windows(2) {
             watch.search(step[0], step[1], &mut Line).unwrap();
@@ -312,7 +312,7 @@ mod tests {
     #[test]
     fn a_function_that_is_not_a_number_is_an_error() {
         let mut watch = Watch::new(vec![Event::new("root", |_, q, _| q[0].sqrt())], 1);
-        watch.start(1.0, &[1.0, 0.0]).unwrap();
+        watch.start(Sample::of(1.0, &[1.0, 0.0])).unwrap();
         let error = watch.search(1.0, -1.0, &mut Line).unwrap_err();
         let what = vec!["event root".to_owned()];
         assert_eq!(error, Error::NonFinite { what });

@@ -4,29 +4,33 @@ use std::fmt;
 use std::ops::ControlFlow;
 
 use crate::assemble::State;
-use crate::diagnose;
 use crate::error::Error;
-use crate::events::{Event, Watch};
-use crate::integrate::{Method, Outcome, Settings, Tolerance};
+use crate::events::Event;
+use crate::integrate::sample::Sample;
+use crate::integrate::{Method, Settings, Tolerance};
 use crate::manifold::{Projector, Stabilisation};
-use crate::mechanism::{Prepared, Spec};
-use crate::scan::largest;
+use crate::mechanism::Prepared;
 use crate::solver::{Formula, Solver, SolverOptions};
-use crate::trajectory::{Ending, Record, Sample, Trajectory, Work};
+use crate::trajectory::{Record, Trajectory};
 
 mod agenda;
 mod angles;
+mod check;
+mod energy;
 #[cfg(feature = "ensemble")]
 pub mod ensemble;
 mod grid;
+mod obstacles;
+mod record;
 mod run;
+mod start;
 #[cfg(test)]
 mod tests;
-mod trouble;
 
 use agenda::{Agenda, Sampling};
-use run::{Keeper, Progress, Run, Sink, at};
-use trouble::{Conflict, Pace};
+use energy::EnergyWatch;
+use record::{Recorder, Sink};
+use run::{Progress, Run};
 
 /// How far a start may be off the constraints: projection may move a coordinate by this part of the largest one (a
 /// velocity likewise), plus the tolerance of the run.
@@ -77,9 +81,6 @@ pub enum Switching {
     /// Steps go across, and are as short there as their errors demand. A motion that rests on a zero for a while chatters along it.
     Ignored,
 }
-
-/// Most samples of [`Simulation::every`]: a slip in its unit must not fill the memory.
-const MAX_SAMPLES: f64 = 1e8;
 
 /// A run that failed: why, and the motion up to there.
 pub struct Failure {
@@ -258,308 +259,80 @@ impl Simulation {
     }
 
     fn run(self, t_end: f64, sink: Option<Sink<'_>>) -> Result<Trajectory, Failure> {
+        let mut trajectory = Trajectory::new(self.mechanism.clone(), self.solver_options());
+        trajectory.watched = self.events.iter().map(|event| event.name.clone()).collect();
+        trajectory.projected = self.stabilisation == Stabilisation::Projection;
+        match self.integrate(t_end, sink, &mut trajectory) {
+            Ok(()) => Ok(trajectory),
+            Err(error) => Err(Failure {
+                error,
+                trajectory: Box::new(trajectory),
+            }),
+        }
+    }
+
+    fn integrate(
+        self,
+        t_end: f64,
+        sink: Option<Sink<'_>>,
+        trajectory: &mut Trajectory,
+    ) -> Result<(), Error> {
+        self.check(t_end, sink.is_none())?;
+        let mut projector = Projector::new(&self.mechanism);
+        let (start, tolerance) = self.consistent_start(&mut projector, &mut trajectory.work)?;
+        let settings = self.settings(tolerance);
+        trajectory.start = start.t;
+        trajectory.end = Some(start.clone());
+        trajectory.segments = self.dense.then(Vec::new);
+        let start = Sample::from(&start);
+        let spec = self.mechanism.spec();
+        let locate = self.switching == Switching::Located && !spec.switches.is_empty();
+        let energy = match self.method {
+            Method::Rattle { step } => {
+                let first = self.mechanism.energy(start.t, start.q, start.v);
+                Some(EnergyWatch::new(step, first))
+            }
+            _ => None,
+        };
+        let agenda = Agenda::new(self.sampling, start.t, t_end);
+        let mut run = Run {
+            solver: Solver::new(&self.mechanism, trajectory.options),
+            projector,
+            located: locate.then(|| self.mechanism.dual()),
+            slopes: None,
+            energy,
+            recorder: Recorder::new(agenda, self.events, spec.n(), sink),
+            progress: self.progress,
+            t_end,
+            trajectory,
+        };
+        let result = run.integrate(start, self.method, &settings);
+        run.finish();
+        result
+    }
+
+    fn solver_options(&self) -> SolverOptions {
         let baumgarte = match self.stabilisation {
             Stabilisation::Baumgarte(baumgarte) => Some(baumgarte),
             Stabilisation::Projection | Stabilisation::None => None,
         };
-        let options = SolverOptions {
+        SolverOptions {
             formula: self.formula,
             baumgarte,
             ..SolverOptions::default()
-        };
-        let mut trajectory = Trajectory::new(self.mechanism.clone(), options);
-        trajectory.watched = self.events.iter().map(|event| event.name.clone()).collect();
-        trajectory.projected = self.stabilisation == Stabilisation::Projection;
-        let fail = |error, trajectory| Failure {
-            error,
-            trajectory: Box::new(trajectory),
-        };
-        if let Err(error) = self.check(t_end, sink.is_none()) {
-            return Err(fail(error, trajectory));
         }
-        let spec = self.mechanism.spec();
-        let mut projector = Projector::new(&self.mechanism);
-        let start = self.consistent_start(&mut projector, &mut trajectory.work);
-        let (state, tolerance) = match start {
-            Ok(start) => start,
-            Err(error) => return Err(fail(error, trajectory)),
-        };
-        let t0 = state.t;
-        trajectory.start = t0;
-        let mut y = state.q.clone();
-        y.extend_from_slice(&state.v);
-        trajectory.end = Some(state);
-        if self.dense {
-            trajectory.segments = Some(Vec::new());
-        }
-        let settings = Settings {
+    }
+
+    /// What a method is to be told, in a run with this tolerance.
+    fn settings(&self, tolerance: Tolerance) -> Settings {
+        Settings {
             tolerance,
             first_step: self.first_step,
             max_step: self.max_step,
             max_steps: self.max_steps,
             dense: self.dense || !self.events.is_empty(),
-        };
-        let n = spec.n();
-        let locate = self.switching == Switching::Located && !spec.switches.is_empty();
-        let mut keeper = None;
-        if let Method::Rattle { step } = self.method {
-            let (q, v) = y.split_at(n);
-            let energy = self.mechanism.energy(t0, q, v);
-            keeper = Some(Keeper::new(step, energy));
+            switches: self.mechanism.spec().switches,
         }
-        let mut run = Run {
-            keeper,
-            located: locate.then(|| self.mechanism.dual()),
-            solver: Solver::new(self.mechanism, options),
-            projector,
-            project: trajectory.projected,
-            n,
-            agenda: Agenda::new(self.sampling, t0, t_end),
-            watch: Watch::new(self.events, n),
-            progress: self.progress,
-            sink,
-            handed: ControlFlow::Continue(()),
-            sampled: None,
-            t: t0,
-            y: y.clone(),
-            between: vec![0.0; 2 * n],
-            slopes: None,
-            conflict: Conflict::default(),
-            pace: Pace::new(spec, tolerance, self.max_steps),
-            trajectory: &mut trajectory,
-        };
-        let error = run.start(t0, &y).and_then(|()| {
-            if t_end == t0 {
-                run.trajectory.ending = Ending::Completed;
-                return Ok(());
-            }
-            if run.handed.is_break() {
-                run.trajectory.ending = Ending::Interrupted;
-                return Ok(());
-            }
-            let report = self.method.run(&mut run, t0, &y, t_end, &settings);
-            run.trajectory.work.steps = report.steps;
-            run.trajectory.work.rejected = report.rejected;
-            run.trajectory.work.factorisations = report.factorisations;
-            run.trajectory.work.switches = report.landings;
-            match report.outcome {
-                Outcome::Reached => run.trajectory.ending = Ending::Completed,
-                // Given up: the steps allowed would be used up without getting on.
-                Outcome::Stopped if run.trajectory.ending == Ending::Failed => {
-                    let steps = self.max_steps;
-                    let error = run.pace.explain(Error::TooManySteps { steps });
-                    return Err(at(run.t, &run.y, error));
-                }
-                Outcome::Stopped => {}
-                Outcome::Failed { t, y, error } => {
-                    let (t, y, error) = run.conflict.explain(t, y, run.pace.explain(error));
-                    return Err(at(t, &y, error));
-                }
-            }
-            Ok(())
-        });
-        run.finish();
-        match error {
-            Ok(()) => Ok(trajectory),
-            Err(error) => Err(fail(error, trajectory)),
-        }
-    }
-
-    /// Ranges of all settings of a run to `t_end` whose samples are `kept` or not.
-    fn check(&self, t_end: f64, kept: bool) -> Result<(), Error> {
-        let invalid = |what, reason: String| Err(Error::InvalidSetting { what, reason });
-        if !(SMALLEST_TOLERANCE..1.0).contains(&self.tolerance) {
-            let tolerance = self.tolerance;
-            let reason =
-                format!("is {tolerance:?}, but {SMALLEST_TOLERANCE:.1e} to below 1 is allowed");
-            return invalid("tolerance", reason);
-        }
-        if !t_end.is_finite() {
-            return invalid("t_end", format!("is {t_end}, but must be finite"));
-        }
-        let dt = match self.sampling {
-            Sampling::Every(dt) => Some(dt),
-            Sampling::Steps | Sampling::At(_) => None,
-        };
-        let sizes = [
-            ("every", dt),
-            ("max_step", self.max_step),
-            ("first_step", self.first_step),
-            ("absolute_tolerance", self.absolute),
-        ];
-        for (what, size) in sizes {
-            if let Some(size) = size
-                && !(size.is_finite() && size > 0.0)
-            {
-                let reason = format!("is {size:?}, but must be positive and finite");
-                return invalid(what, reason);
-            }
-        }
-        if let Method::Rattle { step } = self.method {
-            self.check_rattle(step)?;
-        }
-        if self.max_steps == 0 {
-            return invalid("max_steps", "is 0, but must be at least 1".to_owned());
-        }
-        if let Stabilisation::Baumgarte(b) = self.stabilisation {
-            for (what, value) in [("alpha", b.alpha), ("beta", b.beta)] {
-                if !(value.is_finite() && value >= 0.0) {
-                    let reason = format!("is {value:?}, but must be finite and not negative");
-                    return invalid(what, reason);
-                }
-            }
-        }
-        let Some(start) = &self.start else {
-            let reason = "is missing; give the simulation a state, for example one from `assemble`";
-            return invalid("start", reason.to_owned());
-        };
-        if !(t_end - start.t).is_finite() && start.t.is_finite() {
-            return invalid("t_end", format!("is {t_end:?}, too far from {:?}", start.t));
-        }
-        if let Some(dt) = dt {
-            let rounding = f64::EPSILON * start.t.abs().max(t_end.abs());
-            if dt <= rounding {
-                let reason = format!("is {dt:?}, which is below the rounding of the times");
-                return invalid("every", reason);
-            }
-            let samples = (t_end - start.t).abs() / dt;
-            if kept && samples > MAX_SAMPLES {
-                let reason = format!(
-                    "is {dt:?}, which asks for {samples:.1e} samples; at most {MAX_SAMPLES:.0e} are kept, and any number by `stream`"
-                );
-                return invalid("every", reason);
-            }
-        }
-        if let Sampling::At(times) = &self.sampling {
-            let (low, high) = (start.t.min(t_end), start.t.max(t_end));
-            if let Some(t) = times.iter().find(|t| !(low..=high).contains(*t)) {
-                let reason = format!("contain {t}, which is not between {low} and {high}");
-                return invalid("times", reason);
-            }
-            let ordered = if t_end < start.t {
-                times.is_sorted_by(|a, b| a > b)
-            } else {
-                times.is_sorted_by(|a, b| a < b)
-            };
-            if !ordered {
-                let reason = "are not in the order in which the run passes them, each once";
-                return invalid("times", reason.to_owned());
-            }
-        }
-        Ok(())
-    }
-
-    /// Whether RATTLE with steps of `step` fits the mechanism and the other settings.
-    fn check_rattle(&self, step: f64) -> Result<(), Error> {
-        let spec = self.mechanism.spec();
-        let invalid = |what, reason: String| Err(Error::InvalidSetting { what, reason });
-        if !(step.is_finite() && step > 0.0) {
-            let reason = format!("is {step:?}, but must be positive and finite");
-            return invalid("step", reason);
-        }
-        let structure = &spec.structure;
-        let obstacle = if let Some(i) = structure.massless.first() {
-            format!("`{}` has no mass", spec.coords[*i])
-        } else if let Some(c) = spec.constraints.get(spec.holonomic) {
-            format!("`{}` is a nonholonomic constraint", c.name)
-        } else if !structure.mass_constant {
-            "the mass matrix is not constant".to_owned()
-        } else if !structure.conservative {
-            "there are other forces than those from a potential, or explicit time".to_owned()
-        } else {
-            String::new()
-        };
-        if !obstacle.is_empty() {
-            let reason = format!(
-                "is RATTLE, which `{}` does not admit, because {obstacle}; take `Method::Dop853`",
-                spec.name
-            );
-            return invalid("method", reason);
-        }
-        if let Stabilisation::Baumgarte(_) = self.stabilisation {
-            let reason = "is Baumgarte's, but RATTLE keeps the constraints by itself; leave it out";
-            return invalid("stabilise", reason.to_owned());
-        }
-        let sizes = [("first_step", self.first_step), ("max_step", self.max_step)];
-        if let Some((what, _)) = sizes.into_iter().find(|(_, size)| size.is_some()) {
-            let reason = "is given, but RATTLE has its own step; leave it out";
-            return invalid(what, reason.to_owned());
-        }
-        Ok(())
-    }
-
-    /// The start, checked and projected, and the tolerance of a run from there.
-    fn consistent_start(
-        &self,
-        projector: &mut Projector,
-        work: &mut Work,
-    ) -> Result<(State, Tolerance), Error> {
-        let spec = self.mechanism.spec();
-        let Some(State { t, q, v }) = self.start.clone() else {
-            let what = "start";
-            let reason = "is missing".to_owned();
-            return Err(Error::InvalidSetting { what, reason });
-        };
-        diagnose::check_length("q", q.len(), spec.n())?;
-        diagnose::check_length("v", v.len(), spec.n())?;
-        let mech = &self.mechanism;
-        if let Some(error) = diagnose::bad_input(mech, t, &q, &v) {
-            return Err(error);
-        }
-        angles::check(spec, &q)?;
-        let (mut new_q, mut new_v) = (q.clone(), v.clone());
-        let position = projector.position(t, &mut new_q, &v)?;
-        let mut size = largest(&q).max(largest(&v));
-        if size > 0.0 && size < 1.0 {
-            // Coordinates may be measured from where they start; rounding, for one, is then not that of their size.
-            size = size.max(projector.length(t, &new_q, &v));
-        }
-        let tolerance = self.tolerance_of(size);
-        let absolute = tolerance.absolute;
-        if !near(&q, &new_q, absolute) {
-            let mut residual = vec![0.0; spec.holonomic];
-            mech.residual(t, &q, &mut residual);
-            return Err(off_constraint(spec, "position", &residual));
-        }
-        let velocity = projector.velocity(t, &new_q, &mut new_v)?;
-        if !near(&v, &new_v, absolute) {
-            let mut residual = vec![0.0; spec.m()];
-            mech.residual_rate(t, &new_q, &v, &mut residual);
-            return Err(off_constraint(spec, "velocity", &residual));
-        }
-        work.projections += 1;
-        work.projection_iterations += position.iterations + velocity.iterations;
-        let state = State {
-            t,
-            q: new_q,
-            v: new_v,
-        };
-        Ok((state, tolerance))
-    }
-
-    /// The tolerance of a run whose start has this size.
-    fn tolerance_of(&self, size: f64) -> Tolerance {
-        // A start at zero in all coordinates has no size.
-        let size = if size > 0.0 { size.min(1.0) } else { 1.0 };
-        Tolerance {
-            relative: self.tolerance,
-            absolute: self.absolute.unwrap_or(self.tolerance * size),
-        }
-    }
-}
-
-/// Whether a projection from `before` to `after` is within [`START_BOUND`] and the absolute tolerance.
-fn near(before: &[f64], after: &[f64], absolute: f64) -> bool {
-    let bound = START_BOUND * largest(before) + absolute;
-    let mut pairs = before.iter().zip(after);
-    pairs.all(|(before, after)| (after - before).abs() <= bound)
-}
-
-fn off_constraint(spec: &Spec, level: &'static str, residual: &[f64]) -> Error {
-    let scale = vec![1.0; residual.len()];
-    Error::OffConstraint {
-        level,
-        constraints: diagnose::offending(spec, residual, &scale),
     }
 }
 

@@ -7,6 +7,7 @@ use crate::assemble::State;
 use crate::error::Error;
 use crate::events::EventHit;
 use crate::integrate::Segment;
+pub use crate::integrate::sample::Sample;
 use crate::manifold::Projector;
 use crate::mechanism::{Energy, Prepared, Spec};
 use crate::solver::{Solution, Solver, SolverOptions};
@@ -17,29 +18,6 @@ mod drift;
 pub use csv::CsvWriter;
 pub use drift::{Drift, Residual};
 use drift::{EnergyDrift, Gauge};
-
-/// One row of a [`Trajectory`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sample<'a> {
-    /// Time.
-    pub t: f64,
-    /// Coordinates.
-    pub q: &'a [f64],
-    /// Velocities.
-    pub v: &'a [f64],
-}
-
-impl Sample<'_> {
-    /// An owned copy, for example to start another run from.
-    #[must_use]
-    pub fn to_state(self) -> State {
-        State {
-            t: self.t,
-            q: self.q.to_vec(),
-            v: self.v.to_vec(),
-        }
-    }
-}
 
 /// What a [streamed](crate::Simulation::stream) run hands over.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -94,7 +72,7 @@ pub enum Ending {
 #[derive(Clone)]
 pub struct Trajectory {
     mechanism: Prepared,
-    options: SolverOptions,
+    pub(crate) options: SolverOptions,
     pub(crate) times: Vec<f64>,
     /// [q; q̇] of one sample after the other.
     pub(crate) states: Vec<f64>,
@@ -126,6 +104,22 @@ impl Trajectory {
             end: None,
             ending: Ending::Failed,
             work: Work::default(),
+        }
+    }
+
+    /// Appends a sample.
+    pub(crate) fn push(&mut self, sample: Sample<'_>) {
+        self.times.push(sample.t);
+        self.states.extend_from_slice(sample.q);
+        self.states.extend_from_slice(sample.v);
+    }
+
+    /// The run has got to this state.
+    pub(crate) fn reach(&mut self, now: Sample<'_>) {
+        if let Some(end) = &mut self.end {
+            end.t = now.t;
+            end.q.copy_from_slice(now.q);
+            end.v.copy_from_slice(now.v);
         }
     }
 
@@ -178,8 +172,7 @@ impl Trajectory {
     /// that succeeded. `None` only in a [`Failure`](crate::Failure) of a run that could not start.
     #[must_use]
     pub fn last(&self) -> Option<Sample<'_>> {
-        let State { t, q, v } = self.end.as_ref()?;
-        Some(Sample { t: *t, q, v })
+        self.end.as_ref().map(Sample::from)
     }
 
     /// Why the run ended.
@@ -338,7 +331,7 @@ impl Trajectory {
             let mut out = vec![0.0; s.q.len()];
             match solver.acceleration(s.t, s.q, s.v, &mut out) {
                 Ok(()) => Ok(out),
-                Err(error) => Err(at(s, error)),
+                Err(error) => Err(s.locate(error)),
             }
         };
         self.samples().map(&mut acceleration).collect()
@@ -352,7 +345,7 @@ impl Trajectory {
         let mut solver = Solver::new(&self.mechanism, self.options);
         let mut solve = |s: Sample<'_>| {
             let solution = solver.solve(s.t, s.q, s.v);
-            solution.map_err(|error| at(s, error))
+            solution.map_err(|error| s.locate(error))
         };
         self.samples().map(&mut solve).collect()
     }
@@ -365,15 +358,6 @@ impl Trajectory {
         let mut csv = CsvWriter::new(&self.mechanism, io::BufWriter::new(writer))?;
         self.samples().try_for_each(|sample| csv.write(sample))?;
         csv.into_inner().flush()
-    }
-}
-
-fn at(sample: Sample<'_>, error: Error) -> Error {
-    Error::At {
-        t: sample.t,
-        q: sample.q.to_vec(),
-        v: sample.v.to_vec(),
-        source: Box::new(error),
     }
 }
 

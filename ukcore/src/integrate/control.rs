@@ -1,13 +1,13 @@
-//! Choice of the step size.
+//! Choice of the step size, and of the first one.
 //!
-//! After Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, §II.4, with the constants of the authors' codes. Pure
-//! functions of numbers: a driver of many lanes uses them for each lane.
+//! After Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, §II.4, with the constants of the authors' codes. The same for a run of
+//! its own and for each lane of an ensemble.
 
-use super::dense::Clock;
+use super::scheme::Equations;
 use super::sums::Tolerance;
 
 /// Part of the step size that should just meet the tolerance which is taken.
-const SAFETY: f64 = 0.9;
+pub(super) const SAFETY: f64 = 0.9;
 
 /// Logarithm of 1e-4: errors below count as this much where the next step looks back on them.
 const SMALLEST_PREVIOUS: f64 = -4.0 * std::f64::consts::LN_10;
@@ -26,45 +26,44 @@ pub(crate) struct Control {
     pub(crate) grow: f64,
 }
 
-/// What is remembered from step to step.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// What the choice of the step size remembers of the steps before.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct StepSize {
-    /// Logarithm of the error of the previous accepted step.
-    previous: f64,
-    /// Its size, 0 before the first one.
-    size: f64,
+    /// Size and error of the last accepted step.
+    pub(super) last: Option<(f64, f64)>,
     /// The last attempt was rejected.
-    rejected: bool,
+    pub(super) rejected: bool,
 }
 
 impl StepSize {
-    /// At the start of a run.
-    pub(crate) fn new() -> Self {
-        StepSize {
-            previous: SMALLEST_PREVIOUS,
-            size: 0.0,
-            rejected: false,
-        }
+    /// Whether the next attempt is at a first step or one that was rejected.
+    pub(super) fn unproven(&self) -> bool {
+        self.rejected || self.last.is_none()
     }
 
     /// Size of the step after one of size `h` that was accepted with the error `error`. Does not grow after a rejection.
     ///
     /// Where errors grew faster from the step before to this one than their sizes account for, they are taken to go on so (Gustafsson's
-    /// prediction; Hairer & Wanner, *Solving Ordinary Differential Equations II*, §IV.8, eq. (8.25)). On the falling chain that saves half of the rejected steps.
+    /// prediction; Hairer & Wanner, *Solving Ordinary Differential Equations II*, §IV.8, eq. (8.25)). On the falling chain that saves half of the
+    /// rejected steps.
     pub(crate) fn accepted(&mut self, control: &Control, h: f64, error: f64) -> f64 {
         // Powers by logarithms: error^−exponent previous^beta.
-        let error = error.ln();
-        let mut factor = SAFETY * (control.beta * self.previous - control.exponent * error).exp();
+        let (now, floor) = (error.ln(), SMALLEST_PREVIOUS);
+        let previous = self.last.map_or(floor, |(_, error)| error.ln().max(floor));
+        let mut factor = SAFETY * (control.beta * previous - control.exponent * now).exp();
         let largest = if self.rejected { 1.0 } else { control.grow };
-        let counted = error.max(SMALLEST_PREVIOUS);
-        if self.size > 0.0 {
-            let growth = control.exponent * (self.previous - 2.0 * counted);
-            factor = factor.min(SAFETY * h / self.size * growth.exp());
+        if let Some((size, _)) = self.last {
+            let growth = control.exponent * (previous - 2.0 * now.max(floor));
+            factor = factor.min(SAFETY * h / size * growth.exp());
         }
-        self.previous = counted;
-        self.size = h;
-        self.rejected = false;
+        self.accept(h, error);
         h * factor.clamp(control.shrink, control.grow).min(largest)
+    }
+
+    /// A step of size `h` was accepted with the error `error`.
+    pub(super) fn accept(&mut self, h: f64, error: f64) {
+        self.last = Some((h, error));
+        self.rejected = false;
     }
 
     /// Size of the next attempt after one of size `h` with an error above 1; NaN where a stage could not be evaluated.
@@ -79,56 +78,6 @@ impl StepSize {
     pub(crate) fn unfit(&mut self, h: f64) -> f64 {
         self.rejected = true;
         0.5 * h
-    }
-}
-
-/// A step is the last one if what would remain behind it is less than this part of it.
-const LAST: f64 = 0.01;
-
-/// Steps shorter than this share (ε²) of the run are not tried: near s = 0, where no rounding of s stops it, halving could go on
-/// through three hundred decades.
-const SHORTEST: f64 = f64::EPSILON * f64::EPSILON;
-
-/// The step to be tried next.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Plan {
-    /// Its positive size.
-    pub(crate) size: f64,
-    /// Its end.
-    pub(crate) s: f64,
-    /// The same as a time.
-    pub(crate) t: f64,
-    /// It ends at the end of the run.
-    pub(crate) last: bool,
-}
-
-impl Plan {
-    /// A step of proposed size `h` from (s, t), in a run to (s_end, t_end). `None` where it would be lost in rounding.
-    pub(crate) fn new(
-        h: f64,
-        (s, t): (f64, f64),
-        (s_end, t_end): (f64, f64),
-        clock: Clock,
-    ) -> Option<Self> {
-        let last = s + (1.0 + LAST) * h > s_end;
-        let plan = if last {
-            Plan {
-                size: s_end - s,
-                s: s_end,
-                t: t_end,
-                last,
-            }
-        } else {
-            Plan {
-                size: h,
-                s: s + h,
-                t: clock.t(s + h),
-                last,
-            }
-        };
-        // The proposed size counts, not what is left to the end.
-        let lost = 0.1 * h <= s * f64::EPSILON || plan.size < SHORTEST * s_end;
-        (!lost && plan.t != t).then_some(plan)
     }
 }
 
@@ -195,4 +144,24 @@ impl Guess {
         };
         h.min(100.0 * self.h).min(largest)
     }
+}
+
+/// Size of the first step of a method of order `order`, from y and `rate`, which is f there: by the first guess, and f after an Euler step of that size.
+pub(super) fn first_size(
+    equations: &mut Equations<'_>,
+    (y, rate): (&[f64], &[f64]),
+    (sign, largest): (f64, f64),
+    order: f64,
+    tolerance: Tolerance,
+) -> f64 {
+    let start = y.iter().copied().zip(rate.iter().copied());
+    let guess = Guess::new(start.clone(), tolerance, largest);
+    let h = sign * guess.h;
+    let probe: Vec<f64> = start.clone().map(|(y, rate)| y + h * rate).collect();
+    let mut after = vec![0.0; y.len()];
+    if equations.rate(h, &probe, &mut after).is_err() {
+        return guess.h;
+    }
+    let start = start.zip(after).map(|((y, rate), after)| (y, rate, after));
+    guess.refine(start, order, tolerance, largest)
 }

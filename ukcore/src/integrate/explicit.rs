@@ -1,16 +1,16 @@
 //! The explicit Runge-Kutta methods as schemes.
 
 use super::Tolerance;
-use super::control::{Guess, StepSize};
-use super::scheme::{Attempt, Equations, NoRate, Scheme};
+use super::control::{self, StepSize};
+use super::scheme::{Attempt, Equations, Scheme};
 use super::stepper::Stepper;
 use super::tableau::Tableau;
+use super::trouble::Cause;
 
-/// A [`Stepper`] of one lane, and its step size.
+/// A [`Stepper`] of one lane.
 pub(super) struct Explicit {
     stepper: Stepper<f64>,
     tableau: &'static Tableau,
-    step_size: StepSize,
 }
 
 impl Explicit {
@@ -19,7 +19,6 @@ impl Explicit {
         Explicit {
             tableau: stepper.tableau(),
             stepper,
-            step_size: StepSize::new(),
         }
     }
 
@@ -29,7 +28,7 @@ impl Explicit {
 }
 
 impl Scheme for Explicit {
-    fn begin(&mut self, equations: &mut Equations<'_>, s: f64, y: &[f64]) -> Result<(), NoRate> {
+    fn begin(&mut self, equations: &mut Equations<'_>, s: f64, y: &[f64]) -> Result<(), Cause> {
         let f = |s, y: &[f64], rate: &mut [f64]| equations.rate(s, y, rate);
         self.stepper.begin(f, s, y)
     }
@@ -42,15 +41,9 @@ impl Scheme for Explicit {
         tolerance: Tolerance,
         largest: f64,
     ) -> f64 {
-        let rate = self.stepper.rate().to_vec();
-        let start = y.iter().copied().zip(rate.iter().copied());
-        let guess = Guess::new(start.clone(), tolerance, largest);
-        let f = |s, y: &[f64], rate: &mut [f64]| equations.rate(s, y, rate);
-        let Ok(after) = self.stepper.probe(f, 0.0, sign * guess.h, y) else {
-            return guess.h;
-        };
-        let start = start.zip(after).map(|((y, rate), after)| (y, rate, *after));
-        guess.refine(start, self.tableau.control.order, tolerance, largest)
+        let start = (y, self.stepper.rate());
+        let order = self.tableau.control.order;
+        control::first_size(equations, start, (sign, largest), order, tolerance)
     }
 
     fn attempt(
@@ -58,7 +51,7 @@ impl Scheme for Explicit {
         equations: &mut Equations<'_>,
         step: Attempt,
         y: &[f64],
-    ) -> Result<f64, NoRate> {
+    ) -> Result<f64, Cause> {
         let f = |s, y: &[f64], rate: &mut [f64]| equations.rate(s, y, rate);
         self.stepper.attempt(f, step.s, step.h, y)?;
         Ok(if self.tableau.closing_in_error {
@@ -81,7 +74,7 @@ impl Scheme for Explicit {
         equations: &mut Equations<'_>,
         step: Attempt,
         y: &[f64],
-    ) -> Result<f64, NoRate> {
+    ) -> Result<f64, Cause> {
         let f = |s, y: &[f64], rate: &mut [f64]| equations.rate(s, y, rate);
         self.stepper.close(f, step.s_end)?;
         Ok(if self.tableau.closing_in_error {
@@ -96,7 +89,7 @@ impl Scheme for Explicit {
         equations: &mut Equations<'_>,
         step: Attempt,
         y: &[f64],
-    ) -> Result<(), NoRate> {
+    ) -> Result<(), Cause> {
         let f = |s, y: &[f64], rate: &mut [f64]| equations.rate(s, y, rate);
         self.stepper.interpolate(f, step.s, step.h, y)
     }
@@ -109,15 +102,11 @@ impl Scheme for Explicit {
         self.stepper.advance(y, |new, _| new);
     }
 
-    fn accepted(&mut self, h: f64, error: f64) -> f64 {
-        self.step_size.accepted(&self.tableau.control, h, error)
+    fn accepted(&mut self, size: &mut StepSize, h: f64, error: f64) -> f64 {
+        size.accepted(&self.tableau.control, h, error)
     }
 
-    fn inaccurate(&mut self, h: f64, error: f64) -> f64 {
-        self.step_size.inaccurate(&self.tableau.control, h, error)
-    }
-
-    fn unfit(&mut self, h: f64) -> f64 {
-        self.step_size.unfit(h)
+    fn inaccurate(&mut self, size: &mut StepSize, h: f64, error: f64) -> f64 {
+        size.inaccurate(&self.tableau.control, h, error)
     }
 }

@@ -19,11 +19,13 @@
 //! small, avoids it, and then it carries the place where it arose.
 
 mod control;
+mod course;
 mod dense;
 mod driver;
 mod explicit;
 mod radau;
 mod rattle;
+pub(crate) mod sample;
 mod scheme;
 mod stepper;
 mod sums;
@@ -31,21 +33,28 @@ mod switches;
 mod tableau;
 #[cfg(test)]
 mod tests;
+mod trouble;
 
 use std::fmt;
 use std::str::FromStr;
 
 use crate::error::Error;
-use crate::mechanism::Branch;
+use crate::mechanism::{Branch, SwitchSpec};
 use crate::numbers::full;
 #[cfg(feature = "ensemble")]
-pub(crate) use control::{Guess, Plan, StepSize};
+pub(crate) use control::Guess;
 #[cfg(feature = "ensemble")]
-pub(crate) use dense::Clock;
+pub(crate) use course::{Course, Trial};
 pub(crate) use dense::{Interpolant, Segment};
+use sample::Sample;
 #[cfg(feature = "ensemble")]
 pub(crate) use stepper::Stepper;
-pub(crate) use sums::{Tolerance, error_norm};
+pub(crate) use sums::Tolerance;
+#[cfg(feature = "ensemble")]
+pub(crate) use sums::error_norm;
+pub(crate) use trouble::Trouble;
+#[cfg(feature = "ensemble")]
+pub(crate) use trouble::{Cause, Conflict};
 
 /// The methods on offer.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -115,59 +124,54 @@ impl FromStr for Method {
 /// another one. In both cases the step does not have the accuracy that was asked for.
 pub const PROJECTION_LIMIT: f64 = 10.0;
 
-/// What is to be integrated, and what is to be done along the way. Methods take it as `dyn`: they are compiled once and not for each mechanism, and a call more is
-/// little beside an evaluation.
+/// What is to be integrated, q̈ = a(t, q, q̇), and what is to be done along the way. Within this module a state is one slice y = [q; q̇].
+///
+/// Methods take it as `dyn`: they are compiled once and not for each mechanism, and a call more is little beside an evaluation.
 pub(crate) trait Problem {
-    /// y' at (t, y) into `rate`. After far too long a step y may not be finite; an error there only shortens the step.
-    fn derivative(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Error>;
-    /// For y = (q, q̇), y' = (q̇, a): y' into `rate`, ∂a/∂q and ∂a/∂q̇ at (t, y) into `out`, n × 2n, column-major; not finite where a derivative
-    /// does not exist. Asked for by implicit methods alone.
+    /// q̈ at a state. After far too long a step the state may not be finite; an error there only shortens the step.
+    fn acceleration(&mut self, at: Sample<'_>, out: &mut [f64]) -> Result<(), Error>;
+    /// q̈ at a state into `acceleration`, ∂q̈/∂q and ∂q̈/∂q̇ there into `out`, n × 2n, column-major; not finite where a derivative does not exist. Asked for
+    /// by implicit methods alone.
     fn jacobian(
         &mut self,
-        t: f64,
-        y: &[f64],
-        rate: &mut [f64],
+        at: Sample<'_>,
+        acceleration: &mut [f64],
         out: &mut [f64],
     ) -> Result<(), Error>;
-    /// Moves an accepted y to the nearest consistent state.
-    fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), Error>;
+    /// Moves an accepted state to the nearest consistent one.
+    fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Error>;
     /// Moves the coordinates `q` onto the constraints at t along M⁻¹A(`base`)ᵀ, by `shift`.
-    fn reach(
+    fn project_along(
         &mut self,
         t: f64,
         base: &[f64],
         q: &mut [f64],
         shift: &mut [f64],
     ) -> Result<(), Error>;
-    /// Moves the velocities `v` onto the constraints at (t, `q`), as [`project`](Problem::project) does.
-    fn settle(&mut self, t: f64, q: &[f64], v: &mut [f64]) -> Result<(), Error>;
-    /// Why the nearest consistent state is far from `y`, where a step arrived; of use where no shorter step comes nearer.
-    fn jump(&mut self, t: f64, y: &[f64]) -> Option<Error> {
-        let _ = (t, y);
+    /// Moves the velocities `v` to the nearest ones that are consistent at (t, `q`).
+    fn project_velocity(&mut self, t: f64, q: &[f64], v: &mut [f64]) -> Result<(), Error>;
+    /// Why the nearest consistent state is far from the one where a step arrived that began at `t_old`; of use where no shorter step comes nearer.
+    fn jump(&mut self, at: Sample<'_>, t_old: f64) -> Option<Error> {
+        let _ = (at, t_old);
         None
     }
     /// The next time at which an interpolant is wanted, if any; may change in [`Problem::step`].
     fn next_sample(&self) -> Option<f64>;
-    /// Number of switches: functions g(t, y) at whose zeros y' may have kinks or jumps, onto which steps are to go.
+    /// Number of switches: functions g(t, q, q̇) at whose zeros q̈ may have kinks or jumps, onto which steps are to go.
     fn switches(&self) -> usize {
         0
     }
-    /// The g of all switches at (t, y).
-    fn switching(&mut self, t: f64, y: &[f64], values: &mut [f64]) {
-        let _ = (t, y, values);
+    /// The g of all switches at a state.
+    fn switching(&mut self, at: Sample<'_>, values: &mut [f64]) {
+        let _ = (at, values);
     }
-    /// Their derivatives by time where y' is `rate`.
-    fn switching_rate(&mut self, t: f64, y: &[f64], rate: &[f64], values: &mut [f64]) {
-        let _ = (t, y, rate, values);
+    /// Their derivatives by time at a state with these accelerations.
+    fn switching_rate(&mut self, at: Sample<'_>, acceleration: &[f64], values: &mut [f64]) {
+        let _ = (at, acceleration, values);
     }
-    /// Holds switch `k` in `branch`: from now on y' goes on smoothly at its zeros.
-    fn hold(&mut self, k: usize, branch: Branch) {
+    /// Puts switch `k` into `branch`: from now on q̈ goes on smoothly at its zeros, unless it is followed.
+    fn set_branch(&mut self, k: usize, branch: Branch) {
         let _ = (k, branch);
-    }
-    /// What to report where the motion is driven onto the zeros of `switches` from both sides.
-    fn stuck(&self, switches: &[usize]) -> Error {
-        let _ = switches;
-        Error::StepTooSmall { step: 0.0 }
     }
     /// Called after each accepted step. After an error nothing of this call may be kept: the step is tried again, shorter.
     fn step(&mut self, step: &Step<'_>) -> Result<Next, Error>;
@@ -175,12 +179,10 @@ pub(crate) trait Problem {
 
 /// An accepted step.
 pub(crate) struct Step<'a> {
-    /// Time at its start.
-    pub(crate) t_old: f64,
-    /// Time at its end; before `t_old` where integration runs backward.
-    pub(crate) t: f64,
-    /// Projected state at its end.
-    pub(crate) y: &'a [f64],
+    /// State at its start.
+    pub(crate) old: Sample<'a>,
+    /// Projected state at its end, whose time is before that of its start where integration runs backward.
+    pub(crate) new: Sample<'a>,
     /// States between; there if [`Settings::dense`] is set or [`Problem::next_sample`] lies in this step.
     pub(crate) interpolant: Option<Interpolant<'a>>,
 }
@@ -207,6 +209,8 @@ pub(crate) struct Settings {
     pub(crate) max_steps: usize,
     /// An interpolant is wanted on every step.
     pub(crate) dense: bool,
+    /// All switches of the equations, be they located or not: steps are watched for chattering about them.
+    pub(crate) switches: &'static [SwitchSpec],
 }
 
 /// How a run ended.
@@ -217,7 +221,7 @@ pub(crate) enum Outcome {
     /// Where [`Problem::step`] said so.
     Stopped,
     /// No step, however small, succeeded; or there were too many.
-    Failed { t: f64, y: Vec<f64>, error: Error },
+    Failed(Trouble),
 }
 
 /// Result of a run.

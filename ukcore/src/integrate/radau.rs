@@ -17,9 +17,10 @@
 pub(super) mod newton;
 
 use super::Tolerance;
-use super::control::Guess;
-use super::scheme::{Attempt, Equations, NoRate, Scheme};
+use super::control::{self, SAFETY, StepSize};
+use super::scheme::{Attempt, Equations, Scheme};
 use super::sums::{sum_of_squares, weights};
+use super::trouble::Cause;
 use newton::{Matrices, Newton, Solved};
 
 /// (4 ∓ √6)/10 and 1: the stages, §IV.5 (table 5.6).
@@ -27,9 +28,6 @@ pub(super) const C: [f64; 3] = [0.155_051_025_721_682_2, 0.644_948_974_278_317_8
 
 /// Weights of the stages in the estimate of the error, eq. (8.19) with γ₀⁻¹ taken out: (−13 ∓ 7√6)/3, −1/3.
 const ERROR: [f64; 3] = [-10.048_809_399_827_416, 1.382_142_733_160_749, -1.0 / 3.0];
-
-/// Part of the step size that should just meet the tolerance which is taken.
-const SAFETY: f64 = 0.9;
 
 /// Least and largest factor between two steps.
 const FACTORS: (f64, f64) = (0.2, 8.0);
@@ -97,9 +95,6 @@ pub(super) struct Radau {
     dense: Vec<f64>,
     previous: Vec<f64>,
     h_previous: Option<f64>,
-    /// Size and error of the last accepted step.
-    accepted: Option<(f64, f64)>,
-    rejected: bool,
     turning: Turning,
     /// What Newton's method, where it failed, takes the step times.
     shorten: f64,
@@ -120,8 +115,6 @@ impl Radau {
             dense: zeros(4),
             previous: zeros(4),
             h_previous: None,
-            accepted: None,
-            rejected: false,
             turning: Turning::default(),
             shorten: 0.5,
         }
@@ -152,7 +145,7 @@ impl Radau {
         step: Attempt,
         y: &[f64],
         tolerance: f64,
-    ) -> Result<bool, NoRate> {
+    ) -> Result<bool, Cause> {
         self.extrapolate(step.h);
         let weights = &self.weights;
         let solved = (self.newton).solve(matrices, equations, step, y, weights, tolerance)?;
@@ -173,7 +166,7 @@ impl Radau {
         self.newton
             .filter(step.h, &ERROR, &self.rate, &mut self.error);
         let error = norm(&self.error, &self.weights);
-        if error < 1.0 || !(self.rejected || self.accepted.is_none()) {
+        if error < 1.0 || !step.unproven {
             return error;
         }
         for (x, y) in self.error.iter_mut().zip(y) {
@@ -200,7 +193,7 @@ impl Radau {
 }
 
 impl Scheme for Radau {
-    fn begin(&mut self, equations: &mut Equations<'_>, s: f64, y: &[f64]) -> Result<(), NoRate> {
+    fn begin(&mut self, equations: &mut Equations<'_>, s: f64, y: &[f64]) -> Result<(), Cause> {
         self.newton.forget();
         self.h_previous = None;
         equations.rate(s, y, &mut self.rate)
@@ -215,18 +208,13 @@ impl Scheme for Radau {
         largest: f64,
     ) -> f64 {
         let tolerance = estimate_tolerance(tolerance);
-        let start = y.iter().zip(&self.rate).map(|(y, rate)| (*y, *rate));
-        let guess = Guess::new(start.clone(), tolerance, largest);
-        let h = sign * guess.h;
-        for (new, (y, rate)) in self.new.iter_mut().zip(start.clone()) {
-            *new = y + h * rate;
-        }
-        if equations.rate(h, &self.new, &mut self.end_rate).is_err() {
-            return guess.h;
-        }
-        let start = start.zip(&self.end_rate);
-        let start = start.map(|((y, rate), after)| (y, rate, *after));
-        guess.refine(start, ORDER, tolerance, largest)
+        control::first_size(
+            equations,
+            (y, &self.rate),
+            (sign, largest),
+            ORDER,
+            tolerance,
+        )
     }
 
     fn attempt(
@@ -234,7 +222,7 @@ impl Scheme for Radau {
         equations: &mut Equations<'_>,
         step: Attempt,
         y: &[f64],
-    ) -> Result<f64, NoRate> {
+    ) -> Result<f64, Cause> {
         let n = self.n;
         let tolerance = estimate_tolerance(step.tolerance);
         self.shorten = 0.5;
@@ -279,7 +267,7 @@ impl Scheme for Radau {
         equations: &mut Equations<'_>,
         step: Attempt,
         y: &[f64],
-    ) -> Result<f64, NoRate> {
+    ) -> Result<f64, Cause> {
         equations.rate(step.s_end, &self.new, &mut self.end_rate)?;
         // The polynomial through start and stages; the end is the projected one.
         let n = self.n;
@@ -302,7 +290,7 @@ impl Scheme for Radau {
         Ok(0.0)
     }
 
-    fn interpolate(&mut self, _: &mut Equations<'_>, _: Attempt, _: &[f64]) -> Result<(), NoRate> {
+    fn interpolate(&mut self, _: &mut Equations<'_>, _: Attempt, _: &[f64]) -> Result<(), Cause> {
         Ok(())
     }
 
@@ -317,20 +305,20 @@ impl Scheme for Radau {
         self.newton.advance();
     }
 
-    fn accepted(&mut self, h: f64, error: f64) -> f64 {
+    fn accepted(&mut self, size: &mut StepSize, h: f64, error: f64) -> f64 {
         let (shrink, grow) = FACTORS;
         let clamp = |quotient: f64| quotient.clamp(1.0 / grow, 1.0 / shrink);
         let mut quotient = clamp(self.quotient(error));
-        if let Some((h_before, before)) = self.accepted {
+        if let Some((h_before, before)) = size.last {
             // Eq. (8.25).
+            let before = before.max(SMALLEST_PREVIOUS);
             let predicted = h_before / h * (error * error / before).powf(1.0 / ORDER);
             quotient = quotient.max(clamp(predicted / SAFETY));
         }
-        if self.rejected {
+        if size.rejected {
             quotient = quotient.max(1.0);
         }
-        self.rejected = false;
-        self.accepted = Some((h, error.max(SMALLEST_PREVIOUS)));
+        size.accept(h, error);
         self.h_previous = Some(h);
         let factor = quotient.recip();
         if (1.0..=KEEP).contains(&factor) && self.newton.keeps_jacobian() {
@@ -340,23 +328,22 @@ impl Scheme for Radau {
         }
     }
 
-    fn inaccurate(&mut self, h: f64, error: f64) -> f64 {
+    fn inaccurate(&mut self, size: &mut StepSize, h: f64, error: f64) -> f64 {
         self.newton.refused();
-        self.rejected = true;
+        size.rejected = true;
         let (shrink, grow) = FACTORS;
         if error.is_nan() {
             h * self.shorten
-        } else if self.accepted.is_none() {
+        } else if size.last.is_none() {
             0.1 * h
         } else {
             h / self.quotient(error).clamp(1.0 / grow, 1.0 / shrink)
         }
     }
 
-    fn unfit(&mut self, h: f64) -> f64 {
+    fn unfit(&mut self, size: &mut StepSize, h: f64) -> f64 {
         self.newton.refused();
-        self.rejected = true;
-        0.5 * h
+        size.unfit(h)
     }
 
     fn factorisations(&self) -> usize {

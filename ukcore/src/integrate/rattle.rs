@@ -11,9 +11,12 @@
 //! A stage is symmetric and of order 2. Five of them with sizes γh, γh, (1 − 4γ)h, γh, γh make order 4 (Suzuki's composition, §II.4).
 
 use super::Tolerance;
+use super::control::StepSize;
 use super::dense::cubic;
-use super::scheme::{Attempt, Equations, NoRate, Scheme, no_rate};
+use super::sample::Sample;
+use super::scheme::{Attempt, Equations, Scheme};
 use super::sums::keeping;
+use super::trouble::{Cause, Trouble};
 use crate::error::Error;
 
 /// γ = 1/(4 − ∛4).
@@ -62,7 +65,7 @@ impl Rattle {
     }
 
     /// A stage of signed size `h` that ends at `s`.
-    fn stage(&mut self, equations: &mut Equations<'_>, s: f64, h: f64) -> Result<(), NoRate> {
+    fn stage(&mut self, equations: &mut Equations<'_>, s: f64, h: f64) -> Result<(), Cause> {
         let n = self.n;
         let t = equations.t0 + s;
         let (q, v) = self.new.split_at_mut(n);
@@ -70,25 +73,24 @@ impl Rattle {
         self.base.copy_from_slice(q);
         add(v, v_lost, 0.5 * h, &self.stage_rate[n..]);
         add(q, q_lost, h, v);
-        let result = equations.problem.reach(t, &self.base, q, &mut self.shift);
+        let result = equations
+            .problem
+            .project_along(t, &self.base, q, &mut self.shift);
         if let Err(error) = result {
             let reason = format!("is {}, which is too long here: {error}", self.step);
             let what = "step";
-            return Err(no_rate(
-                t,
-                &self.new,
-                Error::InvalidSetting { what, reason },
-            ));
+            let error = Error::InvalidSetting { what, reason };
+            return Err(Trouble::cause(Sample::of(t, &self.new), error));
         }
         add(v, v_lost, h.recip(), &self.shift);
         // v½ as it is does not satisfy the constraints, and redundant ones would contradict each other there.
-        let result = equations.problem.settle(t, q, v);
-        result.map_err(|error| no_rate(t, &self.new, error))?;
+        let result = equations.problem.project_velocity(t, q, v);
+        result.map_err(|error| Trouble::cause(Sample::of(t, &self.new), error))?;
         equations.rate(s, &self.new, &mut self.stage_rate)?;
         let (q, v) = self.new.split_at_mut(n);
         add(v, v_lost, 0.5 * h, &self.stage_rate[n..]);
-        let result = equations.problem.settle(t, q, v);
-        result.map_err(|error| no_rate(t, &self.new, error))
+        let result = equations.problem.project_velocity(t, q, v);
+        result.map_err(|error| Trouble::cause(Sample::of(t, &self.new), error))
     }
 }
 
@@ -100,7 +102,7 @@ fn add(x: &mut [f64], lost: &mut [f64], c: f64, d: &[f64]) {
 }
 
 impl Scheme for Rattle {
-    fn begin(&mut self, equations: &mut Equations<'_>, s: f64, y: &[f64]) -> Result<(), NoRate> {
+    fn begin(&mut self, equations: &mut Equations<'_>, s: f64, y: &[f64]) -> Result<(), Cause> {
         equations.rate(s, y, &mut self.rate)
     }
 
@@ -120,7 +122,7 @@ impl Scheme for Rattle {
         equations: &mut Equations<'_>,
         step: Attempt,
         y: &[f64],
-    ) -> Result<f64, NoRate> {
+    ) -> Result<f64, Cause> {
         self.new.copy_from_slice(y);
         self.losing.copy_from_slice(&self.lost);
         self.stage_rate.copy_from_slice(&self.rate);
@@ -144,7 +146,7 @@ impl Scheme for Rattle {
         true
     }
 
-    fn close(&mut self, _: &mut Equations<'_>, _: Attempt, _: &[f64]) -> Result<f64, NoRate> {
+    fn close(&mut self, _: &mut Equations<'_>, _: Attempt, _: &[f64]) -> Result<f64, Cause> {
         Ok(0.0)
     }
 
@@ -154,7 +156,7 @@ impl Scheme for Rattle {
         equations: &mut Equations<'_>,
         step: Attempt,
         y: &[f64],
-    ) -> Result<(), NoRate> {
+    ) -> Result<(), Cause> {
         // A stage leaves q̈ at its v½; the interpolant needs those of the ends.
         let (mut start, mut end) = (self.rate.clone(), self.rate.clone());
         equations.rate(step.s, y, &mut start)?;
@@ -173,16 +175,16 @@ impl Scheme for Rattle {
         self.rate.copy_from_slice(&self.stage_rate);
     }
 
-    fn accepted(&mut self, _: f64, _: f64) -> f64 {
+    fn accepted(&mut self, _: &mut StepSize, _: f64, _: f64) -> f64 {
         self.step
     }
 
     /// A shorter step would be another method: there is none.
-    fn inaccurate(&mut self, _: f64, _: f64) -> f64 {
+    fn inaccurate(&mut self, _: &mut StepSize, _: f64, _: f64) -> f64 {
         0.0
     }
 
-    fn unfit(&mut self, _: f64) -> f64 {
+    fn unfit(&mut self, _: &mut StepSize, _: f64) -> f64 {
         0.0
     }
 }

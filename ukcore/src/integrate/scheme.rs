@@ -3,58 +3,68 @@
 //! The loop over steps, their ends, projections, failures and samples is [`driver`](super::driver)'s and the same for all methods. A [`Scheme`] makes
 //! one step at a time and says how long the next one should be.
 
+use super::control::StepSize;
+use super::sample::Sample;
 use super::switches::Switches;
+use super::trouble::{Cause, Conflict, Trouble};
 use super::{Problem, Tolerance};
 use crate::error::Error;
-use crate::scan::all_finite;
 
-/// An error and where it arose.
-pub(super) struct Trouble {
-    pub(super) t: f64,
-    pub(super) y: Vec<f64>,
-    pub(super) error: Error,
-}
-
-/// Why f has no value: an error of the problem, or none where y is not finite, as happens after far too long a step.
-pub(super) type NoRate = Option<Trouble>;
-
-/// The problem's functions over s, the signed time since the start of the run.
+/// The problem's functions over s, the signed time since the start of the run, and what they were found to do.
 pub(super) struct Equations<'p> {
     pub(super) problem: &'p mut (dyn Problem + 'p),
     pub(super) t0: f64,
     pub(super) switches: Switches,
+    pub(super) conflict: Conflict,
 }
 
-impl Equations<'_> {
-    /// y' at (s, y) into `rate`.
-    pub(super) fn rate(&mut self, s: f64, y: &[f64], rate: &mut [f64]) -> Result<(), NoRate> {
-        let t = self.t0 + s;
-        self.switches.look(self.problem, t, y);
-        let result = self.problem.derivative(t, y, rate);
-        result.map_err(|error| no_rate(t, y, error))
+impl<'p> Equations<'p> {
+    pub(super) fn new(problem: &'p mut (dyn Problem + 'p), t0: f64, switches: Switches) -> Self {
+        Equations {
+            problem,
+            t0,
+            switches,
+            conflict: Conflict::default(),
+        }
     }
 
-    /// [`Problem::jacobian`] at (s, y), with 0 for derivatives that do not exist: iterations that use it go on as well as they can without.
+    /// y' at (s, y) into `rate`.
+    pub(super) fn rate(&mut self, s: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Cause> {
+        let at = Sample::of(self.t0 + s, y);
+        let (q_rate, v_rate) = rate.split_at_mut(at.q.len());
+        q_rate.copy_from_slice(at.v);
+        self.acceleration(at, v_rate)
+    }
+
+    /// q̈ at a state into `out`.
+    pub(super) fn acceleration(&mut self, at: Sample<'_>, out: &mut [f64]) -> Result<(), Cause> {
+        self.switches.look(self.problem, at);
+        let result = self.problem.acceleration(at, out);
+        result.map_err(|error| self.refuse(at, error))
+    }
+
+    /// [`Problem::jacobian`] at (s, y), with y' into `rate` and 0 for derivatives that do not exist: iterations that use it go on as well as they can without.
     pub(super) fn jacobian(
         &mut self,
         s: f64,
         y: &[f64],
         rate: &mut [f64],
         out: &mut [f64],
-    ) -> Result<(), NoRate> {
-        let t = self.t0 + s;
-        let result = self.problem.jacobian(t, y, rate, out);
-        result.map_err(|error| no_rate(t, y, error))?;
+    ) -> Result<(), Cause> {
+        let at = Sample::of(self.t0 + s, y);
+        let (q_rate, v_rate) = rate.split_at_mut(at.q.len());
+        q_rate.copy_from_slice(at.v);
+        let result = self.problem.jacobian(at, v_rate, out);
+        result.map_err(|error| self.refuse(at, error))?;
         let broken = out.iter_mut().filter(|x| !x.is_finite());
         broken.for_each(|x| *x = 0.0);
         Ok(())
     }
-}
 
-/// `error` at (t, y), which says nothing where y is not finite.
-pub(super) fn no_rate(t: f64, y: &[f64], error: Error) -> NoRate {
-    let y = y.to_vec();
-    all_finite(&y).then_some(Trouble { t, y, error })
+    fn refuse(&mut self, at: Sample<'_>, error: Error) -> Cause {
+        self.conflict.note(at, &error);
+        Trouble::cause(at, error)
+    }
 }
 
 /// A step to be tried.
@@ -67,6 +77,8 @@ pub(super) struct Attempt {
     pub(super) h: f64,
     /// Of the run.
     pub(super) tolerance: Tolerance,
+    /// It is the first step, or one that is tried again.
+    pub(super) unproven: bool,
 }
 
 /// A one-step method: buffers, what the last attempt left in them, and the choice of the step size.
@@ -76,7 +88,7 @@ pub(super) struct Attempt {
 /// [`inaccurate`](Scheme::inaccurate) or [`unfit`](Scheme::unfit) shortens the step, and it is tried again.
 pub(super) trait Scheme {
     /// Evaluates f at (s, y), at the start of the run or where f has changed there: nothing before counts any more.
-    fn begin(&mut self, equations: &mut Equations<'_>, s: f64, y: &[f64]) -> Result<(), NoRate>;
+    fn begin(&mut self, equations: &mut Equations<'_>, s: f64, y: &[f64]) -> Result<(), Cause>;
 
     /// Size of the first step, at most `largest`, going in the direction `sign`. Comes after [`begin`](Scheme::begin).
     fn first_size(
@@ -94,7 +106,7 @@ pub(super) trait Scheme {
         equations: &mut Equations<'_>,
         step: Attempt,
         y: &[f64],
-    ) -> Result<f64, NoRate>;
+    ) -> Result<f64, Cause>;
 
     /// State at the end of the attempted step.
     fn state(&self) -> &[f64];
@@ -113,7 +125,7 @@ pub(super) trait Scheme {
         equations: &mut Equations<'_>,
         step: Attempt,
         y: &[f64],
-    ) -> Result<f64, NoRate>;
+    ) -> Result<f64, Cause>;
 
     /// Makes the [coefficients](Scheme::dense) of the interpolant of the closed step.
     fn interpolate(
@@ -121,7 +133,7 @@ pub(super) trait Scheme {
         equations: &mut Equations<'_>,
         step: Attempt,
         y: &[f64],
-    ) -> Result<(), NoRate>;
+    ) -> Result<(), Cause>;
 
     /// Coefficients of the interpolant, rows as [`Interpolant`](super::dense::Interpolant) wants them.
     fn dense(&self) -> &[f64];
@@ -129,14 +141,16 @@ pub(super) trait Scheme {
     /// Moves `y`, and itself, on to the end of the closed step.
     fn advance(&mut self, y: &mut [f64]);
 
-    /// Size of the step after one of size `h` > 0 that was accepted with the error `error`.
-    fn accepted(&mut self, h: f64, error: f64) -> f64;
+    /// Size of the step after one of size `h` > 0 that was accepted with the error `error`; `size` is what is remembered of those before.
+    fn accepted(&mut self, size: &mut StepSize, h: f64, error: f64) -> f64;
 
     /// Size of the next attempt after one of size `h` with an error above 1; NaN where the step could not be made.
-    fn inaccurate(&mut self, h: f64, error: f64) -> f64;
+    fn inaccurate(&mut self, size: &mut StepSize, h: f64, error: f64) -> f64;
 
     /// Size of the next attempt after one of size `h` whose end did not do.
-    fn unfit(&mut self, h: f64) -> f64;
+    fn unfit(&mut self, size: &mut StepSize, h: f64) -> f64 {
+        size.unfit(h)
+    }
 
     /// Factorisations so far.
     fn factorisations(&self) -> usize {

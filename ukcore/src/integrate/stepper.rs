@@ -4,7 +4,7 @@
 //! here branches on a value. What is accepted, and how large the next step is, is decided outside.
 
 use super::dense::cubic;
-use super::sums::{Tolerance, keeping, sum, sum_of_squares, weights};
+use super::sums::{Tolerance, keeping, sum_of_squares, weights};
 use super::tableau::{self, Sums, Tableau};
 use crate::scalar::Scalar;
 use std::ops::Range;
@@ -24,7 +24,7 @@ pub(crate) struct Stepper<S> {
     new: Vec<S>,
     /// What rounding took from the state at the start of the step, to be added to the change that the step makes.
     lost: Vec<S>,
-    /// The same at the end of the attempted step.
+    /// What rounding took from the state at the end of the attempted step.
     losing: Vec<S>,
     /// Estimates of the error, row by row.
     errors: Vec<S>,
@@ -33,12 +33,12 @@ pub(crate) struct Stepper<S> {
 }
 
 impl<S: Scalar> Stepper<S> {
-    /// [DOP853](tableau::DOP853) for states of length n.
+    /// Steps by [DOP853](tableau::DOP853) for states of length n.
     pub(crate) fn dop853(n: usize) -> Self {
         Stepper::new(&tableau::DOP853, tableau::dop853(), n)
     }
 
-    /// [DOPRI5](tableau::DOPRI5) for states of length n.
+    /// Steps by [DOPRI5](tableau::DOPRI5) for states of length n.
     pub(crate) fn dopri5(n: usize) -> Self {
         Stepper::new(&tableau::DOPRI5, tableau::dopri5(), n)
     }
@@ -87,20 +87,6 @@ impl<S: Scalar> Stepper<S> {
         &self.rates[..self.n]
     }
 
-    /// An Euler step of size h, and f after it, which tells how fast f changes.
-    pub(crate) fn probe<E>(
-        &mut self,
-        mut f: impl FnMut(S, &[S], &mut [S]) -> Result<(), E>,
-        t: S,
-        h: S,
-        y: &[S],
-    ) -> Result<&[S], E> {
-        let (start, rest) = self.rates.split_at_mut(self.n);
-        sum(&mut self.argument, Some(y), h, start, &[(0, 1.0)]);
-        f(t + h, &self.argument, &mut rest[..self.n])?;
-        Ok(&rest[..self.n])
-    }
-
     /// The stages of a step of size `h` from (t, y), and the [state](Stepper::state) at its end.
     pub(crate) fn attempt<E>(
         &mut self,
@@ -142,7 +128,7 @@ impl<S: Scalar> Stepper<S> {
         &self.new
     }
 
-    /// The same, to be projected before [`close`](Stepper::close).
+    /// State at the end of the attempted step, to be projected before [`close`](Stepper::close).
     pub(crate) fn state_mut(&mut self) -> &mut [S] {
         &mut self.new
     }

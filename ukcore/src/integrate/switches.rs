@@ -11,8 +11,13 @@
 
 use super::Problem;
 use super::dense::interpolate;
+use super::sample::Sample;
 use crate::mechanism::Branch;
 use crate::zero::{PARTS, locate};
+
+mod turn;
+
+pub(super) use turn::Stuck;
 
 /// A zero nearer than this part of a step to its end is at its end.
 const AT_END: f64 = 1e-13;
@@ -61,11 +66,6 @@ impl Switches {
         }
     }
 
-    /// For a run that goes across all switches.
-    pub(super) fn none() -> Self {
-        Switches::new(0, 0)
-    }
-
     pub(super) fn is_empty(&self) -> bool {
         self.branches.is_empty()
     }
@@ -75,28 +75,29 @@ impl Switches {
         self.branches[k].sign() * (g - self.levels[k])
     }
 
-    pub(super) fn hold(&mut self, problem: &mut dyn Problem, k: usize, branch: Branch) {
+    /// From now on y' is that of `branch` of switch k, whatever the sign of its function.
+    fn set(&mut self, problem: &mut dyn Problem, k: usize, branch: Branch) {
         self.branches[k] = branch;
-        problem.hold(k, branch);
+        problem.set_branch(k, branch);
     }
 
-    /// Holds switch k in the other branch.
-    pub(super) fn flip(&mut self, problem: &mut dyn Problem, k: usize) {
+    /// Puts switch k into the other branch.
+    fn flip(&mut self, problem: &mut dyn Problem, k: usize) {
         let other = match self.branches[k] {
             Branch::Followed => Branch::Followed,
             Branch::Negative => Branch::Positive,
             Branch::Positive => Branch::Negative,
         };
-        self.hold(problem, k, other);
+        self.set(problem, k, other);
         self.levels[k] = 0.0;
     }
 
-    /// Holds each switch in the branch of its value at the start of a run; returns those that are zero, which are followed.
-    pub(super) fn start(&mut self, problem: &mut dyn Problem, t: f64, y: &[f64]) -> Vec<usize> {
+    /// Puts each switch into the branch of its value at the start of a run; returns those that are zero, which are followed.
+    fn start(&mut self, problem: &mut dyn Problem, at: Sample<'_>) -> Vec<usize> {
         if self.is_empty() {
             return Vec::new();
         }
-        problem.switching(t, y, &mut self.values);
+        problem.switching(at, &mut self.values);
         for k in 0..self.branches.len() {
             self.adopt(problem, k);
         }
@@ -104,12 +105,13 @@ impl Switches {
         (0..self.branches.len()).filter(zero).collect()
     }
 
+    /// Puts switch k into the branch of its value, unless that is zero.
     fn adopt(&mut self, problem: &mut dyn Problem, k: usize) {
         let g = self.values[k];
         if g > 0.0 {
-            self.hold(problem, k, Branch::Positive);
+            self.set(problem, k, Branch::Positive);
         } else if g < 0.0 {
-            self.hold(problem, k, Branch::Negative);
+            self.set(problem, k, Branch::Negative);
         }
     }
 
@@ -118,12 +120,13 @@ impl Switches {
         self.doubt = false;
     }
 
-    /// y' is to be evaluated at (t, y).
-    pub(super) fn look(&mut self, problem: &mut dyn Problem, t: f64, y: &[f64]) {
+    /// y' is to be evaluated at this state.
+    #[inline]
+    pub(super) fn look(&mut self, problem: &mut dyn Problem, at: Sample<'_>) {
         if self.is_empty() || self.doubt {
             return;
         }
-        problem.switching(t, y, &mut self.values);
+        problem.switching(at, &mut self.values);
         let outside = |k: usize| self.inside(k, self.values[k]) < 0.0;
         self.doubt = (0..self.values.len()).any(|k| outside(k) && !self.targets.contains(&k));
     }
@@ -132,15 +135,15 @@ impl Switches {
     pub(super) fn release(&mut self, problem: &mut dyn Problem) -> bool {
         if self.doubt {
             for k in 0..self.branches.len() {
-                self.hold(problem, k, Branch::Followed);
+                self.set(problem, k, Branch::Followed);
             }
         }
         std::mem::take(&mut self.doubt)
     }
 
-    /// Whether the step may have left its branches, which ends at (t, y).
-    pub(super) fn suspect(&mut self, problem: &mut dyn Problem, t: f64, y: &[f64]) -> bool {
-        self.look(problem, t, y);
+    /// Whether the step may have left its branches, which ends at this state.
+    pub(super) fn suspect(&mut self, problem: &mut dyn Problem, at: Sample<'_>) -> bool {
+        self.look(problem, at);
         self.doubt
     }
 
@@ -156,7 +159,7 @@ impl Switches {
         let mut values = std::mem::take(&mut self.values);
         let mut evaluate = |theta: f64, values: &mut [f64]| {
             interpolate(theta, coefficients, &mut state);
-            problem.switching(time(theta), &state, values);
+            problem.switching(Sample::of(time(theta), &state), values);
         };
         evaluate(0.0, &mut values);
         for (k, g) in values.iter().enumerate() {
@@ -209,12 +212,12 @@ impl Switches {
         found
     }
 
-    /// The run has got to (t, y).
-    pub(super) fn arrive(&mut self, problem: &mut dyn Problem, t: f64, y: &[f64]) {
+    /// The run has got to this state.
+    fn arrive(&mut self, problem: &mut dyn Problem, at: Sample<'_>) {
         if self.is_empty() {
             return;
         }
-        problem.switching(t, y, &mut self.values);
+        problem.switching(at, &mut self.values);
         for k in 0..self.branches.len() {
             let g = self.values[k];
             if self.branches[k] == Branch::Followed {
@@ -225,22 +228,5 @@ impl Switches {
                 self.levels[k] = g;
             }
         }
-    }
-
-    pub(super) fn branch(&self, k: usize) -> Branch {
-        self.branches[k]
-    }
-
-    /// The derivatives of the functions by time at (t, y), where y' is `rate`.
-    pub(super) fn rates(
-        &self,
-        problem: &mut dyn Problem,
-        t: f64,
-        y: &[f64],
-        rate: &[f64],
-    ) -> Vec<f64> {
-        let mut rates = vec![0.0; self.values.len()];
-        problem.switching_rate(t, y, rate, &mut rates);
-        rates
     }
 }

@@ -39,33 +39,59 @@ impl Plain {
     }
 }
 
+/// Time, state and error of a run that failed.
+#[track_caller]
+fn failed(report: &Report) -> (f64, Vec<f64>, Error) {
+    let Outcome::Failed(Trouble { state, error }) = &report.outcome else {
+        panic!("{:?}", report.outcome);
+    };
+    let y = [&state.q[..], &state.v].concat();
+    (state.t, y, error.clone())
+}
+
 fn failure() -> Error {
     let what = vec!["test".to_owned()];
     Error::NonFinite { what }
 }
 
+impl Plain {
+    /// y at a state.
+    fn note(&mut self, at: Sample<'_>) -> Vec<f64> {
+        let y = [at.q, at.v].concat();
+        self.evaluations.push((at.t, y.clone()));
+        y
+    }
+}
+
 impl Problem for Plain {
-    fn derivative(&mut self, t: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Error> {
-        self.evaluations.push((t, y.to_vec()));
-        (self.f)(t, y, rate)
+    fn acceleration(&mut self, at: Sample<'_>, out: &mut [f64]) -> Result<(), Error> {
+        let y = self.note(at);
+        let mut rate = vec![0.0; y.len()];
+        (self.f)(at.t, &y, &mut rate)?;
+        let (q_rate, v_rate) = rate.split_at(out.len());
+        assert_eq!(q_rate, at.v);
+        out.copy_from_slice(v_rate);
+        Ok(())
     }
     /// By differences.
     fn jacobian(
         &mut self,
-        t: f64,
-        y: &[f64],
-        rate: &mut [f64],
+        at: Sample<'_>,
+        acceleration: &mut [f64],
         out: &mut [f64],
     ) -> Result<(), Error> {
-        (self.f)(t, y, rate)?;
-        let n = y.len() / 2;
+        let y = [at.q, at.v].concat();
+        let n = acceleration.len();
+        let mut rate = vec![0.0; 2 * n];
+        (self.f)(at.t, &y, &mut rate)?;
+        acceleration.copy_from_slice(&rate[n..]);
         for (j, column) in out.chunks_exact_mut(n).enumerate() {
             let h = 1e-6 * y[j].abs().max(1.0);
             let [after, before] = [h, -h].map(|h| {
-                let (mut moved, mut rate) = (y.to_vec(), vec![0.0; 2 * n]);
+                let (mut moved, mut rate) = (y.clone(), vec![0.0; 2 * n]);
                 moved[j] += h;
                 // The functions here have a value where they fail, too.
-                let _ = (self.f)(t, &moved, &mut rate);
+                let _ = (self.f)(at.t, &moved, &mut rate);
                 rate
             });
             for i in 0..n {
@@ -75,30 +101,41 @@ impl Problem for Plain {
         self.jacobians += 1;
         Ok(())
     }
-    fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), Error> {
-        (self.project)(t, y)
-    }
-    fn reach(&mut self, _: f64, _: &[f64], _: &mut [f64], _: &mut [f64]) -> Result<(), Error> {
+    fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Error> {
+        let mut y = [&*q, &*v].concat();
+        (self.project)(t, &mut y)?;
+        q.copy_from_slice(&y[..q.len()]);
+        v.copy_from_slice(&y[q.len()..]);
         Ok(())
     }
-    fn settle(&mut self, _: f64, _: &[f64], _: &mut [f64]) -> Result<(), Error> {
+    fn project_along(
+        &mut self,
+        _: f64,
+        _: &[f64],
+        _: &mut [f64],
+        _: &mut [f64],
+    ) -> Result<(), Error> {
+        Ok(())
+    }
+    fn project_velocity(&mut self, _: f64, _: &[f64], _: &mut [f64]) -> Result<(), Error> {
         Ok(())
     }
     fn next_sample(&self) -> Option<f64> {
         self.sample
     }
     fn step(&mut self, step: &Step<'_>) -> Result<Next, Error> {
-        if step.t > self.fail_after {
+        let (t_old, Sample { t, q, v }) = (step.old.t, step.new);
+        if t > self.fail_after {
             return Err(failure());
         }
         if let Some(interpolant) = step.interpolant {
             self.interpolants += 1;
             self.segments.push(interpolant.segment());
         }
-        if self.sample.is_some_and(|t| t <= step.t) {
+        if self.sample.is_some_and(|sample| sample <= t) {
             self.sample = self.sample.map(|t| t + 1.0);
         }
-        self.steps.push((step.t_old, step.t, step.y.to_vec()));
+        self.steps.push((t_old, t, [q, v].concat()));
         Ok(Next::Continue)
     }
 }
@@ -121,6 +158,7 @@ fn settings(tolerance: f64) -> Settings {
         max_step: None,
         max_steps: 100_000,
         dense: false,
+        switches: &[],
     }
 }
 
@@ -284,9 +322,7 @@ fn a_failing_right_hand_side_is_reported_where_no_step_avoids_it() {
                 sign * 9.0,
                 &settings(1e-8),
             );
-            let Outcome::Failed { t, y, error } = report.outcome else {
-                panic!("{:?}", report.outcome);
-            };
+            let (t, y, error) = failed(&report);
             assert_eq!(error, failure());
             assert!((t.abs() - 1.0).abs() < 1e-13, "{method:?} at {t}");
             assert!(y[0] < 0.0 && y[0] > -1e-13);
@@ -303,8 +339,7 @@ fn failing_at_the_start_is_reported_at_once() {
     for method in METHODS {
         let mut plain = Plain::new(|_, _, _| Err(failure()));
         let report = method.run(&mut plain, 2.0, &[3.0, 1.0], 5.0, &settings(1e-8));
-        let (t, y, error) = (2.0, vec![3.0, 1.0], failure());
-        assert_eq!(report.outcome, Outcome::Failed { t, y, error });
+        assert_eq!(failed(&report), (2.0, vec![3.0, 1.0], failure()));
         assert!(plain.evaluations.len() <= 2);
         assert_eq!((report.steps, report.rejected), (0, 0));
     }
@@ -322,9 +357,7 @@ fn a_projection_that_is_too_large_rejects_the_step() {
             Ok(())
         };
         let report = method.run(&mut plain, 0.0, &[1.0, 0.0], 5.0, &settings(1e-6));
-        let Outcome::Failed { t, error, .. } = report.outcome else {
-            panic!("{:?}", report.outcome);
-        };
+        let (t, _, error) = failed(&report);
         assert!(matches!(error, Error::StepTooSmall { .. }), "{error:?}");
         assert!((t - 1.0).abs() < 1e-12, "{t}");
         assert!(report.rejected > 10);
@@ -346,18 +379,14 @@ fn a_failing_projection_or_step_rejects_the_step() {
         let mut plain = Plain::new(circle);
         plain.project = |t, _| if t > 1.0 { Err(failure()) } else { Ok(()) };
         let report = method.run(&mut plain, 0.0, &[1.0, 0.0], 5.0, &settings(1e-6));
-        let Outcome::Failed { t, error, .. } = report.outcome else {
-            panic!("{:?}", report.outcome);
-        };
+        let (t, _, error) = failed(&report);
         assert_eq!(error, failure());
         assert!((1.0..1.0 + 1e-13).contains(&t), "{t}");
 
         let mut plain = Plain::new(circle);
         plain.fail_after = 1.0;
         let report = method.run(&mut plain, 0.0, &[1.0, 0.0], 5.0, &settings(1e-6));
-        let Outcome::Failed { t, error, .. } = report.outcome else {
-            panic!("{:?}", report.outcome);
-        };
+        let (t, _, error) = failed(&report);
         assert_eq!(error, failure());
         assert!((1.0..1.0 + 1e-13).contains(&t), "{t}");
         assert!(plain.steps.iter().all(|step| step.1 <= 1.0));
@@ -385,9 +414,7 @@ fn step_limits_are_kept() {
                 ..settings(1e-9)
             });
             assert_eq!(report.steps + report.rejected, steps);
-            let Outcome::Failed { error, .. } = report.outcome else {
-                panic!("{:?}", report.outcome);
-            };
+            let (_, _, error) = failed(&report);
             assert_eq!(error, Error::TooManySteps { steps });
         }
     }
@@ -396,8 +423,8 @@ fn step_limits_are_kept() {
 #[test]
 fn many_small_steps_do_not_add_up_rounding() {
     // 1/3 of a step of 1/1024 is not a binary number; 1000 + it loses ten of its digits.
-    let third: Derivative = |_, _, rate| {
-        rate[0] = 1.0 / 3.0;
+    let third: Derivative = |_, y, rate| {
+        rate.copy_from_slice(&[y[1], 0.0]);
         Ok(())
     };
     for method in EXPLICIT {
@@ -407,7 +434,7 @@ fn many_small_steps_do_not_add_up_rounding() {
             ..settings(1e-9)
         };
         let mut problem = Plain::new(third);
-        let report = method.run(&mut problem, 0.0, &[1000.0], 300.0, &settings);
+        let report = method.run(&mut problem, 0.0, &[1000.0, 1.0 / 3.0], 300.0, &settings);
         assert!(report.steps > 300_000, "{method:?}");
         let (_, t, y) = problem.steps.last().unwrap();
         assert_eq!((*t, y[0]), (300.0, 1100.0), "{method:?}");
@@ -488,10 +515,10 @@ fn the_next_step_aims_at_nine_tenths_of_the_size_that_meets_the_tolerance() {
     let control = &tableau::DOP853.control;
     for error in [0.01_f64, 0.3, 1.0] {
         // An error of order 8 would then be 1 after 0.9 is taken back.
-        let h = StepSize::new().accepted(control, 0.2, error);
+        let h = StepSize::default().accepted(control, 0.2, error);
         assert!((error * (h / 0.9 / 0.2).powi(8) - 1.0).abs() < 1e-13);
     }
-    let mut size = StepSize::new();
+    let mut size = StepSize::default();
     assert_eq!(size.accepted(control, 0.2, 0.0), 0.2 * 6.0);
     assert!((size.inaccurate(control, 0.2, 10.0) / 0.2 - 0.9 * 10_f64.powf(-0.125)).abs() < 1e-15);
     assert_eq!(size.inaccurate(control, 0.2, f64::NAN), 0.2 * 0.333);
@@ -506,7 +533,7 @@ fn the_next_step_aims_at_nine_tenths_of_the_size_that_meets_the_tolerance() {
 fn errors_that_grow_are_expected_to_go_on_growing() {
     let control = &tableau::DOP853.control;
     // error = C h⁸ with C ten times larger in each step: a step of the size chosen then has nine tenths of the size allowed.
-    let mut size = StepSize::new();
+    let mut size = StepSize::default();
     let (mut h, mut constant) = (0.1, 1e6);
     for k in 0..5 {
         let error: f64 = constant * f64::powi(h, 8);
@@ -517,7 +544,7 @@ fn errors_that_grow_are_expected_to_go_on_growing() {
         constant *= 10.0;
     }
     // Where they fall, steps do not become longer by more than the last error allows.
-    let mut size = StepSize::new();
+    let mut size = StepSize::default();
     size.accepted(control, 0.1, 1.0);
     let h = size.accepted(control, 0.1, 0.5);
     assert!((h - 0.09 * 0.5_f64.powf(-0.125)).abs() < 1e-15);

@@ -98,9 +98,4 @@ impl Agenda {
         }
         asked || self.wants_ends()
     }
-
-    /// End of the run.
-    pub(super) fn t_end(&self) -> f64 {
-        self.t_end
-    }
 }

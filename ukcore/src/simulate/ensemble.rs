@@ -19,6 +19,7 @@ use crate::mechanism::{Mechanism, Prepared};
 use crate::trajectory::Work;
 
 mod group;
+mod running;
 
 use group::Group;
 

@@ -13,7 +13,7 @@ use crate::mechanism::{
 use crate::mechanism::{Mechanism, Prepared};
 use crate::scalar::Scalar;
 use crate::solver::Baumgarte;
-use crate::trajectory::{Residual, Sample};
+use crate::trajectory::{Ending, Residual, Sample};
 
 mod events;
 mod failures;

@@ -3,7 +3,8 @@
 use nalgebra::Complex;
 
 use super::C;
-use crate::integrate::scheme::{Attempt, Equations, NoRate};
+use crate::integrate::scheme::{Attempt, Equations};
+use crate::integrate::trouble::Cause;
 use crate::lu::Lu;
 
 /// Most iterations.
@@ -238,7 +239,7 @@ impl Newton {
         equations: &mut Equations<'_>,
         step: Attempt,
         y: &[f64],
-    ) -> Result<(), NoRate> {
+    ) -> Result<(), Cause> {
         if self.stale {
             equations.jacobian(step.s, y, &mut self.rate, &mut self.jacobian)?;
             (self.fresh, self.stale, self.factored) = (true, false, None);
@@ -278,7 +279,7 @@ impl Newton {
         y: &[f64],
         weights: &[f64],
         tolerance: f64,
-    ) -> Result<Solved, NoRate> {
+    ) -> Result<Solved, Cause> {
         // Errors of the iteration are to be small against those of the step.
         let enough = f64::max(10.0 * f64::EPSILON / tolerance, tolerance.sqrt().min(0.03));
         self.positions(step.h, y);
@@ -379,7 +380,7 @@ impl Newton {
         equations: &mut Equations<'_>,
         step: Attempt,
         y: &[f64],
-    ) -> Result<bool, NoRate> {
+    ) -> Result<bool, Cause> {
         let n = self.n;
         if anew {
             self.stages.get_or_insert_with(|| Stages::new(n));

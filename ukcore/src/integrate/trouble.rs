@@ -1,8 +1,40 @@
 //! Why a run cannot go on, in words that help: what is known over several steps, and not in the one that failed last.
 
+use super::sample::Sample;
+use super::sums::{Tolerance, error_norm};
+use crate::assemble::State;
 use crate::error::Error;
-use crate::integrate::{Tolerance, error_norm};
-use crate::mechanism::{Spec, SwitchSpec};
+use crate::mechanism::SwitchSpec;
+use crate::scan::all_finite;
+
+/// An error and the state where it arose.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Trouble {
+    pub(crate) state: State,
+    pub(crate) error: Error,
+}
+
+/// Why a step cannot be made: an error, or none where the state is not finite, as happens after far too long a step.
+pub(crate) type Cause = Option<Box<Trouble>>;
+
+impl Trouble {
+    pub(crate) fn new(at: Sample<'_>, error: Error) -> Self {
+        let state = at.to_state();
+        Trouble { state, error }
+    }
+
+    /// `error` at a state of a step, which says nothing where the state is not finite.
+    pub(crate) fn cause(at: Sample<'_>, error: Error) -> Cause {
+        (all_finite(at.q) && all_finite(at.v)).then(|| Box::new(Trouble::new(at, error)))
+    }
+
+    /// The error with its place.
+    pub(crate) fn into_error(self) -> Error {
+        let State { t, q, v } = self.state;
+        let source = Box::new(self.error);
+        Error::At { t, q, v, source }
+    }
+}
 
 /// A contradiction seen nearer to where it begins replaces the one seen first while its residual is at least this part of it:
 /// nearer still it fades into rounding, and so do the names.
@@ -13,15 +45,8 @@ const FADED: f64 = 1e-3;
 /// A run retries ever smaller steps, so the failure seen last is at the very place where the constraints come apart: there the residual is rounding
 /// and one of the constraints may be missing. What a longer step met says more. It stays of interest while the run has not passed it.
 #[derive(Debug, Default)]
-pub(super) struct Conflict {
-    ahead: Option<Ahead>,
-}
-
-#[derive(Debug)]
-struct Ahead {
-    t: f64,
-    y: Vec<f64>,
-    error: Error,
+pub(crate) struct Conflict {
+    ahead: Option<Trouble>,
     /// Largest residual of the first failure.
     first: f64,
 }
@@ -40,44 +65,39 @@ fn names(constraints: &[(String, f64)]) -> impl Iterator<Item = &str> {
 }
 
 impl Conflict {
-    /// A failure at (t, y).
-    pub(super) fn note(&mut self, t: f64, y: &[f64], error: &Error) {
+    /// Takes note of a failure.
+    pub(crate) fn note(&mut self, at: Sample<'_>, error: &Error) {
         let Some((level, constraints)) = contradiction(error) else {
             return;
         };
-        let largest = constraints
-            .iter()
-            .fold(0.0, |s: f64, (_, r)| s.max(r.abs()));
-        let mut first = largest;
-        if let Some(ahead) = &self.ahead
-            && let Some((known_level, known)) = contradiction(&ahead.error)
-            && known_level == level
-            && names(constraints).all(|name| names(known).any(|k| k == name))
-        {
-            if constraints.len() < known.len() || largest < FADED * ahead.first {
-                return;
+        let sizes = constraints.iter().map(|(_, residual)| residual.abs());
+        let largest = sizes.fold(0.0, f64::max);
+        let known = self.ahead.as_ref().map(|ahead| &ahead.error);
+        match known.and_then(contradiction) {
+            Some((known_level, known))
+                if known_level == level
+                    && names(constraints).all(|name| names(known).any(|k| k == name)) =>
+            {
+                if constraints.len() < known.len() || largest < FADED * self.first {
+                    return;
+                }
             }
-            first = ahead.first;
+            _ => self.first = largest,
         }
-        self.ahead = Some(Ahead {
-            t,
-            y: y.to_vec(),
-            error: error.clone(),
-            first,
-        });
+        self.ahead = Some(Trouble::new(at, error.clone()));
     }
 
     /// The run has got from `t_old` to `t`: what was seen there is no obstacle.
-    pub(super) fn pass(&mut self, t_old: f64, t: f64) {
-        let passed = |ahead: &mut Ahead| (ahead.t - t_old).abs() <= (t - t_old).abs();
+    pub(crate) fn pass(&mut self, t_old: f64, t: f64) {
+        let passed = |ahead: &mut Trouble| (ahead.state.t - t_old).abs() <= (t - t_old).abs();
         self.ahead.take_if(passed);
     }
 
-    /// What to report of a run that ended with `error` at (t, y).
-    pub(super) fn explain(&mut self, t: f64, y: Vec<f64>, error: Error) -> (f64, Vec<f64>, Error) {
+    /// What to report of a run that ended with `last`.
+    pub(crate) fn explain(&mut self, last: Trouble) -> Trouble {
         match self.ahead.take() {
-            Some(ahead) if contradiction(&error).is_some() => (ahead.t, ahead.y, ahead.error),
-            _ => (t, y, error),
+            Some(ahead) if contradiction(&last.error).is_some() => ahead,
+            _ => last,
         }
     }
 }
@@ -89,7 +109,8 @@ const WINDOW: usize = 100_000;
 const FEW: usize = 100;
 
 /// Mean change of the state over a step, in units of the tolerance, below which a motion chatters. A step across a switch is accepted
-/// once the jump times the step is of the order of the tolerance; a step limited by its error in a smooth motion changes the state by many thousands of tolerances.
+/// once the jump times the step is of the order of the tolerance; a step limited by its error in a smooth motion changes the state by many thousands of
+/// tolerances.
 const CHATTER: f64 = 100.0;
 
 /// Watches the steps where the equations contain sign, abs, min or max.
@@ -97,9 +118,9 @@ const CHATTER: f64 = 100.0;
 /// Where the motion is driven back onto a switch from both sides, as at rest under dry friction, no step that crosses the switch is
 /// good until it is tiny, and the next one crosses it again; the run would use up its steps there without getting on.
 #[derive(Debug)]
-pub(super) struct Pace {
-    /// The terms with a switch; nothing is watched if there are none.
-    terms: Vec<String>,
+pub(crate) struct Pace {
+    /// All switches of the equations; nothing is watched if there are none.
+    switches: &'static [SwitchSpec],
     tolerance: Tolerance,
     /// Steps still allowed, as far as accepted ones count.
     left: usize,
@@ -110,9 +131,13 @@ pub(super) struct Pace {
 }
 
 impl Pace {
-    pub(super) fn new(spec: &Spec, tolerance: Tolerance, max_steps: usize) -> Self {
+    pub(crate) fn new(
+        switches: &'static [SwitchSpec],
+        tolerance: Tolerance,
+        max_steps: usize,
+    ) -> Self {
         Pace {
-            terms: terms(&spec.switches.iter().collect::<Vec<_>>()),
+            switches,
             tolerance,
             left: max_steps,
             steps: 0,
@@ -122,31 +147,25 @@ impl Pace {
     }
 
     /// Whether there is a switch to be watched.
-    #[cfg(feature = "ensemble")]
-    pub(super) fn watches(&self) -> bool {
-        !self.terms.is_empty()
+    pub(crate) fn watches(&self) -> bool {
+        !self.switches.is_empty()
     }
 
     /// An accepted step from `y_old` to `y` that took `time`.
-    pub(super) fn step(&mut self, time: f64, y_old: &[f64], y: &[f64]) {
-        if self.terms.is_empty() {
-            return;
-        }
+    pub(crate) fn step(&mut self, time: f64, y_old: &[f64], y: &[f64]) {
         if self.steps == WINDOW {
             (self.steps, self.time, self.change) = (0, 0.0, 0.0);
         }
         self.steps += 1;
         self.left = self.left.saturating_sub(1);
         self.time += time.abs();
-        let change = y_old
-            .iter()
-            .zip(y)
-            .map(|(old, new)| (new - old, *old, *new));
+        let pairs = y_old.iter().zip(y);
+        let change = pairs.map(|(old, new)| (new - old, *old, *new));
         self.change += error_norm(change, self.tolerance);
     }
 
     /// Whether the steps of a window chatter, and too slowly to get over `remaining` time with the steps left.
-    pub(super) fn hopeless(&self, remaining: f64) -> bool {
+    pub(crate) fn hopeless(&self, remaining: f64) -> bool {
         let reach = self.time * (self.left as f64 / WINDOW as f64);
         self.steps == WINDOW && self.chatters() && reach < remaining.abs()
     }
@@ -156,35 +175,31 @@ impl Pace {
     }
 
     /// What to report of a run whose steps were used up, or that was given up.
-    pub(super) fn explain(&self, error: Error) -> Error {
+    pub(crate) fn explain(&self, error: Error) -> Error {
         match error {
-            Error::TooManySteps { .. } if self.chatters() => Error::Chattering {
-                step: self.time / self.steps as f64,
-                terms: self.terms.clone(),
-            },
+            Error::TooManySteps { .. } if self.chatters() => {
+                let step = self.time / self.steps as f64;
+                chattering(step, self.switches.iter())
+            }
             other => other,
         }
     }
+
+    /// The error of a motion that is driven onto the zeros of `switches` from both sides.
+    pub(crate) fn stuck(&self, switches: &[usize]) -> Error {
+        chattering(0.0, switches.iter().map(|k| &self.switches[*k]))
+    }
 }
 
-/// The terms that turn at zeros of `switches`, each once.
-fn terms(switches: &[&SwitchSpec]) -> Vec<String> {
+/// [`Error::Chattering`] about `switches`, with each of their terms once.
+fn chattering<'a>(step: f64, switches: impl Iterator<Item = &'a SwitchSpec>) -> Error {
     let mut terms: Vec<String> = Vec::new();
-    for term in switches.iter().flat_map(|switch| switch.terms) {
+    for term in switches.flat_map(|switch| switch.terms) {
         if !terms.iter().any(|known| known == term) {
             terms.push((*term).to_owned());
         }
     }
-    terms
-}
-
-/// The error of a motion that is driven onto the zeros of `switches` from both sides.
-pub(super) fn stuck(spec: &Spec, switches: &[usize]) -> Error {
-    let switches: Vec<&SwitchSpec> = switches.iter().map(|k| &spec.switches[*k]).collect();
-    Error::Chattering {
-        step: 0.0,
-        terms: terms(&switches),
-    }
+    Error::Chattering { step, terms }
 }
 
 #[cfg(test)]
@@ -203,6 +218,10 @@ mod tests {
         }
     }
 
+    fn at(t: f64, error: Error) -> Trouble {
+        Trouble::new(Sample::of(t, &[t, 0.0]), error)
+    }
+
     #[test]
     fn the_conflict_nearest_to_its_beginning_that_is_not_faded_is_told() {
         let mut conflict = Conflict::default();
@@ -213,24 +232,22 @@ mod tests {
             (1.0001, split(1e-4)),
             (1.0 + 1e-12, one(1e-12)),
         ] {
-            conflict.note(t, &[t], &error);
+            conflict.note(Sample::of(t, &[t, 0.0]), &error);
         }
         conflict.pass(0.0, 1.0);
-        let told = conflict.explain(1.0, vec![1.0], one(1e-300));
-        assert_eq!(told, (1.001, vec![1.001], split(1e-3)));
+        let told = conflict.explain(at(1.0, one(1e-300)));
+        assert_eq!(told, at(1.001, split(1e-3)));
     }
 
     #[test]
     fn what_was_passed_or_is_of_another_kind_is_not_told() {
         let mut conflict = Conflict::default();
-        conflict.note(-1.5, &[0.0], &split(0.5));
+        conflict.note(Sample::of(-1.5, &[0.0; 2]), &split(0.5));
         conflict.pass(-1.0, -2.0);
-        let last = (-2.0, vec![1.0], one(1e-3));
-        let (t, y, error) = last.clone();
-        assert_eq!(conflict.explain(t, y, error), last);
-        conflict.note(-2.5, &[0.0], &split(0.5));
-        let other = (-2.0, vec![1.0], Error::StepTooSmall { step: 1e-20 });
-        let (t, y, error) = other.clone();
-        assert_eq!(conflict.explain(t, y, error), other);
+        let last = at(-2.0, one(1e-3));
+        assert_eq!(conflict.explain(last.clone()), last);
+        conflict.note(Sample::of(-2.5, &[0.0; 2]), &split(0.5));
+        let other = at(-2.0, Error::StepTooSmall { step: 1e-20 });
+        assert_eq!(conflict.explain(other.clone()), other);
     }
 }

@@ -1,0 +1,120 @@
+//! What switches ask of the driver: steps onto their zeros, and a new start in their other branches.
+
+use super::{Driver, Refusal};
+use crate::error::Error;
+use crate::integrate::course::Trial;
+use crate::integrate::sample::Sample;
+use crate::integrate::scheme::Attempt;
+use crate::integrate::switches::{Leaving, Stuck};
+use crate::mechanism::Branch;
+
+/// A step onto the zero of a switch.
+pub(super) struct Goal {
+    pub(super) trial: Trial,
+    /// Size and error of the step that would have gone across.
+    pub(super) whole: (f64, f64),
+}
+
+impl Driver<'_> {
+    /// Chooses branches at the start of the run, and evaluates f there.
+    pub(super) fn choose(&mut self) -> Result<(), Error> {
+        let here = Sample::of(self.course.now.t, &self.y);
+        let zeros = self.equations.choose(here, self.course.clock.sign);
+        let zeros = zeros.map_err(|stuck| self.stuck(stuck))?;
+        self.begin_at(&zeros)
+    }
+
+    /// Evaluates f where `switches` stand at zero: those are followed if f has no value there in their branches.
+    fn begin_at(&mut self, switches: &[usize]) -> Result<(), Error> {
+        if self.begin().is_ok() {
+            return Ok(());
+        }
+        self.equations.set_branch(switches, Branch::Followed);
+        self.begin().map_err(|cause| {
+            self.course.refuse(cause);
+            Error::StepTooSmall { step: 0.0 }
+        })
+    }
+
+    /// Refuses the closed step if it leaves the branches of its start. Returns whether its interpolant had to be made for that.
+    pub(super) fn stay(
+        &mut self,
+        step: Attempt,
+        trial: Trial,
+        error: f64,
+    ) -> Result<bool, Refusal> {
+        let equations = &mut self.equations;
+        if equations.switches.is_empty() {
+            return Ok(false);
+        }
+        let end = Sample::of(trial.end.t, self.scheme.state());
+        if !equations.switches.suspect(equations.problem, end) {
+            return Ok(false);
+        }
+        let stages = (self.scheme).interpolate(equations, step, &self.y);
+        stages.map_err(Refusal::End)?;
+        let t0 = equations.t0;
+        let time = |theta: f64| t0 + step.s + theta * step.h;
+        let coefficients = self.scheme.dense();
+        match equations
+            .switches
+            .search(equations.problem, time, coefficients)
+        {
+            None => {}
+            Some(Leaving::AtEnd(targets)) => equations.switches.targets.extend(targets),
+            Some(leaving) => return Err(Refusal::Leaves(leaving, error)),
+        }
+        Ok(true)
+    }
+
+    /// Goes on after a step that left its branches, cut from one of size and error `whole`: plans the step onto the zero, or takes the other branch if it
+    /// stands there.
+    pub(super) fn follow(
+        &mut self,
+        leaving: Leaving,
+        trial: Trial,
+        whole: (f64, f64),
+    ) -> Result<(), Error> {
+        self.repeated += 1;
+        self.course.h = whole.0;
+        let switches = match leaving {
+            Leaving::AtOnce(switches) | Leaving::AtEnd(switches) => switches,
+            Leaving::Within(theta, switches) => {
+                if let Some(trial) = self.course.within(theta * trial.size) {
+                    self.equations.switches.targets = switches;
+                    self.goal = Some(Goal { trial, whole });
+                    return Ok(());
+                }
+                switches
+            }
+        };
+        let here = Sample::of(self.course.now.t, &self.y);
+        let turned = (self.equations).turn(&switches, here, self.course.clock.sign);
+        if turned.map_err(|stuck| self.stuck(stuck))? {
+            return self.begin_at(&switches);
+        }
+        // The motion goes into its branch, and leaves it before the step's first part ends.
+        self.course.h = self.scheme.unfit(&mut self.course.size, trial.size);
+        Ok(())
+    }
+
+    /// The last step is accepted: where it went onto zeros of switches, the next one begins in their other branches. Returns whether it did.
+    pub(super) fn arrive(&mut self) -> Result<bool, Error> {
+        if self.equations.switches.is_empty() {
+            return Ok(false);
+        }
+        let landed = !self.equations.switches.targets.is_empty();
+        self.landings += usize::from(landed);
+        let here = Sample::of(self.course.now.t, &self.y);
+        let targets = self.equations.arrive(here, self.course.clock.sign);
+        let targets = targets.map_err(|stuck| self.stuck(stuck))?;
+        if landed {
+            self.begin_at(&targets)?;
+        }
+        Ok(landed)
+    }
+
+    fn stuck(&mut self, Stuck(switches): Stuck) -> Error {
+        self.course.stuck(&switches)
+    }
+}

@@ -1,0 +1,48 @@
+//! A state at a time.
+
+use crate::assemble::State;
+use crate::error::Error;
+
+/// A state of a motion: one row of a [`Trajectory`](crate::Trajectory), or what a run has reached.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample<'a> {
+    /// Time.
+    pub t: f64,
+    /// Coordinates.
+    pub q: &'a [f64],
+    /// Velocities.
+    pub v: &'a [f64],
+}
+
+impl<'a> Sample<'a> {
+    /// The state y = [q; q̇] at time `t`.
+    #[inline]
+    pub(crate) fn of(t: f64, y: &'a [f64]) -> Self {
+        let (q, v) = y.split_at(y.len() / 2);
+        Sample { t, q, v }
+    }
+
+    /// An owned copy, for example to start another run from.
+    #[must_use]
+    pub fn to_state(self) -> State {
+        State {
+            t: self.t,
+            q: self.q.to_vec(),
+            v: self.v.to_vec(),
+        }
+    }
+
+    /// `error` with this state as the place where it arose.
+    pub(crate) fn locate(self, error: Error) -> Error {
+        let State { t, q, v } = self.to_state();
+        let source = Box::new(error);
+        Error::At { t, q, v, source }
+    }
+}
+
+impl<'a> From<&'a State> for Sample<'a> {
+    fn from(state: &'a State) -> Self {
+        let State { t, q, v } = state;
+        Sample { t: *t, q, v }
+    }
+}

@@ -1,0 +1,95 @@
+//! Where the constraints do not let a motion through: branches that meet, and jumps.
+
+use crate::diagnose;
+use crate::error::Error;
+use crate::integrate::Step;
+use crate::integrate::sample::Sample;
+use crate::manifold::Projector;
+use crate::mechanism::Branch;
+use crate::scan::largest;
+use crate::solver::{RANK_CEILING, Solver};
+
+/// Significance of a constraint, √ε, below which the state cannot tell on which side of a singular position it is.
+const SINGULAR: f64 = 1.5e-8;
+
+/// Refuses a step that ends where constraints all but imply each other and that did not begin there.
+///
+/// A significance δ leaves q off by ε/δ, so below √ε the state does not say on which side of the singular position it is, nor which branch of the motion it
+/// takes: any of them conserves energy. A step that passes over the place is not concerned.
+pub(super) fn check_branch(solver: &mut Solver, step: &Step<'_>) -> Result<(), Error> {
+    if solver.take_weakest() > 16.0 * SINGULAR {
+        return Ok(());
+    }
+    if weakest_at(solver, step.new)? > SINGULAR {
+        return Ok(());
+    }
+    let error = singular(solver, SINGULAR);
+    if weakest_at(solver, step.old)? > SINGULAR {
+        return Err(error);
+    }
+    Ok(())
+}
+
+/// An error that names the constraints whose significance in the last solution was not above `significance`.
+fn singular(solver: &Solver, significance: f64) -> Error {
+    let weak = solver.rows_below(significance).iter();
+    let names = weak.map(|c| solver.mechanism().spec().constraints[*c].name.to_owned());
+    Error::Singular {
+        constraints: names.collect(),
+    }
+}
+
+/// The least significance of a constraint that counts at a state.
+fn weakest_at(solver: &mut Solver, at: Sample<'_>) -> Result<f64, Error> {
+    let mut acceleration = vec![0.0; at.q.len()];
+    solver.acceleration_in_run(at.t, at.q, at.v, &mut acceleration)?;
+    Ok(solver.take_weakest())
+}
+
+/// Why the nearest consistent state is far from the one `at` which a step arrived that began at `t_old`: a constraint jumps, or constraints all but imply each
+/// other there. `None` if neither is found.
+pub(super) fn jump(solver: &mut Solver, at: Sample<'_>, t_old: f64) -> Option<Error> {
+    let Sample { t, q, v } = at;
+    let spec = solver.mechanism().spec();
+    // Branches that are not followed do not jump.
+    let mut followed = solver.mechanism().clone();
+    for k in 0..spec.switches.len() {
+        followed.hold(k, Branch::Followed);
+    }
+    let mut projector = Projector::new(&followed);
+    let (mut near_q, mut near_v) = (q.to_vec(), v.to_vec());
+    projector.position(t, &mut near_q, v).ok()?;
+    projector.velocity(t, &near_q, &mut near_v).ok()?;
+    let change = |old: &[f64], new: &[f64]| {
+        let pairs = old.iter().zip(new);
+        pairs.fold(0.0, |s: f64, (a, b)| s.max((a - b).abs() / (1.0 + a.abs())))
+    };
+    let position = change(q, &near_q) >= change(v, &near_v);
+    let residual = |t: f64| {
+        let mut residual = vec![0.0; spec.m()];
+        if position {
+            followed.residual(t, q, &mut residual[..spec.holonomic]);
+        } else {
+            followed.residual_rate(t, &near_q, v, &mut residual);
+        }
+        residual
+    };
+    // What the time alone has made of it since the last step, which may have gone just onto the jump.
+    let after = residual(t);
+    let size = largest(&after);
+    let pairs = after.iter().zip(residual(2.0 * t_old - t));
+    let jumps = pairs.map(|(after, before)| {
+        let alone = (after - before).abs() > 0.5 * size;
+        if alone { *after } else { 0.0 }
+    });
+    let jumps: Vec<f64> = jumps.collect();
+    if jumps.iter().any(|r| *r != 0.0) {
+        return Some(Error::Jump {
+            level: if position { "position" } else { "velocity" },
+            constraints: diagnose::offending(spec, &jumps, &vec![1.0; jumps.len()]),
+        });
+    }
+    let (q, v) = (&near_q, &near_v);
+    let weakest = weakest_at(solver, Sample { t, q, v }).ok()?;
+    (weakest <= RANK_CEILING).then(|| singular(solver, RANK_CEILING))
+}

@@ -1,0 +1,237 @@
+//! What is taken from accepted steps: events, samples, the interpolant; and who gets it.
+
+use std::ops::ControlFlow;
+
+use super::agenda::Agenda;
+use crate::error::Error;
+use crate::events::{Event, EventHit, States, Watch};
+use crate::integrate::Step;
+use crate::integrate::sample::Sample;
+use crate::manifold::Projector;
+use crate::trajectory::{Ending, Record, Trajectory, Work};
+
+/// What takes the samples and events of a streamed run.
+pub(super) type Sink<'a> = &'a mut dyn FnMut(Record<'_>) -> ControlFlow<()>;
+
+/// Takes from accepted steps what is to be kept or handed over.
+pub(super) struct Recorder<'s> {
+    agenda: Agenda,
+    watch: Watch,
+    /// Takes what is not to be kept, until it wants no more.
+    sink: Option<Sink<'s>>,
+    handed: ControlFlow<()>,
+    /// Time of the last sample.
+    sampled: Option<f64>,
+    /// A state within a step.
+    between: Vec<f64>,
+}
+
+impl<'s> Recorder<'s> {
+    pub(super) fn new(
+        agenda: Agenda,
+        events: Vec<Event>,
+        coordinates: usize,
+        sink: Option<Sink<'s>>,
+    ) -> Self {
+        Recorder {
+            agenda,
+            watch: Watch::new(events, coordinates),
+            sink,
+            handed: ControlFlow::Continue(()),
+            sampled: None,
+            between: vec![0.0; 2 * coordinates],
+        }
+    }
+
+    /// Whether the sink wants no more.
+    pub(super) fn has_ended(&self) -> bool {
+        self.handed.is_break()
+    }
+
+    /// The next time at which an interpolant is wanted, if any.
+    pub(super) fn next_sample(&self) -> Option<f64> {
+        self.agenda.next()
+    }
+
+    /// Events and sample at the start of the run.
+    pub(super) fn start(
+        &mut self,
+        at: Sample<'_>,
+        trajectory: &mut Trajectory,
+    ) -> Result<(), Error> {
+        if self.agenda.takes_start(at.t) {
+            trajectory.push(at);
+        }
+        self.watch.start(at).map_err(|error| at.locate(error))?;
+        self.hand_over(trajectory);
+        Ok(())
+    }
+
+    /// Takes from a step what is wanted of it, and nothing if that fails.
+    pub(super) fn step(
+        &mut self,
+        step: &Step<'_>,
+        projector: &mut Projector,
+        trajectory: &mut Trajectory,
+    ) -> Result<(), Error> {
+        let taken = self.agenda.taken();
+        let (samples, values) = (trajectory.times.len(), trajectory.states.len());
+        let (events, ending) = (trajectory.events.len(), trajectory.ending);
+        if let Err(error) = self.record(step, projector, trajectory) {
+            self.agenda.return_to(taken);
+            trajectory.times.truncate(samples);
+            trajectory.states.truncate(values);
+            trajectory.events.truncate(events);
+            trajectory.ending = ending;
+            return Err(error);
+        }
+        self.watch.accept();
+        self.hand_over(trajectory);
+        Ok(())
+    }
+
+    fn record(
+        &mut self,
+        step: &Step<'_>,
+        projector: &mut Projector,
+        trajectory: &mut Trajectory,
+    ) -> Result<(), Error> {
+        let mut within = Within {
+            projector,
+            project: trajectory.projected,
+            step,
+            work: &mut trajectory.work,
+        };
+        let between = &mut self.between;
+        self.watch.search(step.old.t, step.new.t, &mut within)?;
+        let mut t_stop = step.new.t;
+        for crossing in &self.watch.crossings {
+            let event = &self.watch.events[crossing.event];
+            let t = crossing.t;
+            within.consistent(t, between)?;
+            let Sample { q, v, .. } = Sample::of(t, between);
+            trajectory.events.push(EventHit {
+                name: event.name.clone(),
+                t,
+                q: q.to_vec(),
+                v: v.to_vec(),
+                direction: crossing.direction,
+            });
+            if event.terminal {
+                t_stop = t;
+                trajectory.ending = Ending::Event;
+            }
+        }
+        let forward = step.new.t >= step.old.t;
+        let passed = |t: &f64| if forward { *t <= t_stop } else { *t >= t_stop };
+        while let Some(t) = self.agenda.next().filter(passed) {
+            within.consistent(t, between)?;
+            self.agenda.take();
+            trajectory.times.push(t);
+            trajectory.states.extend_from_slice(between);
+        }
+        within.consistent(t_stop, between)?;
+        let end = Sample::of(t_stop, between);
+        if self.agenda.wants_steps() {
+            trajectory.push(end);
+        }
+        if let (Some(segments), Some(interpolant)) = (&mut trajectory.segments, step.interpolant) {
+            segments.push(interpolant.segment());
+        }
+        trajectory.reach(end);
+        Ok(())
+    }
+
+    /// Gives samples and events to the sink, if there is one, in the order in which the run passes them.
+    fn hand_over(&mut self, trajectory: &mut Trajectory) {
+        self.sampled = trajectory.times.last().copied().or(self.sampled);
+        let Some(sink) = &mut self.sink else {
+            return;
+        };
+        let passed = |t: f64| (t - trajectory.start).abs();
+        let mut hand_all = || {
+            let mut events = trajectory.events.iter().peekable();
+            for sample in trajectory.samples() {
+                while let Some(event) = events.next_if(|e| passed(e.t) <= passed(sample.t)) {
+                    sink(Record::Event(event))?;
+                }
+                sink(Record::Sample(sample))?;
+            }
+            events.try_for_each(|event| sink(Record::Event(event)))
+        };
+        if self.handed.is_continue() {
+            self.handed = hand_all();
+        }
+        trajectory.times.clear();
+        trajectory.states.clear();
+        trajectory.events.clear();
+    }
+
+    /// The state with which the run ended becomes its last sample, if samples are not at given times only.
+    pub(super) fn finish(&mut self, trajectory: &mut Trajectory) {
+        if let Some(end) = &trajectory.end
+            && self.agenda.wants_ends()
+            && self.sampled.is_some_and(|t| t != end.t)
+        {
+            trajectory.times.push(end.t);
+            trajectory.states.extend_from_slice(&end.q);
+            trajectory.states.extend_from_slice(&end.v);
+        }
+        self.hand_over(trajectory);
+    }
+}
+
+/// Projects a state, positions first, and counts it.
+pub(super) fn project(
+    projector: &mut Projector,
+    work: &mut Work,
+    t: f64,
+    (q, v): (&mut [f64], &mut [f64]),
+) -> Result<(), Error> {
+    work.projections += 1;
+    let position = projector.position(t, q, v)?;
+    work.projection_iterations += position.iterations;
+    let velocity = projector.velocity(t, q, v)?;
+    work.projection_iterations += velocity.iterations;
+    Ok(())
+}
+
+/// The states of one step.
+struct Within<'a, 'b> {
+    projector: &'a mut Projector,
+    project: bool,
+    step: &'a Step<'b>,
+    work: &'a mut Work,
+}
+
+impl Within<'_, '_> {
+    /// The state at an end of the step, which needs neither interpolation nor projection.
+    fn end(&self, t: f64) -> Option<Sample<'_>> {
+        let Step { old, new, .. } = self.step;
+        [new, old].into_iter().find(|end| end.t == t).copied()
+    }
+}
+
+impl States for Within<'_, '_> {
+    fn state(&mut self, t: f64, y: &mut [f64]) {
+        let (q, v) = y.split_at_mut(self.step.new.q.len());
+        match (self.end(t), self.step.interpolant) {
+            (Some(end), _) => {
+                q.copy_from_slice(end.q);
+                v.copy_from_slice(end.v);
+            }
+            (None, Some(interpolant)) => interpolant.state(t, y),
+            // A method owes the interpolant where it was asked for; without it there is no value, and that is seen.
+            (None, None) => y.fill(f64::NAN),
+        }
+    }
+
+    fn consistent(&mut self, t: f64, y: &mut [f64]) -> Result<(), Error> {
+        self.state(t, y);
+        if self.project && self.end(t).is_none() {
+            let state = y.split_at_mut(self.step.new.q.len());
+            project(self.projector, self.work, t, state)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,83 @@
+//! From the start that is given to one on the constraints.
+
+use super::{START_BOUND, Simulation, angles};
+use crate::assemble::State;
+use crate::diagnose;
+use crate::error::Error;
+use crate::integrate::Tolerance;
+use crate::manifold::Projector;
+use crate::mechanism::Spec;
+use crate::scan::largest;
+use crate::trajectory::Work;
+
+impl Simulation {
+    /// The start, checked and projected, and the tolerance of a run from there.
+    pub(super) fn consistent_start(
+        &self,
+        projector: &mut Projector,
+        work: &mut Work,
+    ) -> Result<(State, Tolerance), Error> {
+        let spec = self.mechanism.spec();
+        let Some(State { t, q, v }) = self.start.clone() else {
+            let what = "start";
+            let reason = "is missing".to_owned();
+            return Err(Error::InvalidSetting { what, reason });
+        };
+        diagnose::check_length("q", q.len(), spec.n())?;
+        diagnose::check_length("v", v.len(), spec.n())?;
+        let mech = &self.mechanism;
+        if let Some(error) = diagnose::bad_input(mech, t, &q, &v) {
+            return Err(error);
+        }
+        angles::check(spec, &q)?;
+        let (mut new_q, mut new_v) = (q.clone(), v.clone());
+        let position = projector.position(t, &mut new_q, &v)?;
+        let mut size = largest(&q).max(largest(&v));
+        if size > 0.0 && size < 1.0 {
+            // Coordinates may be measured from where they start; rounding, for one, is then not that of their size.
+            size = size.max(projector.length(t, &new_q, &v));
+        }
+        let tolerance = self.tolerance_of(size);
+        let absolute = tolerance.absolute;
+        if !near(&q, &new_q, absolute) {
+            let mut residual = vec![0.0; spec.holonomic];
+            mech.residual(t, &q, &mut residual);
+            return Err(off_constraint(spec, "position", &residual));
+        }
+        let velocity = projector.velocity(t, &new_q, &mut new_v)?;
+        if !near(&v, &new_v, absolute) {
+            let mut residual = vec![0.0; spec.m()];
+            mech.residual_rate(t, &new_q, &v, &mut residual);
+            return Err(off_constraint(spec, "velocity", &residual));
+        }
+        work.projections += 1;
+        work.projection_iterations += position.iterations + velocity.iterations;
+        let (q, v) = (new_q, new_v);
+        Ok((State { t, q, v }, tolerance))
+    }
+
+    /// The tolerance of a run whose start has this size.
+    fn tolerance_of(&self, size: f64) -> Tolerance {
+        // A start at zero in all coordinates has no size.
+        let size = if size > 0.0 { size.min(1.0) } else { 1.0 };
+        Tolerance {
+            relative: self.tolerance,
+            absolute: self.absolute.unwrap_or(self.tolerance * size),
+        }
+    }
+}
+
+/// Whether a projection from `before` to `after` is within [`START_BOUND`] and the absolute tolerance.
+fn near(before: &[f64], after: &[f64], absolute: f64) -> bool {
+    let bound = START_BOUND * largest(before) + absolute;
+    let mut pairs = before.iter().zip(after);
+    pairs.all(|(before, after)| (after - before).abs() <= bound)
+}
+
+fn off_constraint(spec: &Spec, level: &'static str, residual: &[f64]) -> Error {
+    let scale = vec![1.0; residual.len()];
+    Error::OffConstraint {
+        level,
+        constraints: diagnose::offending(spec, residual, &scale),
+    }
+}
