@@ -51,7 +51,7 @@ pub(crate) fn placed<M: Mechanism>(
 mod tests {
     use super::*;
     use crate::{Model, Visitor};
-    use ukcore::Projector;
+    use ukcore::manifold::Projector;
 
     /// Every state of every reference: finite, of the right length, later than the one before, and on the constraints.
     struct Sound;

@@ -1,7 +1,8 @@
 //! An independent dense solution of the equations of motion, by singular values: no code shared with `ukcore`.
 
 use nalgebra::{DMatrix, DVector};
-use ukcore::{Mechanism, State, Terms};
+use ukcore::mechanism::Terms;
+use ukcore::{Mechanism, State};
 
 /// Moore-Penrose inverse by singular values; those below `tolerance` times the largest count as zero.
 #[must_use]

@@ -1,7 +1,8 @@
 //! Random numbers and states, the same in every run.
 
 use models::Model;
-use ukcore::{Projector, State};
+use ukcore::State;
+use ukcore::manifold::Projector;
 
 /// SplitMix64 (Steele, Lea & Flood 2014).
 #[derive(Debug, Clone)]

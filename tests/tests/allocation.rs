@@ -2,7 +2,9 @@
 
 use models::Model;
 use tests::{Check, every_model};
-use ukcore::{Formula, Projector, Solver, SolverOptions};
+use ukcore::manifold::Projector;
+use ukcore::solver::Formula;
+use ukcore::{Solver, SolverOptions};
 
 #[test]
 fn acceleration_allocates_nothing() {

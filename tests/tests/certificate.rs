@@ -6,7 +6,8 @@
 use models::{Model, SliderCrank, UChain};
 use nalgebra::{DMatrix, DVector};
 use tests::{Check, Dense, Random, every_model, pseudo_inverse, singular_values};
-use ukcore::{Mechanism, Pivot, Solver, SolverOptions, State};
+use ukcore::spec::Pivot;
+use ukcore::{Mechanism, Solver, SolverOptions, State};
 
 /// Largest distance that may be refused.
 const MARGIN: f64 = 1.0 / 32.0;

@@ -2,7 +2,8 @@
 
 use models::{FishRobot, Model};
 use tests::{Check, Dense, Random, assert_close, every_model, largest};
-use ukcore::{Dual, Mechanism, State};
+use ukcore::scalar::Dual;
+use ukcore::{Mechanism, State};
 
 type Dual2 = Dual<Dual<f64>>;
 

@@ -2,7 +2,8 @@
 
 use models::{Model, Pendulum, UChain};
 use tests::{Check, Random, assert_all_close, every_model, largest};
-use ukcore::{Ensemble, Error, Member, Simulation, State, Switching};
+use ukcore::simulate::{Member, Switching};
+use ukcore::{Ensemble, Error, Simulation, State};
 
 /// Members with other parameters and starts.
 fn members<M: Model>(count: usize) -> Vec<(M, State)> {
@@ -190,7 +191,7 @@ fn members_stay_on_the_constraints() {
         .zip(Ensemble::new(members.clone()).until(1.0))
     {
         let end = result.expect("runs").end;
-        let off = ukcore::residuals(mechanism, &end).expect("finite");
+        let off = ukcore::assemble::residuals(mechanism, &end).expect("finite");
         assert!(largest(&off.position) < 1e-12 && largest(&off.velocity) < 1e-12);
     }
 }

@@ -2,7 +2,8 @@
 //! at rest, and coordinates that are zero.
 
 use tests::{Random, assert_all_close, largest};
-use ukcore::{Formula, Simulation, Solver, SolverOptions, State, assemble};
+use ukcore::solver::Formula;
+use ukcore::{Simulation, Solver, SolverOptions, State, assemble};
 
 ukcore::multibody! {
     /// A particle on three rods in a plane, one more than hold it.

@@ -1,6 +1,7 @@
 //! Runs that cannot go on say why, in time, by the names of the declaration.
 
-use ukcore::{Error, Failure, Method, Simulation, State, Switching};
+use ukcore::simulate::Switching;
+use ukcore::{Error, Failure, Method, Simulation, State};
 
 ukcore::multibody! {
     /// Two constraints on x + y that agree at t = 0 only.

@@ -5,7 +5,8 @@ use models::{Model, UChain};
 use nalgebra::DVector;
 use tests::{Check, Dense, Random, assert_close, every_model, largest};
 use ukcore::equations::{kkt, uk, up};
-use ukcore::{Formula, Solver, SolverOptions};
+use ukcore::solver::Formula;
+use ukcore::{Solver, SolverOptions};
 
 /// Agreement asked for, relative to the largest acceleration.
 const ACCURACY: f64 = 1e-9;

@@ -208,7 +208,7 @@ fn starts_are_consistent() {
                 let state = model
                     .start(start.name, &StartOptions::new())
                     .unwrap_or_else(|e| panic!("{}, {}: {e}", M::ID, start.name));
-                let residuals = ukcore::residuals(&model, &state)
+                let residuals = ukcore::assemble::residuals(&model, &state)
                     .unwrap_or_else(|e| panic!("{}, {}: {e}", M::ID, start.name));
                 let off = largest(residuals.position.iter().chain(&residuals.velocity));
                 assert!(off < 1e-13, "{}, {}: {off:e}", M::ID, start.name);

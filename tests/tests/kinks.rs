@@ -5,9 +5,9 @@ use serde_json::Value;
 use std::f64::consts::PI;
 use tests::{Random, assert_all_close, assert_close, largest};
 use ukcore::simulate::Switching::{self, Ignored, Located};
-use ukcore::{
-    Direction, Error, Event, Formula, Mechanism, Method, Simulation, State, Work, assemble,
-};
+use ukcore::simulate::{Direction, Work};
+use ukcore::solver::Formula;
+use ukcore::{Error, Event, Mechanism, Method, Simulation, State, assemble};
 
 ukcore::multibody! {
     /// A mass that flies freely between two springs.

@@ -2,7 +2,9 @@
 
 use models::{Model, Pendulum};
 use tests::{Check, Dense, Random, assert_all_close, every_model, largest};
-use ukcore::{Error, LaneSolver, Lanes, Mechanism, Solver, SolverOptions, State, Terms};
+use ukcore::lanes::{LaneSolver, Lanes};
+use ukcore::mechanism::Terms;
+use ukcore::{Error, Mechanism, Solver, SolverOptions, State};
 use wide::{f64x4, f64x8};
 
 /// Elimination multiplies rounding by its condition, which is a hundred in these states.

@@ -2,7 +2,9 @@
 
 use nalgebra::DMatrix;
 use tests::{Dense, Random, assert_all_close, assert_close};
-use ukcore::{Dual, Error, Formula, Mechanism, Scalar, Solver, SolverOptions, State};
+use ukcore::scalar::{Dual, Scalar};
+use ukcore::solver::Formula;
+use ukcore::{Error, Mechanism, Solver, SolverOptions, State};
 
 ukcore::multibody! {
     /// Every function, in both forms, of arguments with either sign.

@@ -2,7 +2,8 @@
 
 use models::{Model, Pendulum};
 use tests::{Check, Random, assert_all_close, every_model, largest};
-use ukcore::{Error, Linearisation, Mechanism, Projector, Solver, SolverOptions, State};
+use ukcore::manifold::Projector;
+use ukcore::{Error, Linearisation, Mechanism, Solver, SolverOptions, State};
 
 /// Truncation and rounding of differences of fourth order, relative to the largest derivative.
 const ACCURACY: f64 = 1e-7;

@@ -4,10 +4,8 @@ use models::uchain::TABLE_1;
 use models::{Model, StartOptions, UChain};
 use serde_json::Value;
 use tests::{assert_all_close, assert_close, largest};
-use ukcore::{
-    Direction, Error, Event, Mechanism, Sample, Simulation, Solver, SolverOptions, State,
-    Trajectory,
-};
+use ukcore::simulate::{Direction, Sample};
+use ukcore::{Error, Event, Mechanism, Simulation, Solver, SolverOptions, State, Trajectory};
 
 /// For x0 = 12 … 16: lowest point, m, and its time, s, by an independent integration in angles at 1e-12, which agrees with the
 /// 113-bit reference in `models/data/uchain.json` to its digits; deepest acceleration of the tip, m/s².

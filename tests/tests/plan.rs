@@ -4,7 +4,9 @@ use models::{FishRobot, MasslessSpring, Model};
 use nalgebra::DMatrix;
 use std::collections::BTreeSet;
 use tests::{Check, Random, every_model};
-use ukcore::{Mechanism, Pivot, Plan};
+use ukcore::Mechanism;
+use ukcore::plan::Plan;
+use ukcore::spec::Pivot;
 
 ukcore::multibody! {
     /// A chain whose [M Aᵀ; A 0] is too wide for a line.

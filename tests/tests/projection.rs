@@ -2,7 +2,7 @@
 
 use models::Model;
 use tests::{Check, every_model, largest};
-use ukcore::Projector;
+use ukcore::manifold::Projector;
 
 /// Numbers between -1 and 1.
 fn numbers(mut state: u64) -> impl FnMut() -> f64 {

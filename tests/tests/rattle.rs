@@ -5,7 +5,8 @@ use models::{
     SliderCrankRedundant, SpringPendulum, StartOptions, UChain,
 };
 use tests::largest;
-use ukcore::{Baumgarte, Error, Method, Simulation, Stabilisation, State, Trajectory};
+use ukcore::solver::Baumgarte;
+use ukcore::{Error, Method, Simulation, Stabilisation, State, Trajectory};
 
 fn run<M: Model>(mechanism: M, start: State, step: f64, end: f64, every: f64) -> Trajectory {
     Simulation::new(mechanism)
@@ -65,7 +66,11 @@ fn energy_stays_within_a_bound_without_a_trend() {
     let start = mech.default_start().expect("a start");
     let run = run(mech, start, 0.005, 500.0, 0.05);
     assert_eq!(run.work().steps, 100_000);
-    let energy: Vec<f64> = run.energy().iter().map(ukcore::Energy::total).collect();
+    let energy: Vec<f64> = run
+        .energy()
+        .iter()
+        .map(ukcore::mechanism::Energy::total)
+        .collect();
     let off = |part: &[f64]| {
         largest(
             part.iter()

@@ -2,10 +2,11 @@
 //! by an oracle in 31 digits, or as an error with a name.
 
 use tests::Random;
-use ukcore::{
-    DoubleDouble, Error, Formula, Mechanism, Projector, Scalar, Simulation, Solver, SolverOptions,
-    State, Terms,
-};
+use ukcore::manifold::Projector;
+use ukcore::mechanism::Terms;
+use ukcore::scalar::{DoubleDouble, Scalar};
+use ukcore::solver::Formula;
+use ukcore::{Error, Mechanism, Simulation, Solver, SolverOptions, State};
 
 ukcore::multibody! {
     /// N particles and K rods. Parameters say which rod joins what: its vector is Σ c x − (ax, ay) over all particles. A rod without ends is no constraint.

@@ -3,7 +3,8 @@
 use models::{FishRobot, Model, Pendulum, SpringPendulum, StartOptions};
 use std::f64::consts::FRAC_PI_2;
 use tests::assert_all_close;
-use ukcore::{Direction, Event, Mechanism, Method, Simulation, State, Trajectory};
+use ukcore::simulate::Direction;
+use ukcore::{Event, Mechanism, Method, Simulation, State, Trajectory};
 
 fn simulation<M: Model>(model: &M, method: Method, tolerance: f64) -> Simulation {
     let start = model.default_start().expect("the default start exists");

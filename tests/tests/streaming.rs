@@ -3,7 +3,8 @@
 use std::ops::ControlFlow;
 
 use models::{Model, Pendulum};
-use ukcore::{CsvWriter, Event, Record, Simulation};
+use ukcore::simulate::{CsvWriter, Record};
+use ukcore::{Event, Simulation};
 
 /// Largest number of bytes in use at once, and how many samples and events there were.
 fn peak(t_end: f64) -> (u64, usize, usize) {

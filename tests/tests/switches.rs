@@ -1,7 +1,9 @@
 //! Switching functions of abs, sign, min and max: what the compiler finds, and the equations with a branch held.
 
 use tests::{Random, assert_all_close, assert_close};
-use ukcore::{Branch, Dual, Mechanism, Prepared, Solver, SolverOptions};
+use ukcore::mechanism::Branch;
+use ukcore::scalar::Dual;
+use ukcore::{Mechanism, Prepared, Solver, SolverOptions};
 
 ukcore::multibody! {
     /// A kink or jump of each kind, in each part of the equations; one function may have several.
@@ -80,7 +82,7 @@ fn state(random: &mut Random) -> State {
     }
 }
 
-fn switching<S: ukcore::Scalar>(mech: &Prepared<S>, t: S, q: &[S], v: &[S]) -> Vec<S> {
+fn switching<S: ukcore::scalar::Scalar>(mech: &Prepared<S>, t: S, q: &[S], v: &[S]) -> Vec<S> {
     let mut out = vec![S::from_f64(f64::NAN); Kinks::SPEC.switches.len()];
     mech.switching(t, q, v, &mut out);
     out
@@ -96,7 +98,7 @@ fn everything(mech: &Prepared, State { t, q, v }: &State) -> Vec<f64> {
     let (nonideal, rest) = rest.split_at_mut(4);
     let (jacobian, rest) = rest.split_at_mut(4);
     let (rhs, rest) = rest.split_at_mut(1);
-    let mut terms = ukcore::Terms {
+    let mut terms = ukcore::mechanism::Terms {
         mass,
         force,
         nonideal,
@@ -236,7 +238,7 @@ fn held_in_any_branch_the_equations_are_smooth() {
         let mut dense = Solver::new(
             &held,
             SolverOptions {
-                formula: ukcore::Formula::UdwadiaKalaba,
+                formula: ukcore::solver::Formula::UdwadiaKalaba,
                 ..SolverOptions::default()
             },
         );

@@ -43,7 +43,7 @@ const NEAR: f64 = 1.5e-8;
 pub struct State {
     /// Time t.
     pub t: f64,
-    /// Coordinates q, in the order of [`Spec::coords`](crate::Spec::coords).
+    /// Coordinates q, in the order of [`Spec::coords`](crate::spec::Spec::coords).
     pub q: Vec<f64>,
     /// Velocities q̇, in the same order.
     pub v: Vec<f64>,

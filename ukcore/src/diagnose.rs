@@ -2,9 +2,10 @@
 
 use std::fmt;
 
+use crate::dense::Evaluated;
 use crate::error::Error;
-use crate::mechanism::{Prepared, Spec};
-use crate::workspace::Evaluated;
+use crate::mechanism::Prepared;
+use crate::spec::Spec;
 
 /// A coordinate or constraint takes part in a finding if its share is at least this much of the largest one's. Shares that are
 /// zero in exact arithmetic are below 1e-12 (rounding over the smallest pivot taken as regular); true ones are seldom below 1e-3.

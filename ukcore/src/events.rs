@@ -34,7 +34,7 @@ type Function = Box<dyn FnMut(f64, &[f64], &[f64]) -> f64>;
 /// Where g is not a number, the run fails with an error that says so.
 ///
 /// ```
-/// use ukcore::events::{Direction, Event};
+/// use ukcore::simulate::{Direction, Event};
 /// let bottom = Event::new("bottom", |_t, q, _v| q[0]).direction(Direction::Rising);
 /// let floor = Event::new("floor", |_t, q, _v| q[1]).direction(Direction::Falling).terminal();
 /// # let _ = (bottom, floor);

@@ -3,11 +3,9 @@
 //! A [`Toy`] gives names, M, Q and the constraint functions; A, b and φ̇ follow by differentiation with nested [`Dual`]s, which
 //! is independent of the macro's symbolic derivatives.
 
-use crate::mechanism::{
-    ConstraintKind, ConstraintSpec, Energy, Mechanism, ParamSpec, Prepared, Solve, Spec, Structure,
-    Terms,
-};
+use crate::mechanism::{Energy, Mechanism, Prepared, Terms};
 use crate::scalar::{Dual, Scalar};
+use crate::spec::{ConstraintKind, ConstraintSpec, ParamSpec, Solve, Spec, Structure};
 
 /// What a test mechanism states.
 pub(crate) trait Toy: Clone + Default + Into<Prepared> + Send + Sync + 'static {

@@ -6,10 +6,14 @@
 //!
 //! - [`Solver`]: accelerations, constraint forces and multipliers at a state, for regular and singular M, for redundant
 //!   constraints, with ideal and non-ideal constraint forces. Without heap allocation once it is made.
-//! - [`assemble`](assemble()): a consistent state from a rough guess. [`Projector`]: the nearest consistent state.
-//! - `Simulation` (feature `simulate`, on by default): adaptive integration with projection, events, dense output and named CSV.
-//! - [`LaneSolver`]: accelerations of several mechanisms at once, in lanes. [`Linearisation`]: exact derivatives of the accelerations.
-//! - [`equations`]: the formulas as printed, [`pinv`]: the pseudo-inverse under them, [`diagnose`]: rank and redundancy by name.
+//! - [`assemble`](assemble()): a consistent state from a rough guess. [`manifold::Projector`]: the nearest consistent state.
+//! - [`Simulation`]: adaptive integration with projection, events, dense output and named CSV; `Ensemble` (feature `ensemble`): many motions at once, in
+//!   lanes and on all cores.
+//! - [`Linearisation`]: exact derivatives of the accelerations. [`lanes`]: several mechanisms at once, in the lanes of wide numbers.
+//! - [`equations`]: the formulas as printed. [`spec`] and [`plan`]: what the compiler knows about a mechanism, and decided. [`model`]: what a mechanism may
+//!   say of itself besides.
+//!
+//! What most programs need is here at the root; the rest is in the modules, each with what belongs to it.
 //!
 //! Notation is that of Zhao, Zhen & Chen 2013 (DOI 10.3901/CJME.2013.05.839), whose equation numbers the documentation cites:
 //! n coordinates q, m constraints of which the first h are holonomic, M q̈ = Q + Qc (eqs. 1, 13), A q̈ = b (eq. 5).
@@ -21,67 +25,44 @@
 #![deny(missing_docs)]
 
 pub mod assemble;
-pub mod code;
+mod dense;
 pub mod diagnose;
-pub mod double;
 pub mod equations;
-pub mod error;
-#[cfg(feature = "simulate")]
-pub mod events;
-mod explain;
+mod error;
+mod events;
+pub mod explain;
 #[cfg(test)]
 mod fixture;
-#[cfg(feature = "simulate")]
-pub mod integrate;
+mod integrate;
 pub mod lanes;
-pub mod linearise;
+mod linearise;
 mod lu;
 pub mod manifold;
 pub mod mechanism;
 mod metric;
 pub mod model;
 pub mod numbers;
-pub mod pinv;
+mod pinv;
 pub mod plan;
 mod rounding;
 mod saddle;
 pub mod scalar;
 mod scan;
-#[cfg(feature = "simulate")]
 pub mod simulate;
 pub mod solver;
-mod spec;
-#[cfg(feature = "simulate")]
-pub mod trajectory;
-mod workspace;
-#[cfg(feature = "simulate")]
+pub mod spec;
+mod trajectory;
 mod zero;
 
-pub use assemble::{Residuals, State, assemble, residuals};
-pub use double::DoubleDouble;
+pub use assemble::{State, assemble};
 pub use error::Error;
-pub use explain::Explanation;
-pub use lanes::{LaneSolver, Lanes};
 pub use linearise::Linearisation;
-pub use manifold::{Correction, Projector, Stabilisation};
+pub use manifold::Stabilisation;
 #[doc(hidden)]
 pub use mechanism::emitted;
-pub use mechanism::{
-    Branch, Check, ConstraintKind, ConstraintSpec, Costs, Energy, Equations, Mechanism, Operations,
-    OutputSpec, ParamSpec, Pivot, Prepared, Solve, Spec, Structure, SwitchSpec, Terms,
-};
-pub use plan::Plan;
-pub use scalar::{Dual, Scalar};
-pub use solver::{Baumgarte, Formula, Solution, Solver, SolverOptions, SolverWork};
-pub use ukmacros::multibody;
-
-#[cfg(feature = "simulate")]
-pub use events::{Direction, Event, EventHit};
-#[cfg(feature = "simulate")]
-pub use integrate::Method;
+pub use mechanism::{Mechanism, Prepared};
 #[cfg(feature = "ensemble")]
-pub use simulate::ensemble::{Ensemble, Member};
-#[cfg(feature = "simulate")]
-pub use simulate::{Failure, Simulation, Switching};
-#[cfg(feature = "simulate")]
-pub use trajectory::{CsvWriter, Drift, Ending, Record, Residual, Sample, Trajectory, Work};
+pub use simulate::Ensemble;
+pub use simulate::{Event, Failure, Method, Simulation, Trajectory};
+pub use solver::{Solution, Solver, SolverOptions};
+pub use ukmacros::multibody;

@@ -13,10 +13,11 @@
 
 use crate::assemble::State;
 use crate::error::Error;
-use crate::mechanism::{Dynamics, Prepared, Spec, Terms};
+use crate::mechanism::{Dynamics, Prepared, Terms};
 use crate::scalar::{Dual, Scalar};
 use crate::scan::all_finite;
 use crate::solver::{Baumgarte, Solver, SolverOptions};
+use crate::spec::Spec;
 
 /// q̈ and its derivatives at a state. Matrices are column-major: a column for each direction, a row for each coordinate.
 #[derive(Debug, Clone, PartialEq)]

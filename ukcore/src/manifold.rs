@@ -26,7 +26,6 @@ pub(crate) use level::{At, Level};
 pub(crate) use newton::Newton;
 
 use acceptance::Rounding;
-#[cfg(feature = "simulate")]
 use newton::Steps;
 use rank_revealing::Factors;
 
@@ -143,7 +142,6 @@ impl Projector {
     ///
     /// # Errors
     /// [`Error::OffConstraint`] with the constraints that cannot be met that way; [`Error::NonFinite`], [`Error::IndefiniteMass`].
-    #[cfg(feature = "simulate")]
     pub(crate) fn position_along(
         &mut self,
         t: f64,
@@ -156,7 +154,6 @@ impl Projector {
     }
 
     /// The largest length in a holonomic constraint at q, in the unit of the coordinates: what rounding makes of φ, over ε max|A_cj|. 0 without such constraints.
-    #[cfg(feature = "simulate")]
     pub(crate) fn length(&mut self, t: f64, q: &[f64], v: &[f64]) -> f64 {
         let at = At::new(&self.mechanism, Level::Position, t, v);
         self.manifold.meets(&at, q, 0.0);
@@ -170,7 +167,6 @@ impl Projector {
     }
 
     /// Holds switch `switch` in `branch`, or follows it again.
-    #[cfg(feature = "simulate")]
     pub(crate) fn hold(&mut self, switch: usize, branch: crate::mechanism::Branch) {
         self.mechanism.hold(switch, branch);
         self.manifold.rounding.mechanism.hold(switch, branch);
@@ -243,7 +239,6 @@ impl Manifold {
     }
 
     /// Moves `q` in directions that are those of `at.other`; see [`Projector::position_along`].
-    #[cfg(feature = "simulate")]
     fn reach(
         &mut self,
         at: &At<'_, f64>,

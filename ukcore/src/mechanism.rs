@@ -13,10 +13,7 @@ mod prepared;
 pub use prepared::Prepared;
 pub(crate) use prepared::{Constraints, Dynamics};
 
-pub use crate::spec::{
-    Check, ConstraintKind, ConstraintSpec, Costs, Equations, Operations, OutputSpec, ParamSpec,
-    Pivot, Solve, Spec, Structure, SwitchSpec,
-};
+use crate::spec::Spec;
 
 /// A declared mechanism: its parameters (`self`), what is known about it (`SPEC`), and its equations as straight-line code.
 ///
@@ -30,7 +27,7 @@ pub trait Mechanism: Clone + Default + Into<Prepared> + Send + Sync + 'static {
     /// Names, structure and readable equations.
     const SPEC: &'static Spec;
 
-    /// The emitted functions, in the order of this trait: name and text, which [`code::laid_out`](crate::code::laid_out) makes readable.
+    /// The emitted functions, in the order of this trait: name and text, which [`code::laid_out`](crate::plan::laid_out) makes readable.
     /// The numbers in it are those that run. Nothing of it is in a program that does not read it.
     const CODE: &'static [(&'static str, &'static str)] = &[];
 
@@ -174,6 +171,11 @@ impl Energy<f64> {
 /// What emitted code calls. Not for other use.
 #[doc(hidden)]
 pub mod emitted {
+    pub use super::{Energy, Mechanism, Prepared, Terms};
+    pub use crate::emitted;
+    pub use crate::scalar::Scalar;
+    pub use crate::spec::*;
+
     /// `slice` as an array of its one right length.
     #[inline]
     #[track_caller]

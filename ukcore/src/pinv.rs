@@ -18,7 +18,7 @@ const PREFER_EARLIER: f64 = 0.5;
 
 /// Complete orthogonal decomposition of Cᵀ (n × m) in buffers that are allocated once.
 #[derive(Debug, Clone)]
-pub struct Decomposition {
+pub(crate) struct Decomposition {
     n: usize,
     m: usize,
     /// Cᵀ, then R on and above the diagonal and the reflectors below; n × m, column-major.
@@ -41,7 +41,7 @@ pub struct Decomposition {
 impl Decomposition {
     /// Buffers for matrices C of up to `m` rows and exactly `n` columns.
     #[must_use]
-    pub fn new(m: usize, n: usize) -> Self {
+    pub(crate) fn new(m: usize, n: usize) -> Self {
         Decomposition {
             n,
             m,
@@ -64,7 +64,7 @@ impl Decomposition {
     ///
     /// # Panics
     /// If `m` exceeds what [`Decomposition::new`] was given.
-    pub fn load(&mut self, m: usize) -> &mut [f64] {
+    pub(crate) fn load(&mut self, m: usize) -> &mut [f64] {
         assert!(
             self.n * m <= self.a.len(),
             "more rows than there is room for"
@@ -78,7 +78,7 @@ impl Decomposition {
     /// The significance of a row c of C is `scale[c]` · maxᵢ `weight[i]` |cᵢ|, taken over what the rows chosen before do not
     /// imply. It decides pivots and rank; the caller chooses `scale` and `weight` so that it is relative to the whole row.
     /// Stops where no significance exceeds `floor`.
-    pub fn factor(&mut self, weight: &[f64], scale: &[f64], floor: f64) {
+    pub(crate) fn factor(&mut self, weight: &[f64], scale: &[f64], floor: f64) {
         let (n, m) = (self.n, self.m);
         self.row.iter_mut().enumerate().for_each(|(i, r)| *r = i);
         self.col.iter_mut().enumerate().for_each(|(c, p)| *p = c);
@@ -169,25 +169,25 @@ impl Decomposition {
 
     /// Significances of the pivots in the order they were taken; all exceed the floor given to [`Decomposition::factor`].
     #[must_use]
-    pub fn pivots(&self) -> &[f64] {
+    pub(crate) fn pivots(&self) -> &[f64] {
         &self.pivots[..self.steps]
     }
 
     /// The rank in force.
     #[must_use]
-    pub fn rank(&self) -> usize {
+    pub(crate) fn rank(&self) -> usize {
         self.rank
     }
 
     /// Rows of C in pivot order: the first [`rank`](Self::rank) imply the others.
     #[must_use]
-    pub fn order(&self) -> &[usize] {
+    pub(crate) fn order(&self) -> &[usize] {
         &self.col[..self.m]
     }
 
     /// Takes the first `rank` pivots as the rank and prepares the pseudo-inverse; `rank` is cut to the number of pivots.
     /// May be called again with another rank.
-    pub fn set_rank(&mut self, rank: usize) {
+    pub(crate) fn set_rank(&mut self, rank: usize) {
         let (n, m) = (self.n, self.m);
         let r = rank.min(self.steps);
         self.rank = r;
@@ -244,7 +244,7 @@ impl Decomposition {
     }
 
     /// x = C⁺ β: of all x that minimise |C x − β| the shortest.
-    pub fn solve(&mut self, beta: &[f64], x: &mut [f64]) {
+    pub(crate) fn solve(&mut self, beta: &[f64], x: &mut [f64]) {
         let (n, m, r) = (self.n, self.m, self.rank);
         let mut y = std::mem::take(&mut self.work_m);
         for c in 0..m {
@@ -275,7 +275,7 @@ impl Decomposition {
     }
 
     /// λ = (Cᵀ)⁺ x: of all λ that minimise |Cᵀ λ − x| the shortest.
-    pub fn solve_transposed(&mut self, x: &[f64], lambda: &mut [f64]) {
+    pub(crate) fn solve_transposed(&mut self, x: &[f64], lambda: &mut [f64]) {
         let (n, m, r) = (self.n, self.m, self.rank);
         let mut z = std::mem::take(&mut self.work_n);
         for (z, &i) in z.iter_mut().zip(&self.row) {
@@ -302,7 +302,7 @@ impl Decomposition {
     }
 
     /// Writes an orthonormal basis of the null space of C, n − rank columns of length n, into `basis` (column-major).
-    pub fn null_space(&mut self, basis: &mut [f64]) {
+    pub(crate) fn null_space(&mut self, basis: &mut [f64]) {
         let (n, r) = (self.n, self.rank);
         let mut z = std::mem::take(&mut self.work_n);
         for (j, column) in basis.chunks_exact_mut(n).take(n - r).enumerate() {
@@ -317,7 +317,7 @@ impl Decomposition {
     }
 
     /// Writes an orthonormal basis of the null space of Cᵀ (the dependences among the rows of C), m − rank columns of length m.
-    pub fn dependences(&mut self, basis: &mut [f64]) {
+    pub(crate) fn dependences(&mut self, basis: &mut [f64]) {
         let (m, r) = (self.m, self.rank);
         let mut y = std::mem::take(&mut self.work_m);
         for (j, column) in basis.chunks_exact_mut(m).take(m - r).enumerate() {
@@ -395,7 +395,7 @@ pub(crate) fn axpy(s: f64, x: &[f64], y: &mut [f64]) {
 /// C⁺ and the rank of C. Rows of which no entry exceeds `tolerance` times the largest entry of C, once what the other rows imply
 /// is taken off, count as implied. A matrix of zeros, or one that is not finite, has rank 0.
 #[must_use]
-pub fn pseudo_inverse(matrix: &DMatrix<f64>, tolerance: f64) -> (DMatrix<f64>, usize) {
+pub(crate) fn pseudo_inverse(matrix: &DMatrix<f64>, tolerance: f64) -> (DMatrix<f64>, usize) {
     let (m, n) = matrix.shape();
     let mut inverse = DMatrix::zeros(n, m);
     let largest = matrix.iter().fold(0.0_f64, |s, x| s.max(x.abs()));

@@ -4,6 +4,10 @@ use std::fmt::{self, Display, Formatter, Write};
 
 use crate::spec::{Check, Operations, Pivot, Spec};
 
+mod code;
+
+pub use code::laid_out;
+
 /// Columns that are wide enough for text.
 const WIDTH: usize = 110;
 /// Largest picture of a matrix, in characters each way; larger ones are folded.

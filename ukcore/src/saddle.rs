@@ -1,8 +1,8 @@
 //! Gaussian elimination of the saddle-point system, in buffers allocated once.
 
+use crate::dense::Rows;
 use crate::lu::Lu;
 use crate::pinv::axpy;
-use crate::workspace::Rows;
 
 /// A pivot of the scaled system (entries of order 1) below this is none: with n + m unknowns elimination loses a few digits, and
 /// half of the digits must remain (√ε).

@@ -3,6 +3,10 @@
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+mod double;
+
+pub use double::DoubleDouble;
+
 /// A number type for emitted code: `f64`, `f32`, or [`Dual`] for exact derivatives.
 ///
 /// One straight-line program serves them all; constants enter through [`Scalar::from_f64`], branches through [`Scalar::select_le`].

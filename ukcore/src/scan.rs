@@ -60,7 +60,6 @@ pub(crate) fn excess<S: Scalar>(d: &[S], x: &[S], share: S, least: S) -> S {
 }
 
 /// Whether `holds` of each pair. Looks at all, which is faster than to stop at the first of which it does not.
-#[cfg(any(test, feature = "simulate"))]
 #[inline]
 pub(crate) fn all_pairs(x: &[f64], y: &[f64], holds: impl Fn(f64, f64) -> bool) -> bool {
     let pairs = x.iter().zip(y);

@@ -5,20 +5,23 @@ use std::ops::ControlFlow;
 
 use crate::assemble::State;
 use crate::error::Error;
-use crate::events::Event;
-use crate::integrate::sample::Sample;
-use crate::integrate::{Method, Settings, Tolerance};
+use crate::integrate::{Settings, Tolerance};
 use crate::manifold::{Projector, Stabilisation};
 use crate::mechanism::Prepared;
 use crate::solver::{Formula, Solver, SolverOptions};
-use crate::trajectory::{Record, Trajectory};
+
+pub use crate::events::{Direction, EVENT_PARTS, Event, EventHit};
+pub use crate::integrate::{Method, PROJECTION_LIMIT};
+pub use crate::trajectory::{CsvWriter, Drift, Ending, Record, Residual, Sample, Trajectory, Work};
+#[cfg(feature = "ensemble")]
+pub use ensemble::{Ensemble, Member};
 
 mod agenda;
 mod angles;
 mod check;
 mod energy;
 #[cfg(feature = "ensemble")]
-pub mod ensemble;
+mod ensemble;
 mod grid;
 mod obstacles;
 mod record;
@@ -71,7 +74,7 @@ pub struct Simulation {
     progress: Option<Progress>,
 }
 
-/// What a run does about [switches](crate::SwitchSpec), the zeros at which abs, sign, min and max change their branch.
+/// What a run does about [switches](crate::spec::SwitchSpec), the zeros at which abs, sign, min and max change their branch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Switching {
     /// Steps go onto the zeros, and each step has the full order of its method. A motion that is driven onto a zero from both sides, as at rest under dry
@@ -241,7 +244,7 @@ impl Simulation {
     }
 
     /// Runs from the start to `t_end` as [`until`](Simulation::until) does, and hands each sample and each event to `sink` instead of keeping it, so that
-    /// memory does not grow with the run. [`CsvWriter`](crate::CsvWriter) writes samples as they come, [`Drift`](crate::Drift) measures them.
+    /// memory does not grow with the run. [`CsvWriter`](crate::simulate::CsvWriter) writes samples as they come, [`Drift`](crate::simulate::Drift) measures them.
     ///
     /// They come in the order in which the run passes them, each once, as soon as its step is accepted; those of the start and the end are among them.
     /// `Break` ends the run after the step in hand, which is no failure; nothing more is handed over then. The trajectory has neither samples nor events, but how the run

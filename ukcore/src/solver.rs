@@ -16,13 +16,14 @@
 //!
 //! The same difference, |Δb| + |ΔA||q̈|, is granted to the redundant rows before they are called inconsistent.
 
+use crate::dense::{Dense, Evaluated, Route, Rows};
 use crate::diagnose;
 use crate::error::Error;
-use crate::mechanism::{Prepared, Spec};
+use crate::mechanism::Prepared;
 use crate::metric::MassFault;
 use crate::saddle::Saddle;
 use crate::scan::all_finite;
-use crate::workspace::{Dense, Evaluated, Route, Rows};
+use crate::spec::Spec;
 
 mod rank;
 mod settings;
@@ -312,13 +313,11 @@ impl Solver {
 
     /// The least significance of a row that counted in the solutions since this was last asked: how near they came to a singular position. 0 where the rank
     /// was less than it was elsewhere, 1 where the emitted elimination found nothing to doubt.
-    #[cfg(feature = "simulate")]
     pub(crate) fn take_weakest(&mut self) -> f64 {
         std::mem::replace(&mut self.weakest, 1.0)
     }
 
     /// Constraints whose significance in the last solution was not above `significance`, or that were left out.
-    #[cfg(feature = "simulate")]
     pub(crate) fn rows_below(&self, significance: f64) -> &[usize] {
         let cod = &self.dense.cod;
         &cod.order()[leading(cod.pivots(), significance).min(cod.rank())..]

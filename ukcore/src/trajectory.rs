@@ -9,8 +9,9 @@ use crate::events::EventHit;
 use crate::integrate::Segment;
 pub use crate::integrate::sample::Sample;
 use crate::manifold::Projector;
-use crate::mechanism::{Energy, Prepared, Spec};
+use crate::mechanism::{Energy, Prepared};
 use crate::solver::{Solution, Solver, SolverOptions};
+use crate::spec::Spec;
 
 mod csv;
 mod drift;
@@ -35,7 +36,7 @@ pub struct Work {
     pub steps: usize,
     /// Attempted steps that were not accepted: because of their error, of the size of their projection, or of a failure.
     pub rejected: usize,
-    /// Steps onto zeros of [switching functions](crate::SwitchSpec), each of them cut from a longer one.
+    /// Steps onto zeros of [switching functions](crate::spec::SwitchSpec), each of them cut from a longer one.
     pub switches: usize,
     /// Evaluations of the mechanism's dynamics, those for drift estimates near singular configurations included; those that come with the Jacobians of an implicit method are not.
     pub evaluations: usize,
@@ -285,7 +286,7 @@ impl Trajectory {
         Ok(self.outputs().iter().map(|row| row[index]).collect())
     }
 
-    /// All outputs at the samples: one row a sample, the order of [`Spec::outputs`](crate::Spec::outputs).
+    /// All outputs at the samples: one row a sample, the order of [`Spec::outputs`](crate::spec::Spec::outputs).
     #[must_use]
     pub fn outputs(&self) -> Vec<Vec<f64>> {
         let row = |s: Sample<'_>| {
@@ -306,7 +307,7 @@ impl Trajectory {
     /// Largest |E − E₀| over the samples, E = T + V, as a part of the largest energy exchanged: the largest T or |V − V₀|.
     ///
     /// So the zero of V does not matter. Where nothing moves it is 0; it says something of the accuracy only where energy
-    /// is conserved ([`Structure::conservative`](crate::Structure::conservative)).
+    /// is conserved ([`Structure::conservative`](crate::spec::Structure::conservative)).
     #[must_use]
     pub fn energy_drift(&self) -> f64 {
         let mut drift = EnergyDrift::default();

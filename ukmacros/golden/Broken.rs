@@ -34,7 +34,7 @@ impl Broken {
     pub const OUT_ANGLE: usize = 0;
 }
 const _: () = {
-    use ::ukcore as ukcore;
+    use ::ukcore::emitted as ukcore;
     #[automatically_derived]
     impl ::core::convert::From<Broken> for ukcore::Prepared {
         fn from(mechanism: Broken) -> Self {

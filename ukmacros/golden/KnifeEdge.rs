@@ -92,7 +92,7 @@ impl KnifeEdge {
     pub const OUT_SPIN: usize = 1;
 }
 const _: () = {
-    use ::ukcore as ukcore;
+    use ::ukcore::emitted as ukcore;
     #[automatically_derived]
     impl ::core::convert::From<KnifeEdge> for ukcore::Prepared {
         fn from(mechanism: KnifeEdge) -> Self {

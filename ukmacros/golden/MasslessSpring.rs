@@ -76,7 +76,7 @@ impl MasslessSpring {
     pub const OUT_SPRING_FORCE: usize = 0;
 }
 const _: () = {
-    use ::ukcore as ukcore;
+    use ::ukcore::emitted as ukcore;
     #[automatically_derived]
     impl ::core::convert::From<MasslessSpring> for ukcore::Prepared {
         fn from(mechanism: MasslessSpring) -> Self {

@@ -85,7 +85,7 @@ impl Pendulum {
     pub const OUT_TENSION: usize = 1;
 }
 const _: () = {
-    use ::ukcore as ukcore;
+    use ::ukcore::emitted as ukcore;
     #[automatically_derived]
     impl ::core::convert::From<Pendulum> for ukcore::Prepared {
         fn from(mechanism: Pendulum) -> Self {

@@ -105,7 +105,7 @@ impl RoughBlock {
     pub const OUT_FRICTION_FORCE: usize = 2;
 }
 const _: () = {
-    use ::ukcore as ukcore;
+    use ::ukcore::emitted as ukcore;
     #[automatically_derived]
     impl ::core::convert::From<RoughBlock> for ukcore::Prepared {
         fn from(mechanism: RoughBlock) -> Self {

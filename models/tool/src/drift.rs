@@ -1,7 +1,8 @@
 //! How well a motion keeps the constraints and the energy, as it is told in tables and JSON.
 
 use serde::{Deserialize, Serialize};
-use ukcore::{Spec, Trajectory};
+use ukcore::Trajectory;
+use ukcore::spec::Spec;
 
 /// The worst of all samples of a motion.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
@@ -18,14 +19,14 @@ impl Drift {
     /// That of the samples of `trajectory`.
     #[must_use]
     pub fn of(trajectory: &Trajectory) -> Self {
-        let mut measured = ukcore::Drift::new(trajectory.mechanism());
+        let mut measured = ukcore::simulate::Drift::new(trajectory.mechanism());
         trajectory.samples().for_each(|sample| measured.add(sample));
         Drift::measured(&measured, trajectory.spec())
     }
 
     /// That of samples that came one by one, of a mechanism with this `spec`.
     #[must_use]
-    pub fn measured(measured: &ukcore::Drift, spec: &Spec) -> Self {
+    pub fn measured(measured: &ukcore::simulate::Drift, spec: &Spec) -> Self {
         let residual = measured.residual();
         Drift {
             position_residual: residual.position,

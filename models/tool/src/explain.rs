@@ -1,9 +1,9 @@
 //! The command `explain`: what the compiler derived and decided, what the solver says at the start, and the emitted code.
 
 use clap::Args;
-use ukcore::Explanation;
-use ukcore::code::laid_out;
+use ukcore::explain::Explanation;
 use ukcore::model::Entry;
+use ukcore::plan::laid_out;
 
 use crate::command::find;
 use crate::failure::Failure;

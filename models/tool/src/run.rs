@@ -7,9 +7,8 @@ use std::time::Instant;
 use clap::Args;
 use ukcore::model::Entry;
 use ukcore::simulate::SMALLEST_TOLERANCE;
-use ukcore::{
-    CsvWriter, Drift, Ending, Error, Method, Record, Simulation, Stabilisation, Trajectory,
-};
+use ukcore::simulate::{CsvWriter, Drift, Ending, Record};
+use ukcore::{Error, Method, Simulation, Stabilisation, Trajectory};
 
 use crate::command;
 use crate::failure::Failure;

@@ -2,7 +2,8 @@
 
 use clap::Args;
 use ukcore::model::{Entry, StartOptions, StartSpec};
-use ukcore::{Error, Prepared, Spec, State, assemble};
+use ukcore::spec::Spec;
+use ukcore::{Error, Prepared, State, assemble};
 
 use crate::command::find;
 use crate::failure::Failure;
@@ -175,7 +176,7 @@ fn coordinates(spec: &Spec, name: &str) -> Result<Vec<usize>, Error> {
 
 /// Doc comment of a parameter, or of a family named without index.
 fn parameter_doc(spec: &Spec, name: &str) -> Option<&'static str> {
-    let named = |p: &&ukcore::ParamSpec| p.name == name || family(p.name) == name;
+    let named = |p: &&ukcore::spec::ParamSpec| p.name == name || family(p.name) == name;
     spec.params.iter().find(named).map(|p| p.doc)
 }
 

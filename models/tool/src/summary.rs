@@ -3,7 +3,8 @@
 use std::io::{self, Write};
 
 use serde_json::{Map, Value, json};
-use ukcore::{Ending, Method, Trajectory};
+use ukcore::simulate::Ending;
+use ukcore::{Method, Trajectory};
 
 use crate::drift::Drift;
 use crate::numbers::{count, fixed, full, width};
@@ -14,7 +15,7 @@ use crate::scene::Ready;
 pub(crate) struct Summary<'a> {
     pub(crate) trajectory: &'a Trajectory,
     /// Its samples.
-    pub(crate) measured: &'a ukcore::Drift,
+    pub(crate) measured: &'a ukcore::simulate::Drift,
     pub(crate) ready: &'a Ready<'a>,
     pub(crate) args: &'a RunArgs,
     /// Wall time of the integration, s.

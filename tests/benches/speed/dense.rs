@@ -2,7 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 use ukcore::equations::uk;
-use ukcore::{Mechanism, Prepared, State, Terms};
+use ukcore::mechanism::Terms;
+use ukcore::{Mechanism, Prepared, State};
 
 /// Relative rank tolerance of the pseudo-inverses.
 const RANK: f64 = 1e-12;

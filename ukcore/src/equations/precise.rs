@@ -1,7 +1,7 @@
 //! The equations of motion in 31 digits: what the accelerations of a state are when nothing is lost.
 
-use crate::double::DoubleDouble;
 use crate::mechanism::{Mechanism, Terms};
+use crate::scalar::DoubleDouble;
 use crate::scalar::Scalar;
 
 /// A pivot of the equilibrated system below this is none: 22 of the 31 digits, and twice those of the state.

@@ -39,8 +39,9 @@ use std::fmt;
 use std::str::FromStr;
 
 use crate::error::Error;
-use crate::mechanism::{Branch, SwitchSpec};
+use crate::mechanism::Branch;
 use crate::numbers::full;
+use crate::spec::SwitchSpec;
 #[cfg(feature = "ensemble")]
 pub(crate) use control::Guess;
 #[cfg(feature = "ensemble")]

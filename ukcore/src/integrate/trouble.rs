@@ -4,8 +4,8 @@ use super::sample::Sample;
 use super::sums::{Tolerance, error_norm};
 use crate::assemble::State;
 use crate::error::Error;
-use crate::mechanism::SwitchSpec;
 use crate::scan::all_finite;
+use crate::spec::SwitchSpec;
 
 /// An error and the state where it arose.
 #[derive(Debug, Clone, PartialEq)]

@@ -8,7 +8,7 @@
 //!
 //! Without a target that has wide registers (`-C target-cpu=native`, or `x86-64-v3`) lanes are pairs of SSE2.
 
-#[cfg(feature = "lanes")]
+#[cfg(feature = "ensemble")]
 mod numbers;
 mod solver;
 

@@ -2,11 +2,11 @@
 
 use super::level::At;
 use super::newton::Newton;
+use crate::dense::Dense;
 use crate::lanes::Lanes;
 use crate::mechanism::{Constraints, Prepared};
 use crate::rounding::Rounded;
 use crate::scan::largest;
-use crate::workspace::Dense;
 
 /// A residual is at rounding level if it does not exceed this many ε of the size Σ|A_ij q_j| of what q's own rounding contributes:
 /// one for q, one or two for the evaluation of φ.

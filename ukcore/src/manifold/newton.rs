@@ -3,8 +3,8 @@
 use super::acceptance::{Acceptance, NEIGHBOUR, ROUNDING};
 use super::level::At;
 use crate::lanes::Lanes;
-use crate::mechanism::Spec;
 use crate::scan::{excess, largest, sum};
+use crate::spec::Spec;
 
 /// Buffers of the method: what is known at a place, and the step from there.
 #[derive(Debug, Clone)]
@@ -25,7 +25,6 @@ pub(super) enum Steps {
     Here,
     /// From another place: they converge linearly, for a place at a distance h as h^k. What is left each time would add up in such a method, so steps go on
     /// for as long as they fall.
-    #[cfg(feature = "simulate")]
     Elsewhere,
 }
 
@@ -40,7 +39,6 @@ impl Steps {
         match self {
             Steps::Here if at.linear() => (8, 0.1, 1e-3),
             Steps::Here => (8, 0.1, 1e-9),
-            #[cfg(feature = "simulate")]
             Steps::Elsewhere => (50, 0.5, 0.0),
         }
     }

@@ -3,13 +3,13 @@
 use super::Manifold;
 use super::level::{At, Level};
 use super::newton::Newton;
+use crate::dense::{Dense, Route, Rows};
 use crate::diagnose;
 use crate::error::Error;
 use crate::mechanism::Prepared;
 use crate::metric::MassFault;
 use crate::scan::all_finite;
 use crate::solver::{RANK_CEILING, RANK_TOLERANCE, leading, mass_error};
-use crate::workspace::{Dense, Route, Rows};
 
 /// Progress: a Newton step that does not divide the distance by this is not converging quadratically.
 const PROGRESS: f64 = 0.1;
@@ -56,7 +56,6 @@ impl Factors {
     }
 
     /// Factors for all steps from one place, `x`.
-    #[cfg(feature = "simulate")]
     pub(super) fn begin(
         &mut self,
         at: &At<'_, f64>,

@@ -1,7 +1,7 @@
 //! Angles that are too large to be angles.
 
 use crate::error::Error;
-use crate::mechanism::Spec;
+use crate::spec::Spec;
 
 /// An angle whose rounding is above this, in rad, is no angle any more: sines and cosines of it have lost two thirds of their digits.
 const BLUR: f64 = 1e-5;

@@ -1,6 +1,6 @@
 //! Equidistant times as people write them: 0.9 is three times 0.3, and 1 is three times 1/3.
 
-use crate::double::DoubleDouble;
+use crate::scalar::DoubleDouble;
 use crate::scalar::Scalar;
 
 /// A decimal of so many digits is the only one of them that rounds to its `f64`.

@@ -6,8 +6,8 @@ use crate::diagnose;
 use crate::error::Error;
 use crate::integrate::Tolerance;
 use crate::manifold::Projector;
-use crate::mechanism::Spec;
 use crate::scan::largest;
+use crate::spec::Spec;
 use crate::trajectory::Work;
 
 impl Simulation {

@@ -7,12 +7,11 @@ use std::rc::Rc;
 use super::*;
 use crate::events::Direction;
 use crate::fixture;
-use crate::mechanism::{
-    ConstraintKind, ConstraintSpec, Energy, OutputSpec, ParamSpec, Solve, Spec, Structure, Terms,
-};
+use crate::mechanism::{Energy, Terms};
 use crate::mechanism::{Mechanism, Prepared};
 use crate::scalar::Scalar;
 use crate::solver::Baumgarte;
+use crate::spec::{ConstraintKind, ConstraintSpec, OutputSpec, ParamSpec, Solve, Spec, Structure};
 use crate::trajectory::{Ending, Residual, Sample};
 
 mod events;

@@ -4,8 +4,8 @@ use std::fmt;
 
 use super::RANK_TOLERANCE;
 use crate::diagnose::Diagnosis;
-use crate::mechanism::Spec;
 use crate::scalar::Scalar;
+use crate::spec::Spec;
 
 /// Which formula computes the accelerations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -13,7 +13,7 @@ use crate::mechanism::Prepared;
 ///
 /// ```
 /// # use std::ops::ControlFlow;
-/// # use ukcore::trajectory::{CsvWriter, Record};
+/// # use ukcore::simulate::{CsvWriter, Record};
 /// # use ukcore::{Simulation, State};
 /// # ukcore::multibody! {
 /// #     /// A mass on a spring.

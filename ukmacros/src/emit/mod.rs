@@ -43,7 +43,7 @@ fn implementation(decl: &Declaration, members: &TokenStream) -> TokenStream {
     let runtime = decl.runtime.clone().unwrap_or_else(|| quote! { ::ukcore });
     quote! {
         const _: () = {
-            use #runtime as ukcore;
+            use #runtime::emitted as ukcore;
             #[automatically_derived]
             impl ::core::convert::From<#name> for ukcore::Prepared {
                 fn from(mechanism: #name) -> Self {

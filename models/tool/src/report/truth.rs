@@ -1,7 +1,8 @@
 //! What errors are measured against, and in which norm.
 
 use ukcore::model::Reference;
-use ukcore::{Error, Method, Prepared, Simulation, Spec, State};
+use ukcore::spec::Spec;
+use ukcore::{Error, Method, Prepared, Simulation, State};
 
 use crate::failure::Failure;
 

@@ -1,6 +1,9 @@
 //! What is compared: the one list of combinations of method, formula and stabilisation.
 
-use ukcore::{Baumgarte, Formula, Method, Simulation, Spec, Stabilisation, Switching};
+use ukcore::simulate::Switching;
+use ukcore::solver::{Baumgarte, Formula};
+use ukcore::spec::Spec;
+use ukcore::{Method, Simulation, Stabilisation};
 
 use Engine::{Adaptive, Rattle};
 use Method::{Dop853, Dopri5, Radau5};

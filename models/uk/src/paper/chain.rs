@@ -3,7 +3,8 @@
 use models::uchain::TABLE_1;
 use models::{Model, StartOptions, UChain};
 use serde::Serialize;
-use ukcore::{Direction, Event, Mechanism};
+use ukcore::simulate::Direction;
+use ukcore::{Event, Mechanism};
 use uktool::failure::Failure;
 
 use super::measure;

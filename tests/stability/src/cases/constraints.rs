@@ -2,8 +2,9 @@
 
 use models::{DoublePendulum, Model, Pendulum};
 use ukcore::equations::precise;
+use ukcore::solver::Formula;
 use ukcore::solver::RANK_TOLERANCE;
-use ukcore::{Error, Formula, Mechanism, Simulation, Solver, SolverOptions, State};
+use ukcore::{Error, Mechanism, Simulation, Solver, SolverOptions, State};
 
 use super::{REGULAR, accelerations_off, off, worse};
 use crate::mechanisms::{Copies, NearPlanes, ScaledRows};

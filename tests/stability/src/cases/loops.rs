@@ -4,8 +4,9 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use models::{FourBars, Model, SliderCrank, StartOptions, UChain};
 use ukcore::equations::precise;
+use ukcore::solver::Formula;
 use ukcore::solver::RANK_TOLERANCE;
-use ukcore::{Error, Formula, Mechanism, Simulation, Solver, SolverOptions, State};
+use ukcore::{Error, Mechanism, Simulation, Solver, SolverOptions, State};
 
 use super::{REGULAR, accelerations_imprecise, accelerations_off, off, worse};
 use crate::mechanisms::{UChain9, UChain33, UChain65};

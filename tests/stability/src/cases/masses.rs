@@ -1,7 +1,9 @@
 //! Masses and lengths out of proportion, masses that vanish.
 
 use models::RigidBody;
-use ukcore::{Error, Formula, Mechanism, Projector, Simulation, State};
+use ukcore::manifold::Projector;
+use ukcore::solver::Formula;
+use ukcore::{Error, Mechanism, Simulation, State};
 
 use super::{REGULAR, accelerations_imprecise, accelerations_off, largest, worse};
 use crate::mechanisms::{Chain, Wheel};

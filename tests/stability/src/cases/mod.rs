@@ -9,7 +9,8 @@ mod stiff;
 mod times;
 
 use ukcore::equations::precise;
-use ukcore::{Error, Formula, Mechanism, Solver, SolverOptions, State};
+use ukcore::solver::Formula;
+use ukcore::{Error, Mechanism, Solver, SolverOptions, State};
 
 use uktool::stability::{Case, Effort};
 

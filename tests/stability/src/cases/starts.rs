@@ -75,7 +75,7 @@ fn moved(distance: f64) -> Result<State, Error> {
 /// Residual of `found` in terms of its size, if it is as near as it should be.
 fn settled(guess: &State, found: &State, distance: f64) -> Result<f64, Error> {
     let chain = UChain::default();
-    let residual = ukcore::residuals(&chain, found)?.largest_position();
+    let residual = ukcore::assemble::residuals(&chain, found)?.largest_position();
     let way = guess.q.iter().zip(&found.q);
     let way = way.fold(0.0, |s: f64, (a, b)| s.max((a - b).abs()));
     Ok(if way <= 20.0 * distance + 1e-13 {

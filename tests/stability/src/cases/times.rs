@@ -3,7 +3,8 @@
 use std::f64::consts::TAU;
 
 use models::{DoublePendulum, KapitzaPendulum, Model, Pendulum, StartOptions};
-use ukcore::{Error, Method, Projector, Simulation};
+use ukcore::manifold::Projector;
+use ukcore::{Error, Method, Simulation};
 
 use super::{off, worse};
 use uktool::stability::{Case, Effort, decades};

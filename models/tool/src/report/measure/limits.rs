@@ -1,7 +1,8 @@
 //! Causes of error that belong to a motion: rounding of its start, and what the solver adds.
 
+use ukcore::solver::Formula;
 use ukcore::solver::RANK_TOLERANCE;
-use ukcore::{Formula, Simulation, Solver, SolverOptions, State};
+use ukcore::{Simulation, Solver, SolverOptions, State};
 
 use super::Subject;
 use crate::report::study::Limits;

@@ -5,11 +5,11 @@ mod long;
 
 use std::ops::ControlFlow;
 
+use ukcore::manifold::Projector;
 use ukcore::model::Reference;
-use ukcore::{
-    Ending, Error, Formula, Prepared, Projector, Simulation, Solver, SolverOptions, State,
-    Trajectory,
-};
+use ukcore::simulate::Ending;
+use ukcore::solver::Formula;
+use ukcore::{Error, Prepared, Simulation, Solver, SolverOptions, State, Trajectory};
 
 use crate::drift::Drift;
 use crate::failure::Failure;
