@@ -51,7 +51,7 @@ pub const SMALLEST_TOLERANCE: f64 = 10.0 * f64::EPSILON;
 /// [`stabilise`](Simulation::stabilise) says otherwise; so are samples and events within steps. (RATTLE needs no projection of its steps.)
 ///
 /// A projection does not make a bad step a good one: where it moves the state by more than
-/// [`PROJECTION_LIMIT`](crate::integrate::PROJECTION_LIMIT) in the norm of error control, the step is rejected and
+/// [`PROJECTION_LIMIT`] in the norm of error control, the step is rejected and
 /// repeated with half its size.
 ///
 /// Where abs, sign, min or max change their branch within a step, it is repeated up to there, unless
@@ -244,7 +244,7 @@ impl Simulation {
     }
 
     /// Runs from the start to `t_end` as [`until`](Simulation::until) does, and hands each sample and each event to `sink` instead of keeping it, so that
-    /// memory does not grow with the run. [`CsvWriter`](crate::simulate::CsvWriter) writes samples as they come, [`Drift`](crate::simulate::Drift) measures them.
+    /// memory does not grow with the run. [`CsvWriter`] writes samples as they come, [`Drift`] measures them.
     ///
     /// They come in the order in which the run passes them, each once, as soon as its step is accepted; those of the start and the end are among them.
     /// `Break` ends the run after the step in hand, which is no failure; nothing more is handed over then. The trajectory has neither samples nor events, but how the run

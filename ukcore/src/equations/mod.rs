@@ -3,7 +3,7 @@
 //!
 //! Symbols: M mass matrix (n × n), Q given force (n), A and b of the constraint equation A q̈ = b (m × n, m), c the non-ideal
 //! force (n), a = M⁻¹Q the unconstrained acceleration. `tolerance` is the relative tolerance of
-//! [`pseudo_inverse`](crate::pinv::pseudo_inverse). Shapes must agree as in nalgebra, which panics where they do not.
+//! the rank-revealing pseudo-inverse. Shapes must agree as in nalgebra, which panics where they do not.
 //!
 //! - [`uk`]: the Udwadia-Kalaba equation and its parts, for regular M (eqs. 2, 11, 12, 13, 15, 17, 18).
 //! - [`up`]: the Udwadia-Phohomsiri equation, for singular M too (eq. 19).

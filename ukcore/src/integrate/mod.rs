@@ -117,7 +117,7 @@ impl FromStr for Method {
     }
 }
 
-/// Largest size of a projection, in the [error norm](self), after which a step still counts as good.
+/// Largest size of a projection, in the error norm, after which a step still counts as good.
 ///
 /// A step starts on the constraints and its local error is estimated to be at most 1 in this norm; so it ends at most
 /// that far off them, and the nearest consistent state, nearest in the mass metric, is of the order of 1 away. Ten times
