@@ -8,29 +8,33 @@
 //!    shortest chain of divisions, so that a chain of links is taken from both ends at once.
 //!
 //! Every 1 × 1 pivot is checked at run time: see [`certificate`].
+//!
+//! In steps: [`order`] chooses the pivots on the [`pattern`] of K, which also tells what is filled in; [`matrix`] eliminates K in that order;
+//! [`solution`] solves for a right-hand side.
 
 mod certificate;
 mod matrix;
 mod order;
+mod pattern;
+mod solution;
 
-pub(crate) use certificate::{SAFE_SHARE, Straight};
+pub(crate) use certificate::{SAFE_SHARE, Solve, Straight};
 
 use super::dynamics::Dynamics;
 use crate::expr::{Graph, Id, Symbol, is_power_of_two};
 use matrix::Matrix;
-use order::order;
+use order::{Order, order};
+use solution::Forward;
 
 /// A 1 × 1 pivot d and the diagonal G it started from, both times a positive number: rank is lost where d/G falls to rounding.
 #[derive(Clone)]
-pub(crate) struct Pivot {
+pub(crate) struct Divisor {
     /// Of the coordinate or constraint.
-    pub(crate) name: String,
+    name: String,
     /// Its position: coordinates first, then constraints.
-    pub(crate) position: usize,
-    pub(crate) value: Id,
-    pub(crate) reference: Id,
-    /// Its right-hand side, times the same number.
-    right: Option<Id>,
+    position: usize,
+    value: Id,
+    reference: Id,
 }
 
 /// The straight-line solve.
@@ -40,21 +44,31 @@ pub(crate) struct Elimination {
     pub(crate) acceleration: Vec<Id>,
     /// Δ of least M-norm with A Δ = −residual (residuals are [`Symbol::Residual`]).
     pub(crate) correction: Vec<Id>,
-    pub(crate) pivots: Vec<Pivot>,
+    /// The factor that all of M shares, if there is one, and the 1 × 1 pivots, each with its right-hand side for the acceleration.
+    divisors: Vec<(Divisor, Option<Id>)>,
     /// Right-hand sides of the pivots in the solution for the correction.
     correction_rights: Vec<Id>,
-    /// The order: names of coordinates (positions below n) and constraints (n + row); pairs for 2 × 2 pivots.
-    pub(crate) order: Vec<Pivoting>,
+    order: Order,
     /// Names of pivots, factors and multipliers.
-    pub(crate) hints: Vec<(Id, String)>,
+    hints: Vec<(Id, String)>,
 }
 
-/// One pivot of the order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// One pivot of the order. Positions: coordinate i is i, constraint i is n + i.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Pivoting {
-    One(usize),
-    /// Coordinate and constraint.
-    Two(usize, usize),
+    Single(usize),
+    Pair(Pair),
+}
+
+/// A coordinate that is eliminated with a constraint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Pair {
+    pub(crate) coordinate: usize,
+    pub(crate) constraint: usize,
+    /// The coordinate's coefficient in the constraint.
+    pub(crate) coefficient: f64,
+    /// Whether the coordinate has inertia; then the constraint prescribes it alone.
+    pub(crate) massive: bool,
 }
 
 /// Eliminates; or says why the structure does not allow it.
@@ -63,56 +77,65 @@ pub(crate) fn eliminate(
     names: &[String],
     g: &mut Graph,
 ) -> Result<Elimination, String> {
-    let n = d.force.len();
     let order = order(d, names, g)?;
-    let zero = g.zero();
     // A factor that all of M shares, as the one mass of all parts, only scales the multipliers: it is taken out of M and Q.
     let (factor, d) = &without_common_factor(d, g);
-    let mut pivots = Vec::new();
-    let first = d.mass.keys().next().map_or(0, |(i, _)| *i);
-    let unit = g.one();
-    if *factor != unit {
-        pivots.push(Pivot {
-            name: names[first].clone(),
-            position: first,
-            value: *factor,
-            reference: *factor,
-            right: None,
-        });
-    }
-    let force: Vec<Id> = (0..n).map(|i| g.add(d.force[i], d.nonideal[i])).collect();
+    let common = (*factor != g.one()).then(|| {
+        let position = d.mass.keys().next().map_or(0, |(i, _)| *i);
+        let (name, value, reference) = (names[position].clone(), *factor, *factor);
+        (
+            Divisor {
+                name,
+                position,
+                value,
+                reference,
+            },
+            None,
+        )
+    });
+    let force: Vec<Id> = d
+        .force
+        .iter()
+        .zip(&d.nonideal)
+        .map(|(q, c)| g.add(*q, *c))
+        .collect();
     // A constraint may be divided by a number: one that all its coefficients share would be multiplied through everything.
     let scales: Vec<f64> = (0..d.rhs.len()).map(|row| share(d, row, g)).collect();
-    let scaled = |ids: &[Id], g: &mut Graph| -> Vec<Id> {
-        let rows = ids.iter().zip(&scales);
-        rows.map(|(id, s)| g.scale(1.0 / s, *id)).collect()
-    };
     let mut jacobian = d.jacobian.clone();
     for ((row, _), a) in &mut jacobian {
         *a = g.scale(1.0 / scales[*row], *a);
     }
-    let rhs = scaled(&d.rhs, g);
-    let mut system = Matrix::new(d, &jacobian, g);
-    system.load(&force, &rhs);
+    let scaled = |sign: f64, ids: &[Id], g: &mut Graph| -> Vec<Id> {
+        let rows = ids.iter().zip(&scales);
+        rows.map(|(id, s)| g.scale(sign / s, *id)).collect()
+    };
+    let rhs = scaled(1.0, &d.rhs, g);
     let mut hints = Vec::new();
-    let (acceleration, own) = system.solve(&order, names, g, &mut hints)?;
-    pivots.extend(own);
+    let mut matrix = Matrix::new(d, &jacobian, &order.pivots, g);
+    let mut motion = Forward::new(&force, &rhs);
+    let (mut factors, mut divisors) = (Vec::new(), Vec::new());
+    for step in &order.pivots {
+        let (factor, divisor) = matrix.step(*step, names, g, &mut hints)?;
+        motion.step(&factor, g);
+        factors.push(factor);
+        divisors.extend(divisor);
+    }
+    let motion = motion.solution(&factors, names, g, &mut hints)?;
     let residuals: Vec<Id> = (0..d.rhs.len())
-        .map(|i| {
-            let r = g.symbol(Symbol::Residual(i));
-            g.neg(r)
-        })
+        .map(|i| g.symbol(Symbol::Residual(i)))
         .collect();
-    let residuals = scaled(&residuals, g);
-    let mut system = Matrix::new(d, &jacobian, g);
-    system.load(&vec![zero; n], &residuals);
-    // The same pivots, with other right-hand sides.
-    let (correction, again) = system.solve(&order, names, g, &mut hints)?;
+    let (still, residuals) = (vec![g.zero(); force.len()], scaled(-1.0, &residuals, g));
+    let mut projection = Forward::new(&still, &residuals);
+    factors.iter().for_each(|factor| projection.step(factor, g));
+    let projection = projection.solution(&factors, names, g, &mut hints)?;
+    let divisors = divisors
+        .into_iter()
+        .zip(motion.rights.into_iter().map(Some));
     Ok(Elimination {
-        acceleration,
-        correction,
-        pivots,
-        correction_rights: again.iter().filter_map(|p| p.right).collect(),
+        acceleration: motion.coordinates,
+        correction: projection.coordinates,
+        divisors: common.into_iter().chain(divisors).collect(),
+        correction_rights: projection.rights,
         order,
         hints,
     })

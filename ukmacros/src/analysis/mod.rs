@@ -7,7 +7,6 @@ mod dynamics;
 mod elimination;
 mod functions;
 mod hoist;
-mod plan;
 mod schedule;
 mod sparsity;
 mod structure;
@@ -18,11 +17,10 @@ pub(crate) use check::check;
 pub(crate) use constants::{Constant, ConstantValue, Positions, constants};
 pub(crate) use cost::{Costs, Operations};
 pub(crate) use dynamics::{Dynamics, derive};
-pub(crate) use elimination::SAFE_SHARE;
+pub(crate) use elimination::{Pivoting, SAFE_SHARE, Solve};
 #[cfg(test)]
 pub(crate) use elimination::{Straight, eliminate};
 pub(crate) use functions::{Function, Place, Role, Slice};
-pub(crate) use plan::{Chosen, Solve};
 pub(crate) use schedule::{Program, Step};
 pub(crate) use structure::Structure;
 pub(crate) use switches::Switch;
@@ -58,8 +56,8 @@ pub(crate) fn analyse(system: &mut System, model: &Model, dynamics: Dynamics) ->
     let (held, switches) = switches::hold(system, &dynamics, &names);
     let straight = elimination::eliminate(&held, &names, &mut system.graph)
         .map(|elimination| elimination::Straight::new(elimination, system));
-    let solve = straight.as_ref().map_err(String::clone);
-    let solve = solve.map(|straight| plan::solve(&held, straight, &system.graph));
+    let solve = straight.as_ref().map(elimination::Straight::told);
+    let solve = solve.map_err(String::clone);
     let hoisted = hoist::hoist(system, &held, &straight, &switches);
     let defect = cfg!(debug_assertions)
         .then(|| hoist::verify(system, &held, &straight, &hoisted))

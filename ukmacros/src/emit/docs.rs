@@ -1,7 +1,7 @@
 //! The emitted type's documentation.
 
 use super::listing::Listing;
-use crate::analysis::{Analysis, Chosen};
+use crate::analysis::{Analysis, Pivoting};
 use crate::expr::System;
 use crate::model::Model;
 use std::fmt::Write as _;
@@ -118,10 +118,16 @@ fn computed(analysis: &Analysis, system: &System, model: &Model) -> String {
                 2 * solve.fill.len()
             );
             for pivot in &solve.pivots {
-                let (i, row, why) = match *pivot {
-                    Chosen::Prescribed(i, row, _) => (i, row, "prescribes it alone"),
-                    Chosen::Massless(i, row, _) => (i, row, "replaces the inertia it lacks"),
-                    Chosen::Coordinate(_) | Chosen::Constraint(_) => continue,
+                let Pivoting::Pair(pair) = pivot else {
+                    continue;
+                };
+                let (i, row) = (
+                    pair.coordinate,
+                    pair.constraint - model.coord_elements.len(),
+                );
+                let why = match pair.massive {
+                    true => "prescribes it alone",
+                    false => "replaces the inertia it lacks",
                 };
                 let _ = writeln!(
                     out,

@@ -2,7 +2,7 @@
 
 use super::body::float;
 use super::listing::Listing;
-use crate::analysis::{Analysis, Chosen, Costs, Operations, SAFE_SHARE, Solve, Structure};
+use crate::analysis::{Analysis, Costs, Operations, Pivoting, SAFE_SHARE, Solve, Structure};
 use crate::expr::{Kind, System};
 use crate::model::Model;
 use crate::parse::Declaration;
@@ -98,7 +98,7 @@ fn structure(analysis: &Analysis) -> TokenStream {
     let angles = angles.iter().map(|i| number(*i));
     let straight_line = analysis.solve.is_ok();
     let solve = match &analysis.solve {
-        Ok(solve) => self::solve(solve),
+        Ok(solve) => self::solve(solve, analysis.dynamics.force.len()),
         Err(refusal) => quote! { ukcore::Solve::none(#refusal) },
     };
     let costs = costs(&analysis.costs);
@@ -123,20 +123,23 @@ fn structure(analysis: &Analysis) -> TokenStream {
     }
 }
 
-fn solve(solve: &Solve) -> TokenStream {
-    let pivots = solve.pivots.iter().map(|pivot| {
-        let (kind, values) = match *pivot {
-            Chosen::Prescribed(i, row, a) => ("Prescribed", (i, Some((row, a)))),
-            Chosen::Massless(i, row, a) => ("Massless", (i, Some((row, a)))),
-            Chosen::Coordinate(i) => ("Coordinate", (i, None)),
-            Chosen::Constraint(row) => ("Constraint", (row, None)),
-        };
-        let (kind, first) = (format_ident!("{kind}"), number(values.0));
-        let rest = values.1.map(|(row, a)| {
-            let (row, a) = (number(row), a.to_string());
-            quote! { , #row, #a }
-        });
-        quote! { ukcore::Pivot::#kind(#first #rest) }
+fn solve(solve: &Solve, n: usize) -> TokenStream {
+    let pivots = solve.pivots.iter().map(|pivot| match *pivot {
+        Pivoting::Single(k) => {
+            let kind = format_ident!("{}", if k < n { "Coordinate" } else { "Constraint" });
+            let place = number(k.checked_sub(n).unwrap_or(k));
+            quote! { ukcore::Pivot::#kind(#place) }
+        }
+        Pivoting::Pair(pair) => {
+            let kind = if pair.massive {
+                "Prescribed"
+            } else {
+                "Massless"
+            };
+            let (kind, a) = (format_ident!("{kind}"), pair.coefficient.to_string());
+            let (i, row) = (number(pair.coordinate), number(pair.constraint - n));
+            quote! { ukcore::Pivot::#kind(#i, #row, #a) }
+        }
     });
     let fill = solve.fill.iter().map(|(i, j)| pair(*i, *j));
     let checks = solve.checks.iter().map(|(k, share)| {

@@ -1,17 +1,23 @@
-//! The emitted code of every model, as reviewed: `golden/<Type>.rs`, and what all of it costs, on one page: `golden/operations.txt`.
-//! A change shows in the diff.
+//! The emitted code as reviewed, in `golden`: of four small mechanisms that show everything, of a type with an error, what all models cost, and a
+//! digest of each. A change shows in the diff.
 //!
-//! `UPDATE_GOLDEN=1 cargo test -p ukmacros golden` writes the files anew.
+//! `UPDATE_EXPECT=1 cargo test -p ukmacros golden` writes the files anew; `cargo test -p ukmacros expansions -- --ignored` writes the whole code of
+//! every model to `target/expansions`, to be compared with that of another commit.
 
+use super::analysis;
+use crate::analysis::Costs;
+use expect_test::expect_file;
 use proc_macro2::TokenStream;
-use quote::ToTokens;
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-/// All `multibody!` invocations of the models crate: file and tokens of the declaration.
-pub(super) fn declarations() -> Vec<(PathBuf, TokenStream)> {
-    let models = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../models/src");
-    let mut out = Vec::new();
+/// A regular mechanism, a massless coordinate, a switch, a nonholonomic constraint.
+const WHOLE: [&str; 4] = ["Pendulum", "MasslessSpring", "RoughBlock", "KnifeEdge"];
+
+/// All `multibody!` invocations of the models crate: type and tokens of the declaration.
+pub(super) fn declarations() -> BTreeMap<String, TokenStream> {
+    let models = Path::new(env!("CARGO_MANIFEST_DIR")).join("../models/src");
+    let mut out = BTreeMap::new();
     for entry in std::fs::read_dir(models).expect("the models crate is there") {
         let path = entry.expect("readable directory").path();
         if path.extension().is_none_or(|e| e != "rs") {
@@ -25,118 +31,45 @@ pub(super) fn declarations() -> Vec<(PathBuf, TokenStream)> {
             };
             let last = call.mac.path.segments.last();
             if last.is_some_and(|s| s.ident == "multibody") {
-                out.push((path.clone(), call.mac.tokens));
+                let diag = crate::diag::Diagnostics::default();
+                let declaration = crate::parse::parse(call.mac.tokens.clone(), &diag);
+                let name = declaration.expect("a declaration").name.to_string();
+                out.insert(name, call.mac.tokens);
             }
         }
     }
-    out.sort_by(|a, b| a.0.cmp(&b.0));
+    assert!(!out.is_empty(), "there are models");
     out
 }
 
-/// What one model becomes.
-struct Expansion {
-    /// The emitted code, formatted, without the text of its functions.
-    code: String,
-    /// Operations: what is counted, counts.
-    costs: Vec<(String, Vec<String>)>,
+/// The code of a declaration without errors.
+fn expansion(tokens: &TokenStream) -> TokenStream {
+    let (code, diagnostics) = crate::expand(tokens.clone());
+    assert!(diagnostics.is_empty(), "{:?}", diagnostics.take());
+    code
 }
 
-/// Type name → expansion.
-fn expansions() -> BTreeMap<String, Expansion> {
-    let mut out = BTreeMap::new();
-    for (path, tokens) in declarations() {
-        let (code, diagnostics) = crate::expand(tokens.clone());
-        let errors = diagnostics.take();
-        assert!(errors.is_empty(), "{}: {errors:?}", path.display());
-        let (again, _) = crate::expand(tokens);
-        assert_eq!(
-            code.to_string(),
-            again.to_string(),
-            "same input, same output"
-        );
-        let mut file = syn::parse2::<syn::File>(code).expect("emitted code is Rust");
-        let name = file.items.iter().find_map(|i| match i {
-            syn::Item::Struct(s) => Some(s.ident.to_string()),
-            _ => None,
-        });
-        let name = name.expect("a struct is emitted");
-        let block = file.items.iter_mut().find_map(|item| match item {
-            syn::Item::Const(syn::ItemConst { expr, .. }) => match &mut **expr {
-                syn::Expr::Block(block) => Some(&mut block.block.stmts),
-                _ => None,
-            },
-            _ => None,
-        });
-        let Some(syn::Stmt::Item(syn::Item::Impl(implementation))) =
-            block.and_then(|statements| statements.last_mut())
-        else {
-            panic!("the trait is implemented")
-        };
-        let items = &mut implementation.items;
-        let spec = items.iter().find_map(|i| constant(i, "SPEC"));
-        let costs = costs(spec.expect("SPEC"));
-        items.retain(|i| constant(i, "CODE").is_none());
-        let code = prettyplease::unparse(&file);
-        out.insert(name, Expansion { code, costs });
-    }
-    out
+/// The code, formatted, without `CODE`, which is the text of its functions.
+fn formatted(code: TokenStream) -> String {
+    let text = prettyplease::unparse(&syn::parse2(code).expect("emitted code is Rust"));
+    let (before, rest) = text.split_once("    const CODE:").unwrap_or((&text, ""));
+    let rest = rest.split_once("    ];\n").map_or("", |(_, rest)| rest);
+    format!("{}{rest}", before.trim_end_matches(' '))
 }
 
-/// The value of the associated constant `name`, if `item` is that.
-fn constant<'a>(item: &'a syn::ImplItem, name: &str) -> Option<&'a syn::Expr> {
-    match item {
-        syn::ImplItem::Const(c) if c.ident == name => Some(&c.expr),
-        _ => None,
-    }
-}
+/// The head of the digest.
+const DIGEST: &str = "\
+The emitted code of each model in brief. All of it: cargo test -p ukmacros expansions -- --ignored (in target/expansions).
+This file anew: UPDATE_EXPECT=1 cargo test -p ukmacros golden
 
-/// The counts of `costs` in SPEC.
-fn costs(spec: &syn::Expr) -> Vec<(String, Vec<String>)> {
-    let field = |expr: &syn::Expr, name: &str| -> syn::Expr {
-        let expr = match expr {
-            syn::Expr::Reference(r) => &*r.expr,
-            expr => expr,
-        };
-        let syn::Expr::Struct(literal) = expr else {
-            panic!("a struct with `{name}`")
-        };
-        let mut fields = literal.fields.iter();
-        let found = fields.find(|f| matches!(&f.member, syn::Member::Named(n) if n == name));
-        found.expect("the field is there").expr.clone()
-    };
-    let syn::Expr::Struct(costs) = field(&field(spec, "structure"), "costs") else {
-        panic!("costs are emitted")
-    };
-    let rows = costs.fields.iter().map(|row| {
-        let syn::Expr::Struct(counts) = &row.expr else {
-            panic!("operations are emitted")
-        };
-        let counts = counts
-            .fields
-            .iter()
-            .map(|f| f.expr.to_token_stream().to_string());
-        (row.member.to_token_stream().to_string(), counts.collect())
-    });
-    rows.collect()
-}
+";
 
-/// One line a model and function.
-fn table(found: &BTreeMap<String, Expansion>) -> String {
-    let mut out = format!(
-        "{:<22} {:<14} {:>7} {:>8} {:>7} {:>7} {:>8} {:>7}\n",
-        "model", "what", "add", "multiply", "divide", "root", "function", "select"
-    );
-    for (name, expansion) in found {
-        for (what, counts) in &expansion.costs {
-            let [add, multiply, divide, root, function, select] = &counts[..] else {
-                panic!("six counts")
-            };
-            out += &format!(
-                "{name:<22} {what:<14} {add:>7} {multiply:>8} {divide:>7} {root:>7} {function:>8} {select:>7}\n"
-            );
-        }
-    }
-    out
+/// 64-bit FNV-1a.
+fn hash(text: &str) -> u64 {
+    let start = 0xcbf2_9ce4_8422_2325;
+    text.bytes().fold(start, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    })
 }
 
 /// A declaration of everything that a user's code can name, with an error.
@@ -157,49 +90,79 @@ fn fallback() -> String {
     let (code, errors) = super::expand(BROKEN);
     assert_eq!(errors.len(), 1, "{errors:?}");
     // What follows `::core::compile_error! { "message" }`.
-    let code: TokenStream = code.into_iter().skip(8).collect();
-    prettyplease::unparse(&syn::parse2(code).expect("the fallback is Rust"))
+    formatted(code.into_iter().skip(8).collect())
+}
+
+/// One line a model and function.
+fn operations(declarations: &BTreeMap<String, TokenStream>) -> String {
+    let mut out = format!(
+        "{:<22} {:<14} {:>7} {:>8} {:>7} {:>7} {:>8} {:>7}\n",
+        "model", "what", "add", "multiply", "divide", "root", "function", "select"
+    );
+    for (name, tokens) in declarations {
+        let Costs {
+            dynamics,
+            dense,
+            unprepared,
+            acceleration,
+            correction,
+            prepare,
+        } = analysis(tokens.clone()).costs;
+        for (what, operations) in [
+            ("dynamics", dynamics),
+            ("dense", dense),
+            ("unprepared", unprepared),
+            ("acceleration", acceleration),
+            ("correction", correction),
+            ("prepare", prepare),
+        ] {
+            let [add, multiply, divide, root, function, select] = operations.counts();
+            out += &format!(
+                "{name:<22} {what:<14} {add:>7} {multiply:>8} {divide:>7} {root:>7} {function:>8} {select:>7}\n"
+            );
+        }
+    }
+    out
 }
 
 #[test]
 fn emitted_code_is_as_reviewed() {
-    let golden = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("golden");
-    let update = std::env::var_os("UPDATE_GOLDEN").is_some();
-    let found = expansions();
-    assert!(!found.is_empty(), "there are models");
-    if update {
-        std::fs::create_dir_all(&golden).expect("can write");
+    let golden = Path::new(env!("CARGO_MANIFEST_DIR")).join("golden");
+    let declarations = declarations();
+    let mut files = vec![
+        ("operations.txt".to_owned(), operations(&declarations)),
+        ("Broken.rs".to_owned(), fallback()),
+    ];
+    let mut digest = format!("{DIGEST}{:<22} {:>9}  hash\n", "model", "words");
+    for (name, tokens) in &declarations {
+        let code = expansion(tokens);
+        let text = code.to_string();
+        assert_eq!(text, expansion(tokens).to_string(), "one input, one output");
+        let words: Vec<&str> = text.split_whitespace().collect();
+        let hash = hash(&words.concat());
+        digest += &format!("{name:<22} {:>9}  {hash:016x}\n", words.len());
+        if WHOLE.contains(&name.as_str()) {
+            files.push((format!("{name}.rs"), formatted(code)));
+        }
     }
-    let mut files: BTreeMap<String, String> = BTreeMap::new();
-    files.insert("operations.txt".to_owned(), table(&found));
-    files.insert("Broken.rs".to_owned(), fallback());
-    files.extend(
-        found
-            .into_iter()
-            .map(|(name, e)| (format!("{name}.rs"), e.code)),
-    );
-    let mut changed = Vec::new();
+    files.push(("digest.txt".to_owned(), digest));
     for (name, text) in &files {
-        let path = golden.join(name);
-        if update {
-            std::fs::write(&path, text).expect("can write");
-        }
-        if std::fs::read_to_string(&path).ok().as_ref() != Some(text) {
-            changed.push(name);
-        }
+        expect_file![golden.join(name)].assert_eq(text);
     }
-    assert!(
-        changed.is_empty(),
-        "the emitted code of {changed:?} is not as in ukmacros/golden; if the change is meant, run \
-         `UPDATE_GOLDEN=1 cargo test -p ukmacros golden` and review the diff"
-    );
-    let stale: Vec<_> = std::fs::read_dir(&golden)
-        .expect("golden files are there")
-        .filter_map(|e| Some(e.ok()?.file_name().to_string_lossy().into_owned()))
-        .filter(|name| !files.contains_key(name))
-        .collect();
-    assert!(
-        stale.is_empty(),
-        "no model makes golden files {stale:?} any more"
-    );
+    let found = std::fs::read_dir(&golden).expect("golden files are there");
+    let found = found.filter_map(|e| Some(e.ok()?.file_name().to_string_lossy().into_owned()));
+    let stale = found.filter(|name| files.iter().all(|(known, _)| known != name));
+    let stale: Vec<String> = stale.collect();
+    assert!(stale.is_empty(), "nothing makes {stale:?} any more");
+}
+
+#[test]
+#[ignore = "writes files: cargo test -p ukmacros expansions -- --ignored"]
+fn expansions() {
+    let directory = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../target/expansions");
+    std::fs::create_dir_all(&directory).expect("can write");
+    for (name, tokens) in declarations() {
+        let text = formatted(expansion(&tokens));
+        std::fs::write(directory.join(format!("{name}.rs")), text).expect("can write");
+    }
 }

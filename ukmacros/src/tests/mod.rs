@@ -11,9 +11,11 @@ mod random;
 mod speed;
 mod verify;
 
+use crate::analysis::Analysis;
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::expr::System;
 use crate::model::Model;
+use crate::parse::Declaration;
 use proc_macro2::TokenStream;
 
 /// Expands the text of a declaration; lexical errors are the caller's.
@@ -23,13 +25,26 @@ fn expand(source: &str) -> (TokenStream, Vec<Diagnostic>) {
     (code, diagnostics.take())
 }
 
-/// The equations of a declaration without errors.
-fn system(source: &str) -> (System, Model) {
-    let tokens: TokenStream = source.parse().expect("test sources are Rust tokens");
+/// A declaration without errors, its names and its equations.
+fn lowered(tokens: TokenStream) -> (Declaration, Model, System) {
     let diag = Diagnostics::default();
     let mut declaration = crate::parse::parse(tokens, &diag).expect("a declaration");
     let model = crate::model::resolve(&mut declaration, &diag);
     let system = crate::expr::lower(&declaration, &model, &diag);
     assert!(diag.is_empty(), "{:?}", diag.take());
+    (declaration, model, system)
+}
+
+/// The equations of a declaration without errors.
+fn system(source: &str) -> (System, Model) {
+    let (_, model, system) = lowered(source.parse().expect("test sources are Rust tokens"));
     (system, model)
+}
+
+/// What is known about a declaration without errors.
+fn analysis(tokens: TokenStream) -> Analysis {
+    let (declaration, model, mut system) = lowered(tokens);
+    let diag = Diagnostics::default();
+    let analysis = crate::analysed(&declaration, &model, &mut system, &diag);
+    analysis.unwrap_or_else(|| panic!("{:?}", diag.take()))
 }

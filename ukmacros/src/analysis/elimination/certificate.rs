@@ -16,9 +16,9 @@
 //! share is less it takes over; it works on A itself, whose condition is the root of G's, and keeps twice the digits. What depends on
 //! parameters only also has to be finite: an infinite mass would vanish by its reciprocal.
 
-use super::{Elimination, Pivot};
+use super::{Divisor, Elimination, Pivoting};
 use crate::expr::{Graph, Id, Node, System};
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 
 /// The least share d/G of a pivot that the straight line accepts: the square of `ukcore::solver::RANK_CEILING`; see the
 /// module.
@@ -45,7 +45,27 @@ pub(crate) struct Straight {
     pub(crate) checks: Vec<(usize, bool)>,
 }
 
+/// How q̈ is solved for, for the reader. Positions: coordinate i is i, constraint i is n + i.
+pub(crate) struct Solve {
+    /// The pivots in their order.
+    pub(crate) pivots: Vec<Pivoting>,
+    /// Positions (row > column) that are zero in [M Aᵀ; A 0] and filled by its elimination.
+    pub(crate) fill: Vec<(usize, usize)>,
+    /// What the certificate compares, as in [`Straight`].
+    pub(crate) checks: Vec<(usize, bool)>,
+}
+
 impl Straight {
+    /// What there is to tell of it.
+    pub(crate) fn told(&self) -> Solve {
+        let order = &self.elimination.order;
+        Solve {
+            pivots: order.pivots.clone(),
+            fill: order.fill.clone(),
+            checks: self.checks.clone(),
+        }
+    }
+
     /// All values, in a fixed order.
     pub(crate) fn values_mut(&mut self) -> impl Iterator<Item = &mut Id> {
         let Elimination {
@@ -62,11 +82,14 @@ impl Straight {
         let g = &mut system.graph;
         let (certificate, chain) = elimination.certificate(g);
         let mut stages = Vec::new();
-        for (k, pivot) in elimination.pivots.iter().enumerate() {
-            stages.push(pivot.value);
-            let links = chain.iter().filter(|(of, _)| *of == k);
-            stages.extend(links.map(|(_, link)| *link));
-            stages.extend(pivot.right);
+        let mut links = vec![Vec::new(); elimination.divisors.len()];
+        for (of, link) in &chain {
+            links[*of].push(*link);
+        }
+        for ((divisor, right), links) in elimination.divisors.iter().zip(links) {
+            stages.push(divisor.value);
+            stages.extend(links);
+            stages.extend(right);
         }
         stages.extend(&elimination.correction_rights);
         let varying = chain.iter().filter(|(_, link)| !g.uses(*link).constant());
@@ -78,13 +101,12 @@ impl Straight {
                 .map(|(_, link)| *link)
                 .collect(),
         };
-        let pivots = &elimination.pivots;
-        let checked = chain.iter().map(|(of, _)| &pivots[*of]);
+        let checked = chain.iter().map(|(of, _)| &elimination.divisors[*of].0);
         let checks = checked
-            .map(|p| (p.position, p.value != p.reference))
+            .map(|d| (d.position, d.value != d.reference))
             .collect();
         for (of, link) in chain {
-            let name = &elimination.pivots[of].name;
+            let name = &elimination.divisors[of].0.name;
             system.inner_hints.insert(link, format!("safe_{name}"));
         }
         for (id, name) in std::mem::take(&mut elimination.hints) {
@@ -117,20 +139,17 @@ impl Elimination {
     fn certificate(&self, g: &mut Graph) -> (Id, Vec<(usize, Id)>) {
         let (zero, tiny) = (g.zero(), g.constant(f64::MIN_POSITIVE));
         let largest = g.constant(f64::MAX);
-        let positive: BTreeSet<Id> = self
-            .pivots
-            .iter()
-            .filter(|p| p.value == p.reference && g.unscaled(p.value).0 > 0.0)
-            .map(|p| g.unscaled(p.value).1)
+        let divisors = || self.divisors.iter().map(|(divisor, _)| divisor);
+        let positive: BTreeSet<Id> = divisors()
+            .filter(|d| d.value == d.reference && g.unscaled(d.value).0 > 0.0)
+            .map(|d| g.unscaled(d.value).1)
             .collect();
         let mut conditions: Vec<(usize, Id, Id)> = Vec::new();
-        for (
-            k,
-            Pivot {
+        let mut known = HashSet::new();
+        for (k, divisor) in divisors().enumerate() {
+            let Divisor {
                 value, reference, ..
-            },
-        ) in self.pivots.iter().enumerate()
-        {
+            } = divisor;
             let (value, least) = if value == reference {
                 // Nothing was taken off the diagonal: it has to be positive.
                 (sign_of(*value, &positive, g), tiny)
@@ -139,8 +158,7 @@ impl Elimination {
                 (value, g.scale(SAFE_SHARE, reference))
             };
             let holds = g.as_const(value).is_some_and(|x| x > 0.0) && least == tiny;
-            let known = conditions.iter().any(|c| (c.1, c.2) == (value, least));
-            if !holds && !known {
+            if !holds && known.insert((value, least)) {
                 conditions.push((k, value, least));
             }
         }

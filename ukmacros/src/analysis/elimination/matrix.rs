@@ -1,6 +1,6 @@
-//! K with symbolic entries, and its elimination.
+//! K with symbolic entries, eliminated in a given order.
 
-use super::{Pivot, Pivoting};
+use super::{Divisor, Pair, Pivoting};
 use crate::analysis::dynamics::Dynamics;
 use crate::expr::{Graph, Id};
 use std::collections::{BTreeMap, BTreeSet};
@@ -9,70 +9,55 @@ use std::collections::{BTreeMap, BTreeSet};
 /// numbers: with lengths of 1e-15 or 1e15 a constraint's pivot is 1e∓30, and its ninth power still has room.
 const CHAIN: usize = 8;
 
-/// Why there is no pivot at `k`.
-fn vanished(k: usize, n: usize, names: &[String]) -> String {
-    let name = &names[k];
-    match k < n {
-        true => format!("nothing is left of the inertia of `{name}`, whatever the state"),
-        false => format!(
-            "`{name}` is implied by the constraints eliminated before it, whatever the state"
-        ),
-    }
-}
-
-/// K and its right-hand side, with entries that are sums still open.
+/// K, with entries that are sums still open.
 pub(super) struct Matrix {
     n: usize,
     /// (row ≥ column) → terms.
     entries: BTreeMap<(usize, usize), Entry>,
     rows: Vec<BTreeSet<usize>>,
-    rhs: Vec<Entry>,
     /// What one constraint before takes off each, its division put off.
     deferred: Vec<Option<Deferred>>,
     /// How many divisions in a row were put off.
     depth: Vec<usize>,
+    /// When each is eliminated alone.
+    turn: Vec<usize>,
 }
 
-/// An update d − p²/(N/D), r + p (R/D)/(N/D) that is not yet divided by N.
+/// An update d − p²/(N/D) of a diagonal that is not yet divided by N.
 #[derive(Clone, Copy)]
 struct Deferred {
     /// N.
     pivot: Id,
     /// p² D.
     square: Id,
-    /// p R.
-    right: Id,
-}
-
-/// A pivot numerator/denominator (without its sign), with its right-hand side right/denominator.
-struct Fraction {
-    numerator: Id,
-    denominator: Id,
-    right: Id,
 }
 
 /// Σ gram + Σ schur: what makes up an entry of M or G, and what elimination takes off it.
 #[derive(Clone, Default)]
-struct Entry {
+pub(super) struct Entry {
     gram: Vec<(f64, Id)>,
     schur: Vec<(f64, Id)>,
 }
 
 impl Entry {
-    fn of(id: Id, g: &Graph) -> Self {
-        let gram = if g.is_zero(id) {
-            Vec::new()
-        } else {
-            vec![(1.0, id)]
-        };
+    pub(super) fn of(id: Id) -> Self {
         Entry {
-            gram,
+            gram: vec![(1.0, id)],
             schur: Vec::new(),
         }
     }
 
+    /// Takes `term` off: off what stood before if it `reduces`, else as a part of what the entry is made up of.
+    pub(super) fn take_off(&mut self, term: Id, reduces: bool) {
+        let list = match reduces {
+            true => &mut self.schur,
+            false => &mut self.gram,
+        };
+        list.push((-1.0, term));
+    }
+
     /// The value before and after the terms of constraints.
-    fn values(&self, g: &mut Graph) -> (Id, Id) {
+    pub(super) fn values(&self, g: &mut Graph) -> (Id, Id) {
         let gram = g.factored_sum(&self.gram);
         let gram = match g.unscaled(gram).0.abs() {
             1.0 => gram,
@@ -87,39 +72,91 @@ impl Entry {
     }
 }
 
+/// One step of an elimination, as right-hand sides see it.
+pub(super) enum Factor {
+    Single(Single),
+    Double(Double),
+}
+
+/// What one coordinate or constraint leaves: x_at = sign · right/pivot − Σ factor · x.
+pub(super) struct Single {
+    pub(super) at: usize,
+    /// −1 for constraints, whose pivots are negative in K.
+    pub(super) sign: f64,
+    /// The pivot is `numerator`/`denominator`, but for its sign.
+    pub(super) numerator: Id,
+    /// Where the division of the one before was put off; else the pivot is `numerator`.
+    pub(super) denominator: Option<Id>,
+    /// What is divided by the pivot is computed once. For a coordinate that shares no inertia, products are left open, so that terms of different
+    /// coordinates can be collected.
+    pub(super) shared: bool,
+    /// The row's other entries.
+    pub(super) row: Vec<(usize, Id)>,
+    /// The row's other entries divided by the pivot.
+    pub(super) factors: Vec<(usize, Id)>,
+    /// Whether the division is put off to the one neighbour there is.
+    pub(super) defers: bool,
+}
+
+/// What the pivot [μ a; a 0] of a coordinate with a constraint leaves.
+pub(super) struct Double {
+    pub(super) pair: Pair,
+    /// μ.
+    pub(super) inertia: Id,
+    /// a.
+    pub(super) coefficient: Id,
+    /// Of each neighbour its entries with the coordinate and with the constraint.
+    pub(super) touched: Vec<(usize, Id, Id)>,
+    /// The constraint's other entries, divided by a.
+    pub(super) factors: Vec<(usize, Id)>,
+}
+
+/// Why there is no pivot at `k`.
+fn vanished(k: usize, n: usize, names: &[String]) -> String {
+    let name = &names[k];
+    match k < n {
+        true => format!("nothing is left of the inertia of `{name}`, whatever the state"),
+        false => format!(
+            "`{name}` is implied by the constraints eliminated before it, whatever the state"
+        ),
+    }
+}
+
 impl Matrix {
-    pub(super) fn new(d: &Dynamics, jacobian: &BTreeMap<(usize, usize), Id>, g: &Graph) -> Self {
+    /// K = [M Aᵀ; A 0] with the given A.
+    pub(super) fn new(
+        d: &Dynamics,
+        jacobian: &BTreeMap<(usize, usize), Id>,
+        order: &[Pivoting],
+        g: &Graph,
+    ) -> Self {
         let n = d.force.len();
-        let mut entries = BTreeMap::new();
-        for (at, m) in &d.mass {
-            entries.insert(*at, Entry::of(*m, g));
+        let size = n + d.rhs.len();
+        let jacobian = jacobian.iter();
+        let below = jacobian.map(|((row, column), a)| ((n + row, *column), *a));
+        let declared = d.mass.iter().map(|(at, m)| (*at, *m)).chain(below);
+        let (mut entries, mut rows) = (BTreeMap::new(), vec![BTreeSet::new(); size]);
+        for ((a, b), id) in declared.filter(|(_, id)| !g.is_zero(*id)) {
+            entries.insert((a, b), Entry::of(id));
+            if a != b {
+                rows[a].insert(b);
+                rows[b].insert(a);
+            }
         }
-        for ((row, column), a) in jacobian {
-            entries.insert((n + row, *column), Entry::of(*a, g));
-        }
-        let mut rows = vec![BTreeSet::new(); n + d.rhs.len()];
-        for (a, b) in entries.keys().filter(|(a, b)| a != b) {
-            rows[*a].insert(*b);
-            rows[*b].insert(*a);
+        let mut turn = vec![0; size];
+        for (at, step) in order.iter().enumerate() {
+            if let Pivoting::Single(k) = *step {
+                turn[k] = at;
+            }
         }
         Matrix {
             n,
             entries,
-            deferred: vec![None; rows.len()],
-            depth: vec![0; rows.len()],
             rows,
-            rhs: Vec::new(),
+            deferred: vec![None; size],
+            depth: vec![0; size],
+            turn,
         }
-    }
-
-    pub(super) fn load(&mut self, force: &[Id], rhs: &[Id]) {
-        let all = force.iter().chain(rhs);
-        self.rhs = all
-            .map(|id| Entry {
-                gram: vec![(1.0, *id)],
-                schur: Vec::new(),
-            })
-            .collect();
     }
 
     fn value(&self, a: usize, b: usize, g: &mut Graph) -> Id {
@@ -129,252 +166,199 @@ impl Matrix {
         }
     }
 
-    fn update(&mut self, a: usize, b: usize, reduces: bool, term: Id, g: &Graph) {
+    fn take_off(&mut self, a: usize, b: usize, term: Id, reduces: bool, g: &Graph) {
         if g.is_zero(term) {
             return;
         }
         let entry = self.entries.entry((a.max(b), a.min(b))).or_default();
-        if reduces {
-            entry.schur.push((-1.0, term));
-        } else {
-            entry.gram.push((-1.0, term));
-        }
+        entry.take_off(term, reduces);
         if a != b {
             self.rows[a].insert(b);
             self.rows[b].insert(a);
         }
     }
 
-    fn update_rhs(&mut self, a: usize, reduces: bool, term: Id, g: &Graph) {
-        if g.is_zero(term) {
-            return;
-        }
-        let list = if reduces {
-            &mut self.rhs[a].schur
-        } else {
-            &mut self.rhs[a].gram
-        };
-        list.push((-1.0, term));
-    }
-
     /// Neighbours of `k`, which leaves the matrix.
-    fn take(&mut self, k: usize) -> Vec<usize> {
-        let neighbours: Vec<usize> = std::mem::take(&mut self.rows[k]).into_iter().collect();
+    fn take(&mut self, k: usize) -> BTreeSet<usize> {
+        let neighbours = std::mem::take(&mut self.rows[k]);
         for a in &neighbours {
             self.rows[*a].remove(&k);
         }
         neighbours
     }
 
-    /// The pivot of `k`. In a chain of constraints (each coupled to the next alone) divisions would wait for each other; written as
+    /// The pivot of `k` and the diagonal that it started from, both times a positive number, without the sign that constraints have in K; and the
+    /// number, if it is not 1. In a chain of constraints (each coupled to the next alone) divisions would wait for each other; written as
     /// N' = d N − p² D over D' = N the pivots need none, and all reciprocals are independent.
-    fn fraction(&self, k: usize, diagonal: Id, right: Id, g: &mut Graph) -> Fraction {
-        let Some(Deferred {
-            pivot,
-            square,
-            right: before,
-        }) = self.deferred[k]
-        else {
-            return Fraction {
-                numerator: diagonal,
-                denominator: g.one(),
-                right,
-            };
+    fn pivot(&self, k: usize, g: &mut Graph) -> Option<(Id, Id, Option<Id>)> {
+        let (reference, diagonal) = self.entries.get(&(k, k))?.values(g);
+        let sign = self.sign(k);
+        let (reference, diagonal) = (g.scale(sign, reference), g.scale(sign, diagonal));
+        let (numerator, reference, denominator) = match self.deferred[k] {
+            None => (diagonal, reference, None),
+            Some(Deferred { pivot, square }) => {
+                let whole = g.mul(diagonal, pivot);
+                let numerator = g.factored_sum(&[(1.0, whole), (-1.0, square)]);
+                (numerator, g.mul(reference, pivot), Some(pivot))
+            }
         };
-        let (diagonal, right) = (g.mul(diagonal, pivot), g.mul(right, pivot));
-        Fraction {
-            numerator: g.factored_sum(&[(1.0, diagonal), (-1.0, square)]),
-            denominator: pivot,
-            right: g.factored_sum(&[(1.0, right), (1.0, before)]),
-        }
+        (!g.is_zero(numerator)).then_some((numerator, reference, denominator))
     }
 
-    /// Whether constraint `k` puts off its division, with `a` its only neighbour: not where another one is eliminated into `a`, nor after
-    /// [`CHAIN`] in a row.
-    fn defers(&self, k: usize, a: usize, position: &[usize]) -> bool {
-        let another = self.rows[a].iter().any(|b| position[*b] < position[a]);
-        !another && self.deferred[a].is_none() && self.depth[k] < CHAIN
+    /// Constraint pivots are negative in K.
+    fn sign(&self, k: usize) -> f64 {
+        if k >= self.n { -1.0 } else { 1.0 }
     }
 
-    /// Forward elimination and back substitution; the coordinates' part of the solution, and the 1 × 1 pivots.
-    pub(super) fn solve(
-        mut self,
-        order: &[Pivoting],
+    /// Whether constraint `k` puts off its division to its only neighbour `a`: not to a coordinate, nor where another one is eliminated into `a`, nor
+    /// after [`CHAIN`] in a row.
+    fn defers(&self, k: usize, a: usize) -> bool {
+        let another = || self.rows[a].iter().any(|b| self.turn[*b] < self.turn[a]);
+        let room = self.deferred[a].is_none() && self.depth[k] < CHAIN;
+        k >= self.n && a >= self.n && room && !another()
+    }
+
+    /// Takes one step of the elimination; with a 1 × 1 pivot, what it divides by.
+    pub(super) fn step(
+        &mut self,
+        step: Pivoting,
         names: &[String],
         g: &mut Graph,
         hints: &mut Vec<(Id, String)>,
-    ) -> Result<(Vec<Id>, Vec<Pivot>), String> {
-        let size = self.rows.len();
-        let mut pivots = Vec::new();
-        let mut position = vec![0; size];
-        for (at, step) in order.iter().enumerate() {
-            if let Pivoting::One(k) = *step {
-                position[k] = at;
+    ) -> Result<(Factor, Option<Divisor>), String> {
+        Ok(match step {
+            Pivoting::Pair(pair) => (Factor::Double(self.eliminate_pair(pair, g)), None),
+            Pivoting::Single(k) => {
+                let (single, divisor) = self.eliminate(k, names, g, hints)?;
+                (Factor::Single(single), Some(divisor))
             }
-        }
-        // For back substitution, each divided by the pivot: the row's entries, the right-hand side.
-        let mut eliminated: Vec<(Vec<(usize, Id)>, Id)> = Vec::new();
-        for step in order {
-            match *step {
-                Pivoting::One(k) => {
-                    let Some(entry) = self.entries.get(&(k, k)) else {
-                        return Err(vanished(k, self.n, names));
-                    };
-                    let (reference, diagonal) = entry.values(g);
-                    let constraint = k >= self.n;
-                    // Constraint pivots are negative in K.
-                    let sign = if constraint { -1.0 } else { 1.0 };
-                    let (reference, diagonal) = (g.scale(sign, reference), g.scale(sign, diagonal));
-                    let right = self.rhs[k].values(g).1;
-                    let pivot = self.fraction(k, diagonal, right, g);
-                    if g.is_zero(pivot.numerator) {
-                        return Err(vanished(k, self.n, names));
-                    }
-                    let reference = g.mul(reference, pivot.denominator);
-                    pivots.push(Pivot {
-                        name: names[k].clone(),
-                        position: k,
-                        value: pivot.numerator,
-                        reference,
-                        right: Some(pivot.right),
-                    });
-                    hints.push((pivot.numerator, format!("pivot_{}", names[k])));
-                    hints.push((pivot.right, format!("right_{}", names[k])));
-                    hints.push((reference, format!("diagonal_{}", names[k])));
-                    // x_k = solved − Σ row · x / value
-                    let value = g.div(pivot.numerator, pivot.denominator);
-                    let value = g.scale(sign, value);
-                    let solved = g.div(pivot.right, pivot.numerator);
-                    let solved = g.scale(sign, solved);
-                    let neighbours = self.take(k);
-                    // What constraints or shared inertia divide by is computed once; for a coordinate that shares none, products are
-                    // left open, so that terms of different coordinates can be collected.
-                    let shared = constraint || neighbours.iter().any(|a| *a < self.n);
-                    let mut row: Vec<(usize, Id)> = neighbours
-                        .iter()
-                        .map(|a| (*a, self.value(*a, k, g)))
-                        .collect();
-                    for (a, entry) in row.iter().filter(|(a, _)| constraint && *a >= self.n) {
-                        hints.push((*entry, format!("{}_with_{}", names[*a], names[k])));
-                    }
-                    if let [(a, off)] = row[..]
-                        && constraint
-                        && a >= self.n
-                        && self.defers(k, a, &position)
-                    {
-                        self.depth[a] = self.depth[k] + 1;
-                        self.deferred[a] = Some(Deferred {
-                            pivot: pivot.numerator,
-                            square: g.product(&[(off, 2), (pivot.denominator, 1)]),
-                            right: g.mul(off, pivot.right),
-                        });
-                        eliminated.push((vec![(a, g.div(off, value))], solved));
-                        continue;
-                    }
-                    let mut right = right;
-                    if shared {
-                        row.iter_mut().for_each(|(_, ka)| *ka = g.hold_whole(*ka));
-                        right = g.hold_whole(right);
-                    }
-                    let factors: Vec<(usize, Id)> = row
-                        .iter()
-                        .map(|(a, ka)| {
-                            let factor = g.div(*ka, value);
-                            let factor = if shared { g.hold_whole(factor) } else { factor };
-                            if shared {
-                                hints.push((factor, format!("{}_by_{}", names[*a], names[k])));
-                            }
-                            (*a, factor)
-                        })
-                        .collect();
-                    for (p, (a, factor)) in factors.iter().enumerate() {
-                        for (b, kb) in &row[..=p] {
-                            let term = g.mul(*factor, *kb);
-                            // What a coordinate adds to constraints makes up G; all else is taken off a diagonal that stood before.
-                            self.update(*a, *b, constraint || *a < self.n, term, g);
-                        }
-                        let term = match self.deferred[k] {
-                            None => g.mul(*factor, right),
-                            Some(_) => g.mul(row[p].1, solved),
-                        };
-                        self.update_rhs(*a, constraint, term, g);
-                    }
-                    eliminated.push((factors, solved));
-                }
-                Pivoting::Two(j, c) => {
-                    let a = self.value(j, c, g);
-                    let mu = self.value(j, j, g);
-                    let (fj, fc) = (self.rhs[j].values(g).1, self.rhs[c].values(g).1);
-                    let of_j = self.take(j);
-                    let of_c = self.take(c);
-                    let row =
-                        |list: &[usize], k: usize, m: &Matrix, g: &mut Graph| -> Vec<(usize, Id)> {
-                            let others = list.iter().filter(|r| **r != j && **r != c);
-                            others.map(|r| (*r, m.value(*r, k, g))).collect()
-                        };
-                    let row_j = row(&of_j, j, &self, g);
-                    let row_c = row(&of_c, c, &self, g);
-                    // P⁻¹ = [0 1/a; 1/a −μ/a²].
-                    let touched: BTreeSet<usize> =
-                        row_j.iter().chain(&row_c).map(|(r, _)| *r).collect();
-                    let entry = |list: &[(usize, Id)], r: usize, g: &mut Graph| {
-                        list.iter()
-                            .find(|(k, _)| *k == r)
-                            .map_or(g.zero(), |(_, id)| *id)
-                    };
-                    for &r in &touched {
-                        let (rj, rc) = (entry(&row_j, r, g), entry(&row_c, r, g));
-                        for &s in touched.range(..=r) {
-                            let (sj, sc) = (entry(&row_j, s, g), entry(&row_c, s, g));
-                            let first = g.product(&[(rj, 1), (sc, 1), (a, -1)]);
-                            let second = g.product(&[(rc, 1), (sj, 1), (a, -1)]);
-                            let third = g.product(&[(rc, 1), (sc, 1), (mu, 1), (a, -2)]);
-                            let third = g.neg(third);
-                            for term in [first, second, third] {
-                                self.update(r, s, false, term, g);
-                            }
-                        }
-                        let first = g.product(&[(rj, 1), (fc, 1), (a, -1)]);
-                        let second = g.product(&[(rc, 1), (fj, 1), (a, -1)]);
-                        let third = g.product(&[(rc, 1), (fc, 1), (mu, 1), (a, -2)]);
-                        let third = g.neg(third);
-                        for term in [first, second, third] {
-                            self.update_rhs(r, false, term, g);
-                        }
-                    }
-                    // q̈_j follows from the constraint's row alone.
-                    let factors = row_c.iter().map(|(r, id)| (*r, g.div(*id, a))).collect();
-                    eliminated.push((factors, g.div(fc, a)));
-                }
-            }
-        }
-        let mut solution: Vec<Option<Id>> = vec![None; size];
-        for (step, (row, right)) in order.iter().zip(&eliminated).rev() {
-            let unknown = match *step {
-                Pivoting::One(k) => k,
-                Pivoting::Two(j, _) => j,
-            };
-            let mut terms = vec![(1.0, *right)];
-            for (other, factor) in row {
-                // A multiplier that no coordinate left needs (of a 2 × 2 pivot) is not computed.
-                let Some(x) = solution[*other] else {
-                    return Err(format!(
-                        "the order leaves out the multiplier of `{}`",
-                        names[*other]
-                    ));
-                };
-                terms.push((-1.0, g.mul(*factor, x)));
-            }
-            // Varying factors in front would have to be multiplied by each other.
-            let x = g.factored_sum_of(&terms, |g, id| g.uses(id).constant());
-            if unknown >= self.n {
-                hints.push((x, format!("lambda_{}", names[unknown])));
-            }
-            solution[unknown] = Some(x);
-        }
-        let n = self.n;
-        let coordinates: Option<Vec<Id>> = solution[..n].iter().copied().collect();
-        let coordinates = coordinates.ok_or_else(|| "a coordinate was left over".to_owned())?;
-        Ok((coordinates, pivots))
+        })
     }
+
+    /// Eliminates a coordinate or constraint.
+    fn eliminate(
+        &mut self,
+        k: usize,
+        names: &[String],
+        g: &mut Graph,
+        hints: &mut Vec<(Id, String)>,
+    ) -> Result<(Single, Divisor), String> {
+        let pivot = self.pivot(k, g);
+        let (numerator, reference, denominator) =
+            pivot.ok_or_else(|| vanished(k, self.n, names))?;
+        let constraint = k >= self.n;
+        hints.push((numerator, format!("pivot_{}", names[k])));
+        hints.push((reference, format!("diagonal_{}", names[k])));
+        let divisor = Divisor {
+            name: names[k].clone(),
+            position: k,
+            value: numerator,
+            reference,
+        };
+        let one = g.one();
+        let value = g.div(numerator, denominator.unwrap_or(one));
+        let value = g.scale(self.sign(k), value);
+        let neighbours = self.take(k);
+        let neighbours_values = neighbours.iter().map(|a| (*a, self.value(*a, k, g)));
+        let mut single = Single {
+            at: k,
+            sign: self.sign(k),
+            numerator,
+            denominator,
+            shared: constraint || neighbours.range(..self.n).next().is_some(),
+            row: neighbours_values.collect(),
+            factors: Vec::new(),
+            defers: false,
+        };
+        if constraint {
+            for (a, entry) in single.row.iter().filter(|(a, _)| *a >= self.n) {
+                hints.push((*entry, format!("{}_with_{}", names[*a], names[k])));
+            }
+        }
+        if let [(a, off)] = single.row[..]
+            && self.defers(k, a)
+        {
+            self.depth[a] = self.depth[k] + 1;
+            self.deferred[a] = Some(Deferred {
+                pivot: numerator,
+                square: g.product(&[(off, 2), (denominator.unwrap_or(one), 1)]),
+            });
+            single.factors = vec![(a, g.div(off, value))];
+            single.defers = true;
+            return Ok((single, divisor));
+        }
+        if single.shared {
+            let entries = single.row.iter_mut();
+            entries.for_each(|(_, entry)| *entry = g.hold_whole(*entry));
+        }
+        for (a, entry) in &single.row {
+            let mut factor = g.div(*entry, value);
+            if single.shared {
+                factor = g.hold_whole(factor);
+                hints.push((factor, format!("{}_by_{}", names[*a], names[k])));
+            }
+            single.factors.push((*a, factor));
+        }
+        for (p, (a, factor)) in single.factors.iter().enumerate() {
+            for (b, entry) in &single.row[..=p] {
+                let term = g.mul(*factor, *entry);
+                // What a coordinate adds to constraints makes up G; all else is taken off a diagonal that stood before.
+                self.take_off(*a, *b, term, constraint || *a < self.n, g);
+            }
+        }
+        Ok((single, divisor))
+    }
+
+    /// Eliminates a coordinate with a constraint: P⁻¹ = [0 1/a; 1/a −μ/a²].
+    fn eliminate_pair(&mut self, pair: Pair, g: &mut Graph) -> Double {
+        let Pair {
+            coordinate: j,
+            constraint: c,
+            ..
+        } = pair;
+        let (a, mu) = (self.value(j, c, g), self.value(j, j, g));
+        let mut of_j = self.take(j);
+        of_j.remove(&c);
+        let of_c = self.take(c);
+        let mut values = |of: &BTreeSet<usize>, k: usize| -> BTreeMap<usize, Id> {
+            of.iter().map(|r| (*r, self.value(*r, k, g))).collect()
+        };
+        let (row_j, row_c) = (values(&of_j, j), values(&of_c, c));
+        let zero = g.zero();
+        let entry = |row: &BTreeMap<usize, Id>, r: &usize| row.get(r).copied().unwrap_or(zero);
+        let touched: Vec<(usize, Id, Id)> = of_j
+            .union(&of_c)
+            .map(|r| (*r, entry(&row_j, r), entry(&row_c, r)))
+            .collect();
+        for (p, (r, rj, rc)) in touched.iter().enumerate() {
+            for (s, sj, sc) in &touched[..=p] {
+                for term in products((*rj, *rc), (*sj, *sc), a, mu, g) {
+                    self.take_off(*r, *s, term, false, g);
+                }
+            }
+        }
+        // q̈_j follows from the constraint's row alone.
+        let factors = row_c.iter().map(|(r, id)| (*r, g.div(*id, a)));
+        Double {
+            factors: factors.collect(),
+            pair,
+            inertia: mu,
+            coefficient: a,
+            touched,
+        }
+    }
+}
+
+/// The terms of [u w] P⁻¹ [x; y] for P = [μ a; a 0].
+pub(super) fn products(
+    (u, w): (Id, Id),
+    (x, y): (Id, Id),
+    a: Id,
+    mu: Id,
+    g: &mut Graph,
+) -> [Id; 3] {
+    let first = g.product(&[(u, 1), (y, 1), (a, -1)]);
+    let second = g.product(&[(w, 1), (x, 1), (a, -1)]);
+    let third = g.product(&[(w, 1), (y, 1), (mu, 1), (a, -2)]);
+    [first, second, g.neg(third)]
 }

@@ -1,0 +1,151 @@
+//! Solutions of an eliminated system.
+
+use super::matrix::{Double, Entry, Factor, Single, products};
+use crate::expr::{Graph, Id};
+
+/// A solution of K x = r.
+pub(super) struct Solution {
+    /// The coordinates' part of it.
+    pub(super) coordinates: Vec<Id>,
+    /// Right-hand sides of the 1 × 1 pivots, times the same numbers as these.
+    pub(super) rights: Vec<Id>,
+}
+
+/// A right-hand side during forward elimination.
+pub(super) struct Forward {
+    n: usize,
+    entries: Vec<Entry>,
+    /// p R of an update r + p (R/D)/(N/D) whose division by N is put off.
+    deferred: Vec<Option<Id>>,
+    /// Right-hand sides of the 1 × 1 pivots.
+    rights: Vec<Id>,
+    /// What each step leaves of its unknown.
+    solved: Vec<Id>,
+}
+
+impl Forward {
+    /// Begins with the right-hand side [`force`; `rhs`].
+    pub(super) fn new(force: &[Id], rhs: &[Id]) -> Self {
+        let entries: Vec<Entry> = force.iter().chain(rhs).copied().map(Entry::of).collect();
+        Forward {
+            n: force.len(),
+            deferred: vec![None; entries.len()],
+            entries,
+            rights: Vec::new(),
+            solved: Vec::new(),
+        }
+    }
+
+    /// Takes one step of the elimination.
+    pub(super) fn step(&mut self, factor: &Factor, g: &mut Graph) {
+        let solved = match factor {
+            Factor::Single(single) => self.single(single, g),
+            Factor::Double(double) => self.double(double, g),
+        };
+        self.solved.push(solved);
+    }
+
+    fn value(&self, k: usize, g: &mut Graph) -> Id {
+        self.entries[k].values(g).1
+    }
+
+    fn take_off(&mut self, k: usize, term: Id, reduces: bool, g: &Graph) {
+        if !g.is_zero(term) {
+            self.entries[k].take_off(term, reduces);
+        }
+    }
+
+    /// sign · right/pivot of a 1 × 1 pivot, which is taken off its neighbours.
+    fn single(&mut self, single: &Single, g: &mut Graph) -> Id {
+        let own = self.value(single.at, g);
+        let mut right = own;
+        if let (Some(before), Some(pivot)) = (self.deferred[single.at], single.denominator) {
+            let whole = g.mul(own, pivot);
+            right = g.factored_sum(&[(1.0, whole), (1.0, before)]);
+        }
+        self.rights.push(right);
+        let solved = g.div(right, single.numerator);
+        let solved = g.scale(single.sign, solved);
+        if let (true, [(a, off)]) = (single.defers, &single.row[..]) {
+            self.deferred[*a] = Some(g.mul(*off, right));
+            return solved;
+        }
+        let own = match single.shared {
+            true => g.hold_whole(own),
+            false => own,
+        };
+        for ((a, factor), (_, entry)) in single.factors.iter().zip(&single.row) {
+            let term = match single.denominator {
+                None => g.mul(*factor, own),
+                Some(_) => g.mul(*entry, solved),
+            };
+            self.take_off(*a, term, single.at >= self.n, g);
+        }
+        solved
+    }
+
+    /// q̈ of a coordinate that was eliminated with a constraint, as far as the right-hand side determines it.
+    fn double(&mut self, double: &Double, g: &mut Graph) -> Id {
+        let Double {
+            pair,
+            inertia,
+            coefficient,
+            ..
+        } = *double;
+        let right = (
+            self.value(pair.coordinate, g),
+            self.value(pair.constraint, g),
+        );
+        for (r, rj, rc) in &double.touched {
+            for term in products((*rj, *rc), right, coefficient, inertia, g) {
+                self.take_off(*r, term, false, g);
+            }
+        }
+        g.div(right.1, coefficient)
+    }
+
+    /// Back substitution, once all `factors` are taken; `names` are those of coordinates and constraints.
+    pub(super) fn solution(
+        self,
+        factors: &[Factor],
+        names: &[String],
+        g: &mut Graph,
+        hints: &mut Vec<(Id, String)>,
+    ) -> Result<Solution, String> {
+        let singles = factors.iter().filter_map(|factor| match factor {
+            Factor::Single(single) => Some(single.at),
+            Factor::Double(_) => None,
+        });
+        let named = singles.zip(&self.rights);
+        hints.extend(named.map(|(at, right)| (*right, format!("right_{}", names[at]))));
+        let mut solution: Vec<Option<Id>> = vec![None; self.entries.len()];
+        for (factor, right) in factors.iter().zip(self.solved).rev() {
+            let (unknown, row) = match factor {
+                Factor::Single(single) => (single.at, &single.factors),
+                Factor::Double(double) => (double.pair.coordinate, &double.factors),
+            };
+            let mut terms = vec![(1.0, right)];
+            for (other, factor) in row {
+                // A multiplier that no coordinate left needs (of a 2 × 2 pivot) is not computed.
+                let Some(x) = solution[*other] else {
+                    return Err(format!(
+                        "the order leaves out the multiplier of `{}`",
+                        names[*other]
+                    ));
+                };
+                terms.push((-1.0, g.mul(*factor, x)));
+            }
+            // Varying factors in front would have to be multiplied by each other.
+            let x = g.factored_sum_of(&terms, |g, id| g.uses(id).constant());
+            if unknown >= self.n {
+                hints.push((x, format!("lambda_{}", names[unknown])));
+            }
+            solution[unknown] = Some(x);
+        }
+        let coordinates: Option<Vec<Id>> = solution[..self.n].iter().copied().collect();
+        Ok(Solution {
+            coordinates: coordinates.ok_or("a coordinate was left over")?,
+            rights: self.rights,
+        })
+    }
+}
