@@ -129,6 +129,7 @@ fn ukcore() {
     check_order(
         "ukcore",
         &[
+            "numbers",
             "error",
             "scalar",
             "double",
@@ -151,6 +152,7 @@ fn ukcore() {
             "lanes",
             "assemble",
             "model",
+            "explain",
             "linearise",
             "integrate",
             "events",
@@ -184,7 +186,15 @@ fn syntax_is_parsed_in_parse_and_written_in_emit() {
 #[test]
 fn no_unsafe_code_and_no_loose_ends() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    for name in ["ukcore", "ukmacros", "models", "tests"] {
+    for name in [
+        "ukcore",
+        "ukmacros",
+        "models",
+        "models/tool",
+        "models/uk",
+        "tests",
+        "tests/stability",
+    ] {
         for file in sources(&root.join(name).join("src")) {
             let text = std::fs::read_to_string(&file).expect("readable");
             for word in [
