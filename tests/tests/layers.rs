@@ -151,6 +151,7 @@ fn ukcore() {
             "assemble",
             "explain",
             "model",
+            "explain",
             "linearise",
             "integrate",
             "events",
@@ -184,7 +185,15 @@ fn syntax_is_parsed_in_parse_and_written_in_emit() {
 #[test]
 fn no_unsafe_code_and_no_loose_ends() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    for name in ["ukcore", "ukmacros", "models", "tests"] {
+    for name in [
+        "ukcore",
+        "ukmacros",
+        "models",
+        "models/tool",
+        "models/uk",
+        "tests",
+        "tests/stability",
+    ] {
         for file in sources(&root.join(name).join("src")) {
             let text = std::fs::read_to_string(&file).expect("readable");
             for word in [

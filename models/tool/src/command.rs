@@ -94,7 +94,7 @@ fn program() -> String {
 ///
 /// # Errors
 /// [`Failure::Usage`] with the nearest name.
-pub(crate) fn find<'a>(models: &'a [Entry], id: &str) -> Result<&'a Entry, Failure> {
+pub fn find<'a>(models: &'a [Entry], id: &str) -> Result<&'a Entry, Failure> {
     models.iter().find(|m| m.id == id).ok_or_else(|| {
         let error = Error::unknown_name("model", id, &mut models.iter().map(|m| m.id.as_str()));
         match error {

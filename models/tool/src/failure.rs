@@ -70,7 +70,7 @@ impl From<Error> for Failure {
             Error::UnknownName { .. } | Error::InvalidSetting { .. } => {
                 Failure::Usage(error.to_string())
             }
-            _ => Failure::Failed(error.to_string()),
+            _ => Failure::Failed(error.to_string().replace("`max_steps`", "`--max-steps`")),
         }
     }
 }

@@ -46,6 +46,9 @@ pub struct RunArgs {
     /// long the run
     #[arg(long, value_name = "METHOD", default_value = "dop853", value_parser = method)]
     pub method: Method,
+    /// Steps to give up after, such as 1e9
+    #[arg(long, value_name = "STEPS", default_value = "1e7", value_parser = steps)]
+    pub max_steps: usize,
     /// How the constraints are kept from drifting: `projection` of positions and velocities after each step; `baumgarte` or
     /// `baumgarte=ALPHA,BETA`, feedback terms 2 ALPHA φ̇ + BETA² φ with ALPHA and BETA in 1/s, 20 each if absent; `none`
     #[arg(
@@ -167,6 +170,7 @@ fn integrate(
         .start(ready.state.clone())
         .method(args.method)
         .tolerance(args.tol)
+        .max_steps(args.max_steps)
         .stabilise(args.stabilise)
         .progress(move |now| {
             bar.set((now.t - from) / (until - from), || {
@@ -232,6 +236,16 @@ fn tolerance(text: &str) -> Result<f64, String> {
     number.ok_or_else(|| format!("a number from {SMALLEST_TOLERANCE:.1e} to below 1 is needed"))
 }
 
+fn steps(text: &str) -> Result<usize, String> {
+    let number = text
+        .trim()
+        .parse()
+        .ok()
+        .filter(|x: &f64| (1.0..1e18).contains(x));
+    let number = number.ok_or("a number of steps is needed, at least 1")?;
+    Ok(number as usize)
+}
+
 fn interval(text: &str) -> Result<f64, String> {
     let seconds = units::seconds(text)?;
     if seconds > 0.0 {
@@ -243,6 +257,16 @@ fn interval(text: &str) -> Result<f64, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn steps_may_be_many() {
+        assert_eq!(steps("1e9"), Ok(1_000_000_000));
+        assert!(
+            ["0", "-1", "nan", "many", "1e30"]
+                .iter()
+                .all(|text| steps(text).is_err())
+        );
+    }
 
     #[test]
     fn the_step_of_rattle_has_a_unit() {

@@ -3,8 +3,9 @@
 use models::uchain::TABLE_1;
 use models::{Model, StartOptions, UChain};
 use serde::Serialize;
+use ukcore::Event;
 use ukcore::simulate::Direction;
-use ukcore::{Event, Mechanism};
+use uktool::command;
 use uktool::failure::Failure;
 
 use super::measure;
@@ -98,11 +99,12 @@ pub(super) fn compute(start: &str, x0: f64) -> Result<Chain, Failure> {
         PAPER_START => format!("uchain-{x0}"),
         other => format!("uchain-{other}-{x0}"),
     };
-    let mechanism = UChain::default();
-    let g = mechanism.g;
-    let start = mechanism.start(start, &StartOptions::new().with("x0", x0))?;
+    let models = models::entries();
+    let entry = command::find(&models, UChain::ID)?;
+    let options = StartOptions::new().with("x0", x0);
+    let start = entry.start(&entry.mechanism, start, &options)?;
     let turn = Event::new("turn", |_, _, v| v[TIP_Y]).direction(Direction::Falling);
-    let (mut motion, run) = Motion::new(&name, &mechanism.prepared(), start, UNTIL, Some(turn))?;
+    let (mut motion, run) = Motion::new(&name, &entry.mechanism, start, UNTIL, Some(turn))?;
     let hit = motion.trajectory().events("turn")?.next().ok_or_else(|| {
         Failure::Failed(format!(
             "{name}: the tip does not turn before t = {UNTIL} s"
@@ -121,15 +123,17 @@ pub(super) fn compute(start: &str, x0: f64) -> Result<Chain, Failure> {
             path.push((q[TIP_X], q[TIP_Y]));
         }
     }
+    let chain = UChain::default();
+    let g = chain.g;
     let before = |t: f64| t <= t_max;
     let (t_peak, peak) = extremum(&mut motion, &acceleration, 1.0, |_| true)?;
     let (t_highest, lowest) = extremum(&mut motion, &acceleration, -1.0, before)?;
     let above = AboveG::of(&acceleration, g, t_max);
-    let free = mechanism.free_fall(t_max);
+    let free = chain.free_fall(t_max);
     let least_lead = fall
         .iter()
         .filter(|(t, _)| *t > 0.0 && before(*t))
-        .map(|(t, y)| y / mechanism.free_fall(*t) - 1.0)
+        .map(|(t, y)| y / chain.free_fall(*t) - 1.0)
         .fold(f64::INFINITY, f64::min);
     let row = ChainRow {
         x0,

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use models::{FishRobot, Model, StartOptions};
 use serde::Serialize;
-use ukcore::Mechanism;
+use uktool::command;
 use uktool::failure::Failure;
 
 use super::measure::{self, Oscillation};
@@ -132,15 +132,15 @@ pub(super) struct Fish {
 pub(super) fn compute(gait: Gait) -> Result<Fish, Failure> {
     let name = format!("fish-a{}-w{}pi-phi{}", gait.a3, gait.omega_pi, gait.phi_deg);
     let omega = gait.omega_pi * PI;
-    let mechanism = FishRobot {
-        a2: A2,
-        a3: gait.a3,
-        w: omega,
-        phi: gait.phi_deg.to_radians(),
-        ..FishRobot::default()
-    };
-    let start = mechanism.start("table3", &StartOptions::new())?;
-    let (mut motion, run) = Motion::new(&name, &mechanism.prepared(), start, UNTIL, None)?;
+    let models = models::entries();
+    let entry = command::find(&models, FishRobot::ID)?;
+    let mut mechanism = entry.mechanism.clone();
+    let phi = gait.phi_deg.to_radians();
+    for (name, value) in [("a2", A2), ("a3", gait.a3), ("w", omega), ("phi", phi)] {
+        mechanism.set(name, value)?;
+    }
+    let start = entry.start(&mechanism, "table3", &StartOptions::new())?;
+    let (mut motion, run) = Motion::new(&name, &mechanism, start, UNTIL, None)?;
 
     let (mut speed, mut acceleration, mut swing) = (Vec::new(), Vec::new(), Vec::new());
     for t in times(0.0, UNTIL, POINTS) {

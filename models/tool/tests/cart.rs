@@ -1,0 +1,148 @@
+//! The example as its user meets it: a program of a declaration and one line.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+fn cart(args: &str) -> Output {
+    // Examples are built beside the tests.
+    let test = std::env::current_exe().expect("a test");
+    let examples = test.ancestors().nth(2).expect("a target directory");
+    let program = examples.join("examples/cart");
+    assert!(
+        program
+            .with_extension(std::env::consts::EXE_EXTENSION)
+            .exists(),
+        "`cargo build -p uktool --example cart` makes {}",
+        program.display()
+    );
+    Command::new(program)
+        .args(args.split_whitespace())
+        .output()
+        .expect("it starts")
+}
+
+#[track_caller]
+fn output(args: &str) -> String {
+    let output = cart(args);
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(
+        (told.as_str(), output.status.code()),
+        ("", Some(0)),
+        "{args}"
+    );
+    String::from_utf8(output.stdout).expect("UTF-8")
+}
+
+#[track_caller]
+fn fails(args: &str, code: i32, message: &str) {
+    let output = cart(args);
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(told.contains(message), "{args}: {told}");
+    assert_eq!(output.status.code(), Some(code), "{args}");
+}
+
+const GUESS: &str = "--guess x=0.4 --guess y=-0.2 --hold s";
+
+#[test]
+fn a_mechanism_is_listed_with_what_a_guess_can_name() {
+    let list = output("list");
+    assert!(
+        list.starts_with(
+            "cart  A cart on a spring with a pendulum hanging from it; y points up.\n"
+        )
+    );
+    assert!(
+        list.contains("guess      s, x, y\n") && list.contains("parameters big = 2, m = 1,"),
+        "{list}"
+    );
+    fails(
+        "run crat",
+        2,
+        "no model is called `crat`; did you mean `cart`?",
+    );
+    fails("run train", 2, "`cart list` shows those there are");
+}
+
+#[test]
+fn its_start_is_assembled_and_its_motion_printed() {
+    let csv = output(&format!("run cart {GUESS} --until 2 --every 0.5 --csv -"));
+    let mut lines = csv.lines();
+    assert_eq!(
+        lines.next(),
+        Some("t,s,x,y,dot(s),dot(x),dot(y),angle,energy,residual")
+    );
+    // As the library computes it: the nearest state on the rod, with the cart held.
+    let start = lines.next().expect("a row");
+    assert!(start.starts_with("0.0,0.0,0.44721359549995"), "{start}");
+    assert_eq!(csv.lines().count(), 1 + 5);
+    let run = output(&format!(
+        "run cart {GUESS} --guess dot(x)=0.1 --set k=80 --json"
+    ));
+    let run: Value = serde_json::from_str(&run).expect("JSON");
+    assert_eq!(
+        (&run["start"], &run["parameters"]["k"]),
+        (&"assembled".into(), &80.0.into())
+    );
+    assert!(
+        run["energy_drift"]
+            .as_f64()
+            .is_some_and(|drift| drift < 1e-8),
+        "{run}"
+    );
+    fails(
+        "run cart --guess x=0.4 --hold u",
+        2,
+        "no coordinate is called `u`",
+    );
+    fails(
+        "run cart --hold s,x,y",
+        1,
+        "`--guess NAME=VALUE` gives one, of s, x, y",
+    );
+    fails(
+        "run cart --start rest",
+        2,
+        "no start is called `rest`; there is none",
+    );
+}
+
+#[test]
+fn it_is_explained_with_a_guess_and_without() {
+    let text = output(&format!("explain cart {GUESS}"));
+    for part in [
+        "M[s, s] = big",
+        "A[x] = ",
+        "degrees of freedom: 2",
+        "At the start `assembled`",
+    ] {
+        assert!(text.contains(part), "{part} in {text}");
+    }
+    assert!(output("explain cart").contains("rod: "));
+    assert!(output("explain cart --code acceleration").starts_with("fn acceleration<S: "));
+}
+
+#[test]
+fn it_is_measured() {
+    let out = tempfile::tempdir().expect("directory");
+    let place = out.path().join("report");
+    let told = output(&format!(
+        "report cart {GUESS} --until 0.5 --quick --out {}",
+        place.display()
+    ));
+    assert!(told.contains("DOP853, projection at"), "{told}");
+    for file in [
+        "index.html",
+        "report.json",
+        "report.csv",
+        "figures/cart-time.svg",
+    ] {
+        assert!(Path::new(&place).join(file).is_file(), "{file}");
+    }
+    fails(
+        &format!("report cart --out {}", place.display()),
+        1,
+        "`cart`: ",
+    );
+}
