@@ -39,8 +39,8 @@ fn angles_are_what_sines_are_taken_of() {
 fn the_runtime_is_called_what_the_user_calls_it() {
     let rest = "pub T { coords { x } mass { x: 1.0 } }";
     let emitted = |source: &str| expand(source).0.to_string().replace(' ', "");
-    assert!(emitted(rest).contains("use::ukcoreasukcore;"));
+    assert!(emitted(rest).contains("use::ukcore::emittedasukcore;"));
     let renamed = emitted(&format!("#[ukcore(crate = my::dynamics)] {rest}"));
-    assert!(renamed.contains("usemy::dynamicsasukcore;"), "{renamed}");
-    assert!(!renamed.contains("::ukcore"));
+    assert!(renamed.contains("usemy::dynamics::emittedasukcore;"), "{renamed}");
+    assert!(!renamed.contains("::ukcore;") && !renamed.contains("::ukcore::"));
 }
