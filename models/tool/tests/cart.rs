@@ -141,8 +141,8 @@ fn it_is_measured() {
         assert!(Path::new(&place).join(file).is_file(), "{file}");
     }
     fails(
-        &format!("report cart --out {}", place.display()),
+        &format!("report cart --hold s,x,y --out {}", place.display()),
         1,
-        "`cart`: ",
+        "`--guess NAME=VALUE` gives one, of s, x, y",
     );
 }

@@ -41,6 +41,9 @@ fn the_runtime_is_called_what_the_user_calls_it() {
     let emitted = |source: &str| expand(source).0.to_string().replace(' ', "");
     assert!(emitted(rest).contains("use::ukcore::emittedasukcore;"));
     let renamed = emitted(&format!("#[ukcore(crate = my::dynamics)] {rest}"));
-    assert!(renamed.contains("usemy::dynamics::emittedasukcore;"), "{renamed}");
+    assert!(
+        renamed.contains("usemy::dynamics::emittedasukcore;"),
+        "{renamed}"
+    );
     assert!(!renamed.contains("::ukcore;") && !renamed.contains("::ukcore::"));
 }
