@@ -223,7 +223,7 @@ fn is_letter(c: char) -> bool {
 /// All digits and points, so that `1.5.2` is one wrong number; an `e` is an exponent only if digits follow: `2e3`, but not `2 e`.
 fn number_length(text: &str) -> usize {
     let digits = |from: usize, point| {
-        let end = text[from..].find(|c: char| !c.is_ascii_digit() && !(point && c == '.'));
+        let end = text[from..].find(|c: char| !(c.is_ascii_digit() || point && c == '.'));
         end.map_or(text.len(), |n| from + n)
     };
     let end = digits(0, true);

@@ -21,7 +21,7 @@ fn state(t: f64, q: &[f64], v: &[f64]) -> State {
 #[test]
 fn rough_guesses_become_consistent_states() {
     let s = assemble(
-        &Pendulum::default(),
+        Pendulum::default(),
         state(0.0, &[3.0, -4.0], &[1.0, 1.0]),
         &[],
     )
@@ -29,14 +29,14 @@ fn rough_guesses_become_consistent_states() {
     consistent(&Pendulum::default(), &s);
     assert!((s.q[0] - 0.6).abs() < 0.1);
     let s = assemble(
-        &Twice::default(),
+        Twice::default(),
         state(0.0, &[0.1, 0.4, 3.0, 0.2], &[1.0, 0.0, 0.0, 1.0]),
         &[],
     )
     .unwrap();
     consistent(&Twice::default(), &s);
     let s = assemble(
-        &Springs::default(),
+        Springs::default(),
         state(0.0, &[1.0, 9.0], &[1.0, 0.0]),
         &["x"],
     )
@@ -45,7 +45,7 @@ fn rough_guesses_become_consistent_states() {
     assert_eq!((s.q[0], s.v[0]), (1.0, 1.0));
     assert!((s.q[1] - 0.625).abs() < 1e-15);
     let s = assemble(
-        &Prescribed::default(),
+        Prescribed::default(),
         state(0.5, &[9.0, 2.0], &[0.0, 3.0]),
         &["y"],
     )
@@ -53,7 +53,7 @@ fn rough_guesses_become_consistent_states() {
     assert!((s.q[0] - 0.5_f64.sin()).abs() < 1e-15 && (s.v[0] - 0.5_f64.cos()).abs() < 1e-15);
     assert_eq!((s.q[1], s.v[1]), (2.0, 3.0));
     let s = assemble(
-        &Skate::default(),
+        Skate::default(),
         state(0.0, &[0.0, 0.0, 0.5], &[0.3, 0.1, 1.0]),
         &["th"],
     )
@@ -79,10 +79,10 @@ fn a_redundant_loop_closes_with_its_crank_held() {
 
 #[test]
 fn guesses_without_a_gradient_are_shaken() {
-    let s = assemble(&Pendulum::default(), state(0.0, &[0.0; 2], &[0.0; 2]), &[]).unwrap();
+    let s = assemble(Pendulum::default(), state(0.0, &[0.0; 2], &[0.0; 2]), &[]).unwrap();
     consistent(&Pendulum::default(), &s);
     let s = assemble(
-        &Parallelogram::default(),
+        Parallelogram::default(),
         state(0.0, &[0.0; 4], &[0.0; 4]),
         &[],
     )
@@ -94,7 +94,7 @@ fn guesses_without_a_gradient_are_shaken() {
 fn consistent_states_stay() {
     let exact = state(0.0, &[0.6, 0.8, 2.6, 0.8], &[-0.8, 0.6, -0.8, 0.6]);
     assert_eq!(
-        assemble(&Parallelogram::default(), exact.clone(), &[]),
+        assemble(Parallelogram::default(), exact.clone(), &[]),
         Ok(exact)
     );
 }
@@ -114,7 +114,7 @@ fn conflicts_are_named() {
         other => panic!("{other:?}"),
     };
     let e = assemble(
-        &Contradiction::default(),
+        Contradiction::default(),
         state(0.0, &[0.3, 0.1], &[0.0; 2]),
         &[],
     )
@@ -125,7 +125,7 @@ fn conflicts_are_named() {
     );
     // Both ends held out of reach.
     let e = assemble(
-        &Twice::default(),
+        Twice::default(),
         state(0.0, &[0.5, 0.5, 3.0, 0.0], &[0.0; 4]),
         &["x2", "y2"],
     )
@@ -140,7 +140,7 @@ fn conflicts_are_named() {
     );
     let held = ["x", "y"];
     let e = assemble(
-        &Pendulum::default(),
+        Pendulum::default(),
         state(0.0, &[1.0, 0.0], &[1.0, 0.0]),
         &held,
     )
@@ -148,13 +148,13 @@ fn conflicts_are_named() {
     assert_eq!(names(e), ("velocity", vec!["rod".into()], "x".into()));
     // Of two held coordinates either alone can give way: x to ±1, or y to ±√(1 − 4) not.
     let guess = state(0.0, &[2.0, 0.5], &[0.0; 2]);
-    let e = assemble(&Pendulum::default(), guess, &held).unwrap_err();
+    let e = assemble(Pendulum::default(), guess, &held).unwrap_err();
     let message = e.to_string();
     assert!(
         message.contains("`rod` (3.250e0)") && message.contains("`x` is held: let it go"),
         "{message}"
     );
-    let e = assemble(&Pendulum::default(), State::zeros::<Pendulum>(), &["z"]).unwrap_err();
+    let e = assemble(Pendulum::default(), State::zeros::<Pendulum>(), &["z"]).unwrap_err();
     assert!(matches!(
         e,
         Error::UnknownName {
@@ -162,10 +162,10 @@ fn conflicts_are_named() {
             ..
         }
     ));
-    let e = assemble(&Pendulum::default(), state(0.0, &[1.0], &[1.0]), &[]).unwrap_err();
+    let e = assemble(Pendulum::default(), state(0.0, &[1.0], &[1.0]), &[]).unwrap_err();
     assert!(matches!(e, Error::WrongLength { what: "q", .. }));
     let e = assemble(
-        &Pendulum::default(),
+        Pendulum::default(),
         state(0.0, &[1.0, f64::NAN], &[1.0, 0.0]),
         &[],
     )

@@ -117,7 +117,7 @@ fn wrong_uses_are_refused() {
         })
     );
     let mut solver = Solver::new(
-        &Springs::default(),
+        Springs::default(),
         SolverOptions {
             formula: Formula::UdwadiaKalaba,
             ..SolverOptions::default()
