@@ -7,7 +7,8 @@ use ukcore::{Error, State};
 
 ukcore::multibody! {
     /// Point mass on a massless spring about a pivot at the origin; y points up. The stiffer the spring, the more it is a
-    /// [`Pendulum`](crate::Pendulum), and the shorter the steps of an explicit method, which has to follow the oscillation along the spring, be it there or not.
+    /// [`Pendulum`](crate::Pendulum), and the shorter the steps of an explicit method, which has to follow the oscillation along the
+    /// spring, be it there or not.
     pub SpringPendulum {
         params {
             /// Mass, kg
@@ -88,7 +89,8 @@ impl Model for SpringPendulum {
 }
 
 impl SpringPendulum {
-    /// Length of the spring, m, and its rate, m/s, at which the spring carries the mass at `angle`, rad, and `rate`, rad/s, but for terms of order 1/k².
+    /// Length of the spring, m, and its rate, m/s, at which the spring carries the mass at `angle`, rad, and `rate`, rad/s, but for terms
+    /// of order 1/k².
     ///
     /// k (r − l) = m (g cos θ + r θ̇²), and its derivative with θ̈ = −g sin θ / r.
     #[must_use]

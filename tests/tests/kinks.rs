@@ -106,7 +106,8 @@ fn swim(settings: impl Fn(Simulation) -> Simulation) -> (f64, Work) {
     (largest(&errors), run.work())
 }
 
-/// With steps of one size the error falls with the method's order, where those across the kinks of |v| v stay at the order of a jump in the second derivative.
+/// With steps of one size the error falls with the method's order, where those across the kinks of |v| v stay at the order of a jump in the
+/// second derivative.
 #[test]
 fn steps_onto_the_kinks_have_the_order_of_the_method() {
     let error = |method: Method, switching: Switching, h: f64| {
@@ -266,7 +267,8 @@ fn a_force_that_jumps_with_time_is_followed_to_rounding() {
     }
 }
 
-/// A motion that comes within 1e-9 of the kink, on either side, or touches it, goes on as if there were none; one that dips into the other branch is followed there.
+/// A motion that comes within 1e-9 of the kink, on either side, or touches it, goes on as if there were none; one that dips into the other
+/// branch is followed there.
 #[test]
 fn a_touch_is_no_crossing() {
     let run = |offset: f64, tolerance: f64, switching: Switching| {
@@ -291,7 +293,8 @@ fn a_touch_is_no_crossing() {
     assert_eq!(work.switches, 6, "{work:?}");
 }
 
-/// From any start, steps onto the zeros lead to where short steps across them do. Where y = t the track turns by an angle, so that no velocity
+/// From any start, steps onto the zeros lead to where short steps across them do. Where y = t the track turns by an angle, so that no
+/// velocity
 /// satisfies the constraint before and after: such a run ends there either way.
 #[test]
 fn random_motions_are_those_of_short_steps_across() {

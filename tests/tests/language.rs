@@ -1,4 +1,5 @@
-//! The language of declarations, beyond what the models use: emitted code against the same formulas written by hand, differentiated by dual numbers.
+//! The language of declarations, beyond what the models use: emitted code against the same formulas written by hand, differentiated by dual
+//! numbers.
 
 use nalgebra::DMatrix;
 use tests::{Dense, Random, assert_all_close, assert_close};

@@ -1,4 +1,5 @@
-//! No silent garbage: random mechanisms of rods (trees and loops, masses and lengths over many decades, rows scaled and declared again) come out right
+//! No silent garbage: random mechanisms of rods (trees and loops, masses and lengths over many decades, rows scaled and declared again)
+//! come out right
 //! by an oracle in 31 digits, or as an error with a name.
 
 use tests::Random;
@@ -9,7 +10,8 @@ use ukcore::solver::Formula;
 use ukcore::{Error, Mechanism, Simulation, Solver, SolverOptions, State};
 
 ukcore::multibody! {
-    /// N particles and K rods. Parameters say which rod joins what: its vector is Σ c x − (ax, ay) over all particles. A rod without ends is no constraint.
+    /// N particles and K rods. Parameters say which rod joins what: its vector is Σ c x − (ax, ay) over all particles. A rod without ends
+    /// is no constraint.
     pub Rods {
         const N: usize = 5;
         const K: usize = 8;
@@ -28,10 +30,12 @@ ukcore::multibody! {
 const N: usize = 5;
 const K: usize = 8;
 
-/// Largest residual of A q̈ = b, as a part of the terms of its row, and of M q̈ − Q off the range of Aᵀ, as a part of both, where the rows are well apart.
+/// Largest residual of A q̈ = b, as a part of the terms of its row, and of M q̈ − Q off the range of Aᵀ, as a part of both, where the rows
+/// are well apart.
 const BOUND: f64 = 1e-10;
 
-/// Where they are not: so many times the rounding of A's entries over the least part that a row has for itself. An entry, a difference of coordinates, is
+/// Where they are not: so many times the rounding of A's entries over the least part that a row has for itself. An entry, a difference of
+/// coordinates, is
 /// rounded by ε times the coordinates' size over the rod's length.
 const ROUNDING: f64 = 1e3;
 
@@ -183,7 +187,8 @@ impl Exact {
         (worst.max(beside), bound)
     }
 
-    /// The part of M^−½ (M q̈ − Q) outside of the range of M^−½ Aᵀ, by Gram and Schmidt, and the least part that a row has for itself, in A's own units.
+    /// The part of M^−½ (M q̈ − Q) outside of the range of M^−½ Aᵀ, by Gram and Schmidt, and the least part that a row has for itself, in
+    /// A's own units.
     fn beside_constraints(&self, a: &[f64]) -> (f64, f64) {
         let n = 2 * N;
         let dot = |x: &[DoubleDouble], y: &[DoubleDouble]| {

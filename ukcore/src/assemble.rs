@@ -1,8 +1,10 @@
 //! From a rough guess to a consistent state.
 //!
 //! Closed loops cannot be drawn by hand to rounding. [`assemble`] takes a guess and coordinates to hold and finds a state near it
-//! that satisfies every constraint: damped Gauss-Newton (Levenberg-Marquardt) finds the place, and projection in the mass metric gives the last digits; velocities that
-//! enter linearly it gives at once. For the search each constraint is scaled to a row of A of unit norm, and each coordinate by the root of its inertia, so that the
+//! that satisfies every constraint: damped Gauss-Newton (Levenberg-Marquardt) finds the place, and projection in the mass metric gives the
+//! last digits; velocities that
+//! enter linearly it gives at once. For the search each constraint is scaled to a row of A of unit norm, and each coordinate by the root of
+//! its inertia, so that the
 //! state found is near in the mass metric.
 
 use nalgebra::DMatrix;
@@ -35,7 +37,8 @@ const DAMPING_FACTOR: f64 = 10.0;
 /// Beyond this damping steps are below rounding: a minimum that is not zero.
 const DAMPING_LIMIT: f64 = 1e16;
 
-/// Where the search ends as near to the constraints as this share of lengths, √ε, it has found the place, and Newton's method does the rest.
+/// Where the search ends as near to the constraints as this share of lengths, √ε, it has found the place, and Newton's method does the
+/// rest.
 const NEAR: f64 = 1.5e-8;
 
 /// A time, coordinates and velocities.

@@ -7,10 +7,12 @@
 //! - [`Solver`]: accelerations, constraint forces and multipliers at a state, for regular and singular M, for redundant
 //!   constraints, with ideal and non-ideal constraint forces. Without heap allocation once it is made.
 //! - [`assemble`](assemble()): a consistent state from a rough guess. [`manifold::Projector`]: the nearest consistent state.
-//! - [`Simulation`]: adaptive integration with projection, events, dense output and named CSV; `Ensemble` (feature `ensemble`): many motions at once, in
+//! - [`Simulation`]: adaptive integration with projection, events, dense output and named CSV; `Ensemble` (feature `ensemble`): many
+//!   motions at once, in
 //!   lanes and on all cores.
 //! - [`Linearisation`]: exact derivatives of the accelerations. [`lanes`]: several mechanisms at once, in the lanes of wide numbers.
-//! - [`equations`]: the formulas as printed. [`spec`] and [`plan`]: what the compiler knows about a mechanism, and decided. [`model`]: what a mechanism may
+//! - [`equations`]: the formulas as printed. [`spec`] and [`plan`]: what the compiler knows about a mechanism, and decided. [`model`]: what
+//!   a mechanism may
 //!   say of itself besides.
 //!
 //! What most programs need is here at the root; the rest is in the modules, each with what belongs to it.

@@ -1,7 +1,8 @@
 //! The manifold of states that satisfy the constraints, and the ways onto it.
 //!
 //! The smallest change of q (in the metric M) with φ(q, t) = 0 solves, to first order, minimise ½ Δᵀ M Δ subject to A Δ = −φ: the
-//! constrained solve of eqs. 13 and 19 with Q = 0 and b = −φ. Newton's method repeats it, by the emitted elimination where there is one and its
+//! constrained solve of eqs. 13 and 19 with Q = 0 and b = −φ. Newton's method repeats it, by the emitted elimination where there is one and
+//! its
 //! certificate holds, else by the rank-revealing solve; near the manifold the factors of the
 //! first step serve for the following ones too, since each step then still divides the residual by 1/δ for a state at distance δ.
 //!
@@ -137,7 +138,8 @@ impl Projector {
         self.manifold.project(&at, v)
     }
 
-    /// Moves `q` onto φ(q, t) = 0 along M⁻¹A(`base`)ᵀ, for mechanisms with holonomic constraints alone; `shift` is the sum of all moves, which is more exact than the
+    /// Moves `q` onto φ(q, t) = 0 along M⁻¹A(`base`)ᵀ, for mechanisms with holonomic constraints alone; `shift` is the sum of all moves,
+    /// which is more exact than the
     /// difference of coordinates.
     ///
     /// # Errors
@@ -153,7 +155,8 @@ impl Projector {
         self.manifold.reach(&at, q, shift)
     }
 
-    /// The largest length in a holonomic constraint at q, in the unit of the coordinates: what rounding makes of φ, over ε max|A_cj|. 0 without such constraints.
+    /// The largest length in a holonomic constraint at q, in the unit of the coordinates: what rounding makes of φ, over ε max|A_cj|. 0
+    /// without such constraints.
     pub(crate) fn length(&mut self, t: f64, q: &[f64], v: &[f64]) -> f64 {
         let at = At::new(&self.mechanism, Level::Position, t, v);
         self.manifold.meets(&at, q, 0.0);
@@ -282,7 +285,8 @@ impl Manifold {
         }
     }
 
-    /// Whether residuals, known at `x`, will do where no step makes them less; for what is `factored`, constraints that imply each other included.
+    /// Whether residuals, known at `x`, will do where no step makes them less; for what is `factored`, constraints that imply each other
+    /// included.
     fn accept(&mut self, at: &At<'_, f64>, x: &[f64], factored: bool) -> bool {
         self.newton.weigh(at, x);
         let dense = factored.then_some(&mut self.factors.dense);

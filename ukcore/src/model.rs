@@ -56,7 +56,8 @@ pub trait Model: Mechanism {
         Vec::new()
     }
 
-    /// Sets of parameters, besides the defaults, that make another problem of the mechanism, so that it is worth being measured with them too.
+    /// Sets of parameters, besides the defaults, that make another problem of the mechanism, so that it is worth being measured with them
+    /// too.
     #[must_use]
     fn variations() -> &'static [&'static [(&'static str, f64)]] {
         &[]

@@ -81,7 +81,8 @@ impl Saddle {
         for i in 0..n {
             out[i] = self.x[i] / root[i];
         }
-        // Once more for what rounding has left: rows that nearly imply each other have multipliers far larger than the accelerations, and theirs is the rounding.
+        // Once more for what rounding has left: rows that nearly imply each other have multipliers far larger than the accelerations, and
+        // theirs is the rounding.
         for (x, column) in self.x.iter().zip(self.matrix.chunks_exact(size)) {
             axpy(-x, column, &mut self.rest);
         }

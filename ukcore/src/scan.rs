@@ -1,10 +1,12 @@
-//! Passes over vectors that become vector instructions: sums and maxima in several parts, so that not every operation waits for the one before.
+//! Passes over vectors that become vector instructions: sums and maxima in several parts, so that not every operation waits for the one
+//! before.
 
 use crate::scalar::Scalar;
 
 const PARTS: usize = 8;
 
-/// Whether all numbers are finite. A sum is finite only if all its terms are; where it is not, it may have overflowed, and each is looked at.
+/// Whether all numbers are finite. A sum is finite only if all its terms are; where it is not, it may have overflowed, and each is looked
+/// at.
 #[inline]
 pub(crate) fn all_finite(x: &[f64]) -> bool {
     sum(x).is_finite() || x.iter().all(|x| x.is_finite())

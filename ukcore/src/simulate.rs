@@ -77,7 +77,8 @@ pub struct Simulation {
 /// What a run does about [switches](crate::spec::SwitchSpec), the zeros at which abs, sign, min and max change their branch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Switching {
-    /// Steps go onto the zeros, and each step has the full order of its method. A motion that is driven onto a zero from both sides, as at rest under dry
+    /// Steps go onto the zeros, and each step has the full order of its method. A motion that is driven onto a zero from both sides, as at
+    /// rest under dry
     /// friction, ends with [`Error::Chattering`].
     #[default]
     Located,
@@ -94,7 +95,8 @@ pub struct Failure {
 }
 
 impl Simulation {
-    /// A simulation of `mechanism` with the defaults: [`Method::Dop853`] at tolerance 1e-9, projection, a sample at each accepted step, at most 10⁷ steps.
+    /// A simulation of `mechanism` with the defaults: [`Method::Dop853`] at tolerance 1e-9, projection, a sample at each accepted step, at
+    /// most 10⁷ steps.
     pub fn new(mechanism: impl Into<Prepared>) -> Self {
         Simulation {
             mechanism: mechanism.into(),
@@ -139,8 +141,10 @@ impl Simulation {
 
     /// Absolute tolerance of each step: the error allowed in a coordinate or velocity near zero, in its own unit; positive.
     ///
-    /// By default it is the relative one times the size of the start: the largest coordinate or velocity there or, if that is more, the largest length in a
-    /// holonomic constraint; but at most times 1. So a mechanism of micrometres is as exact in metres as one of metres. Coordinates of different units share
+    /// By default it is the relative one times the size of the start: the largest coordinate or velocity there or, if that is more, the
+    /// largest length in a
+    /// holonomic constraint; but at most times 1. So a mechanism of micrometres is as exact in metres as one of metres. Coordinates of
+    /// different units share
     /// it: the smallest that matters should decide.
     #[must_use]
     pub fn absolute_tolerance(mut self, tolerance: f64) -> Self {
@@ -171,7 +175,8 @@ impl Simulation {
 
     /// Samples at t₀ + k `dt` (t₀ − k `dt` going backward) and at the end, instead of each accepted step.
     ///
-    /// Times are the numbers nearest to what is written: 0.3 is taken for three tenths and 1.0 / 3.0 for a third, so that sample 3 lies at 0.9 and 1.
+    /// Times are the numbers nearest to what is written: 0.3 is taken for three tenths and 1.0 / 3.0 for a third, so that sample 3 lies at
+    /// 0.9 and 1.
     ///
     /// Samples lie on the interpolant, then are projected; they do not influence the steps. Interpolation by DOP853 adds an
     /// error of some ten tolerances to that which the steps have gathered; measured on swings of a pendulum at tolerances
@@ -184,7 +189,8 @@ impl Simulation {
         self
     }
 
-    /// Samples at these times and no others, instead of each accepted step; given in the order in which the run passes them. See [`every`](Simulation::every) for their accuracy.
+    /// Samples at these times and no others, instead of each accepted step; given in the order in which the run passes them. See
+    /// [`every`](Simulation::every) for their accuracy.
     #[must_use]
     pub fn at(mut self, times: Vec<f64>) -> Self {
         self.sampling = Sampling::At(times);
@@ -238,17 +244,22 @@ impl Simulation {
     /// # Errors
     /// [`Error::InvalidSetting`] for settings outside of their range; [`Error::WrongLength`], [`Error::NonFinite`] or
     /// [`Error::OffConstraint`] for a bad start; on the way [`Error::At`] with time, state and cause: what the solver or
-    /// the projection reports, [`Error::StepTooSmall`], [`Error::TooManySteps`], [`Error::Chattering`]. The trajectory up to there is in the [`Failure`].
+    /// the projection reports, [`Error::StepTooSmall`], [`Error::TooManySteps`], [`Error::Chattering`]. The trajectory up to there is in
+    /// the [`Failure`].
     pub fn until(self, t_end: f64) -> Result<Trajectory, Failure> {
         self.run(t_end, None)
     }
 
-    /// Runs from the start to `t_end` as [`until`](Simulation::until) does, and hands each sample and each event to `sink` instead of keeping it, so that
+    /// Runs from the start to `t_end` as [`until`](Simulation::until) does, and hands each sample and each event to `sink` instead of
+    /// keeping it, so that
     /// memory does not grow with the run. [`CsvWriter`] writes samples as they come, [`Drift`] measures them.
     ///
-    /// They come in the order in which the run passes them, each once, as soon as its step is accepted; those of the start and the end are among them.
-    /// `Break` ends the run after the step in hand, which is no failure; nothing more is handed over then. The trajectory has neither samples nor events, but how the run
-    /// [ended](Trajectory::ending), with which [state](Trajectory::last), at what [cost](Trajectory::work). [`dense`](Simulation::dense) keeps the
+    /// They come in the order in which the run passes them, each once, as soon as its step is accepted; those of the start and the end are
+    /// among them.
+    /// `Break` ends the run after the step in hand, which is no failure; nothing more is handed over then. The trajectory has neither
+    /// samples nor events, but how the run
+    /// [ended](Trajectory::ending), with which [state](Trajectory::last), at what [cost](Trajectory::work). [`dense`](Simulation::dense)
+    /// keeps the
     /// interpolant all the same.
     ///
     /// # Errors

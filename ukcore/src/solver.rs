@@ -94,7 +94,8 @@ struct Decided {
 }
 
 impl Solver {
-    /// A solver for `mechanism`: a reference to one that is declared, or a [`Prepared`] one. Everything it will ever need is allocated here.
+    /// A solver for `mechanism`: a reference to one that is declared, or a [`Prepared`] one. Everything it will ever need is allocated
+    /// here.
     #[must_use]
     pub fn new(mechanism: impl Into<Prepared>, options: SolverOptions) -> Self {
         Solver::of(mechanism.into(), options)
@@ -311,7 +312,8 @@ impl Solver {
         self.options.baumgarte
     }
 
-    /// The least significance of a row that counted in the solutions since this was last asked: how near they came to a singular position. 0 where the rank
+    /// The least significance of a row that counted in the solutions since this was last asked: how near they came to a singular position.
+    /// 0 where the rank
     /// was less than it was elsewhere, 1 where the emitted elimination found nothing to doubt.
     pub(crate) fn take_weakest(&mut self) -> f64 {
         std::mem::replace(&mut self.weakest, 1.0)

@@ -106,7 +106,8 @@ pub struct Structure {
     pub nonideal: bool,
     /// A `potential` section exists.
     pub potential: bool,
-    /// T + V is conserved: scleronomic, no `force` and no `nonideal`, nonholonomic constraints homogeneous in q̇, and M either constant or from `kinetic`.
+    /// T + V is conserved: scleronomic, no `force` and no `nonideal`, nonholonomic constraints homogeneous in q̇, and M either constant or
+    /// from `kinetic`.
     pub conservative: bool,
     /// Sentences: what was left out of the code for this mechanism, and why.
     pub left_out: &'static [&'static str],
@@ -114,7 +115,8 @@ pub struct Structure {
     pub costs: Costs,
 }
 
-/// How q̈ is solved for: the elimination of K = [M Aᵀ; A 0] that the compiler chose. Positions in K: coordinate i is i, constraint i is n + i.
+/// How q̈ is solved for: the elimination of K = [M Aᵀ; A 0] that the compiler chose. Positions in K: coordinate i is i, constraint i is n +
+/// i.
 #[derive(Debug)]
 pub struct Solve {
     /// Why there is no straight line, naming what stands against it; empty where there is one.

@@ -38,7 +38,8 @@ pub struct Work {
     pub rejected: usize,
     /// Steps onto zeros of [switching functions](crate::spec::SwitchSpec), each of them cut from a longer one.
     pub switches: usize,
-    /// Evaluations of the mechanism's dynamics, those for drift estimates near singular configurations included; those that come with the Jacobians of an implicit method are not.
+    /// Evaluations of the mechanism's dynamics, those for drift estimates near singular configurations included; those that come with the
+    /// Jacobians of an implicit method are not.
     pub evaluations: usize,
     /// Jacobians of the accelerations, for an implicit method. Each takes a sweep of dual numbers for each of its 2n columns.
     pub jacobians: usize,
@@ -68,7 +69,8 @@ pub enum Ending {
 
 /// Samples of a motion, its events, its cost; and what follows from the samples.
 ///
-/// Its methods compute at each sample anew what is asked for; nothing but states is stored. That of a [streamed](crate::Simulation::stream) run has neither
+/// Its methods compute at each sample anew what is asked for; nothing but states is stored. That of a [streamed](crate::Simulation::stream)
+/// run has neither
 /// samples nor events.
 #[derive(Clone)]
 pub struct Trajectory {

@@ -22,7 +22,8 @@
 //! [`ukcore::model::Model`] has starts, a duration and references of its own besides.
 //!
 //! The same as functions: [`list`](list::list), [`run`](run::run), [`explain`](explain::explain), [`report`](report::report) and
-//! [`stability`](stability::stability) take models as [`Entry`], or cases, and their arguments; [`plot`] draws charts and [`html`] makes pages.
+//! [`stability`](stability::stability) take models as [`Entry`], or cases, and their arguments; [`plot`] draws charts and [`html`] makes
+//! pages.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -49,7 +50,8 @@ pub use ukcore::model::Entry;
 
 /// The whole of a program for the mechanisms declared beside it: a `main` function with the commands `list`, `run`, `explain` and `report`.
 ///
-/// The mechanisms are called like their types, in lower case and with dashes (`Cart` as `cart`, `UChain` as `u-chain`), and have no starts; unless they
+/// The mechanisms are called like their types, in lower case and with dashes (`Cart` as `cart`, `UChain` as `u-chain`), and have no starts;
+/// unless they
 /// implement [`ukcore::model::Model`] and say more of themselves. See the [crate] for an example.
 #[macro_export]
 macro_rules! main {

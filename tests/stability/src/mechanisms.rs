@@ -89,7 +89,8 @@ ukcore::multibody! {
 }
 
 ukcore::multibody! {
-    /// A carriage with a prescribed motion that changes at t = 1/2 by a jump in place, in velocity and in acceleration, and a mass that hangs on it by a spring.
+    /// A carriage with a prescribed motion that changes at t = 1/2 by a jump in place, in velocity and in acceleration, and a mass that
+    /// hangs on it by a spring.
     pub(crate) Carriage {
         params { place = 0.0, velocity = 0.0, acceleration = 0.0, k = 30.0 }
         coords { x, y }

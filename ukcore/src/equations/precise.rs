@@ -13,7 +13,8 @@ const SWEEPS: usize = 12;
 /// q̈ with M q̈ = Q + c + Aᵀλ and A q̈ = b at (t, q, q̇), which are taken as exact; by the emitted M, Q, c, A, b in [`DoubleDouble`] and
 /// elimination with complete pivoting.
 ///
-/// `None` where the motion is not determined. Where constraints are redundant (pivots below 1e-22 of their row), the rest decides; a set that is
+/// `None` where the motion is not determined. Where constraints are redundant (pivots below 1e-22 of their row), the rest decides; a set
+/// that is
 /// redundant only on the constraints counts as independent at a state that satisfies them to 16 digits, so this is no reference for it.
 #[must_use]
 pub fn accelerations<M: Mechanism>(

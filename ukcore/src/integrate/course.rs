@@ -1,4 +1,5 @@
-//! Where a run stands, which step it tries next, and what became of those before: the same for a run of its own and for each lane of an ensemble.
+//! Where a run stands, which step it tries next, and what became of those before: the same for a run of its own and for each lane of an
+//! ensemble.
 
 use super::Settings;
 use super::control::StepSize;
@@ -101,7 +102,8 @@ impl Course {
     /// The step to be tried next: `goal` if there is one, else one of the proposed size.
     ///
     /// # Errors
-    /// [`Error::TooManySteps`]; [`Error::StepTooSmall`] where it would be lost in rounding, [`Error::InvalidSetting`] where the end of the run is to blame.
+    /// [`Error::TooManySteps`]; [`Error::StepTooSmall`] where it would be lost in rounding, [`Error::InvalidSetting`] where the end of the
+    /// run is to blame.
     pub(crate) fn plan(&mut self, goal: Option<Trial>) -> Result<Trial, Error> {
         if self.attempts >= self.settings.max_steps {
             return Err(self.too_many_steps());

@@ -1,6 +1,7 @@
 //! What a run asks of a method.
 //!
-//! The loop over steps, their ends, projections, failures and samples is [`driver`](super::driver)'s and the same for all methods. A [`Scheme`] makes
+//! The loop over steps, their ends, projections, failures and samples is [`driver`](super::driver)'s and the same for all methods. A
+//! [`Scheme`] makes
 //! one step at a time and says how long the next one should be.
 
 use super::control::StepSize;
@@ -43,7 +44,8 @@ impl<'p> Equations<'p> {
         result.map_err(|error| self.refuse(at, error))
     }
 
-    /// [`Problem::jacobian`] at (s, y), with y' into `rate` and 0 for derivatives that do not exist: iterations that use it go on as well as they can without.
+    /// [`Problem::jacobian`] at (s, y), with y' into `rate` and 0 for derivatives that do not exist: iterations that use it go on as well
+    /// as they can without.
     pub(super) fn jacobian(
         &mut self,
         s: f64,
@@ -84,7 +86,8 @@ pub(super) struct Attempt {
 /// A one-step method: buffers, what the last attempt left in them, and the choice of the step size.
 ///
 /// For each step come [`attempt`](Scheme::attempt), a projection of [`state_mut`](Scheme::state_mut), [`close`](Scheme::close),
-/// [`interpolate`](Scheme::interpolate) if wanted, [`advance`](Scheme::advance), [`accepted`](Scheme::accepted). Where one of them fails, what follows is left out,
+/// [`interpolate`](Scheme::interpolate) if wanted, [`advance`](Scheme::advance), [`accepted`](Scheme::accepted). Where one of them fails,
+/// what follows is left out,
 /// [`inaccurate`](Scheme::inaccurate) or [`unfit`](Scheme::unfit) shortens the step, and it is tried again.
 pub(super) trait Scheme {
     /// Evaluates f at (s, y), at the start of the run or where f has changed there: nothing before counts any more.
@@ -100,7 +103,8 @@ pub(super) trait Scheme {
         largest: f64,
     ) -> f64;
 
-    /// Makes the step from `y` up to its unprojected end. Returns its error in the [error norm](super); 0 if that is known only when the step is closed.
+    /// Makes the step from `y` up to its unprojected end. Returns its error in the [error norm](super); 0 if that is known only when the
+    /// step is closed.
     fn attempt(
         &mut self,
         equations: &mut Equations<'_>,

@@ -182,7 +182,8 @@ impl<S: Scalar> Stepper<S> {
         &self.dense
     }
 
-    /// Moves on to the end of the closed step. `choose(new, old)` is the new value in the lanes whose step was accepted, the old one in the others.
+    /// Moves on to the end of the closed step. `choose(new, old)` is the new value in the lanes whose step was accepted, the old one in the
+    /// others.
     pub(crate) fn advance(&mut self, y: &mut [S], choose: impl Fn(S, S) -> S) {
         let (start, rest) = self.rates.split_at_mut(self.n);
         let closing = (self.tableau.closing - 1) * self.n;

@@ -1,4 +1,5 @@
-//! The sums of a Runge-Kutta step over all components, for any scalar. Written so that they become vector instructions where the scalar is one lane.
+//! The sums of a Runge-Kutta step over all components, for any scalar. Written so that they become vector instructions where the scalar is
+//! one lane.
 
 use crate::scalar::Scalar;
 
@@ -69,7 +70,8 @@ impl<S: Scalar> Tolerance<S> {
     }
 }
 
-/// x + `change`, and what rounding takes from it; exact where |change| ≤ |x|. (Kahan's summation; Hairer, Lubich & Wanner, *Geometric Numerical
+/// x + `change`, and what rounding takes from it; exact where |change| ≤ |x|. (Kahan's summation; Hairer, Lubich & Wanner, *Geometric
+/// Numerical
 /// Integration*, §VIII.5.)
 #[inline(always)]
 pub(super) fn keeping<S: Scalar>(x: S, change: S) -> (S, S) {

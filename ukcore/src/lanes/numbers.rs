@@ -1,13 +1,15 @@
 //! Four and eight lanes of `f64`, by the crate `wide`.
 //!
-//! Arithmetic, roots and selections are those of `f64` in each lane. Sines, cosines and exponentials are computed for all lanes at once, within two units
+//! Arithmetic, roots and selections are those of `f64` in each lane. Sines, cosines and exponentials are computed for all lanes at once,
+//! within two units
 //! in the last place of those of `f64`, where that holds; arguments beyond that and the other functions go lane by lane through `f64`.
 
 use super::Lanes;
 use crate::scalar::Scalar;
 use wide::{f64x4, f64x8};
 
-/// Largest angle for which sine and cosine are those of `wide`: the reduction by three parts of π/2 keeps all digits of the rest up to here.
+/// Largest angle for which sine and cosine are those of `wide`: the reduction by three parts of π/2 keeps all digits of the rest up to
+/// here.
 const LARGEST_ANGLE: f64 = 1e5;
 
 /// Sines and cosines below this share of the angle are those of `f64`: near multiples of π/2 the rest has an error of some 1e-32 angles.

@@ -9,7 +9,8 @@ use crate::solver::{Solver, SolverOptions, SolverWork};
 
 /// Solves for q̈ of several mechanisms at once, one in each lane.
 ///
-/// The emitted elimination computes all lanes. Where its certificate does not hold in a lane, or something is not finite there, a [`Solver`] of that lane's own solves it
+/// The emitted elimination computes all lanes. Where its certificate does not hold in a lane, or something is not finite there, a
+/// [`Solver`] of that lane's own solves it
 /// again; so a lane has the acceleration, or the error, that it would have alone.
 #[derive(Debug, Clone)]
 pub struct LaneSolver<L: Scalar> {
@@ -143,7 +144,8 @@ impl<L: Lanes> LaneSolver<L> {
         self.errors[lane].as_ref()
     }
 
-    /// What has been done in lane `lane` since its mechanism was set. A fallback is a solution that the lane's own solver had to find in place of the emitted elimination.
+    /// What has been done in lane `lane` since its mechanism was set. A fallback is a solution that the lane's own solver had to find in
+    /// place of the emitted elimination.
     #[must_use]
     pub fn work(&self, lane: usize) -> SolverWork {
         let own = self.own[lane].as_ref();

@@ -12,7 +12,8 @@ use crate::scan::largest;
 /// one for q, one or two for the evaluation of φ.
 pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// Where no step makes it less, a residual will do if it does not exceed this many ε of max|A_ij| max|q_j|, or of the rounding that evaluating it carries where
+/// Where no step makes it less, a residual will do if it does not exceed this many ε of max|A_ij| max|q_j|, or of the rounding that
+/// evaluating it carries where
 /// that is more: terms that cancel, or constraints that nearly lose rank, can keep it above [`ROUNDING`].
 /// Lengths of links among coordinates thirty times as large still hold to 1e-12.
 const STALLED: f64 = 64.0 * f64::EPSILON;
@@ -77,7 +78,8 @@ impl Acceptance<f64> {
         }
     }
 
-    /// How far off the constraints x is, in its own unit: the largest |φ_c| / max|A_cj| of those not at rounding level; NaN where one is not a number.
+    /// How far off the constraints x is, in its own unit: the largest |φ_c| / max|A_cj| of those not at rounding level; NaN where one is
+    /// not a number.
     pub(crate) fn distance(&self, residual: &[f64]) -> f64 {
         let rows = residual.iter().enumerate();
         rows.filter(|(c, r)| r.is_nan() || r.abs() > ROUNDING * self.terms[*c])
@@ -97,7 +99,8 @@ impl Acceptance<f64> {
         (STALLED * size.max(rounding.rows[c])).max(ROUNDING * self.terms[c])
     }
 
-    /// The largest length in the first `rows` constraints, in the unit of x: the rounding of a residual as the change of a coordinate that makes it.
+    /// The largest length in the first `rows` constraints, in the unit of x: the rounding of a residual as the change of a coordinate that
+    /// makes it.
     pub(super) fn length(&self, rows: usize, rounding: &Rounding) -> f64 {
         let sizes = self.largest[..rows].iter().zip(&rounding.rows);
         let lengths = sizes.filter(|(entry, _)| **entry > 0.0);
@@ -105,7 +108,8 @@ impl Acceptance<f64> {
     }
 }
 
-/// What rounding the evaluation of each residual carries. Where coordinates are small beside the lengths in a constraint (measured from the state at rest,
+/// What rounding the evaluation of each residual carries. Where coordinates are small beside the lengths in a constraint (measured from the
+/// state at rest,
 /// say), this is far more than their own rounding makes of it.
 #[derive(Debug, Clone)]
 pub(super) struct Rounding {
@@ -163,7 +167,8 @@ impl Rounding {
         (0..at.rows()).filter(move |c| !met(*c))
     }
 
-    /// The solve meets constraints that imply each other as well as it can together: of errors that contradict each other it leaves to each its share in the
+    /// The solve meets constraints that imply each other as well as it can together: of errors that contradict each other it leaves to each
+    /// its share in the
     /// dependence, however small its own terms are.
     fn share(&mut self, dense: &mut Dense) {
         let rows = dense.cod.order().len();

@@ -66,7 +66,8 @@ impl Factors {
         self.factor(at, x, jacobian)
     }
 
-    /// Takes M and A (all rows, of which those of the level count) at `x`. While `cautious`, rows of a significance below the ceiling are left out: off the
+    /// Takes M and A (all rows, of which those of the level count) at `x`. While `cautious`, rows of a significance below the ceiling are
+    /// left out: off the
     /// manifold nobody can tell whether they are implied; if they are not, the residual will not fall, and they are taken in.
     fn factor(&mut self, at: &At<'_, f64>, x: &[f64], jacobian: &mut [f64]) -> Result<(), Error> {
         let spec = at.mech.spec();
@@ -121,7 +122,8 @@ impl Factors {
 }
 
 impl Manifold {
-    /// Moves `x` onto the constraints, and returns the number of steps. Here the rows say where it ends, since those left out show in no step.
+    /// Moves `x` onto the constraints, and returns the number of steps. Here the rows say where it ends, since those left out show in no
+    /// step.
     pub(super) fn reveal(&mut self, at: &At<'_, f64>, x: &mut [f64]) -> Result<f64, Error> {
         let (rounding, factors) = (&mut self.rounding, &mut self.factors);
         let kept = factors.place.take() == Some(at.t);

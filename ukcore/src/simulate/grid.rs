@@ -6,7 +6,8 @@ use crate::scalar::Scalar;
 /// A decimal of so many digits is the only one of them that rounds to its `f64`.
 const DIGITS: usize = 15;
 
-/// Largest product of numerator and denominator of a simple fraction. No two of them round to the same `f64`, and of the `f64` one in ten thousand has one:
+/// Largest product of numerator and denominator of a simple fraction. No two of them round to the same `f64`, and of the `f64` one in ten
+/// thousand has one:
 /// where there is one, it is hardly an accident.
 const SIMPLE: f64 = 1e12;
 

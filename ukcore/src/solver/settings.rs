@@ -17,7 +17,8 @@ pub enum Formula {
     UdwadiaKalaba,
     /// Eq. 19, for regular and singular M.
     UdwadiaPhohomsiri,
-    /// Gaussian elimination of \[M Aᵀ; A 0\]. Where constraints are redundant or nearly so, or are not met by the result, eq. 19 takes over (a fallback).
+    /// Gaussian elimination of \[M Aᵀ; A 0\]. Where constraints are redundant or nearly so, or are not met by the result, eq. 19 takes over
+    /// (a fallback).
     Kkt,
 }
 
@@ -42,7 +43,8 @@ pub struct Baumgarte {
     pub beta: f64,
 }
 
-/// α = β = 20/s: critical damping, under which an error decays in a twentieth of a second, fast against the seconds that mechanisms move for, and
+/// α = β = 20/s: critical damping, under which an error decays in a twentieth of a second, fast against the seconds that mechanisms move
+/// for, and
 /// slow against the steps of an explicit method.
 impl Default for Baumgarte {
     fn default() -> Self {

@@ -4,12 +4,14 @@
 //! 1. A massless coordinate, or one that a constraint prescribes alone, together with a constraint in which its coefficient is a
 //!    number: the 2 × 2 pivot [μ a; a 0] with a ≠ 0 is safe whatever the state.
 //! 2. Coordinates with inertia, and constraints all of whose coordinates are eliminated: 1 × 1 pivots that are definite where A has full
-//!    rank, since what is eliminated is then a saddle-point matrix of its own. Coordinates that share no inertia with others come first; then what has the fewest neighbours (least fill); among equals what waits for the
+//!    rank, since what is eliminated is then a saddle-point matrix of its own. Coordinates that share no inertia with others come first;
+//!    then what has the fewest neighbours (least fill); among equals what waits for the
 //!    shortest chain of divisions, so that a chain of links is taken from both ends at once.
 //!
 //! Every 1 × 1 pivot is checked at run time: see [`certificate`].
 //!
-//! In steps: [`order`] chooses the pivots on the [`pattern`] of K, which also tells what is filled in; [`matrix`] eliminates K in that order;
+//! In steps: [`order`] chooses the pivots on the [`pattern`] of K, which also tells what is filled in; [`matrix`] eliminates K in that
+//! order;
 //! [`solution`] solves for a right-hand side.
 
 mod certificate;

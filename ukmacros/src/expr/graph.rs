@@ -5,7 +5,8 @@
 //! - terms and factors are sorted by id, each id once: `a + b` and `b + a` are one node;
 //! - a constant is only ever a [`Node::Const`], a sum's constant or a coefficient; [`Node::Scale`] is never nested and never 0 or 1;
 //! - a sum without constant starts with a positive coefficient, and its coefficients are neither all of one magnitude other than 1
-//!   nor all integer multiples of a power of two above 1 among them (the common factor is a [`Node::Scale`] around it), so `a − b` and `b − a` share their node;
+//!   nor all integer multiples of a power of two above 1 among them (the common factor is a [`Node::Scale`] around it), so `a − b` and `b −
+//!   a` share their node;
 //! - a product has no product or scale among its factors. A sum may have a sum among its terms: parentheses are kept,
 //!   since regrouping a sum changes its rounding.
 

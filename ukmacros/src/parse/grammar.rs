@@ -16,7 +16,8 @@
 //! key         = NAME, ["[", expr, "]"] ;
 //! function    = "|", NAME, { ",", NAME }, "|", expr ;
 //! ```
-//! `expr` is Rust's expression grammar, of which `+ - * /`, calls, method calls, indexing, vectors `[a, b]` and `sum(a..b, |i| …)` have a meaning.
+//! `expr` is Rust's expression grammar, of which `+ - * /`, calls, method calls, indexing, vectors `[a, b]` and `sum(a..b, |i| …)` have a
+//! meaning.
 
 use super::expr::{Expr, Range, location};
 use super::item::{

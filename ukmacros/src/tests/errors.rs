@@ -12,7 +12,8 @@ struct Found {
     message: String,
 }
 
-/// The errors that `source` gives, in the order of their places. What else is emitted is the type, so that what uses it gives no second message.
+/// The errors that `source` gives, in the order of their places. What else is emitted is the type, so that what uses it gives no second
+/// message.
 fn errors(source: &str) -> Vec<Found> {
     let (code, collected) = expand(source);
     let text = code.to_string();

@@ -45,7 +45,8 @@ pub(super) struct Source {
 /// What no method can avoid, and what the solver adds.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(super) struct Limits {
-    /// Scaled change of the end when every coordinate and velocity of the start is moved by ε of its size and put back onto the constraints.
+    /// Scaled change of the end when every coordinate and velocity of the start is moved by ε of its size and put back onto the
+    /// constraints.
     pub(super) rounding: Option<f64>,
     /// Relative change of q̈ at the states of the reference when the rank tolerance is a thousand times smaller or larger.
     pub(super) rank: Option<f64>,

@@ -15,10 +15,12 @@ struct Way {
 }
 
 /// Steps of the reference are at most this part of the mean step of DOP853 at 1e-13: its truncation error then falls below rounding, also
-/// where the motion is faster than in the mean. (A tolerance below rounding would do the same, but fails where rounding is all that is left of
+/// where the motion is faster than in the mean. (A tolerance below rounding would do the same, but fails where rounding is all that is left
+/// of
 /// the error estimate.)
 const SHORT: f64 = 0.1;
-/// Steps of the run that it is compared with are longer by this, which multiplies an error of order 8 by 26; its tolerance is larger by ten.
+/// Steps of the run that it is compared with are longer by this, which multiplies an error of order 8 by 26; its tolerance is larger by
+/// ten.
 const LONGER: f64 = 1.5;
 /// Tolerance of the reference.
 const TIGHT: f64 = 1e-13;
@@ -68,7 +70,8 @@ impl Truth {
         }
     }
 
-    /// The best that there is for a motion to `end`: what is shipped; what is computed where that is known better by far and agrees with what is shipped, or where nothing is.
+    /// The best that there is for a motion to `end`: what is shipped; what is computed where that is known better by far and agrees with
+    /// what is shipped, or where nothing is.
     ///
     /// # Errors
     /// Those of [`Truth::computed`], where nothing is shipped.
@@ -98,7 +101,8 @@ impl Truth {
         Ok(computed)
     }
 
-    /// By DOP853 with short steps. What a run with longer ones differs by is taken as its error; by how much another method differs is told.
+    /// By DOP853 with short steps. What a run with longer ones differs by is taken as its error; by how much another method differs is
+    /// told.
     ///
     /// # Errors
     /// [`Failure::Failed`] naming the model.
@@ -214,7 +218,8 @@ fn along(
     Ok((states.collect(), run.work().steps))
 }
 
-/// The size of each coordinate and velocity: the largest of its kind along the motion; of all kinds, where its own stays at zero. The kind of a
+/// The size of each coordinate and velocity: the largest of its kind along the motion; of all kinds, where its own stays at zero. The kind
+/// of a
 /// coordinate is its name up to the first digit or bracket: `x1`, `x[3]` and `x` are of one kind.
 fn scale(spec: &Spec, start: &State, states: &[Vec<f64>]) -> Vec<f64> {
     let coords = spec.coords;

@@ -111,7 +111,8 @@ impl Variant {
         self.engine == Rattle || self.stabilisation == Projection
     }
 
-    /// Whether there is no straight line for it in any model: evaluations are then dearer by up to two orders, and fewer tolerances have to do.
+    /// Whether there is no straight line for it in any model: evaluations are then dearer by up to two orders, and fewer tolerances have to
+    /// do.
     fn is_dense(&self) -> bool {
         let feedback = matches!(self.stabilisation, Stabilisation::Baumgarte(_));
         self.solve != Automatic || feedback

@@ -8,7 +8,8 @@ use super::variants::{VARIANTS, Variant};
 /// Accuracies that a user may want, scaled error at the end.
 pub(super) const GOALS: [f64; 4] = [1e-3, 1e-6, 1e-9, 1e-12];
 
-/// What costs less than this times the least counts as equally good: times of equal programs differ by so much on a machine that has other work.
+/// What costs less than this times the least counts as equally good: times of equal programs differ by so much on a machine that has other
+/// work.
 pub(super) const TIE: f64 = 1.1;
 
 /// Tolerance that [`ukcore::Simulation`] takes by default.
@@ -25,8 +26,10 @@ pub(super) struct Cost {
     pub(super) evaluations: f64,
 }
 
-/// What the accuracy `goal` costs on a curve: between the loosest run that has it, as the next tighter one does too, and the run before it, by straight
-/// lines in the logarithms. Where the loosest run of all has it, that one's. None if no run has it, or if the reference is not known so well.
+/// What the accuracy `goal` costs on a curve: between the loosest run that has it, as the next tighter one does too, and the run before it,
+/// by straight
+/// lines in the logarithms. Where the loosest run of all has it, that one's. None if no run has it, or if the reference is not known so
+/// well.
 pub(super) fn cost(study: &Study, curve: &Curve, goal: f64) -> Option<Cost> {
     if study.reference.floor > goal {
         return None;
@@ -206,7 +209,8 @@ pub(super) fn as_cheap<'a>(study: &'a Study, run: &LongRun) -> Option<&'a LongRu
         .min_by(|a, b| f64::total_cmp(&a.late.unwrap_or(f64::NAN), &b.late.unwrap_or(f64::NAN)))
 }
 
-/// The duration, s, at which the drift of the energy of `beside`, growing as it did over its last nine tenths, reaches that of `run`, which has no trend. None
+/// The duration, s, at which the drift of the energy of `beside`, growing as it did over its last nine tenths, reaches that of `run`, which
+/// has no trend. None
 /// where `run` has one or `beside` has none.
 pub(super) fn break_even(run: &LongRun, beside: &LongRun) -> Option<f64> {
     let growth = |r: &LongRun| Some(r.late? / r.early?);
@@ -219,7 +223,8 @@ pub(super) fn break_even(run: &LongRun, beside: &LongRun) -> Option<f64> {
     Some(beside.span * ratio.powf(1.0 / power)).filter(|t| t.is_finite())
 }
 
-/// A drift that grows by no more than this from the first tenth of a run to its end has no trend: the extremes of a bounded motion are found late.
+/// A drift that grows by no more than this from the first tenth of a run to its end has no trend: the extremes of a bounded motion are
+/// found late.
 const TREND: f64 = 3.0;
 
 /// What one combination costs beside another.

@@ -67,7 +67,8 @@ impl Driver<'_> {
         Ok(true)
     }
 
-    /// Goes on after a step that left its branches, cut from one of size and error `whole`: plans the step onto the zero, or takes the other branch if it
+    /// Goes on after a step that left its branches, cut from one of size and error `whole`: plans the step onto the zero, or takes the
+    /// other branch if it
     /// stands there.
     pub(super) fn follow(
         &mut self,
@@ -98,7 +99,8 @@ impl Driver<'_> {
         Ok(())
     }
 
-    /// The last step is accepted: where it went onto zeros of switches, the next one begins in their other branches. Returns whether it did.
+    /// The last step is accepted: where it went onto zeros of switches, the next one begins in their other branches. Returns whether it
+    /// did.
     pub(super) fn arrive(&mut self) -> Result<bool, Error> {
         if self.equations.switches.is_empty() {
             return Ok(false);

@@ -83,7 +83,8 @@ const PATIENCE: usize = 5;
 pub(super) enum Matrices {
     /// That at the start of the step, or an older one, for all stages: two matrices n × n, kept over steps.
     Start,
-    /// One at each stage: a matrix 3n × 3n, for this step alone. Where stiff directions turn with the motion, as a spring does, this takes far longer steps.
+    /// One at each stage: a matrix 3n × 3n, for this step alone. Where stiff directions turn with the motion, as a spring does, this takes
+    /// far longer steps.
     Stages,
 }
 
@@ -96,7 +97,8 @@ enum Known {
     Quadratic(f64),
 }
 
-/// Factor on the change that the next iteration would make, where it is not made: stiff directions turn errors that are small into forces that are not.
+/// Factor on the change that the next iteration would make, where it is not made: stiff directions turn errors that are small into forces
+/// that are not.
 const CAUTION: f64 = 10.0;
 
 /// How the iterations ended.
@@ -462,7 +464,8 @@ impl Newton {
         (square / (6.0 * n.max(1) as f64)).sqrt()
     }
 
-    /// Size in the error norm of changes that may be rounding: a stiff force multiplies the rounding of positions by as much as the matrices divide by, so
+    /// Size in the error norm of changes that may be rounding: a stiff force multiplies the rounding of positions by as much as the
+    /// matrices divide by, so
     /// that positions keep theirs, and velocities have that of positions by λ/h.
     fn rounding(&self, h: f64, y: &[f64], weights: &[f64]) -> f64 {
         let n = self.n;

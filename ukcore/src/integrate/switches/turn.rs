@@ -49,7 +49,8 @@ impl<'p> Equations<'p> {
         }
     }
 
-    /// A step has got to this state, where the switches that it went onto take their other branches, unless they are driven back; returns these.
+    /// A step has got to this state, where the switches that it went onto take their other branches, unless they are driven back; returns
+    /// these.
     pub(in crate::integrate) fn arrive(
         &mut self,
         at: Sample<'_>,
@@ -65,7 +66,8 @@ impl<'p> Equations<'p> {
         Ok(targets)
     }
 
-    /// Puts those of `switches`, which stand at zero, into their other branches whose functions leave the ones they are in. Returns whether there are
+    /// Puts those of `switches`, which stand at zero, into their other branches whose functions leave the ones they are in. Returns whether
+    /// there are
     /// any.
     pub(in crate::integrate) fn turn(
         &mut self,
@@ -98,7 +100,8 @@ impl<'p> Equations<'p> {
         self.moving(switches, at, |_, rate| rate == 0.0)
     }
 
-    /// Those of `switches` for which `which` of their branch and the rate of their function holds at this state; none where q̈ has no value.
+    /// Those of `switches` for which `which` of their branch and the rate of their function holds at this state; none where q̈ has no
+    /// value.
     fn moving(
         &mut self,
         switches: &[usize],

@@ -120,7 +120,8 @@ fn hard_bonds_cost_no_steps() {
             let report = Method::Radau5.run(&mut plain, 0.0, &[1.0, 0.0], t_end, &settings(1e-7));
             assert_eq!(report.outcome, Outcome::Reached);
             let (_, t, y) = plain.steps.last().unwrap();
-            // Velocities of what is bound hard are slopes of the collocation polynomial, of order 3, and errors of them pass on to no later step.
+            // Velocities of what is bound hard are slopes of the collocation polynomial, of order 3, and errors of them pass on to no later
+            // step.
             assert!(circle_error(*t, y) < 3e-5, "{k}: {y:?}");
             assert!(report.steps < 100, "{k}: {}", report.steps);
             assert!(plain.evaluations.len() < 1000, "{k}");

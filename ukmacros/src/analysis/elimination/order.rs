@@ -53,8 +53,10 @@ fn pairs(pattern: &mut Pattern, d: &Dynamics, g: &Graph) -> Vec<Pivoting> {
     pivots
 }
 
-/// The constraint of fewest neighbours that `coordinate` can be eliminated with: its coefficient there is a number and, if it has inertia, it is
-/// alone in it. A substitution that is not trivial gives its neighbours new entries, so that later coefficients are no longer those of A: only
+/// The constraint of fewest neighbours that `coordinate` can be eliminated with: its coefficient there is a number and, if it has inertia,
+/// it is
+/// alone in it. A substitution that is not trivial gives its neighbours new entries, so that later coefficients are no longer those of A:
+/// only
 /// untouched rows and columns are taken.
 fn partner(coordinate: usize, pattern: &Pattern, d: &Dynamics, g: &Graph) -> Option<Pair> {
     let massive = pattern.has_inertia(coordinate);
@@ -111,10 +113,12 @@ fn singles(pattern: &mut Pattern, names: &[String]) -> Result<Vec<Pivoting>, Str
     }
 }
 
-/// What is compared: whether it shares inertia, its number of neighbours, whether no elimination coupled it, what it waits for, its position.
+/// What is compared: whether it shares inertia, its number of neighbours, whether no elimination coupled it, what it waits for, its
+/// position.
 type Key = (bool, usize, bool, usize, usize);
 
-/// Coordinates that share no inertia come first: the constraints on them must wait for them in any case. Then what has the fewest neighbours; among
+/// Coordinates that share no inertia come first: the constraints on them must wait for them in any case. Then what has the fewest
+/// neighbours; among
 /// equals what was coupled by an elimination, so that a chain is taken link by link; then what waits least.
 fn key(k: usize, pattern: &Pattern) -> Key {
     let (shares, coupled) = (!pattern.shares_no_inertia(k), pattern.was_coupled(k));
