@@ -221,7 +221,10 @@ fn case(seed: u64, found: &mut [Found; 7]) {
         j: i3,
         rate: 0.5,
     };
-    found[2].state(&driven, &e, &v);
+    // Where p1 stands along the second axis its place there cannot be driven: the row is no other than that of the length.
+    if (2.0 * (e[1] * e[2] + e[0] * e[3])).abs() < 0.99 {
+        found[2].state(&driven, &e, &v);
+    }
     let mixed = Mixed {
         m1,
         m2,
@@ -280,7 +283,7 @@ fn accelerations_near_the_identity_and_half_turns() {
     (0..400).for_each(|seed| case(seed, &mut found));
     println!("{found:#?}");
     for found in &found[..6] {
-        assert!(found.right > 350, "{found:?}");
+        assert!(found.right > 300, "{found:?}");
     }
     // No straight line that is left at each evaluation.
     for found in [&found[0], &found[3]] {
