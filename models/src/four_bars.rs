@@ -6,10 +6,9 @@ use ukcore::{Error, State};
 
 ukcore::multibody! {
     /// N four-bar linkages in a row that share their cranks: N + 1 uniform rods from the ground points (i l, 0) to the tops (x\[i\],
-    /// y\[i\]), and
-    /// N uniform rods from each top to the next. The y axis points up. A uniform rod with the end velocities a and b has the kinetic
-    /// energy m/6 (a² + a·b + b²), so that M couples neighbours. Where all rods lie in one line the N couplers are redundant. (The
-    /// N-four-bar of González, Dopico, Pastorino & Cuadrado 2006, DOI 10.1007/s11044-006-9020-5.)
+    /// y\[i\]), and N uniform rods from each top to the next. The y axis points up. A uniform rod with the end velocities a and b has the
+    /// kinetic energy m/6 (a² + a·b + b²), so that M couples neighbours. Where all rods lie in one line the N couplers are redundant.
+    /// (The N-four-bar of González, Dopico, Pastorino & Cuadrado 2006, DOI 10.1007/s11044-006-9020-5.)
     pub FourBars {
         const N: usize = 4;
         params {

@@ -101,8 +101,7 @@ impl Model for KnifeEdge {
 
 impl KnifeEdge {
     /// Position (x, y, θ), m and rad, at time `t` after the start at the origin with the heading θ₀, rad, turning with ω, rad/s, and
-    /// gliding
-    /// with u₀, m/s.
+    /// gliding with u₀, m/s.
     ///
     /// θ̇ is constant and the speed along the edge has u̇ = k cos θ with k = g sin(slope), so with c = u₀ − (k/ω) sin θ₀
     /// x = (c/ω)(sin θ − sin θ₀) + k/(2ω²) (sin² θ − sin² θ₀),

@@ -294,8 +294,7 @@ fn a_touch_is_no_crossing() {
 }
 
 /// From any start, steps onto the zeros lead to where short steps across them do. Where y = t the track turns by an angle, so that no
-/// velocity
-/// satisfies the constraint before and after: such a run ends there either way.
+/// velocity satisfies the constraint before and after: such a run ends there either way.
 #[test]
 fn random_motions_are_those_of_short_steps_across() {
     let mut random = Random::new(9);

@@ -15,6 +15,7 @@ mod lanes;
 mod language;
 mod layers;
 mod linearise;
+mod orientations;
 mod paper_fish;
 mod paper_uchain;
 mod plan;

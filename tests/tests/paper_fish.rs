@@ -7,8 +7,7 @@ use tests::{Dense, Random, assert_all_close, assert_close, largest};
 use ukcore::{Mechanism, Simulation, Solver, SolverOptions, Trajectory};
 
 /// A gait: A3, ω/π, φ in degrees; and what an independent integration (equations derived by a computer algebra system, tolerance 1e-9)
-/// gives
-/// for it: ẍ1(0), m/s², and the mean ẋ1 over t ∈ [3, 4] s, m/s.
+/// gives for it: ẍ1(0), m/s², and the mean ẋ1 over t ∈ [3, 4] s, m/s.
 const SWEEPS: [(f64, f64, f64, f64, f64); 10] = [
     (0.1, 2.0, 15.0, -0.191_562_7, -0.098_647_5),
     (0.2, 2.0, 15.0, -0.223_384_1, -0.106_945_9),

@@ -1,6 +1,5 @@
 //! No silent garbage: random mechanisms of rods (trees and loops, masses and lengths over many decades, rows scaled and declared again)
-//! come out right
-//! by an oracle in 31 digits, or as an error with a name.
+//! come out right by an oracle in 31 digits, or as an error with a name.
 
 use tests::Random;
 use ukcore::manifold::Projector;
@@ -35,8 +34,7 @@ const K: usize = 8;
 const BOUND: f64 = 1e-10;
 
 /// Where they are not: so many times the rounding of A's entries over the least part that a row has for itself. An entry, a difference of
-/// coordinates, is
-/// rounded by ε times the coordinates' size over the rod's length.
+/// coordinates, is rounded by ε times the coordinates' size over the rod's length.
 const ROUNDING: f64 = 1e3;
 
 /// Largest drift of the energy over a short run at tolerance 1e-10, as a part of that exchanged.

@@ -197,9 +197,8 @@ fn held_where_the_signs_agree_nothing_changes() {
     }
 }
 
-/// In any branches, whatever the signs say, all equations, and their derivatives, are those of the smooth mechanism with these signs; also
-/// by the rank-revealing solve.
-/// Outputs follow their switches.
+/// In any branches, whatever the signs say, all equations, and their derivatives, are those of the smooth mechanism with these signs;
+/// also by the rank-revealing solve. Outputs follow their switches.
 #[test]
 fn held_in_any_branch_the_equations_are_smooth() {
     let mut random = Random::new(8);

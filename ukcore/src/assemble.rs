@@ -1,11 +1,9 @@
 //! From a rough guess to a consistent state.
 //!
-//! Closed loops cannot be drawn by hand to rounding. [`assemble`] takes a guess and coordinates to hold and finds a state near it
-//! that satisfies every constraint: damped Gauss-Newton (Levenberg-Marquardt) finds the place, and projection in the mass metric gives the
-//! last digits; velocities that
-//! enter linearly it gives at once. For the search each constraint is scaled to a row of A of unit norm, and each coordinate by the root of
-//! its inertia, so that the
-//! state found is near in the mass metric.
+//! Closed loops cannot be drawn by hand to rounding. [`assemble`] takes a guess and coordinates to hold and finds a state near it that
+//! satisfies every constraint: damped Gauss-Newton (Levenberg-Marquardt) finds the place, and projection in the mass metric gives the
+//! last digits; velocities that enter linearly it gives at once. For the search each constraint is scaled to a row of A of unit norm, and
+//! each coordinate by the root of its inertia, so that the state found is near in the mass metric.
 
 use nalgebra::DMatrix;
 

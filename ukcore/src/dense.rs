@@ -335,11 +335,9 @@ impl Dense {
         axpy(1.0, &self.reduced, &mut self.reaction);
     }
 
-    /// Takes the residual b − A q̈ that rounding left off q̈, once: where rows nearly imply each other, and the constraints cancel most of
-    /// what the
-    /// forces do, the error is that of the forces' part divided by the significance; what a second solve leaves is that of q̈ itself. The
-    /// change of the scaled
-    /// accelerations is then in `reduced`.
+    /// Takes the residual b − A q̈ that rounding left off q̈, once: where rows nearly imply each other, and the constraints cancel most
+    /// of what the forces do, the error is that of the forces' part divided by the significance; what a second solve leaves is that of q̈
+    /// itself. The change of the scaled accelerations is then in `reduced`.
     fn refine(&mut self, a: Rows<'_>, rhs: &[f64], out: &mut [f64]) {
         for (c, b) in rhs[..a.rows].iter().enumerate() {
             self.scaled_rhs[c] = self.row_scale[c] * (b - a.product(c, out));

@@ -10,8 +10,7 @@ use crate::solver::{Solution, Solver, SolverOptions};
 use crate::spec::{ConstraintKind, ParamSpec, Spec};
 
 /// All that is known about a mechanism, to print: coordinates, parameters, M, Q, c, A and b as equations, outputs, structure, the
-/// [`Plan`](crate::plan::Plan)
-/// of how q̈ is computed; and at a state rank, degrees of freedom, redundant constraints and accelerations.
+/// [`Plan`](crate::plan::Plan) of how q̈ is computed; and at a state rank, degrees of freedom, redundant constraints and accelerations.
 #[derive(Debug, Clone)]
 pub struct Explanation {
     mechanism: Prepared,

@@ -8,10 +8,9 @@
 //!
 //! a system with the matrices of the first one, which the [`Solver`] has factored already.
 //!
-//! Derivatives are those of eqs. 13 and 19 at any state, on the constraints or off them. Where constraints are redundant on the manifold φ
-//! = 0 alone,
-//! the equations have no derivative across it; columns are then those of the redundant set kept as it is, and right for directions along
-//! the manifold.
+//! Derivatives are those of eqs. 13 and 19 at any state, on the constraints or off them. Where constraints are redundant on the manifold
+//! φ = 0 alone, the equations have no derivative across it; columns are then those of the redundant set kept as it is, and right for
+//! directions along the manifold.
 
 use crate::assemble::State;
 use crate::error::Error;
@@ -131,8 +130,7 @@ impl Slopes {
     }
 
     /// q̈ into `acceleration`, and fills `columns`, the first ones in the order of [`names`], each of length n, for q̈ as `solver` has it
-    /// and in the branches that
-    /// its mechanism holds. Derivatives that do not exist, as that of √x at 0, are not finite.
+    /// and in the branches that its mechanism holds. Derivatives that do not exist, as that of √x at 0, are not finite.
     ///
     /// # Errors
     /// Those of [`Solver::acceleration`].

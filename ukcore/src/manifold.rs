@@ -1,10 +1,9 @@
 //! The manifold of states that satisfy the constraints, and the ways onto it.
 //!
 //! The smallest change of q (in the metric M) with φ(q, t) = 0 solves, to first order, minimise ½ Δᵀ M Δ subject to A Δ = −φ: the
-//! constrained solve of eqs. 13 and 19 with Q = 0 and b = −φ. Newton's method repeats it, by the emitted elimination where there is one and
-//! its
-//! certificate holds, else by the rank-revealing solve; near the manifold the factors of the
-//! first step serve for the following ones too, since each step then still divides the residual by 1/δ for a state at distance δ.
+//! constrained solve of eqs. 13 and 19 with Q = 0 and b = −φ. Newton's method repeats it, by the emitted elimination where there is one
+//! and its certificate holds, else by the rank-revealing solve; near the manifold the factors of the first step serve for the following
+//! ones too, since each step then still divides the residual by 1/δ for a state at distance δ.
 //!
 //! What counts as zero is decided in one place, for whoever asks: projection, in lanes or alone, RATTLE, assembly.
 
@@ -139,8 +138,7 @@ impl Projector {
     }
 
     /// Moves `q` onto φ(q, t) = 0 along M⁻¹A(`base`)ᵀ, for mechanisms with holonomic constraints alone; `shift` is the sum of all moves,
-    /// which is more exact than the
-    /// difference of coordinates.
+    /// which is more exact than the difference of coordinates.
     ///
     /// # Errors
     /// [`Error::OffConstraint`] with the constraints that cannot be met that way; [`Error::NonFinite`], [`Error::IndefiniteMass`].

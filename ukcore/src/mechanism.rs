@@ -18,13 +18,12 @@ use crate::spec::Spec;
 /// A declared mechanism: its parameters (`self`), what is known about it (`SPEC`), and its equations as straight-line code.
 ///
 /// The functions that evaluate the equations take `prepared`: what depends on parameters only, then for each switch the branch it is held
-/// in, as a sign, or 0
-/// where it is followed. [`Prepared`] holds it, and is how they are called.
+/// in, as a sign, or 0 where it is followed. [`Prepared`] holds it, and is how they are called.
 ///
-/// All matrices are column-major. Into matrices the emitted code writes **structural non-zeros only**: the caller passes buffers
-/// that were zeroed once, and may reuse them for the same mechanism type. Vectors are written completely. No method allocates. Every method
-/// panics if a slice has
-/// not the stated length; [`Solver`](crate::Solver) and [`Simulation`](crate::Simulation) check what users pass in before that.
+/// All matrices are column-major. Into matrices the emitted code writes **structural non-zeros only**: the caller passes buffers that
+/// were zeroed once, and may reuse them for the same mechanism type. Vectors are written completely. No method allocates. Every method
+/// panics if a slice has not the stated length; [`Solver`](crate::Solver) and [`Simulation`](crate::Simulation) check what users pass in
+/// before that.
 pub trait Mechanism: Clone + Default + Into<Prepared> + Send + Sync + 'static {
     /// Names, structure and readable equations.
     const SPEC: &'static Spec;
@@ -113,9 +112,8 @@ pub trait Mechanism: Clone + Default + Into<Prepared> + Send + Sync + 'static {
     }
 }
 
-/// A branch of a switch. Functions of a mechanism whose switches are all held are smooth where a switching function passes zero: each abs,
-/// sign,
-/// min or max goes on in the branch it is held in. Energies and outputs follow their switches always.
+/// A branch of a switch. Functions of a mechanism whose switches are all held are smooth where a switching function passes zero: each
+/// abs, sign, min or max goes on in the branch it is held in. Energies and outputs follow their switches always.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Branch {
     /// The one that the sign of the switching function says.

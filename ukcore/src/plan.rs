@@ -166,6 +166,15 @@ impl Plan {
         paragraph(f, &text)?;
         let coord = |i: usize| spec.coords[i];
         let row = |i: usize| spec.constraints[i].name;
+        if !solve.regular.is_empty() {
+            let names: Vec<&str> = solve.regular.iter().map(|c| row(*c)).collect();
+            let text = format!(
+                "M alone is singular, at any state or at some: for the row a of A of each of {}, μ aᵀa was added to M and μ aᵀb to Q, with μ the trace \
+                 of M over |a|². It leaves q̈ as it is.",
+                names.join(" ")
+            );
+            paragraph(f, &text)?;
+        }
         let mut rest = solve.pivots;
         while let Some(first) = rest.first() {
             let alike = |p: &Pivot| std::mem::discriminant(p) == std::mem::discriminant(first);
@@ -217,7 +226,7 @@ impl Plan {
             return Ok(());
         }
         writeln!(f, "\nCertificate")?;
-        if solve.checks.is_empty() {
+        if solve.checks.is_empty() && solve.met.is_empty() {
             return item(f, "nothing is checked: no pivot can vanish");
         }
         let names = |wanted: fn(&Check) -> Option<usize>| {
@@ -240,6 +249,15 @@ impl Plan {
             let text = format!(
                 "at least 1/{} of the diagonal they started from: the pivots of {shares}",
                 1.0 / solve.least_share
+            );
+            item(f, &text)?;
+        }
+        if !solve.met.is_empty() {
+            let names = solve.met.iter().map(|c| self.spec.constraints[*c].name);
+            let names: Vec<&str> = names.collect();
+            let text = format!(
+                "met by q̈ to rounding, since they act on inertia that may vanish: the rows of {}",
+                names.join(" ")
             );
             item(f, &text)?;
         }

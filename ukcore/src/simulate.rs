@@ -77,9 +77,8 @@ pub struct Simulation {
 /// What a run does about [switches](crate::spec::SwitchSpec), the zeros at which abs, sign, min and max change their branch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Switching {
-    /// Steps go onto the zeros, and each step has the full order of its method. A motion that is driven onto a zero from both sides, as at
-    /// rest under dry
-    /// friction, ends with [`Error::Chattering`].
+    /// Steps go onto the zeros, and each step has the full order of its method. A motion that is driven onto a zero from both sides, as
+    /// at rest under dry friction, ends with [`Error::Chattering`].
     #[default]
     Located,
     /// Steps go across, and are as short there as their errors demand. A motion that rests on a zero for a while chatters along it.
@@ -142,10 +141,8 @@ impl Simulation {
     /// Absolute tolerance of each step: the error allowed in a coordinate or velocity near zero, in its own unit; positive.
     ///
     /// By default it is the relative one times the size of the start: the largest coordinate or velocity there or, if that is more, the
-    /// largest length in a
-    /// holonomic constraint; but at most times 1. So a mechanism of micrometres is as exact in metres as one of metres. Coordinates of
-    /// different units share
-    /// it: the smallest that matters should decide.
+    /// largest length in a holonomic constraint; but at most times 1. So a mechanism of micrometres is as exact in metres as one of
+    /// metres. Coordinates of different units share it: the smallest that matters should decide.
     #[must_use]
     pub fn absolute_tolerance(mut self, tolerance: f64) -> Self {
         self.absolute = Some(tolerance);
@@ -251,16 +248,12 @@ impl Simulation {
     }
 
     /// Runs from the start to `t_end` as [`until`](Simulation::until) does, and hands each sample and each event to `sink` instead of
-    /// keeping it, so that
-    /// memory does not grow with the run. [`CsvWriter`] writes samples as they come, [`Drift`] measures them.
+    /// keeping it, so that memory does not grow with the run. [`CsvWriter`] writes samples as they come, [`Drift`] measures them.
     ///
-    /// They come in the order in which the run passes them, each once, as soon as its step is accepted; those of the start and the end are
-    /// among them.
-    /// `Break` ends the run after the step in hand, which is no failure; nothing more is handed over then. The trajectory has neither
-    /// samples nor events, but how the run
-    /// [ended](Trajectory::ending), with which [state](Trajectory::last), at what [cost](Trajectory::work). [`dense`](Simulation::dense)
-    /// keeps the
-    /// interpolant all the same.
+    /// They come in the order in which the run passes them, each once, as soon as its step is accepted; those of the start and the end
+    /// are among them. `Break` ends the run after the step in hand, which is no failure; nothing more is handed over then. The trajectory
+    /// has neither samples nor events, but how the run [ended](Trajectory::ending), with which [state](Trajectory::last), at what
+    /// [cost](Trajectory::work). [`dense`](Simulation::dense) keeps the interpolant all the same.
     ///
     /// # Errors
     /// Those of [`until`](Simulation::until).

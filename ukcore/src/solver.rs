@@ -312,9 +312,8 @@ impl Solver {
         self.options.baumgarte
     }
 
-    /// The least significance of a row that counted in the solutions since this was last asked: how near they came to a singular position.
-    /// 0 where the rank
-    /// was less than it was elsewhere, 1 where the emitted elimination found nothing to doubt.
+    /// The least significance of a row that counted in the solutions since this was last asked: how near they came to a singular
+    /// position. 0 where the rank was less than it was elsewhere, 1 where the emitted elimination found nothing to doubt.
     pub(crate) fn take_weakest(&mut self) -> f64 {
         std::mem::replace(&mut self.weakest, 1.0)
     }
@@ -405,10 +404,12 @@ impl Solver {
         let structure = &self.mechanism.spec().structure;
         let floor = self.options.rank_tolerance;
         let a = rows(&self.here, self.m);
+        // Where M may come near singular, M⁻¹ Q and what the constraints take off it may be so large that q̈ is lost between them.
+        let solve = &structure.solve;
+        let regular =
+            structure.massless.is_empty() && solve.regular.is_empty() && solve.met.is_empty();
         let (route, formula) = match self.options.formula {
-            Formula::Auto if structure.massless.is_empty() && !self.singular => {
-                (Route::Regular, Formula::UdwadiaKalaba)
-            }
+            Formula::Auto if regular && !self.singular => (Route::Regular, Formula::UdwadiaKalaba),
             Formula::UdwadiaKalaba => (Route::Regular, Formula::UdwadiaKalaba),
             Formula::Auto | Formula::UdwadiaPhohomsiri => {
                 (Route::Singular, Formula::UdwadiaPhohomsiri)

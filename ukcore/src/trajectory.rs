@@ -69,9 +69,8 @@ pub enum Ending {
 
 /// Samples of a motion, its events, its cost; and what follows from the samples.
 ///
-/// Its methods compute at each sample anew what is asked for; nothing but states is stored. That of a [streamed](crate::Simulation::stream)
-/// run has neither
-/// samples nor events.
+/// Its methods compute at each sample anew what is asked for; nothing but states is stored. That of a
+/// [streamed](crate::Simulation::stream) run has neither samples nor events.
 #[derive(Clone)]
 pub struct Trajectory {
     mechanism: Prepared,

@@ -174,6 +174,8 @@ const _: () = {
                         ukcore::Check::Positive(3),
                     ],
                     least_share: 0.0009765625,
+                    regular: &[],
+                    met: &[],
                 },
                 mass_pattern: &[(0, 0), (1, 1), (2, 2)],
                 jacobian_pattern: &[(0, 0), (0, 1)],

@@ -158,6 +158,8 @@ const _: () = {
                     fill: &[],
                     checks: &[ukcore::Check::Positive(0), ukcore::Check::Positive(2)],
                     least_share: 0.0009765625,
+                    regular: &[],
+                    met: &[],
                 },
                 mass_pattern: &[(0, 0), (1, 1)],
                 jacobian_pattern: &[(0, 0), (0, 1)],

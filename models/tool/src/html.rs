@@ -87,8 +87,7 @@ impl Cell {
 }
 
 /// A table. `heads` are the heads of its columns, with `|` between them; columns under a common head are written `head: one; two`. Heads
-/// are HTML
-/// of ours, and not escaped.
+/// are HTML of ours, and not escaped.
 #[must_use]
 pub fn table(
     caption: impl Render,

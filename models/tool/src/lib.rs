@@ -50,9 +50,8 @@ pub use ukcore::model::Entry;
 
 /// The whole of a program for the mechanisms declared beside it: a `main` function with the commands `list`, `run`, `explain` and `report`.
 ///
-/// The mechanisms are called like their types, in lower case and with dashes (`Cart` as `cart`, `UChain` as `u-chain`), and have no starts;
-/// unless they
-/// implement [`ukcore::model::Model`] and say more of themselves. See the [crate] for an example.
+/// The mechanisms are called like their types, in lower case and with dashes (`Cart` as `cart`, `UChain` as `u-chain`), and have no
+/// starts; unless they implement [`ukcore::model::Model`] and say more of themselves. See the [crate] for an example.
 #[macro_export]
 macro_rules! main {
     ($($mechanism:ty),+ $(,)?) => {

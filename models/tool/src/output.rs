@@ -10,8 +10,7 @@ use tempfile::NamedTempFile;
 use crate::failure::Failure;
 
 /// A file being written: a temporary one beside it, which takes its name once all is written. A reader sees the old file or the new one,
-/// never
-/// a part. A symbolic link is followed; a device or pipe (`/dev/stdout`) is written to directly.
+/// never a part. A symbolic link is followed; a device or pipe (`/dev/stdout`) is written to directly.
 #[derive(Debug)]
 pub struct WholeFile {
     /// The name that was asked for; none for standard output.

@@ -278,9 +278,8 @@ impl Chart {
 
 pub(crate) type DrawError<'a> = DrawingAreaErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
 
-/// What `draw` draws on an area of this size, as the text of an SVG file with a view box, so that a page can scale it. (The drawing library
-/// sets one only
-/// in some versions.)
+/// What `draw` draws on an area of this size, as the text of an SVG file with a view box, so that a page can scale it. (The drawing
+/// library sets one only in some versions.)
 pub(crate) fn svg(
     size: (u32, u32),
     draw: impl for<'a> FnOnce(&DrawingArea<SVGBackend<'a>, Shift>) -> Result<(), DrawError<'a>>,

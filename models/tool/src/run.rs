@@ -42,10 +42,8 @@ pub struct RunArgs {
     #[arg(long, value_name = "TIME", value_parser = interval, allow_hyphen_values = true)]
     pub every: Option<f64>,
     /// Integration method: `dop853` or `dopri5`, Dormand and Prince's of order 8 and 5; `radau5`, implicit of order 5, for stiff
-    /// mechanisms;
-    /// `rattle=STEP`, symplectic of order 4 with steps of that time, which looks at no tolerance: the energy of a conservative motion has
-    /// no trend, however
-    /// long the run
+    /// mechanisms; `rattle=STEP`, symplectic of order 4 with steps of that time, which looks at no tolerance: the energy of a
+    /// conservative motion has no trend, however long the run
     #[arg(long, value_name = "METHOD", default_value = "dop853", value_parser = method)]
     pub method: Method,
     /// Steps to give up after, such as 1e9

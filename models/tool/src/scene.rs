@@ -29,8 +29,7 @@ pub struct Start {
     #[arg(long, value_name = "NAME")]
     pub start: Option<String>,
     /// Guess a coordinate, or by `dot(NAME)=VALUE` a velocity, of the start; may be repeated. The start is then the nearest state that
-    /// satisfies
-    /// the constraints. What is not guessed has the value of the start configuration, or 0 where the model has none
+    /// satisfies the constraints. What is not guessed has the value of the start configuration, or 0 where the model has none
     #[arg(long = "guess", value_name = "NAME=VALUE", value_parser = units::assignment)]
     pub guesses: Vec<(String, Quantity)>,
     /// Coordinates that keep the value and velocity guessed; may be repeated
@@ -56,8 +55,7 @@ impl Scene {
     ///
     /// # Errors
     /// [`Failure::Usage`] for unknown names, values in the wrong unit, and settings that the start refuses; [`Failure::Failed`] where
-    /// nothing
-    /// near the guess satisfies the constraints.
+    /// nothing near the guess satisfies the constraints.
     pub fn ready<'a>(&self, models: &'a [Entry]) -> Result<Ready<'a>, Failure> {
         self.start.ready(find(models, &self.model)?)
     }

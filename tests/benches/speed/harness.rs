@@ -1,8 +1,7 @@
 //! Measures contenders in turn, batch after batch, so that the noise of the machine hits all alike, and prints medians and ratios.
 //!
-//! The known frameworks measure one contender after the other and leave the ratios to the reader; on a machine whose clock and
-//! neighbours change within seconds such ratios are worth little. Here each round measures every contender once, a ratio is formed within
-//! each
+//! The known frameworks measure one contender after the other and leave the ratios to the reader; on a machine whose clock and neighbours
+//! change within seconds such ratios are worth little. Here each round measures every contender once, a ratio is formed within each
 //! round, and the median is taken over the rounds.
 
 use std::time::{Duration, Instant};

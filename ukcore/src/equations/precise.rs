@@ -14,8 +14,8 @@ const SWEEPS: usize = 12;
 /// elimination with complete pivoting.
 ///
 /// `None` where the motion is not determined. Where constraints are redundant (pivots below 1e-22 of their row), the rest decides; a set
-/// that is
-/// redundant only on the constraints counts as independent at a state that satisfies them to 16 digits, so this is no reference for it.
+/// that is redundant only on the constraints counts as independent at a state that satisfies them to 16 digits, so this is no reference
+/// for it.
 #[must_use]
 pub fn accelerations<M: Mechanism>(
     mechanism: &M,

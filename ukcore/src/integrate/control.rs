@@ -1,8 +1,7 @@
 //! Choice of the step size, and of the first one.
 //!
 //! After Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, §II.4, with the constants of the authors' codes. The same
-//! for a run of
-//! its own and for each lane of an ensemble.
+//! for a run of its own and for each lane of an ensemble.
 
 use super::scheme::Equations;
 use super::sums::Tolerance;
@@ -45,9 +44,8 @@ impl StepSize {
     /// Size of the step after one of size `h` that was accepted with the error `error`. Does not grow after a rejection.
     ///
     /// Where errors grew faster from the step before to this one than their sizes account for, they are taken to go on so (Gustafsson's
-    /// prediction; Hairer & Wanner, *Solving Ordinary Differential Equations II*, §IV.8, eq. (8.25)). On the falling chain that saves half
-    /// of the
-    /// rejected steps.
+    /// prediction; Hairer & Wanner, *Solving Ordinary Differential Equations II*, §IV.8, eq. (8.25)). On the falling chain that saves
+    /// half of the rejected steps.
     pub(crate) fn accepted(&mut self, control: &Control, h: f64, error: f64) -> f64 {
         // Powers by logarithms: error^−exponent previous^beta.
         let (now, floor) = (error.ln(), SMALLEST_PREVIOUS);

@@ -66,21 +66,16 @@ pub enum Method {
     /// Dormand and Prince's 5(4), interpolant of order 4.
     Dopri5,
     /// Radau IIA of order 5, implicit, with the exact Jacobian of the accelerations; interpolant of order 3. For stiff mechanisms: hard
-    /// springs, strong drag or damping,
-    /// whose fast motion has died down or is not of interest. There the explicit methods need steps as short as the fast motion, this one
-    /// only such as the slow motion asks for.
+    /// springs, strong drag or damping, whose fast motion has died down or is not of interest. There the explicit methods need steps as
+    /// short as the fast motion, this one only such as the slow motion asks for.
     ///
-    /// It damps fast oscillations that its steps do not resolve (it is L-stable), and takes their energy out; where they matter, or nothing
-    /// is stiff,
-    /// take [`Dop853`](Method::Dop853). Positions may err by the tolerance in the direction of a hard spring, too, and there that holds
-    /// energy: ask for tolerances at which a spring
-    /// stretched by as much holds little of it.
+    /// It damps fast oscillations that its steps do not resolve (it is L-stable), and takes their energy out; where they matter, or
+    /// nothing is stiff, take [`Dop853`](Method::Dop853). Positions may err by the tolerance in the direction of a hard spring, too, and
+    /// there that holds energy: ask for tolerances at which a spring stretched by as much holds little of it.
     Radau5,
-    /// RATTLE, composed to order 4: symplectic, with equal steps. The energy of a conservative motion stays within a bound over any number
-    /// of steps, without a
-    /// trend. For holonomic constraints, a constant and regular M, and forces from a potential; it keeps the constraints by itself, without
-    /// projection. Its
-    /// interpolant is a cubic.
+    /// RATTLE, composed to order 4: symplectic, with equal steps. The energy of a conservative motion stays within a bound over any
+    /// number of steps, without a trend. For holonomic constraints, a constant and regular M, and forces from a potential; it keeps the
+    /// constraints by itself, without projection. Its interpolant is a cubic.
     Rattle {
         /// Largest size of a step, in units of time; the run is divided into equal ones. It is the accuracy: no tolerance is looked at.
         step: f64,
@@ -137,9 +132,8 @@ pub const PROJECTION_LIMIT: f64 = 10.0;
 pub(crate) trait Problem {
     /// q̈ at a state. After far too long a step the state may not be finite; an error there only shortens the step.
     fn acceleration(&mut self, at: Sample<'_>, out: &mut [f64]) -> Result<(), Error>;
-    /// q̈ at a state into `acceleration`, ∂q̈/∂q and ∂q̈/∂q̇ there into `out`, n × 2n, column-major; not finite where a derivative does not
-    /// exist. Asked for
-    /// by implicit methods alone.
+    /// q̈ at a state into `acceleration`, ∂q̈/∂q and ∂q̈/∂q̇ there into `out`, n × 2n, column-major; not finite where a derivative does
+    /// not exist. Asked for by implicit methods alone.
     fn jacobian(
         &mut self,
         at: Sample<'_>,

@@ -1,9 +1,8 @@
 //! Radau IIA of order 5 for mechanical systems.
 //!
 //! After Hairer & Wanner, *Solving Ordinary Differential Equations II*, 2nd ed., Springer 1996, §IV.8: simplified Newton with a
-//! factorisation kept over
-//! steps, an embedded estimate of the error, Gustafsson's predictive choice of the step size; with the constants of the authors' code
-//! RADAU5.
+//! factorisation kept over steps, an embedded estimate of the error, Gustafsson's predictive choice of the step size; with the constants
+//! of the authors' code RADAU5.
 //!
 //! The state is y = (q, q̇) and y' = (q̇, a(t, q, q̇)). With wᵢ = q̇ᵢ − q̇ at the stages, positions are qᵢ = q + h (cᵢ q̇ + Σ aᵢⱼ wⱼ) and
 //! only the wᵢ are unknown: A⁻¹ w / h = a. Newton's matrix for an eigenvalue λ of A⁻¹ is then n × n, a quarter of what it is for y:
@@ -12,12 +11,10 @@
 //!
 //! once for the real eigenvalue, once for the complex pair.
 //!
-//! One Jacobian for a whole step is not enough where a stiff direction turns within it, as that of a hard spring does: measured on a spring
-//! pendulum of stiffness k,
-//! the iterations then converge for steps below k^−¼ only. Where they do not, the Jacobians of the three stages go into one matrix 3n × 3n,
-//! and Newton's
-//! method takes steps as the slow motion allows them. At tolerance 1e-6 these are four times as long at k = 10⁸, and twenty-five times at
-//! 10¹².
+//! One Jacobian for a whole step is not enough where a stiff direction turns within it, as that of a hard spring does: measured on a
+//! spring pendulum of stiffness k, the iterations then converge for steps below k^−¼ only. Where they do not, the Jacobians of the three
+//! stages go into one matrix 3n × 3n, and Newton's method takes steps as the slow motion allows them. At tolerance 1e-6 these are four
+//! times as long at k = 10⁸, and twenty-five times at 10¹².
 
 pub(super) mod newton;
 

@@ -5,9 +5,9 @@
 //! v½ = v₀ + h/2 (M⁻¹Q(q₀) + M⁻¹A(q₀)ᵀλ),  q₁ = q₀ + h v½ with φ(q₁) = 0,
 //! v₁ = v½ + h/2 (M⁻¹Q(q₁) + M⁻¹A(q₁)ᵀμ) with A(q₁) v₁ = 0.
 //!
-//! As λ and μ are whatever meets the constraints, q̈ may stand for M⁻¹Q: the two differ by M⁻¹Aᵀ times something. q̈ includes a good guess
-//! of λ, which leaves
-//! little to Newton's method; and one evaluation, at q₁ and the projected v½, serves the end of a stage and the start of the next one.
+//! As λ and μ are whatever meets the constraints, q̈ may stand for M⁻¹Q: the two differ by M⁻¹Aᵀ times something. q̈ includes a good
+//! guess of λ, which leaves little to Newton's method; and one evaluation, at q₁ and the projected v½, serves the end of a stage and the
+//! start of the next one.
 //!
 //! A stage is symmetric and of order 2. Five of them with sizes γh, γh, (1 − 4γ)h, γh, γh make order 4 (Suzuki's composition, §II.4).
 

@@ -1,8 +1,7 @@
 //! What a run asks of a method.
 //!
 //! The loop over steps, their ends, projections, failures and samples is [`driver`](super::driver)'s and the same for all methods. A
-//! [`Scheme`] makes
-//! one step at a time and says how long the next one should be.
+//! [`Scheme`] makes one step at a time and says how long the next one should be.
 
 use super::control::StepSize;
 use super::sample::Sample;
@@ -87,8 +86,7 @@ pub(super) struct Attempt {
 ///
 /// For each step come [`attempt`](Scheme::attempt), a projection of [`state_mut`](Scheme::state_mut), [`close`](Scheme::close),
 /// [`interpolate`](Scheme::interpolate) if wanted, [`advance`](Scheme::advance), [`accepted`](Scheme::accepted). Where one of them fails,
-/// what follows is left out,
-/// [`inaccurate`](Scheme::inaccurate) or [`unfit`](Scheme::unfit) shortens the step, and it is tried again.
+/// what follows is left out, [`inaccurate`](Scheme::inaccurate) or [`unfit`](Scheme::unfit) shortens the step, and it is tried again.
 pub(super) trait Scheme {
     /// Evaluates f at (s, y), at the start of the run or where f has changed there: nothing before counts any more.
     fn begin(&mut self, equations: &mut Equations<'_>, s: f64, y: &[f64]) -> Result<(), Cause>;

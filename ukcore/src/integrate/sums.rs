@@ -71,8 +71,7 @@ impl<S: Scalar> Tolerance<S> {
 }
 
 /// x + `change`, and what rounding takes from it; exact where |change| ≤ |x|. (Kahan's summation; Hairer, Lubich & Wanner, *Geometric
-/// Numerical
-/// Integration*, §VIII.5.)
+/// Numerical Integration*, §VIII.5.)
 #[inline(always)]
 pub(super) fn keeping<S: Scalar>(x: S, change: S) -> (S, S) {
     let new = x + change;

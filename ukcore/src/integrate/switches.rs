@@ -1,17 +1,14 @@
 //! Steps onto the zeros of switching functions.
 //!
 //! Where y' has a kink or a jump, at a zero of a switching function g, a step across it loses its order. So y' is held in the branches of
-//! the step's
-//! start: where g passes zero within a step y' goes on smoothly, and the step has the full order of its method. If g has left its branch,
-//! the step is repeated up to
-//! the first zero, found on the interpolant, and the next step begins there in the other branch.
+//! the step's start: where g passes zero within a step y' goes on smoothly, and the step has the full order of its method. If g has left
+//! its branch, the step is repeated up to the first zero, found on the interpolant, and the next step begins there in the other branch.
 //!
 //! A branch may end at its zero, as that of max(x, 0)^1.5 does: where y' has no value beyond it, the step follows its switches, as short as
 //! its error demands.
 //!
 //! That a function has left its branch shows at the end of a step, or, if it comes back before that, at a stage; the interpolant is made
-//! only then. So what stays
-//! unseen is what falls between all stages, as it does for the estimate of the error.
+//! only then. So what stays unseen is what falls between all stages, as it does for the estimate of the error.
 
 use super::Problem;
 use super::dense::interpolate;
@@ -153,8 +150,7 @@ impl Switches {
     }
 
     /// Where a step first leaves its branches, if it does. `time` is that of a part of the step, `coefficients` are those of its
-    /// interpolant. Switches that the step
-    /// goes onto do not count.
+    /// interpolant. Switches that the step goes onto do not count.
     pub(super) fn search(
         &mut self,
         problem: &mut dyn Problem,

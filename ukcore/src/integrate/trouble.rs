@@ -42,9 +42,9 @@ const FADED: f64 = 1e-3;
 
 /// The contradiction between constraints that is ahead of a run.
 ///
-/// A run retries ever smaller steps, so the failure seen last is at the very place where the constraints come apart: there the residual is
-/// rounding
-/// and one of the constraints may be missing. What a longer step met says more. It stays of interest while the run has not passed it.
+/// A run retries ever smaller steps, so the failure seen last is at the very place where the constraints come apart: there the residual
+/// is rounding and one of the constraints may be missing. What a longer step met says more. It stays of interest while the run has not
+/// passed it.
 #[derive(Debug, Default)]
 pub(crate) struct Conflict {
     ahead: Option<Trouble>,
@@ -110,9 +110,8 @@ const WINDOW: usize = 100_000;
 const FEW: usize = 100;
 
 /// Mean change of the state over a step, in units of the tolerance, below which a motion chatters. A step across a switch is accepted
-/// once the jump times the step is of the order of the tolerance; a step limited by its error in a smooth motion changes the state by many
-/// thousands of
-/// tolerances.
+/// once the jump times the step is of the order of the tolerance; a step limited by its error in a smooth motion changes the state by
+/// many thousands of tolerances.
 const CHATTER: f64 = 100.0;
 
 /// Watches the steps where the equations contain sign, abs, min or max.

@@ -1,8 +1,7 @@
 //! Several mechanisms of one type at once, each in a lane of a wide number.
 //!
-//! Emitted code is one straight line for any [`Scalar`]; with a scalar of eight lanes it evaluates eight mechanisms, each with parameters,
-//! time and
-//! state of its own. No lane sees another one: what comes out of a lane does not depend on what is in the others.
+//! Emitted code is one straight line for any [`Scalar`]; with a scalar of eight lanes it evaluates eight mechanisms, each with
+//! parameters, time and state of its own. No lane sees another one: what comes out of a lane does not depend on what is in the others.
 //!
 //! - [`Lanes`]: numbers with lanes; `f64` has one, `wide::f64x4` and `wide::f64x8` (feature `lanes`) have four and eight.
 //! - [`LaneSolver`]: q̈ in lanes; where the emitted elimination is not safe in a lane, that lane is solved again, alone.

@@ -1,8 +1,8 @@
 //! Four and eight lanes of `f64`, by the crate `wide`.
 //!
 //! Arithmetic, roots and selections are those of `f64` in each lane. Sines, cosines and exponentials are computed for all lanes at once,
-//! within two units
-//! in the last place of those of `f64`, where that holds; arguments beyond that and the other functions go lane by lane through `f64`.
+//! within two units in the last place of those of `f64`, where that holds; arguments beyond that and the other functions go lane by lane
+//! through `f64`.
 
 use super::Lanes;
 use crate::scalar::Scalar;

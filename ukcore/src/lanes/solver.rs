@@ -10,8 +10,7 @@ use crate::solver::{Solver, SolverOptions, SolverWork};
 /// Solves for q̈ of several mechanisms at once, one in each lane.
 ///
 /// The emitted elimination computes all lanes. Where its certificate does not hold in a lane, or something is not finite there, a
-/// [`Solver`] of that lane's own solves it
-/// again; so a lane has the acceleration, or the error, that it would have alone.
+/// [`Solver`] of that lane's own solves it again; so a lane has the acceleration, or the error, that it would have alone.
 #[derive(Debug, Clone)]
 pub struct LaneSolver<L: Scalar> {
     mechanisms: Vec<Prepared>,

@@ -13,8 +13,7 @@ use crate::scan::largest;
 pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// Where no step makes it less, a residual will do if it does not exceed this many ε of max|A_ij| max|q_j|, or of the rounding that
-/// evaluating it carries where
-/// that is more: terms that cancel, or constraints that nearly lose rank, can keep it above [`ROUNDING`].
+/// evaluating it carries where that is more: terms that cancel, or constraints that nearly lose rank, can keep it above [`ROUNDING`].
 /// Lengths of links among coordinates thirty times as large still hold to 1e-12.
 const STALLED: f64 = 64.0 * f64::EPSILON;
 
@@ -108,9 +107,8 @@ impl Acceptance<f64> {
     }
 }
 
-/// What rounding the evaluation of each residual carries. Where coordinates are small beside the lengths in a constraint (measured from the
-/// state at rest,
-/// say), this is far more than their own rounding makes of it.
+/// What rounding the evaluation of each residual carries. Where coordinates are small beside the lengths in a constraint (measured from
+/// the state at rest, say), this is far more than their own rounding makes of it.
 #[derive(Debug, Clone)]
 pub(super) struct Rounding {
     pub(super) mechanism: Prepared<Rounded, dyn Constraints<Rounded>>,
@@ -167,9 +165,8 @@ impl Rounding {
         (0..at.rows()).filter(move |c| !met(*c))
     }
 
-    /// The solve meets constraints that imply each other as well as it can together: of errors that contradict each other it leaves to each
-    /// its share in the
-    /// dependence, however small its own terms are.
+    /// The solve meets constraints that imply each other as well as it can together: of errors that contradict each other it leaves to
+    /// each its share in the dependence, however small its own terms are.
     fn share(&mut self, dense: &mut Dense) {
         let rows = dense.cod.order().len();
         let excess = rows - dense.cod.rank();

@@ -24,21 +24,17 @@ pub(super) enum Steps {
     /// Newton's method: from the place itself.
     Here,
     /// From another place: they converge linearly, for a place at a distance h as h^k. What is left each time would add up in such a
-    /// method, so steps go on
-    /// for as long as they fall.
+    /// method, so steps go on for as long as they fall.
     Elsewhere,
 }
 
 impl Steps {
     /// How many there are at most (what has not converged after eight is too far off for a method without a safeguard); what does not
-    /// divide a step by how much does
-    /// not converge; and the share of itself by which the last step changes every coordinate at most.
+    /// divide a step by how much does not converge; and the share of itself by which the last step changes every coordinate at most.
     ///
-    /// A step of a share of 1e-9 leaves residuals of second order, a share of 1e-18 of the coordinates, below ε even where the lengths in a
-    /// constraint are a
-    /// hundredth of the coordinates. Where the constraints are linear in what is changed only rounding remains, of which the elimination
-    /// may have made a thousand
-    /// ε of the change.
+    /// A step of a share of 1e-9 leaves residuals of second order, a share of 1e-18 of the coordinates, below ε even where the lengths in
+    /// a constraint are a hundredth of the coordinates. Where the constraints are linear in what is changed only rounding remains, of
+    /// which the elimination may have made a thousand ε of the change.
     fn rule<L: Lanes>(self, at: &At<'_, L>) -> (usize, f64, f64) {
         match self {
             Steps::Here if at.linear() => (8, 0.1, 1e-3),
@@ -76,9 +72,8 @@ impl<L: Lanes> Newton<L> {
     }
 
     /// Moves `x` onto the constraints in the lanes where `left` is 1 (and not 0), by at most `most` steps. At each place `look` gives two
-    /// such masks: of the lanes
-    /// that have arrived, and of those with a step to take, which is then in `step`. Returns the lanes that have arrived, and the number of
-    /// steps in each.
+    /// such masks: of the lanes that have arrived, and of those with a step to take, which is then in `step`. Returns the lanes that have
+    /// arrived, and the number of steps in each.
     pub(super) fn iterate(
         &mut self,
         at: &At<'_, L>,
@@ -107,8 +102,7 @@ impl<L: Lanes> Newton<L> {
     }
 
     /// By steps that need no matrix, for all lanes at once, and that tell by their size where they end. `make` makes them, and their
-    /// certificate. Returns the lanes
-    /// that have arrived, those where steps no longer became smaller, and the number of steps in each.
+    /// certificate. Returns the lanes that have arrived, those where steps no longer became smaller, and the number of steps in each.
     pub(super) fn direct(
         &mut self,
         at: &At<'_, L>,
@@ -169,8 +163,7 @@ impl<L: Lanes> Newton<L> {
     }
 
     /// Projects q, then q̇, by the emitted elimination, in the lanes where `wanted` is 1 (and not 0). Returns 1 for those that are
-    /// consistent then, and the
-    /// number of steps in each.
+    /// consistent then, and the number of steps in each.
     #[cfg(feature = "ensemble")]
     pub(crate) fn project(
         &mut self,

@@ -67,8 +67,8 @@ impl Factors {
     }
 
     /// Takes M and A (all rows, of which those of the level count) at `x`. While `cautious`, rows of a significance below the ceiling are
-    /// left out: off the
-    /// manifold nobody can tell whether they are implied; if they are not, the residual will not fall, and they are taken in.
+    /// left out: off the manifold nobody can tell whether they are implied; if they are not, the residual will not fall, and they are
+    /// taken in.
     fn factor(&mut self, at: &At<'_, f64>, x: &[f64], jacobian: &mut [f64]) -> Result<(), Error> {
         let spec = at.mech.spec();
         at.mass_matrix(x, &mut self.mass);

@@ -1,9 +1,8 @@
 //! A mechanism as an object: its emitted functions behind tables, and its parameters.
 //!
-//! Emitted functions are generic over numbers, so [`Mechanism`] itself makes no trait object. Everything that runs on them does so through
-//! [`Prepared`], which is one type for all mechanisms: solver, projection, integration and trajectories are compiled once, here, and a
-//! crate that
-//! declares a mechanism compiles its emitted functions and little else.
+//! Emitted functions are generic over numbers, so [`Mechanism`] itself makes no trait object. Everything that runs on them does so
+//! through [`Prepared`], which is one type for all mechanisms: solver, projection, integration and trajectories are compiled once, here,
+//! and a crate that declares a mechanism compiles its emitted functions and little else.
 
 use std::any::TypeId;
 use std::fmt;
@@ -147,9 +146,8 @@ impl<M: Mechanism, S: Scalar> Emitted<S> for Of<M> {
 /// once, here.
 ///
 /// It is made by [`Mechanism::prepared`], or from a mechanism or a reference to one by `Prepared::from`; whatever solves, projects or
-/// simulates takes
-/// either. With [`Dual`] parameters come derivatives by parameters. Its methods do not check lengths; each panics if a slice has not the
-/// stated one.
+/// simulates takes either. With [`Dual`] parameters come derivatives by parameters. Its methods do not check lengths; each panics if a
+/// slice has not the stated one.
 pub struct Prepared<S: Scalar = f64, C: ?Sized + 'static = dyn Emitted<S>> {
     code: &'static C,
     spec: &'static Spec,
@@ -266,9 +264,8 @@ impl<S: Scalar, C: ?Sized + Dynamics<S>> Prepared<S, C> {
         self.code.dynamics(&self.values, t, q, v, out);
     }
 
-    /// q̈ by the emitted elimination and its certificate at (t, q, q̇); see [`Mechanism::acceleration`]. [`Solver`](crate::Solver) wraps it
-    /// with the
-    /// rank-revealing solve.
+    /// q̈ by the emitted elimination and its certificate at (t, q, q̇); see [`Mechanism::acceleration`]. [`Solver`](crate::Solver) wraps
+    /// it with the rank-revealing solve.
     #[inline]
     pub fn acceleration(&self, t: S, q: &[S], v: &[S], out: &mut [S]) -> S {
         self.code.acceleration(&self.values, t, q, v, out)

@@ -9,8 +9,7 @@ const WIDTH: usize = 100;
 const INDENT: usize = 4;
 
 /// The text of an emitted function ([`Mechanism::CODE`](crate::Mechanism::CODE)) with each statement on a line of its own; what is longer
-/// than
-/// 100 columns is broken at the outermost operators. Nothing but spaces is changed.
+/// than 100 columns is broken at the outermost operators. Nothing but spaces is changed.
 #[must_use]
 pub fn laid_out(text: &str) -> String {
     let tokens: Vec<&str> = Tokens(text.char_indices().peekable(), text).collect();

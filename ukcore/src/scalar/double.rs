@@ -7,8 +7,7 @@ use crate::scalar::Scalar;
 /// An unevaluated sum of two `f64`, 106 bits in all (Dekker 1971; Hida, Li & Bailey 2001).
 ///
 /// Arithmetic and square roots are exact to a few units of 1e-32, other functions to about 1e-30 of their argument. Magnitudes between
-/// 1e-250 and
-/// 1e290 keep all digits; sums and products are some 20 times as dear as in `f64`.
+/// 1e-250 and 1e290 keep all digits; sums and products are some 20 times as dear as in `f64`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DoubleDouble {
     /// The nearest `f64`.

@@ -1,10 +1,8 @@
 //! Many motions of one mechanism at once: other starts, other parameters.
 //!
 //! Each core takes some members at a time, one in each lane of its numbers. A member has its own step sizes, its own rejections and
-//! projections, and when it has ended the
-//! next one takes its lane; lanes that step together would all take the smallest step of them, and all repeat what one rejects. So the
-//! result of a member depends neither
-//! on its neighbours nor on the number of threads, bit by bit.
+//! projections, and when it has ended the next one takes its lane; lanes that step together would all take the smallest step of them, and
+//! all repeat what one rejects. So the result of a member depends neither on its neighbours nor on the number of threads, bit by bit.
 //!
 //! Per member the run is that of a [`Simulation`] with [`Method::Dop853`](crate::Method), projection and steps across switches
 //! ([`Switching::Ignored`](super::Switching): a lane is not taken back to a kink of its own); results agree to the tolerance, not bit by

@@ -7,8 +7,7 @@ use crate::scalar::Scalar;
 const DIGITS: usize = 15;
 
 /// Largest product of numerator and denominator of a simple fraction. No two of them round to the same `f64`, and of the `f64` one in ten
-/// thousand has one:
-/// where there is one, it is hardly an accident.
+/// thousand has one: where there is one, it is hardly an accident.
 const SIMPLE: f64 = 1e12;
 
 /// The number that `x` stands for, as numerator and denominator, if it is a simple fraction or a decimal of few digits.

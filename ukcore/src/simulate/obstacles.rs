@@ -14,9 +14,8 @@ const SINGULAR: f64 = 1.5e-8;
 
 /// Refuses a step that ends where constraints all but imply each other and that did not begin there.
 ///
-/// A significance δ leaves q off by ε/δ, so below √ε the state does not say on which side of the singular position it is, nor which branch
-/// of the motion it
-/// takes: any of them conserves energy. A step that passes over the place is not concerned.
+/// A significance δ leaves q off by ε/δ, so below √ε the state does not say on which side of the singular position it is, nor which
+/// branch of the motion it takes: any of them conserves energy. A step that passes over the place is not concerned.
 pub(super) fn check_branch(solver: &mut Solver, step: &Step<'_>) -> Result<(), Error> {
     if solver.take_weakest() > 16.0 * SINGULAR {
         return Ok(());
@@ -47,9 +46,8 @@ fn weakest_at(solver: &mut Solver, at: Sample<'_>) -> Result<f64, Error> {
     Ok(solver.take_weakest())
 }
 
-/// Why the nearest consistent state is far from the one `at` which a step arrived that began at `t_old`: a constraint jumps, or constraints
-/// all but imply each
-/// other there. `None` if neither is found.
+/// Why the nearest consistent state is far from the one `at` which a step arrived that began at `t_old`: a constraint jumps, or
+/// constraints all but imply each other there. `None` if neither is found.
 pub(super) fn jump(solver: &mut Solver, at: Sample<'_>, t_old: f64) -> Option<Error> {
     let Sample { t, q, v } = at;
     let spec = solver.mechanism().spec();

@@ -44,8 +44,7 @@ pub struct Baumgarte {
 }
 
 /// α = β = 20/s: critical damping, under which an error decays in a twentieth of a second, fast against the seconds that mechanisms move
-/// for, and
-/// slow against the steps of an explicit method.
+/// for, and slow against the steps of an explicit method.
 impl Default for Baumgarte {
     fn default() -> Self {
         let rate = 20.0;

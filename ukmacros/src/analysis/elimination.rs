@@ -11,8 +11,7 @@
 //! Every 1 × 1 pivot is checked at run time: see [`certificate`].
 //!
 //! In steps: [`order`] chooses the pivots on the [`pattern`] of K, which also tells what is filled in; [`matrix`] eliminates K in that
-//! order;
-//! [`solution`] solves for a right-hand side.
+//! order; [`solution`] solves for a right-hand side.
 
 mod certificate;
 mod matrix;
@@ -73,18 +72,20 @@ pub(crate) struct Pair {
     pub(crate) massive: bool,
 }
 
-/// Eliminates; or says why the structure does not allow it.
+/// Eliminates; or says why the structure does not allow it. To M of `d` were added Σ μ aᵀa of rows a of A, to Q the Σ μ aᵀb; `weights` are
+/// the (row, coordinate, μ a_i), by which a correction has the like of its residuals.
 pub(crate) fn eliminate(
     d: &Dynamics,
+    weights: &[(usize, usize, Id)],
     names: &[String],
     g: &mut Graph,
 ) -> Result<Elimination, String> {
     let order = order(d, names, g)?;
     // A factor that all of M shares, as the one mass of all parts, only scales the multipliers: it is taken out of M and Q.
-    let (factor, d) = &without_common_factor(d, g);
-    let common = (*factor != g.one()).then(|| {
+    let (common_factor, d) = &without_common_factor(d, g);
+    let common = (*common_factor != g.one()).then(|| {
         let position = d.mass.keys().next().map_or(0, |(i, _)| *i);
-        let (name, value, reference) = (names[position].clone(), *factor, *factor);
+        let (name, value, reference) = (names[position].clone(), *common_factor, *common_factor);
         (
             Divisor {
                 name,
@@ -126,8 +127,14 @@ pub(crate) fn eliminate(
     let residuals: Vec<Id> = (0..d.rhs.len())
         .map(|i| g.symbol(Symbol::Residual(i)))
         .collect();
-    let (still, residuals) = (vec![g.zero(); force.len()], scaled(-1.0, &residuals, g));
-    let mut projection = Forward::new(&still, &residuals);
+    let mut pull = vec![g.zero(); force.len()];
+    for (row, i, weight) in weights {
+        let weight = g.div(*weight, *common_factor);
+        let term = g.mul(weight, residuals[*row]);
+        pull[*i] = g.sub(pull[*i], term);
+    }
+    let residuals = scaled(-1.0, &residuals, g);
+    let mut projection = Forward::new(&pull, &residuals);
     factors.iter().for_each(|factor| projection.step(factor, g));
     let projection = projection.solution(&factors, names, g, &mut hints)?;
     let divisors = divisors

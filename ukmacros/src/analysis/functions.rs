@@ -94,11 +94,19 @@ pub(crate) fn functions(system: &System, hoisted: &Hoisted) -> Vec<Function> {
     }
     if let Ok(straight) = &hoisted.straight {
         let elimination = &straight.elimination;
-        for (role, values) in [
-            (Role::Acceleration, &elimination.acceleration),
-            (Role::Correction, &elimination.correction),
+        for (role, values, safe) in [
+            (
+                Role::Acceleration,
+                &elimination.acceleration,
+                straight.met_too,
+            ),
+            (
+                Role::Correction,
+                &elimination.correction,
+                straight.certificate,
+            ),
         ] {
-            functions.push(builder.solve(role, straight, values));
+            functions.push(builder.solve(role, straight, values, safe));
         }
     }
     functions
@@ -158,10 +166,10 @@ impl Builder<'_> {
         self.function(Role::Dynamics, slices, roots)
     }
 
-    /// A straight-line solve for `values`.
-    fn solve(&self, role: Role, straight: &Straight, values: &[Id]) -> Function {
+    /// A straight-line solve for `values`, with its certificate.
+    fn solve(&self, role: Role, straight: &Straight, values: &[Id], safe: Id) -> Function {
         let mut roots = elements(Slice::Out, values);
-        roots.push((Place::Certificate, straight.certificate));
+        roots.push((Place::Certificate, safe));
         let sequence = Sequence::Stages(&straight.stages);
         let slices = vec![(Slice::Out, values.len())];
         self.scheduled(role, slices, roots, sequence, &straight.exits)

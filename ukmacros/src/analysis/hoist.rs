@@ -6,9 +6,13 @@
 
 use super::dynamics::Dynamics;
 use super::elimination::Straight;
+use super::probe::{Probe, Random, Shake};
 use super::switches::Switch;
-use crate::expr::{Graph, Id, Node, Point, Symbol, System, eval};
+use crate::expr::{Graph, Id, Node, Symbol, System, eval, eval_shaken};
 use std::collections::HashMap;
+
+/// States at which both forms of the equations are compared.
+const STATES: usize = 2;
 
 /// The equations as they are emitted.
 pub(crate) struct Hoisted {
@@ -187,29 +191,15 @@ impl<'g> Pass<'g> {
     }
 }
 
-/// Whether both forms of the equations agree at a point, checked in debug builds of the macro: numbers of the first value that does not.
+/// Whether both forms of the equations agree, checked in debug builds of the macro: the number of the first value that does not at any state where
+/// it is well conditioned.
 pub(crate) fn verify(
     system: &System,
     dynamics: &Dynamics,
     straight: &Result<Straight, String>,
     hoisted: &Hoisted,
 ) -> Option<usize> {
-    let n = dynamics.force.len();
-    let point = |k: usize| 0.3 + 0.7 * (k as f64 * 0.618_033_988).fract();
-    let draw = |offset: usize, len: usize| (0..len).map(|i| point(i + offset)).collect::<Vec<_>>();
-    let (q, v, residual) = (draw(1, n), draw(7, n), draw(3, dynamics.rhs.len()));
-    let at = |prepared: &[f64], ids: &[Id]| {
-        let point = Point {
-            params: &system.defaults,
-            q: &q,
-            v: &v,
-            t: 0.7,
-            residual: &residual,
-            prepared,
-        };
-        eval(&system.graph, ids, &point)
-    };
-    let prepared = at(&[], &hoisted.values);
+    let g = &system.graph;
     let roots = |dynamics: &Dynamics, straight: &Result<Straight, String>| -> Vec<Id> {
         let (mut dynamics, mut straight) = (dynamics.clone(), straight.clone());
         let mut ids: Vec<Id> = dynamics.values_mut().map(|id| *id).collect();
@@ -218,13 +208,29 @@ pub(crate) fn verify(
         }
         ids
     };
-    let before = at(&[], &roots(dynamics, straight));
-    let after = at(&prepared, &roots(&hoisted.dynamics, &hoisted.straight));
-    let size = before
-        .iter()
-        .filter(|x| x.is_finite())
-        .fold(1.0, |s: f64, x| s.max(x.abs()));
-    // Rounding grows along an elimination; a wrong factor is off by far more.
-    let differ = |(a, b): (&f64, &f64)| (a - b).abs() > 1e-6 * size && a.is_finite();
-    before.iter().zip(&after).position(differ)
+    let before = roots(dynamics, straight);
+    let after = roots(&hoisted.dynamics, &hoisted.straight);
+    let mut random = Random::new(12);
+    let mut suspects: Option<Vec<bool>> = None;
+    for _ in 0..STATES {
+        let (n, m) = (dynamics.force.len(), dynamics.rhs.len());
+        let probe = Probe::positive(&system.defaults, n, m, &mut random);
+        let prepared = eval(g, &hoisted.values, &probe.point());
+        let known = Shake::bounds(|shake| {
+            eval_shaken(g, &before, &probe.point(), &mut |x| shake.change(x))
+        });
+        let found = eval(g, &after, &probe.with(&prepared));
+        let size = known.iter().map(|(x, _)| x.abs());
+        let size = size.filter(|x| x.is_finite()).fold(1.0, f64::max);
+        // A wrong factor is off by far more.
+        let differs = |((a, rounding), b): (&(f64, f64), &f64)| {
+            a.is_finite() && (a - b).abs() > (1e-9 * size.min(1.0 + a.abs())).max(*rounding)
+        };
+        let differs = known.iter().zip(&found).map(differs);
+        suspects = Some(match suspects {
+            None => differs.collect(),
+            Some(known) => known.iter().zip(differs).map(|(a, b)| *a && b).collect(),
+        });
+    }
+    suspects?.iter().position(|wrong| *wrong)
 }

@@ -7,6 +7,8 @@ mod dynamics;
 mod elimination;
 mod functions;
 mod hoist;
+mod probe;
+mod regular;
 mod schedule;
 mod sparsity;
 mod structure;
@@ -54,9 +56,21 @@ pub(crate) fn analyse(system: &mut System, model: &Model, dynamics: Dynamics) ->
     let names: Vec<String> = coordinates.chain(constraints).collect();
     let structure = structure::structure(system, &dynamics);
     let (held, switches) = switches::hold(system, &dynamics, &names);
-    let straight = elimination::eliminate(&held, &names, &mut system.graph)
-        .map(|elimination| elimination::Straight::new(elimination, system));
-    let solve = straight.as_ref().map(elimination::Straight::told);
+    let regular = regular::regular(system, &held);
+    let straight = match regular.refusal(&names) {
+        Some(refusal) => Err(refusal),
+        None => elimination::eliminate(
+            &regular.dynamics,
+            &regular.weights,
+            &names,
+            &mut system.graph,
+        )
+        .map(|e| elimination::Straight::new(e, &held, &regular.met, system)),
+    };
+    let solve = straight.as_ref().map(|straight| Solve {
+        regular: regular.rows,
+        ..straight.told()
+    });
     let solve = solve.map_err(String::clone);
     let hoisted = hoist::hoist(system, &held, &straight, &switches);
     let defect = cfg!(debug_assertions)

@@ -1,9 +1,8 @@
 //! Switching functions: where abs, sign, min and max change their branch.
 //!
 //! abs(u) and sign(u) turn where u changes its sign, min(a, b), max(a, b) and their derivatives where a − b does. Each such g that the
-//! equations of motion depend on is a switch. An integrator may hold it in one branch: the emitted code then goes on smoothly across g = 0.
-//! Functions that
-//! turn at the zeros of one g, of −g or of a multiple of it by a number have one switch.
+//! equations of motion depend on is a switch. An integrator may hold it in one branch: the emitted code then goes on smoothly across g =
+//! 0. Functions that turn at the zeros of one g, of −g or of a multiple of it by a number have one switch.
 
 use super::dynamics::Dynamics;
 use crate::expr::{Func, Graph, Id, Node, Num, Symbol, System, is_power_of_two};
@@ -24,9 +23,8 @@ struct Decision {
     sign: f64,
 }
 
-/// Finds the switches and makes the equations depend on the branches held, [`Symbol::Branch`]; energies stay as they are. `names` are those
-/// of the coordinates, then
-/// of the constraints. Without a switch the equations are returned as they are.
+/// Finds the switches and makes the equations depend on the branches held, [`Symbol::Branch`]; energies stay as they are. `names` are
+/// those of the coordinates, then of the constraints. Without a switch the equations are returned as they are.
 pub(crate) fn hold(
     system: &mut System,
     dynamics: &Dynamics,

@@ -150,6 +150,8 @@ fn solve(solve: &Solve, n: usize) -> TokenStream {
         }
     });
     let least_share = float(SAFE_SHARE);
+    let regular = solve.regular.iter().map(|row| number(*row));
+    let met = solve.met.iter().map(|row| number(*row));
     quote! {
         ukcore::Solve {
             refusal: "",
@@ -157,6 +159,8 @@ fn solve(solve: &Solve, n: usize) -> TokenStream {
             fill: &[#(#fill),*],
             checks: &[#(#checks),*],
             least_share: #least_share,
+            regular: &[#(#regular),*],
+            met: &[#(#met),*],
         }
     }
 }

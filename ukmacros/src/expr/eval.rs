@@ -26,6 +26,16 @@ impl Point<'_> {
 
 /// Values of all nodes up to the highest of `roots`, in one sweep; returns those of `roots`.
 pub(crate) fn eval(g: &Graph, roots: &[Id], point: &Point<'_>) -> Vec<f64> {
+    eval_shaken(g, roots, point, &mut |x| x)
+}
+
+/// The same with `shake` applied to the value of each node: what small changes do to the results shows what rounding may do to them.
+pub(crate) fn eval_shaken(
+    g: &Graph,
+    roots: &[Id],
+    point: &Point<'_>,
+    shake: &mut dyn FnMut(f64) -> f64,
+) -> Vec<f64> {
     let mut needed = vec![false; roots.iter().map(|r| r.index() + 1).max().unwrap_or(0)];
     for root in roots {
         needed[root.index()] = true;
@@ -39,7 +49,7 @@ pub(crate) fn eval(g: &Graph, roots: &[Id], point: &Point<'_>) -> Vec<f64> {
     }
     let mut values = vec![0.0; needed.len()];
     for i in (0..needed.len()).filter(|i| needed[*i]) {
-        values[i] = value(g.node(g.at(i)), &values, point);
+        values[i] = shake(value(g.node(g.at(i)), &values, point));
     }
     roots.iter().map(|r| values[r.index()]).collect()
 }

@@ -460,8 +460,7 @@ impl Graph {
     }
 
     /// `id` with its coefficient as one value, which is not carried on into what is computed from it. Factors of parameters stay outside,
-    /// where
-    /// they may cancel.
+    /// where they may cancel.
     pub(crate) fn hold_whole(&mut self, id: Id) -> Id {
         let (c, _) = self.unscaled(id);
         let factors = self.factors(id);

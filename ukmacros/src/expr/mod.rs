@@ -10,7 +10,7 @@ mod rest;
 
 pub(crate) use diff::Derivative;
 pub(crate) use display::Printer;
-pub(crate) use eval::{Point, eval};
+pub(crate) use eval::{Point, eval, eval_shaken};
 pub(crate) use fold::is_power_of_two;
 pub(crate) use graph::{Func, Graph, Id, Node, Num, Symbol};
 pub(crate) use lower::{ConstraintRef, Kind, System, lower};

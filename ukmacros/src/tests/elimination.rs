@@ -154,11 +154,11 @@ fn straight_lines_solve_the_saddle_point_system() {
         let dynamics = derive(&mut system, n);
         let m = dynamics.rhs.len();
         let names: Vec<String> = (0..n + m).map(|i| format!("u{i}")).collect();
-        let Ok(elimination) = eliminate(&dynamics, &names, &mut system.graph) else {
+        let Ok(elimination) = eliminate(&dynamics, &[], &names, &mut system.graph) else {
             without += 1;
             continue;
         };
-        let straight = Straight::new(elimination, &mut system);
+        let straight = Straight::new(elimination, &dynamics, &[], &mut system);
         for _ in 0..3 {
             let mut draw = |len: usize| (0..len).map(|_| random.unit()).collect::<Vec<f64>>();
             let (q, v, residual) = (draw(n), draw(n), draw(m));

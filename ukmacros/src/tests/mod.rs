@@ -8,6 +8,7 @@ mod facts;
 mod golden;
 mod limits;
 mod random;
+mod regular;
 mod speed;
 mod verify;
 

@@ -47,3 +47,39 @@ fn each_wrong_entry_is_found() {
         }
     }
 }
+
+/// Terms that cancel, and states in which the mechanism is singular, are no defects.
+#[test]
+fn ill_conditioned_models_pass() {
+    let leg = |own: &str, count: usize, at: &str| {
+        format!(
+            "pub Legs {{ const P: usize = 0; const Q: usize = 1; const R: usize = 2; const S: usize = 3; const U: usize = 4; \
+             params {{ a = 3.80, l = 0.78 }} coords {{ {own}, x[{all}], y[{all}] }} \
+             let tip = |n| [cos({at}), sin({at})]; let base = |n| [-a, -l]; \
+             let at = |n, p| [x[5 * n + p], y[5 * n + p]]; let norm = |v| sq(v[0]) + sq(v[1]); \
+             mass {{ for n in 0..{all} {{ x[n]: 1.0, y[n]: 1.0 }} for n in 0..{count} {{ {at}: 0.5 }} }} \
+             holonomic {{ for n in 0..{count} {{ rj[n]: norm(at(n, P) - tip(n)) = 25, rb[n]: norm(at(n, P) - base(n)) = 17, \
+             re[n]: norm(at(n, P) - at(n, Q)) = 31, rd[n]: norm(at(n, Q) - base(n)) = 16, rk[n]: norm(at(n, R) - tip(n)) = 38, \
+             rc[n]: norm(at(n, R) - base(n)) = 15, rf[n]: norm(at(n, Q) - at(n, S)) = 15, rg[n]: norm(at(n, R) - at(n, S)) = 13, \
+             rh[n]: norm(at(n, S) - at(n, U)) = 43, ri[n]: norm(at(n, R) - at(n, U)) = 24 }} }} }}",
+            all = 5 * count,
+        )
+    };
+    let sources = [
+        leg("th", 1, "th"),
+        leg("th", 2, "th"),
+        leg("th", 3, "th"),
+        leg("th[2]", 2, "th[n]"),
+        "pub T { coords { a, b } mass { a: 1, b: 1 } potential { 1e9 * (sq(sin(a) * cos(b)) + sq(sin(a) * sin(b)) + sq(cos(a))) } }".to_owned(),
+        "pub T { coords { a, b } mass { a: 1, b: 1 } potential { 1e15 * (sq(sin(a)) + sq(cos(a))), b } }".to_owned(),
+        "pub T { coords { a, b } kinetic { 0.5e12 * sq(dot(a) * sin(b)) + 0.5e12 * sq(dot(a) * cos(b)), 0.5 * sq(dot(b)) } }".to_owned(),
+        "pub T { coords { a, b } mass { a: 1, b: 1 } holonomic { c: 1e10 * (sq(sin(a)) + sq(cos(a)) - 1) + a * b = 0.2 } }".to_owned(),
+        // Two rods of one length side by side: singular wherever both points stand together.
+        "pub T { coords { x, y, u, v } mass { x: 1, y: 1, u: 1, v: 1 } \
+         holonomic { a: sq(x) + sq(y) = 1, b: sq(u) + sq(v) = 1, c: 1e-9 * x * u + sq(x) + sq(y) = 1 } }".to_owned(),
+    ];
+    for source in sources {
+        let (_, messages) = super::expand(&source);
+        assert!(messages.is_empty(), "{source}\n{messages:?}");
+    }
+}

@@ -15,9 +15,8 @@ struct Way {
 }
 
 /// Steps of the reference are at most this part of the mean step of DOP853 at 1e-13: its truncation error then falls below rounding, also
-/// where the motion is faster than in the mean. (A tolerance below rounding would do the same, but fails where rounding is all that is left
-/// of
-/// the error estimate.)
+/// where the motion is faster than in the mean. (A tolerance below rounding would do the same, but fails where rounding is all that is
+/// left of the error estimate.)
 const SHORT: f64 = 0.1;
 /// Steps of the run that it is compared with are longer by this, which multiplies an error of order 8 by 26; its tolerance is larger by
 /// ten.
@@ -218,9 +217,8 @@ fn along(
     Ok((states.collect(), run.work().steps))
 }
 
-/// The size of each coordinate and velocity: the largest of its kind along the motion; of all kinds, where its own stays at zero. The kind
-/// of a
-/// coordinate is its name up to the first digit or bracket: `x1`, `x[3]` and `x` are of one kind.
+/// The size of each coordinate and velocity: the largest of its kind along the motion; of all kinds, where its own stays at zero. The
+/// kind of a coordinate is its name up to the first digit or bracket: `x1`, `x[3]` and `x` are of one kind.
 fn scale(spec: &Spec, start: &State, states: &[Vec<f64>]) -> Vec<f64> {
     let coords = spec.coords;
     let n = coords.len();

@@ -26,10 +26,9 @@ pub(super) struct Cost {
     pub(super) evaluations: f64,
 }
 
-/// What the accuracy `goal` costs on a curve: between the loosest run that has it, as the next tighter one does too, and the run before it,
-/// by straight
-/// lines in the logarithms. Where the loosest run of all has it, that one's. None if no run has it, or if the reference is not known so
-/// well.
+/// What the accuracy `goal` costs on a curve: between the loosest run that has it, as the next tighter one does too, and the run before
+/// it, by straight lines in the logarithms. Where the loosest run of all has it, that one's. None if no run has it, or if the reference
+/// is not known so well.
 pub(super) fn cost(study: &Study, curve: &Curve, goal: f64) -> Option<Cost> {
     if study.reference.floor > goal {
         return None;
@@ -209,9 +208,8 @@ pub(super) fn as_cheap<'a>(study: &'a Study, run: &LongRun) -> Option<&'a LongRu
         .min_by(|a, b| f64::total_cmp(&a.late.unwrap_or(f64::NAN), &b.late.unwrap_or(f64::NAN)))
 }
 
-/// The duration, s, at which the drift of the energy of `beside`, growing as it did over its last nine tenths, reaches that of `run`, which
-/// has no trend. None
-/// where `run` has one or `beside` has none.
+/// The duration, s, at which the drift of the energy of `beside`, growing as it did over its last nine tenths, reaches that of `run`,
+/// which has no trend. None where `run` has one or `beside` has none.
 pub(super) fn break_even(run: &LongRun, beside: &LongRun) -> Option<f64> {
     let growth = |r: &LongRun| Some(r.late? / r.early?);
     if growth(run)? > TREND || growth(beside)? <= 1.0 {

@@ -1,8 +1,7 @@
 //! The command `stability`: how far stiff and extreme cases go.
 //!
-//! Each [`Case`] sweeps one thing until it breaks. Every value comes out accurate, degraded within a stated bound, or refused with an error
-//! that has
-//! a name. A result that is off by more, without a word, is the one thing that must not be: it makes the command fail.
+//! Each [`Case`] sweeps one thing until it breaks. Every value comes out accurate, degraded within a stated bound, or refused with an
+//! error that has a name. A result that is off by more, without a word, is the one thing that must not be: it makes the command fail.
 
 mod case;
 mod page;
@@ -78,8 +77,7 @@ pub fn main(cases: &[Case]) -> ExitCode {
 ///
 /// # Errors
 /// [`Failure::Usage`] for a case that is not there; [`Failure::Failed`] if a result is wrong, or a file cannot be written;
-/// [`Failure::Interrupted`]
-/// after Ctrl-C, with the cases that were finished written.
+/// [`Failure::Interrupted`] after Ctrl-C, with the cases that were finished written.
 pub fn stability(cases: &[Case], args: &StabilityArgs) -> Result<(), Failure> {
     let started = Instant::now();
     let chosen = chosen(cases, &args.cases)?;

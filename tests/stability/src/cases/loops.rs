@@ -208,9 +208,8 @@ fn bars_distance(distance: f64, effort: &mut Effort) -> Result<f64, Error> {
     if solution.redundant.is_empty() {
         return accelerations_off(&four, &state, &REGULAR, &expected, effort);
     }
-    // Taken as on the line, and said so: the couplers are named as redundant. There the equations have another solution, since the linkage
-    // may leave
-    // the line in other ways.
+    // Taken as on the line, and said so: the couplers are named as redundant. There the equations have another solution, since the
+    // linkage may leave the line in other ways.
     let expected =
         precise::accelerations(&four, 0.0, &bars(1.0, 0.0, rate).q, &bars(1.0, 0.0, rate).v);
     let expected = expected.unwrap_or_else(|| vec![f64::NAN; 10]);

@@ -68,8 +68,7 @@ impl Driver<'_> {
     }
 
     /// Goes on after a step that left its branches, cut from one of size and error `whole`: plans the step onto the zero, or takes the
-    /// other branch if it
-    /// stands there.
+    /// other branch if it stands there.
     pub(super) fn follow(
         &mut self,
         leaving: Leaving,

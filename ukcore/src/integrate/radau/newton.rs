@@ -465,8 +465,7 @@ impl Newton {
     }
 
     /// Size in the error norm of changes that may be rounding: a stiff force multiplies the rounding of positions by as much as the
-    /// matrices divide by, so
-    /// that positions keep theirs, and velocities have that of positions by λ/h.
+    /// matrices divide by, so that positions keep theirs, and velocities have that of positions by λ/h.
     fn rounding(&self, h: f64, y: &[f64], weights: &[f64]) -> f64 {
         let n = self.n;
         let (q, v) = y.split_at(n);

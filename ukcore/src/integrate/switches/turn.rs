@@ -66,9 +66,8 @@ impl<'p> Equations<'p> {
         Ok(targets)
     }
 
-    /// Puts those of `switches`, which stand at zero, into their other branches whose functions leave the ones they are in. Returns whether
-    /// there are
-    /// any.
+    /// Puts those of `switches`, which stand at zero, into their other branches whose functions leave the ones they are in. Returns
+    /// whether there are any.
     pub(in crate::integrate) fn turn(
         &mut self,
         switches: &[usize],

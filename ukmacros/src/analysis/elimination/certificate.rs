@@ -14,24 +14,24 @@
 //!   links nearly in line do not. Measured over approaches to rank loss, errors reach a tenth of the bound: tests/tests/certificate.rs.)
 //!
 //! 1/1024 is `RANK_CEILING`² of the rank-revealing solve: above it that would not doubt the rank either, at states off the constraints
-//! included. Where a
-//! share is less it takes over; it works on A itself, whose condition is the root of G's, and keeps twice the digits. What depends on
-//! parameters only also has to be finite: an infinite mass would vanish by its reciprocal.
+//! included. Where a share is less it takes over; it works on A itself, whose condition is the root of G's, and keeps twice the digits.
+//! What depends on parameters only also has to be finite: an infinite mass would vanish by its reciprocal.
 
 use super::{Divisor, Elimination, Pivoting};
-use crate::expr::{Graph, Id, Node, System};
+use crate::analysis::dynamics::Dynamics;
+use crate::expr::{Func, Graph, Id, Node, System};
 use std::collections::{BTreeSet, HashSet};
 
 /// The least share d/G of a pivot that the straight line accepts: the square of `ukcore::solver::RANK_CEILING`; see the
 /// module.
 pub(crate) const SAFE_SHARE: f64 = 1.0 / 1024.0;
 
-/// A program with more pivots leaves early, after each [`STRETCH`] of them, if the certificate does not hold. That is seldom; what it is
-/// for is
-/// the compiler of the emitted code: it packs scalars of one stretch without branches into vectors, and in long stretches finds pairs that
-/// are far
-/// apart and have to be kept for each other. The U-chain with 65 links takes 280 ns with exits and 450 without, that with 17 links 79 and
-/// 67.
+/// What may be left of A q̈ = b, as a share of its terms, where it is checked: the least that [`SAFE_SHARE`] can promise, for ten rows.
+const MET: f64 = 2e-12;
+
+/// A program with more pivots leaves early, after each [`STRETCH`] of them, if the certificate does not hold. That is seldom; what it is for is
+/// the compiler of the emitted code: it packs scalars of one stretch without branches into vectors, and in long stretches finds pairs that are far
+/// apart and have to be kept for each other. The U-chain with 65 links takes 280 ns with exits and 450 without, that with 17 links 79 and 67.
 const UNBROKEN: usize = 24;
 /// See [`UNBROKEN`].
 const STRETCH: usize = 12;
@@ -42,6 +42,10 @@ pub(crate) struct Straight {
     pub(crate) elimination: Elimination,
     /// 1 where every pivot is safe, 0 where one is not.
     pub(crate) certificate: Id,
+    /// The same, and whether q̈ meets the rows in `met`: 1 or 0.
+    pub(crate) met_too: Id,
+    /// Constraints whose row of A q̈ = b is checked.
+    pub(crate) met: Vec<usize>,
     /// What is computed first, in this order: pivots, their right-hand sides, links of the certificate.
     pub(crate) stages: Vec<Id>,
     /// Links of the certificate after which the code leaves if it does not hold.
@@ -58,6 +62,10 @@ pub(crate) struct Solve {
     pub(crate) fill: Vec<(usize, usize)>,
     /// What the certificate compares, as in [`Straight`].
     pub(crate) checks: Vec<(usize, bool)>,
+    /// Constraints that make M regular.
+    pub(crate) regular: Vec<usize>,
+    /// Constraints whose row of A q̈ = b is checked.
+    pub(crate) met: Vec<usize>,
 }
 
 impl Straight {
@@ -68,6 +76,8 @@ impl Straight {
             pivots: order.pivots.clone(),
             fill: order.fill.clone(),
             checks: self.checks.clone(),
+            regular: Vec::new(),
+            met: self.met.clone(),
         }
     }
 
@@ -79,13 +89,21 @@ impl Straight {
             ..
         } = &mut self.elimination;
         let solutions = acceleration.iter_mut().chain(correction);
-        solutions.chain([&mut self.certificate])
+        solutions.chain([&mut self.certificate, &mut self.met_too])
     }
 
-    /// Adds the certificate, and enters the names.
-    pub(crate) fn new(mut elimination: Elimination, system: &mut System) -> Self {
+    /// Adds the certificate, and enters the names. Of the constraints of `d` those in `met` are checked after the solution.
+    pub(crate) fn new(
+        mut elimination: Elimination,
+        d: &Dynamics,
+        met: &[usize],
+        system: &mut System,
+    ) -> Self {
         let g = &mut system.graph;
         let (certificate, chain) = elimination.certificate(g);
+        let met_too = met
+            .iter()
+            .fold(certificate, |safe, row| elimination.meets(*row, d, safe, g));
         let mut stages = Vec::new();
         let mut links = vec![Vec::new(); elimination.divisors.len()];
         for (of, link) in &chain {
@@ -130,6 +148,8 @@ impl Straight {
         Straight {
             elimination,
             certificate,
+            met_too,
+            met: met.to_vec(),
             stages,
             exits,
             checks,
@@ -138,6 +158,24 @@ impl Straight {
 }
 
 impl Elimination {
+    /// `safe` where q̈ meets constraint `row`, else 0.
+    fn meets(&self, row: usize, d: &Dynamics, safe: Id, g: &mut Graph) -> Id {
+        let mut terms = vec![d.rhs[row]];
+        for ((_, i), a) in d.jacobian.range((row, 0)..(row + 1, 0)) {
+            let term = g.mul(*a, self.acceleration[*i]);
+            terms.push(g.hold_whole(term));
+        }
+        let left: Vec<(f64, Id)> = terms.iter().map(|id| (1.0, *id)).collect();
+        let left = g.sum(&[&[(-1.0, terms[0])], &left[1..]].concat());
+        let sizes: Vec<(f64, Id)> = terms
+            .iter()
+            .map(|id| (MET, g.call1(Func::Abs, *id)))
+            .collect();
+        let (left, size) = (g.call1(Func::Abs, left), g.sum(&sizes));
+        let zero = g.zero();
+        g.select(left, size, safe, zero)
+    }
+
     /// 1 where every pivot is safe, 0 where one is not, as a chain of selections, and its links with the
     /// pivots they check: what depends on parameters only first, then
     /// in the order of the elimination, so that no pivot has to be kept for it.

@@ -88,8 +88,7 @@ pub(super) struct Single {
     /// Where the division of the one before was put off; else the pivot is `numerator`.
     pub(super) denominator: Option<Id>,
     /// What is divided by the pivot is computed once. For a coordinate that shares no inertia, products are left open, so that terms of
-    /// different
-    /// coordinates can be collected.
+    /// different coordinates can be collected.
     pub(super) shared: bool,
     /// The row's other entries.
     pub(super) row: Vec<(usize, Id)>,
@@ -189,9 +188,8 @@ impl Matrix {
     }
 
     /// The pivot of `k` and the diagonal that it started from, both times a positive number, without the sign that constraints have in K;
-    /// and the
-    /// number, if it is not 1. In a chain of constraints (each coupled to the next alone) divisions would wait for each other; written as
-    /// N' = d N − p² D over D' = N the pivots need none, and all reciprocals are independent.
+    /// and the number, if it is not 1. In a chain of constraints (each coupled to the next alone) divisions would wait for each other;
+    /// written as N' = d N − p² D over D' = N the pivots need none, and all reciprocals are independent.
     fn pivot(&self, k: usize, g: &mut Graph) -> Option<(Id, Id, Option<Id>)> {
         let (reference, diagonal) = self.entries.get(&(k, k))?.values(g);
         let sign = self.sign(k);
@@ -213,8 +211,7 @@ impl Matrix {
     }
 
     /// Whether constraint `k` puts off its division to its only neighbour `a`: not to a coordinate, nor where another one is eliminated
-    /// into `a`, nor
-    /// after [`CHAIN`] in a row.
+    /// into `a`, nor after [`CHAIN`] in a row.
     fn defers(&self, k: usize, a: usize) -> bool {
         let another = || self.rows[a].iter().any(|b| self.turn[*b] < self.turn[a]);
         let room = self.deferred[a].is_none() && self.depth[k] < CHAIN;

@@ -53,11 +53,9 @@ fn pairs(pattern: &mut Pattern, d: &Dynamics, g: &Graph) -> Vec<Pivoting> {
     pivots
 }
 
-/// The constraint of fewest neighbours that `coordinate` can be eliminated with: its coefficient there is a number and, if it has inertia,
-/// it is
-/// alone in it. A substitution that is not trivial gives its neighbours new entries, so that later coefficients are no longer those of A:
-/// only
-/// untouched rows and columns are taken.
+/// The constraint of fewest neighbours that `coordinate` can be eliminated with: its coefficient there is a number and, if it has
+/// inertia, it is alone in it. A substitution that is not trivial gives its neighbours new entries, so that later coefficients are no
+/// longer those of A: only untouched rows and columns are taken.
 fn partner(coordinate: usize, pattern: &Pattern, d: &Dynamics, g: &Graph) -> Option<Pair> {
     let massive = pattern.has_inertia(coordinate);
     let fits = |c: &usize| {
@@ -118,8 +116,7 @@ fn singles(pattern: &mut Pattern, names: &[String]) -> Result<Vec<Pivoting>, Str
 type Key = (bool, usize, bool, usize, usize);
 
 /// Coordinates that share no inertia come first: the constraints on them must wait for them in any case. Then what has the fewest
-/// neighbours; among
-/// equals what was coupled by an elimination, so that a chain is taken link by link; then what waits least.
+/// neighbours; among equals what was coupled by an elimination, so that a chain is taken link by link; then what waits least.
 fn key(k: usize, pattern: &Pattern) -> Key {
     let (shares, coupled) = (!pattern.shares_no_inertia(k), pattern.was_coupled(k));
     (shares, pattern.neighbours(k), !coupled, pattern.depth(k), k)

@@ -89,8 +89,7 @@ impl Pattern {
     }
 
     /// Whether the pivot of `k` is definite where A has full rank: with all its coordinates gone, what is left of a constraint is, though
-    /// it
-    /// may be coupled to others that share inertia.
+    /// it may be coupled to others that share inertia.
     pub(super) fn is_definite(&self, k: usize) -> bool {
         k < self.n || self.own[k].is_empty()
     }

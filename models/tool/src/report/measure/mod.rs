@@ -51,9 +51,8 @@ struct Timing {
     seconds: Vec<f64>,
 }
 
-/// Measures the motion called `name` from where it is `ready` up to the end of `reference`, or to `end`; a quick look runs few settings and
-/// times each
-/// of them once. `done` hears the part that is done. What was measured before an interrupt is kept.
+/// Measures the motion called `name` from where it is `ready` up to the end of `reference`, or to `end`; a quick look runs few settings
+/// and times each of them once. `done` hears the part that is done. What was measured before an interrupt is kept.
 ///
 /// # Errors
 /// If the start has no solution or the motion no reference.

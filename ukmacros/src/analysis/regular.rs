@@ -1,0 +1,483 @@
+//! Blocks of M that are singular, everywhere or somewhere, made regular by rows of A.
+//!
+//! Let a q̈ = b be a row of A q̈ = b. Then (M + μ aᵀa) q̈ = Q + μ aᵀb + Aᵀλ has the same q̈ and the same λ as M q̈ = Q + Aᵀλ, whatever μ: where the row holds,
+//! what is added to both sides is the same. And M + μ aᵀa is definite for μ > 0 if M is on all directions that the row leaves free. The kinetic energy of
+//! a body turned by a quaternion knows nothing of the quaternion's length, so M is singular along it; its constraint |e|² = 1 fixes nothing else.
+//! For corrections the same holds, with b = −residual: Δ is the one of least M-norm of the original M.
+//!
+//! μ = Σ M_ii/Σ a_i² over the block's coordinates in the row: what is added is as large as M, in its units, at any scale of masses and lengths.
+//!
+//! Where M is singular is found numerically: at random states, and at states where some of the coordinates that M contains are zero (the identity among
+//! orientations, half turns; a mechanism's own singular states are likely there). What stays in doubt afterwards is checked at run time:
+//! see [`Regular::met`].
+
+use super::dynamics::Dynamics;
+use super::probe::{Probe, Random};
+use crate::expr::{Func, Graph, Id, Node, Symbol, System, eval};
+use std::collections::BTreeSet;
+
+/// A pivot of a block of M below this share of what its diagonal is at other states is singular: rounding of the entries makes 1e-15, masses of
+/// one block that differ by nine orders are not touched.
+const SINGULAR: f64 = 1e-10;
+/// A diagonal that varies by more than this over the states looked at may vanish at states that were not.
+const VARIES: f64 = 16.0;
+/// States with every choice of zeros are looked at up to so many coordinates; else those with one zero, and all zeros but one.
+const CHOICES: usize = 5;
+/// Random states looked at.
+const GENERIC: usize = 24;
+/// Larger blocks are only looked at where they are random.
+const LARGE: usize = 48;
+
+/// Equations for the elimination.
+pub(crate) struct Regular {
+    /// With M and Q of the blocks that are made regular.
+    pub(crate) dynamics: Dynamics,
+    /// (row, coordinate, μ a_i): what was added, per unit of b, to Q.
+    pub(crate) weights: Vec<(usize, usize, Id)>,
+    /// The constraints that make M regular.
+    pub(crate) rows: Vec<usize>,
+    /// Constraints whose row of A q̈ = b is checked, as they act on a coordinate whose inertia may vanish. There λ is a difference of numbers as large as
+    /// 1/M_ii, and the pivot cannot show it, being positive and exact. The residual does: computed q̈ and λ satisfy M q̈ = Q + Aᵀλ up to a few ε of
+    /// these terms (each q̈_i is found from its row), so that with A q̈ = b to rounding they are those of equations as near, and K = [M Aᵀ; A 0] is what
+    /// has to be well conditioned, not M.
+    pub(crate) met: Vec<usize>,
+    /// Coordinates of a block that is singular at any state, and that no constraint makes regular.
+    pub(crate) singular: Vec<usize>,
+}
+
+/// Makes M regular as far as constraints do.
+pub(crate) fn regular(system: &mut System, d: &Dynamics) -> Regular {
+    let mut found = Regular {
+        dynamics: d.clone(),
+        weights: Vec::new(),
+        rows: Vec::new(),
+        met: Vec::new(),
+        singular: Vec::new(),
+    };
+    let g = &mut system.graph;
+    for block in blocks(d, g) {
+        let states = States::of(&block, d, &system.defaults, g);
+        let (rows, singular) = states.restoring(&block, d);
+        if singular {
+            found.singular.extend(&block.coordinates);
+        }
+        let regular = !rows.is_empty();
+        for row in rows {
+            found.add(row, &block, d, g);
+        }
+        let own = block.coordinates.iter();
+        let own: Vec<Id> = own.map(|i| found.dynamics.mass[&(*i, *i)]).collect();
+        let vanish = states.may_vanish(&own, regular, g);
+        if vanish {
+            let touching = (0..d.rhs.len()).filter(|row| block.meets(*row, d));
+            found.met.extend(touching);
+        }
+    }
+    found.rows.sort_unstable();
+    found.met.sort_unstable();
+    found.met.dedup();
+    found
+}
+
+impl Regular {
+    /// Why there is no straight line, if M is singular whatever the state.
+    pub(crate) fn refusal(&self, names: &[String]) -> Option<String> {
+        let list: Vec<String> = self
+            .singular
+            .iter()
+            .map(|i| format!("`{}`", names[*i]))
+            .collect();
+        let some = !list.is_empty();
+        some.then(|| {
+            format!(
+                "M is singular at any state, in the rows of {}, and no constraint makes it regular",
+                list.join(", ")
+            )
+        })
+    }
+
+    /// Adds μ aᵀa to M and μ aᵀb to Q.
+    fn add(&mut self, row: usize, block: &Block, d: &Dynamics, g: &mut Graph) {
+        let entries: Vec<(usize, Id)> = entries(row, d).collect();
+        let own = || {
+            entries
+                .iter()
+                .filter(|(i, _)| block.coordinates.contains(i))
+        };
+        let trace: Vec<(f64, Id)> = own().map(|(i, _)| (1.0, d.mass[&(*i, *i)])).collect();
+        let trace = g.factored_sum(&trace);
+        let length: Vec<(f64, Id)> = own().map(|(_, a)| (1.0, g.square(*a))).collect();
+        let length = g.factored_sum(&length);
+        let weight = g.div(trace, length);
+        let weight = g.hold_whole(weight);
+        for (k, (i, a)) in entries.iter().enumerate() {
+            let weighed = g.mul(weight, *a);
+            let weighed = g.hold_whole(weighed);
+            for (j, b) in &entries[..=k] {
+                let term = g.mul(weighed, *b);
+                let at = ((*i).max(*j), (*i).min(*j));
+                let before = self
+                    .dynamics
+                    .mass
+                    .get(&at)
+                    .copied()
+                    .unwrap_or_else(|| g.zero());
+                let sum = g.factored_sum(&[(1.0, before), (1.0, term)]);
+                self.dynamics.mass.insert(at, sum);
+            }
+            let term = g.mul(weighed, d.rhs[row]);
+            self.dynamics.force[*i] = g.add(self.dynamics.force[*i], term);
+            self.weights.push((row, *i, weighed));
+        }
+        self.rows.push(row);
+    }
+}
+
+/// Coordinates that share inertia.
+struct Block {
+    /// In ascending order.
+    coordinates: Vec<usize>,
+    /// Whether their part of M is the same at all states.
+    constant: bool,
+}
+
+impl Block {
+    /// Whether `row` contains one of the coordinates.
+    fn meets(&self, row: usize, d: &Dynamics) -> bool {
+        entries(row, d).any(|(i, _)| self.coordinates.contains(&i))
+    }
+}
+
+/// The coefficients of `row`.
+fn entries(row: usize, d: &Dynamics) -> impl Iterator<Item = (usize, Id)> {
+    let entries = d.jacobian.range((row, 0)..(row + 1, 0));
+    entries.map(|((_, i), a)| (*i, *a))
+}
+
+/// The blocks of M that may be singular without being zero, and that constraints act on.
+fn blocks(d: &Dynamics, g: &Graph) -> Vec<Block> {
+    let n = d.force.len();
+    let inert: Vec<bool> = (0..n).map(|i| d.mass.contains_key(&(i, i))).collect();
+    let mut label: Vec<usize> = (0..n).collect();
+    fn root(label: &mut [usize], mut i: usize) -> usize {
+        while label[i] != i {
+            label[i] = label[label[i]];
+            i = label[i];
+        }
+        i
+    }
+    for (i, j) in d.mass.keys() {
+        let (a, b) = (root(&mut label, *i), root(&mut label, *j));
+        label[a.max(b)] = a.min(b);
+    }
+    let mut members = vec![Vec::new(); n];
+    for i in 0..n {
+        let at = root(&mut label, i);
+        members[at].push(i);
+    }
+    let blocks = members.into_iter().filter(|b| !b.is_empty());
+    let blocks = blocks.map(|coordinates| {
+        let mut own = d.mass.range((coordinates[0], 0)..);
+        let constant = own.all(|((i, _), m)| !coordinates.contains(i) || g.uses(*m).constant());
+        Block {
+            coordinates,
+            constant,
+        }
+    });
+    let doubtful = |b: &Block| {
+        let inert = b.coordinates.iter().all(|i| inert[*i]);
+        let met = || (0..d.rhs.len()).any(|row| b.meets(row, d));
+        inert && (b.coordinates.len() > 1 || !b.constant) && met()
+    };
+    blocks.filter(doubtful).collect()
+}
+
+/// States at which a block is looked at, with what M and A are there.
+struct States<'a> {
+    /// The random ones first.
+    probes: Vec<Probe<'a>>,
+    generic: usize,
+    /// Of each state the block, column by column, and the rows that meet it, both over the square roots of the largest diagonals.
+    scaled: Vec<Vec<f64>>,
+    rows: Vec<(usize, Vec<Vec<f64>>)>,
+}
+
+impl<'a> States<'a> {
+    fn of(block: &Block, d: &Dynamics, defaults: &'a [f64], g: &Graph) -> Self {
+        let n = d.force.len();
+        let k = block.coordinates.len();
+        let mut ids = Vec::with_capacity(k * k);
+        for i in &block.coordinates {
+            let entry = |j: &usize| d.mass.get(&((*i).max(*j), (*i).min(*j)));
+            ids.extend(block.coordinates.iter().map(|j| entry(j).copied()));
+        }
+        let present: Vec<Id> = ids.iter().flatten().copied().collect();
+        let mut random = Random::new(5);
+        let mut probes: Vec<Probe<'_>> = (0..if block.constant { 1 } else { GENERIC })
+            .map(|_| Probe::signed(defaults, n, &mut random))
+            .collect();
+        let generic = probes.len();
+        let support: BTreeSet<usize> = present
+            .iter()
+            .flat_map(|id| g.support(*id))
+            .filter_map(|s| match s {
+                Symbol::Coord(i) => Some(*i),
+                _ => None,
+            })
+            .collect();
+        for zeros in choices(&support.into_iter().collect::<Vec<_>>()) {
+            if k <= LARGE {
+                let mut probe = Probe::signed(defaults, n, &mut random);
+                zeros.iter().for_each(|i| probe.q[*i] = 0.0);
+                probes.push(probe);
+            }
+        }
+        // Rows that may be added: with inertia at each of their coordinates.
+        let inert = |i: usize| d.mass.contains_key(&(i, i));
+        let usable = |row: &usize| block.meets(*row, d) && entries(*row, d).all(|(i, _)| inert(i));
+        let candidates: Vec<usize> = (0..d.rhs.len()).filter(usable).collect();
+        let mut all = present;
+        for row in &candidates {
+            let own = entries(*row, d).filter(|(i, _)| block.coordinates.contains(i));
+            all.extend(own.map(|(_, a)| a));
+        }
+        let values: Vec<Vec<f64>> = probes.iter().map(|p| eval(g, &all, &p.point())).collect();
+        let finite: Vec<bool> = values
+            .iter()
+            .map(|v| v.iter().all(|x| x.is_finite()))
+            .collect();
+        let generic = finite[..generic].iter().filter(|f| **f).count();
+        let keep = |at: usize| finite[at];
+        let probes = keep_only(probes, keep);
+        let values = keep_only(values, keep);
+        let mut states = States {
+            probes,
+            generic,
+            scaled: Vec::new(),
+            rows: candidates.iter().map(|row| (*row, Vec::new())).collect(),
+        };
+        let mut matrices = Vec::new();
+        for values in &values {
+            let mut values = values.iter().copied();
+            let matrix: Vec<f64> = ids
+                .iter()
+                .map(|id| id.map_or(0.0, |_| values.next().unwrap_or(f64::NAN)))
+                .collect();
+            matrices.push(matrix);
+            for (row, at) in &mut states.rows {
+                let mut dense = vec![0.0; k];
+                for (i, _) in entries(*row, d) {
+                    if let Ok(place) = block.coordinates.binary_search(&i) {
+                        dense[place] = values.next().unwrap_or(f64::NAN);
+                    }
+                }
+                at.push(dense);
+            }
+        }
+        let largest = |i: usize| {
+            let own = matrices.iter().map(|m| m[i * k + i]);
+            own.fold(0.0_f64, f64::max).sqrt()
+        };
+        let scale: Vec<f64> = (0..k)
+            .map(largest)
+            .map(|s| if s > 0.0 { s } else { 1.0 })
+            .collect();
+        for mut matrix in matrices {
+            for (at, x) in matrix.iter_mut().enumerate() {
+                *x /= scale[at / k] * scale[at % k];
+            }
+            states.scaled.push(matrix);
+        }
+        for row in states.rows.iter_mut().flat_map(|(_, at)| at) {
+            row.iter_mut().zip(&scale).for_each(|(a, s)| *a /= s);
+            let length = row.iter().map(|a| a * a).sum::<f64>().sqrt();
+            if length > 0.0 {
+                row.iter_mut().for_each(|a| *a /= length);
+            }
+        }
+        states
+    }
+
+    /// Rank of the block at a state, with `rows` added.
+    fn rank(&self, state: usize, rows: &[usize]) -> usize {
+        let mut matrix = self.scaled[state].clone();
+        let k = matrix.len().isqrt();
+        for row in rows {
+            let a = &self.rows[*row].1[state];
+            for (at, x) in matrix.iter_mut().enumerate() {
+                *x += a[at / k] * a[at % k];
+            }
+        }
+        rank(matrix, k)
+    }
+
+    /// The constraints that make the block regular where it is not; and whether it is singular at each random state with them.
+    fn restoring(&self, block: &Block, d: &Dynamics) -> (Vec<usize>, bool) {
+        let k = block.coordinates.len();
+        let outside = |row: usize| {
+            let others = entries(row, d).filter(|(i, _)| !block.coordinates.contains(i));
+            others.count()
+        };
+        let mut chosen: Vec<usize> = Vec::new();
+        let mut deficient: Vec<(usize, usize)> = (0..self.scaled.len())
+            .map(|state| (state, self.rank(state, &[])))
+            .filter(|(_, rank)| *rank < k)
+            .collect();
+        let mut candidates: Vec<usize> = (0..self.rows.len()).collect();
+        candidates.sort_by_key(|at| outside(self.rows[*at].0));
+        for at in candidates {
+            let generic = deficient.iter().any(|(state, _)| *state < self.generic);
+            // A row of other coordinates too would couple them: only for a block that is singular everywhere.
+            if deficient.is_empty() || (outside(self.rows[at].0) > 0 && !generic) {
+                break;
+            }
+            chosen.push(at);
+            let after: Vec<usize> = deficient
+                .iter()
+                .map(|(state, _)| self.rank(*state, &chosen))
+                .collect();
+            if deficient
+                .iter()
+                .zip(&after)
+                .all(|((_, before), after)| after <= before)
+            {
+                chosen.pop();
+                continue;
+            }
+            deficient
+                .iter_mut()
+                .zip(after)
+                .for_each(|(d, after)| d.1 = after);
+            deficient.retain(|(_, rank)| *rank < k);
+        }
+        let left = deficient.iter().filter(|(s, _)| *s < self.generic).count();
+        let excluded = (0..d.rhs.len())
+            .any(|row| block.meets(row, d) && !self.rows.iter().any(|(known, _)| *known == row));
+        let singular = self.generic > 0 && left == self.generic && !excluded;
+        (
+            chosen.into_iter().map(|at| self.rows[at].0).collect(),
+            singular,
+        )
+    }
+
+    /// Whether one of these diagonal entries of M may come near zero. Where rows made the block `regular` that is meant relative to all of it: it is small as a
+    /// whole only where the rows themselves vanish.
+    fn may_vanish(&self, own: &[Id], regular: bool, g: &Graph) -> bool {
+        if own.iter().all(|m| g.uses(*m).constant() || bounded(*m, g)) {
+            return false;
+        }
+        let mut values: Vec<Vec<f64>> = self
+            .probes
+            .iter()
+            .map(|p| eval(g, own, &p.point()))
+            .collect();
+        let scale_by = |values: &mut Vec<Vec<f64>>| {
+            for at in 0..own.len() {
+                let largest = values.iter().fold(0.0_f64, |s, v| s.max(v[at].abs()));
+                values.iter_mut().for_each(|v| v[at] /= largest);
+            }
+        };
+        scale_by(&mut values);
+        if regular {
+            for at in &mut values {
+                let whole: f64 = at.iter().sum();
+                at.iter_mut().for_each(|x| *x /= whole);
+            }
+            scale_by(&mut values);
+        }
+        let values = &values;
+        let open = own.iter().enumerate();
+        let open = open.filter(|(_, m)| !(g.uses(**m).constant() || bounded(**m, g)));
+        let least = open
+            .flat_map(|(at, _)| values.iter().map(move |v| v[at]))
+            .fold(f64::INFINITY, f64::min);
+        least.is_nan() || least * VARIES < 1.0
+    }
+}
+
+fn keep_only<T>(list: Vec<T>, keep: impl Fn(usize) -> bool) -> Vec<T> {
+    let list = list.into_iter().enumerate().filter(|(at, _)| keep(*at));
+    list.map(|(_, x)| x).collect()
+}
+
+/// Which of `coordinates` are zero.
+fn choices(coordinates: &[usize]) -> Vec<Vec<usize>> {
+    let k = coordinates.len();
+    let pick = |zero: &dyn Fn(usize) -> bool| -> Vec<usize> {
+        let zeros = (0..k).filter(|at| zero(*at));
+        zeros.map(|at| coordinates[at]).collect()
+    };
+    if k <= CHOICES {
+        let sets = 1..1_usize << k;
+        return sets.map(|set| pick(&|at| set >> at & 1 == 1)).collect();
+    }
+    let one = (0..k).map(|only| pick(&|at| at == only));
+    let others = (0..k).map(|only| pick(&|at| at != only));
+    one.chain(others).collect()
+}
+
+/// Rank of a symmetric semi-definite k × k matrix, by a Cholesky factorisation with interchanges.
+fn rank(mut a: Vec<f64>, k: usize) -> usize {
+    let mut left: Vec<usize> = (0..k).collect();
+    while let Some(at) = (0..left.len()).max_by(|x, y| {
+        let own = |at: &usize| a[left[*at] * k + left[*at]];
+        own(x).total_cmp(&own(y))
+    }) {
+        let p = left[at];
+        let pivot = a[p * k + p];
+        if pivot < SINGULAR {
+            break;
+        }
+        left.swap_remove(at);
+        for i in &left {
+            let factor = a[i * k + p] / pivot;
+            for j in &left {
+                a[i * k + j] -= factor * a[p * k + j];
+            }
+        }
+    }
+    k - left.len()
+}
+
+/// Whether `id` is at least a positive number at any state, parameters being positive.
+fn bounded(id: Id, g: &Graph) -> bool {
+    if g.uses(id).constant() {
+        return !g.is_zero(id) && never_negative(id, g);
+    }
+    match g.node(id) {
+        Node::Sum(c, terms) => {
+            let positive = |(k, term): &(_, Id)| -> bool {
+                let k: &crate::expr::Num = k;
+                k.get() > 0.0 && bounded(*term, g)
+            };
+            (c.get() > 0.0 || terms.iter().any(positive)) && never_negative(id, g)
+        }
+        Node::Scale(c, inner) => c.get() > 0.0 && bounded(*inner, g),
+        Node::Held(inner) => bounded(*inner, g),
+        Node::Product(factors) => factors.iter().all(|(f, e)| *e > 0 && bounded(*f, g)),
+        Node::Call(Func::Cosh, _) => true,
+        _ => false,
+    }
+}
+
+/// Whether `id` is at no state negative, parameters being positive.
+fn never_negative(id: Id, g: &Graph) -> bool {
+    match g.node(id) {
+        Node::Const(c) => c.get() >= 0.0,
+        Node::Symbol(symbol) => matches!(symbol, Symbol::Param(_)),
+        Node::Sum(c, terms) => {
+            let rest = |(k, t): &(crate::expr::Num, Id)| k.get() >= 0.0 && never_negative(*t, g);
+            c.get() >= 0.0 && terms.iter().all(rest)
+        }
+        Node::Scale(c, inner) => c.get() >= 0.0 && never_negative(*inner, g),
+        Node::Held(inner) => never_negative(*inner, g),
+        Node::Product(factors) => factors
+            .iter()
+            .all(|(f, e)| e % 2 == 0 || never_negative(*f, g)),
+        Node::Call(func, _) => matches!(
+            func,
+            Func::Abs | Func::Sqrt | Func::Exp | Func::Cosh | Func::Hypot
+        ),
+        Node::Select { .. } => false,
+    }
+}
