@@ -192,7 +192,7 @@ fn case(seed: u64, found: &mut [Found; 7]) {
     let mut random = Random::new(seed);
     let kind = (seed % 5) as usize;
     let away = 10.0_f64.powf(-8.0 + 8.0 * random.signed());
-    let away = if seed % 37 == 0 { 0.0 } else { away };
+    let away = if seed.is_multiple_of(37) { 0.0 } else { away };
     let e = orientation(kind, away, &mut random);
     let v = rate(e, &mut random);
     // Inertias and masses of one mechanism within a factor of ten, in any unit.
