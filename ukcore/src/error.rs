@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::numbers::full;
+
 /// What can go wrong in solving, assembling and integrating a mechanism.
 #[derive(Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -151,7 +153,7 @@ pub enum Error {
         terms: Vec<String>,
     },
     /// Another error that arose during integration, with the time and state where it did.
-    #[error("at t = {}: {source}", plain(*t))]
+    #[error("at t = {}: {source}", full(*t))]
     At {
         /// Time.
         t: f64,
@@ -261,15 +263,6 @@ fn too_small(step: f64) -> String {
     format!(
         "the step size fell to {step:.1e}, below rounding; the motion may have a singularity here, or the tolerance is too tight"
     )
-}
-
-/// A number as it is read: with an exponent where it is tiny or huge.
-pub(crate) fn plain(x: f64) -> String {
-    if x == 0.0 || (1e-4..1e15).contains(&x.abs()) {
-        format!("{x}")
-    } else {
-        format!("{x:e}")
-    }
 }
 
 /// As `Display`: `main` prints the error it returns by `Debug`.

@@ -5,6 +5,7 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::failure::{Failure, INTERRUPTED};
+use crate::output::discard_unfinished;
 
 /// Whether the user has asked for an end.
 #[derive(Debug, Clone, Copy)]
@@ -21,6 +22,7 @@ impl Interrupt {
     pub fn catch() -> Result<Self, Failure> {
         let handle = || {
             if ASKED.swap(true, Ordering::Relaxed) {
+                discard_unfinished();
                 process::exit(i32::from(INTERRUPTED));
             }
         };

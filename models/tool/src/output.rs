@@ -3,6 +3,7 @@
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Stdout, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use serde::Serialize;
 use tempfile::NamedTempFile;
@@ -65,7 +66,10 @@ impl WholeFile {
             Kind::Stdout(mut out) => out.flush(),
             Kind::Direct(mut file) => file.flush(),
             Kind::Temporary(file, target) => match file.into_inner() {
-                Ok(file) => file.persist(target).map(drop).map_err(|e| e.error),
+                Ok(file) => {
+                    unfinished().retain(|path| path != file.path());
+                    file.persist(target).map(drop).map_err(|e| e.error)
+                }
                 Err(error) => Err(error.into_error()),
             },
         };
@@ -99,6 +103,25 @@ impl Write for WholeFile {
     }
 }
 
+/// The temporary files that are being written, for a program that ends without unwinding.
+static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
+    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Removes all temporary files; for a program that ends at once.
+pub(crate) fn discard_unfinished() {
+    discard(|_| true);
+}
+
+fn discard(which: impl Fn(&Path) -> bool) {
+    for path in unfinished().extract_if(.., |path| which(path)) {
+        // One that cannot be removed stays; there is nobody left to act on it.
+        let _ = fs::remove_file(path);
+    }
+}
+
 /// A hidden file in the directory of `target`, so that renaming stays within one file system.
 fn temporary(target: &Path) -> io::Result<NamedTempFile> {
     let directory = target.parent().filter(|d| !d.as_os_str().is_empty());
@@ -109,7 +132,9 @@ fn temporary(target: &Path) -> io::Result<NamedTempFile> {
     // As any other file that is created: for all whom the user's mask admits.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(directory.unwrap_or(Path::new(".")))
+    let file = builder.tempfile_in(directory.unwrap_or(Path::new(".")))?;
+    unfinished().push(file.path().to_path_buf());
+    Ok(file)
 }
 
 /// Writes the [whole file](WholeFile) `path` through `fill`.
@@ -238,6 +263,18 @@ mod tests {
         assert!(failure.is_err());
         assert_eq!(fs::read(&path).expect("file"), b"old");
         assert_eq!(fs::read_dir(scratch.path()).expect("directory").count(), 1);
+    }
+
+    #[test]
+    fn a_program_that_ends_at_once_leaves_no_temporary_file() {
+        let scratch = tempfile::tempdir().expect("directory");
+        let file = WholeFile::create(&scratch.path().join("a.csv")).expect("file");
+        let number = || fs::read_dir(scratch.path()).expect("directory").count();
+        assert_eq!(number(), 1);
+        // (Those of other tests stay: they are in other directories.)
+        discard(|path| path.starts_with(scratch.path()));
+        assert_eq!(number(), 0);
+        drop(file);
     }
 
     #[cfg(unix)]
