@@ -50,6 +50,30 @@ ukcore::multibody! {
 }
 
 ukcore::multibody! {
+    /// A puck on a rough slope that falls towards +x, with a rudder that turns its way.
+    Puck {
+        params { mu = 0.5, g = 9.81, slope = 0.0, turn = 0.0 }
+        coords { x, y }
+        mass { x: 1.0, y: 1.0 }
+        let grip = mu * g * cos(slope) / hypot(dot(x), dot(y));
+        force { x: g * sin(slope) - grip * dot(x) - turn * dot(y), y: -grip * dot(y) + turn * dot(x) }
+    }
+}
+
+ukcore::multibody! {
+    /// A stone on a spring that an invisible hand rubs in space; the constraint keeps it in a plane.
+    Stone {
+        params { mu = 0.3, k = 5.0 }
+        coords { x, y, z }
+        mass { x: 1.0, y: 2.0, z: 3.0 }
+        potential { 0.5 * k * (sq(x) + sq(y) + sq(z)) }
+        let speed = sqrt(sq(dot(x)) + sq(dot(y)) + sq(dot(z)));
+        holonomic { plane: x + y + z = 1.0 }
+        nonideal { x: -mu * dot(x) / speed, y: -mu * dot(y) / speed, z: -mu * dot(z) / speed }
+    }
+}
+
+ukcore::multibody! {
     /// A ball that bounces on Hertz's spring, which has no force to be continued above the ground.
     Ball {
         params { m = 1.0, g = 9.81, k = 1e4 }
@@ -422,4 +446,117 @@ fn rest_under_friction_is_found_at_once() {
         .until(10.0)
         .expect("rest");
     assert_eq!(run.last().expect("a sample").q[0], 0.0);
+}
+
+const STEPPING: [Method; 3] = [Method::Dop853, Method::Dopri5, Method::Radau5];
+
+#[test]
+fn rest_under_friction_in_the_plane_is_found_and_named() {
+    let (v, g) = ([2.0, 1.0], 9.81);
+    let (rest, speed) = (f64::hypot(v[0], v[1]) / (0.5 * g), f64::hypot(v[0], v[1]));
+    for (method, tolerance) in STEPPING
+        .into_iter()
+        .flat_map(|m| [1e-4, 1e-7, 1e-10].map(|tol| (m, tol)))
+    {
+        let start = State {
+            t: 0.0,
+            q: vec![0.0; 2],
+            v: v.to_vec(),
+        };
+        let run = simulation(Puck::default(), start)
+            .method(method)
+            .tolerance(tolerance);
+        let failure = run.until(5.0).expect_err("it does not slide so long");
+        let Error::At { t, q, source, .. } = &failure.error else {
+            panic!("{}", failure.error)
+        };
+        assert!(
+            matches!(&**source, Error::Chattering { terms, .. } if terms == &["force on `x`", "force on `y`"]),
+            "{method}, {tolerance:e}: {source}"
+        );
+        // Which of the steps about rest is the last one is a matter of luck.
+        let near = 100.0 * tolerance.sqrt();
+        assert_close("time", *t, rest, near);
+        let way = 0.5 * speed * rest;
+        assert_all_close("place", q, &[way * v[0] / speed, way * v[1] / speed], near);
+        assert!(
+            failure.trajectory.work().steps < 100,
+            "{method}: {:?}",
+            failure.trajectory.work()
+        );
+    }
+}
+
+#[test]
+fn a_stone_that_is_rubbed_in_its_plane_comes_to_rest() {
+    for (method, v) in STEPPING
+        .into_iter()
+        .flat_map(|m| [[0.3, -0.3, 0.0], [1e-9, 2.0, -2.0]].map(|v| (m, v)))
+    {
+        let guess = State {
+            t: 0.0,
+            q: vec![2.0, -0.5, -0.5],
+            v: v.to_vec(),
+        };
+        let start = assemble(Stone::default(), guess, &[]).expect("a plane");
+        let failure = simulation(Stone::default(), start)
+            .method(method)
+            .until(50.0)
+            .expect_err("rest");
+        let told = failure.error.to_string();
+        assert!(
+            told.contains("v/|v| in the non-ideal force on `x`"),
+            "{told}"
+        );
+        let (last, work) = (
+            failure.trajectory.last().expect("samples"),
+            failure.trajectory.work(),
+        );
+        assert!(
+            largest(last.v) < 1e-6 && work.steps < 3000,
+            "{method}: {last:?} {work:?}"
+        );
+    }
+}
+
+#[test]
+fn a_puck_that_goes_on_is_not_held_up() {
+    let slope: f64 = 0.8;
+    let (down, grip) = (9.81 * slope.sin(), 0.5 * 9.81 * slope.cos());
+    for (method, tolerance) in STEPPING
+        .into_iter()
+        .flat_map(|m| [1e-4, 1e-7, 1e-10].map(|tol| (m, tol)))
+    {
+        let run = |v: [f64; 2], turn, switching| {
+            let start = State {
+                t: 0.0,
+                q: vec![0.0; 2],
+                v: v.to_vec(),
+            };
+            let puck = Puck {
+                slope,
+                turn,
+                ..Puck::default()
+            };
+            let run = simulation(puck, start).method(method).tolerance(tolerance);
+            run.switching(switching)
+                .until(4.0)
+                .unwrap_or_else(|f| panic!("{method}, {tolerance:e}: {}", f.error))
+        };
+        // Straight up, through rest, and down again; nothing steps onto a length, so the error is that of a jump stepped across.
+        let up = 3.0 / (down + grip);
+        let expect = [0.5 * (down - grip) * (4.0 - up).powi(2) - 1.5 * up, 0.0];
+        let there = run([-3.0, 0.0], 0.0, Located);
+        assert_all_close("passage", there.last().expect("samples").q, &expect, 0.1);
+        // Past rest, and never near it: nothing is evaluated for the watch.
+        for (v, turn) in [([-3.0, 0.01], 0.0), ([2.0, 1.0], 3.0)] {
+            let (watched, alone) = (run(v, turn, Located), run(v, turn, Ignored));
+            let (a, b) = (
+                watched.last().expect("samples"),
+                alone.last().expect("samples"),
+            );
+            assert_all_close("the same motion", a.q, b.q, 0.0);
+            assert_eq!(watched.work(), alone.work());
+        }
+    }
 }

@@ -50,13 +50,15 @@ pub struct OutputSpec {
 }
 
 /// A switch: a function g(t, q, q̇) at whose zeros abs, sign, min or max change their branch. abs(u) and sign(u) turn at the zeros of u,
-/// min(a, b) and max(a, b) at those of a − b.
+/// min(a, b) and max(a, b) at those of a − b; the direction v/|v| of a vector at those of its length |v|.
 #[derive(Debug)]
 pub struct SwitchSpec {
     /// g, readable.
     pub function: &'static str,
     /// The terms of the equations of motion that contain it: "force on `x`", "non-ideal force on `x`", "mass on `x`", "constraint `rod`".
     pub terms: &'static [&'static str],
+    /// Whether g is the length of a vector that the equations divide by: it reaches zero without changing its sign.
+    pub length: bool,
 }
 
 /// A constraint.

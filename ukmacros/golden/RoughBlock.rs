@@ -45,7 +45,7 @@
 /// c[y] = cos(slope)*sin(slope)*mu*m*g*sign(speed_down)
 /// ```
 ///
-/// Switches, functions at whose zeros abs, sign, min or max change their branch, with the terms that contain them:
+/// Switches, functions at whose zeros abs, sign, min or max change their branch or the direction of a vector turns, with the terms that contain them:
 ///
 /// ```text
 /// speed_down: non-ideal force on `x`, non-ideal force on `y`
@@ -187,6 +187,7 @@ const _: () = {
                 ukcore::SwitchSpec {
                     function: "speed_down",
                     terms: &["non-ideal force on `x`", "non-ideal force on `y`"],
+                    length: false,
                 },
             ],
             structure: ukcore::Structure {

@@ -70,6 +70,7 @@ use proc_macro2::TokenStream;
 ///
 /// abs and sign have derivative sign and 0 (0 at 0); min and max follow the branch taken. Where the equations of motion depend on one of
 /// them, the function whose sign decides its branch is a switch: it stands in `T::SPEC.switches`, and simulations step onto its zeros.
+/// So does the length that they divide by in v/|v|, as `dot(x) / hypot(dot(x), dot(y))`: a run that comes to rest there is told of it.
 /// sqrt at 0, asin and acos at ±1, ln and negative powers at 0, atan2 and hypot at (0, 0) have no finite derivative: evaluating there is
 /// reported as an error at run time.
 ///

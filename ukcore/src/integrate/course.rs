@@ -47,7 +47,7 @@ pub(crate) struct Course {
     pub(crate) h: f64,
     pub(crate) size: StepSize,
     settings: Settings,
-    pace: Pace,
+    pub(super) pace: Pace,
     /// What went wrong since the last accepted step, nearest to it.
     trouble: Cause,
     /// Steps attempted and accepted.

@@ -129,6 +129,11 @@ pub(crate) struct Pace {
     steps: usize,
     time: f64,
     change: f64,
+    /// Steps in a row that changed the state as little as chattering does, and the size of the last.
+    slow: usize,
+    size: f64,
+    /// How many of those lead across the zero of each switching function.
+    crossed: Vec<usize>,
 }
 
 impl Pace {
@@ -144,6 +149,9 @@ impl Pace {
             steps: 0,
             time: 0.0,
             change: 0.0,
+            slow: 0,
+            size: 0.0,
+            crossed: vec![0; switches.len()],
         }
     }
 
@@ -162,7 +170,38 @@ impl Pace {
         self.time += time.abs();
         let pairs = y_old.iter().zip(y);
         let change = pairs.map(|(old, new)| (new - old, *old, *new));
-        self.change += error_norm(change, self.tolerance);
+        let change = error_norm(change, self.tolerance);
+        self.change += change;
+        // About a length, steps err in its direction and may be longer; smooth motion changes the state by ε^(-4/5) tolerances and more.
+        let little = CHATTER.max(self.tolerance.relative.powf(-0.5));
+        match change < little {
+            true => self.slow += 1,
+            false => {
+                self.slow = 0;
+                self.crossed.fill(0);
+            }
+        }
+        self.size = time.abs();
+    }
+
+    /// Whether the last steps may have been about the zero of a length, as far as the state tells.
+    pub(crate) fn is_slow(&self) -> bool {
+        self.slow >= FEW / 10 && self.switches.iter().any(|switch| switch.length)
+    }
+
+    /// From where the last step has got to, the next one goes across zeros of these switching functions.
+    ///
+    /// # Errors
+    /// [`Error::Chattering`] where steps go to and fro across the zero of a length.
+    pub(crate) fn across(&mut self, switches: &[usize]) -> Result<(), Error> {
+        for k in switches {
+            self.crossed[*k] += 1;
+            let often = FEW.max(self.slow) <= 4 * self.crossed[*k];
+            if self.switches[*k].length && often {
+                return Err(chattering(self.size, [&self.switches[*k]].into_iter()));
+            }
+        }
+        Ok(())
     }
 
     /// Whether the steps of a window chatter, and too slowly to get over `remaining` time with the steps left.

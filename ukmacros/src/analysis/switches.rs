@@ -3,6 +3,9 @@
 //! abs(u) and sign(u) turn where u changes its sign, min(a, b), max(a, b) and their derivatives where a − b does. Each such g that the
 //! equations of motion depend on is a switch. An integrator may hold it in one branch: the emitted code then goes on smoothly across g =
 //! 0. Functions that turn at the zeros of one g, of −g or of a multiple of it by a number have one switch.
+//!
+//! A length that the equations divide by, as in v/|v|, is a switch too: the direction of the vector turns where it vanishes. It does not
+//! change its sign there, so no branch of it is held; a run that stays about its zero is told of it.
 
 use super::dynamics::Dynamics;
 use crate::expr::{Func, Graph, Id, Node, Num, Symbol, System, is_power_of_two};
@@ -14,6 +17,8 @@ pub(crate) struct Switch {
     pub(crate) function: Id,
     /// The terms of the equations of motion that turn at its zeros, in words.
     pub(crate) terms: Vec<String>,
+    /// It is a length, which reaches zero and does not change its sign.
+    pub(crate) length: bool,
 }
 
 /// What decides the branch of a node: the sign of `sign` · g.
@@ -31,27 +36,22 @@ pub(crate) fn hold(
     names: &[String],
 ) -> (Dynamics, Vec<Switch>) {
     let g = &mut system.graph;
-    let mut switches: Vec<Switch> = Vec::new();
-    let mut numbers: HashMap<Id, usize> = HashMap::new();
+    let mut switches = Found::default();
+    let mut lengths = Found::default();
     for (term, root) in terms(dynamics, names) {
         for id in g.reachable(&[root]) {
-            let Some(Decision { function, .. }) = decision(id, g) else {
-                continue;
-            };
-            let k = *numbers.entry(function).or_insert(switches.len());
-            if k == switches.len() {
-                let terms = Vec::new();
-                switches.push(Switch { function, terms });
+            if let Some(Decision { function, .. }) = decision(id, g) {
+                switches.add(function, &term, false);
             }
-            let known = &mut switches[k].terms;
-            if !known.contains(&term) {
-                known.push(term.clone());
+            for function in lengths_below(id, g) {
+                lengths.add(function, &term, true);
             }
         }
     }
     let mut held = dynamics.clone();
-    if switches.is_empty() {
-        return (held, switches);
+    let Found { numbers, list } = switches;
+    if list.is_empty() {
+        return (held, lengths.list);
     }
     let roots: Vec<Id> = held.equations_mut().map(|id| *id).collect();
     let mut pass = Pass {
@@ -67,7 +67,53 @@ pub(crate) fn hold(
         *id = pass.known[id];
     }
     system.carry_names(pass.known);
+    let switches = list.into_iter().chain(lengths.list).collect();
     (held, switches)
+}
+
+/// Switches with their terms, and their positions by their functions.
+#[derive(Default)]
+struct Found {
+    list: Vec<Switch>,
+    numbers: HashMap<Id, usize>,
+}
+
+impl Found {
+    fn add(&mut self, function: Id, term: &str, length: bool) {
+        let k = *self.numbers.entry(function).or_insert(self.list.len());
+        if k == self.list.len() {
+            let terms = Vec::new();
+            self.list.push(Switch {
+                function,
+                terms,
+                length,
+            });
+        }
+        let known = &mut self.list[k].terms;
+        if !known.iter().any(|t| t == term) {
+            known.push(term.to_owned());
+        }
+    }
+}
+
+/// The lengths of vectors of velocities that the node `id` divides by.
+fn lengths_below(id: Id, g: &Graph) -> Vec<Id> {
+    let Node::Product(factors) = g.node(id) else {
+        return Vec::new();
+    };
+    let below = factors.iter().filter(|(_, power)| *power < 0);
+    let lengths = below.filter(|(factor, _)| {
+        g.uses(*factor).velocity
+            && match g.node(*factor) {
+                Node::Call(Func::Hypot, _) => true,
+                // With a constant in it, it does not vanish.
+                Node::Call(Func::Sqrt, args) => {
+                    !matches!(g.node(args[0]), Node::Sum(constant, _) if constant.get() > 0.0)
+                }
+                _ => false,
+            }
+    });
+    lengths.map(|(factor, _)| *factor).collect()
 }
 
 /// Everything that M, Q, c, A and b consist of, with the words for it.

@@ -88,7 +88,7 @@ fn equations(listing: &Listing, system: &System, model: &Model) -> String {
     let switches = listing.switches.iter();
     let switches = switches.map(|(g, terms)| format!("{g}: {}", terms.join(", ")));
     block(
-        "Switches, functions at whose zeros abs, sign, min or max change their branch, with the terms that contain them:",
+        "Switches, functions at whose zeros abs, sign, min or max change their branch or the direction of a vector turns, with the terms that contain them:",
         switches.collect(),
     );
     out

@@ -2,6 +2,7 @@
 
 use super::body::float;
 use super::listing::Listing;
+use crate::analysis::Switch;
 use crate::analysis::{Analysis, Costs, Operations, Pivoting, SAFE_SHARE, Solve, Structure};
 use crate::expr::{Kind, System};
 use crate::model::Model;
@@ -39,8 +40,9 @@ pub(super) fn spec(
         quote! { ukcore::OutputSpec { name: #name, doc: #docs } }
     });
     let prepared = listing.prepared.iter().map(|(n, t)| quote! { (#n, #t) });
-    let switches = listing.switches.iter().map(|(function, terms)| {
-        quote! { ukcore::SwitchSpec { function: #function, terms: &[#(#terms),*] } }
+    let switches = listing.switches.iter().zip(&analysis.switches);
+    let switches = switches.map(|((function, terms), Switch { length, .. })| {
+        quote! { ukcore::SwitchSpec { function: #function, terms: &[#(#terms),*], length: #length } }
     });
     let structure = structure(analysis);
     let equations = equations(listing);

@@ -109,6 +109,13 @@ impl Driver<'_> {
         let here = Sample::of(self.course.now.t, &self.y);
         let targets = self.equations.arrive(here, self.course.clock.sign);
         let targets = targets.map_err(|stuck| self.stuck(stuck))?;
+        if self.course.pace.is_slow() {
+            let here = Sample::of(self.course.now.t, &self.y);
+            let across = self
+                .equations
+                .carried_across(here, self.course.clock.sign * self.course.h);
+            self.course.pace.across(&across)?;
+        }
         if landed {
             self.begin_at(&targets)?;
         }

@@ -90,22 +90,30 @@ impl<'p> Equations<'p> {
 
     /// Those of `switches` whose functions leave the branches they are in.
     fn driven_out(&mut self, switches: &[usize], at: Sample<'_>, along: f64) -> Vec<usize> {
-        let out = |branch: Branch, rate: f64| along * branch.sign() * rate < 0.0;
+        let out = |_, branch: Branch, rate: f64| along * branch.sign() * rate < 0.0;
         self.moving(switches, at, out)
+    }
+
+    /// The switches whose functions are positive and get to zero within a step `h` from here, at the rate that they have here.
+    pub(in crate::integrate) fn carried_across(&mut self, at: Sample<'_>, h: f64) -> Vec<usize> {
+        let values = self.switches.values.clone();
+        let positive = values.iter().enumerate().filter(|(_, g)| **g > 0.0);
+        let positive: Vec<usize> = positive.map(|(k, _)| k).collect();
+        self.moving(&positive, at, |k, _, rate| values[k] + h * rate < 0.0)
     }
 
     /// Those of `switches` whose functions stay as they are.
     fn at_rest(&mut self, switches: &[usize], at: Sample<'_>) -> Vec<usize> {
-        self.moving(switches, at, |_, rate| rate == 0.0)
+        self.moving(switches, at, |_, _, rate| rate == 0.0)
     }
 
-    /// Those of `switches` for which `which` of their branch and the rate of their function holds at this state; none where q̈ has no
-    /// value.
+    /// Those of `switches` for which `which` of their position, their branch and the rate of their function holds at this state; none
+    /// where q̈ has no value.
     fn moving(
         &mut self,
         switches: &[usize],
         at: Sample<'_>,
-        which: impl Fn(Branch, f64) -> bool,
+        which: impl Fn(usize, Branch, f64) -> bool,
     ) -> Vec<usize> {
         let mut acceleration = vec![0.0; at.v.len()];
         if switches.is_empty() || self.acceleration(at, &mut acceleration).is_err() {
@@ -116,7 +124,7 @@ impl<'p> Equations<'p> {
         problem.switching_rate(at, &acceleration, &mut rates);
         let found = switches.iter().copied();
         found
-            .filter(|k| which(all.branches[*k], rates[*k]))
+            .filter(|k| which(*k, all.branches[*k], rates[*k]))
             .collect()
     }
 }
