@@ -84,7 +84,7 @@ impl Model for DoublePendulumAngles {
 }
 
 impl DoublePendulumAngles {
-    /// The same pendulum in Cartesian coordinates.
+    /// The double pendulum with these parameters in Cartesian coordinates.
     #[must_use]
     pub fn cartesian(&self) -> DoublePendulum {
         DoublePendulum {

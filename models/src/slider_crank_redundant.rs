@@ -86,7 +86,7 @@ impl Model for SliderCrankRedundant {
 }
 
 impl SliderCrankRedundant {
-    /// The same mechanism without the redundant constraints: it moves in the same way.
+    /// The slider-crank with these parameters and without the redundant constraints, which moves in the same way.
     #[must_use]
     pub fn without_redundancy(&self) -> SliderCrank {
         SliderCrank {

@@ -113,7 +113,7 @@ pub(crate) struct Crossing {
 pub(crate) trait States {
     /// Interpolated state at `t` into `y`; the ends of the step are exact.
     fn state(&mut self, t: f64, y: &mut [f64]);
-    /// The same, projected onto the constraints.
+    /// Interpolated state at `t`, projected onto the constraints, into `y`.
     fn consistent(&mut self, t: f64, y: &mut [f64]) -> Result<(), Error>;
 }
 

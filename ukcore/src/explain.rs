@@ -37,10 +37,10 @@ impl Explanation {
         }
     }
 
-    /// The same with what holds at `state`, which is called `name`.
+    /// Adds to the explanation what holds at `state`, which it calls `name`.
     ///
     /// # Errors
-    /// Those of [`Solver::solve`], beside the explanation without what only the solution tells.
+    /// What [`Solver::solve`] reports, beside the explanation without what only the solution tells.
     pub fn at(mut self, name: &str, state: &State) -> (Self, Result<(), Error>) {
         let mut solver = Solver::new(&self.mechanism, SolverOptions::default());
         let solution = solver.solve(state.t, &state.q, &state.v);

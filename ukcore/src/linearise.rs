@@ -37,10 +37,10 @@ pub struct Linearisation {
 }
 
 impl Linearisation {
-    /// The derivatives at `state`.
+    /// The derivatives of the accelerations of `mechanism` at `state`.
     ///
     /// # Errors
-    /// Those of [`Solver::acceleration`]; [`Error::NonFinite`] with the names of those derivatives that do not exist, as that of √x at 0.
+    /// What [`Solver::acceleration`] reports; [`Error::NonFinite`] with the names of those derivatives that do not exist, as that of √x at 0.
     pub fn at(mechanism: impl Into<Prepared>, state: &State) -> Result<Self, Error> {
         Linearisation::of(Solver::new(mechanism, SolverOptions::default()), state)
     }
@@ -133,7 +133,7 @@ impl Slopes {
     /// and in the branches that its mechanism holds. Derivatives that do not exist, as that of √x at 0, are not finite.
     ///
     /// # Errors
-    /// Those of [`Solver::acceleration`].
+    /// What [`Solver::acceleration`] reports.
     pub(crate) fn columns(
         &mut self,
         solver: &mut Solver,

@@ -119,9 +119,9 @@ pub enum Branch {
     /// The one that the sign of the switching function says.
     #[default]
     Followed,
-    /// That of negative values.
+    /// The branch of negative values of the switching function.
     Negative,
-    /// That of positive values.
+    /// The branch of positive values of the switching function.
     Positive,
 }
 

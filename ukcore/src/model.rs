@@ -219,7 +219,7 @@ impl Reference {
         }
     }
 
-    /// The same motion up to the time `end`.
+    /// This reference without the states later than `end`, s.
     #[must_use]
     pub fn up_to(&self, end: f64) -> Self {
         let mut shorter = self.clone();
@@ -299,7 +299,7 @@ impl Entry {
     /// The start called `name`, for the parameters of `mechanism`, which is this one with other values.
     ///
     /// # Errors
-    /// Those of [`Model::start`]; [`Error::UnknownName`] where nothing but equations is known of the mechanism.
+    /// What [`Model::start`] reports; [`Error::UnknownName`] where nothing but equations is known of the mechanism.
     pub fn start(
         &self,
         mechanism: &Prepared,

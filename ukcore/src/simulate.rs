@@ -256,7 +256,7 @@ impl Simulation {
     /// [cost](Trajectory::work). [`dense`](Simulation::dense) keeps the interpolant all the same.
     ///
     /// # Errors
-    /// Those of [`until`](Simulation::until).
+    /// What [`until`](Simulation::until) reports.
     pub fn stream(
         self,
         t_end: f64,

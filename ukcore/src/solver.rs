@@ -166,7 +166,7 @@ impl Solver {
         }
     }
 
-    /// The same without a look at what is given: slices of the right lengths, for the mechanism that the solver was made for. A number
+    /// Accelerations without a look at what is given: slices of the right lengths, for the mechanism that the solver was made for. A number
     /// that is not finite may pass where no equation contains it; an integrator sees it in its states.
     #[inline]
     pub(crate) fn acceleration_in_run(
@@ -191,7 +191,7 @@ impl Solver {
         self.rank_revealing(t, q, v, out)
     }
 
-    /// The same by the rank-revealing solve.
+    /// Accelerations by the rank-revealing solve.
     fn rank_revealing(
         &mut self,
         t: f64,
@@ -216,7 +216,7 @@ impl Solver {
     /// Accelerations, forces, multipliers and rank at (t, q, q̇). Allocates its result.
     ///
     /// # Errors
-    /// As [`Solver::acceleration`].
+    /// What [`Solver::acceleration`] reports.
     pub fn solve(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<Solution, Error> {
         let n = self.n;
         let mut ideal = vec![0.0; n];

@@ -355,7 +355,7 @@ impl Trajectory {
     /// Writes all samples as comma-separated values, as [`CsvWriter`] does one by one.
     ///
     /// # Errors
-    /// Those of `writer`.
+    /// What writing to `writer` reports.
     pub fn write_csv(&self, writer: &mut (impl Write + ?Sized)) -> io::Result<()> {
         let mut csv = CsvWriter::new(&self.mechanism, io::BufWriter::new(writer))?;
         self.samples().try_for_each(|sample| csv.write(sample))?;

@@ -16,7 +16,7 @@ pub struct Drift {
 }
 
 impl Drift {
-    /// That of the samples of `trajectory`.
+    /// The worst of the samples of `trajectory`.
     #[must_use]
     pub fn of(trajectory: &Trajectory) -> Self {
         let mut measured = ukcore::simulate::Drift::new(trajectory.mechanism());
@@ -24,7 +24,7 @@ impl Drift {
         Drift::measured(&measured, trajectory.spec())
     }
 
-    /// That of samples that came one by one, of a mechanism with this `spec`.
+    /// The worst of samples that came one by one, of a mechanism with this `spec`.
     #[must_use]
     pub fn measured(measured: &ukcore::simulate::Drift, spec: &Spec) -> Self {
         let residual = measured.residual();

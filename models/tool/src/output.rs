@@ -230,7 +230,7 @@ impl Directory {
 /// Writes `value` as JSON with a line's end.
 ///
 /// # Errors
-/// Those of `out`.
+/// What writing to `out` reports.
 pub fn json(out: &mut dyn Write, value: &impl Serialize) -> io::Result<()> {
     serde_json::to_writer_pretty(&mut *out, value)?;
     writeln!(out)

@@ -156,7 +156,7 @@ struct Samples {
 /// The trajectory, why it ends early if it does by an error, and what became of its samples. Where rows cannot be written it ends too.
 ///
 /// # Errors
-/// Those of writing.
+/// What writing reports.
 fn integrate(
     ready: &Ready<'_>,
     args: &RunArgs,

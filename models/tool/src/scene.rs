@@ -80,7 +80,7 @@ impl Start {
     /// `entry` with these parameters, at this start.
     ///
     /// # Errors
-    /// Those of [`Scene::ready`].
+    /// What [`Scene::ready`] reports.
     pub fn ready<'a>(&self, entry: &'a Entry) -> Result<Ready<'a>, Failure> {
         let (mechanism, start, options) = self.settings(entry)?;
         let mut state = match start {

@@ -104,7 +104,7 @@ impl Summary<'_> {
     /// Writes the summary for reading.
     ///
     /// # Errors
-    /// Those of `out`.
+    /// What writing to `out` reports.
     pub(crate) fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         let tolerance = self.tolerance();
         let tolerance = tolerance.map_or(String::new(), |tol| format!(" at tolerance {tol:e}"));

@@ -40,7 +40,7 @@ impl<L: Lanes> LaneSolver<L> {
         LaneSolver::with(mechanism.prepared(), mechanism.prepared())
     }
 
-    /// The same with a mechanism given in lanes and alone.
+    /// A solver for the mechanism that is given in lanes, as `prepared`, and alone.
     pub(crate) fn with(prepared: Prepared<L>, mechanism: Prepared) -> Self {
         LaneSolver {
             mechanisms: vec![mechanism; L::WIDTH],
@@ -62,7 +62,7 @@ impl<L: Lanes> LaneSolver<L> {
         Ok(())
     }
 
-    /// The same for what is known to be the same mechanism.
+    /// Puts `mechanism` into lane `lane`, without asking whether it is the one that the solver was made for.
     pub(crate) fn put(&mut self, lane: usize, mechanism: Prepared) {
         self.mechanisms[lane] = mechanism;
         let mechanisms = &self.mechanisms;

@@ -344,12 +344,12 @@ impl Prepared {
         Ok(())
     }
 
-    /// The same mechanism in numbers that carry a derivative, with its parameters and held branches.
+    /// This mechanism in numbers that carry a derivative, with its parameters and held branches.
     pub(crate) fn dual(&self) -> Prepared<Dual, dyn Dynamics<Dual>> {
         self.lift(self.code.face().dual(), Dual::from_f64)
     }
 
-    /// The same mechanism in numbers that add up their rounding, with its parameters, taken to be exact, and held branches.
+    /// This mechanism in numbers that add up their rounding, with its parameters, taken to be exact, and held branches.
     pub(crate) fn rounded(&self) -> Prepared<Rounded, dyn Constraints<Rounded>> {
         self.lift(self.code.face().rounded(), Rounded::exact)
     }

@@ -38,7 +38,7 @@ fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (sum, (a - (sum - part)) + (b - part))
 }
 
-/// The same for |a| ≥ |b|.
+/// The sum of two numbers with |a| ≥ |b| and what rounding takes from it (Dekker 1971).
 fn quick_two_sum(a: f64, b: f64) -> DoubleDouble {
     let hi = a + b;
     DoubleDouble {

@@ -68,7 +68,7 @@ impl Ensemble {
         }
     }
 
-    /// As [`Simulation::tolerance`].
+    /// Relative and absolute tolerance of the integration, as for [`Simulation::tolerance`]; 1e-9 where nothing is said.
     #[must_use]
     pub fn tolerance(mut self, tolerance: f64) -> Self {
         self.tolerance = tolerance;

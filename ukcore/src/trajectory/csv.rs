@@ -44,7 +44,7 @@ impl<W: Write> CsvWriter<W> {
     /// Writes the line of names of `mechanism` to `out`, which should be buffered: it is written to number by number.
     ///
     /// # Errors
-    /// Those of `out`.
+    /// What writing to `out` reports.
     pub fn new(mechanism: impl Into<Prepared>, mut out: W) -> io::Result<Self> {
         let mechanism = mechanism.into();
         let spec = mechanism.spec();
@@ -69,7 +69,7 @@ impl<W: Write> CsvWriter<W> {
     /// Writes the row of `sample`. The writer is not flushed.
     ///
     /// # Errors
-    /// Those of the writer.
+    /// What writing reports.
     ///
     /// # Panics
     /// If the sample has not as many coordinates as the mechanism.

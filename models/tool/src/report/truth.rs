@@ -73,7 +73,7 @@ impl Truth {
     /// what is shipped, or where nothing is.
     ///
     /// # Errors
-    /// Those of [`Truth::computed`], where nothing is shipped.
+    /// What [`Truth::computed`] reports, where nothing is shipped.
     pub(super) fn of(
         mechanism: &Prepared,
         start: &State,

@@ -23,7 +23,7 @@ impl Effort {
     /// Runs `simulation`; its work counts whether it succeeds or not.
     ///
     /// # Errors
-    /// Those of [`Simulation::until`].
+    /// What [`Simulation::until`] reports.
     pub fn run(&mut self, simulation: Simulation, until: f64) -> Result<Trajectory, Error> {
         let (trajectory, error) = match simulation.until(until) {
             Ok(trajectory) => (trajectory, None),

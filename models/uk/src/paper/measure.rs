@@ -8,7 +8,7 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// The bracket shrinks to √ε of its place: closer than that a smooth f differs by rounding only.
 ///
 /// # Errors
-/// Those of `f`.
+/// What `f` reports.
 pub(super) fn minimise<E>(
     mut f: impl FnMut(f64) -> Result<f64, E>,
     mut a: f64,

@@ -91,7 +91,7 @@ impl Motion {
     /// The state at `t`.
     ///
     /// # Errors
-    /// As [`Trajectory::at`].
+    /// What [`Trajectory::at`] reports.
     pub(super) fn state(&self, t: f64) -> Result<State, Failure> {
         Ok(self.trajectory.at(t)?)
     }
@@ -99,7 +99,7 @@ impl Motion {
     /// q̈ at `t`.
     ///
     /// # Errors
-    /// As [`Trajectory::at`] and [`Solver::acceleration`].
+    /// What [`Trajectory::at`] and [`Solver::acceleration`] report.
     pub(super) fn acceleration(&mut self, t: f64) -> Result<Vec<f64>, Failure> {
         let state = self.state(t)?;
         let mut out = vec![0.0; state.q.len()];

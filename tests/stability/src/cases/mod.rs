@@ -76,7 +76,7 @@ fn accelerations_off<M: Mechanism>(
     Ok(worst)
 }
 
-/// The same against the equations solved in 31 digits.
+/// Accelerations against the equations solved in 31 digits.
 fn accelerations_imprecise<M: Mechanism>(
     mechanism: &M,
     state: &State,
