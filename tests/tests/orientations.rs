@@ -1,5 +1,5 @@
-//! Bodies turned by quaternions, at all orientations: their kinetic energy is singular along the quaternion, everywhere or at the identity, and the constraint
-//! on its length mends that. Accelerations of the default solver against the same equations in 31 digits.
+//! Bodies turned by quaternions, at all orientations: their kinetic energy is singular along the quaternion, everywhere or at the identity,
+//! and the constraint on its length mends that. Accelerations of the default solver against the same equations in 31 digits.
 
 use std::fmt::Debug;
 use tests::{Random, largest};
@@ -292,7 +292,8 @@ fn accelerations_near_the_identity_and_half_turns() {
     }
 }
 
-/// The same over as many seeds as one has patience for: `HUNT=100000 cargo test --release -p tests hunt_for_orientations -- --ignored --nocapture`.
+/// The same over as many seeds as one has patience for: `HUNT=100000 cargo test --release -p tests hunt_for_orientations -- --ignored
+/// --nocapture`.
 #[test]
 #[ignore = "a hunt over many seeds"]
 fn hunt_for_orientations() {

@@ -40,7 +40,8 @@ impl Linearisation {
     /// The derivatives of the accelerations of `mechanism` at `state`.
     ///
     /// # Errors
-    /// What [`Solver::acceleration`] reports; [`Error::NonFinite`] with the names of those derivatives that do not exist, as that of √x at 0.
+    /// What [`Solver::acceleration`] reports; [`Error::NonFinite`] with the names of those derivatives that do not exist, as that of √x at
+    /// 0.
     pub fn at(mechanism: impl Into<Prepared>, state: &State) -> Result<Self, Error> {
         Linearisation::of(Solver::new(mechanism, SolverOptions::default()), state)
     }

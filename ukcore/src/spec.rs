@@ -131,10 +131,11 @@ pub struct Solve {
     pub checks: &'static [Check],
     /// The least share d/G of a checked pivot d in the diagonal G that it started from.
     pub least_share: f64,
-    /// Constraints whose rows a of A are added as μ aᵀa to M, and as μ aᵀb to Q, since M is singular without them, at any state or at some. It leaves q̈
-    /// and λ as they are.
+    /// Constraints whose rows a of A are added as μ aᵀa to M, and as μ aᵀb to Q, since M is singular without them, at any state or at some.
+    /// It leaves q̈ and λ as they are.
     pub regular: &'static [usize],
-    /// Constraints whose rows of A q̈ = b are checked after the solution, since they act on a coordinate whose inertia may vanish at some states.
+    /// Constraints whose rows of A q̈ = b are checked after the solution, since they act on a coordinate whose inertia may vanish at some
+    /// states.
     pub met: &'static [usize],
 }
 

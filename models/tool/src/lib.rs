@@ -21,9 +21,9 @@
 //! `cargo run -- run cart --guess x=0.4 --guess y=-0.2 --hold s --until 2 --csv -` then prints its motion. A mechanism that implements
 //! [`ukcore::model::Model`] has starts, a duration and references of its own besides.
 //!
-//! Programs of other shape call functions: [`list`](list::list), [`run`](run::run), [`explain`](explain::explain), [`report`](report::report) and
-//! [`stability`](stability::stability) take models as [`Entry`], or cases, and their arguments; [`plot`] draws charts and [`html`] makes
-//! pages.
+//! Programs of other shape call functions: [`list`](list::list), [`run`](run::run), [`explain`](explain::explain),
+//! [`report`](report::report) and [`stability`](stability::stability) take models as [`Entry`], or cases, and their arguments; [`plot`]
+//! draws charts and [`html`] makes pages.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

@@ -17,7 +17,8 @@ const STATES: usize = 16;
 const ACCURACY: f64 = 1e-9;
 
 /// Factors measured elsewhere on one acceleration of the U-chain with 17 links.
-const ELSEWHERE: &str = "measured elsewhere, as multiples of the elimination by hand from both ends: CasADi 1.9, heyoka 2.9, MuJoCo 25, Pinocchio 45, textbook pseudo-inverse 820";
+const ELSEWHERE: &str = "measured elsewhere, as multiples of the elimination by hand from both ends: CasADi 1.9, heyoka 2.9, MuJoCo 25, \
+    Pinocchio 45, textbook pseudo-inverse 820";
 
 /// Contenders over the states of one run.
 struct Accelerations<'a> {

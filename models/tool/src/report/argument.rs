@@ -52,7 +52,8 @@ fn method_argument(studies: &[Study]) -> Option<Argument> {
     Some(Argument {
         default: "DOP853",
         figures: html! {
-            "DOPRI5 takes " (fixed(middle, 2)) " times the time for the same error (median of " (known.len()) " cases), and more in " (faster)
+            "DOPRI5 takes " (fixed(middle, 2)) " times the time for the same error (median of " (known.len()) " cases), and more in "
+             (faster)
             " of them."
         },
         supported: middle > 1.0,
@@ -84,7 +85,8 @@ fn stabilisation_argument(studies: &[Study]) -> Option<Argument> {
         default: "Projection",
         figures: html! {
             "at tolerance " (power_of_ten(DEFAULT_TOLERANCE)) " it adds " (fixed(100.0 * (time - 1.0), 0))
-            " % to the time of a run without and multiplies its error by " (fixed(error, 2)) "; for the same error it takes " (fixed(equal, 2))
+            " % to the time of a run without and multiplies its error by " (fixed(error, 2)) "; for the same error it takes "
+             (fixed(equal, 2))
             " times the time (medians), and the constraints hold."
             @if let Some(feedback) = feedback {
                 " Baumgarte's feedback of 20/s takes " (fixed(feedback, 2)) " times its evaluations for the same error."
@@ -112,7 +114,8 @@ fn tolerance_argument(studies: &[Study]) -> Option<Argument> {
         default: "Tolerance 1e-9",
         figures: html! {
             "errors at the end are " (power_of_ten(median(errors)?)) " in the median, " (power_of_ten(worst))
-            " at most (it is called safe while none exceeds " (power_of_ten(SAFE)) "); a tolerance of " (power_of_ten(1e3 * DEFAULT_TOLERANCE))
+            " at most (it is called safe while none exceeds " (power_of_ten(SAFE)) "); a tolerance of " (power_of_ten(1e3 *
+             DEFAULT_TOLERANCE))
             " takes " (fixed(looser, 2)) " times the time, one of " (power_of_ten(1e-3 * DEFAULT_TOLERANCE)) " " (fixed(tighter, 2))
             " times (medians)."
         },

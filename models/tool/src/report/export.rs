@@ -26,10 +26,11 @@ pub(super) struct Report {
 }
 
 /// What the numbers are, in report.json.
-pub(super) const ABOUT: &str = "Error against run time. SI units. error: largest difference from the reference at the end, each coordinate and \
-     velocity divided by the largest value of its kind along the motion; error_along: the same over all times of the reference; error_in_units: not \
-     divided; off: distance of the end from the nearest state on the constraints, within: distance of that state from the reference, both scaled; \
-     residuals and energy drift: largest over all steps; knob: tolerance of the integration; seconds: median of the repeats, quartiles beside it.";
+pub(super) const ABOUT: &str = "Error against run time. SI units. error: largest difference from the reference at the end, each coordinate \
+     and velocity divided by the largest value of its kind along the motion; error_along: the same over all times of the reference; \
+     error_in_units: not divided; off: distance of the end from the nearest state on the constraints, within: distance of that state from \
+     the reference, both scaled; residuals and energy drift: largest over all steps; knob: tolerance of the integration; seconds: median \
+     of the repeats, quartiles beside it.";
 
 /// A row of report.csv.
 #[derive(Debug, Default, Serialize)]

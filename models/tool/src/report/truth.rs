@@ -135,8 +135,8 @@ impl Truth {
         };
         truth.floor = truth.floor.max(truth.largest(&coarser));
         truth.source = format!(
-            "made here: DOP853 with steps of at most {short:.1e} s; its error is its difference from a run with steps {LONGER} times as long. DOPRI5 at \
-             {TIGHT:.0e} differs by {:.1e}",
+            "made here: DOP853 with steps of at most {short:.1e} s; its error is its difference from a run with steps {LONGER} times as \
+             long. DOPRI5 at {TIGHT:.0e} differs by {:.1e}",
             truth.largest(&other)
         );
         Ok(truth)

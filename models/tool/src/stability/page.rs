@@ -44,8 +44,10 @@ fn head(report: &Stability) -> Markup {
         }
         p {
             "Every result is compared with an oracle that does not share its way of computing. It is " b { "accurate" }
-            " if its error is within what the case calls full accuracy, " b { "degraded" } " if it is within the bound of the case, " b { "refused" }
-            " if the program says by a named error that it cannot do it. A result that is off by more and looks like any other is " b { "wrong" }
+            " if its error is within what the case calls full accuracy, " b { "degraded" } " if it is within the bound of the case, " b {
+             "refused" }
+            " if the program says by a named error that it cannot do it. A result that is off by more and looks like any other is " b {
+             "wrong" }
             "; there must be none. Here " (accurate) " values are accurate, " (degraded) " degraded, " (refused) " refused, " (wrong)
             " wrong. Errors are parts of the size of the result. Computing took " (fixed(report.seconds, 1)) " s."
         }
@@ -57,7 +59,8 @@ fn picture() -> Markup {
         "wide",
         "stability.svg",
         "A bar for each case, coloured by outcome",
-        "A bar is what a case sweeps, a cell a value of it; the dot marks the ordinary value. At the right the errors with which values are refused.",
+        "A bar is what a case sweeps, a cell a value of it; the dot marks the ordinary value. At the right the errors with which values \
+         are refused.",
     )
 }
 
@@ -90,7 +93,8 @@ fn summary(rows: &[Row]) -> Markup {
 
 fn values(row: &Row) -> Markup {
     let caption = html! {
-        (row.swept) ". Compared with: " (row.oracle) ". Full accuracy: " (power_of_ten(row.accurate_to)) "; bound: " (power_of_ten(row.bound)) "."
+        (row.swept) ". Compared with: " (row.oracle) ". Full accuracy: " (power_of_ten(row.accurate_to)) "; bound: "
+         (power_of_ten(row.bound)) "."
     };
     let heads = "value | outcome | error | steps | evaluations | fallbacks | what was said";
     html! {

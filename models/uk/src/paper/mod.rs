@@ -64,8 +64,10 @@ struct Paper {
     seconds: f64,
 }
 
-const ABOUT: &str = "Zhao, Zhen & Chen, Chin. J. Mech. Eng. 26 (2013) 839-850, recomputed. SI units; angles in the unit that the name ends with, else radians.";
-const SIGNS: &str = "Chain: y points down, peak is the least acceleration of the tip. Fish: start_acceleration is x1'' at t = 0 and mean_speed is x1(4 s) - x1(3 s) over 1 s; both are negative where the fish swims forward, towards -x.";
+const ABOUT: &str = "Zhao, Zhen & Chen, Chin. J. Mech. Eng. 26 (2013) 839-850, recomputed. SI units; angles in the unit that the name ends \
+    with, else radians.";
+const SIGNS: &str = "Chain: y points down, peak is the least acceleration of the tip. Fish: start_acceleration is x1'' at t = 0 and \
+    mean_speed is x1(4 s) - x1(3 s) over 1 s; both are negative where the fish swims forward, towards -x.";
 
 /// One integration to do.
 #[derive(Debug, Clone, Copy)]

@@ -23,9 +23,9 @@ fn heads(goals: &[f64], between: &str, before: &str) -> String {
 pub(super) fn choices(report: &Report) -> Markup {
     let goals = verdict::looked_at(report.quick, &report.studies);
     let caption = format!(
-        "The combination to take for an error at the end, and the time of its run: of those that keep the constraints the first of the list whose time is within \
-         {} % of the least; below it in grey one that does not keep them, where that is faster still. The error is scaled: a part of the largest value that \
-         coordinates, or velocities, of the same kind take.",
+        "The combination to take for an error at the end, and the time of its run: of those that keep the constraints the first of the \
+         list whose time is within {} % of the least; below it in grey one that does not keep them, where that is faster still. The error \
+         is scaled: a part of the largest value that coordinates, or velocities, of the same kind take.",
         fixed(100.0 * (TIE - 1.0), 0)
     );
     let rows = report.studies.iter().map(|study| {
@@ -90,7 +90,8 @@ pub(super) fn tallied(report: &Report) -> Markup {
     });
     html! {
         (table(
-            "Motions for which the combination is the one to take, by accuracy; and the cases (a motion and an accuracy that is reached) in which it was in the running.",
+            "Motions for which the combination is the one to take, by accuracy; and the cases (a motion and an accuracy that is reached) \
+             in which it was in the running.",
             &format!("combination|of those that keep the constraints: {each}|of all: {each}|cases"),
             rows,
         ))
@@ -121,8 +122,10 @@ pub(super) fn defaults(report: &Report) -> Markup {
             }
         }
         (table(
-            "The default combination at the default tolerance, and a thousand times looser and tighter: scaled error, and change of the time.",
-            "motion | 10<sup>−9</sup>: error at the end; along the run; time | 10<sup>−6</sup>: error; time | 10<sup>−12</sup>: error; time",
+            "The default combination at the default tolerance, and a thousand times looser and tighter: scaled error, and change of the \
+             time.",
+            "motion | 10<sup>−9</sup>: error at the end; along the run; time | 10<sup>−6</sup>: error; time | 10<sup>−12</sup>: error; \
+             time",
             rows,
         ))
     }

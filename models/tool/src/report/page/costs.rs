@@ -20,8 +20,9 @@ pub(super) fn prices(report: &Report) -> Markup {
         return html! {};
     }
     let caption = html! {
-        "Projection beside none, both DOP853 at tolerance 10" sup { "−9" } ": change of the time, and factor on the error; how far the run without ends off \
-         the constraints (scaled) and its largest residual. Baumgarte's feedback beside projection: change of the evaluations to reach an error of "
+        "Projection beside none, both DOP853 at tolerance 10" sup { "−9" } ": change of the time, and factor on the error; how far the run \
+         without ends off the constraints (scaled) and its largest residual. Baumgarte's feedback beside projection: change of the \
+         evaluations to reach an error of "
         (power_of_ten(MIDDLE)) "; and of the time, which also pays for the lack of a straight line."
     };
     let heads = "motion | projection: time; error | none: off; residual | Baumgarte: 20/s, evaluations; 200/s; 20/s, time";
@@ -56,16 +57,18 @@ pub(super) fn causes(report: &Report) -> Markup {
     html! {
         (table(
             "All scaled at the end of the motion, but for rank and formula, which are relative changes of the accelerations.",
-            "motion | integration: 10<sup>−6</sup>; 10<sup>−9</sup> | drift: 10<sup>−6</sup>; 10<sup>−9</sup> | solver: rank; formula | rounding | least | reference",
+            "motion | integration: 10<sup>−6</sup>; 10<sup>−9</sup> | drift: 10<sup>−6</sup>; 10<sup>−9</sup> | solver: rank; formula | \
+             rounding | least | reference",
             report.studies.iter().map(cause_row),
         ))
         p {
-            b { "Integration" } " is what is left of the error at the end once the state is put back onto the constraints: the default combination at two \
-             tolerances. " b { "Drift" } " is the way back, for the run without stabilisation; with projection it is rounding. " b { "Rank" } " is the relative \
-             change of the accelerations at the states of the reference when the rank tolerance is a thousand times smaller or larger; " b { "formula" } " their \
-             relative difference between the automatic choice and eq. 13 or 19, both the work of rounding and of rank decisions. " b { "Rounding" } " is the \
-             change of the end when every number of the start moves by ε = 2.2·10" sup { "−16" } " of its size: no integration in double precision can be relied \
-             on to do better, and each step adds its own. " b { "Least" } " is the smallest error of the default combination at any tolerance."
+            b { "Integration" } " is what is left of the error at the end once the state is put back onto the constraints: the default \
+             combination at two tolerances. " b { "Drift" } " is the way back, for the run without stabilisation; with projection it is \
+             rounding. " b { "Rank" } " is the relative change of the accelerations at the states of the reference when the rank tolerance \
+             is a thousand times smaller or larger; " b { "formula" } " their relative difference between the automatic choice and eq. 13 \
+             or 19, both the work of rounding and of rank decisions. " b { "Rounding" } " is the change of the end when every number of \
+             the start moves by ε = 2.2·10" sup { "−16" } " of its size: no integration in double precision can be relied on to do better, \
+             and each step adds its own. " b { "Least" } " is the smallest error of the default combination at any tolerance."
         }
     }
 }

@@ -17,10 +17,10 @@ pub(super) fn long_runs(report: &Report) -> Markup {
         return html! {};
     };
     let caption = format!(
-        "Runs {} times as long, of models that conserve energy and to which RATTLE applies. Each row is a step of RATTLE beside the tightest tolerance of the default \
-         combination that takes no more time. Energy: its largest change as a part of the energy exchanged; growth: that over the whole run by that \
-         over its first tenth, 10 for a steady trend and 1 for none. Break-even: the duration from which on RATTLE keeps the energy better for \
-         the same time, if both go on so.",
+        "Runs {} times as long, of models that conserve energy and to which RATTLE applies. Each row is a step of RATTLE beside the \
+         tightest tolerance of the default combination that takes no more time. Energy: its largest change as a part of the energy \
+         exchanged; growth: that over the whole run by that over its first tenth, 10 for a steady trend and 1 for none. Break-even: the \
+         duration from which on RATTLE keeps the energy better for the same time, if both go on so.",
         fixed(times, 0)
     );
     let heads = "motion | RATTLE: step (s); time; energy; growth | the default: tolerance; time; energy; growth | break-even (s)";
@@ -48,7 +48,8 @@ fn verdict_words(report: &Report) -> Markup {
         return html! { "RATTLE is the one to take in none of these runs." };
     };
     html! {
-        "RATTLE keeps the energy without a trend, and the default combination does not; but for the same time the default keeps it better up to a duration of "
+        "RATTLE keeps the energy without a trend, and the default combination does not; but for the same time the default keeps it better \
+         up to a duration of "
         (power_of_ten(time)) " s at least (" (name) "). RATTLE is the one to take for the energy of runs longer than that."
     }
 }

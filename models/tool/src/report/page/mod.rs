@@ -138,23 +138,25 @@ fn method(report: &Report) -> Markup {
         p {
             "Times are " (report.clock) " of a whole run from the start to the end, with the making of the solver and without samples"
             @if report.quick { ", each taken once." } @else {
-                "; the median of the repeats, which go round by round through all combinations of a motion, so that what disturbs the machine for a \
-                 while meets all alike. “±” is half the distance of the quartiles."
+                "; the median of the repeats, which go round by round through all combinations of a motion, so that what disturbs the \
+                 machine for a while meets all alike. “±” is half the distance of the quartiles."
             }
         }
         p {
-            "The " b { "error" } " is the largest of all coordinates and velocities at the end, each divided by the largest value of its kind along the \
-             motion; the kind of a coordinate is its name up to the first digit or bracket, so that x1, x2 and x[3] share their size. “Along” is the \
-             largest error over all times of the reference, where states are interpolated by the method. report.json has the errors in units, too."
+            "The " b { "error" } " is the largest of all coordinates and velocities at the end, each divided by the largest value of its \
+             kind along the motion; the kind of a coordinate is its name up to the first digit or bracket, so that x1, x2 and x[3] share \
+             their size. “Along” is the largest error over all times of the reference, where states are interpolated by the method. \
+             report.json has the errors in units, too."
         }
         p {
-            "A verdict for an accuracy takes of each combination the loosest run from which on the error stays below it, as the next tighter run has to as \
-             well: luck does not count. Between two runs it goes along a straight line of the logarithms."
+            "A verdict for an accuracy takes of each combination the loosest run from which on the error stays below it, as the next \
+             tighter run has to as well: luck does not count. Between two runs it goes along a straight line of the logarithms."
         }
         p {
-            "References that are shipped with the models come from closed forms or from integrations with more digits. Where there is none, or a much better \
-             one can be had, DOP853 with a tenth of the steps that it takes at 10" sup { "−13" } " serves; its difference from a run with steps 1.5 times as \
-             long is taken as its error, and its difference from DOPRI5 is told. No error below that of the reference is claimed."
+            "References that are shipped with the models come from closed forms or from integrations with more digits. Where there is \
+             none, or a much better one can be had, DOP853 with a tenth of the steps that it takes at 10" sup { "−13" } " serves; its \
+             difference from a run with steps 1.5 times as long is taken as its error, and its difference from DOPRI5 is told. No error \
+             below that of the reference is claimed."
         }
     }
 }

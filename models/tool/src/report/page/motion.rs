@@ -27,7 +27,8 @@ pub(super) fn motion(study: &Study) -> Markup {
             (picture("time", "Left and low is good. Rings lie at the error of the reference: it is at most that."))
             (picture(
                 "evaluations",
-                "The same by evaluations, which do not depend on the formula: methods and stabilisations alone. The Jacobians of an implicit method are not among them."
+                "The same by evaluations, which do not depend on the formula: methods and stabilisations alone. The Jacobians of an \
+                 implicit method are not among them."
             ))
         }
         @if !study.left_out.is_empty() {
@@ -65,8 +66,10 @@ fn all_runs(study: &Study) -> Markup {
         })
     });
     table(
-        "Every run. Errors are scaled; “off” is the distance from the constraints at the end; residuals and the drift of the energy are the largest over all steps.",
-        "combination | setting | time | ± | evaluations | Jacobians | steps | rejected | error | along | off | residual | energy | fallbacks",
+        "Every run. Errors are scaled; “off” is the distance from the constraints at the end; residuals and the drift of the energy are \
+         the largest over all steps.",
+        "combination | setting | time | ± | evaluations | Jacobians | steps | rejected | error | along | off | residual | energy | \
+         fallbacks",
         rows,
     )
 }

@@ -69,7 +69,8 @@ fn speed(sweeps: &[Vec<FishRow>; 3]) -> Vec<Claim> {
         fish_claim(
             "The forward speed rises quickly, then tends to a fixed value",
             format!(
-                "nine tenths of the mean over {}-{} s reached after {} s; the gain from the third second to the fourth is {} % of that from the first to the second",
+                "nine tenths of the mean over {}-{} s reached after {} s; the gain from the third second to the fourth is {} % of that \
+                 from the first to the second",
                 WINDOW.0,
                 WINDOW.1,
                 list(&rise, 2),

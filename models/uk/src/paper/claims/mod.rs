@@ -20,10 +20,10 @@ pub(super) enum Verdict {
 }
 
 /// The standard of all verdicts, for the page.
-pub(super) const STANDARD: &str = "One standard serves for all. A number that the paper states is met within a twentieth of it, since its text gives \
-     round numbers; those of Table 1, printed to three decimals, to one unit of the last. What is said to be larger, later, ahead or growing has to be so, \
-     by however little. “Nearly” means missed by no more than three twentieths: of the number that is stated, of the larger one of two that are compared, or, \
-     where something is said to grow, of the range that it covers.";
+pub(super) const STANDARD: &str = "One standard serves for all. A number that the paper states is met within a twentieth of it, since its \
+     text gives round numbers; those of Table 1, printed to three decimals, to one unit of the last. What is said to be larger, later, \
+     ahead or growing has to be so, by however little. “Nearly” means missed by no more than three twentieths: of the number that is \
+     stated, of the larger one of two that are compared, or, where something is said to grow, of the range that it covers.";
 
 /// A stated number is met within this part of it.
 const MET: f64 = 0.05;

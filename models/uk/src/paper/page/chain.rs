@@ -12,9 +12,10 @@ pub(super) fn section(paper: &Paper) -> Markup {
     let x0 = rows.first().map_or(0.0, |r| r.x0);
     html! {
         p {
-            "Seventeen particles of 1 kg, joined by rigid massless links of 1 m, the last link fixed to a support at the origin. At t = 0 the tip, x0 away from \
-             the support and level with it, is let go. y points down, g = 9.8 m/s². The paper does not say how the chain hangs at the start; an isosceles \
-             trapezoid with legs at 60° reproduces its table, a catenary does not (for x0 = " (fixed(catenary.x0, 0)) " m it turns at "
+            "Seventeen particles of 1 kg, joined by rigid massless links of 1 m, the last link fixed to a support at the origin. At t = 0 \
+             the tip, x0 away from the support and level with it, is let go. y points down, g = 9.8 m/s². The paper does not say how the \
+             chain hangs at the start; an isosceles trapezoid with legs at 60° reproduces its table, a catenary does not (for x0 = "
+             (fixed(catenary.x0, 0)) " m it turns at "
             (fixed(catenary.h_max, 3)) " m after " (fixed(catenary.t_max, 3)) " s)."
         }
         div.figures {
@@ -23,8 +24,8 @@ pub(super) fn section(paper: &Paper) -> Markup {
                 "figures/chain-falling.svg",
                 "Shapes of the chain from its start to the turn of the tip",
                 format!(
-                    "The chain with x0 = {x0} m, from the support (origin) to the tip. The fold runs down ahead of the tip, which follows faster and faster \
-                     along the dashed path until the straightened chain pulls it round (orange)."
+                    "The chain with x0 = {x0} m, from the support (origin) to the tip. The fold runs down ahead of the tip, which follows \
+                     faster and faster along the dashed path until the straightened chain pulls it round (orange)."
                 )
             ))
             (figure(
@@ -35,15 +36,15 @@ pub(super) fn section(paper: &Paper) -> Markup {
             (figure(
                 "figures/chain-lead.svg",
                 "Fall of the tip less the fall of a free body",
-                "The difference of the two. The closer the ends of the chain are at the start, the greater the lead. It shrinks once the chain pulls the tip \
-                 back, but is positive still where the curves end, at the turn."
+                "The difference of the two. The closer the ends of the chain are at the start, the greater the lead. It shrinks once the \
+                 chain pulls the tip back, but is positive still where the curves end, at the turn."
             ))
         }
         (table_1(rows))
         h3 { "Acceleration of the tip (Figs. 2-6)" }
         p {
-            "For m = 1 kg the vertical force on the tip and its acceleration ÿ1 have the same number. It is above g for about half of the fall or more; at the \
-             end the tip is stopped and thrown back within some hundredths of a second."
+            "For m = 1 kg the vertical force on the tip and its acceleration ÿ1 have the same number. It is above g for about half of the \
+             fall or more; at the end the tip is stopped and thrown back within some hundredths of a second."
         }
         div.figures {
             @for row in rows {
@@ -87,8 +88,9 @@ fn table_1(rows: &[ChainRow]) -> Markup {
             .collect()
     };
     let caption = html! {
-        b { "Table 1." } " Greatest fall h" sub { "max" } " of the tip, its time t" sub { "max" } ", and the fall ½ g t" sub { "max" } "² of a free body in \
-         that time. The paper prints output points of its solver, so its last digit is uncertain by one; a free body falls some 17 mm in that last millisecond."
+        b { "Table 1." } " Greatest fall h" sub { "max" } " of the tip, its time t" sub { "max" } ", and the fall ½ g t" sub { "max" } "² \
+         of a free body in that time. The paper prints output points of its solver, so its last digit is uncertain by one; a free body \
+         falls some 17 mm in that last millisecond."
     };
     let three = "paper; here; diff.";
     let heads = format!(
@@ -113,10 +115,10 @@ fn tip_table(rows: &[ChainRow]) -> Markup {
         ]
     };
     let caption = html! {
-        b { "The tip." } " The pull is that of the chain, in weights of one particle. ÿ1 is above g from the start until the time given; the mean excess is taken \
-         up to it."
+        b { "The tip." } " The pull is that of the chain, in weights of one particle. ÿ1 is above g from the start until the time given; \
+         the mean excess is taken up to it."
     };
-    let heads = "x0 (m) | deepest ÿ1: (m/s²); at (s); pull (m g) | ÿ1 above g = 9.8 m/s²: greatest (m/s²); at (s); mean excess (m/s²); until (s); \
-         in % of t<sub>max</sub> | lead at turn (m)";
+    let heads = "x0 (m) | deepest ÿ1: (m/s²); at (s); pull (m g) | ÿ1 above g = 9.8 m/s²: greatest (m/s²); at (s); mean excess (m/s²); \
+         until (s); in % of t<sub>max</sub> | lead at turn (m)";
     table(caption, heads, rows.iter().map(row))
 }

@@ -12,12 +12,14 @@ pub(super) fn section(paper: &Paper) -> Markup {
     let (from, to) = WINDOW;
     html! {
         p {
-            "Body, peduncle and fin, with drag on each and lift on the fin; peduncle and fin are driven as θ2 = A2 sin ωt and θ3 = A3 sin(ωt − φ) with A2 = "
+            "Body, peduncle and fin, with drag on each and lift on the fin; peduncle and fin are driven as θ2 = A2 sin ωt and θ3 = A3 \
+             sin(ωt − φ) with A2 = "
             (published::A2) ". The driven angles carry no inertia, so the mass matrix is singular."
         }
         p.note {
-            b { "Signs." } " The tail is at +x, so the fish swims towards −x. The tables (and paper.json) give ẍ1 and ẋ1 as they are: negative numbers swim \
-             forward. The figures of velocity show −ẋ1, as the paper's do, so up is forward; those of acceleration show ẍ1, so the start points down."
+            b { "Signs." } " The tail is at +x, so the fish swims towards −x. The tables (and paper.json) give ẍ1 and ẋ1 as they are: \
+             negative numbers swim forward. The figures of velocity show −ẋ1, as the paper's do, so up is forward; those of acceleration \
+             show ẍ1, so the start points down."
         }
         (fish_table(&paper.fish))
         h3 { "Forward velocity (Figs. 9-12)" }
@@ -67,12 +69,12 @@ fn fish_table(rows: &[FishRow]) -> Markup {
         ]
     };
     let caption = html! {
-        b { "All gaits." } " Starting acceleration ẍ1(0); mean of ẋ1 over 3-4 s and half its spread there; time to reach nine tenths of it; amplitude and \
-         frequency of the swing of the body about its drift; mean of θ1 over the last period before 4 s; time at which the body first lies across its course \
-         (|θ1| = 90°)."
+        b { "All gaits." } " Starting acceleration ẍ1(0); mean of ẋ1 over 3-4 s and half its spread there; time to reach nine tenths of \
+         it; amplitude and frequency of the swing of the body about its drift; mean of θ1 over the last period before 4 s; time at which \
+         the body first lies across its course (|θ1| = 90°)."
     };
-    let heads = "fin: A3; ω (rad/s); φ | ẍ1(0) (m/s²) | speed ẋ1: mean (m/s); ripple (± %); 90 % at (s) | swing of the body: ampl. (°); freq./fin's \
-         | course: θ1 at 4 s (°); across at (s)";
+    let heads = "fin: A3; ω (rad/s); φ | ẍ1(0) (m/s²) | speed ẋ1: mean (m/s); ripple (± %); 90 % at (s) | swing of the body: ampl. (°); \
+         freq./fin's | course: θ1 at 4 s (°); across at (s)";
     table(caption, heads, rows.iter().map(row))
 }
 
@@ -127,11 +129,14 @@ fn turning(amplitude: &[&FishRow]) -> Markup {
         h3 { "What the paper does not mention: the fish turns over" }
         p {
             "With these numbers the body is directionally unstable. The mean of θ1 over the period before t = 4 s is "
-            (each(|r| format!("{}°", fixed(r.heading_deg, 1)))) " for A3 = " (each(|r| r.a3.to_string())) ", and it keeps growing: " (turned) " of "
+            (each(|r| format!("{}°", fixed(r.heading_deg, 1)))) " for A3 = " (each(|r| r.a3.to_string())) ", and it keeps growing: "
+             (turned) " of "
             (amplitude.len()) " bodies pass 90° within ten seconds (after "
-            (each(|r| r.t_turned.map_or_else(|| "never".to_owned(), |t| fixed(t, 1)))) " s), and end at " (each(|r| format!("{}°", fixed(r.end_deg, 0))))
-            ". The model ties the angles of peduncle and fin to fixed axes and not to the body, so these two keep their course, and the body folds back over \
-             them and is dragged along. A real fish would have lost its course; the paper's steady swimming is that of the first four or five seconds."
+            (each(|r| r.t_turned.map_or_else(|| "never".to_owned(), |t| fixed(t, 1)))) " s), and end at " (each(|r| format!("{}°",
+             fixed(r.end_deg, 0))))
+            ". The model ties the angles of peduncle and fin to fixed axes and not to the body, so these two keep their course, and the \
+             body folds back over them and is dragged along. A real fish would have lost its course; the paper's steady swimming is that \
+             of the first four or five seconds."
         }
         div.figures {
             (figure_of(

@@ -48,12 +48,13 @@ fn head(paper: &Paper) -> Markup {
     let hold = |v| paper.claims.iter().filter(|c| c.verdict == v).count();
     html! {
         p.lead {
-            "After Zhao H., Zhen S., Chen Y.-H.: Dynamic Modeling and Simulation of Multi-body Systems Using the Udwadia-Kalaba Theory. Chinese Journal of \
-             Mechanical Engineering 26 (2013) 839-850."
+            "After Zhao H., Zhen S., Chen Y.-H.: Dynamic Modeling and Simulation of Multi-body Systems Using the Udwadia-Kalaba Theory. \
+             Chinese Journal of Mechanical Engineering 26 (2013) 839-850."
         }
         p {
-            "Both mechanisms are declared in a few lines of Rust; constraints are differentiated at compile time, and the equations of Udwadia and Kalaba \
-             (regular mass matrix) or Udwadia and Phohomsiri (singular) are integrated with DOP853 at tolerance " (power_of_ten(paper.tolerance))
+            "Both mechanisms are declared in a few lines of Rust; constraints are differentiated at compile time, and the equations of \
+             Udwadia and Kalaba (regular mass matrix) or Udwadia and Phohomsiri (singular) are integrated with DOP853 at tolerance "
+             (power_of_ten(paper.tolerance))
             ", with projection onto the constraints after each step. Table 1 is met to " (fixed(off.fold(0.0, f64::max), 4)) " m. Of "
             (paper.claims.len()) " claims of the paper " (hold(Verdict::Holds)) " are borne out, " (hold(Verdict::Nearly)) " nearly, "
             (hold(Verdict::Fails)) " not (" a href="#claims" { "each with its number" } ")."
@@ -95,15 +96,16 @@ fn unbroken(text: &str) -> String {
 
 fn accuracy(paper: &Paper) -> Markup {
     let caption = html! {
-        "All runs at tolerance " (power_of_ten(paper.tolerance)) ". Residuals are the largest at samples every 10 ms: |φ| of the constraints as declared, \
-         |φ̇| of their rates. The energy drift is a part of the energy exchanged (the fish is driven and damped, so it has none). Fallbacks are evaluations \
-         that left the fast formula."
+        "All runs at tolerance " (power_of_ten(paper.tolerance)) ". Residuals are the largest at samples every 10 ms: |φ| of the \
+         constraints as declared, |φ̇| of their rates. The energy drift is a part of the energy exchanged (the fish is driven and damped, \
+         so it has none). Fallbacks are evaluations that left the fast formula."
     };
     let heads = "run | to (s) | ∣φ∣ | ∣φ̇∣ | energy drift | steps | rejected | evaluations | projections | fallbacks | time (s)";
     html! {
         (table(caption, heads, paper.runs.iter().map(run_row)))
         p {
-            "Computing and drawing took " (fixed(paper.seconds, 1)) " s in all. Samples of every run are in " a href="csv/" { "csv/" } ", named as here."
+            "Computing and drawing took " (fixed(paper.seconds, 1)) " s in all. Samples of every run are in " a href="csv/" { "csv/" } ", \
+             named as here."
         }
     }
 }
