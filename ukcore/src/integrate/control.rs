@@ -3,8 +3,9 @@
 //! After Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, §II.4, with the constants of the authors' codes. The same
 //! for a run of its own and for each lane of an ensemble.
 
-use super::scheme::Equations;
+use super::stepper::Rates;
 use super::sums::Tolerance;
+use crate::lanes::Lanes;
 
 /// Part of the step size that should just meet the tolerance which is taken.
 pub(super) const SAFETY: f64 = 0.9;
@@ -26,7 +27,7 @@ pub(crate) struct Control {
     pub(crate) grow: f64,
 }
 
-/// What the choice of the step size remembers of the steps before.
+/// What the choice of the step size remembers of the steps before. Sizes may have either sign.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct StepSize {
     /// Size and error of the last accepted step.
@@ -86,20 +87,15 @@ const BLIND: f64 = 1e-6;
 
 /// First guess of the first step size: h for which an explicit Euler step changes y by a hundredth.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Guess {
-    /// Positive step size.
-    pub(crate) h: f64,
+struct Guess {
+    h: f64,
     /// Norm of f at the start.
     slope: f64,
 }
 
 impl Guess {
     /// From pairs (y, f) at the start.
-    pub(crate) fn new(
-        start: impl Iterator<Item = (f64, f64)>,
-        tolerance: Tolerance,
-        largest: f64,
-    ) -> Self {
+    fn new(start: impl Iterator<Item = (f64, f64)>, tolerance: Tolerance, largest: f64) -> Self {
         let (mut value, mut slope) = (0.0, 0.0);
         for (y, rate) in start {
             let weight = 1.0 / tolerance.at(y.abs());
@@ -120,7 +116,7 @@ impl Guess {
     /// The first step size, from triples (y, f, f after the Euler step of size `h`): h^order max(|f|, |f'|) = 0.01.
     ///
     /// NaN for the last one says that f could not be evaluated there; the first guess is then the best one.
-    pub(crate) fn refine(
+    fn refine(
         self,
         start: impl Iterator<Item = (f64, f64, f64)>,
         order: f64,
@@ -146,23 +142,36 @@ impl Guess {
     }
 }
 
-/// Size of the first step of a method of order `order`, from y and `rate`, which is f there: by the first guess, and f after an Euler step
-/// of that size.
-pub(super) fn first_size(
-    equations: &mut Equations<'_>,
-    (y, rate): (&[f64], &[f64]),
-    (sign, largest): (f64, f64),
+/// Sizes of the first steps of a method of order `order`, in each lane, from y and `rate`, which is f there, at `s`: by the first guess, and
+/// f after an Euler step of that size. They are at most `largest`, and have its sign.
+pub(super) fn first_size<L: Lanes>(
+    rates: &mut impl Rates<L>,
+    s: L,
+    [y, rate]: [&[L]; 2],
+    largest: L,
     order: f64,
-    tolerance: Tolerance,
-) -> f64 {
-    let start = y.iter().copied().zip(rate.iter().copied());
-    let guess = Guess::new(start.clone(), tolerance, largest);
-    let h = sign * guess.h;
-    let probe: Vec<f64> = start.clone().map(|(y, rate)| y + h * rate).collect();
-    let mut after = vec![0.0; y.len()];
-    if equations.rate(h, &probe, &mut after).is_err() {
-        return guess.h;
+    tolerance: Tolerance<L>,
+) -> L {
+    let start = y.iter().zip(rate);
+    let tolerance = |k: usize| Tolerance {
+        relative: tolerance.relative,
+        absolute: tolerance.absolute.lane(k),
+    };
+    let guess = |k: usize| {
+        let start = start.clone().map(|(y, rate)| (y.lane(k), rate.lane(k)));
+        Guess::new(start, tolerance(k), largest.lane(k).abs())
+    };
+    let h = L::from_lanes(|k| guess(k).h.copysign(largest.lane(k)));
+    let probe: Vec<L> = start.clone().map(|(y, rate)| *y + h * *rate).collect();
+    let mut after = probe.clone();
+    if rates.rate(s + h, &probe, &mut after).is_err() {
+        return h;
     }
-    let start = start.zip(after).map(|((y, rate), after)| (y, rate, after));
-    guess.refine(start, order, tolerance, largest)
+    L::from_lanes(|k| {
+        let start = start.clone().zip(&after);
+        let start = start.map(|((y, rate), after)| (y.lane(k), rate.lane(k), after.lane(k)));
+        let largest = largest.lane(k);
+        let h = guess(k).refine(start, order, tolerance(k), largest.abs());
+        h.copysign(largest)
+    })
 }
