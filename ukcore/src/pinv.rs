@@ -11,6 +11,9 @@
 
 use nalgebra::DMatrix;
 
+use crate::scalar::Scalar;
+use crate::scan::{largest, reduce};
+
 /// An earlier column is taken as pivot if its significance is at least this share of the largest: the declared order is kept
 /// where it costs nothing, and of two equal constraints the later one is called redundant. One half at most doubles the growth
 /// of the columns not yet taken.
@@ -367,24 +370,7 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 /// max |aᵢ| bᵢ.
 fn largest_product(a: &[f64], b: &[f64]) -> f64 {
-    let n = a.len().min(b.len());
-    let (a, b) = (a[..n].chunks_exact(4), b[..n].chunks_exact(4));
-    let larger = |s: f64, a: f64, b: f64| {
-        let x = a.abs() * b;
-        if x > s { x } else { s }
-    };
-    let rest = a
-        .remainder()
-        .iter()
-        .zip(b.remainder())
-        .fold(0.0, |s, (a, b)| larger(s, *a, *b));
-    let mut most = [0.0; 4];
-    for (a, b) in a.zip(b) {
-        for ((s, a), b) in most.iter_mut().zip(a).zip(b) {
-            *s = larger(*s, *a, *b);
-        }
-    }
-    most.into_iter().fold(rest, f64::max)
+    reduce(a, b, |a, b| a.abs() * b, |s, x| x.larger(s))
 }
 
 /// y ← y + s x.
@@ -398,7 +384,7 @@ pub(crate) fn axpy(s: f64, x: &[f64], y: &mut [f64]) {
 pub(crate) fn pseudo_inverse(matrix: &DMatrix<f64>, tolerance: f64) -> (DMatrix<f64>, usize) {
     let (m, n) = matrix.shape();
     let mut inverse = DMatrix::zeros(n, m);
-    let largest = matrix.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
+    let largest = largest(matrix.as_slice());
     if largest == 0.0 || !matrix.iter().all(|x| x.is_finite()) {
         return (inverse, 0);
     }

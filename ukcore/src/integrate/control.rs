@@ -85,65 +85,11 @@ impl StepSize {
 /// The first step where nothing tells how fast things change, as a share of the run.
 const BLIND: f64 = 1e-6;
 
-/// First guess of the first step size: h for which an explicit Euler step changes y by a hundredth.
-#[derive(Debug, Clone, Copy)]
-struct Guess {
-    h: f64,
-    /// Norm of f at the start.
-    slope: f64,
-}
-
-impl Guess {
-    /// From pairs (y, f) at the start.
-    fn new(start: impl Iterator<Item = (f64, f64)>, tolerance: Tolerance, largest: f64) -> Self {
-        let (mut value, mut slope) = (0.0, 0.0);
-        for (y, rate) in start {
-            let weight = 1.0 / tolerance.at(y.abs());
-            value += (y * weight) * (y * weight);
-            slope += (rate * weight) * (rate * weight);
-        }
-        let h = if slope <= 1e-10 || value <= 1e-10 {
-            BLIND * largest
-        } else {
-            0.01 * f64::sqrt(value / slope)
-        };
-        Guess {
-            h: h.min(largest),
-            slope: slope.sqrt(),
-        }
-    }
-
-    /// The first step size, from triples (y, f, f after the Euler step of size `h`): h^order max(|f|, |f'|) = 0.01.
-    ///
-    /// NaN for the last one says that f could not be evaluated there; the first guess is then the best one.
-    fn refine(
-        self,
-        start: impl Iterator<Item = (f64, f64, f64)>,
-        order: f64,
-        tolerance: Tolerance,
-        largest: f64,
-    ) -> f64 {
-        let mut change = 0.0;
-        for (y, rate, after) in start {
-            let weighted = (after - rate) / tolerance.at(y.abs());
-            change += weighted * weighted;
-        }
-        let curvature = f64::sqrt(change) / self.h;
-        if curvature.is_nan() {
-            return self.h;
-        }
-        let steepest = curvature.max(self.slope);
-        let h = if steepest <= 1e-15 {
-            f64::max(BLIND * largest, 1e-3 * self.h)
-        } else {
-            f64::powf(0.01 / steepest, 1.0 / order)
-        };
-        h.min(100.0 * self.h).min(largest)
-    }
-}
-
-/// Sizes of the first steps of a method of order `order`, in each lane, from y and `rate`, which is f there, at `s`: by the first guess, and
-/// f after an Euler step of that size. They are at most `largest`, and have its sign.
+/// Sizes of the first steps of a method of order `order`, in each lane, from y and `rate`, which is f there, at `s`. They are at most
+/// `largest`, and have its sign.
+///
+/// A first guess is the h for which an explicit Euler step changes y by a hundredth. With f after such a step, h^order max(|f|, |f'|) =
+/// 0.01; where f has no value there, it stays with the guess.
 pub(super) fn first_size<L: Lanes>(
     rates: &mut impl Rates<L>,
     s: L,
@@ -152,26 +98,52 @@ pub(super) fn first_size<L: Lanes>(
     order: f64,
     tolerance: Tolerance<L>,
 ) -> L {
-    let start = y.iter().zip(rate);
-    let tolerance = |k: usize| Tolerance {
-        relative: tolerance.relative,
-        absolute: tolerance.absolute.lane(k),
+    let zero = L::from_f64(0.0);
+    let (mut value, mut slope, mut change) = (zero, zero, zero);
+    for (y, rate) in y.iter().zip(rate) {
+        let weight = tolerance.at(y.abs()).recip();
+        value = value + (*y * weight) * (*y * weight);
+        slope = slope + (*rate * weight) * (*rate * weight);
+    }
+    let blind = |k: usize| BLIND * largest.lane(k).abs();
+    let signed = |k: usize, h: f64| {
+        let largest = largest.lane(k);
+        h.min(largest.abs()).copysign(largest)
     };
-    let guess = |k: usize| {
-        let start = start.clone().map(|(y, rate)| (y.lane(k), rate.lane(k)));
-        Guess::new(start, tolerance(k), largest.lane(k).abs())
-    };
-    let h = L::from_lanes(|k| guess(k).h.copysign(largest.lane(k)));
-    let probe: Vec<L> = start.clone().map(|(y, rate)| *y + h * *rate).collect();
+    let guess = L::from_lanes(|k| {
+        let (value, slope) = (value.lane(k), slope.lane(k));
+        let still = slope <= 1e-10 || value <= 1e-10;
+        signed(
+            k,
+            if still {
+                blind(k)
+            } else {
+                0.01 * (value / slope).sqrt()
+            },
+        )
+    });
+    let pairs = y.iter().zip(rate);
+    let probe: Vec<L> = pairs.map(|(y, rate)| *y + guess * *rate).collect();
     let mut after = probe.clone();
-    if rates.rate(s + h, &probe, &mut after).is_err() {
-        return h;
+    if rates.rate(s + guess, &probe, &mut after).is_err() {
+        return guess;
+    }
+    for ((y, rate), after) in y.iter().zip(rate).zip(after) {
+        let weighted = (after - *rate) / tolerance.at(y.abs());
+        change = change + weighted * weighted;
     }
     L::from_lanes(|k| {
-        let start = start.clone().zip(&after);
-        let start = start.map(|((y, rate), after)| (y.lane(k), rate.lane(k), after.lane(k)));
-        let largest = largest.lane(k);
-        let h = guess(k).refine(start, order, tolerance(k), largest.abs());
-        h.copysign(largest)
+        let h = guess.lane(k).abs();
+        let curvature = change.lane(k).sqrt() / h;
+        if curvature.is_nan() {
+            return guess.lane(k);
+        }
+        let steepest = curvature.max(slope.lane(k).sqrt());
+        let refined = if steepest <= 1e-15 {
+            blind(k).max(1e-3 * h)
+        } else {
+            (0.01 / steepest).powf(order.recip())
+        };
+        signed(k, refined.min(100.0 * h))
     })
 }

@@ -44,55 +44,57 @@ struct Driver<'p> {
     landings: usize,
 }
 
-/// [`Method::run`](super::Method::run).
-pub(super) fn run(
-    method: Method,
-    problem: &mut dyn Problem,
-    t0: f64,
-    y0: &[f64],
-    t_end: f64,
-    settings: &Settings,
-) -> Report {
-    let tolerance = settings.tolerance;
-    let explicit = |stepper| {
-        let size = StepSize::default();
-        Box::new(Explicit { stepper, size })
-    };
-    let scheme: Box<dyn Scheme> = match method {
-        Method::Dop853 => explicit(Stepper::dop853(y0.to_vec(), tolerance)),
-        Method::Dopri5 => explicit(Stepper::dopri5(y0.to_vec(), tolerance)),
-        Method::Radau5 => Box::new(Radau::new(y0, tolerance)),
-        Method::Rattle { step } => Box::new(Rattle::new(y0, step, t_end - t0)),
-    };
-    let located = match method {
-        // Its steps are of one size.
-        Method::Rattle { .. } => 0,
-        _ => problem.switches(),
-    };
-    let mut driver = Driver {
-        equations: Equations {
-            problem,
-            switches: Switches::new(located, y0.len()),
-            course: Course::new(t0, t_end, settings),
-        },
-        settings,
-        scheme,
-        raw: y0.to_vec(),
-        goal: None,
-        repeated: 0,
-        landings: 0,
-    };
-    let outcome = driver.run();
-    let (scheme, course) = (driver.scheme, &mut driver.equations.course);
-    Report {
-        outcome: outcome.unwrap_or_else(|error| {
-            let here = Sample::of(course.now.t, scheme.start());
-            Outcome::Failed(course.explain(error, here))
-        }),
-        steps: course.steps,
-        rejected: course.rejected() - driver.repeated,
-        landings: driver.landings,
-        factorisations: scheme.factorisations(),
+impl Method {
+    /// Integrates from (t0, y0) to `t_end` ≠ t0, in either direction.
+    pub(crate) fn run(
+        self,
+        problem: &mut dyn Problem,
+        t0: f64,
+        y0: &[f64],
+        t_end: f64,
+        settings: &Settings,
+    ) -> Report {
+        let tolerance = settings.tolerance;
+        let explicit = |stepper| {
+            let size = StepSize::default();
+            Box::new(Explicit { stepper, size })
+        };
+        let scheme: Box<dyn Scheme> = match self {
+            Method::Dop853 => explicit(Stepper::dop853(y0.to_vec(), tolerance)),
+            Method::Dopri5 => explicit(Stepper::dopri5(y0.to_vec(), tolerance)),
+            Method::Radau5 => Box::new(Radau::new(y0, tolerance)),
+            Method::Rattle { step } => Box::new(Rattle::new(y0, step, t_end - t0)),
+        };
+        let located = match self {
+            // Its steps are of one size.
+            Method::Rattle { .. } => 0,
+            _ => problem.switches(),
+        };
+        let mut driver = Driver {
+            equations: Equations {
+                problem,
+                switches: Switches::new(located, y0.len()),
+                course: Course::new(t0, t_end, settings),
+            },
+            settings,
+            scheme,
+            raw: y0.to_vec(),
+            goal: None,
+            repeated: 0,
+            landings: 0,
+        };
+        let outcome = driver.run();
+        let (scheme, course) = (driver.scheme, &mut driver.equations.course);
+        Report {
+            outcome: outcome.unwrap_or_else(|error| {
+                let here = Sample::of(course.now.t, scheme.start());
+                Outcome::Failed(course.explain(error, here))
+            }),
+            steps: course.steps,
+            rejected: course.rejected() - driver.repeated,
+            landings: driver.landings,
+            factorisations: scheme.factorisations(),
+        }
     }
 }
 

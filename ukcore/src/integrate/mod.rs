@@ -238,17 +238,3 @@ pub(crate) struct Report {
     /// Steps that went onto zeros of switches.
     pub(crate) landings: usize,
 }
-
-impl Method {
-    /// Integrates from (t0, y0) to `t_end` ≠ t0, in either direction.
-    pub(crate) fn run(
-        self,
-        problem: &mut dyn Problem,
-        t0: f64,
-        y0: &[f64],
-        t_end: f64,
-        settings: &Settings,
-    ) -> Report {
-        driver::run(self, problem, t0, y0, t_end, settings)
-    }
-}
