@@ -10,7 +10,7 @@
 //! Each row of B (or Ĉ) is divided by its norm first. For consistent constraints that changes neither the set of q̈ with A q̈ = b
 //! nor, hence, the one of least norm in it, and rank decisions become independent of how a constraint is scaled.
 
-use crate::metric::{MassFault, Metric};
+use crate::metric::{MassFault, Metric, pivoted_cholesky};
 use crate::pinv::{Decomposition, axpy, dot};
 use crate::scan::largest;
 
@@ -178,42 +178,12 @@ impl Dense {
             }
         }
         let floor = INERTIA_ROUNDING * n as f64 * f64::EPSILON;
-        let z = &mut self.inertia;
-        let order = &mut self.inertia_order;
-        order.iter_mut().enumerate().for_each(|(i, o)| *o = i);
-        self.inertia_rank = d;
-        for k in 0..d {
-            let top = (k..d).fold(k, |b, i| if z[i * d + i] > z[b * d + b] { i } else { b });
-            if z[top * d + top] <= floor {
-                self.inertia_rank = k;
-                let lowest = (k..d).fold(k, |b, i| if z[i * d + i] < z[b * d + b] { i } else { b });
-                if z[lowest * d + lowest] < -floor {
-                    let column = &self.basis[order[lowest] * n..(order[lowest] + 1) * n];
-                    return Err(MassFault::Indefinite(position_of_largest(column)));
-                }
-                break;
-            }
-            if top != k {
-                order.swap(k, top);
-                for i in 0..d {
-                    z.swap(i * d + k, i * d + top);
-                }
-                for i in 0..d {
-                    z.swap(k * d + i, top * d + i);
-                }
-            }
-            // Right-looking, both triangles of the rest, since later interchanges need them.
-            let root = z[k * d + k].sqrt();
-            z[k * d + k] = root;
-            for i in k + 1..d {
-                z[k * d + i] /= root;
-            }
-            for j in k + 1..d {
-                let (done, rest) = z.split_at_mut(j * d);
-                let column = &done[k * d + k + 1..(k + 1) * d];
-                axpy(-done[k * d + j], column, &mut rest[k + 1..d]);
-            }
-        }
+        let order = &mut self.inertia_order[..d];
+        let rank = pivoted_cholesky(&mut self.inertia, order, floor);
+        self.inertia_rank = rank.map_err(|lowest| {
+            let column = &self.basis[order[lowest] * n..(order[lowest] + 1) * n];
+            MassFault::Indefinite(position_of_largest(column))
+        })?;
         Ok(())
     }
 

@@ -261,15 +261,15 @@ impl Decomposition {
             let column = &self.t[i * n..i * n + i + 1];
             y[i] = (y[i] - dot(&column[..i], &y[..i])) / column[i];
         }
-        self.rotate(&y[..r], x);
+        self.rotate(|z| z[..r].copy_from_slice(&y[..r]), x);
         self.work_m = y;
     }
 
-    /// x = Q \[y; 0\].
-    fn rotate(&mut self, y: &[f64], x: &mut [f64]) {
+    /// x = Q z, from what `set` makes of a z of zeros.
+    fn rotate(&mut self, set: impl FnOnce(&mut [f64]), x: &mut [f64]) {
         let mut z = std::mem::take(&mut self.work_n);
         z.fill(0.0);
-        z[..y.len()].copy_from_slice(y);
+        set(&mut z);
         (0..self.rank).rev().for_each(|k| self.reflect_q(k, &mut z));
         for (z, &i) in z.iter().zip(&self.row) {
             x[i] = *z;
@@ -277,9 +277,23 @@ impl Decomposition {
         self.work_n = z;
     }
 
+    /// x = Zᵀ y, from what `set` makes of a y of zeros.
+    fn rotate_back(&mut self, set: impl FnOnce(&mut [f64]), x: &mut [f64]) {
+        let mut y = std::mem::take(&mut self.work_m);
+        y.fill(0.0);
+        set(&mut y);
+        if self.rank < self.m {
+            (0..self.rank).for_each(|i| self.reflect_z(i, &mut y));
+        }
+        for (y, &c) in y.iter().zip(&self.col[..self.m]) {
+            x[c] = *y;
+        }
+        self.work_m = y;
+    }
+
     /// λ = (Cᵀ)⁺ x: of all λ that minimise |Cᵀ λ − x| the shortest.
     pub(crate) fn solve_transposed(&mut self, x: &[f64], lambda: &mut [f64]) {
-        let (n, m, r) = (self.n, self.m, self.rank);
+        let (n, r) = (self.n, self.rank);
         let mut z = std::mem::take(&mut self.work_n);
         for (z, &i) in z.iter_mut().zip(&self.row) {
             *z = x[i];
@@ -291,47 +305,24 @@ impl Decomposition {
             let s = z[i];
             axpy(-s, &self.t[i * n..i * n + i], &mut z[..i]);
         }
-        self.work_m[..r].copy_from_slice(&z[..r]);
+        self.rotate_back(|y| y[..r].copy_from_slice(&z[..r]), lambda);
         self.work_n = z;
-        let mut y = std::mem::take(&mut self.work_m);
-        y[r..].fill(0.0);
-        if r < m {
-            (0..r).for_each(|i| self.reflect_z(i, &mut y));
-        }
-        for c in 0..m {
-            lambda[self.col[c]] = y[c];
-        }
-        self.work_m = y;
     }
 
     /// Writes an orthonormal basis of the null space of C, n − rank columns of length n, into `basis` (column-major).
     pub(crate) fn null_space(&mut self, basis: &mut [f64]) {
         let (n, r) = (self.n, self.rank);
-        let mut z = std::mem::take(&mut self.work_n);
         for (j, column) in basis.chunks_exact_mut(n).take(n - r).enumerate() {
-            z.fill(0.0);
-            z[r + j] = 1.0;
-            (0..r).rev().for_each(|k| self.reflect_q(k, &mut z));
-            for (z, &i) in z.iter().zip(&self.row) {
-                column[i] = *z;
-            }
+            self.rotate(|z| z[r + j] = 1.0, column);
         }
-        self.work_n = z;
     }
 
     /// Writes an orthonormal basis of the null space of Cᵀ (the dependences among the rows of C), m − rank columns of length m.
     pub(crate) fn dependences(&mut self, basis: &mut [f64]) {
         let (m, r) = (self.m, self.rank);
-        let mut y = std::mem::take(&mut self.work_m);
         for (j, column) in basis.chunks_exact_mut(m).take(m - r).enumerate() {
-            y.fill(0.0);
-            y[r + j] = 1.0;
-            (0..r).for_each(|i| self.reflect_z(i, &mut y));
-            for (y, &c) in y.iter().zip(&self.col[..m]) {
-                column[c] = *y;
-            }
+            self.rotate_back(|y| y[r + j] = 1.0, column);
         }
-        self.work_m = y;
     }
 }
 

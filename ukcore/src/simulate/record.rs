@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::agenda::Agenda;
+use crate::assemble::State;
 use crate::error::Error;
 use crate::events::{Event, EventHit, States, Watch};
 use crate::integrate::Step;
@@ -106,13 +107,14 @@ impl<'s> Recorder<'s> {
             let event = &self.watch.events[crossing.event];
             let t = crossing.t;
             within.consistent(t, between)?;
-            let Sample { q, v, .. } = Sample::of(t, between);
+            let State { t, q, v } = Sample::of(t, between).to_state();
+            let (name, direction) = (event.name.clone(), crossing.direction);
             trajectory.events.push(EventHit {
-                name: event.name.clone(),
+                name,
                 t,
-                q: q.to_vec(),
-                v: v.to_vec(),
-                direction: crossing.direction,
+                q,
+                v,
+                direction,
             });
             if event.terminal {
                 t_stop = t;
@@ -167,14 +169,11 @@ impl<'s> Recorder<'s> {
 
     /// The state with which the run ended becomes its last sample, if samples are not at given times only.
     pub(super) fn finish(mut self) -> Trajectory {
-        let trajectory = &mut self.trajectory;
-        if let Some(end) = &trajectory.end
+        if let Some(end) = self.trajectory.end.clone()
             && self.agenda.wants_ends()
             && self.sampled.is_some_and(|t| t != end.t)
         {
-            trajectory.times.push(end.t);
-            trajectory.states.extend_from_slice(&end.q);
-            trajectory.states.extend_from_slice(&end.v);
+            self.trajectory.push(Sample::from(&end));
         }
         self.hand_over();
         self.trajectory
