@@ -1,9 +1,10 @@
 //! Where a run stands, which step it tries next, and what became of those before: the same for a run of its own and for each lane of an
 //! ensemble.
 
-use super::Settings;
+use super::dense::Interpolant;
 use super::sample::Sample;
 use super::trouble::{Cause, Conflict, Pace, Trouble};
+use super::{Settings, Step};
 use crate::error::Error;
 
 /// A step is the last one if what would remain behind it is less than this part of it.
@@ -194,14 +195,34 @@ impl Course {
         s.is_some_and(|s| s - END_ROUNDING * s.abs() <= self.along * trial.end.s)
     }
 
+    /// What is to be seen of `trial`, with these states at its start and its end and the coefficients of its interpolant.
+    pub(crate) fn show<'a>(
+        &self,
+        trial: Trial,
+        [old, new]: [&'a [f64]; 2],
+        coefficients: Option<&'a [f64]>,
+    ) -> Step<'a> {
+        let Trial { start, end, h, .. } = trial;
+        Step {
+            old: Sample::of(start.t, old),
+            new: Sample::of(end.t, new),
+            interpolant: coefficients.map(|coefficients| Interpolant {
+                t0: self.t0,
+                s: start.s,
+                h,
+                coefficients,
+            }),
+        }
+    }
+
     /// `trial` is accepted, with these states at its start and its end.
     pub(crate) fn advance<Y: AsRef<[f64]>>(
         &mut self,
         trial: Trial,
-        states: impl FnOnce() -> (Y, Y),
+        states: impl FnOnce() -> [Y; 2],
     ) {
         if self.pace.watches() {
-            let (old, new) = states();
+            let [old, new] = states();
             let time = trial.end.t - self.now.t;
             self.pace.step(time, old.as_ref(), new.as_ref());
         }

@@ -2,7 +2,6 @@
 
 use super::control::StepSize;
 use super::course::{Course, Trial};
-use super::dense::Interpolant;
 use super::explicit::Explicit;
 use super::radau::Radau;
 use super::rattle::Rattle;
@@ -12,7 +11,7 @@ use super::stepper::Stepper;
 use super::sums::error_norm;
 use super::switches::{Leaving, Switches};
 use super::trouble::{Cause, Trouble};
-use super::{Method, Next, Outcome, PROJECTION_LIMIT, Problem, Report, Settings, Step};
+use super::{Method, Next, Outcome, PROJECTION_LIMIT, Problem, Report, Settings};
 use crate::error::Error;
 use crate::scan::{all_finite, all_pairs};
 use switching::Goal;
@@ -167,10 +166,8 @@ impl Driver<'_> {
         let error = early.max(late);
         let interpolated = self.stay(trial, error)?;
         let next = self.show(trial, interpolated)?;
-        let scheme = &mut self.scheme;
-        let states = || (scheme.start(), scheme.end());
-        self.equations.course.advance(trial, states);
-        scheme.advance();
+        (self.equations.course).advance(trial, || self.scheme.states());
+        self.scheme.advance();
         Ok((next, error))
     }
 
@@ -190,7 +187,7 @@ impl Driver<'_> {
         let (q, v) = self.scheme.end_mut().split_at_mut(raw.q.len());
         let projected = problem.project(t, q, v);
         projected.map_err(|error| Refusal::End(course.note(raw, error)))?;
-        let (old, new) = (self.scheme.start(), self.scheme.end());
+        let [old, new] = self.scheme.states();
         // No weight of the norm is above 1 / absolute tolerance.
         let tolerance = self.settings.tolerance;
         let least = PROJECTION_LIMIT * tolerance.absolute;
@@ -221,20 +218,10 @@ impl Driver<'_> {
             let stages = self.scheme.interpolate(equations, trial);
             stages.map_err(Refusal::End)?;
         }
-        let Trial { start, end, h, .. } = trial;
-        let new = Sample::of(end.t, self.scheme.end());
-        let step = Step {
-            old: Sample::of(start.t, self.scheme.start()),
-            new,
-            interpolant: wanted.then_some(Interpolant {
-                t0: equations.course.t0,
-                s: start.s,
-                h,
-                coefficients: self.scheme.dense(),
-            }),
-        };
+        let coefficients = wanted.then(|| self.scheme.dense());
+        let step = (equations.course).show(trial, self.scheme.states(), coefficients);
         let shown = equations.problem.step(&step);
-        shown.map_err(|error| Refusal::End(Some(Box::new(Trouble::new(new, error)))))
+        shown.map_err(|error| Refusal::End(Some(Box::new(Trouble::new(step.new, error)))))
     }
 }
 

@@ -13,12 +13,8 @@ pub(super) struct Explicit {
 }
 
 impl Scheme for Explicit {
-    fn start(&self) -> &[f64] {
-        self.stepper.start()
-    }
-
-    fn end(&self) -> &[f64] {
-        self.stepper.end()
+    fn states(&self) -> [&[f64]; 2] {
+        self.stepper.states()
     }
 
     fn end_mut(&mut self) -> &mut [f64] {

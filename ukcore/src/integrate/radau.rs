@@ -199,12 +199,8 @@ impl Radau {
 }
 
 impl Scheme for Radau {
-    fn start(&self) -> &[f64] {
-        &self.start
-    }
-
-    fn end(&self) -> &[f64] {
-        &self.end
+    fn states(&self) -> [&[f64]; 2] {
+        [&self.start, &self.end]
     }
 
     fn end_mut(&mut self) -> &mut [f64] {

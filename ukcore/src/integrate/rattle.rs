@@ -108,12 +108,8 @@ fn add(x: &mut [f64], lost: &mut [f64], c: f64, d: &[f64]) {
 }
 
 impl Scheme for Rattle {
-    fn start(&self) -> &[f64] {
-        &self.start
-    }
-
-    fn end(&self) -> &[f64] {
-        &self.end
+    fn states(&self) -> [&[f64]; 2] {
+        [&self.start, &self.end]
     }
 
     fn end_mut(&mut self) -> &mut [f64] {

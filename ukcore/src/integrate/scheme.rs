@@ -66,11 +66,18 @@ impl Equations<'_> {
 /// [`interpolate`](Scheme::interpolate) if wanted, [`advance`](Scheme::advance), [`accepted`](Scheme::accepted). Where one of them fails,
 /// what follows is left out, [`inaccurate`](Scheme::inaccurate) or [`unfit`](Scheme::unfit) shortens the step, and it is tried again.
 pub(super) trait Scheme {
-    /// State at the start of a step, where the run stands.
-    fn start(&self) -> &[f64];
+    /// State at the start of a step, where the run stands, and at the end of the attempted step.
+    fn states(&self) -> [&[f64]; 2];
+
+    /// State at the start of a step.
+    fn start(&self) -> &[f64] {
+        self.states()[0]
+    }
 
     /// State at the end of the attempted step.
-    fn end(&self) -> &[f64];
+    fn end(&self) -> &[f64] {
+        self.states()[1]
+    }
 
     /// The same, to be projected before the step is closed.
     fn end_mut(&mut self) -> &mut [f64];

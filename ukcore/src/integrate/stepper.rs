@@ -109,14 +109,9 @@ impl<S: Scalar> Stepper<S> {
         &self.tableau.control
     }
 
-    /// State at the start of the step.
-    pub(crate) fn start(&self) -> &[S] {
-        &self.start
-    }
-
-    /// State at the end of the attempted step.
-    pub(crate) fn end(&self) -> &[S] {
-        &self.end
+    /// State at the start of the step, and at the end of the attempted one.
+    pub(crate) fn states(&self) -> [&[S]; 2] {
+        [&self.start, &self.end]
     }
 
     /// State at the end of the attempted step, to be projected before [`close`](Stepper::close).

@@ -107,7 +107,7 @@ impl Ensemble {
         let next = AtomicUsize::new(0);
         // Few members are shared out evenly.
         let capacity = self.members.len().div_ceil(threads);
-        let run = |_| Group::new(self, &self.lanes, mechanism, t_end, &next, capacity).run();
+        let run = |_| Group::new(self, mechanism, t_end, &next, capacity).run();
         let parts: Vec<_> = (0..threads).into_par_iter().map(run).collect();
         let mut all: Vec<_> = parts.into_iter().flatten().collect();
         all.sort_by_key(|(index, _)| *index);

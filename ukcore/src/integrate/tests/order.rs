@@ -48,7 +48,7 @@ fn march<S: Scalar>(method: Method, t: S, h: S, y: &mut [S], steps: usize) {
         stepper.close(&mut Smooth, t, h).unwrap();
         stepper.advance(|new, _| new);
     }
-    y.copy_from_slice(stepper.start());
+    y.copy_from_slice(stepper.states()[0]);
 }
 
 #[test]

@@ -4,45 +4,46 @@ use std::convert::Infallible;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::running::Running;
-use super::{Ensemble, Member};
+use super::{Ensemble, Member, Wide};
 use crate::error::Error;
 use crate::integrate::sample::Sample;
 use crate::integrate::{PROJECTION_LIMIT, Rates, Stepper, Tolerance, error_norm};
 use crate::lanes::{LaneSolver, Lanes};
 use crate::manifold::Newton;
 use crate::mechanism::Prepared;
+use crate::scalar::Scalar;
 
 /// As many members as there are lanes, at most.
-pub(super) struct Group<'a, L: Lanes> {
+pub(super) struct Group<'a> {
     ensemble: &'a Ensemble,
     t_end: f64,
     /// The next member that nobody has taken.
     next: &'a AtomicUsize,
     /// Lanes that are used.
     capacity: usize,
-    stepper: Stepper<L>,
-    newton: Newton<L>,
-    members: Members<L>,
+    stepper: Stepper<Wide>,
+    newton: Newton<Wide>,
+    members: Members,
     /// State at the end of a step before its projection.
-    raw: Vec<L>,
+    raw: Vec<Wide>,
     results: Vec<(usize, Result<Member, Error>)>,
 }
 
 /// The members and their right-hand sides.
-struct Members<L: Lanes> {
-    solver: LaneSolver<L>,
+struct Members {
+    solver: LaneSolver<Wide>,
     lanes: Vec<Option<Running>>,
     /// Lanes that take part in the evaluation.
     alive: Vec<bool>,
     /// Start times.
-    t0: L,
+    t0: Wide,
 }
 
-impl<L: Lanes> Rates<L> for Members<L> {
+impl Rates<Wide> for Members {
     type Error = Infallible;
 
     /// Lanes where y' does not exist take no further part.
-    fn rate(&mut self, s: L, y: &[L], rate: &mut [L]) -> Result<(), Infallible> {
+    fn rate(&mut self, s: Wide, y: &[Wide], rate: &mut [Wide]) -> Result<(), Infallible> {
         let t = self.t0 + s;
         let (q, v) = y.split_at(y.len() / 2);
         let (q_rate, v_rate) = rate.split_at_mut(q.len());
@@ -65,7 +66,7 @@ impl<L: Lanes> Rates<L> for Members<L> {
     }
 }
 
-impl<L: Lanes> Members<L> {
+impl Members {
     /// What runs in the lanes of `which`, with their numbers.
     fn running(&mut self, which: &[bool]) -> impl Iterator<Item = (usize, &mut Running)> {
         let lanes = self.lanes.iter_mut().enumerate();
@@ -73,52 +74,52 @@ impl<L: Lanes> Members<L> {
     }
 
     /// A number with f of each running member, 0 in idle lanes.
-    fn each(&self, f: impl Fn(&Running) -> f64) -> L {
-        L::from_lanes(|k| self.lanes[k].as_ref().map_or(0.0, &f))
+    fn each(&self, f: impl Fn(&Running) -> f64) -> Wide {
+        Wide::from_lanes(|k| self.lanes[k].as_ref().map_or(0.0, &f))
     }
 }
 
-fn lane<L: Lanes>(all: &[L], k: usize) -> Vec<f64> {
+fn lane(all: &[Wide], k: usize) -> Vec<f64> {
     all.iter().map(|x| x.lane(k)).collect()
 }
 
-fn mask<L: Lanes>(which: &[bool]) -> L {
-    L::from_lanes(|k| f64::from(u8::from(which[k])))
+fn mask(which: &[bool]) -> Wide {
+    Wide::from_lanes(|k| f64::from(u8::from(which[k])))
 }
 
 /// Takes the new one of two numbers in the lanes of `which`, the old one in the others.
-fn choose<L: Lanes>(which: &[bool]) -> impl Fn(L, L) -> L {
-    let which = mask::<L>(which);
-    move |new, old| L::select_le(L::from_f64(0.5), which, new, old)
+fn choose(which: &[bool]) -> impl Fn(Wide, Wide) -> Wide {
+    let which = mask(which);
+    move |new, old| Wide::select_le(Wide::from_f64(0.5), which, new, old)
 }
 
-impl<'a, L: Lanes> Group<'a, L> {
-    /// For members of the type of `mechanism`, which is `lanes` alone.
+impl<'a> Group<'a> {
+    /// For members of the type of `mechanism`.
     pub(super) fn new(
         ensemble: &'a Ensemble,
-        lanes: &Prepared<L>,
         mechanism: &Prepared,
         t_end: f64,
         next: &'a AtomicUsize,
         capacity: usize,
     ) -> Self {
-        let zeros = vec![L::from_f64(0.0); 2 * lanes.spec().n()];
+        let spec = mechanism.spec();
+        let zeros = vec![Wide::from_f64(0.0); 2 * spec.n()];
         let tolerance = Tolerance {
             relative: ensemble.tolerance,
-            absolute: L::from_f64(0.0),
+            absolute: Wide::from_f64(0.0),
         };
         Group {
             ensemble,
             t_end,
             next,
-            capacity: capacity.min(L::WIDTH),
+            capacity: capacity.min(Wide::WIDTH),
             stepper: Stepper::dop853(zeros.clone(), tolerance),
-            newton: Newton::new(lanes.spec()),
+            newton: Newton::new(spec),
             members: Members {
-                solver: LaneSolver::with(lanes.clone(), mechanism.clone()),
-                lanes: (0..L::WIDTH).map(|_| None).collect(),
-                alive: vec![false; L::WIDTH],
-                t0: L::from_f64(0.0),
+                solver: LaneSolver::with(ensemble.lanes.clone(), mechanism.clone()),
+                lanes: (0..Wide::WIDTH).map(|_| None).collect(),
+                alive: vec![false; Wide::WIDTH],
+                t0: Wide::from_f64(0.0),
             },
             raw: zeros,
             results: Vec::new(),
@@ -139,12 +140,12 @@ impl<'a, L: Lanes> Group<'a, L> {
 
     /// Gives idle lanes the next members, evaluates f at their starts, and chooses their first step sizes. Returns whether there were any.
     fn refill(&mut self) -> bool {
-        let fresh: Vec<bool> = (0..L::WIDTH).map(|k| self.admit(k)).collect();
+        let fresh: Vec<bool> = (0..Wide::WIDTH).map(|k| self.admit(k)).collect();
         if !fresh.contains(&true) {
             return false;
         }
         self.members.alive.clone_from(&fresh);
-        let (members, s) = (&mut self.members, L::from_f64(0.0));
+        let (members, s) = (&mut self.members, Wide::from_f64(0.0));
         let Ok(()) = self.stepper.begin(members, s, choose(&fresh));
         for (k, fresh) in fresh.iter().enumerate() {
             if *fresh && !self.members.alive[k] {
@@ -194,24 +195,23 @@ impl<'a, L: Lanes> Group<'a, L> {
 
     /// Chooses the steps to be tried; members that cannot go on end here.
     fn plan(&mut self) {
-        for k in 0..L::WIDTH {
-            let planned = match &mut self.members.lanes[k] {
-                Some(running) => running.course.plan(None).map(|trial| running.trial = trial),
-                None => continue,
+        for k in 0..Wide::WIDTH {
+            self.members.alive[k] = false;
+            let Some(running) = &mut self.members.lanes[k] else {
+                continue;
             };
-            self.members.alive[k] = planned.is_ok();
-            if let Err(error) = planned {
-                self.fail(k, error);
+            match running.course.plan(None) {
+                Ok(trial) => (running.trial, self.members.alive[k]) = (trial, true),
+                Err(error) => self.fail(k, error),
             }
         }
     }
 
     /// Ends the member in lane `k` with `error`, or with what lies behind it.
     fn fail(&mut self, k: usize, error: Error) {
-        self.members.alive[k] = false;
         if let Some(running) = self.members.lanes[k].take() {
             let index = running.index;
-            let error = running.fail(error, &lane(self.stepper.start(), k));
+            let error = running.fail(error, &lane(self.stepper.states()[0], k));
             self.results.push((index, Err(error)));
         }
     }
@@ -221,7 +221,10 @@ impl<'a, L: Lanes> Group<'a, L> {
         let Some(running) = self.members.lanes[k].take_if(|running| running.has_arrived()) else {
             return false;
         };
-        let (y, work) = (lane(self.stepper.start(), k), self.members.solver.work(k));
+        let (y, work) = (
+            lane(self.stepper.states()[0], k),
+            self.members.solver.work(k),
+        );
         self.results
             .push((running.index, Ok(running.finish(&y, work))));
         true
@@ -237,16 +240,15 @@ impl<'a, L: Lanes> Group<'a, L> {
         let control = stepper.control();
         let tried = members.alive.clone();
         let Ok(errors) = stepper.attempt(members, start, step);
-        let mut alive = members.alive.clone();
+        let mut judged = members.alive.clone();
         for (k, running) in members.running(&tried) {
-            let error = if alive[k] { errors.lane(k) } else { f64::NAN };
-            alive[k] &= error <= 1.0;
-            if !alive[k] {
+            let error = if judged[k] { errors.lane(k) } else { f64::NAN };
+            judged[k] = error <= 1.0;
+            if !judged[k] {
                 running.course.h = running.size.inaccurate(control, running.trial.h, error);
             }
         }
-        members.alive.clone_from(&alive);
-        let judged = alive;
+        members.alive.clone_from(&judged);
         self.project();
         let (stepper, members) = (&mut self.stepper, &mut self.members);
         let end = members.each(|r| r.trial.end.s);
@@ -257,15 +259,14 @@ impl<'a, L: Lanes> Group<'a, L> {
         for (k, running) in members.running(&judged) {
             let (trial, course, size) = (running.trial, &mut running.course, &mut running.size);
             if alive[k] {
-                let (old, new) = (stepper.start(), stepper.end());
-                course.advance(trial, || (lane(old, k), lane(new, k)));
+                course.advance(trial, || stepper.states().map(|y| lane(y, k)));
                 course.propose(size.accepted(control, trial.h, errors.lane(k)));
             } else {
                 course.h = size.unfit(trial.h);
             }
         }
         stepper.advance(choose(&alive));
-        for k in (0..L::WIDTH).filter(|&k| alive[k]) {
+        for k in (0..Wide::WIDTH).filter(|&k| alive[k]) {
             self.finish(k);
         }
     }
@@ -273,10 +274,10 @@ impl<'a, L: Lanes> Group<'a, L> {
     /// Projects the new states. Lanes where that fails, or the change says that the step was a bad one, take no further part.
     fn project(&mut self) {
         let members = &mut self.members;
-        let wanted = mask::<L>(&members.alive);
+        let wanted = mask(&members.alive);
         let t = members.each(|r| r.trial.end.t);
         let absolute = members.each(|r| r.settings.tolerance.absolute);
-        self.raw.copy_from_slice(self.stepper.end());
+        self.raw.copy_from_slice(self.stepper.states()[1]);
         let new = self.stepper.end_mut();
         let (q, v) = new.split_at_mut(new.len() / 2);
         let prepared = members.solver.prepared();
@@ -294,11 +295,8 @@ impl<'a, L: Lanes> Group<'a, L> {
             let pairs = new.iter_mut().zip(y);
             pairs.for_each(|(new, y)| new.set_lane(k, y));
         }
-        let changes = self
-            .raw
-            .iter()
-            .zip(self.stepper.end())
-            .zip(self.stepper.start());
+        let [old, new] = self.stepper.states();
+        let changes = self.raw.iter().zip(new).zip(old);
         let changes = changes.map(|((raw, new), old)| (*new - *raw, *old, *raw));
         let relative = self.ensemble.tolerance;
         let change = error_norm(changes, Tolerance { relative, absolute });
@@ -309,27 +307,25 @@ impl<'a, L: Lanes> Group<'a, L> {
     }
 
     /// Takes the samples within the closed steps. Lanes where one fails take no further part.
-    fn record(&mut self, start: L, step: L) {
+    fn record(&mut self, start: Wide, step: Wide) {
         let (stepper, members) = (&mut self.stepper, &mut self.members);
         let alive = members.alive.clone();
-        let wants = |k: usize| {
-            members.lanes[k]
-                .as_ref()
-                .is_some_and(Running::wants_interpolant)
-        };
-        let wanted: Vec<bool> = (0..L::WIDTH).map(|k| alive[k] && wants(k)).collect();
+        let mut wanted = vec![false; Wide::WIDTH];
+        for (k, running) in members.running(&alive) {
+            wanted[k] = running.wants_interpolant();
+        }
         if !wanted.contains(&true) {
             return;
         }
         members.alive.clone_from(&wanted);
         let Ok(()) = stepper.interpolate(members, start, step);
-        let mut alive: Vec<bool> = (0..L::WIDTH)
-            .map(|k| members.alive[k] || alive[k] && !wanted[k])
-            .collect();
-        for (k, running) in members.running(&wanted) {
-            let parts = [stepper.start(), stepper.end(), stepper.dense()];
-            alive[k] = alive[k] && running.record(parts.map(|part| lane(part, k)));
+        let mut done = std::mem::replace(&mut members.alive, alive);
+        for (k, running) in members.running(&done.clone()) {
+            let states = stepper.states().map(|y| lane(y, k));
+            done[k] = running.record(states, &lane(stepper.dense(), k));
         }
-        members.alive = alive;
+        for (k, alive) in members.alive.iter_mut().enumerate() {
+            *alive &= done[k] || !wanted[k];
+        }
     }
 }

@@ -3,7 +3,7 @@
 use super::Member;
 use crate::error::Error;
 use crate::integrate::sample::Sample;
-use crate::integrate::{Course, Interpolant, Settings, Step, StepSize, Trial};
+use crate::integrate::{Course, Settings, StepSize, Trial};
 use crate::simulate::Simulation;
 use crate::simulate::record::Recorder;
 use crate::solver::SolverWork;
@@ -66,21 +66,10 @@ impl Running {
 
     /// Takes the samples of the step in hand, from states at its ends and the coefficients of its interpolant; none of them, with `false`,
     /// if one fails.
-    pub(super) fn record(&mut self, [old, new, coefficients]: [Vec<f64>; 3]) -> bool {
-        let Trial { start, end, h, .. } = self.trial;
-        let new = Sample::of(end.t, &new);
-        let interpolant = Interpolant {
-            t0: self.course.t0,
-            s: start.s,
-            h,
-            coefficients: &coefficients[..],
-        };
-        let recorded = self.recorder.step(&Step {
-            old: Sample::of(start.t, &old),
-            new,
-            interpolant: Some(interpolant),
-        });
-        recorded.map_err(|error| self.note(new, error)).is_ok()
+    pub(super) fn record(&mut self, [old, new]: [Vec<f64>; 2], coefficients: &[f64]) -> bool {
+        let step = (self.course).show(self.trial, [&old, &new], Some(coefficients));
+        let recorded = self.recorder.step(&step);
+        recorded.map_err(|error| self.note(step.new, error)).is_ok()
     }
 
     /// Why the member ends with `error` at the state `y`, where it stands.
