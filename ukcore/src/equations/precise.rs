@@ -29,20 +29,27 @@ pub fn accelerations<M: Mechanism>(
     let mut terms = Evaluated::new(n, m);
     let prepared = mechanism.prepared::<DoubleDouble>();
     terms.dynamics(&prepared, DoubleDouble::from_f64(t), &q, &v);
+    let Evaluated {
+        mass,
+        force,
+        nonideal,
+        jacobian,
+        rhs,
+    } = terms;
     let size = n + m;
     let mut rows = vec![vec![DoubleDouble::from_f64(0.0); size + 1]; size];
     for i in 0..n {
         for j in 0..n {
-            rows[i][j] = terms.mass[j * n + i];
+            rows[i][j] = mass[j * n + i];
         }
         for c in 0..m {
-            rows[i][n + c] = terms.jacobian[i * m + c];
-            rows[n + c][i] = terms.jacobian[i * m + c];
+            rows[i][n + c] = jacobian[i * m + c];
+            rows[n + c][i] = jacobian[i * m + c];
         }
-        rows[i][size] = terms.force[i] + terms.nonideal[i];
+        rows[i][size] = force[i] + nonideal[i];
     }
     for c in 0..m {
-        rows[n + c][size] = terms.rhs[c];
+        rows[n + c][size] = rhs[c];
     }
     solve(rows)?.into_iter().take(n).collect()
 }
