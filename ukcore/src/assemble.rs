@@ -87,13 +87,13 @@ impl Residuals {
     /// Largest |φ|; 0 without holonomic constraints.
     #[must_use]
     pub fn largest_position(&self) -> f64 {
-        self.position.iter().fold(0.0, |s, r| s.max(r.abs()))
+        largest(&self.position)
     }
 
     /// Largest |φ̇| or |ψ|; 0 without constraints.
     #[must_use]
     pub fn largest_velocity(&self) -> f64 {
-        self.velocity.iter().fold(0.0, |s, r| s.max(r.abs()))
+        largest(&self.velocity)
     }
 }
 

@@ -10,46 +10,13 @@
 //! Each row of B (or Ĉ) is divided by its norm first. For consistent constraints that changes neither the set of q̈ with A q̈ = b
 //! nor, hence, the one of least norm in it, and rank decisions become independent of how a constraint is scaled.
 
-use crate::mechanism::{Prepared, Terms};
-use crate::metric::{MassFault, Metric};
+use crate::metric::{MassFault, Metric, pivoted_cholesky};
 use crate::pinv::{Decomposition, axpy, dot};
+use crate::scan::largest;
 
 /// A pivot of Nᵀ M̂ N (M̂ has unit diagonal where there is mass) counts as zero below this multiple of n ε: errors of the basis
 /// N and of the product are a few n ε.
 const INERTIA_ROUNDING: f64 = 64.0;
-
-/// Buffers of [`Mechanism::dynamics`](crate::Mechanism::dynamics).
-#[derive(Debug, Clone)]
-pub(crate) struct Evaluated {
-    pub(crate) mass: Vec<f64>,
-    pub(crate) force: Vec<f64>,
-    pub(crate) nonideal: Vec<f64>,
-    pub(crate) jacobian: Vec<f64>,
-    pub(crate) rhs: Vec<f64>,
-}
-
-impl Evaluated {
-    pub(crate) fn new(n: usize, m: usize) -> Self {
-        Evaluated {
-            mass: vec![0.0; n * n],
-            force: vec![0.0; n],
-            nonideal: vec![0.0; n],
-            jacobian: vec![0.0; m * n],
-            rhs: vec![0.0; m],
-        }
-    }
-
-    pub(crate) fn dynamics(&mut self, mech: &Prepared, t: f64, q: &[f64], v: &[f64]) {
-        let mut terms = Terms {
-            mass: &mut self.mass,
-            force: &mut self.force,
-            nonideal: &mut self.nonideal,
-            jacobian: &mut self.jacobian,
-            rhs: &mut self.rhs,
-        };
-        mech.dynamics(t, q, v, &mut terms);
-    }
-}
 
 /// Some rows of A (m × n, column-major): the first `rows`.
 #[derive(Debug, Clone, Copy)]
@@ -168,7 +135,7 @@ impl Dense {
             column.iter_mut().zip(a.row(c)).for_each(|(x, a)| *x = a);
             self.metric.divide(column);
             // In two steps, so that rows of any magnitude have a norm.
-            let largest = column.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
+            let largest = largest(column);
             self.row_scale[c] = 0.0;
             self.significance[c] = 0.0;
             if largest > 0.0 {
@@ -211,42 +178,12 @@ impl Dense {
             }
         }
         let floor = INERTIA_ROUNDING * n as f64 * f64::EPSILON;
-        let z = &mut self.inertia;
-        let order = &mut self.inertia_order;
-        order.iter_mut().enumerate().for_each(|(i, o)| *o = i);
-        self.inertia_rank = d;
-        for k in 0..d {
-            let top = (k..d).fold(k, |b, i| if z[i * d + i] > z[b * d + b] { i } else { b });
-            if z[top * d + top] <= floor {
-                self.inertia_rank = k;
-                let lowest = (k..d).fold(k, |b, i| if z[i * d + i] < z[b * d + b] { i } else { b });
-                if z[lowest * d + lowest] < -floor {
-                    let column = &self.basis[order[lowest] * n..(order[lowest] + 1) * n];
-                    return Err(MassFault::Indefinite(position_of_largest(column)));
-                }
-                break;
-            }
-            if top != k {
-                order.swap(k, top);
-                for i in 0..d {
-                    z.swap(i * d + k, i * d + top);
-                }
-                for i in 0..d {
-                    z.swap(k * d + i, top * d + i);
-                }
-            }
-            // Right-looking, both triangles of the rest, since later interchanges need them.
-            let root = z[k * d + k].sqrt();
-            z[k * d + k] = root;
-            for i in k + 1..d {
-                z[k * d + i] /= root;
-            }
-            for j in k + 1..d {
-                let (done, rest) = z.split_at_mut(j * d);
-                let column = &done[k * d + k + 1..(k + 1) * d];
-                axpy(-done[k * d + j], column, &mut rest[k + 1..d]);
-            }
-        }
+        let order = &mut self.inertia_order[..d];
+        let rank = pivoted_cholesky(&mut self.inertia, order, floor);
+        self.inertia_rank = rank.map_err(|lowest| {
+            let column = &self.basis[order[lowest] * n..(order[lowest] + 1) * n];
+            MassFault::Indefinite(position_of_largest(column))
+        })?;
         Ok(())
     }
 
@@ -281,7 +218,7 @@ impl Dense {
             ) {
                 axpy(*y, &self.basis[o * n..(o + 1) * n], &mut direction);
             }
-            let largest = direction.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
+            let largest = largest(&direction);
             for (s, x) in share.iter_mut().zip(&direction) {
                 *s = s.max(x.abs() / largest);
             }
@@ -291,10 +228,15 @@ impl Dense {
 
     /// The shortest Δ (in the metric, or in scaled coordinates if M is singular) with A Δ = `rhs`, into `out`.
     pub(crate) fn least_norm(&mut self, rhs: &[f64], out: &mut [f64]) {
+        self.least_scaled(rhs, out);
+        self.metric.divide_transposed(out);
+    }
+
+    /// The same in scaled coordinates.
+    fn least_scaled(&mut self, rhs: &[f64], out: &mut [f64]) {
         let scaled = self.scaled_rhs.iter_mut().zip(&self.row_scale).zip(rhs);
         scaled.for_each(|((x, s), b)| *x = s * b);
         self.cod.solve(&self.scaled_rhs, out);
-        self.metric.divide_transposed(out);
     }
 
     /// q̈ with M q̈ = f + Aᵀλ and A q̈ = b into `out`. Directions without inertia stay at rest: see [`Dense::determined`].
@@ -324,20 +266,15 @@ impl Dense {
             None => out.fill(0.0),
         }
         self.unconstrained.copy_from_slice(out);
-        for (c, b) in rhs[..a.rows].iter().enumerate() {
-            self.scaled_rhs[c] = self.row_scale[c] * (b - a.product(c, out));
-        }
-        self.cod.solve(&self.scaled_rhs, &mut self.reaction);
-        self.work.copy_from_slice(&self.reaction);
-        self.metric.divide_transposed(&mut self.work);
-        axpy(1.0, &self.work, out);
+        self.refine(a, rhs, out);
+        self.reaction.copy_from_slice(&self.reduced);
         self.refine(a, rhs, out);
         axpy(1.0, &self.reduced, &mut self.reaction);
     }
 
-    /// Takes the residual b − A q̈ that rounding left off q̈, once: where rows nearly imply each other, and the constraints cancel most
-    /// of what the forces do, the error is that of the forces' part divided by the significance; what a second solve leaves is that of q̈
-    /// itself. The change of the scaled accelerations is then in `reduced`.
+    /// Takes the residual b − A q̈ off q̈, once for the constraints and once for rounding: where rows nearly imply each other, and the
+    /// constraints cancel most of what the forces do, the error is that of the forces' part divided by the significance; what a second
+    /// solve leaves is that of q̈ itself. The change of the scaled accelerations is then in `reduced`.
     fn refine(&mut self, a: Rows<'_>, rhs: &[f64], out: &mut [f64]) {
         for (c, b) in rhs[..a.rows].iter().enumerate() {
             self.scaled_rhs[c] = self.row_scale[c] * (b - a.product(c, out));
@@ -358,9 +295,7 @@ impl Dense {
         let (n, k) = (self.n, self.inertia_rank);
         let d = n - self.cod.rank();
         self.unconstrained.fill(0.0);
-        let scaled = self.scaled_rhs.iter_mut().zip(&self.row_scale).zip(rhs);
-        scaled.for_each(|((x, s), b)| *x = s * b);
-        self.cod.solve(&self.scaled_rhs, out);
+        self.least_scaled(rhs, out);
         // L⁻¹ f − M̂ Ĉ⁺ b.
         weigh(mass, &self.metric, out, &mut self.work);
         match force {
@@ -440,7 +375,7 @@ impl Dense {
 }
 
 fn normalise(x: &mut [f64]) {
-    let largest = x.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
+    let largest = largest(x);
     if largest > 0.0 {
         x.iter_mut().for_each(|x| *x /= largest);
         let norm = dot(x, x).sqrt();

@@ -2,9 +2,9 @@
 
 use std::fmt;
 
-use crate::dense::Evaluated;
 use crate::error::Error;
-use crate::mechanism::Prepared;
+use crate::mechanism::{Evaluated, Prepared};
+use crate::scan::largest;
 use crate::spec::Spec;
 
 /// A coordinate or constraint takes part in a finding if its share is at least this much of the largest one's. Shares that are
@@ -57,7 +57,7 @@ impl fmt::Display for Diagnosis {
 
 /// Names of the coordinates whose share is significant.
 pub(crate) fn participating(spec: &Spec, shares: &[f64]) -> Vec<String> {
-    let largest = shares.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
+    let largest = largest(shares);
     let pairs = spec.coords.iter().zip(shares);
     pairs
         .filter(|(_, x)| x.abs() > PARTICIPATION * largest)

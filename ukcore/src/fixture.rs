@@ -473,26 +473,15 @@ fn body_rates<S: Scalar>(e: &[S]) -> [[S; 4]; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mechanism::Terms;
+    use crate::mechanism::Evaluated;
 
     #[test]
     fn b_and_a_of_the_pendulum() {
         let (q, v) = ([0.6, -0.8], [0.4, 0.3]);
-        let mut mass = [0.0; 4];
-        let (mut force, mut nonideal, mut jacobian, mut rhs) =
-            ([0.0; 2], [0.0; 2], [0.0; 2], [0.0]);
-        let mut terms = Terms {
-            mass: &mut mass,
-            force: &mut force,
-            nonideal: &mut nonideal,
-            jacobian: &mut jacobian,
-            rhs: &mut rhs,
-        };
-        Pendulum::default()
-            .prepared()
-            .dynamics(0.0, &q, &v, &mut terms);
-        assert_eq!(jacobian, [1.2, -1.6]);
-        assert!((rhs[0] + 2.0 * 0.25).abs() < 1e-15);
-        assert_eq!(force, [0.0, -9.8]);
+        let mut terms = Evaluated::new(2, 1);
+        terms.dynamics(&Pendulum::default().prepared(), 0.0, &q, &v);
+        assert_eq!(terms.jacobian, [1.2, -1.6]);
+        assert!((terms.rhs[0] + 2.0 * 0.25).abs() < 1e-15);
+        assert_eq!(terms.force, [0.0, -9.8]);
     }
 }

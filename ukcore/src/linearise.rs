@@ -14,7 +14,7 @@
 
 use crate::assemble::State;
 use crate::error::Error;
-use crate::mechanism::{Dynamics, Prepared, Terms};
+use crate::mechanism::{Dynamics, Evaluated, Prepared};
 use crate::scalar::{Dual, Scalar};
 use crate::scan::all_finite;
 use crate::solver::{Baumgarte, Solver, SolverOptions};
@@ -225,11 +225,7 @@ impl Sweep {
 struct Implicit {
     acceleration: Vec<f64>,
     multipliers: Vec<f64>,
-    mass: Vec<Dual>,
-    force: Vec<Dual>,
-    nonideal: Vec<Dual>,
-    jacobian: Vec<Dual>,
-    rhs: Vec<Dual>,
+    terms: Evaluated<Dual>,
     /// φ and φ̇, for Baumgarte's terms.
     position: Vec<Dual>,
     rate: Vec<Dual>,
@@ -245,11 +241,7 @@ impl Implicit {
         Implicit {
             acceleration: vec![0.0; n],
             multipliers: vec![0.0; m],
-            mass: zeros(n * n),
-            force: zeros(n),
-            nonideal: zeros(n),
-            jacobian: zeros(m * n),
-            rhs: zeros(m),
+            terms: Evaluated::new(n, m),
             position: zeros(spec.holonomic),
             rate: zeros(m),
             change: vec![0.0; n],
@@ -278,32 +270,26 @@ impl Implicit {
     fn differentiate(&mut self, sweep: &Sweep, baumgarte: Option<Baumgarte>) {
         let (n, m) = (self.acceleration.len(), self.multipliers.len());
         let Sweep { mech, t, q, v, .. } = sweep;
-        let mut terms = Terms {
-            mass: &mut self.mass,
-            force: &mut self.force,
-            nonideal: &mut self.nonideal,
-            jacobian: &mut self.jacobian,
-            rhs: &mut self.rhs,
-        };
-        mech.dynamics(*t, q, v, &mut terms);
+        let terms = &mut self.terms;
+        terms.dynamics(mech, *t, q, v);
         if let Some(baumgarte) = baumgarte {
             mech.residual(*t, q, &mut self.position);
             mech.residual_rate(*t, q, v, &mut self.rate);
-            baumgarte.apply(&self.position, &self.rate, &mut self.rhs);
+            baumgarte.apply(&self.position, &self.rate, &mut terms.rhs);
         }
         let (change, demand) = (&mut self.change, &mut self.demand);
         for (i, change) in change.iter_mut().enumerate() {
-            *change = self.force[i].eps + self.nonideal[i].eps;
+            *change = terms.force[i].eps + terms.nonideal[i].eps;
         }
-        for (demand, rhs) in demand.iter_mut().zip(&self.rhs) {
+        for (demand, rhs) in demand.iter_mut().zip(&terms.rhs) {
             *demand = rhs.eps;
         }
         for j in 0..n {
             let a = self.acceleration[j];
-            for (change, mass) in change.iter_mut().zip(&self.mass[j * n..]) {
+            for (change, mass) in change.iter_mut().zip(&terms.mass[j * n..]) {
                 *change -= mass.eps * a;
             }
-            let column = self.jacobian[j * m..].iter().zip(&self.multipliers);
+            let column = terms.jacobian[j * m..].iter().zip(&self.multipliers);
             for (demand, (entry, multiplier)) in demand.iter_mut().zip(column) {
                 *demand -= entry.eps * a;
                 change[j] += entry.eps * multiplier;

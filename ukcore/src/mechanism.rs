@@ -152,6 +152,48 @@ pub struct Terms<'a, S> {
     pub rhs: &'a mut [S],
 }
 
+/// [`Terms`] in buffers of their own.
+#[derive(Debug, Clone)]
+pub(crate) struct Evaluated<S = f64> {
+    pub(crate) mass: Vec<S>,
+    pub(crate) force: Vec<S>,
+    pub(crate) nonideal: Vec<S>,
+    pub(crate) jacobian: Vec<S>,
+    pub(crate) rhs: Vec<S>,
+}
+
+impl<S: Scalar> Evaluated<S> {
+    /// For n coordinates and m constraints.
+    pub(crate) fn new(n: usize, m: usize) -> Self {
+        let zeros = |len: usize| vec![S::from_f64(0.0); len];
+        Evaluated {
+            mass: zeros(n * n),
+            force: zeros(n),
+            nonideal: zeros(n),
+            jacobian: zeros(m * n),
+            rhs: zeros(m),
+        }
+    }
+
+    /// The terms of `mech` at (t, q, q̇).
+    pub(crate) fn dynamics<C: ?Sized + Dynamics<S>>(
+        &mut self,
+        mech: &Prepared<S, C>,
+        t: S,
+        q: &[S],
+        v: &[S],
+    ) {
+        let mut terms = Terms {
+            mass: &mut self.mass,
+            force: &mut self.force,
+            nonideal: &mut self.nonideal,
+            jacobian: &mut self.jacobian,
+            rhs: &mut self.rhs,
+        };
+        mech.dynamics(t, q, v, &mut terms);
+    }
+}
+
 /// Kinetic and potential energy.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Energy<S = f64> {

@@ -1,5 +1,7 @@
 //! M as a metric: M = L Lᵀ where it is regular, scales for the coordinates where it is not.
 
+use crate::pinv::{axpy, dot};
+
 /// A pivot d_k of the Cholesky factorisation counts as zero below this multiple of n ε M_kk.
 ///
 /// d_k/M_kk is the share of coordinate k's inertia that the coordinates before it do not carry already. Rounding of M and of the
@@ -40,8 +42,9 @@ pub(crate) struct Metric {
     pub(crate) root: Vec<f64>,
     /// L, column-major, allocated where M is not diagonal.
     l: Vec<f64>,
-    /// M with unit diagonal, for [`Metric::classify`].
+    /// M with unit diagonal, and the order of its coordinates, for [`Metric::classify`].
     unit: Vec<f64>,
+    order: Vec<usize>,
 }
 
 impl Metric {
@@ -52,6 +55,7 @@ impl Metric {
             root: vec![1.0; n],
             l: vec![0.0; if diagonal { 0 } else { n * n }],
             unit: vec![0.0; if diagonal { 0 } else { n * n }],
+            order: vec![0; n],
         }
     }
 
@@ -82,7 +86,7 @@ impl Metric {
             for j in 0..k {
                 let (done, column) = self.l.split_at_mut(k * n);
                 let factor = done[j * n + k];
-                crate::pinv::axpy(-factor, &done[j * n + k..(j + 1) * n], &mut column[k..n]);
+                axpy(-factor, &done[j * n + k..(j + 1) * n], &mut column[k..n]);
             }
             let column = &mut self.l[k * n + k..(k + 1) * n];
             doubt = doubt || column[0] <= DOUBT * mass[k * n + k].abs();
@@ -120,34 +124,13 @@ impl Metric {
                 self.unit[j * n + i] = mass[j * n + i] / scale;
             }
         }
-        let w = &mut self.unit;
-        // A pivot that is taken leaves −∞ on the diagonal.
-        for _ in 0..n {
-            let pivot = |w: &[f64], i: usize| w[i * n + i];
-            let top = (0..n).fold(0, |b, i| if pivot(w, i) > pivot(w, b) { i } else { b });
-            if pivot(w, top) <= floor {
-                let rest = (0..n).filter(|i| pivot(w, *i) > f64::NEG_INFINITY);
-                let lowest = rest.fold(top, |b, i| if pivot(w, i) < pivot(w, b) { i } else { b });
-                return Err(if pivot(w, lowest) < -floor {
-                    MassFault::Indefinite(lowest)
-                } else {
-                    MassFault::Singular(top)
-                });
-            }
-            let d = pivot(w, top);
-            for j in (0..n).filter(|j| *j != top) {
-                let factor = w[top * n + j] / d;
-                for i in (0..n).filter(|i| *i != top) {
-                    w[j * n + i] -= factor * w[top * n + i];
-                }
-            }
-            for i in 0..n {
-                w[top * n + i] = 0.0;
-                w[i * n + top] = 0.0;
-            }
-            w[top * n + top] = f64::NEG_INFINITY;
+        let (w, order) = (&mut self.unit, &mut self.order);
+        let rank = pivoted_cholesky(w, order, floor);
+        let rank = rank.map_err(|lowest| MassFault::Indefinite(order[lowest]))?;
+        match rank < n {
+            true => Err(MassFault::Singular(order[top(w, n, rank)])),
+            false => Ok(()),
         }
-        Ok(())
     }
 
     /// Scales for a singular M: √M_ii where there is mass. A massless coordinate gets the scale at which its entries of A do not
@@ -196,7 +179,7 @@ impl Metric {
             for i in 0..n {
                 x[i] /= self.root[i];
                 let s = x[i];
-                crate::pinv::axpy(-s, &self.l[i * n + i + 1..(i + 1) * n], &mut x[i + 1..]);
+                axpy(-s, &self.l[i * n + i + 1..(i + 1) * n], &mut x[i + 1..]);
             }
         } else {
             x.iter_mut().zip(&self.root).for_each(|(x, l)| *x /= l);
@@ -208,7 +191,7 @@ impl Metric {
         if self.kind == Kind::Full {
             let n = self.n;
             for i in (0..n).rev() {
-                let s = crate::pinv::dot(&self.l[i * n + i + 1..(i + 1) * n], &x[i + 1..]);
+                let s = dot(&self.l[i * n + i + 1..(i + 1) * n], &x[i + 1..]);
                 x[i] = (x[i] - s) / self.root[i];
             }
         } else {
@@ -223,12 +206,60 @@ impl Metric {
             for i in (0..n).rev() {
                 let s = x[i];
                 x[i] = s * self.root[i];
-                crate::pinv::axpy(s, &self.l[i * n + i + 1..(i + 1) * n], &mut x[i + 1..]);
+                axpy(s, &self.l[i * n + i + 1..(i + 1) * n], &mut x[i + 1..]);
             }
         } else {
             x.iter_mut().zip(&self.root).for_each(|(x, l)| *x *= l);
         }
     }
+}
+
+/// Place of the largest entry on the diagonal of the d × d matrix `z`, from place k on.
+fn top(z: &[f64], d: usize, k: usize) -> usize {
+    (k..d).fold(k, |b, i| if z[i * d + i] > z[b * d + b] { i } else { b })
+}
+
+/// Cholesky's factorisation with interchanges of the symmetric d × d matrix in `z`, down to pivots that do not exceed `floor`; d is the
+/// length of `order`, where it writes which coordinate stands at which place. Returns the rank, or as an error the place of a pivot below
+/// −`floor`.
+pub(crate) fn pivoted_cholesky(
+    z: &mut [f64],
+    order: &mut [usize],
+    floor: f64,
+) -> Result<usize, usize> {
+    let d = order.len();
+    order.iter_mut().enumerate().for_each(|(i, o)| *o = i);
+    for k in 0..d {
+        let top = top(z, d, k);
+        if z[top * d + top] <= floor {
+            let lowest = (k..d).fold(k, |b, i| if z[i * d + i] < z[b * d + b] { i } else { b });
+            return match z[lowest * d + lowest] < -floor {
+                true => Err(lowest),
+                false => Ok(k),
+            };
+        }
+        if top != k {
+            order.swap(k, top);
+            for i in 0..d {
+                z.swap(i * d + k, i * d + top);
+            }
+            for i in 0..d {
+                z.swap(k * d + i, top * d + i);
+            }
+        }
+        // Right-looking, both triangles of the rest, since later interchanges need them.
+        let root = z[k * d + k].sqrt();
+        z[k * d + k] = root;
+        for i in k + 1..d {
+            z[k * d + i] /= root;
+        }
+        for j in k + 1..d {
+            let (done, rest) = z.split_at_mut(j * d);
+            let column = &done[k * d + k + 1..(k + 1) * d];
+            axpy(-done[k * d + j], column, &mut rest[k + 1..d]);
+        }
+    }
+    Ok(d)
 }
 
 /// Whether coordinate i, without inertia of its own, is coupled to the inertia of another by more than rounding or underflow

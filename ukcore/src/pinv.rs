@@ -11,6 +11,9 @@
 
 use nalgebra::DMatrix;
 
+use crate::scalar::Scalar;
+use crate::scan::{largest, reduce};
+
 /// An earlier column is taken as pivot if its significance is at least this share of the largest: the declared order is kept
 /// where it costs nothing, and of two equal constraints the later one is called redundant. One half at most doubles the growth
 /// of the columns not yet taken.
@@ -258,15 +261,15 @@ impl Decomposition {
             let column = &self.t[i * n..i * n + i + 1];
             y[i] = (y[i] - dot(&column[..i], &y[..i])) / column[i];
         }
-        self.rotate(&y[..r], x);
+        self.rotate(|z| z[..r].copy_from_slice(&y[..r]), x);
         self.work_m = y;
     }
 
-    /// x = Q \[y; 0\].
-    fn rotate(&mut self, y: &[f64], x: &mut [f64]) {
+    /// x = Q z, from what `set` makes of a z of zeros.
+    fn rotate(&mut self, set: impl FnOnce(&mut [f64]), x: &mut [f64]) {
         let mut z = std::mem::take(&mut self.work_n);
         z.fill(0.0);
-        z[..y.len()].copy_from_slice(y);
+        set(&mut z);
         (0..self.rank).rev().for_each(|k| self.reflect_q(k, &mut z));
         for (z, &i) in z.iter().zip(&self.row) {
             x[i] = *z;
@@ -274,9 +277,23 @@ impl Decomposition {
         self.work_n = z;
     }
 
+    /// x = Zᵀ y, from what `set` makes of a y of zeros.
+    fn rotate_back(&mut self, set: impl FnOnce(&mut [f64]), x: &mut [f64]) {
+        let mut y = std::mem::take(&mut self.work_m);
+        y.fill(0.0);
+        set(&mut y);
+        if self.rank < self.m {
+            (0..self.rank).for_each(|i| self.reflect_z(i, &mut y));
+        }
+        for (y, &c) in y.iter().zip(&self.col[..self.m]) {
+            x[c] = *y;
+        }
+        self.work_m = y;
+    }
+
     /// λ = (Cᵀ)⁺ x: of all λ that minimise |Cᵀ λ − x| the shortest.
     pub(crate) fn solve_transposed(&mut self, x: &[f64], lambda: &mut [f64]) {
-        let (n, m, r) = (self.n, self.m, self.rank);
+        let (n, r) = (self.n, self.rank);
         let mut z = std::mem::take(&mut self.work_n);
         for (z, &i) in z.iter_mut().zip(&self.row) {
             *z = x[i];
@@ -288,47 +305,24 @@ impl Decomposition {
             let s = z[i];
             axpy(-s, &self.t[i * n..i * n + i], &mut z[..i]);
         }
-        self.work_m[..r].copy_from_slice(&z[..r]);
+        self.rotate_back(|y| y[..r].copy_from_slice(&z[..r]), lambda);
         self.work_n = z;
-        let mut y = std::mem::take(&mut self.work_m);
-        y[r..].fill(0.0);
-        if r < m {
-            (0..r).for_each(|i| self.reflect_z(i, &mut y));
-        }
-        for c in 0..m {
-            lambda[self.col[c]] = y[c];
-        }
-        self.work_m = y;
     }
 
     /// Writes an orthonormal basis of the null space of C, n − rank columns of length n, into `basis` (column-major).
     pub(crate) fn null_space(&mut self, basis: &mut [f64]) {
         let (n, r) = (self.n, self.rank);
-        let mut z = std::mem::take(&mut self.work_n);
         for (j, column) in basis.chunks_exact_mut(n).take(n - r).enumerate() {
-            z.fill(0.0);
-            z[r + j] = 1.0;
-            (0..r).rev().for_each(|k| self.reflect_q(k, &mut z));
-            for (z, &i) in z.iter().zip(&self.row) {
-                column[i] = *z;
-            }
+            self.rotate(|z| z[r + j] = 1.0, column);
         }
-        self.work_n = z;
     }
 
     /// Writes an orthonormal basis of the null space of Cᵀ (the dependences among the rows of C), m − rank columns of length m.
     pub(crate) fn dependences(&mut self, basis: &mut [f64]) {
         let (m, r) = (self.m, self.rank);
-        let mut y = std::mem::take(&mut self.work_m);
         for (j, column) in basis.chunks_exact_mut(m).take(m - r).enumerate() {
-            y.fill(0.0);
-            y[r + j] = 1.0;
-            (0..r).for_each(|i| self.reflect_z(i, &mut y));
-            for (y, &c) in y.iter().zip(&self.col[..m]) {
-                column[c] = *y;
-            }
+            self.rotate_back(|y| y[r + j] = 1.0, column);
         }
-        self.work_m = y;
     }
 }
 
@@ -367,24 +361,7 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 /// max |aᵢ| bᵢ.
 fn largest_product(a: &[f64], b: &[f64]) -> f64 {
-    let n = a.len().min(b.len());
-    let (a, b) = (a[..n].chunks_exact(4), b[..n].chunks_exact(4));
-    let larger = |s: f64, a: f64, b: f64| {
-        let x = a.abs() * b;
-        if x > s { x } else { s }
-    };
-    let rest = a
-        .remainder()
-        .iter()
-        .zip(b.remainder())
-        .fold(0.0, |s, (a, b)| larger(s, *a, *b));
-    let mut most = [0.0; 4];
-    for (a, b) in a.zip(b) {
-        for ((s, a), b) in most.iter_mut().zip(a).zip(b) {
-            *s = larger(*s, *a, *b);
-        }
-    }
-    most.into_iter().fold(rest, f64::max)
+    reduce(a, b, |a, b| a.abs() * b, |s, x| x.larger(s))
 }
 
 /// y ← y + s x.
@@ -398,7 +375,7 @@ pub(crate) fn axpy(s: f64, x: &[f64], y: &mut [f64]) {
 pub(crate) fn pseudo_inverse(matrix: &DMatrix<f64>, tolerance: f64) -> (DMatrix<f64>, usize) {
     let (m, n) = matrix.shape();
     let mut inverse = DMatrix::zeros(n, m);
-    let largest = matrix.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
+    let largest = largest(matrix.as_slice());
     if largest == 0.0 || !matrix.iter().all(|x| x.is_finite()) {
         return (inverse, 0);
     }

@@ -32,7 +32,12 @@ pub(crate) fn largest_difference<S: Scalar>(x: &[S], y: &[S]) -> S {
 
 /// Joins what `f` makes of each pair of numbers, starting from 0.
 #[inline(always)]
-fn reduce<S: Scalar>(x: &[S], y: &[S], f: impl Fn(S, S) -> S, join: impl Fn(S, S) -> S) -> S {
+pub(crate) fn reduce<S: Scalar>(
+    x: &[S],
+    y: &[S],
+    f: impl Fn(S, S) -> S,
+    join: impl Fn(S, S) -> S,
+) -> S {
     let mut s = [S::from_f64(0.0); PARTS];
     let ((x, x_rest), (y, y_rest)) = (x.as_chunks::<PARTS>(), y.as_chunks::<PARTS>());
     for (x, y) in x.iter().zip(y) {

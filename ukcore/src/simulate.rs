@@ -5,8 +5,7 @@ use std::ops::ControlFlow;
 
 use crate::assemble::State;
 use crate::error::Error;
-use crate::integrate::{Settings, Tolerance};
-use crate::manifold::{Projector, Stabilisation};
+use crate::manifold::Stabilisation;
 use crate::mechanism::Prepared;
 use crate::solver::{Formula, Solver, SolverOptions};
 
@@ -30,9 +29,9 @@ mod start;
 #[cfg(test)]
 mod tests;
 
-use agenda::{Agenda, Sampling};
+use agenda::Sampling;
 use energy::EnergyWatch;
-use record::{Recorder, Sink};
+use record::Sink;
 use run::{Progress, Run};
 
 /// How far a start may be off the constraints: projection may move a coordinate by this part of the largest one (a
@@ -265,57 +264,38 @@ impl Simulation {
         self.run(t_end, Some(&mut sink))
     }
 
-    fn run(self, t_end: f64, sink: Option<Sink<'_>>) -> Result<Trajectory, Failure> {
-        let mut trajectory = Trajectory::new(self.mechanism.clone(), self.solver_options());
-        trajectory.watched = self.events.iter().map(|event| event.name.clone()).collect();
-        trajectory.projected = self.stabilisation == Stabilisation::Projection;
-        match self.integrate(t_end, sink, &mut trajectory) {
-            Ok(()) => Ok(trajectory),
-            Err(error) => Err(Failure {
-                error,
-                trajectory: Box::new(trajectory),
-            }),
-        }
-    }
-
-    fn integrate(
-        self,
-        t_end: f64,
-        sink: Option<Sink<'_>>,
-        trajectory: &mut Trajectory,
-    ) -> Result<(), Error> {
-        self.check(t_end, sink.is_none())?;
-        let mut projector = Projector::new(&self.mechanism);
-        let (start, tolerance) = self.consistent_start(&mut projector, &mut trajectory.work)?;
-        let settings = self.settings(tolerance);
-        trajectory.start = start.t;
-        trajectory.end = Some(start.clone());
-        trajectory.segments = self.dense.then(Vec::new);
-        let start = Sample::from(&start);
-        let spec = self.mechanism.spec();
-        let locate = self.switching == Switching::Located && !spec.switches.is_empty();
+    fn run(mut self, t_end: f64, sink: Option<Sink<'_>>) -> Result<Trajectory, Failure> {
+        let failure = |error, trajectory| Failure {
+            error,
+            trajectory: Box::new(trajectory),
+        };
+        let admitted = self.admit(t_end, sink);
+        let (recorder, start, settings) =
+            admitted.map_err(|error| failure(error, self.trajectory()))?;
+        let locate =
+            self.switching == Switching::Located && !self.mechanism.spec().switches.is_empty();
         let energy = match self.method {
             Method::Rattle { step } => {
-                let first = self.mechanism.energy(start.t, start.q, start.v);
+                let first = self.mechanism.energy(start.t, &start.q, &start.v);
                 Some(EnergyWatch::new(step, first))
             }
             _ => None,
         };
-        let agenda = Agenda::new(self.sampling, start.t, t_end);
         let mut run = Run {
-            solver: Solver::new(&self.mechanism, trajectory.options),
-            projector,
+            solver: Solver::new(&self.mechanism, recorder.trajectory.options),
             located: locate.then(|| self.mechanism.dual()),
             slopes: None,
             energy,
-            recorder: Recorder::new(agenda, self.events, spec.n(), sink),
+            recorder,
             progress: self.progress,
             t_end,
-            trajectory,
         };
-        let result = run.integrate(start, self.method, &settings);
-        run.finish();
-        result
+        let result = run.integrate(Sample::from(&start), self.method, &settings);
+        let trajectory = run.finish();
+        match result {
+            Ok(()) => Ok(trajectory),
+            Err(error) => Err(failure(error, trajectory)),
+        }
     }
 
     fn solver_options(&self) -> SolverOptions {
@@ -327,18 +307,6 @@ impl Simulation {
             formula: self.formula,
             baumgarte,
             ..SolverOptions::default()
-        }
-    }
-
-    /// What a method is to be told, in a run with this tolerance.
-    fn settings(&self, tolerance: Tolerance) -> Settings {
-        Settings {
-            tolerance,
-            first_step: self.first_step,
-            max_step: self.max_step,
-            max_steps: self.max_steps,
-            dense: self.dense || !self.events.is_empty(),
-            switches: self.mechanism.spec().switches,
         }
     }
 }

@@ -16,10 +16,10 @@
 //!
 //! The same difference, |Δb| + |ΔA||q̈|, is granted to the redundant rows before they are called inconsistent.
 
-use crate::dense::{Dense, Evaluated, Route, Rows};
+use crate::dense::{Dense, Route, Rows};
 use crate::diagnose;
 use crate::error::Error;
-use crate::mechanism::Prepared;
+use crate::mechanism::{Evaluated, Prepared};
 use crate::metric::MassFault;
 use crate::saddle::Saddle;
 use crate::scan::all_finite;

@@ -17,8 +17,9 @@ mod csv;
 mod drift;
 
 pub use csv::CsvWriter;
+pub(crate) use drift::EnergyDrift;
+use drift::Gauge;
 pub use drift::{Drift, Residual};
-use drift::{EnergyDrift, Gauge};
 
 /// What a [streamed](crate::Simulation::stream) run hands over.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -312,7 +313,9 @@ impl Trajectory {
     #[must_use]
     pub fn energy_drift(&self) -> f64 {
         let mut drift = EnergyDrift::default();
-        self.energy().into_iter().for_each(|now| drift.add(now));
+        for now in self.energy() {
+            drift.add(now);
+        }
         drift.share()
     }
 

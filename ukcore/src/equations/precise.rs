@@ -1,6 +1,6 @@
 //! The equations of motion in 31 digits: what the accelerations of a state are when nothing is lost.
 
-use crate::mechanism::{Mechanism, Terms};
+use crate::mechanism::{Evaluated, Mechanism};
 use crate::scalar::DoubleDouble;
 use crate::scalar::Scalar;
 
@@ -26,20 +26,18 @@ pub fn accelerations<M: Mechanism>(
     let (n, m) = (M::SPEC.n(), M::SPEC.m());
     let wide = |x: &[f64]| x.iter().map(|x| DoubleDouble::from_f64(*x)).collect();
     let (q, v): (Vec<_>, Vec<_>) = (wide(q), wide(v));
-    let zeros = |len: usize| vec![DoubleDouble::from_f64(0.0); len];
-    let (mut mass, mut force, mut nonideal) = (zeros(n * n), zeros(n), zeros(n));
-    let (mut jacobian, mut rhs) = (zeros(m * n), zeros(m));
-    let mut terms = Terms {
-        mass: &mut mass,
-        force: &mut force,
-        nonideal: &mut nonideal,
-        jacobian: &mut jacobian,
-        rhs: &mut rhs,
-    };
+    let mut terms = Evaluated::new(n, m);
     let prepared = mechanism.prepared::<DoubleDouble>();
-    prepared.dynamics(DoubleDouble::from_f64(t), &q, &v, &mut terms);
+    terms.dynamics(&prepared, DoubleDouble::from_f64(t), &q, &v);
+    let Evaluated {
+        mass,
+        force,
+        nonideal,
+        jacobian,
+        rhs,
+    } = terms;
     let size = n + m;
-    let mut rows: Vec<Vec<DoubleDouble>> = vec![zeros(size + 1); size];
+    let mut rows = vec![vec![DoubleDouble::from_f64(0.0); size + 1]; size];
     for i in 0..n {
         for j in 0..n {
             rows[i][j] = mass[j * n + i];

@@ -3,8 +3,9 @@
 //! After Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations I*, §II.4, with the constants of the authors' codes. The same
 //! for a run of its own and for each lane of an ensemble.
 
-use super::scheme::Equations;
+use super::stepper::Rates;
 use super::sums::Tolerance;
+use crate::lanes::Lanes;
 
 /// Part of the step size that should just meet the tolerance which is taken.
 pub(super) const SAFETY: f64 = 0.9;
@@ -26,7 +27,7 @@ pub(crate) struct Control {
     pub(crate) grow: f64,
 }
 
-/// What the choice of the step size remembers of the steps before.
+/// What the choice of the step size remembers of the steps before. Sizes may have either sign.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct StepSize {
     /// Size and error of the last accepted step.
@@ -84,85 +85,65 @@ impl StepSize {
 /// The first step where nothing tells how fast things change, as a share of the run.
 const BLIND: f64 = 1e-6;
 
-/// First guess of the first step size: h for which an explicit Euler step changes y by a hundredth.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Guess {
-    /// Positive step size.
-    pub(crate) h: f64,
-    /// Norm of f at the start.
-    slope: f64,
-}
-
-impl Guess {
-    /// From pairs (y, f) at the start.
-    pub(crate) fn new(
-        start: impl Iterator<Item = (f64, f64)>,
-        tolerance: Tolerance,
-        largest: f64,
-    ) -> Self {
-        let (mut value, mut slope) = (0.0, 0.0);
-        for (y, rate) in start {
-            let weight = 1.0 / tolerance.at(y.abs());
-            value += (y * weight) * (y * weight);
-            slope += (rate * weight) * (rate * weight);
-        }
-        let h = if slope <= 1e-10 || value <= 1e-10 {
-            BLIND * largest
-        } else {
-            0.01 * f64::sqrt(value / slope)
-        };
-        Guess {
-            h: h.min(largest),
-            slope: slope.sqrt(),
-        }
-    }
-
-    /// The first step size, from triples (y, f, f after the Euler step of size `h`): h^order max(|f|, |f'|) = 0.01.
-    ///
-    /// NaN for the last one says that f could not be evaluated there; the first guess is then the best one.
-    pub(crate) fn refine(
-        self,
-        start: impl Iterator<Item = (f64, f64, f64)>,
-        order: f64,
-        tolerance: Tolerance,
-        largest: f64,
-    ) -> f64 {
-        let mut change = 0.0;
-        for (y, rate, after) in start {
-            let weighted = (after - rate) / tolerance.at(y.abs());
-            change += weighted * weighted;
-        }
-        let curvature = f64::sqrt(change) / self.h;
-        if curvature.is_nan() {
-            return self.h;
-        }
-        let steepest = curvature.max(self.slope);
-        let h = if steepest <= 1e-15 {
-            f64::max(BLIND * largest, 1e-3 * self.h)
-        } else {
-            f64::powf(0.01 / steepest, 1.0 / order)
-        };
-        h.min(100.0 * self.h).min(largest)
-    }
-}
-
-/// Size of the first step of a method of order `order`, from y and `rate`, which is f there: by the first guess, and f after an Euler step
-/// of that size.
-pub(super) fn first_size(
-    equations: &mut Equations<'_>,
-    (y, rate): (&[f64], &[f64]),
-    (sign, largest): (f64, f64),
+/// Sizes of the first steps of a method of order `order`, in each lane, from y and `rate`, which is f there, at `s`. They are at most
+/// `largest`, and have its sign.
+///
+/// A first guess is the h for which an explicit Euler step changes y by a hundredth. With f after such a step, h^order max(|f|, |f'|) =
+/// 0.01; where f has no value there, it stays with the guess.
+pub(super) fn first_size<L: Lanes>(
+    rates: &mut impl Rates<L>,
+    s: L,
+    [y, rate]: [&[L]; 2],
+    largest: L,
     order: f64,
-    tolerance: Tolerance,
-) -> f64 {
-    let start = y.iter().copied().zip(rate.iter().copied());
-    let guess = Guess::new(start.clone(), tolerance, largest);
-    let h = sign * guess.h;
-    let probe: Vec<f64> = start.clone().map(|(y, rate)| y + h * rate).collect();
-    let mut after = vec![0.0; y.len()];
-    if equations.rate(h, &probe, &mut after).is_err() {
-        return guess.h;
+    tolerance: Tolerance<L>,
+) -> L {
+    let zero = L::from_f64(0.0);
+    let (mut value, mut slope, mut change) = (zero, zero, zero);
+    for (y, rate) in y.iter().zip(rate) {
+        let weight = tolerance.at(y.abs()).recip();
+        value = value + (*y * weight) * (*y * weight);
+        slope = slope + (*rate * weight) * (*rate * weight);
     }
-    let start = start.zip(after).map(|((y, rate), after)| (y, rate, after));
-    guess.refine(start, order, tolerance, largest)
+    let blind = |k: usize| BLIND * largest.lane(k).abs();
+    let signed = |k: usize, h: f64| {
+        let largest = largest.lane(k);
+        h.min(largest.abs()).copysign(largest)
+    };
+    let guess = L::from_lanes(|k| {
+        let (value, slope) = (value.lane(k), slope.lane(k));
+        let still = slope <= 1e-10 || value <= 1e-10;
+        signed(
+            k,
+            if still {
+                blind(k)
+            } else {
+                0.01 * (value / slope).sqrt()
+            },
+        )
+    });
+    let pairs = y.iter().zip(rate);
+    let probe: Vec<L> = pairs.map(|(y, rate)| *y + guess * *rate).collect();
+    let mut after = probe.clone();
+    if rates.rate(s + guess, &probe, &mut after).is_err() {
+        return guess;
+    }
+    for ((y, rate), after) in y.iter().zip(rate).zip(after) {
+        let weighted = (after - *rate) / tolerance.at(y.abs());
+        change = change + weighted * weighted;
+    }
+    L::from_lanes(|k| {
+        let h = guess.lane(k).abs();
+        let curvature = change.lane(k).sqrt() / h;
+        if curvature.is_nan() {
+            return guess.lane(k);
+        }
+        let steepest = curvature.max(slope.lane(k).sqrt());
+        let refined = if steepest <= 1e-15 {
+            blind(k).max(1e-3 * h)
+        } else {
+            (0.01 / steepest).powf(order.recip())
+        };
+        signed(k, refined.min(100.0 * h))
+    })
 }

@@ -1,12 +1,10 @@
 //! Where a run stands, which step it tries next, and what became of those before: the same for a run of its own and for each lane of an
 //! ensemble.
 
-use super::Settings;
-use super::control::StepSize;
-use super::dense::Clock;
+use super::dense::Interpolant;
 use super::sample::Sample;
-use super::scheme::Attempt;
 use super::trouble::{Cause, Conflict, Pace, Trouble};
+use super::{Settings, Step};
 use crate::error::Error;
 
 /// A step is the last one if what would remain behind it is less than this part of it.
@@ -19,7 +17,12 @@ const SHORTEST: f64 = f64::EPSILON * f64::EPSILON;
 /// A step of this share of the run is short enough to tell when a constraint jumps, and what lies so close ahead is still an obstacle.
 const NEAR: f64 = 1e-9;
 
-/// A place on the way: s, which counts from the start of the run, and the time.
+/// A sample counts as within a step that ends so many units of rounding before it.
+const END_ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// A place on the way: the time t, and s = t − t0.
+///
+/// Counting from the start t0 keeps a large t0 from rounding the step sizes: at t = 1e9 the sum t + h would keep seven digits of h = 1.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Place {
     pub(crate) s: f64,
@@ -29,9 +32,10 @@ pub(crate) struct Place {
 /// A step to be tried.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Trial {
-    /// Its positive size.
-    pub(crate) size: f64,
+    pub(crate) start: Place,
     pub(crate) end: Place,
+    /// Its signed size.
+    pub(crate) h: f64,
     /// It ends at the end of the run.
     pub(crate) last: bool,
 }
@@ -39,17 +43,19 @@ pub(crate) struct Trial {
 /// The course of a run.
 #[derive(Debug)]
 pub(crate) struct Course {
-    pub(crate) clock: Clock,
+    pub(crate) t0: f64,
+    /// 1 going forward, −1 going backward.
+    pub(crate) along: f64,
     /// The end of the run, and of the last accepted step.
     pub(crate) end: Place,
     pub(crate) now: Place,
-    /// Size proposed for the next step, and what its choice remembers.
+    /// Signed size proposed for the next step.
     pub(crate) h: f64,
-    pub(crate) size: StepSize,
     settings: Settings,
     pub(super) pace: Pace,
-    /// What went wrong since the last accepted step, nearest to it.
+    /// What went wrong since the last accepted step, nearest to it; the contradiction ahead.
     trouble: Cause,
+    conflict: Conflict,
     /// Steps attempted and accepted.
     attempts: usize,
     pub(crate) steps: usize,
@@ -57,18 +63,17 @@ pub(crate) struct Course {
 
 impl Course {
     pub(crate) fn new(t0: f64, t_end: f64, settings: &Settings) -> Self {
-        let sign = if t_end < t0 { -1.0 } else { 1.0 };
-        let clock = Clock { t0, sign };
-        let place = |t: f64| Place { s: clock.s(t), t };
+        let (s, t) = (t_end - t0, t_end);
         Course {
-            clock,
-            end: place(t_end),
-            now: place(t0),
+            t0,
+            along: if t_end < t0 { -1.0 } else { 1.0 },
+            end: Place { s, t },
+            now: Place { s: 0.0, t: t0 },
             h: 0.0,
-            size: StepSize::default(),
             pace: Pace::new(settings.switches, settings.tolerance, settings.max_steps),
             settings: *settings,
             trouble: None,
+            conflict: Conflict::default(),
             attempts: 0,
             steps: 0,
         }
@@ -79,34 +84,47 @@ impl Course {
         self.attempts - self.steps
     }
 
-    /// Largest size of the first step.
+    /// Largest size of the first step, signed.
     pub(crate) fn largest_first(&self) -> f64 {
-        self.largest().min(self.end.s)
+        self.along * self.largest().min(self.end.s.abs())
     }
 
     fn largest(&self) -> f64 {
-        self.settings.max_step.unwrap_or(self.end.s)
+        self.settings.max_step.unwrap_or(self.end.s.abs())
     }
 
-    /// Where a part of size `size` of a step from here ends; `None` where it would be lost in rounding.
-    pub(crate) fn within(&self, size: f64) -> Option<Trial> {
-        let s = self.now.s + size;
-        let end = Place {
-            s,
-            t: self.clock.t(s),
-        };
-        let last = false;
-        (end.t != self.now.t && s > self.now.s).then_some(Trial { size, end, last })
+    fn place(&self, s: f64) -> Place {
+        Place { s, t: self.t0 + s }
+    }
+
+    /// Whether the place `a` comes before `b` on the way.
+    fn is_before(&self, a: f64, b: f64) -> bool {
+        self.along * a < self.along * b
+    }
+
+    /// The step of size `h` from here; `None` where it would be lost in rounding.
+    pub(crate) fn step(&self, h: f64) -> Option<Trial> {
+        let (start, end, last) = (self.now, self.place(self.now.s + h), false);
+        let moves = end.t != start.t && self.is_before(start.s, end.s);
+        moves.then_some(Trial {
+            start,
+            end,
+            h,
+            last,
+        })
     }
 
     /// The step to be tried next: `goal` if there is one, else one of the proposed size.
     ///
     /// # Errors
-    /// [`Error::TooManySteps`]; [`Error::StepTooSmall`] where it would be lost in rounding, [`Error::InvalidSetting`] where the end of the
-    /// run is to blame.
+    /// [`Error::TooManySteps`], [`Error::Chattering`] where the run would use up its steps without getting on; [`Error::StepTooSmall`] where
+    /// the step would be lost in rounding, [`Error::InvalidSetting`] where the end of the run is to blame.
     pub(crate) fn plan(&mut self, goal: Option<Trial>) -> Result<Trial, Error> {
-        if self.attempts >= self.settings.max_steps {
-            return Err(self.too_many_steps());
+        let left = self.end.t - self.now.t;
+        if self.attempts >= self.settings.max_steps || self.pace.hopeless(left) {
+            self.trouble = None;
+            let steps = self.settings.max_steps;
+            return Err(self.pace.explain(Error::TooManySteps { steps }));
         }
         let trial = match goal {
             Some(goal) => goal,
@@ -118,96 +136,115 @@ impl Course {
 
     /// The step of the proposed size; `None` where it would be lost in rounding.
     fn proposed(&self) -> Option<Trial> {
-        let (h, Place { s, t }) = (self.h, self.now);
-        let last = s + (1.0 + LAST) * h > self.end.s;
-        let (size, end) = if last {
-            (self.end.s - s, self.end)
-        } else {
-            let s = s + h;
-            let t = self.clock.t(s);
-            (h, Place { s, t })
+        let (h, start) = (self.h, self.now);
+        let last = self.is_before(self.end.s, start.s + (1.0 + LAST) * h);
+        let (h, end) = match last {
+            true => (self.end.s - start.s, self.end),
+            false => (h, self.place(start.s + h)),
         };
         // The proposed size counts, not what is left to the end.
-        let lost = 0.1 * h <= s * f64::EPSILON || size < SHORTEST * self.end.s;
-        (!lost && end.t != t).then_some(Trial { size, end, last })
+        let lost = 0.1 * self.h.abs() <= start.s.abs() * f64::EPSILON
+            || h.abs() < SHORTEST * self.end.s.abs();
+        (!lost && end.t != start.t).then_some(Trial {
+            start,
+            end,
+            h,
+            last,
+        })
     }
 
     fn no_step(&self) -> Error {
-        let h = self.h;
+        let step = self.h.abs();
         let chosen = self.attempts == 0 && self.settings.first_step.is_none();
-        if !(chosen && h > 0.0 && h < f64::EPSILON * self.end.s) {
-            return Error::StepTooSmall { step: h };
+        if !(chosen && step > 0.0 && step < f64::EPSILON * self.end.s.abs()) {
+            return Error::StepTooSmall { step };
         }
         let t = self.end.t;
         let reason = format!(
-            "is {t:e}, so far that a first step of {h:.1e} is nothing beside it; take a nearer one"
+            "is {t:e}, so far that a first step of {step:.1e} is nothing beside it; take a nearer one"
         );
         let what = "t_end";
         Error::InvalidSetting { what, reason }
     }
 
-    fn too_many_steps(&mut self) -> Error {
-        self.trouble = None;
-        let steps = self.settings.max_steps;
-        self.pace.explain(Error::TooManySteps { steps })
-    }
-
-    /// `trial` as a method takes it.
-    pub(super) fn attempt(&self, trial: Trial) -> Attempt {
-        let sign = self.clock.sign;
-        Attempt {
-            s: sign * self.now.s,
-            s_end: sign * trial.end.s,
-            h: sign * trial.size,
-            tolerance: self.settings.tolerance,
-            unproven: self.size.unproven(),
-        }
+    /// Takes note of a failure at a state of the step in hand; returns it as its cause.
+    pub(crate) fn note(&mut self, at: Sample<'_>, error: Error) -> Cause {
+        self.conflict.note(at, &error);
+        Trouble::cause(at, error)
     }
 
     /// The step in hand is refused, for this cause if one is known.
-    pub(crate) fn refuse(&mut self, cause: Cause) {
+    pub(crate) fn blame(&mut self, cause: Cause) {
         self.trouble = cause.or(self.trouble.take());
+    }
+
+    /// What was tried was no step.
+    #[cfg(feature = "ensemble")]
+    pub(crate) fn forgive(&mut self) {
+        self.trouble = None;
     }
 
     /// Whether `t` is so close to where the run stands that only what happens there is in the way.
     pub(crate) fn is_close(&self, t: f64) -> bool {
-        (t - self.now.t).abs() <= NEAR * self.end.s
+        (t - self.now.t).abs() <= NEAR * self.end.s.abs()
     }
 
-    /// `trial` is accepted.
-    pub(crate) fn advance(&mut self, trial: Trial) {
+    /// Whether a sample at `t`, if there is one, is within the step `trial`.
+    pub(crate) fn covers(&self, trial: Trial, t: Option<f64>) -> bool {
+        let s = t.map(|t| self.along * (t - self.t0));
+        s.is_some_and(|s| s - END_ROUNDING * s.abs() <= self.along * trial.end.s)
+    }
+
+    /// What is to be seen of `trial`, with these states at its start and its end and the coefficients of its interpolant.
+    pub(crate) fn show<'a>(
+        &self,
+        trial: Trial,
+        [old, new]: [&'a [f64]; 2],
+        coefficients: Option<&'a [f64]>,
+    ) -> Step<'a> {
+        let Trial { start, end, h, .. } = trial;
+        Step {
+            old: Sample::of(start.t, old),
+            new: Sample::of(end.t, new),
+            interpolant: coefficients.map(|coefficients| Interpolant {
+                t0: self.t0,
+                s: start.s,
+                h,
+                coefficients,
+            }),
+        }
+    }
+
+    /// `trial` is accepted, with these states at its start and its end.
+    pub(crate) fn advance<Y: AsRef<[f64]>>(
+        &mut self,
+        trial: Trial,
+        states: impl FnOnce() -> [Y; 2],
+    ) {
+        if self.pace.watches() {
+            let [old, new] = states();
+            let time = trial.end.t - self.now.t;
+            self.pace.step(time, old.as_ref(), new.as_ref());
+        }
+        self.conflict.pass(self.now.t, trial.end.t);
         self.now = trial.end;
         self.steps += 1;
         // What lies close ahead is still to come, and may leave no room for a step.
-        let (sign, reach) = (self.clock.sign, NEAR * self.end.s);
-        let ahead = |t: f64| (0.0..=reach).contains(&(sign * (t - trial.end.t)));
+        let (along, reach) = (self.along, NEAR * self.end.s.abs());
+        let ahead = |t: f64| (0.0..=reach).contains(&(along * (t - trial.end.t)));
         let passed = |trouble: &mut Box<Trouble>| !ahead(trouble.state.t);
         self.trouble.take_if(passed);
     }
 
-    /// Watches `trial`, which is about to be accepted, with the states at its start and its end.
-    pub(crate) fn watch<Y: AsRef<[f64]>>(&mut self, trial: Trial, states: impl FnOnce() -> (Y, Y)) {
-        if self.pace.watches() {
-            let (old, new) = states();
-            let time = trial.end.t - self.now.t;
-            self.pace.step(time, old.as_ref(), new.as_ref());
-        }
-    }
-
-    /// Gives up where the run would use up its steps without getting on.
-    ///
-    /// # Errors
-    /// [`Error::Chattering`].
-    pub(crate) fn check_pace(&mut self) -> Result<(), Error> {
-        if self.pace.hopeless(self.end.t - self.now.t) {
-            return Err(self.too_many_steps());
-        }
-        Ok(())
-    }
-
     /// Proposes a size for the step after an accepted one.
     pub(crate) fn propose(&mut self, h: f64) {
-        self.h = h.min(self.largest());
+        self.h = h;
+        self.limit(self.largest());
+    }
+
+    /// The next step is at most of this size.
+    pub(crate) fn limit(&mut self, largest: f64) {
+        self.h = self.along * self.h.abs().min(largest.abs());
     }
 
     /// The error of a motion that is driven onto the zeros of `switches`, from either side of them.
@@ -217,13 +254,9 @@ impl Course {
     }
 
     /// What to report of a run that ends with `error` `here`, where it stands.
-    pub(crate) fn explain(
-        &mut self,
-        error: Error,
-        here: Sample<'_>,
-        conflict: &mut Conflict,
-    ) -> Trouble {
+    pub(crate) fn explain(&mut self, error: Error, here: Sample<'_>) -> Trouble {
         let cause = self.trouble.take();
-        conflict.explain(cause.map_or_else(|| Trouble::new(here, error), |cause| *cause))
+        let last = cause.map_or_else(|| Trouble::new(here, error), |cause| *cause);
+        self.conflict.explain(last)
     }
 }

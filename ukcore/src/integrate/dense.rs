@@ -2,91 +2,42 @@
 
 use crate::scalar::Scalar;
 
-/// A sample counts as within a step that ends so many units of rounding before it.
-const END_ROUNDING: f64 = 4.0 * f64::EPSILON;
-
-/// From s to t and back: s counts from the start of the run, upward in either direction.
-///
-/// Counting from t0 keeps a large t0 from rounding the step sizes: at t = 1e9 the sum t + h would keep seven digits of h = 1.
+/// Interpolant of a step: the time it covers, and coefficients, which are borrowed or kept.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Clock {
+pub(crate) struct Interpolant<C> {
+    /// Start of the run, from which s = t − t0 counts.
     pub(crate) t0: f64,
-    /// 1 going forward, −1 going backward.
-    pub(crate) sign: f64,
-}
-
-impl Clock {
-    pub(crate) fn t(self, s: f64) -> f64 {
-        self.t0 + self.sign * s
-    }
-
-    pub(crate) fn s(self, t: f64) -> f64 {
-        self.sign * (t - self.t0)
-    }
-
-    /// Whether a sample at `t` is within a step that ends at `s`.
-    pub(crate) fn passed(self, t: f64, s: f64) -> bool {
-        let sample = self.s(t);
-        sample - END_ROUNDING * sample.abs() <= s
-    }
-}
-
-/// Interpolant of a step: the time it covers, and coefficients.
-#[derive(Clone, Copy)]
-pub(crate) struct Interpolant<'a> {
-    pub(crate) clock: Clock,
-    pub(crate) s_old: f64,
-    /// Positive size of the step.
+    /// s at the start of the step.
+    pub(crate) s: f64,
+    /// Signed size of the step.
     pub(crate) h: f64,
     /// Rows c₀, c₁, … of [`interpolate`].
-    pub(crate) coefficients: &'a [f64],
+    pub(crate) coefficients: C,
 }
 
-impl Interpolant<'_> {
+/// An interpolant that is kept.
+pub(crate) type Segment = Interpolant<Vec<f64>>;
+
+impl<C: AsRef<[f64]>> Interpolant<C> {
+    /// Time at the start of the step.
+    pub(crate) fn t_old(&self) -> f64 {
+        self.t0 + self.s
+    }
+
     /// State at `t`, as interpolated: not projected.
     pub(crate) fn state(&self, t: f64, y: &mut [f64]) {
-        interpolate(
-            (self.clock.s(t) - self.s_old) / self.h,
-            self.coefficients,
-            y,
-        );
+        let theta = (t - self.t0 - self.s) / self.h;
+        interpolate(theta, self.coefficients.as_ref(), y);
     }
 
     /// A copy to keep.
     pub(crate) fn segment(&self) -> Segment {
-        Segment {
-            clock: self.clock,
-            s_old: self.s_old,
+        Interpolant {
+            t0: self.t0,
+            s: self.s,
             h: self.h,
-            coefficients: self.coefficients.to_vec(),
+            coefficients: self.coefficients.as_ref().to_vec(),
         }
-    }
-}
-
-/// An [`Interpolant`] that is kept.
-#[derive(Debug, Clone)]
-pub(crate) struct Segment {
-    clock: Clock,
-    s_old: f64,
-    h: f64,
-    coefficients: Vec<f64>,
-}
-
-impl Segment {
-    /// Time at the start of the step.
-    pub(crate) fn t_old(&self) -> f64 {
-        self.clock.t(self.s_old)
-    }
-
-    /// State at `t`, as interpolated: not projected.
-    pub(crate) fn state(&self, t: f64, y: &mut [f64]) {
-        let interpolant = Interpolant {
-            clock: self.clock,
-            s_old: self.s_old,
-            h: self.h,
-            coefficients: &self.coefficients,
-        };
-        interpolant.state(t, y);
     }
 }
 

@@ -1,17 +1,17 @@
 //! A run: steps until the end, and what becomes of those that fail.
 
+use super::control::StepSize;
 use super::course::{Course, Trial};
-use super::dense::Interpolant;
 use super::explicit::Explicit;
 use super::radau::Radau;
 use super::rattle::Rattle;
 use super::sample::Sample;
-use super::scheme::{Attempt, Equations, Scheme};
+use super::scheme::{Equations, Scheme};
 use super::stepper::Stepper;
 use super::sums::error_norm;
 use super::switches::{Leaving, Switches};
 use super::trouble::{Cause, Trouble};
-use super::{Method, Next, Outcome, PROJECTION_LIMIT, Problem, Report, Settings, Step};
+use super::{Method, Next, Outcome, PROJECTION_LIMIT, Problem, Report, Settings};
 use crate::error::Error;
 use crate::scan::{all_finite, all_pairs};
 use switching::Goal;
@@ -34,9 +34,6 @@ struct Driver<'p> {
     equations: Equations<'p>,
     settings: &'p Settings,
     scheme: Box<dyn Scheme>,
-    course: Course,
-    /// Last accepted state.
-    y: Vec<f64>,
     /// State at the end of the attempted step before its projection.
     raw: Vec<f64>,
     /// The step to be tried next, where it goes onto the zero of a switch.
@@ -46,61 +43,74 @@ struct Driver<'p> {
     landings: usize,
 }
 
-/// [`Method::run`](super::Method::run).
-pub(super) fn run(
-    method: Method,
-    problem: &mut dyn Problem,
-    t0: f64,
-    y0: &[f64],
-    t_end: f64,
-    settings: &Settings,
-) -> Report {
-    let n = y0.len();
-    let scheme: Box<dyn Scheme> = match method {
-        Method::Dop853 => Box::new(Explicit::new(Stepper::dop853(n))),
-        Method::Dopri5 => Box::new(Explicit::new(Stepper::dopri5(n))),
-        Method::Radau5 => Box::new(Radau::new(n)),
-        Method::Rattle { step } => Box::new(Rattle::new(n, step, (t_end - t0).abs())),
-    };
-    let located = match method {
-        // Its steps are of one size.
-        Method::Rattle { .. } => 0,
-        _ => problem.switches(),
-    };
-    let mut driver = Driver {
-        equations: Equations::new(problem, t0, Switches::new(located, n)),
-        settings,
-        scheme,
-        course: Course::new(t0, t_end, settings),
-        y: y0.to_vec(),
-        raw: y0.to_vec(),
-        goal: None,
-        repeated: 0,
-        landings: 0,
-    };
-    let outcome = driver.run().unwrap_or_else(|error| {
-        let here = Sample::of(driver.course.now.t, &driver.y);
-        let conflict = &mut driver.equations.conflict;
-        Outcome::Failed(driver.course.explain(error, here, conflict))
-    });
-    Report {
-        outcome,
-        steps: driver.course.steps,
-        rejected: driver.course.rejected() - driver.repeated,
-        landings: driver.landings,
-        factorisations: driver.scheme.factorisations(),
+impl Method {
+    /// Integrates from (t0, y0) to `t_end` ≠ t0, in either direction.
+    pub(crate) fn run(
+        self,
+        problem: &mut dyn Problem,
+        t0: f64,
+        y0: &[f64],
+        t_end: f64,
+        settings: &Settings,
+    ) -> Report {
+        let tolerance = settings.tolerance;
+        let explicit = |stepper| {
+            let size = StepSize::default();
+            Box::new(Explicit { stepper, size })
+        };
+        let scheme: Box<dyn Scheme> = match self {
+            Method::Dop853 => explicit(Stepper::dop853(y0.to_vec(), tolerance)),
+            Method::Dopri5 => explicit(Stepper::dopri5(y0.to_vec(), tolerance)),
+            Method::Radau5 => Box::new(Radau::new(y0, tolerance)),
+            Method::Rattle { step } => Box::new(Rattle::new(y0, step, t_end - t0)),
+        };
+        let located = match self {
+            // Its steps are of one size.
+            Method::Rattle { .. } => 0,
+            _ => problem.switches(),
+        };
+        let mut driver = Driver {
+            equations: Equations {
+                problem,
+                switches: Switches::new(located, y0.len()),
+                course: Course::new(t0, t_end, settings),
+            },
+            settings,
+            scheme,
+            raw: y0.to_vec(),
+            goal: None,
+            repeated: 0,
+            landings: 0,
+        };
+        let outcome = driver.run();
+        let (scheme, course) = (driver.scheme, &mut driver.equations.course);
+        Report {
+            outcome: outcome.unwrap_or_else(|error| {
+                let here = Sample::of(course.now.t, scheme.start());
+                Outcome::Failed(course.explain(error, here))
+            }),
+            steps: course.steps,
+            rejected: course.rejected() - driver.repeated,
+            landings: driver.landings,
+            factorisations: scheme.factorisations(),
+        }
     }
 }
 
 impl Driver<'_> {
     /// All steps. An error says that there is no next one; what went wrong before, if that is known, is its cause.
     fn run(&mut self) -> Result<Outcome, Error> {
-        self.start()?;
+        self.choose()?;
+        let largest = self.equations.course.largest_first();
+        self.equations.course.h = match self.settings.first_step {
+            Some(h) => h.min(largest.abs()).copysign(largest),
+            None => self.scheme.first_size(&mut self.equations, largest),
+        };
         loop {
             let goal = self.goal.take();
-            let trial = self.course.plan(goal.as_ref().map(|goal| goal.trial))?;
+            let trial = (self.equations.course).plan(goal.as_ref().map(|goal| goal.trial))?;
             // How long a step may be was found out by the one that a step onto a zero was cut from.
-            let whole = |error: f64| goal.as_ref().map_or((trial.size, error), |goal| goal.whole);
+            let whole = |error: f64| goal.as_ref().map_or((trial.h, error), |goal| goal.whole);
             match self.attempt(trial) {
                 Ok((Next::Stop, _)) => return Ok(Outcome::Stopped),
                 Ok(_) if trial.last => return Ok(Outcome::Reached),
@@ -110,35 +120,13 @@ impl Driver<'_> {
         }
     }
 
-    /// Evaluates f at the start and chooses the size of the first step.
-    fn start(&mut self) -> Result<(), Error> {
-        self.choose()?;
-        let largest = self.course.largest_first();
-        self.course.h = match self.settings.first_step {
-            Some(h) => h.min(largest),
-            None => {
-                let (sign, tolerance) = (self.course.clock.sign, self.settings.tolerance);
-                let equations = &mut self.equations;
-                (self.scheme).first_size(equations, &self.y, sign, tolerance, largest)
-            }
-        };
-        Ok(())
-    }
-
-    /// Evaluates f where the run stands.
-    fn begin(&mut self) -> Result<(), Cause> {
-        let s = self.course.clock.sign * self.course.now.s;
-        self.scheme.begin(&mut self.equations, s, &self.y)
-    }
-
     /// Chooses the size of the next step after one that was accepted; size and error are those that count.
-    fn accept(&mut self, (size, error): (f64, f64)) -> Result<(), Error> {
-        self.course.check_pace()?;
-        let next = self.scheme.accepted(&mut self.course.size, size, error);
-        self.course.propose(next);
+    fn accept(&mut self, (h, error): (f64, f64)) -> Result<(), Error> {
+        let next = self.scheme.accepted(h, error);
+        self.equations.course.propose(next);
         if self.arrive()? {
             // The other branch is not known yet.
-            self.course.h = self.course.h.min(size);
+            self.equations.course.limit(h);
         }
         Ok(())
     }
@@ -151,103 +139,89 @@ impl Driver<'_> {
         whole: impl Fn(f64) -> (f64, f64),
     ) -> Result<(), Error> {
         self.equations.switches.targets.clear();
-        let (h, size) = (trial.size, &mut self.course.size);
+        let h = trial.h;
         let (next, cause) = match refusal {
             Refusal::Leaves(leaving, error) => return self.follow(leaving, trial, whole(error)),
-            Refusal::Inaccurate(error) => (self.scheme.inaccurate(size, h, error), None),
+            Refusal::Inaccurate(error) => (self.scheme.inaccurate(h, error), None),
             // Beyond a zero there may be no value in the branch held.
             Refusal::Stage(Some(_)) | Refusal::End(Some(_)) if self.equations.release() => {
                 (h, None)
             }
-            Refusal::Stage(cause) => (self.scheme.inaccurate(size, h, f64::NAN), cause),
-            Refusal::End(cause) => (self.scheme.unfit(size, h), cause),
+            Refusal::Stage(cause) => (self.scheme.inaccurate(h, f64::NAN), cause),
+            Refusal::End(cause) => (self.scheme.unfit(h), cause),
         };
-        self.course.h = next;
-        self.course.refuse(cause);
+        self.equations.course.h = next;
+        self.equations.course.blame(cause);
         Ok(())
     }
 
     /// Tries a step, and moves to its end if it is good. Returns its error.
     fn attempt(&mut self, trial: Trial) -> Result<(Next, f64), Refusal> {
-        let step = self.course.attempt(trial);
         self.equations.switches.begin();
-        let error = self.scheme.attempt(&mut self.equations, step, &self.y);
+        let error = self.scheme.attempt(&mut self.equations, trial);
         let early = small(error.map_err(Refusal::Stage)?)?;
         self.project(trial.end.t)?;
-        let error = self.scheme.close(&mut self.equations, step, &self.y);
+        let error = self.scheme.close(&mut self.equations, trial);
         let late = small(error.map_err(Refusal::End)?)?;
         let error = early.max(late);
-        let interpolated = self.stay(step, trial, error)?;
-        let next = self.show(step, trial, interpolated)?;
-        self.equations.conflict.pass(self.course.now.t, trial.end.t);
-        self.course
-            .watch(trial, || (&self.y[..], self.scheme.state()));
-        self.course.advance(trial);
-        self.scheme.advance(&mut self.y);
+        let interpolated = self.stay(trial, error)?;
+        let next = self.show(trial, interpolated)?;
+        (self.equations.course).advance(trial, || self.scheme.states());
+        self.scheme.advance();
         Ok((next, error))
     }
 
     /// Projects the new state. Refuses if that fails or the change says that the step was a bad one.
     fn project(&mut self, t: f64) -> Result<(), Refusal> {
-        let new = self.scheme.state_mut();
-        if !all_finite(new) {
+        if !all_finite(self.scheme.end()) {
             return Err(Refusal::End(None));
         }
         if self.scheme.keeps_constraints() {
             return Ok(());
         }
-        let new = self.scheme.state_mut();
-        self.raw.copy_from_slice(new);
+        let Equations {
+            problem, course, ..
+        } = &mut self.equations;
+        self.raw.copy_from_slice(self.scheme.end());
         let raw = Sample::of(t, &self.raw);
-        let refuse = |error| Refusal::End(Some(Box::new(Trouble::new(raw, error))));
-        let (q, v) = new.split_at_mut(raw.q.len());
-        if let Err(error) = self.equations.problem.project(t, q, v) {
-            self.equations.conflict.note(raw, &error);
-            return Err(refuse(error));
-        }
+        let (q, v) = self.scheme.end_mut().split_at_mut(raw.q.len());
+        let projected = problem.project(t, q, v);
+        projected.map_err(|error| Refusal::End(course.note(raw, error)))?;
+        let [old, new] = self.scheme.states();
         // No weight of the norm is above 1 / absolute tolerance.
         let tolerance = self.settings.tolerance;
         let least = PROJECTION_LIMIT * tolerance.absolute;
         if all_pairs(&self.raw, new, |raw, new| (new - raw).abs() <= least) {
             return Ok(());
         }
-        let pairs = self.raw.iter().zip(&*new).zip(&self.y);
+        let pairs = self.raw.iter().zip(new).zip(old);
         let change = pairs.map(|((raw, new), old)| (new - raw, *old, *raw));
         if error_norm(change, tolerance) <= PROJECTION_LIMIT {
             return Ok(());
         }
         // Asked close to the place alone, so that the error has its time.
-        let jump = match self.course.is_close(t) {
-            true => self.equations.problem.jump(raw, self.course.now.t),
+        let jump = match course.is_close(t) {
+            true => problem.jump(raw, course.now.t),
             false => None,
         };
-        Err(jump.map_or(Refusal::End(None), refuse))
+        Err(Refusal::End(
+            jump.map(|error| Box::new(Trouble::new(raw, error))),
+        ))
     }
 
     /// Shows the problem the step, with its interpolant if one is wanted.
-    fn show(&mut self, step: Attempt, trial: Trial, interpolated: bool) -> Result<Next, Refusal> {
-        let Trial { size, end, .. } = trial;
-        let (clock, now) = (self.course.clock, self.course.now);
-        let within = |sample: f64| clock.passed(sample, end.s);
-        let wanted =
-            self.settings.dense || (self.equations.problem.next_sample()).is_some_and(within);
+    fn show(&mut self, trial: Trial, interpolated: bool) -> Result<Next, Refusal> {
+        let equations = &mut self.equations;
+        let next = equations.problem.next_sample();
+        let wanted = self.settings.dense || equations.course.covers(trial, next);
         if wanted && !interpolated {
-            let stages = (self.scheme).interpolate(&mut self.equations, step, &self.y);
+            let stages = self.scheme.interpolate(equations, trial);
             stages.map_err(Refusal::End)?;
         }
-        let new = Sample::of(end.t, self.scheme.state());
-        let step = Step {
-            old: Sample::of(now.t, &self.y),
-            new,
-            interpolant: wanted.then_some(Interpolant {
-                clock,
-                s_old: now.s,
-                h: size,
-                coefficients: self.scheme.dense(),
-            }),
-        };
-        let shown = self.equations.problem.step(&step);
-        shown.map_err(|error| Refusal::End(Some(Box::new(Trouble::new(new, error)))))
+        let coefficients = wanted.then(|| self.scheme.dense());
+        let step = (equations.course).show(trial, self.scheme.states(), coefficients);
+        let shown = equations.problem.step(&step);
+        shown.map_err(|error| Refusal::End(Some(Box::new(Trouble::new(step.new, error)))))
     }
 }
 

@@ -43,19 +43,17 @@ use crate::mechanism::Branch;
 use crate::numbers::full;
 use crate::spec::SwitchSpec;
 #[cfg(feature = "ensemble")]
-pub(crate) use control::Guess;
+pub(crate) use control::StepSize;
 #[cfg(feature = "ensemble")]
 pub(crate) use course::{Course, Trial};
 pub(crate) use dense::{Interpolant, Segment};
 use sample::Sample;
 #[cfg(feature = "ensemble")]
-pub(crate) use stepper::Stepper;
+pub(crate) use stepper::{Rates, Stepper};
 pub(crate) use sums::Tolerance;
 #[cfg(feature = "ensemble")]
 pub(crate) use sums::error_norm;
 pub(crate) use trouble::Trouble;
-#[cfg(feature = "ensemble")]
-pub(crate) use trouble::{Cause, Conflict};
 
 /// The methods on offer.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -187,7 +185,7 @@ pub(crate) struct Step<'a> {
     /// Projected state at its end, whose time is before that of its start where integration runs backward.
     pub(crate) new: Sample<'a>,
     /// States between; there if [`Settings::dense`] is set or [`Problem::next_sample`] lies in this step.
-    pub(crate) interpolant: Option<Interpolant<'a>>,
+    pub(crate) interpolant: Option<Interpolant<&'a [f64]>>,
 }
 
 /// How to go on after a step.
@@ -239,18 +237,4 @@ pub(crate) struct Report {
     pub(crate) factorisations: usize,
     /// Steps that went onto zeros of switches.
     pub(crate) landings: usize,
-}
-
-impl Method {
-    /// Integrates from (t0, y0) to `t_end` ≠ t0, in either direction.
-    pub(crate) fn run(
-        self,
-        problem: &mut dyn Problem,
-        t0: f64,
-        y0: &[f64],
-        t_end: f64,
-        settings: &Settings,
-    ) -> Report {
-        driver::run(self, problem, t0, y0, t_end, settings)
-    }
 }

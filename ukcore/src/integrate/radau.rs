@@ -19,8 +19,10 @@
 pub(super) mod newton;
 
 use super::Tolerance;
-use super::control::{self, SAFETY, StepSize};
-use super::scheme::{Attempt, Equations, Scheme};
+use super::control::{SAFETY, StepSize, first_size};
+use super::course::Trial;
+use super::scheme::{Equations, Scheme};
+use super::stepper::Rates;
 use super::sums::{sum_of_squares, weights};
 use super::trouble::Cause;
 use newton::{Matrices, Newton, Solved};
@@ -82,15 +84,19 @@ impl Turning {
     }
 }
 
-/// Buffers for steps with n coordinates, and what the last attempted one left in them.
+/// The state at the start of a step with n coordinates, buffers, and what the last attempted one left in them.
 pub(super) struct Radau {
     n: usize,
     newton: Newton,
+    /// Of the estimate of the error.
+    tolerance: Tolerance,
+    size: StepSize,
+    /// State at the start of the step, and at its end.
+    start: Vec<f64>,
+    end: Vec<f64>,
     /// f at the start and at the end of the step.
     rate: Vec<f64>,
     end_rate: Vec<f64>,
-    /// State at the end of the step.
-    new: Vec<f64>,
     weights: Vec<f64>,
     error: Vec<f64>,
     /// Coefficients of the collocation polynomial: of the closed step, and of the accepted one before, whose size is `h_previous`.
@@ -103,15 +109,19 @@ pub(super) struct Radau {
 }
 
 impl Radau {
-    /// For states of length `length`, coordinates and velocities together.
-    pub(super) fn new(length: usize) -> Self {
-        let zeros = |rows: usize| vec![0.0; rows * length];
+    /// From a state, with the tolerance of the run.
+    pub(super) fn new(start: &[f64], tolerance: Tolerance) -> Self {
+        let n = start.len() / 2;
+        let zeros = |rows: usize| vec![0.0; rows * start.len()];
         Radau {
-            n: length / 2,
-            newton: Newton::new(length / 2),
+            n,
+            newton: Newton::new(n),
+            tolerance: estimate_tolerance(tolerance),
+            size: StepSize::default(),
+            start: start.to_vec(),
+            end: zeros(1),
             rate: zeros(1),
             end_rate: zeros(1),
-            new: zeros(1),
             weights: zeros(1),
             error: zeros(1),
             dense: zeros(4),
@@ -132,7 +142,7 @@ impl Radau {
         let row = |k: usize| &self.previous[(2 * k + 1) * n..][..n];
         for (w, c) in self.newton.w.chunks_exact_mut(n).zip(C) {
             // p(1 + s) − p(1) of the form of `Interpolant`.
-            let s = c * h.abs() / h_previous;
+            let s = c * h / h_previous;
             for (i, w) in w.iter_mut().enumerate() {
                 *w = s * (row(1)[i] - (1.0 + s) * (row(2)[i] + (1.0 + s) * row(3)[i]));
             }
@@ -144,41 +154,34 @@ impl Radau {
         &mut self,
         matrices: Matrices,
         equations: &mut Equations<'_>,
-        step: Attempt,
-        y: &[f64],
-        tolerance: f64,
+        step: Trial,
     ) -> Result<bool, Cause> {
         self.extrapolate(step.h);
-        let weights = &self.weights;
+        let (y, weights, tolerance) = (&self.start, &self.weights, self.tolerance.relative);
         let solved = (self.newton).solve(matrices, equations, step, y, weights, tolerance)?;
-        match solved {
-            Solved::Yes => Ok(true),
-            Solved::No { shorten } => {
-                self.shorten = shorten;
-                Ok(false)
-            }
+        if let Solved::No { shorten } = solved {
+            self.shorten = shorten;
         }
+        Ok(matches!(solved, Solved::Yes))
     }
 
     /// The error of the attempted step in the error norm, eq. (8.20); where a first or repeated step fails by it, the estimate of eq.
     /// (8.21).
-    fn estimate(&mut self, equations: &mut Equations<'_>, step: Attempt, y: &[f64]) -> f64 {
+    fn estimate(&mut self, equations: &mut Equations<'_>, step: Trial) -> f64 {
         let norm = |error: &[f64], weights: &[f64]| {
             (sum_of_squares(error, weights) / weights.len().max(1) as f64).sqrt()
         };
         self.newton
             .filter(step.h, &ERROR, &self.rate, &mut self.error);
         let error = norm(&self.error, &self.weights);
-        if error < 1.0 || !step.unproven {
+        if error < 1.0 || !self.size.unproven() {
             return error;
         }
-        for (x, y) in self.error.iter_mut().zip(y) {
+        for (x, y) in self.error.iter_mut().zip(&self.start) {
             *x += y;
         }
-        if equations
-            .rate(step.s, &self.error, &mut self.end_rate)
-            .is_err()
-        {
+        let rate = &mut self.end_rate;
+        if equations.rate(step.start.s, &self.error, rate).is_err() {
             return error;
         }
         self.newton
@@ -196,88 +199,63 @@ impl Radau {
 }
 
 impl Scheme for Radau {
-    fn begin(&mut self, equations: &mut Equations<'_>, s: f64, y: &[f64]) -> Result<(), Cause> {
+    fn states(&self) -> [&[f64]; 2] {
+        [&self.start, &self.end]
+    }
+
+    fn end_mut(&mut self) -> &mut [f64] {
+        &mut self.end
+    }
+
+    fn begin(&mut self, equations: &mut Equations<'_>) -> Result<(), Cause> {
         self.newton.forget();
         self.h_previous = None;
-        equations.rate(s, y, &mut self.rate)
+        equations.rate(equations.course.now.s, &self.start, &mut self.rate)
     }
 
-    fn first_size(
-        &mut self,
-        equations: &mut Equations<'_>,
-        y: &[f64],
-        sign: f64,
-        tolerance: Tolerance,
-        largest: f64,
-    ) -> f64 {
-        let tolerance = estimate_tolerance(tolerance);
-        control::first_size(
-            equations,
-            (y, &self.rate),
-            (sign, largest),
-            ORDER,
-            tolerance,
-        )
+    fn first_size(&mut self, equations: &mut Equations<'_>, largest: f64) -> f64 {
+        let start = [&self.start[..], &self.rate];
+        first_size(equations, 0.0, start, largest, ORDER, self.tolerance)
     }
 
-    fn attempt(
-        &mut self,
-        equations: &mut Equations<'_>,
-        step: Attempt,
-        y: &[f64],
-    ) -> Result<f64, Cause> {
+    fn attempt(&mut self, equations: &mut Equations<'_>, step: Trial) -> Result<f64, Cause> {
         let n = self.n;
-        let tolerance = estimate_tolerance(step.tolerance);
         self.shorten = 0.5;
-        self.newton.prepare(equations, step, y)?;
-        weights(&mut self.weights, y, y, tolerance);
+        self.newton.prepare(equations, step, &self.start)?;
+        weights(&mut self.weights, &self.start, &self.start, self.tolerance);
         let by_stages = self.turning.expected();
         let matrices = if by_stages {
             Matrices::Stages
         } else {
             Matrices::Start
         };
-        let mut solved = self.solve(matrices, equations, step, y, tolerance.relative)?;
+        let mut solved = self.solve(matrices, equations, step)?;
         if !by_stages {
             self.turning.tried(solved);
             if !solved {
-                solved = self.solve(Matrices::Stages, equations, step, y, tolerance.relative)?;
+                solved = self.solve(Matrices::Stages, equations, step)?;
             }
         }
         if !solved {
             self.turning = Turning::default();
             return Err(None);
         }
-        self.new.copy_from_slice(y);
-        let ends = self.newton.z[2 * n..].iter().chain(&self.newton.w[2 * n..]);
-        for (new, change) in self.new.iter_mut().zip(ends) {
-            *new += change;
+        let changes = self.newton.z[2 * n..].iter().chain(&self.newton.w[2 * n..]);
+        for (end, (start, change)) in self.end.iter_mut().zip(self.start.iter().zip(changes)) {
+            *end = start + change;
         }
-        weights(&mut self.weights, y, &self.new, tolerance);
-        Ok(self.estimate(equations, step, y))
+        weights(&mut self.weights, &self.start, &self.end, self.tolerance);
+        Ok(self.estimate(equations, step))
     }
 
-    fn state(&self) -> &[f64] {
-        &self.new
-    }
-
-    fn state_mut(&mut self) -> &mut [f64] {
-        &mut self.new
-    }
-
-    fn close(
-        &mut self,
-        equations: &mut Equations<'_>,
-        step: Attempt,
-        y: &[f64],
-    ) -> Result<f64, Cause> {
-        equations.rate(step.s_end, &self.new, &mut self.end_rate)?;
+    fn close(&mut self, equations: &mut Equations<'_>, step: Trial) -> Result<f64, Cause> {
+        equations.rate(step.end.s, &self.end, &mut self.end_rate)?;
         // The polynomial through start and stages; the end is the projected one.
         let n = self.n;
         let (c0, rest) = self.dense.split_at_mut(2 * n);
         let (c1, rest) = rest.split_at_mut(2 * n);
         let (c2, c3) = rest.split_at_mut(2 * n);
-        c0.copy_from_slice(y);
+        c0.copy_from_slice(&self.start);
         for (half, stages) in [&self.newton.z, &self.newton.w].into_iter().enumerate() {
             for i in 0..n {
                 let end = stages[2 * n + i];
@@ -285,7 +263,7 @@ impl Scheme for Radau {
                     [0, 1].map(|k| (stages[k * n + i] / C[k] - end) / (1.0 - C[k]));
                 let slope = (second - first) / (C[1] - C[0]);
                 let i = half * n + i;
-                c1[i] = self.new[i] - y[i];
+                c1[i] = self.end[i] - self.start[i];
                 c2[i] = first - C[0] * slope;
                 c3[i] = slope;
             }
@@ -293,7 +271,7 @@ impl Scheme for Radau {
         Ok(0.0)
     }
 
-    fn interpolate(&mut self, _: &mut Equations<'_>, _: Attempt, _: &[f64]) -> Result<(), Cause> {
+    fn interpolate(&mut self, _: &mut Equations<'_>, _: Trial) -> Result<(), Cause> {
         Ok(())
     }
 
@@ -301,27 +279,27 @@ impl Scheme for Radau {
         &self.dense
     }
 
-    fn advance(&mut self, y: &mut [f64]) {
-        y.copy_from_slice(&self.new);
+    fn advance(&mut self) {
+        self.start.copy_from_slice(&self.end);
         std::mem::swap(&mut self.rate, &mut self.end_rate);
         std::mem::swap(&mut self.dense, &mut self.previous);
         self.newton.advance();
     }
 
-    fn accepted(&mut self, size: &mut StepSize, h: f64, error: f64) -> f64 {
+    fn accepted(&mut self, h: f64, error: f64) -> f64 {
         let (shrink, grow) = FACTORS;
         let clamp = |quotient: f64| quotient.clamp(1.0 / grow, 1.0 / shrink);
         let mut quotient = clamp(self.quotient(error));
-        if let Some((h_before, before)) = size.last {
+        if let Some((h_before, before)) = self.size.last {
             // Eq. (8.25).
             let before = before.max(SMALLEST_PREVIOUS);
             let predicted = h_before / h * (error * error / before).powf(1.0 / ORDER);
             quotient = quotient.max(clamp(predicted / SAFETY));
         }
-        if size.rejected {
+        if self.size.rejected {
             quotient = quotient.max(1.0);
         }
-        size.accept(h, error);
+        self.size.accept(h, error);
         self.h_previous = Some(h);
         let factor = quotient.recip();
         if (1.0..=KEEP).contains(&factor) && self.newton.keeps_jacobian() {
@@ -331,22 +309,22 @@ impl Scheme for Radau {
         }
     }
 
-    fn inaccurate(&mut self, size: &mut StepSize, h: f64, error: f64) -> f64 {
+    fn inaccurate(&mut self, h: f64, error: f64) -> f64 {
         self.newton.refused();
-        size.rejected = true;
+        self.size.rejected = true;
         let (shrink, grow) = FACTORS;
         if error.is_nan() {
             h * self.shorten
-        } else if size.last.is_none() {
+        } else if self.size.last.is_none() {
             0.1 * h
         } else {
             h / self.quotient(error).clamp(1.0 / grow, 1.0 / shrink)
         }
     }
 
-    fn unfit(&mut self, size: &mut StepSize, h: f64) -> f64 {
+    fn unfit(&mut self, h: f64) -> f64 {
         self.newton.refused();
-        size.unfit(h)
+        self.size.unfit(h)
     }
 
     fn factorisations(&self) -> usize {

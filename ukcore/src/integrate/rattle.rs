@@ -11,11 +11,10 @@
 //!
 //! A stage is symmetric and of order 2. Five of them with sizes γh, γh, (1 − 4γ)h, γh, γh make order 4 (Suzuki's composition, §II.4).
 
-use super::Tolerance;
-use super::control::StepSize;
+use super::course::Trial;
 use super::dense::cubic;
-use super::sample::Sample;
-use super::scheme::{Attempt, Equations, Scheme};
+use super::scheme::{Equations, Scheme};
+use super::stepper::Rates;
 use super::sums::keeping;
 use super::trouble::{Cause, Trouble};
 use crate::error::Error;
@@ -26,16 +25,18 @@ const GAMMA: f64 = 0.414_490_771_794_375_7;
 /// Sizes of the stages, as shares of the step.
 const SHARES: [f64; 5] = [GAMMA, GAMMA, 1.0 - 4.0 * GAMMA, GAMMA, GAMMA];
 
-/// Buffers for steps with n coordinates.
+/// The state at the start of a step with n coordinates, and buffers.
 pub(super) struct Rattle {
     n: usize,
-    /// Size of all steps, positive.
+    /// Signed size of all steps.
     step: f64,
+    /// State at the start of the step, and in the course of the attempted one.
+    start: Vec<f64>,
+    end: Vec<f64>,
     /// q̇ and q̈ at the start of the step, where q̈ may be off by M⁻¹Aᵀ times something.
     rate: Vec<f64>,
     /// The same in the course of the attempted step.
     stage_rate: Vec<f64>,
-    new: Vec<f64>,
     /// What rounding took from the state at the start of the step, and in the course of the attempted one.
     lost: Vec<f64>,
     losing: Vec<f64>,
@@ -47,16 +48,17 @@ pub(super) struct Rattle {
 }
 
 impl Rattle {
-    /// For states of length 2n and a run of length `span`, in equal steps of at most `step`.
-    pub(super) fn new(length: usize, step: f64, span: f64) -> Self {
-        let n = length / 2;
+    /// From a state, over the time `span` of either sign, in equal steps of at most `step`.
+    pub(super) fn new(start: &[f64], step: f64, span: f64) -> Self {
+        let n = start.len() / 2;
         let zeros = |rows: usize| vec![0.0; rows * n];
         Rattle {
             n,
-            step: span / (span / step).ceil().max(1.0),
+            step: span / (span.abs() / step).ceil().max(1.0),
+            start: start.to_vec(),
+            end: zeros(2),
             rate: zeros(2),
             stage_rate: zeros(2),
-            new: zeros(2),
             lost: zeros(2),
             losing: zeros(2),
             base: zeros(1),
@@ -68,30 +70,33 @@ impl Rattle {
     /// A stage of signed size `h` that ends at `s`.
     fn stage(&mut self, equations: &mut Equations<'_>, s: f64, h: f64) -> Result<(), Cause> {
         let n = self.n;
-        let t = equations.t0 + s;
-        let (q, v) = self.new.split_at_mut(n);
+        let t = equations.course.t0 + s;
+        let (q, v) = self.end.split_at_mut(n);
         let (q_lost, v_lost) = self.losing.split_at_mut(n);
         self.base.copy_from_slice(q);
         add(v, v_lost, 0.5 * h, &self.stage_rate[n..]);
         add(q, q_lost, h, v);
-        let result = equations
-            .problem
-            .project_along(t, &self.base, q, &mut self.shift);
-        if let Err(error) = result {
-            let reason = format!("is {}, which is too long here: {error}", self.step);
+        let problem = &mut *equations.problem;
+        if let Err(error) = problem.project_along(t, &self.base, q, &mut self.shift) {
+            let step = self.step.abs();
+            let reason = format!("is {step}, which is too long here: {error}");
             let what = "step";
             let error = Error::InvalidSetting { what, reason };
-            return Err(Trouble::cause(Sample::of(t, &self.new), error));
+            return Err(Trouble::cause(equations.at(s, &self.end), error));
         }
         add(v, v_lost, h.recip(), &self.shift);
         // v½ as it is does not satisfy the constraints, and redundant ones would contradict each other there.
-        let result = equations.problem.project_velocity(t, q, v);
-        result.map_err(|error| Trouble::cause(Sample::of(t, &self.new), error))?;
-        equations.rate(s, &self.new, &mut self.stage_rate)?;
-        let (q, v) = self.new.split_at_mut(n);
+        self.project_velocity(equations, s)?;
+        equations.rate(s, &self.end, &mut self.stage_rate)?;
+        let (v, v_lost) = (&mut self.end[n..], &mut self.losing[n..]);
         add(v, v_lost, 0.5 * h, &self.stage_rate[n..]);
-        let result = equations.problem.project_velocity(t, q, v);
-        result.map_err(|error| Trouble::cause(Sample::of(t, &self.new), error))
+        self.project_velocity(equations, s)
+    }
+
+    fn project_velocity(&mut self, equations: &mut Equations<'_>, s: f64) -> Result<(), Cause> {
+        let (q, v) = self.end.split_at_mut(self.n);
+        let result = (equations.problem).project_velocity(equations.course.t0 + s, q, v);
+        result.map_err(|error| Trouble::cause(equations.at(s, &self.end), error))
     }
 }
 
@@ -103,31 +108,31 @@ fn add(x: &mut [f64], lost: &mut [f64], c: f64, d: &[f64]) {
 }
 
 impl Scheme for Rattle {
-    fn begin(&mut self, equations: &mut Equations<'_>, s: f64, y: &[f64]) -> Result<(), Cause> {
-        equations.rate(s, y, &mut self.rate)
+    fn states(&self) -> [&[f64]; 2] {
+        [&self.start, &self.end]
     }
 
-    fn first_size(
-        &mut self,
-        _: &mut Equations<'_>,
-        _: &[f64],
-        _: f64,
-        _: Tolerance,
-        _: f64,
-    ) -> f64 {
+    fn end_mut(&mut self) -> &mut [f64] {
+        &mut self.end
+    }
+
+    fn keeps_constraints(&self) -> bool {
+        true
+    }
+
+    fn begin(&mut self, equations: &mut Equations<'_>) -> Result<(), Cause> {
+        equations.rate(equations.course.now.s, &self.start, &mut self.rate)
+    }
+
+    fn first_size(&mut self, _: &mut Equations<'_>, _: f64) -> f64 {
         self.step
     }
 
-    fn attempt(
-        &mut self,
-        equations: &mut Equations<'_>,
-        step: Attempt,
-        y: &[f64],
-    ) -> Result<f64, Cause> {
-        self.new.copy_from_slice(y);
+    fn attempt(&mut self, equations: &mut Equations<'_>, step: Trial) -> Result<f64, Cause> {
+        self.end.copy_from_slice(&self.start);
         self.losing.copy_from_slice(&self.lost);
         self.stage_rate.copy_from_slice(&self.rate);
-        let mut s = step.s;
+        let mut s = step.start.s;
         for share in SHARES {
             s += share * step.h;
             self.stage(equations, s, share * step.h)?;
@@ -135,34 +140,24 @@ impl Scheme for Rattle {
         Ok(0.0)
     }
 
-    fn state(&self) -> &[f64] {
-        &self.new
-    }
-
-    fn state_mut(&mut self) -> &mut [f64] {
-        &mut self.new
-    }
-
-    fn keeps_constraints(&self) -> bool {
-        true
-    }
-
-    fn close(&mut self, _: &mut Equations<'_>, _: Attempt, _: &[f64]) -> Result<f64, Cause> {
+    fn close(&mut self, _: &mut Equations<'_>, _: Trial) -> Result<f64, Cause> {
         Ok(0.0)
     }
 
     /// The cubic through states and rates at both ends: of the order of the method.
-    fn interpolate(
-        &mut self,
-        equations: &mut Equations<'_>,
-        step: Attempt,
-        y: &[f64],
-    ) -> Result<(), Cause> {
+    fn interpolate(&mut self, equations: &mut Equations<'_>, step: Trial) -> Result<(), Cause> {
         // A stage leaves q̈ at its v½; the interpolant needs those of the ends.
         let (mut start, mut end) = (self.rate.clone(), self.rate.clone());
-        equations.rate(step.s, y, &mut start)?;
-        equations.rate(step.s_end, &self.new, &mut end)?;
-        cubic(&mut self.dense, step.h, y, &self.new, &start, &end);
+        equations.rate(step.start.s, &self.start, &mut start)?;
+        equations.rate(step.end.s, &self.end, &mut end)?;
+        cubic(
+            &mut self.dense,
+            step.h,
+            &self.start,
+            &self.end,
+            &start,
+            &end,
+        );
         Ok(())
     }
 
@@ -170,22 +165,22 @@ impl Scheme for Rattle {
         &self.dense
     }
 
-    fn advance(&mut self, y: &mut [f64]) {
-        y.copy_from_slice(&self.new);
+    fn advance(&mut self) {
+        self.start.copy_from_slice(&self.end);
         self.lost.copy_from_slice(&self.losing);
         self.rate.copy_from_slice(&self.stage_rate);
     }
 
-    fn accepted(&mut self, _: &mut StepSize, _: f64, _: f64) -> f64 {
+    fn accepted(&mut self, _: f64, _: f64) -> f64 {
         self.step
     }
 
     /// A shorter step would be another method: there is none.
-    fn inaccurate(&mut self, _: &mut StepSize, _: f64, _: f64) -> f64 {
+    fn inaccurate(&mut self, _: f64, _: f64) -> f64 {
         0.0
     }
 
-    fn unfit(&mut self, _: &mut StepSize, _: f64) -> f64 {
+    fn unfit(&mut self, _: f64) -> f64 {
         0.0
     }
 }

@@ -206,8 +206,8 @@ impl Pace {
 
     /// Whether the steps of a window chatter, and too slowly to get over `remaining` time with the steps left.
     pub(crate) fn hopeless(&self, remaining: f64) -> bool {
-        let reach = self.time * (self.left as f64 / WINDOW as f64);
-        self.steps == WINDOW && self.chatters() && reach < remaining.abs()
+        let reach = || self.time * (self.left as f64 / WINDOW as f64);
+        self.steps == WINDOW && self.chatters() && reach() < remaining.abs()
     }
 
     fn chatters(&self) -> bool {

@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::mechanism::Energy;
+use crate::trajectory::EnergyDrift;
 
 /// Largest change of the energy, as a share of the energy exchanged, with which a motion still counts as one of the mechanism.
 const ASTRAY: f64 = 0.5;
@@ -12,36 +13,29 @@ const NO_CHANGE: f64 = 1e-9;
 /// Watches the energy of a run with steps of a fixed size.
 pub(super) struct EnergyWatch {
     step: f64,
-    first: Energy,
-    /// Largest energy exchanged so far.
-    exchanged: f64,
+    drift: EnergyDrift,
 }
 
 impl EnergyWatch {
     /// For steps of size `step`, from the energy `first`.
     pub(super) fn new(step: f64, first: Energy) -> Self {
-        EnergyWatch {
-            step,
-            first,
-            exchanged: 0.0,
-        }
+        let mut drift = EnergyDrift::default();
+        drift.add(first);
+        EnergyWatch { step, drift }
     }
 
     /// Refuses an energy that a motion cannot have which began with the first one.
     pub(super) fn check(&mut self, now: Energy) -> Result<(), Error> {
-        let gained = now.potential - self.first.potential;
-        let change = (gained + (now.kinetic - self.first.kinetic)).abs();
-        self.exchanged = self.exchanged.max(now.kinetic).max(gained.abs());
-        let terms = now.kinetic + now.potential.abs() + self.first.potential.abs();
+        let (change, terms) = self.drift.add(now);
+        let exchanged = self.drift.exchanged;
         // The energy of a motion gone astray may not be a number.
-        if change <= ASTRAY * self.exchanged || change <= NO_CHANGE * terms {
+        if change <= ASTRAY * exchanged || change <= NO_CHANGE * terms {
             return Ok(());
         }
-        let what = "step";
+        let (what, step) = ("step", self.step);
+        let share = 100.0 * change / exchanged;
         let reason = format!(
-            "is {:?}, which is too long here: the energy has changed by {:.0} % of the energy exchanged; take a smaller one",
-            self.step,
-            100.0 * change / self.exchanged
+            "is {step:?}, which is too long here: the energy has changed by {share:.0} % of the energy exchanged; take a smaller one"
         );
         Err(Error::InvalidSetting { what, reason })
     }

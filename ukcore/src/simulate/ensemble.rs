@@ -100,11 +100,14 @@ impl Ensemble {
     ///
     /// A member that fails ends alone, with an error as [`Simulation::until`] has it.
     pub fn until(&self, t_end: f64) -> Vec<Result<Member, Error>> {
+        let Some((mechanism, _)) = self.members.first() else {
+            return Vec::new();
+        };
         let threads = rayon::current_num_threads().max(1);
         let next = AtomicUsize::new(0);
         // Few members are shared out evenly.
         let capacity = self.members.len().div_ceil(threads);
-        let run = |_| Group::new(self, &self.lanes, t_end, &next, capacity).run();
+        let run = |_| Group::new(self, mechanism, t_end, &next, capacity).run();
         let parts: Vec<_> = (0..threads).into_par_iter().map(run).collect();
         let mut all: Vec<_> = parts.into_iter().flatten().collect();
         all.sort_by_key(|(index, _)| *index);

@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::agenda::Agenda;
+use crate::assemble::State;
 use crate::error::Error;
 use crate::events::{Event, EventHit, States, Watch};
 use crate::integrate::Step;
@@ -15,6 +16,9 @@ pub(super) type Sink<'a> = &'a mut dyn FnMut(Record<'_>) -> ControlFlow<()>;
 
 /// Takes from accepted steps what is to be kept or handed over.
 pub(super) struct Recorder<'s> {
+    pub(super) trajectory: Trajectory,
+    /// For steps, and samples and events within them.
+    pub(super) projector: Projector,
     agenda: Agenda,
     watch: Watch,
     /// Takes what is not to be kept, until it wants no more.
@@ -27,13 +31,18 @@ pub(super) struct Recorder<'s> {
 }
 
 impl<'s> Recorder<'s> {
+    /// For a run from where `trajectory` stands.
     pub(super) fn new(
+        trajectory: Trajectory,
+        projector: Projector,
         agenda: Agenda,
         events: Vec<Event>,
-        coordinates: usize,
         sink: Option<Sink<'s>>,
     ) -> Self {
+        let coordinates = trajectory.spec().n();
         Recorder {
+            trajectory,
+            projector,
             agenda,
             watch: Watch::new(events, coordinates),
             sink,
@@ -54,30 +63,23 @@ impl<'s> Recorder<'s> {
     }
 
     /// Events and sample at the start of the run.
-    pub(super) fn start(
-        &mut self,
-        at: Sample<'_>,
-        trajectory: &mut Trajectory,
-    ) -> Result<(), Error> {
+    pub(super) fn start(&mut self, at: Sample<'_>) -> Result<(), Error> {
         if self.agenda.takes_start(at.t) {
-            trajectory.push(at);
+            self.trajectory.push(at);
         }
         self.watch.start(at).map_err(|error| at.locate(error))?;
-        self.hand_over(trajectory);
+        self.hand_over();
         Ok(())
     }
 
     /// Takes from a step what is wanted of it, and nothing if that fails.
-    pub(super) fn step(
-        &mut self,
-        step: &Step<'_>,
-        projector: &mut Projector,
-        trajectory: &mut Trajectory,
-    ) -> Result<(), Error> {
+    pub(super) fn step(&mut self, step: &Step<'_>) -> Result<(), Error> {
         let taken = self.agenda.taken();
+        let trajectory = &self.trajectory;
         let (samples, values) = (trajectory.times.len(), trajectory.states.len());
         let (events, ending) = (trajectory.events.len(), trajectory.ending);
-        if let Err(error) = self.record(step, projector, trajectory) {
+        if let Err(error) = self.record(step) {
+            let trajectory = &mut self.trajectory;
             self.agenda.return_to(taken);
             trajectory.times.truncate(samples);
             trajectory.states.truncate(values);
@@ -86,18 +88,14 @@ impl<'s> Recorder<'s> {
             return Err(error);
         }
         self.watch.accept();
-        self.hand_over(trajectory);
+        self.hand_over();
         Ok(())
     }
 
-    fn record(
-        &mut self,
-        step: &Step<'_>,
-        projector: &mut Projector,
-        trajectory: &mut Trajectory,
-    ) -> Result<(), Error> {
+    fn record(&mut self, step: &Step<'_>) -> Result<(), Error> {
+        let trajectory = &mut self.trajectory;
         let mut within = Within {
-            projector,
+            projector: &mut self.projector,
             project: trajectory.projected,
             step,
             work: &mut trajectory.work,
@@ -109,13 +107,14 @@ impl<'s> Recorder<'s> {
             let event = &self.watch.events[crossing.event];
             let t = crossing.t;
             within.consistent(t, between)?;
-            let Sample { q, v, .. } = Sample::of(t, between);
+            let State { t, q, v } = Sample::of(t, between).to_state();
+            let (name, direction) = (event.name.clone(), crossing.direction);
             trajectory.events.push(EventHit {
-                name: event.name.clone(),
+                name,
                 t,
-                q: q.to_vec(),
-                v: v.to_vec(),
-                direction: crossing.direction,
+                q,
+                v,
+                direction,
             });
             if event.terminal {
                 t_stop = t;
@@ -143,7 +142,8 @@ impl<'s> Recorder<'s> {
     }
 
     /// Gives samples and events to the sink, if there is one, in the order in which the run passes them.
-    fn hand_over(&mut self, trajectory: &mut Trajectory) {
+    fn hand_over(&mut self) {
+        let trajectory = &mut self.trajectory;
         self.sampled = trajectory.times.last().copied().or(self.sampled);
         let Some(sink) = &mut self.sink else {
             return;
@@ -168,21 +168,25 @@ impl<'s> Recorder<'s> {
     }
 
     /// The state with which the run ended becomes its last sample, if samples are not at given times only.
-    pub(super) fn finish(&mut self, trajectory: &mut Trajectory) {
-        if let Some(end) = &trajectory.end
+    pub(super) fn finish(mut self) -> Trajectory {
+        if let Some(end) = self.trajectory.end.clone()
             && self.agenda.wants_ends()
             && self.sampled.is_some_and(|t| t != end.t)
         {
-            trajectory.times.push(end.t);
-            trajectory.states.extend_from_slice(&end.q);
-            trajectory.states.extend_from_slice(&end.v);
+            self.trajectory.push(Sample::from(&end));
         }
-        self.hand_over(trajectory);
+        self.hand_over();
+        self.trajectory
+    }
+
+    /// Projects the state at the end of a step, and counts it.
+    pub(super) fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Error> {
+        project(&mut self.projector, &mut self.trajectory.work, t, (q, v))
     }
 }
 
 /// Projects a state, positions first, and counts it.
-pub(super) fn project(
+fn project(
     projector: &mut Projector,
     work: &mut Work,
     t: f64,

@@ -4,12 +4,11 @@ use std::ops::ControlFlow;
 
 use super::energy::EnergyWatch;
 use super::obstacles;
-use super::record::{Recorder, project};
+use super::record::Recorder;
 use crate::error::Error;
 use crate::integrate::sample::Sample;
 use crate::integrate::{Method, Next, Outcome, Problem, Settings, Step};
 use crate::linearise::Slopes;
-use crate::manifold::Projector;
 use crate::mechanism::{Branch, Dynamics, Prepared};
 use crate::scalar::Dual;
 use crate::solver::Solver;
@@ -19,9 +18,8 @@ use crate::trajectory::{Ending, Trajectory};
 pub(super) type Progress = Box<dyn FnMut(Sample<'_>) -> ControlFlow<()>>;
 
 /// The simulation as a problem for the integrator.
-pub(super) struct Run<'a, 's> {
+pub(super) struct Run<'s> {
     pub(super) solver: Solver,
-    pub(super) projector: Projector,
     /// For the derivatives of switching functions, if steps are to go onto their zeros.
     pub(super) located: Option<Prepared<Dual, dyn Dynamics<Dual>>>,
     /// Made when a method asks for the first Jacobian.
@@ -31,10 +29,9 @@ pub(super) struct Run<'a, 's> {
     pub(super) recorder: Recorder<'s>,
     pub(super) progress: Option<Progress>,
     pub(super) t_end: f64,
-    pub(super) trajectory: &'a mut Trajectory,
 }
 
-impl Run<'_, '_> {
+impl Run<'_> {
     /// Runs from `start` to the end.
     pub(super) fn integrate(
         &mut self,
@@ -42,25 +39,26 @@ impl Run<'_, '_> {
         method: Method,
         settings: &Settings,
     ) -> Result<(), Error> {
-        self.recorder.start(start, self.trajectory)?;
+        self.recorder.start(start)?;
         let Sample { t, q, v } = start;
         if self.t_end == t {
-            self.trajectory.ending = Ending::Completed;
+            self.recorder.trajectory.ending = Ending::Completed;
             return Ok(());
         }
         if self.recorder.has_ended() {
-            self.trajectory.ending = Ending::Interrupted;
+            self.recorder.trajectory.ending = Ending::Interrupted;
             return Ok(());
         }
         let t_end = self.t_end;
         let report = method.run(self, t, &[q, v].concat(), t_end, settings);
-        let work = &mut self.trajectory.work;
+        let trajectory = &mut self.recorder.trajectory;
+        let work = &mut trajectory.work;
         work.steps = report.steps;
         work.rejected = report.rejected;
         work.factorisations = report.factorisations;
         work.switches = report.landings;
         match report.outcome {
-            Outcome::Reached => self.trajectory.ending = Ending::Completed,
+            Outcome::Reached => trajectory.ending = Ending::Completed,
             // It was told why.
             Outcome::Stopped => {}
             Outcome::Failed(trouble) => return Err(trouble.into_error()),
@@ -69,15 +67,16 @@ impl Run<'_, '_> {
     }
 
     /// The run has ended, however it has.
-    pub(super) fn finish(&mut self) {
-        let work = self.solver.work();
-        self.trajectory.work.evaluations = work.evaluations;
-        self.trajectory.work.fallbacks = work.fallbacks;
-        self.recorder.finish(self.trajectory);
+    pub(super) fn finish(mut self) -> Trajectory {
+        let done = self.solver.work();
+        let work = &mut self.recorder.trajectory.work;
+        work.evaluations = done.evaluations;
+        work.fallbacks = done.fallbacks;
+        self.recorder.finish()
     }
 }
 
-impl Problem for Run<'_, '_> {
+impl Problem for Run<'_> {
     fn acceleration(&mut self, at: Sample<'_>, out: &mut [f64]) -> Result<(), Error> {
         self.solver.acceleration_in_run(at.t, at.q, at.v, out)
     }
@@ -90,16 +89,15 @@ impl Problem for Run<'_, '_> {
     ) -> Result<(), Error> {
         let solver = &mut self.solver;
         let slopes = (self.slopes).get_or_insert_with(|| Slopes::new(solver.mechanism()));
-        self.trajectory.work.jacobians += 1;
+        self.recorder.trajectory.work.jacobians += 1;
         slopes.columns(solver, (at.t, at.q, at.v), acceleration, out)
     }
 
     fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Error> {
-        if !self.trajectory.projected {
+        if !self.recorder.trajectory.projected {
             return Ok(());
         }
-        let work = &mut self.trajectory.work;
-        project(&mut self.projector, work, t, (q, v))
+        self.recorder.project(t, q, v)
     }
 
     fn project_along(
@@ -109,16 +107,16 @@ impl Problem for Run<'_, '_> {
         q: &mut [f64],
         shift: &mut [f64],
     ) -> Result<(), Error> {
-        let work = &mut self.trajectory.work;
+        let work = &mut self.recorder.trajectory.work;
         work.projections += 1;
-        let correction = self.projector.position_along(t, base, q, shift)?;
+        let correction = (self.recorder.projector).position_along(t, base, q, shift)?;
         work.projection_iterations += correction.iterations;
         Ok(())
     }
 
     fn project_velocity(&mut self, t: f64, q: &[f64], v: &mut [f64]) -> Result<(), Error> {
-        let correction = self.projector.velocity(t, q, v)?;
-        self.trajectory.work.projection_iterations += correction.iterations;
+        let correction = self.recorder.projector.velocity(t, q, v)?;
+        self.recorder.trajectory.work.projection_iterations += correction.iterations;
         Ok(())
     }
 
@@ -132,7 +130,7 @@ impl Problem for Run<'_, '_> {
 
     fn switches(&self) -> usize {
         match self.located {
-            Some(_) => self.trajectory.spec().switches.len(),
+            Some(_) => self.recorder.trajectory.spec().switches.len(),
             None => 0,
         }
     }
@@ -159,7 +157,7 @@ impl Problem for Run<'_, '_> {
 
     fn set_branch(&mut self, k: usize, branch: Branch) {
         self.solver.mechanism_mut().hold(k, branch);
-        self.projector.hold(k, branch);
+        self.recorder.projector.hold(k, branch);
     }
 
     fn step(&mut self, step: &Step<'_>) -> Result<Next, Error> {
@@ -168,20 +166,19 @@ impl Problem for Run<'_, '_> {
             energy.check(self.solver.mechanism().energy(t, q, v))?;
         }
         obstacles::check_branch(&mut self.solver, step)?;
-        let recorder = &mut self.recorder;
-        recorder.step(step, &mut self.projector, self.trajectory)?;
-        let Some(end) = self.trajectory.last() else {
+        self.recorder.step(step)?;
+        let Some(end) = self.recorder.trajectory.last() else {
             return Ok(Next::Continue);
         };
         let go_on = match &mut self.progress {
             Some(progress) => progress(end),
             None => ControlFlow::Continue(()),
         };
-        if self.trajectory.ending == Ending::Event {
+        if self.recorder.trajectory.ending == Ending::Event {
             return Ok(Next::Stop);
         }
-        if (go_on.is_break() || recorder.has_ended()) && end.t != self.t_end {
-            self.trajectory.ending = Ending::Interrupted;
+        if (go_on.is_break() || self.recorder.has_ended()) && end.t != self.t_end {
+            self.recorder.trajectory.ending = Ending::Interrupted;
             return Ok(Next::Stop);
         }
         Ok(Next::Continue)

@@ -1,18 +1,55 @@
 //! From the start that is given to one on the constraints.
 
+use super::agenda::Agenda;
+use super::record::{Recorder, Sink};
 use super::{START_BOUND, Simulation, angles};
 use crate::assemble::State;
 use crate::diagnose;
 use crate::error::Error;
-use crate::integrate::Tolerance;
-use crate::manifold::Projector;
+use crate::integrate::{Settings, Tolerance};
+use crate::manifold::{Projector, Stabilisation};
 use crate::scan::largest;
 use crate::spec::Spec;
-use crate::trajectory::Work;
+use crate::trajectory::{Trajectory, Work};
 
 impl Simulation {
+    /// What takes the records of a run to `t_end`, the consistent start, and what a method is to be told.
+    pub(super) fn admit<'s>(
+        &mut self,
+        t_end: f64,
+        sink: Option<Sink<'s>>,
+    ) -> Result<(Recorder<'s>, State, Settings), Error> {
+        self.check(t_end, sink.is_none())?;
+        let mut trajectory = self.trajectory();
+        let mut projector = Projector::new(&self.mechanism);
+        let (start, tolerance) = self.consistent_start(&mut projector, &mut trajectory.work)?;
+        trajectory.start = start.t;
+        trajectory.end = Some(start.clone());
+        let settings = Settings {
+            tolerance,
+            first_step: self.first_step,
+            max_step: self.max_step,
+            max_steps: self.max_steps,
+            dense: self.dense || !self.events.is_empty(),
+            switches: self.mechanism.spec().switches,
+        };
+        let agenda = Agenda::new(self.sampling.clone(), start.t, t_end);
+        let events = std::mem::take(&mut self.events);
+        let recorder = Recorder::new(trajectory, projector, agenda, events, sink);
+        Ok((recorder, start, settings))
+    }
+
+    /// The trajectory of a run that has not started.
+    pub(super) fn trajectory(&self) -> Trajectory {
+        let mut trajectory = Trajectory::new(self.mechanism.clone(), self.solver_options());
+        trajectory.watched = self.events.iter().map(|event| event.name.clone()).collect();
+        trajectory.projected = self.stabilisation == Stabilisation::Projection;
+        trajectory.segments = self.dense.then(Vec::new);
+        trajectory
+    }
+
     /// The start, checked and projected, and the tolerance of a run from there.
-    pub(super) fn consistent_start(
+    fn consistent_start(
         &self,
         projector: &mut Projector,
         work: &mut Work,

@@ -105,21 +105,24 @@ impl Gauge {
 
 /// The largest change of the energy since the first sample, and the largest energy exchanged.
 #[derive(Debug, Clone, Default)]
-pub(super) struct EnergyDrift {
+pub(crate) struct EnergyDrift {
     first: Option<Energy>,
     change: f64,
-    exchanged: f64,
+    pub(crate) exchanged: f64,
 }
 
 impl EnergyDrift {
-    pub(super) fn add(&mut self, now: Energy) {
+    /// Returns the change of this sample, and the size of the terms that it is a difference of.
+    pub(crate) fn add(&mut self, now: Energy) -> (f64, f64) {
         let first = self.first.get_or_insert(now);
         // V − V₀ first: a large constant in V must not hide the rest.
         let gained = now.potential - first.potential;
-        let change = gained + (now.kinetic - first.kinetic);
-        self.change = nan_max(self.change, change.abs());
+        let change = (gained + (now.kinetic - first.kinetic)).abs();
+        self.change = nan_max(self.change, change);
         self.exchanged = nan_max(self.exchanged, now.kinetic.abs());
         self.exchanged = nan_max(self.exchanged, gained.abs());
+        let terms = now.kinetic + now.potential.abs() + first.potential.abs();
+        (change, terms)
     }
 
     /// The change as a share of the energy exchanged; as it is where nothing moves.

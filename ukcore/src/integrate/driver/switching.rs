@@ -4,7 +4,6 @@ use super::{Driver, Refusal};
 use crate::error::Error;
 use crate::integrate::course::Trial;
 use crate::integrate::sample::Sample;
-use crate::integrate::scheme::Attempt;
 use crate::integrate::switches::{Leaving, Stuck};
 use crate::mechanism::Branch;
 
@@ -18,43 +17,37 @@ pub(super) struct Goal {
 impl Driver<'_> {
     /// Chooses branches at the start of the run, and evaluates f there.
     pub(super) fn choose(&mut self) -> Result<(), Error> {
-        let here = Sample::of(self.course.now.t, &self.y);
-        let zeros = self.equations.choose(here, self.course.clock.sign);
+        let zeros = self.equations.choose(self.scheme.start());
         let zeros = zeros.map_err(|stuck| self.stuck(stuck))?;
         self.begin_at(&zeros)
     }
 
     /// Evaluates f where `switches` stand at zero: those are followed if f has no value there in their branches.
     fn begin_at(&mut self, switches: &[usize]) -> Result<(), Error> {
-        if self.begin().is_ok() {
+        if self.scheme.begin(&mut self.equations).is_ok() {
             return Ok(());
         }
         self.equations.set_branch(switches, Branch::Followed);
-        self.begin().map_err(|cause| {
-            self.course.refuse(cause);
+        self.scheme.begin(&mut self.equations).map_err(|cause| {
+            self.equations.course.blame(cause);
             Error::StepTooSmall { step: 0.0 }
         })
     }
 
     /// Refuses the closed step if it leaves the branches of its start. Returns whether its interpolant had to be made for that.
-    pub(super) fn stay(
-        &mut self,
-        step: Attempt,
-        trial: Trial,
-        error: f64,
-    ) -> Result<bool, Refusal> {
+    pub(super) fn stay(&mut self, trial: Trial, error: f64) -> Result<bool, Refusal> {
         let equations = &mut self.equations;
         if equations.switches.is_empty() {
             return Ok(false);
         }
-        let end = Sample::of(trial.end.t, self.scheme.state());
+        let end = Sample::of(trial.end.t, self.scheme.end());
         if !equations.switches.suspect(equations.problem, end) {
             return Ok(false);
         }
-        let stages = (self.scheme).interpolate(equations, step, &self.y);
+        let stages = self.scheme.interpolate(equations, trial);
         stages.map_err(Refusal::End)?;
-        let t0 = equations.t0;
-        let time = |theta: f64| t0 + step.s + theta * step.h;
+        let t0 = equations.course.t0;
+        let time = |theta: f64| t0 + trial.start.s + theta * trial.h;
         let coefficients = self.scheme.dense();
         match equations
             .switches
@@ -76,11 +69,11 @@ impl Driver<'_> {
         whole: (f64, f64),
     ) -> Result<(), Error> {
         self.repeated += 1;
-        self.course.h = whole.0;
+        self.equations.course.h = whole.0;
         let switches = match leaving {
             Leaving::AtOnce(switches) | Leaving::AtEnd(switches) => switches,
             Leaving::Within(theta, switches) => {
-                if let Some(trial) = self.course.within(theta * trial.size) {
+                if let Some(trial) = self.equations.course.step(theta * trial.h) {
                     self.equations.switches.targets = switches;
                     self.goal = Some(Goal { trial, whole });
                     return Ok(());
@@ -88,13 +81,12 @@ impl Driver<'_> {
                 switches
             }
         };
-        let here = Sample::of(self.course.now.t, &self.y);
-        let turned = (self.equations).turn(&switches, here, self.course.clock.sign);
+        let turned = self.equations.turn(&switches, self.scheme.start());
         if turned.map_err(|stuck| self.stuck(stuck))? {
             return self.begin_at(&switches);
         }
         // The motion goes into its branch, and leaves it before the step's first part ends.
-        self.course.h = self.scheme.unfit(&mut self.course.size, trial.size);
+        self.equations.course.h = self.scheme.unfit(trial.h);
         Ok(())
     }
 
@@ -106,15 +98,11 @@ impl Driver<'_> {
         }
         let landed = !self.equations.switches.targets.is_empty();
         self.landings += usize::from(landed);
-        let here = Sample::of(self.course.now.t, &self.y);
-        let targets = self.equations.arrive(here, self.course.clock.sign);
+        let targets = self.equations.arrive(self.scheme.start());
         let targets = targets.map_err(|stuck| self.stuck(stuck))?;
-        if self.course.pace.is_slow() {
-            let here = Sample::of(self.course.now.t, &self.y);
-            let across = self
-                .equations
-                .carried_across(here, self.course.clock.sign * self.course.h);
-            self.course.pace.across(&across)?;
+        if self.equations.course.pace.is_slow() {
+            let across = self.equations.carried_across(self.scheme.start());
+            self.equations.course.pace.across(&across)?;
         }
         if landed {
             self.begin_at(&targets)?;
@@ -123,6 +111,6 @@ impl Driver<'_> {
     }
 
     fn stuck(&mut self, Stuck(switches): Stuck) -> Error {
-        self.course.stuck(&switches)
+        self.equations.course.stuck(&switches)
     }
 }

@@ -3,7 +3,8 @@
 use nalgebra::Complex;
 
 use super::C;
-use crate::integrate::scheme::{Attempt, Equations};
+use crate::integrate::course::Trial;
+use crate::integrate::scheme::Equations;
 use crate::integrate::trouble::Cause;
 use crate::lu::Lu;
 
@@ -174,9 +175,8 @@ pub(super) struct Newton {
     diagonal: Vec<f64>,
     change_real: Vec<f64>,
     change_pair: Vec<Complex<f64>>,
-    /// State and rate of a stage, accelerations of all.
+    /// State of a stage, accelerations of all.
     stage: Vec<f64>,
-    rate: Vec<f64>,
     acceleration: Vec<f64>,
     /// Iterations of the last attempt, their rate of convergence θ, and what the next step may know of it.
     pub(super) iterations: usize,
@@ -205,7 +205,6 @@ impl Newton {
             change_real: zeros(1),
             change_pair: vec![Complex::ZERO; n],
             stage: zeros(2),
-            rate: zeros(2),
             acceleration: zeros(3),
             iterations: 1,
             theta: 0.0,
@@ -239,11 +238,12 @@ impl Newton {
     pub(super) fn prepare(
         &mut self,
         equations: &mut Equations<'_>,
-        step: Attempt,
+        step: Trial,
         y: &[f64],
     ) -> Result<(), Cause> {
         if self.stale {
-            equations.jacobian(step.s, y, &mut self.rate, &mut self.jacobian)?;
+            let out = &mut self.acceleration[..self.n];
+            equations.jacobian(step.start.s, y, out, &mut self.jacobian)?;
             (self.fresh, self.stale, self.factored) = (true, false, None);
         }
         if self.factored == Some(step.h) {
@@ -277,7 +277,7 @@ impl Newton {
         &mut self,
         matrices: Matrices,
         equations: &mut Equations<'_>,
-        step: Attempt,
+        step: Trial,
         y: &[f64],
         weights: &[f64],
         tolerance: f64,
@@ -380,7 +380,7 @@ impl Newton {
         &mut self,
         anew: bool,
         equations: &mut Equations<'_>,
-        step: Attempt,
+        step: Trial,
         y: &[f64],
     ) -> Result<bool, Cause> {
         let n = self.n;
@@ -392,15 +392,17 @@ impl Newton {
             for (stage, (y, change)) in self.stage.iter_mut().zip(y.iter().zip(changes)) {
                 *stage = y + change;
             }
-            let s = step.s + c * step.h;
+            let (s, out) = (
+                step.start.s + c * step.h,
+                &mut self.acceleration[k * n..][..n],
+            );
             match &mut self.stages {
                 Some(stages) if anew => {
                     let jacobian = &mut stages.jacobians[k];
-                    equations.jacobian(s, &self.stage, &mut self.rate, jacobian)?;
+                    equations.jacobian(s, &self.stage, out, jacobian)?;
                 }
-                _ => equations.rate(s, &self.stage, &mut self.rate)?,
+                _ => equations.acceleration(s, &self.stage, out)?,
             }
-            self.acceleration[k * n..][..n].copy_from_slice(&self.rate[n..]);
         }
         if let (true, Some(stages)) = (anew, &mut self.stages) {
             self.factorisations += 1;

@@ -2,7 +2,6 @@
 
 use super::Switches;
 use crate::integrate::Problem;
-use crate::integrate::sample::Sample;
 use crate::integrate::scheme::Equations;
 use crate::mechanism::Branch;
 
@@ -27,23 +26,20 @@ impl<'p> Equations<'p> {
         all.release(problem)
     }
 
-    /// Chooses branches at the start of a run in the direction `along`. A function that is zero there goes where it moves; returns these.
-    pub(in crate::integrate) fn choose(
-        &mut self,
-        at: Sample<'_>,
-        along: f64,
-    ) -> Result<Vec<usize>, Stuck> {
+    /// Chooses branches at the start of a run. A function that is zero there goes where it moves; returns these.
+    pub(in crate::integrate) fn choose(&mut self, y: &[f64]) -> Result<Vec<usize>, Stuck> {
+        let at = self.at(self.course.now.s, y);
         let (all, problem) = self.parts();
         let zeros = all.start(problem, at);
         self.set_branch(&zeros, Branch::Positive);
-        let down = self.driven_out(&zeros, at, along);
-        let rest = self.at_rest(&zeros, at);
+        let down = self.driven_out(&zeros, y);
+        let rest = self.at_rest(&zeros, y);
         self.set_branch(&rest, Branch::Followed);
         self.set_branch(&down, Branch::Negative);
-        let back = self.driven_out(&down, at, along);
+        let back = self.driven_out(&down, y);
         // Driven back from both sides, it may stay between them: at rest under friction, without a force.
         self.set_branch(&back, Branch::Followed);
-        match self.at_rest(&back, at).len() == back.len() {
+        match self.at_rest(&back, y).len() == back.len() {
             true => Ok(zeros),
             false => Err(Stuck(back)),
         }
@@ -51,17 +47,14 @@ impl<'p> Equations<'p> {
 
     /// A step has got to this state, where the switches that it went onto take their other branches, unless they are driven back; returns
     /// these.
-    pub(in crate::integrate) fn arrive(
-        &mut self,
-        at: Sample<'_>,
-        along: f64,
-    ) -> Result<Vec<usize>, Stuck> {
+    pub(in crate::integrate) fn arrive(&mut self, y: &[f64]) -> Result<Vec<usize>, Stuck> {
+        let at = self.at(self.course.now.s, y);
         let (all, problem) = self.parts();
         let targets = std::mem::take(&mut all.targets);
         targets.iter().for_each(|k| all.flip(problem, *k));
         all.arrive(problem, at);
         if !targets.is_empty() {
-            self.turn(&targets, at, along)?;
+            self.turn(&targets, y)?;
         }
         Ok(targets)
     }
@@ -71,17 +64,17 @@ impl<'p> Equations<'p> {
     pub(in crate::integrate) fn turn(
         &mut self,
         switches: &[usize],
-        at: Sample<'_>,
-        along: f64,
+        y: &[f64],
     ) -> Result<bool, Stuck> {
-        let out = self.driven_out(switches, at, along);
+        let out = self.driven_out(switches, y);
         if out.is_empty() {
             return Ok(false);
         }
+        let at = self.at(self.course.now.s, y);
         let (all, problem) = self.parts();
         out.iter().for_each(|k| all.flip(problem, *k));
         all.arrive(problem, at);
-        let stuck = self.driven_out(&out, at, along);
+        let stuck = self.driven_out(&out, y);
         match stuck.is_empty() {
             true => Ok(true),
             false => Err(Stuck(stuck)),
@@ -89,22 +82,24 @@ impl<'p> Equations<'p> {
     }
 
     /// Those of `switches` whose functions leave the branches they are in.
-    fn driven_out(&mut self, switches: &[usize], at: Sample<'_>, along: f64) -> Vec<usize> {
+    fn driven_out(&mut self, switches: &[usize], y: &[f64]) -> Vec<usize> {
+        let along = self.course.along;
         let out = |_, branch: Branch, rate: f64| along * branch.sign() * rate < 0.0;
-        self.moving(switches, at, out)
+        self.moving(switches, y, out)
     }
 
-    /// The switches whose functions are positive and get to zero within a step `h` from here, at the rate that they have here.
-    pub(in crate::integrate) fn carried_across(&mut self, at: Sample<'_>, h: f64) -> Vec<usize> {
+    /// The switches whose functions are positive and get to zero within the step proposed from here, at the rate that they have here.
+    pub(in crate::integrate) fn carried_across(&mut self, y: &[f64]) -> Vec<usize> {
+        let h = self.course.h;
         let values = self.switches.values.clone();
         let positive = values.iter().enumerate().filter(|(_, g)| **g > 0.0);
         let positive: Vec<usize> = positive.map(|(k, _)| k).collect();
-        self.moving(&positive, at, |k, _, rate| values[k] + h * rate < 0.0)
+        self.moving(&positive, y, |k, _, rate| values[k] + h * rate < 0.0)
     }
 
     /// Those of `switches` whose functions stay as they are.
-    fn at_rest(&mut self, switches: &[usize], at: Sample<'_>) -> Vec<usize> {
-        self.moving(switches, at, |_, _, rate| rate == 0.0)
+    fn at_rest(&mut self, switches: &[usize], y: &[f64]) -> Vec<usize> {
+        self.moving(switches, y, |_, _, rate| rate == 0.0)
     }
 
     /// Those of `switches` for which `which` of their position, their branch and the rate of their function holds at this state; none
@@ -112,11 +107,13 @@ impl<'p> Equations<'p> {
     fn moving(
         &mut self,
         switches: &[usize],
-        at: Sample<'_>,
+        y: &[f64],
         which: impl Fn(usize, Branch, f64) -> bool,
     ) -> Vec<usize> {
+        let s = self.course.now.s;
+        let at = self.at(s, y);
         let mut acceleration = vec![0.0; at.v.len()];
-        if switches.is_empty() || self.acceleration(at, &mut acceleration).is_err() {
+        if switches.is_empty() || self.acceleration(s, y, &mut acceleration).is_err() {
             return Vec::new();
         }
         let (all, problem) = self.parts();

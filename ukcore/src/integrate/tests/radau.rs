@@ -1,9 +1,10 @@
 //! The implicit method: its coefficients, its order, stiff problems.
 
 use super::*;
+use crate::integrate::course::Course;
 use crate::integrate::radau::newton::{A, PAIR, REAL, T, T_INVERSE};
 use crate::integrate::radau::{C, Radau};
-use crate::integrate::scheme::{Attempt, Equations, Scheme};
+use crate::integrate::scheme::{Equations, Scheme};
 use crate::integrate::switches::Switches;
 
 type Matrix = [[f64; 3]; 3];
@@ -61,20 +62,16 @@ fn steps_estimates_and_interpolants_have_their_order() {
         // Errors of a single step: end, interpolant, estimate.
         let step = |h: f64| {
             let mut problem = Plain::new(smooth);
-            let problem = &mut problem;
-            let mut equations = Equations::new(problem, 0.3, Switches::new(0, 2));
-            let mut scheme = Radau::new(2);
-            let (s, s_end, tolerance) = (0.0, h, 1e-12);
-            let step = Attempt {
-                s,
-                s_end,
-                h,
-                tolerance: both(tolerance),
-                unproven: true,
+            let mut equations = Equations {
+                problem: &mut problem,
+                switches: Switches::new(0, 2),
+                course: Course::new(0.3, 0.3 + h, &settings(1e-12)),
             };
-            assert!(scheme.begin(&mut equations, 0.0, &start).is_ok());
-            let estimate = scheme.attempt(&mut equations, step, &start);
-            assert!(scheme.close(&mut equations, step, &start).is_ok());
+            let mut scheme = Radau::new(&start, both(1e-12));
+            let step = equations.course.step(h).unwrap();
+            assert!(scheme.begin(&mut equations).is_ok());
+            let estimate = scheme.attempt(&mut equations, step);
+            assert!(scheme.close(&mut equations, step).is_ok());
             let mut largest = 0.0_f64;
             for theta in [0.1, 0.3, 0.5, 0.8, 0.9] {
                 let mut between = [0.0; 2];
@@ -82,7 +79,7 @@ fn steps_estimates_and_interpolants_have_their_order() {
                 largest = largest.max(distance(&between, &exact(theta * h)));
             }
             [
-                distance(scheme.state(), &exact(h)),
+                distance(scheme.end(), &exact(h)),
                 largest,
                 estimate.unwrap_or(f64::NAN),
             ]

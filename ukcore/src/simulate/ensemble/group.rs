@@ -4,49 +4,51 @@ use std::convert::Infallible;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::running::Running;
-use super::{Ensemble, Member};
+use super::{Ensemble, Member, Wide};
 use crate::error::Error;
 use crate::integrate::sample::Sample;
-use crate::integrate::{Guess, PROJECTION_LIMIT, Stepper, Tolerance, error_norm};
+use crate::integrate::{PROJECTION_LIMIT, Rates, Stepper, Tolerance, error_norm};
 use crate::lanes::{LaneSolver, Lanes};
 use crate::manifold::Newton;
 use crate::mechanism::Prepared;
-use crate::solver::SolverWork;
+use crate::scalar::Scalar;
 
 /// As many members as there are lanes, at most.
-pub(super) struct Group<'a, L: Lanes> {
+pub(super) struct Group<'a> {
     ensemble: &'a Ensemble,
     t_end: f64,
     /// The next member that nobody has taken.
     next: &'a AtomicUsize,
     /// Lanes that are used.
     capacity: usize,
-    stepper: Stepper<L>,
-    newton: Newton<L>,
-    equations: Option<Equations<L>>,
-    y: Vec<L>,
-    raw: Vec<L>,
+    stepper: Stepper<Wide>,
+    newton: Newton<Wide>,
+    members: Members,
+    /// State at the end of a step before its projection.
+    raw: Vec<Wide>,
     results: Vec<(usize, Result<Member, Error>)>,
 }
 
 /// The members and their right-hand sides.
-struct Equations<L: Lanes> {
-    solver: LaneSolver<L>,
+struct Members {
+    solver: LaneSolver<Wide>,
     lanes: Vec<Option<Running>>,
     /// Lanes that take part in the evaluation.
     alive: Vec<bool>,
-    t0: L,
+    /// Start times.
+    t0: Wide,
 }
 
-impl<L: Lanes> Equations<L> {
-    /// y' at t0 + `s`. Lanes where it does not exist take no further part.
-    fn rate(&mut self, s: L, y: &[L], rate: &mut [L]) -> Result<(), Infallible> {
-        let n = y.len() / 2;
+impl Rates<Wide> for Members {
+    type Error = Infallible;
+
+    /// Lanes where y' does not exist take no further part.
+    fn rate(&mut self, s: Wide, y: &[Wide], rate: &mut [Wide]) -> Result<(), Infallible> {
         let t = self.t0 + s;
-        let (q, v) = y.split_at(n);
-        let (q_rate, v_rate) = rate.split_at_mut(n);
+        let (q, v) = y.split_at(y.len() / 2);
+        let (q_rate, v_rate) = rate.split_at_mut(q.len());
         q_rate.copy_from_slice(v);
-        let Equations {
+        let Members {
             solver,
             lanes,
             alive,
@@ -62,333 +64,268 @@ impl<L: Lanes> Equations<L> {
         }
         Ok(())
     }
+}
 
-    /// Numbers of the running lanes, and what runs there.
-    fn running(&mut self) -> impl Iterator<Item = (usize, &mut Running)> {
+impl Members {
+    /// What runs in the lanes of `which`, with their numbers.
+    fn running(&mut self, which: &[bool]) -> impl Iterator<Item = (usize, &mut Running)> {
         let lanes = self.lanes.iter_mut().enumerate();
-        lanes.filter_map(|(k, running)| Some((k, running.as_mut()?)))
+        lanes.filter_map(|(k, running)| Some((k, running.as_mut().filter(|_| which[k])?)))
     }
 
     /// A number with f of each running member, 0 in idle lanes.
-    fn each(&self, f: impl Fn(&Running) -> f64) -> L {
-        L::from_lanes(|k| self.lanes[k].as_ref().map_or(0.0, &f))
-    }
-
-    /// Where the members stand, counted from their starts and with the signs of their directions.
-    fn now(&self) -> L {
-        self.each(|r| r.course.clock.sign * r.course.now.s)
-    }
-
-    /// Tolerances of the members.
-    fn tolerance(&self, relative: f64) -> Tolerance<L> {
-        Tolerance {
-            relative,
-            absolute: self.each(|r| r.settings.tolerance.absolute),
-        }
+    fn each(&self, f: impl Fn(&Running) -> f64) -> Wide {
+        Wide::from_lanes(|k| self.lanes[k].as_ref().map_or(0.0, &f))
     }
 }
 
-fn lane<L: Lanes>(all: &[L], k: usize) -> Vec<f64> {
+fn lane(all: &[Wide], k: usize) -> Vec<f64> {
     all.iter().map(|x| x.lane(k)).collect()
 }
 
-fn mask<L: Lanes>(which: &[bool]) -> L {
-    L::from_lanes(|k| f64::from(u8::from(which[k])))
+fn mask(which: &[bool]) -> Wide {
+    Wide::from_lanes(|k| f64::from(u8::from(which[k])))
 }
 
-/// `new` in the lanes of `which`, `old` in the others.
-fn choose<L: Lanes>(which: L, new: L, old: L) -> L {
-    L::select_le(L::from_f64(0.5), which, new, old)
+/// Takes the new one of two numbers in the lanes of `which`, the old one in the others.
+fn choose(which: &[bool]) -> impl Fn(Wide, Wide) -> Wide {
+    let which = mask(which);
+    move |new, old| Wide::select_le(Wide::from_f64(0.5), which, new, old)
 }
 
-impl<'a, L: Lanes> Group<'a, L> {
+impl<'a> Group<'a> {
+    /// For members of the type of `mechanism`.
     pub(super) fn new(
         ensemble: &'a Ensemble,
-        lanes: &Prepared<L>,
+        mechanism: &Prepared,
         t_end: f64,
         next: &'a AtomicUsize,
         capacity: usize,
     ) -> Self {
-        let spec = lanes.spec();
-        let n = spec.n();
-        let zeros = || vec![L::from_f64(0.0); 2 * n];
-        let equations = ensemble.members.first().map(|(mechanism, _)| Equations {
-            solver: LaneSolver::with(lanes.clone(), mechanism.clone()),
-            lanes: (0..L::WIDTH).map(|_| None).collect(),
-            alive: vec![false; L::WIDTH],
-            t0: L::from_f64(0.0),
-        });
+        let spec = mechanism.spec();
+        let zeros = vec![Wide::from_f64(0.0); 2 * spec.n()];
+        let tolerance = Tolerance {
+            relative: ensemble.tolerance,
+            absolute: Wide::from_f64(0.0),
+        };
         Group {
             ensemble,
             t_end,
             next,
-            capacity: capacity.min(L::WIDTH),
-            stepper: Stepper::dop853(2 * n),
+            capacity: capacity.min(Wide::WIDTH),
+            stepper: Stepper::dop853(zeros.clone(), tolerance),
             newton: Newton::new(spec),
-            equations,
-            y: zeros(),
-            raw: zeros(),
+            members: Members {
+                solver: LaneSolver::with(ensemble.lanes.clone(), mechanism.clone()),
+                lanes: (0..Wide::WIDTH).map(|_| None).collect(),
+                alive: vec![false; Wide::WIDTH],
+                t0: Wide::from_f64(0.0),
+            },
+            raw: zeros,
             results: Vec::new(),
         }
     }
 
     /// Runs members until none is left, and returns their results with their numbers.
     pub(super) fn run(mut self) -> Vec<(usize, Result<Member, Error>)> {
-        let Some(mut equations) = self.equations.take() else {
-            return self.results;
-        };
         loop {
-            self.refill(&mut equations);
-            self.plan(&mut equations);
-            if equations.alive.contains(&true) {
-                self.attempt(&mut equations);
-            } else if equations.lanes.iter().all(Option::is_none)
-                && self.next.load(Ordering::Relaxed) >= self.ensemble.members.len()
-            {
+            while self.refill() {}
+            if self.members.lanes.iter().all(Option::is_none) {
                 return self.results;
             }
+            self.plan();
+            self.attempt();
         }
     }
 
-    /// Gives idle lanes the next members.
-    fn refill(&mut self, equations: &mut Equations<L>) {
-        let mut fresh = vec![false; L::WIDTH];
-        for (k, fresh) in fresh.iter_mut().enumerate().take(self.capacity) {
-            while equations.lanes[k].is_none() {
-                let index = self.next.fetch_add(1, Ordering::Relaxed);
-                if index >= self.ensemble.members.len() {
-                    break;
-                }
-                let simulation = self.ensemble.simulation(index);
-                let (running, start) = match Running::admit(index, simulation, self.t_end) {
-                    Ok(admitted) => admitted,
-                    Err(error) => {
-                        self.results.push((index, Err(error)));
-                        continue;
-                    }
-                };
-                let start = [start.q, start.v].concat();
-                if running.has_arrived() {
-                    let member = running.finish(&start, SolverWork::default());
-                    self.results.push((index, Ok(member)));
+    /// Gives idle lanes the next members, evaluates f at their starts, and chooses their first step sizes. Returns whether there were any.
+    fn refill(&mut self) -> bool {
+        let fresh: Vec<bool> = (0..Wide::WIDTH).map(|k| self.admit(k)).collect();
+        if !fresh.contains(&true) {
+            return false;
+        }
+        self.members.alive.clone_from(&fresh);
+        let (members, s) = (&mut self.members, Wide::from_f64(0.0));
+        let Ok(()) = self.stepper.begin(members, s, choose(&fresh));
+        for (k, fresh) in fresh.iter().enumerate() {
+            if *fresh && !self.members.alive[k] {
+                self.fail(k, Error::StepTooSmall { step: 0.0 });
+            }
+        }
+        let members = &mut self.members;
+        let largest = members.each(|r| r.course.largest_first());
+        let first = self.stepper.first_size(members, s, largest);
+        for (k, running) in members.running(&fresh) {
+            running.course.h = first.lane(k);
+            // Where f could not be evaluated for it, no step failed.
+            running.course.forgive();
+        }
+        true
+    }
+
+    /// Gives lane `k`, if it is idle, the next member that has a way to go. Returns whether it did.
+    fn admit(&mut self, k: usize) -> bool {
+        while k < self.capacity && self.members.lanes[k].is_none() {
+            let index = self.next.fetch_add(1, Ordering::Relaxed);
+            let Some((mechanism, _)) = self.ensemble.members.get(index) else {
+                break;
+            };
+            let running = match Running::admit(index, self.ensemble.simulation(index), self.t_end) {
+                Ok(running) => running,
+                Err(error) => {
+                    self.results.push((index, Err(error)));
                     continue;
                 }
-                for (y, x) in self.y.iter_mut().zip(start) {
-                    y.set_lane(k, x);
-                }
-                let mechanism = self.ensemble.members[index].0.clone();
-                equations.solver.put(k, mechanism);
-                equations.lanes[k] = Some(running);
-                *fresh = true;
+            };
+            let Some(start) = &running.recorder.trajectory.end else {
+                continue;
+            };
+            let y = start.q.iter().chain(&start.v).copied();
+            let absolute = running.settings.tolerance.absolute;
+            self.stepper.put(k, y, absolute);
+            self.members.t0.set_lane(k, start.t);
+            self.members.solver.put(k, mechanism.clone());
+            self.members.lanes[k] = Some(running);
+            if !self.finish(k) {
+                return true;
             }
         }
-        if fresh.contains(&true) {
-            equations.t0 = equations.each(|r| r.course.clock.t0);
-            self.begin(equations, fresh);
-        }
-    }
-
-    /// Evaluates f at the start of `fresh` members, and chooses their first step sizes.
-    fn begin(&mut self, equations: &mut Equations<L>, fresh: Vec<bool>) {
-        let new = mask::<L>(&fresh);
-        equations.alive = fresh;
-        let (y, raw) = (&self.y, &mut self.raw);
-        let s = equations.now();
-        self.stepper.forget(|fresh, old| choose(new, fresh, old));
-        // The others have theirs already.
-        let Ok(()) = self.stepper.begin(
-            |s, y, rate| {
-                equations.rate(s, y, raw)?;
-                let pairs = rate.iter_mut().zip(&*raw);
-                pairs.for_each(|(old, fresh)| *old = choose(new, *fresh, *old));
-                Ok::<(), Infallible>(())
-            },
-            s,
-            y,
-        );
-        for k in 0..L::WIDTH {
-            if new.lane(k) > 0.5 && !equations.alive[k] {
-                self.fail(equations, k, Error::StepTooSmall { step: 0.0 });
-            }
-        }
-        let (y, rate) = (&self.y, self.stepper.rate());
-        let alive = equations.alive.clone();
-        let mut guesses = vec![None; L::WIDTH];
-        for (k, running) in equations.running().filter(|(k, _)| alive[*k]) {
-            let pairs = y.iter().zip(rate).map(|(y, f)| (y.lane(k), f.lane(k)));
-            let (tolerance, largest) = (running.settings.tolerance, running.course.largest_first());
-            let guess = Guess::new(pairs, tolerance, largest);
-            running.course.h = guess.h;
-            guesses[k] = Some(guess);
-        }
-        let step = equations.each(|r| r.course.clock.sign * r.course.h);
-        let pairs = y.iter().zip(rate);
-        let probe: Vec<L> = pairs.map(|(y, f)| *y + step * *f).collect();
-        let after = &mut self.raw;
-        let Ok(()) = equations.rate(s + step, &probe, after);
-        let still = equations.alive.clone();
-        let order = self.stepper.tableau().control.order;
-        for (k, running) in equations.running() {
-            // Where f could not be evaluated after the guess, the guess it is.
-            running.forget();
-            if let (Some(guess), true) = (guesses[k], still[k]) {
-                let triples = y.iter().zip(rate).zip(&*after);
-                let triples = triples.map(|((y, f), g)| (y.lane(k), f.lane(k), g.lane(k)));
-                let tolerance = running.settings.tolerance;
-                let largest = running.course.largest_first();
-                running.course.h = guess.refine(triples, order, tolerance, largest);
-            }
-        }
+        false
     }
 
     /// Chooses the steps to be tried; members that cannot go on end here.
-    fn plan(&mut self, equations: &mut Equations<L>) {
-        for k in 0..L::WIDTH {
-            equations.alive[k] = false;
-            let Some(running) = &mut equations.lanes[k] else {
+    fn plan(&mut self) {
+        for k in 0..Wide::WIDTH {
+            self.members.alive[k] = false;
+            let Some(running) = &mut self.members.lanes[k] else {
                 continue;
             };
             match running.course.plan(None) {
-                Ok(trial) => {
-                    running.trial = trial;
-                    equations.alive[k] = true;
-                }
-                Err(error) => self.fail(equations, k, error),
+                Ok(trial) => (running.trial, self.members.alive[k]) = (trial, true),
+                Err(error) => self.fail(k, error),
             }
         }
     }
 
     /// Ends the member in lane `k` with `error`, or with what lies behind it.
-    fn fail(&mut self, equations: &mut Equations<L>, k: usize, error: Error) {
-        if let Some(running) = equations.lanes[k].take() {
+    fn fail(&mut self, k: usize, error: Error) {
+        if let Some(running) = self.members.lanes[k].take() {
             let index = running.index;
-            let error = running.fail(error, &lane(&self.y, k));
+            let error = running.fail(error, &lane(self.stepper.states()[0], k));
             self.results.push((index, Err(error)));
         }
     }
 
-    /// Tries the planned steps, and moves on in the lanes where they are good.
-    fn attempt(&mut self, equations: &mut Equations<L>) {
-        let tolerance = equations.tolerance(self.ensemble.tolerance);
-        let control = &self.stepper.tableau().control;
-        let start = equations.now();
-        let step = equations.each(|r| r.course.clock.sign * r.trial.size);
-        let tried = equations.alive.clone();
-        let f = |s: L, y: &[L], rate: &mut [L]| equations.rate(s, y, rate);
-        let Ok(()) = self.stepper.attempt(f, start, step, &self.y);
-        let errors = self.stepper.error(step, &self.y, tolerance);
-        let mut alive = equations.alive.clone();
-        for (k, running) in equations.running().filter(|(k, _)| tried[*k]) {
-            let error = if alive[k] { errors.lane(k) } else { f64::NAN };
-            alive[k] &= error <= 1.0;
-            if !alive[k] {
-                let size = running.trial.size;
-                let h = running.course.size.inaccurate(control, size, error);
-                running.refuse(h);
-            }
-        }
-        let judged = alive.clone();
-        equations.alive = alive;
-        self.project(equations, tolerance);
-        let end = equations.each(|r| r.course.clock.sign * r.trial.end.s);
-        let f = |s: L, y: &[L], rate: &mut [L]| equations.rate(s, y, rate);
-        let Ok(()) = self.stepper.close(f, end);
-        self.take_samples(equations, start, step);
-        let alive = equations.alive.clone();
-        let (old, new) = (&self.y, self.stepper.state());
-        for (k, running) in equations.running().filter(|(k, _)| judged[*k]) {
-            let (trial, course) = (running.trial, &mut running.course);
-            if !alive[k] {
-                let h = course.size.unfit(trial.size);
-                running.refuse(h);
-                continue;
-            }
-            running.conflict.pass(course.now.t, trial.end.t);
-            course.watch(trial, || (lane(old, k), lane(new, k)));
-            course.advance(trial);
-            let next = course.size.accepted(control, trial.size, errors.lane(k));
-            course.propose(next);
-        }
-        let accepted = mask::<L>(&alive);
-        let choose = |new, old| choose(accepted, new, old);
-        self.stepper.advance(&mut self.y, choose);
-        for k in (0..L::WIDTH).filter(|&k| alive[k]) {
-            self.finish(equations, k);
-        }
+    /// Ends the member in lane `k` if it has arrived; returns whether it had.
+    fn finish(&mut self, k: usize) -> bool {
+        let Some(running) = self.members.lanes[k].take_if(|running| running.has_arrived()) else {
+            return false;
+        };
+        let (y, work) = (
+            lane(self.stepper.states()[0], k),
+            self.members.solver.work(k),
+        );
+        self.results
+            .push((running.index, Ok(running.finish(&y, work))));
+        true
     }
 
-    /// Ends the member in lane `k` if it has arrived, or will not.
-    fn finish(&mut self, equations: &mut Equations<L>, k: usize) {
-        let Some(running) = &mut equations.lanes[k] else {
-            return;
-        };
-        if !running.has_arrived() {
-            if let Err(error) = running.course.check_pace() {
-                self.fail(equations, k, error);
+    /// Tries the planned steps, and moves on in the lanes where they are good.
+    fn attempt(&mut self) {
+        let (stepper, members) = (&mut self.stepper, &mut self.members);
+        let (start, step) = (
+            members.each(|r| r.trial.start.s),
+            members.each(|r| r.trial.h),
+        );
+        let control = stepper.control();
+        let tried = members.alive.clone();
+        let Ok(errors) = stepper.attempt(members, start, step);
+        let mut judged = members.alive.clone();
+        for (k, running) in members.running(&tried) {
+            let error = if judged[k] { errors.lane(k) } else { f64::NAN };
+            judged[k] = error <= 1.0;
+            if !judged[k] {
+                running.course.h = running.size.inaccurate(control, running.trial.h, error);
             }
-            return;
         }
-        if let Some(running) = equations.lanes[k].take() {
-            let index = running.index;
-            let member = running.finish(&lane(&self.y, k), equations.solver.work(k));
-            self.results.push((index, Ok(member)));
+        members.alive.clone_from(&judged);
+        self.project();
+        let (stepper, members) = (&mut self.stepper, &mut self.members);
+        let end = members.each(|r| r.trial.end.s);
+        let Ok(_) = stepper.close(members, end, step);
+        self.record(start, step);
+        let (stepper, members) = (&mut self.stepper, &mut self.members);
+        let alive = members.alive.clone();
+        for (k, running) in members.running(&judged) {
+            let (trial, course, size) = (running.trial, &mut running.course, &mut running.size);
+            if alive[k] {
+                course.advance(trial, || stepper.states().map(|y| lane(y, k)));
+                course.propose(size.accepted(control, trial.h, errors.lane(k)));
+            } else {
+                course.h = size.unfit(trial.h);
+            }
+        }
+        stepper.advance(choose(&alive));
+        for k in (0..Wide::WIDTH).filter(|&k| alive[k]) {
+            self.finish(k);
         }
     }
 
     /// Projects the new states. Lanes where that fails, or the change says that the step was a bad one, take no further part.
-    fn project(&mut self, equations: &mut Equations<L>, tolerance: Tolerance<L>) {
-        let new = self.stepper.state_mut();
-        self.raw.copy_from_slice(new);
-        let wanted = mask::<L>(&equations.alive);
-        let t = equations.each(|r| r.trial.end.t);
+    fn project(&mut self) {
+        let members = &mut self.members;
+        let wanted = mask(&members.alive);
+        let t = members.each(|r| r.trial.end.t);
+        let absolute = members.each(|r| r.settings.tolerance.absolute);
+        self.raw.copy_from_slice(self.stepper.states()[1]);
+        let new = self.stepper.end_mut();
         let (q, v) = new.split_at_mut(new.len() / 2);
-        let prepared = equations.solver.prepared();
+        let prepared = members.solver.prepared();
         let (good, steps) = self.newton.project(prepared, t, [q, v], wanted);
-        let Equations { lanes, alive, .. } = equations;
-        for (k, running) in lanes.iter_mut().enumerate() {
-            let Some(running) = running.as_mut().filter(|_| alive[k]) else {
-                continue;
-            };
+        let mut alive = members.alive.clone();
+        for (k, running) in members.running(&alive.clone()) {
             if good.lane(k) > 0.5 {
-                running.work.projections += 1;
-                running.work.projection_iterations += steps.lane(k) as usize;
+                let work = &mut running.recorder.trajectory.work;
+                work.projections += 1;
+                work.projection_iterations += steps.lane(k) as usize;
                 continue;
             }
             let mut y = lane(&self.raw, k);
-            let finite = y.iter().all(|x| x.is_finite());
-            alive[k] = finite && running.project(running.trial.end.t, &mut y).is_ok();
+            alive[k] = y.iter().all(|x| x.is_finite()) && running.project(&mut y);
             let pairs = new.iter_mut().zip(y);
             pairs.for_each(|(new, y)| new.set_lane(k, y));
         }
-        let changes = self.raw.iter().zip(&*new).zip(&self.y);
+        let [old, new] = self.stepper.states();
+        let changes = self.raw.iter().zip(new).zip(old);
         let changes = changes.map(|((raw, new), old)| (*new - *raw, *old, *raw));
-        let change = error_norm(changes, tolerance);
+        let relative = self.ensemble.tolerance;
+        let change = error_norm(changes, Tolerance { relative, absolute });
         for (k, alive) in alive.iter_mut().enumerate() {
             *alive &= change.lane(k) <= PROJECTION_LIMIT;
         }
+        members.alive = alive;
     }
 
     /// Takes the samples within the closed steps. Lanes where one fails take no further part.
-    fn take_samples(&mut self, equations: &mut Equations<L>, start: L, step: L) {
-        let alive = equations.alive.clone();
-        let mut wanted = alive.clone();
-        for (k, wanted) in wanted.iter_mut().enumerate() {
-            let running = equations.lanes[k].as_ref();
-            *wanted &= running.is_some_and(Running::wants_interpolant);
+    fn record(&mut self, start: Wide, step: Wide) {
+        let (stepper, members) = (&mut self.stepper, &mut self.members);
+        let alive = members.alive.clone();
+        let mut wanted = vec![false; Wide::WIDTH];
+        for (k, running) in members.running(&alive) {
+            wanted[k] = running.wants_interpolant();
         }
         if !wanted.contains(&true) {
             return;
         }
-        equations.alive.clone_from(&wanted);
-        let f = |s: L, y: &[L], rate: &mut [L]| equations.rate(s, y, rate);
-        let Ok(()) = self.stepper.interpolate(f, start, step, &self.y);
-        let (end, coefficients) = (self.stepper.state(), self.stepper.dense());
-        let interpolated = std::mem::replace(&mut equations.alive, alive);
-        for k in (0..L::WIDTH).filter(|&k| wanted[k]) {
-            equations.alive[k] = interpolated[k]
-                && equations.lanes[k].as_mut().is_some_and(|running| {
-                    running.take_samples(&lane(end, k), &lane(coefficients, k))
-                });
+        members.alive.clone_from(&wanted);
+        let Ok(()) = stepper.interpolate(members, start, step);
+        let mut done = std::mem::replace(&mut members.alive, alive);
+        for (k, running) in members.running(&done.clone()) {
+            let states = stepper.states().map(|y| lane(y, k));
+            done[k] = running.record(states, &lane(stepper.dense(), k));
+        }
+        for (k, alive) in members.alive.iter_mut().enumerate() {
+            *alive &= done[k] || !wanted[k];
         }
     }
 }

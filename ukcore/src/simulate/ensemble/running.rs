@@ -1,61 +1,42 @@
 //! A member under way in a lane.
 
 use super::Member;
-use crate::assemble::State;
 use crate::error::Error;
 use crate::integrate::sample::Sample;
-use crate::integrate::{Cause, Conflict, Course, Interpolant, Settings, Trial, Trouble};
-use crate::manifold::Projector;
+use crate::integrate::{Course, Settings, StepSize, Trial};
 use crate::simulate::Simulation;
-use crate::simulate::agenda::Agenda;
-use crate::simulate::record::project;
+use crate::simulate::record::Recorder;
 use crate::solver::SolverWork;
-use crate::trajectory::Work;
 
 /// A member under way.
 pub(super) struct Running {
     pub(super) index: usize,
     pub(super) course: Course,
+    pub(super) size: StepSize,
     /// The step in hand.
     pub(super) trial: Trial,
     pub(super) settings: Settings,
-    pub(super) conflict: Conflict,
-    /// What refuses the step in hand.
-    cause: Cause,
-    /// For its start, samples, and projections that its lane leaves to it.
-    projector: Projector,
-    agenda: Agenda,
-    samples: Vec<State>,
-    pub(super) work: Work,
+    /// Takes its samples, and has what projects them, and states that its lane leaves to it.
+    pub(super) recorder: Recorder<'static>,
 }
 
 impl Running {
-    /// Member `index`, checked, in a run to `t_end`, and its consistent start.
+    /// Member `index`, checked, at its consistent start, in a run to `t_end`.
     pub(super) fn admit(
         index: usize,
-        simulation: Simulation,
+        mut simulation: Simulation,
         t_end: f64,
-    ) -> Result<(Self, State), Error> {
-        simulation.check(t_end, true)?;
-        let mut work = Work::default();
-        let mut projector = Projector::new(&simulation.mechanism);
-        let (start, tolerance) = simulation.consistent_start(&mut projector, &mut work)?;
-        let settings = simulation.settings(tolerance);
-        let mut agenda = Agenda::new(simulation.sampling, start.t, t_end);
-        let takes_start = agenda.takes_start(start.t);
-        let running = Running {
+    ) -> Result<Self, Error> {
+        let (mut recorder, start, settings) = simulation.admit(t_end, None)?;
+        recorder.start(Sample::from(&start))?;
+        Ok(Running {
             index,
             course: Course::new(start.t, t_end, &settings),
+            size: StepSize::default(),
             trial: Trial::default(),
             settings,
-            conflict: Conflict::default(),
-            cause: None,
-            projector,
-            agenda,
-            samples: takes_start.then(|| start.clone()).into_iter().collect(),
-            work,
-        };
-        Ok((running, start))
+            recorder,
+        })
     }
 
     /// Whether there is nowhere to go.
@@ -65,85 +46,52 @@ impl Running {
 
     /// An error at this state refuses the step in hand.
     pub(super) fn note(&mut self, at: Sample<'_>, error: Error) {
-        self.conflict.note(at, &error);
-        self.cause = Trouble::cause(at, error);
+        let cause = self.course.note(at, error);
+        self.course.blame(cause);
     }
 
-    /// What refuses the step in hand is of no consequence.
-    pub(super) fn forget(&mut self) {
-        self.cause = None;
-    }
-
-    /// The step in hand is refused; the next attempt has the size `h`.
-    pub(super) fn refuse(&mut self, h: f64) {
-        self.course.refuse(self.cause.take());
-        self.course.h = h;
-    }
-
-    /// Projects a state, and takes note where that fails.
-    pub(super) fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), ()> {
-        let raw = y.to_vec();
-        let state = y.split_at_mut(raw.len() / 2);
-        let result = project(&mut self.projector, &mut self.work, t, state);
-        result.map_err(|error| self.note(Sample::of(t, &raw), error))
+    /// Projects the state y at the end of the step in hand; returns whether that does.
+    pub(super) fn project(&mut self, y: &mut [f64]) -> bool {
+        let (raw, t) = (y.to_vec(), self.trial.end.t);
+        let (q, v) = y.split_at_mut(raw.len() / 2);
+        let result = self.recorder.project(t, q, v);
+        let noted = result.map_err(|error| self.note(Sample::of(t, &raw), error));
+        noted.is_ok()
     }
 
     /// Whether a sample lies within the step in hand.
     pub(super) fn wants_interpolant(&self) -> bool {
-        let (clock, end) = (self.course.clock, self.trial.end);
-        let next = self.agenda.next();
-        next.is_some_and(|t| clock.passed(t, end.s))
+        self.course.covers(self.trial, self.recorder.next_sample())
     }
 
-    /// Takes the samples of the step in hand, which ends in the state `end`; none of them, with `false`, if one fails.
-    pub(super) fn take_samples(&mut self, end: &[f64], coefficients: &[f64]) -> bool {
-        let before = (self.agenda.taken(), self.samples.len());
-        let interpolant = Interpolant {
-            clock: self.course.clock,
-            s_old: self.course.now.s,
-            h: self.trial.size,
-            coefficients,
-        };
-        let (sign, t_end) = (self.course.clock.sign, self.trial.end.t);
-        let passed = |t: &f64| sign * (t - t_end) <= 0.0;
-        while let Some(t) = self.agenda.next().filter(passed) {
-            let mut y = end.to_vec();
-            if t != t_end {
-                interpolant.state(t, &mut y);
-                if self.project(t, &mut y).is_err() {
-                    self.agenda.return_to(before.0);
-                    self.samples.truncate(before.1);
-                    return false;
-                }
-            }
-            self.agenda.take();
-            self.samples.push(Sample::of(t, &y).to_state());
-        }
-        true
+    /// Takes the samples of the step in hand, from states at its ends and the coefficients of its interpolant; none of them, with `false`,
+    /// if one fails.
+    pub(super) fn record(&mut self, [old, new]: [Vec<f64>; 2], coefficients: &[f64]) -> bool {
+        let step = (self.course).show(self.trial, [&old, &new], Some(coefficients));
+        let recorded = self.recorder.step(&step);
+        recorded.map_err(|error| self.note(step.new, error)).is_ok()
     }
 
     /// Why the member ends with `error` at the state `y`, where it stands.
     pub(super) fn fail(mut self, error: Error, y: &[f64]) -> Error {
-        self.course.refuse(self.cause.take());
         let here = Sample::of(self.course.now.t, y);
-        let trouble = self.course.explain(error, here, &mut self.conflict);
-        trouble.into_error()
+        self.course.explain(error, here).into_error()
     }
 
     /// The motion of a member that has arrived at the state `y`, with what its lane has done for it.
     pub(super) fn finish(mut self, y: &[f64], lane: SolverWork) -> Member {
-        let end = Sample::of(self.course.now.t, y).to_state();
-        if self.agenda.wants_ends() && self.samples.last().is_none_or(|s| s.t != end.t) {
-            self.samples.push(end.clone());
-        }
-        self.work.steps = self.course.steps;
-        self.work.rejected = self.course.rejected();
-        self.work.evaluations = lane.evaluations;
-        self.work.fallbacks = lane.fallbacks;
+        let end = Sample::of(self.course.now.t, y);
+        self.recorder.trajectory.reach(end);
+        let trajectory = self.recorder.finish();
+        let mut work = trajectory.work;
+        work.steps = self.course.steps;
+        work.rejected = self.course.rejected();
+        work.evaluations = lane.evaluations;
+        work.fallbacks = lane.fallbacks;
         Member {
-            end,
-            samples: self.samples,
-            work: self.work,
+            end: end.to_state(),
+            samples: trajectory.samples().map(Sample::to_state).collect(),
+            work,
         }
     }
 }
