@@ -73,6 +73,8 @@ pub struct Solver {
     dense: Dense,
     saddle: Option<Saddle>,
     drift: Drift,
+    /// What drift is granted to each row.
+    granted: Vec<f64>,
 }
 
 /// The equations at the nearest state on the manifold.
@@ -83,6 +85,17 @@ struct Drift {
     q: Vec<f64>,
     v: Vec<f64>,
     correction: Vec<f64>,
+}
+
+impl Drift {
+    /// What it explains of the residual of row `c` of A q̈ = b, where A is `a` and b is `rhs`.
+    fn explains(&self, a: Rows<'_>, rhs: &[f64], c: usize, acceleration: &[f64]) -> f64 {
+        let there = rows(&self.there, rhs.len());
+        let change = a.row(c).zip(there.row(c)).zip(acceleration);
+        let change: f64 = change.map(|((a, b), x)| ((a - b) * x).abs()).sum();
+        let explained = DRIFT_FACTOR * ((self.there.rhs[c] - rhs[c]).abs() + change);
+        if explained.is_finite() { explained } else { 0.0 }
+    }
 }
 
 /// Rank and formula of the evaluation in hand.
@@ -137,6 +150,7 @@ impl Solver {
                 v: vec![0.0; n],
                 correction: vec![0.0; n],
             },
+            granted: vec![0.0; m],
         }
     }
 
@@ -513,34 +527,27 @@ impl Solver {
 
     /// Whether A q̈ = b holds up to `tolerance` and drift. At rest q̈ is the difference of what the forces and what the constraints
     /// do, so the tolerance refers to these.
-    fn agrees(&self, acceleration: &[f64], tolerance: f64) -> bool {
-        let a = self.rows();
+    fn agrees(&mut self, acceleration: &[f64], tolerance: f64) -> bool {
+        let (a, scale) = (rows(&self.here, self.m), &self.dense.row_scale);
         let free = &self.dense.unconstrained;
         let size =
             |c: usize| self.rhs[c].abs() + a.magnitude(c, acceleration) + a.magnitude(c, free);
-        let scale = &self.dense.row_scale;
         let largest = (0..self.m).map(|c| scale[c] * size(c)).fold(0.0, f64::max);
         let rounding = DRIFT_FACTOR * tolerance.min(RANK_CEILING) * largest;
-        (0..self.m).all(|c| {
-            let residual = (self.rhs[c] - a.product(c, acceleration)).abs();
-            if scale[c] == 0.0 {
-                return residual == 0.0 || residual <= self.granted(c, acceleration);
+        self.granted.fill(0.0);
+        if self.drift.known {
+            // What drift explains of each row, but not more than it may lend; and by these rows of those that they imply.
+            for c in 0..self.m {
+                let drift = self.drift.explains(a, &self.rhs, c, acceleration);
+                self.granted[c] = drift.min(RANK_CEILING * largest / scale[c]);
             }
-            let granted = scale[c] * self.granted(c, acceleration);
-            scale[c] * residual <= rounding + granted.min(RANK_CEILING * largest)
-        })
-    }
-
-    /// What drift explains of the residual of row `c`.
-    fn granted(&self, c: usize, acceleration: &[f64]) -> f64 {
-        if !self.drift.known {
-            return 0.0;
+            self.dense.share(&mut self.granted);
         }
-        let there = rows(&self.drift.there, self.m);
-        let change = self.rows().row(c).zip(there.row(c)).zip(acceleration);
-        let change: f64 = change.map(|((a, b), x)| ((a - b) * x).abs()).sum();
-        let granted = DRIFT_FACTOR * ((self.drift.there.rhs[c] - self.rhs[c]).abs() + change);
-        if granted.is_finite() { granted } else { 0.0 }
+        let scale = &self.dense.row_scale;
+        (0..self.m).all(|c| {
+            let excess = (self.rhs[c] - a.product(c, acceleration)).abs() - self.granted[c];
+            excess <= 0.0 || scale[c] > 0.0 && scale[c] * excess <= rounding
+        })
     }
 }
 

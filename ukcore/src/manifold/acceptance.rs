@@ -117,8 +117,6 @@ pub(super) struct Rounding {
     residual: Vec<Rounded>,
     /// In units of ε.
     rows: Vec<f64>,
-    dependences: Vec<f64>,
-    left: Vec<f64>,
 }
 
 impl Rounding {
@@ -131,8 +129,6 @@ impl Rounding {
             fixed: zeros(n),
             residual: zeros(m),
             rows: vec![0.0; m],
-            dependences: vec![0.0; m * m],
-            left: vec![0.0; m],
         }
     }
 
@@ -148,7 +144,7 @@ impl Rounding {
         let rows = self.rows.iter_mut().zip(&self.residual);
         rows.for_each(|(size, r)| *size = r.bound());
         if let Some(dense) = dense {
-            self.share(dense);
+            dense.share(&mut self.rows[..at.rows()]);
         }
     }
 
@@ -163,32 +159,5 @@ impl Rounding {
         let bound = move |c| newton.acceptance.loose(c, size, self);
         let met = move |c: usize| newton.residual[c].abs() <= bound(c);
         (0..at.rows()).filter(move |c| !met(*c))
-    }
-
-    /// The solve meets constraints that imply each other as well as it can together: of errors that contradict each other it leaves to
-    /// each its share in the dependence, however small its own terms are.
-    fn share(&mut self, dense: &mut Dense) {
-        let rows = dense.cod.order().len();
-        let excess = rows - dense.cod.rank();
-        if excess == 0 {
-            return;
-        }
-        let dependences = &mut self.dependences[..rows * excess];
-        dense.cod.dependences(dependences);
-        // In rows scaled as they are solved; one of zeros has no scale.
-        let unit = |scale: f64| if scale > 0.0 { scale } else { 1.0 };
-        let sizes = self.rows.iter_mut().zip(&dense.row_scale);
-        sizes.for_each(|(size, scale)| *size *= unit(*scale));
-        self.left.fill(0.0);
-        for shares in dependences.chunks_exact(rows) {
-            let terms = shares.iter().zip(&self.rows);
-            let error: f64 = terms.map(|(share, size)| share.abs() * size).sum();
-            let left = self.left.iter_mut().zip(shares);
-            left.for_each(|(left, share)| *left += share.abs() * error);
-        }
-        let sizes = self.rows.iter_mut().zip(&self.left);
-        for ((size, left), scale) in sizes.zip(&dense.row_scale) {
-            *size = size.max(*left) / unit(*scale);
-        }
     }
 }
