@@ -10,9 +10,10 @@
 //! Each row of B (or Ĉ) is divided by its norm first. For consistent constraints that changes neither the set of q̈ with A q̈ = b
 //! nor, hence, the one of least norm in it, and rank decisions become independent of how a constraint is scaled.
 
-use crate::mechanism::{Prepared, Terms};
+use crate::mechanism::{Equations, Prepared, Terms};
 use crate::metric::{MassFault, Metric};
 use crate::pinv::{Decomposition, axpy, dot};
+use crate::scalar::Scalar;
 
 /// A pivot of Nᵀ M̂ N (M̂ has unit diagonal where there is mass) counts as zero below this multiple of n ε: errors of the basis
 /// N and of the product are a few n ε.
@@ -20,26 +21,33 @@ const INERTIA_ROUNDING: f64 = 64.0;
 
 /// Buffers of [`Mechanism::dynamics`](crate::Mechanism::dynamics).
 #[derive(Debug, Clone)]
-pub(crate) struct Evaluated {
-    pub(crate) mass: Vec<f64>,
-    pub(crate) force: Vec<f64>,
-    pub(crate) nonideal: Vec<f64>,
-    pub(crate) jacobian: Vec<f64>,
-    pub(crate) rhs: Vec<f64>,
+pub(crate) struct Evaluated<S = f64> {
+    pub(crate) mass: Vec<S>,
+    pub(crate) force: Vec<S>,
+    pub(crate) nonideal: Vec<S>,
+    pub(crate) jacobian: Vec<S>,
+    pub(crate) rhs: Vec<S>,
 }
 
-impl Evaluated {
+impl<S: Scalar> Evaluated<S> {
     pub(crate) fn new(n: usize, m: usize) -> Self {
+        let zeros = |len: usize| vec![S::from_f64(0.0); len];
         Evaluated {
-            mass: vec![0.0; n * n],
-            force: vec![0.0; n],
-            nonideal: vec![0.0; n],
-            jacobian: vec![0.0; m * n],
-            rhs: vec![0.0; m],
+            mass: zeros(n * n),
+            force: zeros(n),
+            nonideal: zeros(n),
+            jacobian: zeros(m * n),
+            rhs: zeros(m),
         }
     }
 
-    pub(crate) fn dynamics(&mut self, mech: &Prepared, t: f64, q: &[f64], v: &[f64]) {
+    pub(crate) fn dynamics<C: ?Sized + Equations<S>>(
+        &mut self,
+        mech: &Prepared<S, C>,
+        t: S,
+        q: &[S],
+        v: &[S],
+    ) {
         let mut terms = Terms {
             mass: &mut self.mass,
             force: &mut self.force,

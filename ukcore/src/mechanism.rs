@@ -11,7 +11,7 @@ use crate::scalar::Scalar;
 mod prepared;
 
 pub use prepared::Prepared;
-pub(crate) use prepared::{Constraints, Dynamics};
+pub(crate) use prepared::{Dynamics, Equations};
 
 use crate::spec::Spec;
 

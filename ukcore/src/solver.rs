@@ -14,13 +14,15 @@
 //!   the manifold, hence bounds what significance drift alone can lend. The tolerance is raised to [`DRIFT_FACTOR`] |ΔA|
 //!   (relative to the row), up to the ceiling.
 //!
-//! The same difference, |Δb| + |ΔA||q̈|, is granted to the redundant rows before they are called inconsistent.
+//! The same difference, |Δb| + |ΔA||q̈|, is granted to the redundant rows before they are called inconsistent, and so is the rounding of A
+//! and b.
 
 use crate::dense::{Dense, Evaluated, Route, Rows};
 use crate::diagnose;
 use crate::error::Error;
-use crate::mechanism::Prepared;
+use crate::mechanism::{Equations, Prepared};
 use crate::metric::MassFault;
+use crate::rounding::Rounded;
 use crate::saddle::Saddle;
 use crate::scan::all_finite;
 use crate::spec::Spec;
@@ -73,7 +75,8 @@ pub struct Solver {
     dense: Dense,
     saddle: Option<Saddle>,
     drift: Drift,
-    /// What drift is granted to each row.
+    noise: Noise,
+    /// What drift and rounding are granted of each row.
     granted: Vec<f64>,
 }
 
@@ -93,8 +96,53 @@ impl Drift {
         let there = rows(&self.there, rhs.len());
         let change = a.row(c).zip(there.row(c)).zip(acceleration);
         let change: f64 = change.map(|((a, b), x)| ((a - b) * x).abs()).sum();
-        let explained = DRIFT_FACTOR * ((self.there.rhs[c] - rhs[c]).abs() + change);
-        if explained.is_finite() { explained } else { 0.0 }
+        (self.there.rhs[c] - rhs[c]).abs() + change
+    }
+}
+
+/// The equations with the rounding that they carry.
+#[derive(Debug, Clone)]
+struct Noise {
+    known: bool,
+    mechanism: Prepared<Rounded, dyn Equations<Rounded>>,
+    here: Evaluated<Rounded>,
+    q: Vec<Rounded>,
+    v: Vec<Rounded>,
+}
+
+impl Noise {
+    fn new(mechanism: &Prepared) -> Self {
+        let (n, m) = (mechanism.spec().n(), mechanism.spec().m());
+        Noise {
+            known: false,
+            mechanism: mechanism.rounded(),
+            here: Evaluated::new(n, m),
+            q: vec![Rounded::exact(0.0); n],
+            v: vec![Rounded::exact(0.0); n],
+        }
+    }
+
+    fn measure(&mut self, mechanism: &Prepared, t: f64, q: &[f64], v: &[f64]) {
+        let given = mechanism.parameters().iter();
+        self.mechanism.set_parameters(given.map(|p| Rounded::exact(*p)));
+        self.mechanism.hold_as(mechanism);
+        for (rounded, x) in [(&mut self.q, q), (&mut self.v, v)] {
+            let pairs = rounded.iter_mut().zip(x);
+            pairs.for_each(|(r, x)| *r = Rounded::unknown(*x));
+        }
+        let t = Rounded::unknown(t);
+        self.here.dynamics(&self.mechanism, t, &self.q, &self.v);
+        self.known = true;
+    }
+
+    /// What it explains of the residual of row `c` of A q̈ = b, in units of ε.
+    fn explains(&self, c: usize, acceleration: &[f64]) -> f64 {
+        if !self.known {
+            return 0.0;
+        }
+        let row = self.here.jacobian.iter().skip(c).step_by(self.here.rhs.len());
+        let terms = row.zip(acceleration).map(|(a, x)| a.bound() * x.abs());
+        self.here.rhs[c].bound() + terms.sum::<f64>()
     }
 }
 
@@ -119,7 +167,6 @@ impl Solver {
         let (n, m) = (spec.n(), spec.m());
         let saddle = (options.formula == Formula::Kkt).then(|| Saddle::new(n, m));
         Solver {
-            mechanism,
             options: SolverOptions {
                 rank_tolerance: match options.rank_tolerance {
                     x if x.is_nan() => RANK_TOLERANCE,
@@ -150,7 +197,9 @@ impl Solver {
                 v: vec![0.0; n],
                 correction: vec![0.0; n],
             },
+            noise: Noise::new(&mechanism),
             granted: vec![0.0; m],
+            mechanism,
         }
     }
 
@@ -375,6 +424,7 @@ impl Solver {
         self.here.dynamics(&self.mechanism, t, q, v);
         self.work.evaluations += 1;
         self.drift.known = false;
+        self.noise.known = false;
         self.rhs.copy_from_slice(&self.here.rhs);
         if let Some(baumgarte) = self.options.baumgarte {
             self.mechanism.residual(t, q, &mut self.position);
@@ -516,6 +566,10 @@ impl Solver {
                 return Ok(());
             }
         }
+        self.noise.measure(&self.mechanism, t, q, v);
+        if self.agrees(acceleration, tolerance) {
+            return Ok(());
+        }
         let a = self.rows();
         let residual: Vec<f64> = (0..self.m)
             .map(|c| a.product(c, acceleration) - self.rhs[c])
@@ -534,14 +588,19 @@ impl Solver {
             |c: usize| self.rhs[c].abs() + a.magnitude(c, acceleration) + a.magnitude(c, free);
         let largest = (0..self.m).map(|c| scale[c] * size(c)).fold(0.0, f64::max);
         let rounding = DRIFT_FACTOR * tolerance.min(RANK_CEILING) * largest;
-        self.granted.fill(0.0);
         if self.drift.known {
-            // What drift explains of each row, but not more than it may lend; and by these rows of those that they imply.
+            // What drift explains of each row, but not more than it may lend, and rounding; and by these rows of those that they imply.
             for c in 0..self.m {
-                let drift = self.drift.explains(a, &self.rhs, c, acceleration);
-                self.granted[c] = drift.min(RANK_CEILING * largest / scale[c]);
+                let finite = |x: f64| if x.is_finite() { x } else { 0.0 };
+                let drift = finite(self.drift.explains(a, &self.rhs, c, acceleration));
+                // In units of ε: the size of the terms that b is made of, where they cancel.
+                let noise = finite(self.noise.explains(c, acceleration));
+                let lent = RANK_CEILING * noise.max(largest / scale[c]);
+                self.granted[c] = (DRIFT_FACTOR * drift).min(lent) + DRIFT_FACTOR * f64::EPSILON * noise;
             }
             self.dense.share(&mut self.granted);
+        } else {
+            self.granted.fill(0.0);
         }
         let scale = &self.dense.row_scale;
         (0..self.m).all(|c| {

@@ -4,7 +4,7 @@ use super::level::At;
 use super::newton::Newton;
 use crate::dense::Dense;
 use crate::lanes::Lanes;
-use crate::mechanism::{Constraints, Prepared};
+use crate::mechanism::{Equations, Prepared};
 use crate::rounding::Rounded;
 use crate::scan::largest;
 
@@ -111,7 +111,7 @@ impl Acceptance<f64> {
 /// the state at rest, say), this is far more than their own rounding makes of it.
 #[derive(Debug, Clone)]
 pub(super) struct Rounding {
-    pub(super) mechanism: Prepared<Rounded, dyn Constraints<Rounded>>,
+    pub(super) mechanism: Prepared<Rounded, dyn Equations<Rounded>>,
     given: Vec<Rounded>,
     fixed: Vec<Rounded>,
     residual: Vec<Rounded>,

@@ -2,7 +2,7 @@
 
 use crate::diagnose;
 use crate::error::Error;
-use crate::mechanism::{Constraints, Prepared};
+use crate::mechanism::{Equations, Prepared};
 use crate::scalar::Scalar;
 
 /// Position (φ) or velocity (φ̇ and ψ).
@@ -30,7 +30,7 @@ impl Level {
     }
 
     /// φ, or φ̇ and ψ, into the first of `out`.
-    pub(super) fn residual<S: Scalar, C: ?Sized + Constraints<S>>(
+    pub(super) fn residual<S: Scalar, C: ?Sized + Equations<S>>(
         self,
         mech: &Prepared<S, C>,
         t: S,
