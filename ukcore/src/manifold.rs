@@ -153,6 +153,20 @@ impl Projector {
         self.manifold.reach(&at, q, shift)
     }
 
+    /// Whether a state is as near to the constraints as rounding of its time, coordinates and velocities lets it come in a motion: far from
+    /// t = 0, or driven fast, that may be farther off than an error that is asked for.
+    pub(crate) fn is_near(&mut self, t: f64, q: &[f64], v: &[f64]) -> bool {
+        let manifold = &mut self.manifold;
+        [(Level::Position, q, v), (Level::Velocity, v, q)]
+            .into_iter()
+            .all(|(level, x, other)| {
+                let at = At::new(&self.mechanism, level, t, other);
+                manifold.newton.evaluate(&at, x);
+                let residual = &manifold.newton.residual[..at.rows()];
+                manifold.rounding.explains(&at, x, residual)
+            })
+    }
+
     /// The largest length in a holonomic constraint at q, in the unit of the coordinates: what rounding makes of φ, over ε max|A_cj|. 0
     /// without such constraints.
     pub(crate) fn length(&mut self, t: f64, q: &[f64], v: &[f64]) -> f64 {

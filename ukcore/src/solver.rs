@@ -124,7 +124,8 @@ impl Noise {
 
     fn measure(&mut self, mechanism: &Prepared, t: f64, q: &[f64], v: &[f64]) {
         let given = mechanism.parameters().iter();
-        self.mechanism.set_parameters(given.map(|p| Rounded::exact(*p)));
+        self.mechanism
+            .set_parameters(given.map(|p| Rounded::exact(*p)));
         self.mechanism.hold_as(mechanism);
         for (rounded, x) in [(&mut self.q, q), (&mut self.v, v)] {
             let pairs = rounded.iter_mut().zip(x);
@@ -140,7 +141,12 @@ impl Noise {
         if !self.known {
             return 0.0;
         }
-        let row = self.here.jacobian.iter().skip(c).step_by(self.here.rhs.len());
+        let row = self
+            .here
+            .jacobian
+            .iter()
+            .skip(c)
+            .step_by(self.here.rhs.len());
         let terms = row.zip(acceleration).map(|(a, x)| a.bound() * x.abs());
         self.here.rhs[c].bound() + terms.sum::<f64>()
     }
@@ -596,7 +602,8 @@ impl Solver {
                 // In units of ε: the size of the terms that b is made of, where they cancel.
                 let noise = finite(self.noise.explains(c, acceleration));
                 let lent = RANK_CEILING * noise.max(largest / scale[c]);
-                self.granted[c] = (DRIFT_FACTOR * drift).min(lent) + DRIFT_FACTOR * f64::EPSILON * noise;
+                self.granted[c] =
+                    (DRIFT_FACTOR * drift).min(lent) + DRIFT_FACTOR * f64::EPSILON * noise;
             }
             self.dense.share(&mut self.granted);
         } else {

@@ -213,7 +213,8 @@ impl Driver<'_> {
         }
         let pairs = self.raw.iter().zip(&*new).zip(&self.y);
         let change = pairs.map(|((raw, new), old)| (new - raw, *old, *raw));
-        if error_norm(change, tolerance) <= PROJECTION_LIMIT {
+        if error_norm(change, tolerance) <= PROJECTION_LIMIT || self.equations.problem.is_near(raw)
+        {
             return Ok(());
         }
         // Asked close to the place alone, so that the error has its time.

@@ -152,6 +152,11 @@ pub(crate) trait Problem {
     ) -> Result<(), Error>;
     /// Moves the velocities `v` to the nearest ones that are consistent at (t, `q`).
     fn project_velocity(&mut self, t: f64, q: &[f64], v: &mut [f64]) -> Result<(), Error>;
+    /// Whether rounding alone keeps a state from being nearer to the constraints.
+    fn is_near(&mut self, at: Sample<'_>) -> bool {
+        let _ = at;
+        false
+    }
     /// Why the nearest consistent state is far from the one where a step arrived that began at `t_old`; of use where no shorter step comes
     /// nearer.
     fn jump(&mut self, at: Sample<'_>, t_old: f64) -> Option<Error> {

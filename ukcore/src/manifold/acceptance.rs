@@ -132,20 +132,32 @@ impl Rounding {
         }
     }
 
-    /// Measures it at `x`. Constraints that imply each other, which the factors `dense` know, share theirs.
+    /// Measures it at `x`, for the time and the rest of the state as they are. Constraints that imply each other, which the factors `dense`
+    /// know, share theirs.
     pub(super) fn measure(&mut self, at: &At<'_, f64>, x: &[f64], dense: Option<&mut Dense>) {
+        self.evaluate(at, x, Rounded::exact);
+        if let Some(dense) = dense {
+            dense.share(&mut self.rows[..at.rows()]);
+        }
+    }
+
+    /// Whether `residual` at `x` is what rounding makes of it, that of the time and of the rest of the state included.
+    pub(super) fn explains(&mut self, at: &At<'_, f64>, x: &[f64], residual: &[f64]) -> bool {
+        self.evaluate(at, x, Rounded::unknown);
+        let mut pairs = residual.iter().zip(&self.rows);
+        pairs.all(|(r, size)| r.abs() <= STALLED * size)
+    }
+
+    fn evaluate(&mut self, at: &At<'_, f64>, x: &[f64], given: fn(f64) -> Rounded) {
         let pairs = self.given.iter_mut().zip(x);
         pairs.for_each(|(r, x)| *r = Rounded::unknown(*x));
         let pairs = self.fixed.iter_mut().zip(at.other);
-        pairs.for_each(|(r, x)| *r = Rounded::exact(*x));
-        let (t, residual) = (Rounded::exact(at.t), &mut self.residual);
+        pairs.for_each(|(r, x)| *r = given(*x));
+        let (t, residual) = (given(at.t), &mut self.residual);
         at.level
             .residual(&self.mechanism, t, &self.given, &self.fixed, residual);
         let rows = self.rows.iter_mut().zip(&self.residual);
         rows.for_each(|(size, r)| *size = r.bound());
-        if let Some(dense) = dense {
-            dense.share(&mut self.rows[..at.rows()]);
-        }
     }
 
     /// The constraints at `x`, where sizes and rounding are known, whose residuals would not do even where no step makes them less.

@@ -122,6 +122,10 @@ impl Problem for Run<'_, '_> {
         Ok(())
     }
 
+    fn is_near(&mut self, at: Sample<'_>) -> bool {
+        self.projector.is_near(at.t, at.q, at.v)
+    }
+
     fn jump(&mut self, at: Sample<'_>, t_old: f64) -> Option<Error> {
         obstacles::jump(&mut self.solver, at, t_old)
     }

@@ -60,8 +60,7 @@ impl Solver {
         let pairs = near_q.iter_mut().zip(q).zip(&*correction);
         pairs.for_each(|((x, q), d)| *x = q - d);
         // Off the manifold rates contradict each other, and no correction of velocities meets them all.
-        self.mechanism
-            .residual_rate(t, near_q, v, &mut self.rate);
+        self.mechanism.residual_rate(t, near_q, v, &mut self.rate);
         self.dense.least_norm(&self.rate, correction);
         let pairs = near_v.iter_mut().zip(v).zip(&*correction);
         pairs.for_each(|((x, v), d)| *x = v - d);

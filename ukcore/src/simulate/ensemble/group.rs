@@ -363,8 +363,9 @@ impl<'a, L: Lanes> Group<'a, L> {
         let changes = self.raw.iter().zip(&*new).zip(&self.y);
         let changes = changes.map(|((raw, new), old)| (*new - *raw, *old, *raw));
         let change = error_norm(changes, tolerance);
-        for (k, alive) in alive.iter_mut().enumerate() {
-            *alive &= change.lane(k) <= PROJECTION_LIMIT;
+        for (k, running) in lanes.iter_mut().enumerate() {
+            let near = |running: &mut Running| running.is_near(&lane(&self.raw, k));
+            alive[k] &= change.lane(k) <= PROJECTION_LIMIT || running.as_mut().is_some_and(near);
         }
     }
 

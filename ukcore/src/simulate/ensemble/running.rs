@@ -88,6 +88,12 @@ impl Running {
         result.map_err(|error| self.note(Sample::of(t, &raw), error))
     }
 
+    /// Whether rounding alone keeps the new state from being nearer to the constraints.
+    pub(super) fn is_near(&mut self, y: &[f64]) -> bool {
+        let Sample { t, q, v } = Sample::of(self.trial.end.t, y);
+        self.projector.is_near(t, q, v)
+    }
+
     /// Whether a sample lies within the step in hand.
     pub(super) fn wants_interpolant(&self) -> bool {
         let (clock, end) = (self.course.clock, self.trial.end);
