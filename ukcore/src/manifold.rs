@@ -21,6 +21,7 @@ mod acceptance;
 mod level;
 mod newton;
 mod rank_revealing;
+mod search;
 
 pub(crate) use level::{At, Level};
 pub(crate) use newton::Newton;
@@ -197,7 +198,7 @@ impl Projector {
 /// What all ways onto the constraints share, for one mechanism.
 #[derive(Debug, Clone)]
 pub(crate) struct Manifold {
-    pub(crate) newton: Newton<f64>,
+    newton: Newton<f64>,
     rounding: Rounding,
     factors: Factors,
     start: Vec<f64>,
@@ -325,20 +326,21 @@ impl Manifold {
     }
 
     /// Takes residuals, A and sizes at `x`, where coordinates that are zero are measured by `size`. Whether x is on the constraints.
-    pub(crate) fn meets(&mut self, at: &At<'_, f64>, x: &[f64], size: f64) -> bool {
+    fn meets(&mut self, at: &At<'_, f64>, x: &[f64], size: f64) -> bool {
         self.newton.acceptance.size = size;
         self.newton.evaluate(at, x);
         self.accept(at, x, false)
     }
 
     /// The largest length in the constraints there, in the unit of x.
-    pub(crate) fn length(&self, at: &At<'_, f64>) -> f64 {
+    fn length(&self, at: &At<'_, f64>) -> f64 {
         self.newton.acceptance.length(at.rows(), &self.rounding)
     }
 
-    /// Why `x` is not on the constraints, if it is not.
-    pub(crate) fn refusal(&mut self, at: &At<'_, f64>, x: &[f64]) -> Option<Error> {
-        (!self.meets(at, x, 0.0)).then(|| self.error(at, x))
+    /// Why `x` is not on the constraints.
+    pub(crate) fn refusal(&mut self, at: &At<'_, f64>, x: &[f64]) -> Error {
+        self.meets(at, x, 0.0);
+        self.error(at, x)
     }
 }
 

@@ -79,7 +79,7 @@ impl Acceptance<f64> {
 
     /// How far off the constraints x is, in its own unit: the largest |φ_c| / max|A_cj| of those not at rounding level; NaN where one is
     /// not a number.
-    pub(crate) fn distance(&self, residual: &[f64]) -> f64 {
+    pub(super) fn distance(&self, residual: &[f64]) -> f64 {
         let rows = residual.iter().enumerate();
         rows.filter(|(c, r)| r.is_nan() || r.abs() > ROUNDING * self.terms[*c])
             .map(|(c, r)| r.abs() / self.scale(c))
