@@ -157,6 +157,7 @@ impl Found {
             }
             Err(error) if off > *reach => {
                 assert!(matches!(error, Error::NotAssembled { .. }), "{error}");
+                if std::env::var("SING").is_ok() { println!("SING {name} {off:.0e} {reach:.0e}: {error}: {mechanism:?} {guess:?} {state:?}"); }
                 self.singular += 1;
             }
             Err(error) => {

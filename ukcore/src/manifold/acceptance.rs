@@ -6,7 +6,6 @@ use crate::dense::Dense;
 use crate::lanes::Lanes;
 use crate::mechanism::{Equations, Prepared};
 use crate::rounding::Rounded;
-use crate::scan::largest;
 
 /// A residual is at rounding level if it does not exceed this many ε of the size Σ|A_ij q_j| of what q's own rounding contributes:
 /// one for q, one or two for the evaluation of φ.
@@ -92,10 +91,9 @@ impl Acceptance<f64> {
             })
     }
 
-    /// The residual of constraint `c` that will do where no step makes it less, with a largest coordinate `x`.
-    pub(super) fn loose(&self, c: usize, x: f64, rounding: &Rounding) -> f64 {
-        let size = self.largest[c] * self.size.max(x);
-        (STALLED * size.max(rounding.rows[c])).max(ROUNDING * self.terms[c])
+    /// The residual of constraint `c` that will do where no step makes it less.
+    pub(super) fn loose(&self, c: usize, rounding: &Rounding) -> f64 {
+        STALLED * self.terms[c].max(rounding.rows[c])
     }
 
     /// The largest length in the first `rows` constraints, in the unit of x: the rounding of a residual as the change of a coordinate that
@@ -165,11 +163,8 @@ impl Rounding {
         &self,
         at: &At<'_, f64>,
         newton: &Newton<f64>,
-        x: &[f64],
     ) -> impl Iterator<Item = usize> {
-        let size = largest(x);
-        let bound = move |c| newton.acceptance.loose(c, size, self);
-        let met = move |c: usize| newton.residual[c].abs() <= bound(c);
+        let met = |c: usize| newton.residual[c].abs() <= newton.acceptance.loose(c, self);
         (0..at.rows()).filter(move |c| !met(*c))
     }
 }
