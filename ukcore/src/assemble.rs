@@ -166,7 +166,7 @@ impl Search {
         let mut ease: Vec<f64> = (0..n).map(ease).collect();
         held.iter().for_each(|j| ease[*j] = 0.0);
         Search {
-            manifold: Manifold::new(mech, held.to_vec()),
+            manifold: Manifold::with_ease(mech, ease.clone()),
             ease,
         }
     }
@@ -192,7 +192,7 @@ impl Search {
                 let share = ((k as f64 + 1.0) * GOLDEN).fract();
                 place[j] += shake * size * (2.0 * share - 1.0);
             }
-            let cost = self.manifold.search(at, &mut place, &self.ease);
+            let cost = self.manifold.search(at, &mut place);
             if cost == 0.0 {
                 return Ok(place);
             }

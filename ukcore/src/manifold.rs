@@ -110,7 +110,7 @@ impl Projector {
     pub fn new(mechanism: impl Into<Prepared>) -> Self {
         let mechanism = mechanism.into();
         Projector {
-            manifold: Manifold::new(&mechanism, Vec::new()),
+            manifold: Manifold::new(&mechanism),
             mechanism,
         }
     }
@@ -164,7 +164,8 @@ impl Projector {
                 let at = At::new(&self.mechanism, level, t, other);
                 manifold.newton.evaluate(&at, x);
                 let residual = &manifold.newton.residual[..at.rows()];
-                manifold.rounding.explains(&at, x, residual)
+                manifold.rounding.measure(&at, x, None);
+                manifold.rounding.explains(residual)
             })
     }
 
@@ -205,12 +206,11 @@ pub(crate) struct Manifold {
 }
 
 impl Manifold {
-    /// For `mechanism`, with coordinates `held` that keep their values and velocities.
-    pub(crate) fn new(mechanism: &Prepared, held: Vec<usize>) -> Self {
+    pub(crate) fn new(mechanism: &Prepared) -> Self {
         Manifold {
             newton: Newton::new(mechanism.spec()),
             rounding: Rounding::new(mechanism),
-            factors: Factors::new(mechanism, held),
+            factors: Factors::new(mechanism),
             start: vec![0.0; mechanism.spec().n()],
         }
     }
@@ -222,7 +222,7 @@ impl Manifold {
         }
         self.start.copy_from_slice(x);
         let mut count = None;
-        if at.straight_line() && self.factors.held.is_empty() {
+        if at.straight_line() && self.newton.acceptance.ease.is_empty() {
             let (good, stalled, steps) = self.newton.eliminate(at, x, 1.0);
             if good > 0.5 || stalled > 0.5 && self.accept(at, x, false) {
                 count = Some(steps);

@@ -6,6 +6,7 @@ use crate::dense::Dense;
 use crate::lanes::Lanes;
 use crate::mechanism::{Equations, Prepared};
 use crate::rounding::Rounded;
+use crate::scan::largest;
 
 /// A residual is at rounding level if it does not exceed this many ε of the size Σ|A_ij q_j| of what q's own rounding contributes:
 /// one for q, one or two for the evaluation of φ.
@@ -24,9 +25,11 @@ pub(super) const NEIGHBOUR: f64 = 1e-4;
 /// Sizes of the constraints' terms at a place x, and with them the residuals that count as zero there.
 #[derive(Debug, Clone)]
 pub(crate) struct Acceptance<L> {
-    /// max|x| where the search began: what coordinates that are zero themselves are measured by.
+    /// How readily coordinates move, which says what is the same for coordinates of different units; empty where all count alike.
+    pub(super) ease: Vec<f64>,
+    /// max|x_j| / ease_j where the search began: what coordinates that are zero themselves are measured by.
     pub(super) size: L,
-    /// Σ|A_cj| (|x_j| + [`NEIGHBOUR`] max|x|).
+    /// Σ|A_cj| (|x_j| + [`NEIGHBOUR`] ease_j size).
     terms: Vec<L>,
     /// max|A_cj|.
     largest: Vec<L>,
@@ -37,9 +40,20 @@ impl<L: Lanes> Acceptance<L> {
     pub(super) fn new(m: usize) -> Self {
         let zero = L::from_f64(0.0);
         Acceptance {
+            ease: Vec::new(),
             size: zero,
             terms: vec![zero; m],
             largest: vec![zero; m],
+        }
+    }
+
+    /// Takes the size of coordinates at `x`, where a search begins.
+    pub(super) fn begin(&mut self, x: &[L]) {
+        self.size = largest(x);
+        if !self.ease.is_empty() {
+            let pairs = x.iter().zip(&self.ease).filter(|(_, ease)| **ease > 0.0);
+            let sizes = pairs.map(|(x, ease)| x.abs() / L::from_f64(*ease));
+            self.size = sizes.fold(L::from_f64(0.0), L::larger);
         }
     }
 
@@ -51,6 +65,10 @@ impl<L: Lanes> Acceptance<L> {
         self.largest.fill(zero);
         for &(c, j) in pattern {
             let entry = jacobian[j * m + c].abs();
+            let least = self
+                .ease
+                .get(j)
+                .map_or(least, |ease| L::from_f64(*ease) * least);
             self.terms[c] = self.terms[c] + entry * (x[j].abs() + least);
             self.largest[c] = entry.larger(self.largest[c]);
         }
@@ -130,32 +148,28 @@ impl Rounding {
         }
     }
 
-    /// Measures it at `x`, for the time and the rest of the state as they are. Constraints that imply each other, which the factors `dense`
+    /// Measures it at `x`, that of the time and of the rest of the state included. Constraints that imply each other, which the factors `dense`
     /// know, share theirs.
     pub(super) fn measure(&mut self, at: &At<'_, f64>, x: &[f64], dense: Option<&mut Dense>) {
-        self.evaluate(at, x, Rounded::exact);
+        let given = self.given.iter_mut().zip(x);
+        let fixed = self.fixed.iter_mut().zip(at.other);
+        given
+            .chain(fixed)
+            .for_each(|(r, x)| *r = Rounded::unknown(*x));
+        let (t, residual) = (Rounded::unknown(at.t), &mut self.residual);
+        at.level
+            .residual(&self.mechanism, t, &self.given, &self.fixed, residual);
+        let rows = self.rows.iter_mut().zip(&self.residual);
+        rows.for_each(|(size, r)| *size = r.bound());
         if let Some(dense) = dense {
             dense.share(&mut self.rows[..at.rows()]);
         }
     }
 
-    /// Whether `residual` at `x` is what rounding makes of it, that of the time and of the rest of the state included.
-    pub(super) fn explains(&mut self, at: &At<'_, f64>, x: &[f64], residual: &[f64]) -> bool {
-        self.evaluate(at, x, Rounded::unknown);
+    /// Whether it makes `residual`.
+    pub(super) fn explains(&self, residual: &[f64]) -> bool {
         let mut pairs = residual.iter().zip(&self.rows);
         pairs.all(|(r, size)| r.abs() <= STALLED * size)
-    }
-
-    fn evaluate(&mut self, at: &At<'_, f64>, x: &[f64], given: fn(f64) -> Rounded) {
-        let pairs = self.given.iter_mut().zip(x);
-        pairs.for_each(|(r, x)| *r = Rounded::unknown(*x));
-        let pairs = self.fixed.iter_mut().zip(at.other);
-        pairs.for_each(|(r, x)| *r = given(*x));
-        let (t, residual) = (given(at.t), &mut self.residual);
-        at.level
-            .residual(&self.mechanism, t, &self.given, &self.fixed, residual);
-        let rows = self.rows.iter_mut().zip(&self.residual);
-        rows.for_each(|(size, r)| *size = r.bound());
     }
 
     /// The constraints at `x`, where sizes and rounding are known, whose residuals would not do even where no step makes them less.

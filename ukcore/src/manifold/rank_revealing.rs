@@ -41,7 +41,7 @@ pub(super) struct Factors {
 }
 
 impl Factors {
-    pub(super) fn new(mechanism: &Prepared, held: Vec<usize>) -> Self {
+    pub(super) fn new(mechanism: &Prepared) -> Self {
         let (n, m) = (mechanism.spec().n(), mechanism.spec().m());
         Factors {
             dense: Dense::new(n, m, mechanism.spec().structure.mass_diagonal),
@@ -50,7 +50,7 @@ impl Factors {
             best: vec![0.0; n],
             place: None,
             q: vec![0.0; n],
-            held,
+            held: Vec::new(),
             cautious: true,
         }
     }

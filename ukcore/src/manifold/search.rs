@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::Manifold;
 use super::level::At;
 use super::newton::Newton;
+use crate::mechanism::Prepared;
 
 /// Steps at most from one guess. They converge quadratically at the end; a long chain laid out wrongly takes some tens of steps to unfold.
 const MAX_STEPS: usize = 200;
@@ -33,8 +34,8 @@ struct Best {
 
 impl Best {
     /// The place `x`, where residuals and A are known.
-    fn new(newton: &Newton<f64>, rows: usize, x: &[f64], ease: &[f64]) -> Self {
-        let m = newton.residual.len();
+    fn new(newton: &Newton<f64>, rows: usize, x: &[f64]) -> Self {
+        let (m, ease) = (newton.residual.len(), &newton.acceptance.ease);
         let entry = |c: usize, j: usize| newton.jacobian[j * m + c];
         let mut matrix = DMatrix::from_fn(rows, x.len(), |c, j| entry(c, j) * ease[j]);
         let norm = |c: usize| match matrix.row(c).norm() {
@@ -76,9 +77,17 @@ impl Best {
 }
 
 impl Manifold {
-    /// Moves `x` onto the constraints from far off, by Levenberg and Marquardt's method, and by projection in the end; `ease` says how readily
-    /// each coordinate moves. Returns 0, or the sum of the squares of the scaled residuals where it is least.
-    pub(crate) fn search(&mut self, at: &At<'_, f64>, x: &mut [f64], ease: &[f64]) -> f64 {
+    /// One in which coordinates move as readily as `ease` says, and not at all where it is 0.
+    pub(crate) fn with_ease(mechanism: &Prepared, ease: Vec<f64>) -> Self {
+        let mut manifold = Manifold::new(mechanism);
+        let held = (0..ease.len()).filter(|j| ease[*j] == 0.0);
+        manifold.factors.held = held.collect();
+        manifold.newton.acceptance.ease = ease;
+        manifold
+    }
+
+    /// Moves `x` onto the constraints from far off, by Levenberg and Marquardt's method, and by projection in the end. Returns 0, or the sum of the squares of the scaled residuals where it is least.
+    pub(crate) fn search(&mut self, at: &At<'_, f64>, x: &mut [f64]) -> f64 {
         let rows = at.rows();
         let (mut best, mut cost): (Option<Best>, f64) = (None, f64::INFINITY);
         let (mut damping, mut stalls) = (DAMPING, 0);
@@ -92,7 +101,7 @@ impl Manifold {
                 damping = (damping / DAMPING_FACTOR).max(f64::EPSILON);
                 newton.weigh(at, x);
                 rounding.measure(at, x, None);
-                let there = Best::new(newton, rows, x, ease);
+                let there = Best::new(newton, rows, x);
                 cost = there.residual.norm_squared();
                 best = Some(there);
                 if rounding.violated(at, newton).next().is_none() {
@@ -107,6 +116,7 @@ impl Manifold {
             // √cost → 0 takes the damping with it: quadratic convergence at the end.
             while damping <= DAMPING_LIMIT {
                 if let Some(step) = best.step(damping * cost.sqrt().min(1.0)) {
+                    let ease = &newton.acceptance.ease;
                     let steps = newton.step.iter_mut().zip(x).enumerate();
                     steps.for_each(|(j, (d, x))| *d = best.x[j] + ease[j] * step[j] - x);
                     return (0.0, 1.0);
