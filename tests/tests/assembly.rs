@@ -180,22 +180,28 @@ fn residuals<M: Mechanism>(mechanism: &M, t: f64, q: &[f64], v: &[f64]) -> [Vec<
     [position, velocity].map(|r| r.into_iter().map(DoubleDouble::to_f64).collect())
 }
 
-/// The largest residual of a state, in units of 1e-12 of what it is about the known state, a length or a rate away from it.
+/// The largest residual of a state, in units of 1e-12 of what it is a length or a rate away from it.
 fn worst<M: Mechanism>(mechanism: &M, known: &Known<M>, found: &State) -> f64 {
-    let found = residuals(mechanism, known.state.t, &found.q, &found.v);
+    let left = residuals(mechanism, known.state.t, &found.q, &found.v);
+    // Velocities may be as large as levers make them.
+    let units = |x: &[f64], unit: &[f64]| -> Vec<f64> {
+        let most = x.iter().zip(unit).fold(1.0, |most: f64, (x, unit)| most.max(x.abs() / unit));
+        unit.iter().map(|unit| most * unit).collect()
+    };
+    let (lengths, rates) = (units(&found.q, &known.lengths), units(&found.v, &known.rates));
     let mut sizes = [vec![0.0_f64; M::SPEC.holonomic], vec![0.0_f64; M::SPEC.m()]];
     let mut random = Random::new(7);
     for _ in 0..12 {
         let mut away = |x: &[f64], by: &[f64]| -> Vec<f64> {
             x.iter().zip(by).map(|(x, by)| x + by * random.signed()).collect()
         };
-        let (q, v) = (away(&known.state.q, &known.lengths), away(&known.state.v, &known.rates));
+        let (q, v) = (away(&found.q, &lengths), away(&found.v, &rates));
         let there = residuals(mechanism, known.state.t, &q, &v);
         for (size, there) in sizes.iter_mut().flatten().zip(there.iter().flatten()) {
             *size = size.max(there.abs());
         }
     }
-    let pairs = found.iter().flatten().zip(sizes.iter().flatten());
+    let pairs = left.iter().flatten().zip(sizes.iter().flatten());
     pairs.fold(0.0, |most: f64, (r, size)| if *r == 0.0 { most } else { most.max(r.abs() / (1e-12 * size)) })
 }
 

@@ -304,7 +304,7 @@ impl Manifold {
         self.newton.weigh(at, x);
         let dense = factored.then_some(&mut self.factors.dense);
         self.rounding.measure(at, x, dense);
-        let mut violated = self.rounding.violated(at, &self.newton);
+        let mut violated = self.rounding.violated(at, &self.newton, x);
         violated.next().is_none()
     }
 
@@ -315,7 +315,7 @@ impl Manifold {
             return at.non_finite(x, residual);
         }
         let (mut violations, mut scale) = (vec![0.0; residual.len()], vec![1.0; residual.len()]);
-        for c in self.rounding.violated(at, &self.newton) {
+        for c in self.rounding.violated(at, &self.newton, x) {
             violations[c] = residual[c];
             scale[c] = self.newton.acceptance.scale(c).recip();
         }

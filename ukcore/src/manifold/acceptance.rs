@@ -31,7 +31,7 @@ pub(crate) struct Acceptance<L> {
     pub(super) size: L,
     /// Σ|A_cj| (|x_j| + [`NEIGHBOUR`] ease_j size).
     terms: Vec<L>,
-    /// max|A_cj|.
+    /// max|A_cj| ease_j.
     largest: Vec<L>,
 }
 
@@ -47,30 +47,27 @@ impl<L: Lanes> Acceptance<L> {
         }
     }
 
-    /// Takes the size of coordinates at `x`, where a search begins.
-    pub(super) fn begin(&mut self, x: &[L]) {
-        self.size = largest(x);
-        if !self.ease.is_empty() {
-            let pairs = x.iter().zip(&self.ease).filter(|(_, ease)| **ease > 0.0);
-            let sizes = pairs.map(|(x, ease)| x.abs() / L::from_f64(*ease));
-            self.size = sizes.fold(L::from_f64(0.0), L::larger);
+    /// max|x_j| / ease_j.
+    pub(super) fn extent(&self, x: &[L]) -> L {
+        if self.ease.is_empty() {
+            return largest(x);
         }
+        let pairs = x.iter().zip(&self.ease).filter(|(_, ease)| **ease > 0.0);
+        let sizes = pairs.map(|(x, ease)| x.abs() / L::from_f64(*ease));
+        sizes.fold(L::from_f64(0.0), |s, x| x.larger(s))
     }
 
     /// Takes the sizes at `x`, where A has the entries `jacobian`.
     pub(super) fn weigh(&mut self, pattern: &[(usize, usize)], jacobian: &[L], x: &[L]) {
         let (m, zero) = (self.terms.len(), L::from_f64(0.0));
-        let least = L::from_f64(NEIGHBOUR) * self.size;
+        let (one, least) = (L::from_f64(1.0), L::from_f64(NEIGHBOUR) * self.size);
         self.terms.fill(zero);
         self.largest.fill(zero);
         for &(c, j) in pattern {
+            let ease = self.ease.get(j).map_or(one, |ease| L::from_f64(*ease));
             let entry = jacobian[j * m + c].abs();
-            let least = self
-                .ease
-                .get(j)
-                .map_or(least, |ease| L::from_f64(*ease) * least);
-            self.terms[c] = self.terms[c] + entry * (x[j].abs() + least);
-            self.largest[c] = entry.larger(self.largest[c]);
+            self.terms[c] = self.terms[c] + entry * (x[j].abs() + ease * least);
+            self.largest[c] = (entry * ease).larger(self.largest[c]);
         }
     }
 
@@ -109,9 +106,10 @@ impl Acceptance<f64> {
             })
     }
 
-    /// The residual of constraint `c` that will do where no step makes it less.
-    pub(super) fn loose(&self, c: usize, rounding: &Rounding) -> f64 {
-        STALLED * self.terms[c].max(rounding.rows[c])
+    /// The residual of constraint `c` that will do where no step makes it less, with coordinates up to the size `x`.
+    pub(super) fn loose(&self, c: usize, x: f64, rounding: &Rounding) -> f64 {
+        let size = self.largest[c] * self.size.max(x);
+        (STALLED * size.max(rounding.rows[c])).max(ROUNDING * self.terms[c])
     }
 
     /// The largest length in the first `rows` constraints, in the unit of x: the rounding of a residual as the change of a coordinate that
@@ -177,8 +175,11 @@ impl Rounding {
         &self,
         at: &At<'_, f64>,
         newton: &Newton<f64>,
+        x: &[f64],
     ) -> impl Iterator<Item = usize> {
-        let met = |c: usize| newton.residual[c].abs() <= newton.acceptance.loose(c, self);
+        let acceptance = &newton.acceptance;
+        let size = acceptance.extent(x);
+        let met = move |c: usize| newton.residual[c].abs() <= acceptance.loose(c, size, self);
         (0..at.rows()).filter(move |c| !met(*c))
     }
 }

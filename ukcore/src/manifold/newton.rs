@@ -83,7 +83,7 @@ impl<L: Lanes> Newton<L> {
         mut look: impl FnMut(&mut Self, &[L], L) -> (L, L),
     ) -> (L, L) {
         let (mut good, mut count, half) = (zero(), zero(), L::from_f64(0.5));
-        self.acceptance.begin(x);
+        self.acceptance.size = self.acceptance.extent(x);
         loop {
             self.evaluate(at, x);
             let (met, go) = look(self, x, left);

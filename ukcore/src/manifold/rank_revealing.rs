@@ -149,7 +149,7 @@ impl Manifold {
                 } else {
                     stalls += 1;
                     rounding.measure(at, x, Some(&mut factors.dense));
-                    if stalls > MAX_STALLS || rounding.violated(at, newton).next().is_none() {
+                    if stalls > MAX_STALLS || rounding.violated(at, newton, x).next().is_none() {
                         return (0.0, 0.0);
                     }
                 }

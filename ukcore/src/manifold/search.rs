@@ -104,7 +104,7 @@ impl Manifold {
                 let there = Best::new(newton, rows, x);
                 cost = there.residual.norm_squared();
                 best = Some(there);
-                if rounding.violated(at, newton).next().is_none() {
+                if rounding.violated(at, newton, x).next().is_none() {
                     return (1.0, 0.0);
                 }
             } else {
