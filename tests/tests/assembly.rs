@@ -138,9 +138,20 @@ struct Found {
 
 impl Found {
     fn guess<M: Mechanism + Debug>(&mut self, known: &Known<M>, off: f64, random: &mut Random) {
-        let Known { mechanism, state, lengths, rates, reach } = known;
+        let Known {
+            mechanism,
+            state,
+            lengths,
+            rates,
+            reach,
+        } = known;
         let mut guess = state.clone();
-        for (x, l) in guess.q.iter_mut().zip(lengths).chain(guess.v.iter_mut().zip(rates)) {
+        for (x, l) in guess
+            .q
+            .iter_mut()
+            .zip(lengths)
+            .chain(guess.v.iter_mut().zip(rates))
+        {
             *x += off * l * random.signed();
         }
         let name = M::SPEC.name;
@@ -151,13 +162,22 @@ impl Found {
                     self.silent += 1;
                     println!("SILENT {name} off by {worst:.1e}: {mechanism:?} {guess:?} {found:?}");
                 }
-                let near = found.q.iter().zip(&state.q).zip(lengths).all(|((a, b), l)| (a - b).abs() <= 100.0 * off * l + 1e-6 * l);
+                let near = found
+                    .q
+                    .iter()
+                    .zip(&state.q)
+                    .zip(lengths)
+                    .all(|((a, b), l)| (a - b).abs() <= 100.0 * off * l + 1e-6 * l);
                 self.far += usize::from(!near);
                 self.assembled += 1;
             }
             Err(error) if off > *reach => {
                 assert!(matches!(error, Error::NotAssembled { .. }), "{error}");
-                if std::env::var("SING").is_ok() { println!("SING {name} {off:.0e} {reach:.0e}: {error}: {mechanism:?} {guess:?} {state:?}"); }
+                if std::env::var("SING").is_ok() {
+                    println!(
+                        "SING {name} {off:.0e} {reach:.0e}: {error}: {mechanism:?} {guess:?} {state:?}"
+                    );
+                }
                 self.singular += 1;
             }
             Err(error) => {
@@ -171,7 +191,8 @@ impl Found {
 /// φ, then φ̇ and ψ, in 31 digits.
 fn residuals<M: Mechanism>(mechanism: &M, t: f64, q: &[f64], v: &[f64]) -> [Vec<f64>; 2] {
     let precise: Prepared<DoubleDouble> = mechanism.prepared();
-    let number = |x: &[f64]| -> Vec<DoubleDouble> { x.iter().map(|x| DoubleDouble::from_f64(*x)).collect() };
+    let number =
+        |x: &[f64]| -> Vec<DoubleDouble> { x.iter().map(|x| DoubleDouble::from_f64(*x)).collect() };
     let (t, q, v) = (DoubleDouble::from_f64(t), number(q), number(v));
     let mut position = vec![DoubleDouble::from_f64(0.0); M::SPEC.holonomic];
     let mut velocity = vec![DoubleDouble::from_f64(0.0); M::SPEC.m()];
@@ -185,15 +206,24 @@ fn worst<M: Mechanism>(mechanism: &M, known: &Known<M>, found: &State) -> f64 {
     let left = residuals(mechanism, known.state.t, &found.q, &found.v);
     // Velocities may be as large as levers make them.
     let units = |x: &[f64], unit: &[f64]| -> Vec<f64> {
-        let most = x.iter().zip(unit).fold(1.0, |most: f64, (x, unit)| most.max(x.abs() / unit));
+        let most = x
+            .iter()
+            .zip(unit)
+            .fold(1.0, |most: f64, (x, unit)| most.max(x.abs() / unit));
         unit.iter().map(|unit| most * unit).collect()
     };
-    let (lengths, rates) = (units(&found.q, &known.lengths), units(&found.v, &known.rates));
+    let (lengths, rates) = (
+        units(&found.q, &known.lengths),
+        units(&found.v, &known.rates),
+    );
     let mut sizes = [vec![0.0_f64; M::SPEC.holonomic], vec![0.0_f64; M::SPEC.m()]];
     let mut random = Random::new(7);
     for _ in 0..12 {
         let mut away = |x: &[f64], by: &[f64]| -> Vec<f64> {
-            x.iter().zip(by).map(|(x, by)| x + by * random.signed()).collect()
+            x.iter()
+                .zip(by)
+                .map(|(x, by)| x + by * random.signed())
+                .collect()
         };
         let (q, v) = (away(&found.q, &lengths), away(&found.v, &rates));
         let there = residuals(mechanism, known.state.t, &q, &v);
@@ -202,7 +232,13 @@ fn worst<M: Mechanism>(mechanism: &M, known: &Known<M>, found: &State) -> f64 {
         }
     }
     let pairs = left.iter().flatten().zip(sizes.iter().flatten());
-    pairs.fold(0.0, |most: f64, (r, size)| if *r == 0.0 { most } else { most.max(r.abs() / (1e-12 * size)) })
+    pairs.fold(0.0, |most: f64, (r, size)| {
+        if *r == 0.0 {
+            most
+        } else {
+            most.max(r.abs() / (1e-12 * size))
+        }
+    })
 }
 
 /// The least singular value of A at the known place, in units of the coordinates and of the rows: where it is 0 rounding of the lengths may leave no
@@ -210,7 +246,9 @@ fn worst<M: Mechanism>(mechanism: &M, known: &Known<M>, found: &State) -> f64 {
 fn regularity<M: Mechanism>(mechanism: &M, state: &State, lengths: &[f64]) -> f64 {
     let (n, m) = (M::SPEC.n(), M::SPEC.m());
     let mut a = vec![0.0; n * m];
-    mechanism.prepared::<f64>().jacobian(state.t, &state.q, &state.v, &mut a);
+    mechanism
+        .prepared::<f64>()
+        .jacobian(state.t, &state.q, &state.v, &mut a);
     let mut a = nalgebra::DMatrix::from_column_slice(m, n, &a);
     for (mut column, length) in a.column_iter_mut().zip(lengths) {
         column *= *length;
@@ -250,21 +288,58 @@ fn rows(random: &mut Random) -> Known<Rows> {
         w: often_zero(random),
     };
     let q = mechanism.p.iter().zip(l).map(|(p, l)| p * l).collect();
-    let state = State { t: 0.0, q, v: vec![0.0; 4] };
+    let state = State {
+        t: 0.0,
+        q,
+        v: vec![0.0; 4],
+    };
     let reach = 0.1 * regularity(&mechanism, &state, &l);
-    Known { mechanism, state, lengths: l.to_vec(), rates: l.to_vec(), reach }
+    Known {
+        mechanism,
+        state,
+        lengths: l.to_vec(),
+        rates: l.to_vec(),
+        reach,
+    }
 }
 
 fn hinge(random: &mut Random) -> Known<Hinge> {
     let (l, half) = (unit(random, 9.0), 0.7 * often_zero(random));
     let w = often_zero(random);
-    let mechanism = Hinge { l, m: unit(random, 6.0), turn: -2.0 * half, w };
+    let mechanism = Hinge {
+        l,
+        m: unit(random, 6.0),
+        turn: -2.0 * half,
+        w,
+    };
     let (s, c) = half.sin_cos();
-    let q = vec![l * (2.0 * half).cos(), 0.0, -l * (2.0 * half).sin(), c, 0.0, s, 0.0];
+    let q = vec![
+        l * (2.0 * half).cos(),
+        0.0,
+        -l * (2.0 * half).sin(),
+        c,
+        0.0,
+        s,
+        0.0,
+    ];
     let r = -0.5 * w;
-    let v = vec![-2.0 * r * l * (2.0 * half).sin(), 0.0, -2.0 * r * l * (2.0 * half).cos(), -s * r, 0.0, c * r, 0.0];
+    let v = vec![
+        -2.0 * r * l * (2.0 * half).sin(),
+        0.0,
+        -2.0 * r * l * (2.0 * half).cos(),
+        -s * r,
+        0.0,
+        c * r,
+        0.0,
+    ];
     let lengths = vec![l, l, l, 1.0, 1.0, 1.0, 1.0];
-    Known { mechanism, state: State { t: 0.0, q, v }, rates: lengths.clone(), lengths, reach: 1.0 }
+    Known {
+        mechanism,
+        state: State { t: 0.0, q, v },
+        rates: lengths.clone(),
+        lengths,
+        reach: 1.0,
+    }
 }
 
 fn leg(random: &mut Random) -> Known<Leg> {
@@ -277,17 +352,36 @@ fn leg(random: &mut Random) -> Known<Leg> {
     let to = |a: (f64, f64), b: (f64, f64)| (a.0 - b.0).hypot(a.1 - b.1);
     let p = |i: usize| (x[i], y[i]);
     let (o, c) = ((ox, oy), (r, 0.0));
-    let a = [to(p(0), c), to(p(0), o), to(p(1), c), to(p(1), o), to(p(2), p(0)), to(p(2), o), to(p(3), p(2)), to(p(3), p(1))];
+    let a = [
+        to(p(0), c),
+        to(p(0), o),
+        to(p(1), c),
+        to(p(1), o),
+        to(p(2), p(0)),
+        to(p(2), o),
+        to(p(3), p(2)),
+        to(p(3), p(1)),
+    ];
     let mechanism = Leg { r, a, ox, oy, w };
     let mut q = vec![0.0];
     q.extend(x.iter().chain(&y));
     let mut lengths = vec![l; 9];
     lengths[0] = 1.0;
-    let state = State { t: 0.0, q, v: vec![0.0; 9] };
+    let state = State {
+        t: 0.0,
+        q,
+        v: vec![0.0; 9],
+    };
     let reach = 0.1 * regularity(&mechanism, &state, &lengths);
     // Points may be as much faster than the crank.
     let rates = lengths.iter().map(|l| l / reach.clamp(1e-3, 1.0)).collect();
-    Known { mechanism, state, rates, lengths, reach }
+    Known {
+        mechanism,
+        state,
+        rates,
+        lengths,
+        reach,
+    }
 }
 
 fn cranks(random: &mut Random) -> Known<Cranks> {
@@ -301,24 +395,54 @@ fn cranks(random: &mut Random) -> Known<Cranks> {
     let (s, c) = angle.sin_cos();
     let (s, c) = (l * s, l * c);
     let q = vec![c, d + c, 2.0 * d + c, s, s, s];
-    let mechanism = Cranks { l, d, s: unit(random, 6.0) };
-    Known { mechanism, state: State { t: 0.0, q, v: vec![0.0; 6] }, lengths: vec![l; 6], rates: vec![l; 6], reach: 1.0 }
+    let mechanism = Cranks {
+        l,
+        d,
+        s: unit(random, 6.0),
+    };
+    Known {
+        mechanism,
+        state: State {
+            t: 0.0,
+            q,
+            v: vec![0.0; 6],
+        },
+        lengths: vec![l; 6],
+        rates: vec![l; 6],
+        reach: 1.0,
+    }
 }
 
 fn angles(random: &mut Random) -> Known<Angles> {
     let (a, b) = (0.7 + 0.2 * random.signed(), 0.9 + 0.2 * random.signed());
     let u = often_zero(random) * 10.0_f64.powf(-4.0 + 4.0 * random.signed());
-    let mechanism = Angles { a, b, c: std::array::from_fn(|_| unit(random, 2.0)), s: unit(random, 6.0) };
+    let mechanism = Angles {
+        a,
+        b,
+        c: std::array::from_fn(|_| unit(random, 2.0)),
+        s: unit(random, 6.0),
+    };
     let r = often_zero(random);
     let (q, v) = (vec![u, a * u, b * u], vec![r, a * r, b * r]);
-    Known { mechanism, state: State { t: 0.0, q, v }, lengths: vec![1.0; 3], rates: vec![1.0; 3], reach: 1.0 }
+    Known {
+        mechanism,
+        state: State { t: 0.0, q, v },
+        lengths: vec![1.0; 3],
+        rates: vec![1.0; 3],
+        reach: 1.0,
+    }
 }
 
 fn sledge(random: &mut Random) -> Known<Sledge> {
     let (l, speed) = (unit(random, 6.0), often_zero(random));
     let th = 1.4 * often_zero(random);
     let turn = often_zero(random);
-    let mechanism = Sledge { l, speed: l * speed, m: unit(random, 6.0), turn };
+    let mechanism = Sledge {
+        l,
+        speed: l * speed,
+        m: unit(random, 6.0),
+        turn,
+    };
     let (s, c) = th.sin_cos();
     let state = State {
         t: 0.0,
@@ -326,22 +450,39 @@ fn sledge(random: &mut Random) -> Known<Sledge> {
         v: vec![l * speed * c, l * speed * s, turn, l * c * turn],
     };
     let lengths = vec![l, l, 1.0, l];
-    Known { mechanism, state, rates: lengths.clone(), lengths, reach: 1.0 }
+    Known {
+        mechanism,
+        state,
+        rates: lengths.clone(),
+        lengths,
+        reach: 1.0,
+    }
 }
 
 fn short(random: &mut Random) -> Known<Short> {
     let far = unit(random, 9.0);
-    let l = far * match random.signed() {
-        x if x < -0.5 => 0.0,
-        x if x < 0.0 => 10.0_f64.powf(4.5 * random.signed() - 4.5),
-        x => x,
-    };
+    let l = far
+        * match random.signed() {
+            x if x < -0.5 => 0.0,
+            x if x < 0.0 => 10.0_f64.powf(4.5 * random.signed() - 4.5),
+            x => x,
+        };
     let (a, b) = (far * often_zero(random), far * often_zero(random));
     let mechanism = Short { l, a, b, far };
     let (s, c) = (3.0 * often_zero(random)).sin_cos();
     let (x, y) = (a + l * c, b + l * s);
-    let state = State { t: 0.0, q: vec![x, y, x + far, y], v: vec![0.0; 4] };
-    Known { mechanism, state, lengths: vec![far; 4], rates: vec![far; 4], reach: 1.0 }
+    let state = State {
+        t: 0.0,
+        q: vec![x, y, x + far, y],
+        v: vec![0.0; 4],
+    };
+    Known {
+        mechanism,
+        state,
+        lengths: vec![far; 4],
+        rates: vec![far; 4],
+        reach: 1.0,
+    }
 }
 
 /// Guesses for a mechanism of each kind from one seed.
@@ -377,7 +518,9 @@ fn random_mechanisms_with_zeros() {
 #[test]
 #[ignore = "a hunt over many seeds"]
 fn hunt_for_assembly() {
-    let count = std::env::var("HUNT").ok().and_then(|text| text.parse().ok());
+    let count = std::env::var("HUNT")
+        .ok()
+        .and_then(|text| text.parse().ok());
     for found in hunt(1_000_000..1_000_000 + count.unwrap_or(3_000)) {
         assert_eq!((found.silent, found.refused), (0, 0), "{found:?}");
     }

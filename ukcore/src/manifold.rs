@@ -13,6 +13,7 @@ use std::str::FromStr;
 use crate::diagnose;
 use crate::error::Error;
 use crate::mechanism::Prepared;
+use crate::noise::Noise;
 use crate::numbers::full;
 use crate::scan::{all_finite, largest_difference};
 use crate::solver::Baumgarte;
@@ -26,7 +27,6 @@ mod search;
 pub(crate) use level::{At, Level};
 pub(crate) use newton::Newton;
 
-use acceptance::Rounding;
 use newton::Steps;
 use rank_revealing::Factors;
 
@@ -162,10 +162,10 @@ impl Projector {
             .into_iter()
             .all(|(level, x, other)| {
                 let at = At::new(&self.mechanism, level, t, other);
-                manifold.newton.evaluate(&at, x);
-                let residual = &manifold.newton.residual[..at.rows()];
-                manifold.rounding.measure(&at, x, None);
-                manifold.rounding.explains(residual)
+                let newton = &mut manifold.newton;
+                newton.evaluate(&at, x);
+                newton.measure(&at, x, &mut manifold.noise, None);
+                newton.acceptance.rounded(&newton.residual[..at.rows()])
             })
     }
 
@@ -174,7 +174,7 @@ impl Projector {
     pub(crate) fn length(&mut self, t: f64, q: &[f64], v: &[f64]) -> f64 {
         let at = At::new(&self.mechanism, Level::Position, t, v);
         self.manifold.meets(&at, q, 0.0);
-        self.manifold.length(&at)
+        self.manifold.newton.acceptance.length(at.rows())
     }
 
     /// The mechanism, with the parameters whose constraints count.
@@ -186,7 +186,6 @@ impl Projector {
     /// Holds switch `switch` in `branch`, or follows it again.
     pub(crate) fn hold(&mut self, switch: usize, branch: crate::mechanism::Branch) {
         self.mechanism.hold(switch, branch);
-        self.manifold.rounding.mechanism.hold(switch, branch);
     }
 
     fn check_lengths(&self, q: &[f64], v: &[f64]) -> Result<(), Error> {
@@ -200,7 +199,7 @@ impl Projector {
 #[derive(Debug, Clone)]
 pub(crate) struct Manifold {
     newton: Newton<f64>,
-    rounding: Rounding,
+    noise: Noise,
     factors: Factors,
     start: Vec<f64>,
 }
@@ -209,7 +208,7 @@ impl Manifold {
     pub(crate) fn new(mechanism: &Prepared) -> Self {
         Manifold {
             newton: Newton::new(mechanism.spec()),
-            rounding: Rounding::new(mechanism),
+            noise: Noise::new(mechanism),
             factors: Factors::new(mechanism),
             start: vec![0.0; mechanism.spec().n()],
         }
@@ -303,9 +302,8 @@ impl Manifold {
     fn accept(&mut self, at: &At<'_, f64>, x: &[f64], factored: bool) -> bool {
         self.newton.weigh(at, x);
         let dense = factored.then_some(&mut self.factors.dense);
-        self.rounding.measure(at, x, dense);
-        let mut violated = self.rounding.violated(at, &self.newton, x);
-        violated.next().is_none()
+        self.newton.measure(at, x, &mut self.noise, dense);
+        self.newton.violated(at, x).next().is_none()
     }
 
     /// Why they will not.
@@ -315,7 +313,7 @@ impl Manifold {
             return at.non_finite(x, residual);
         }
         let (mut violations, mut scale) = (vec![0.0; residual.len()], vec![1.0; residual.len()]);
-        for c in self.rounding.violated(at, &self.newton, x) {
+        for c in self.newton.violated(at, x) {
             violations[c] = residual[c];
             scale[c] = self.newton.acceptance.scale(c).recip();
         }
@@ -330,11 +328,6 @@ impl Manifold {
         self.newton.acceptance.size = size;
         self.newton.evaluate(at, x);
         self.accept(at, x, false)
-    }
-
-    /// The largest length in the constraints there, in the unit of x.
-    fn length(&self, at: &At<'_, f64>) -> f64 {
-        self.newton.acceptance.length(at.rows(), &self.rounding)
     }
 
     /// Why `x` is not on the constraints.

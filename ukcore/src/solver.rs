@@ -20,9 +20,9 @@
 use crate::dense::{Dense, Evaluated, Route, Rows};
 use crate::diagnose;
 use crate::error::Error;
-use crate::mechanism::{Equations, Prepared};
+use crate::mechanism::Prepared;
 use crate::metric::MassFault;
-use crate::rounding::Rounded;
+use crate::noise::Noise;
 use crate::saddle::Saddle;
 use crate::scan::all_finite;
 use crate::spec::Spec;
@@ -76,6 +76,8 @@ pub struct Solver {
     saddle: Option<Saddle>,
     drift: Drift,
     noise: Noise,
+    /// What rounding A q̈ − b carries, in units of ε, where that is known; else 0.
+    carried: Vec<f64>,
     /// What drift and rounding are granted of each row.
     granted: Vec<f64>,
 }
@@ -93,62 +95,13 @@ struct Drift {
 impl Drift {
     /// What it explains of the residual of row `c` of A q̈ = b, where A is `a` and b is `rhs`.
     fn explains(&self, a: Rows<'_>, rhs: &[f64], c: usize, acceleration: &[f64]) -> f64 {
+        if !self.known {
+            return 0.0;
+        }
         let there = rows(&self.there, rhs.len());
         let change = a.row(c).zip(there.row(c)).zip(acceleration);
         let change: f64 = change.map(|((a, b), x)| ((a - b) * x).abs()).sum();
         (self.there.rhs[c] - rhs[c]).abs() + change
-    }
-}
-
-/// The equations with the rounding that they carry.
-#[derive(Debug, Clone)]
-struct Noise {
-    known: bool,
-    mechanism: Prepared<Rounded, dyn Equations<Rounded>>,
-    here: Evaluated<Rounded>,
-    q: Vec<Rounded>,
-    v: Vec<Rounded>,
-}
-
-impl Noise {
-    fn new(mechanism: &Prepared) -> Self {
-        let (n, m) = (mechanism.spec().n(), mechanism.spec().m());
-        Noise {
-            known: false,
-            mechanism: mechanism.rounded(),
-            here: Evaluated::new(n, m),
-            q: vec![Rounded::exact(0.0); n],
-            v: vec![Rounded::exact(0.0); n],
-        }
-    }
-
-    fn measure(&mut self, mechanism: &Prepared, t: f64, q: &[f64], v: &[f64]) {
-        let given = mechanism.parameters().iter();
-        self.mechanism
-            .set_parameters(given.map(|p| Rounded::exact(*p)));
-        self.mechanism.hold_as(mechanism);
-        for (rounded, x) in [(&mut self.q, q), (&mut self.v, v)] {
-            let pairs = rounded.iter_mut().zip(x);
-            pairs.for_each(|(r, x)| *r = Rounded::unknown(*x));
-        }
-        let t = Rounded::unknown(t);
-        self.here.dynamics(&self.mechanism, t, &self.q, &self.v);
-        self.known = true;
-    }
-
-    /// What it explains of the residual of row `c` of A q̈ = b, in units of ε.
-    fn explains(&self, c: usize, acceleration: &[f64]) -> f64 {
-        if !self.known {
-            return 0.0;
-        }
-        let row = self
-            .here
-            .jacobian
-            .iter()
-            .skip(c)
-            .step_by(self.here.rhs.len());
-        let terms = row.zip(acceleration).map(|(a, x)| a.bound() * x.abs());
-        self.here.rhs[c].bound() + terms.sum::<f64>()
     }
 }
 
@@ -204,6 +157,7 @@ impl Solver {
                 correction: vec![0.0; n],
             },
             noise: Noise::new(&mechanism),
+            carried: vec![0.0; m],
             granted: vec![0.0; m],
             mechanism,
         }
@@ -430,7 +384,7 @@ impl Solver {
         self.here.dynamics(&self.mechanism, t, q, v);
         self.work.evaluations += 1;
         self.drift.known = false;
-        self.noise.known = false;
+        self.carried.fill(0.0);
         self.rhs.copy_from_slice(&self.here.rhs);
         if let Some(baumgarte) = self.options.baumgarte {
             self.mechanism.residual(t, q, &mut self.position);
@@ -572,7 +526,8 @@ impl Solver {
                 return Ok(());
             }
         }
-        self.noise.measure(&self.mechanism, t, q, v);
+        self.noise.go(&self.mechanism, t, q, v);
+        self.noise.motion(acceleration, &mut self.carried);
         if self.agrees(acceleration, tolerance) {
             return Ok(());
         }
@@ -585,35 +540,36 @@ impl Solver {
         })
     }
 
-    /// Whether A q̈ = b holds up to `tolerance` and drift. At rest q̈ is the difference of what the forces and what the constraints
-    /// do, so the tolerance refers to these.
+    /// Whether A q̈ = b holds up to `tolerance`, drift and the rounding that is known. At rest q̈ is the difference of what the forces and
+    /// what the constraints do, so the tolerance refers to these.
     fn agrees(&mut self, acceleration: &[f64], tolerance: f64) -> bool {
-        let (a, scale) = (rows(&self.here, self.m), &self.dense.row_scale);
+        let (m, a, scale) = (self.m, rows(&self.here, self.m), &self.dense.row_scale);
         let free = &self.dense.unconstrained;
         let size =
             |c: usize| self.rhs[c].abs() + a.magnitude(c, acceleration) + a.magnitude(c, free);
-        let largest = (0..self.m).map(|c| scale[c] * size(c)).fold(0.0, f64::max);
+        let largest = (0..m).map(|c| scale[c] * size(c)).fold(0.0, f64::max);
         let rounding = DRIFT_FACTOR * tolerance.min(RANK_CEILING) * largest;
-        if self.drift.known {
-            // What drift explains of each row, but not more than it may lend, and rounding; and by these rows of those that they imply.
-            for c in 0..self.m {
-                let finite = |x: f64| if x.is_finite() { x } else { 0.0 };
-                let drift = finite(self.drift.explains(a, &self.rhs, c, acceleration));
-                // In units of ε: the size of the terms that b is made of, where they cancel.
-                let noise = finite(self.noise.explains(c, acceleration));
-                let lent = RANK_CEILING * noise.max(largest / scale[c]);
-                self.granted[c] =
-                    (DRIFT_FACTOR * drift).min(lent) + DRIFT_FACTOR * f64::EPSILON * noise;
-            }
-            self.dense.share(&mut self.granted);
-        } else {
-            self.granted.fill(0.0);
+        for c in 0..m {
+            let finite = |x: f64| if x.is_finite() { x } else { 0.0 };
+            // Both the size of the terms that b is made of, which may cancel, and in units of ε their rounding.
+            let carried = finite(self.carried[c]);
+            let most = RANK_CEILING * carried.max(largest / scale[c]);
+            let drift = finite(self.drift.explains(a, &self.rhs, c, acceleration));
+            self.granted[c] =
+                (DRIFT_FACTOR * drift).min(most) + DRIFT_FACTOR * f64::EPSILON * carried;
         }
-        let scale = &self.dense.row_scale;
-        (0..self.m).all(|c| {
-            let excess = (self.rhs[c] - a.product(c, acceleration)).abs() - self.granted[c];
-            excess <= 0.0 || scale[c] > 0.0 && scale[c] * excess <= rounding
-        })
+        let met = |scale: &[f64], granted: &[f64]| {
+            (0..m).all(|c| {
+                let excess = (self.rhs[c] - a.product(c, acceleration)).abs() - granted[c];
+                excess <= 0.0 || scale[c] > 0.0 && scale[c] * excess <= rounding
+            })
+        };
+        // Rows that imply each other are granted it together.
+        met(&self.dense.row_scale, &self.granted)
+            || self.drift.known && {
+                self.dense.share(&mut self.granted);
+                met(&self.dense.row_scale, &self.granted)
+            }
     }
 }
 

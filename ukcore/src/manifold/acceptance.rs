@@ -1,11 +1,6 @@
 //! What counts as zero.
 
-use super::level::At;
-use super::newton::Newton;
-use crate::dense::Dense;
 use crate::lanes::Lanes;
-use crate::mechanism::{Equations, Prepared};
-use crate::rounding::Rounded;
 use crate::scan::largest;
 
 /// A residual is at rounding level if it does not exceed this many ε of the size Σ|A_ij q_j| of what q's own rounding contributes:
@@ -33,6 +28,8 @@ pub(crate) struct Acceptance<L> {
     terms: Vec<L>,
     /// max|A_cj| ease_j.
     largest: Vec<L>,
+    /// What rounding the evaluation of each residual carries, in units of ε.
+    pub(super) rounding: Vec<f64>,
 }
 
 impl<L: Lanes> Acceptance<L> {
@@ -44,6 +41,7 @@ impl<L: Lanes> Acceptance<L> {
             size: zero,
             terms: vec![zero; m],
             largest: vec![zero; m],
+            rounding: vec![0.0; m],
         }
     }
 
@@ -106,80 +104,29 @@ impl Acceptance<f64> {
             })
     }
 
-    /// The residual of constraint `c` that will do where no step makes it less, with coordinates up to the size `x`.
-    pub(super) fn loose(&self, c: usize, x: f64, rounding: &Rounding) -> f64 {
-        let size = self.largest[c] * self.size.max(x);
-        (STALLED * size.max(rounding.rows[c])).max(ROUNDING * self.terms[c])
+    /// The constraints at `x`, of whose `residuals` some would not do even where no step makes them less.
+    pub(super) fn violated(&self, residuals: &[f64], x: &[f64]) -> impl Iterator<Item = usize> {
+        let size = self.size.max(self.extent(x));
+        let bound = move |c: usize| {
+            let loose = STALLED * self.rounding[c].max(self.largest[c] * size);
+            loose.max(ROUNDING * self.terms[c])
+        };
+        let residuals = residuals.iter().enumerate();
+        let violated = residuals.filter(move |(c, r)| !(r.abs() <= bound(*c)));
+        violated.map(|(c, _)| c)
+    }
+
+    /// Whether rounding alone makes `residuals`.
+    pub(super) fn rounded(&self, residuals: &[f64]) -> bool {
+        let mut pairs = residuals.iter().zip(&self.rounding);
+        pairs.all(|(r, size)| r.abs() <= STALLED * size)
     }
 
     /// The largest length in the first `rows` constraints, in the unit of x: the rounding of a residual as the change of a coordinate that
     /// makes it.
-    pub(super) fn length(&self, rows: usize, rounding: &Rounding) -> f64 {
-        let sizes = self.largest[..rows].iter().zip(&rounding.rows);
+    pub(super) fn length(&self, rows: usize) -> f64 {
+        let sizes = self.largest[..rows].iter().zip(&self.rounding);
         let lengths = sizes.filter(|(entry, _)| **entry > 0.0);
         lengths.fold(0.0, |most: f64, (entry, size)| most.max(size / entry))
-    }
-}
-
-/// What rounding the evaluation of each residual carries. Where coordinates are small beside the lengths in a constraint (measured from
-/// the state at rest, say), this is far more than their own rounding makes of it.
-#[derive(Debug, Clone)]
-pub(super) struct Rounding {
-    pub(super) mechanism: Prepared<Rounded, dyn Equations<Rounded>>,
-    given: Vec<Rounded>,
-    fixed: Vec<Rounded>,
-    residual: Vec<Rounded>,
-    /// In units of ε.
-    rows: Vec<f64>,
-}
-
-impl Rounding {
-    pub(super) fn new(mechanism: &Prepared) -> Self {
-        let (n, m) = (mechanism.spec().n(), mechanism.spec().m());
-        let zeros = |len: usize| vec![Rounded::exact(0.0); len];
-        Rounding {
-            mechanism: mechanism.rounded(),
-            given: zeros(n),
-            fixed: zeros(n),
-            residual: zeros(m),
-            rows: vec![0.0; m],
-        }
-    }
-
-    /// Measures it at `x`, that of the time and of the rest of the state included. Constraints that imply each other, which the factors `dense`
-    /// know, share theirs.
-    pub(super) fn measure(&mut self, at: &At<'_, f64>, x: &[f64], dense: Option<&mut Dense>) {
-        let given = self.given.iter_mut().zip(x);
-        let fixed = self.fixed.iter_mut().zip(at.other);
-        given
-            .chain(fixed)
-            .for_each(|(r, x)| *r = Rounded::unknown(*x));
-        let (t, residual) = (Rounded::unknown(at.t), &mut self.residual);
-        at.level
-            .residual(&self.mechanism, t, &self.given, &self.fixed, residual);
-        let rows = self.rows.iter_mut().zip(&self.residual);
-        rows.for_each(|(size, r)| *size = r.bound());
-        if let Some(dense) = dense {
-            dense.share(&mut self.rows[..at.rows()]);
-        }
-    }
-
-    /// Whether it makes `residual`.
-    pub(super) fn explains(&self, residual: &[f64]) -> bool {
-        let mut pairs = residual.iter().zip(&self.rows);
-        pairs.all(|(r, size)| r.abs() <= STALLED * size)
-    }
-
-    /// The constraints at `x`, where sizes and rounding are known, whose residuals would not do even where no step makes them less.
-    pub(super) fn violated(
-        &self,
-        at: &At<'_, f64>,
-        newton: &Newton<f64>,
-        x: &[f64],
-    ) -> impl Iterator<Item = usize> {
-        let acceptance = &newton.acceptance;
-        let size = acceptance.extent(x);
-        let met = move |c: usize| newton.residual[c].abs() <= acceptance.loose(c, size, self);
-        (0..at.rows()).filter(move |c| !met(*c))
     }
 }

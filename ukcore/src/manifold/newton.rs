@@ -1,8 +1,10 @@
 //! Newton's method, lane by lane: one iteration for all ways onto the constraints, which differ in where their steps come from.
 
 use super::acceptance::{Acceptance, NEIGHBOUR, ROUNDING};
-use super::level::At;
+use super::level::{At, Level};
+use crate::dense::Dense;
 use crate::lanes::Lanes;
+use crate::noise::Noise;
 use crate::scan::{excess, largest, sum};
 use crate::spec::Spec;
 
@@ -172,7 +174,6 @@ impl<L: Lanes> Newton<L> {
         [q, v]: [&mut [L]; 2],
         wanted: L,
     ) -> (L, L) {
-        use super::Level;
         let (mut good, mut count) = (wanted, zero());
         for level in [Level::Position, Level::Velocity] {
             let (x, other) = match level {
@@ -202,5 +203,32 @@ impl<L: Lanes> Newton<L> {
         at.jacobian(x, &mut self.jacobian);
         let pattern = at.mech.spec().structure.jacobian_pattern;
         self.acceptance.weigh(pattern, &self.jacobian, x);
+    }
+}
+
+impl Newton<f64> {
+    /// Takes what rounding the residuals at `x` carry. Constraints that imply each other, which factors know, share theirs.
+    pub(super) fn measure(
+        &mut self,
+        at: &At<'_, f64>,
+        x: &[f64],
+        noise: &mut Noise,
+        factors: Option<&mut Dense>,
+    ) {
+        let (q, v) = at.level.state(x, at.other);
+        noise.go(at.mech, at.t, q, v);
+        let rounding = &mut self.acceptance.rounding;
+        match at.level {
+            Level::Position => noise.residual(rounding),
+            Level::Velocity => noise.residual_rate(rounding),
+        }
+        if let Some(factors) = factors {
+            factors.share(&mut rounding[..at.rows()]);
+        }
+    }
+
+    /// The constraints at `x`, where all is known, whose residuals would not do even where no step makes them less.
+    pub(super) fn violated(&self, at: &At<'_, f64>, x: &[f64]) -> impl Iterator<Item = usize> {
+        self.acceptance.violated(&self.residual[..at.rows()], x)
     }
 }

@@ -125,7 +125,7 @@ impl Manifold {
     /// Moves `x` onto the constraints, and returns the number of steps. Here the rows say where it ends, since those left out show in no
     /// step.
     pub(super) fn reveal(&mut self, at: &At<'_, f64>, x: &mut [f64]) -> Result<f64, Error> {
-        let (rounding, factors) = (&mut self.rounding, &mut self.factors);
+        let (noise, factors) = (&mut self.noise, &mut self.factors);
         let kept = factors.place.take() == Some(at.t);
         let mut factored = kept && at.level == Level::Velocity && factors.q == at.other;
         factors.cautious |= !factored;
@@ -148,8 +148,8 @@ impl Manifold {
                     factors.cautious = false;
                 } else {
                     stalls += 1;
-                    rounding.measure(at, x, Some(&mut factors.dense));
-                    if stalls > MAX_STALLS || rounding.violated(at, newton, x).next().is_none() {
+                    newton.measure(at, x, noise, Some(&mut factors.dense));
+                    if stalls > MAX_STALLS || newton.violated(at, x).next().is_none() {
                         return (0.0, 0.0);
                     }
                 }

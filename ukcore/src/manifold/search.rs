@@ -91,7 +91,7 @@ impl Manifold {
         let rows = at.rows();
         let (mut best, mut cost): (Option<Best>, f64) = (None, f64::INFINITY);
         let (mut damping, mut stalls) = (DAMPING, 0);
-        let rounding = &mut self.rounding;
+        let noise = &mut self.noise;
         self.newton.iterate(at, x, 1.0, MAX_STEPS, |newton, x, _| {
             let residual = &newton.residual[..rows];
             let trial = best.as_ref().map_or(0.0, |best| best.cost(residual));
@@ -100,11 +100,11 @@ impl Manifold {
                 stalls = if trial > 0.99 * cost { stalls + 1 } else { 0 };
                 damping = (damping / DAMPING_FACTOR).max(f64::EPSILON);
                 newton.weigh(at, x);
-                rounding.measure(at, x, None);
+                newton.measure(at, x, noise, None);
                 let there = Best::new(newton, rows, x);
                 cost = there.residual.norm_squared();
                 best = Some(there);
-                if rounding.violated(at, newton, x).next().is_none() {
+                if newton.violated(at, x).next().is_none() {
                     return (1.0, 0.0);
                 }
             } else {
@@ -133,7 +133,7 @@ impl Manifold {
             .newton
             .acceptance
             .distance(&self.newton.residual[..rows]);
-        let near = met || off <= NEAR * self.length(at);
+        let near = met || off <= NEAR * self.newton.acceptance.length(rows);
         if near && self.project(at, x).is_ok() || met {
             return 0.0;
         }

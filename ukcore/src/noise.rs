@@ -1,0 +1,78 @@
+//! What rounding the equations of a mechanism carry at a state.
+
+use crate::dense::Evaluated;
+use crate::mechanism::{Equations, Prepared};
+use crate::rounding::Rounded;
+
+/// The equations in numbers that add up their rounding, at a state whose time, coordinates and velocities are known to rounding. What they
+/// carry comes for each constraint, in units of ε: where coordinates are small beside the lengths in it, or terms cancel, it is far more than
+/// derivatives tell.
+#[derive(Debug, Clone)]
+pub(crate) struct Noise {
+    mechanism: Prepared<Rounded, dyn Equations<Rounded>>,
+    t: Rounded,
+    q: Vec<Rounded>,
+    v: Vec<Rounded>,
+    rows: Vec<Rounded>,
+    terms: Evaluated<Rounded>,
+}
+
+impl Noise {
+    pub(crate) fn new(mechanism: &Prepared) -> Self {
+        let (n, m) = (mechanism.spec().n(), mechanism.spec().m());
+        let zeros = |len: usize| vec![Rounded::exact(0.0); len];
+        Noise {
+            mechanism: mechanism.rounded(),
+            t: Rounded::exact(0.0),
+            q: zeros(n),
+            v: zeros(n),
+            rows: zeros(m),
+            terms: Evaluated::new(n, m),
+        }
+    }
+
+    /// Goes to a state of `mechanism`, which has its parameters, taken to be exact, and held branches.
+    pub(crate) fn go(&mut self, mechanism: &Prepared, t: f64, q: &[f64], v: &[f64]) {
+        let given = mechanism.parameters().iter();
+        self.mechanism
+            .set_parameters(given.map(|p| Rounded::exact(*p)));
+        self.mechanism.hold_as(mechanism);
+        self.t = Rounded::unknown(t);
+        for (rounded, x) in [(&mut self.q, q), (&mut self.v, v)] {
+            let pairs = rounded.iter_mut().zip(x);
+            pairs.for_each(|(r, x)| *r = Rounded::unknown(*x));
+        }
+    }
+
+    /// That of φ.
+    pub(crate) fn residual(&mut self, out: &mut [f64]) {
+        let h = self.mechanism.spec().holonomic;
+        self.mechanism
+            .residual(self.t, &self.q, &mut self.rows[..h]);
+        bounds(&self.rows, out);
+    }
+
+    /// That of φ̇ and ψ.
+    pub(crate) fn residual_rate(&mut self, out: &mut [f64]) {
+        self.mechanism
+            .residual_rate(self.t, &self.q, &self.v, &mut self.rows);
+        bounds(&self.rows, out);
+    }
+
+    /// That of A q̈ − b.
+    pub(crate) fn motion(&mut self, acceleration: &[f64], out: &mut [f64]) {
+        self.terms
+            .dynamics(&self.mechanism, self.t, &self.q, &self.v);
+        bounds(&self.terms.rhs, out);
+        let columns = self.terms.jacobian.chunks_exact(out.len().max(1));
+        for (column, x) in columns.zip(acceleration) {
+            let pairs = out.iter_mut().zip(column);
+            pairs.for_each(|(out, a)| *out += a.bound() * x.abs());
+        }
+    }
+}
+
+fn bounds(rows: &[Rounded], out: &mut [f64]) {
+    let pairs = out.iter_mut().zip(rows);
+    pairs.for_each(|(out, r)| *out = r.bound());
+}
