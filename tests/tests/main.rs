@@ -24,6 +24,7 @@ mod projection;
 mod rattle;
 mod redundant_loop;
 mod registry;
+mod rows_in_time;
 mod stability;
 mod stiff;
 mod streaming;

@@ -154,19 +154,14 @@ impl Projector {
         self.manifold.reach(&at, q, shift)
     }
 
-    /// Whether a state is as near to the constraints as rounding of its time, coordinates and velocities lets it come in a motion: far from
-    /// t = 0, or driven fast, that may be farther off than an error that is asked for.
-    pub(crate) fn is_near(&mut self, t: f64, q: &[f64], v: &[f64]) -> bool {
-        let manifold = &mut self.manifold;
-        [(Level::Position, q, v), (Level::Velocity, v, q)]
-            .into_iter()
-            .all(|(level, x, other)| {
-                let at = At::new(&self.mechanism, level, t, other);
-                let newton = &mut manifold.newton;
-                newton.evaluate(&at, x);
-                newton.measure(&at, x, &mut manifold.noise, None);
-                newton.acceptance.rounded(&newton.residual[..at.rows()])
-            })
+    /// What a projection would change a state by if the constraints were met as nearly as rounding of time, coordinates and velocities lets it:
+    /// far from t = 0, or driven fast, that may be farther off than an error that is asked for. Leaves `change` alone where that is unknown.
+    pub(crate) fn excess(&mut self, t: f64, q: &[f64], v: &[f64], change: &mut [f64]) {
+        let levels = [(Level::Position, q, v), (Level::Velocity, v, q)];
+        for ((level, x, other), change) in levels.into_iter().zip(change.chunks_mut(q.len())) {
+            let at = At::new(&self.mechanism, level, t, other);
+            self.manifold.excess(&at, x, change);
+        }
     }
 
     /// The largest length in a holonomic constraint at q, in the unit of the coordinates: what rounding makes of φ, over ε max|A_cj|. 0
@@ -274,26 +269,24 @@ impl Manifold {
                 sums.for_each(|(sum, d)| *sum += d);
             }
             begun = true;
-            if !factored && at.straight_line() {
-                let safe = at.correction(base, &newton.residual, &mut newton.step);
-                if safe > 0.5 && all_finite(&newton.step) {
-                    return safe;
-                }
-            }
-            at.jacobian(base, &mut newton.jacobian);
-            if !factored {
-                failure = factors.begin(at, base, &mut newton.jacobian).err();
-                factored = failure.is_none();
-            }
-            if factored {
-                factors.solve(at, newton);
-            }
-            f64::from(u8::from(factored))
+            failure = factors.step(at, base, newton, &mut factored).err();
+            f64::from(u8::from(failure.is_none()))
         });
         match failure {
             Some(error) => Err(error),
             None if good > 0.5 || self.accept(at, q, factored) => Ok(self.correction(q, count)),
             None => Err(self.error(at, q)),
+        }
+    }
+
+    /// See [`Projector::excess`], of one level.
+    fn excess(&mut self, at: &At<'_, f64>, x: &[f64], change: &mut [f64]) {
+        let newton = &mut self.newton;
+        newton.evaluate(at, x);
+        newton.measure(at, x, &mut self.noise, None);
+        newton.acceptance.clear(&mut newton.residual[..at.rows()]);
+        if at.rows() > 0 && self.factors.step(at, x, newton, &mut false).is_ok() {
+            change.copy_from_slice(&newton.step);
         }
     }
 

@@ -116,10 +116,11 @@ impl Acceptance<f64> {
         violated.map(|(c, _)| c)
     }
 
-    /// Whether rounding alone makes `residuals`.
-    pub(super) fn rounded(&self, residuals: &[f64]) -> bool {
-        let mut pairs = residuals.iter().zip(&self.rounding);
-        pairs.all(|(r, size)| r.abs() <= STALLED * size)
+    /// Takes off `residuals` what rounding makes of them.
+    pub(super) fn clear(&self, residuals: &mut [f64]) {
+        for (r, size) in residuals.iter_mut().zip(&self.rounding) {
+            *r -= r.clamp(-STALLED * size, STALLED * size);
+        }
     }
 
     /// The largest length in the first `rows` constraints, in the unit of x: the rounding of a residual as the change of a coordinate that

@@ -55,17 +55,6 @@ impl Factors {
         }
     }
 
-    /// Factors for all steps from one place, `x`.
-    pub(super) fn begin(
-        &mut self,
-        at: &At<'_, f64>,
-        x: &[f64],
-        jacobian: &mut [f64],
-    ) -> Result<(), Error> {
-        (self.place, self.cautious) = (None, true);
-        self.factor(at, x, jacobian)
-    }
-
     /// Takes M and A (all rows, of which those of the level count) at `x`. While `cautious`, rows of a significance below the ceiling are
     /// left out: off the manifold nobody can tell whether they are implied; if they are not, the residual will not fall, and they are
     /// taken in.
@@ -109,6 +98,31 @@ impl Factors {
             (0..n).for_each(|i| self.mass[i * n + j] = 0.0);
             self.mass[j * n + j] = 1.0;
         }
+    }
+
+    /// The minimal Δ with A Δ = −φ, where A is that of the place `base`, into the step: by the emitted elimination, or by factors, which serve
+    /// all steps once they are there.
+    pub(super) fn step(
+        &mut self,
+        at: &At<'_, f64>,
+        base: &[f64],
+        newton: &mut Newton<f64>,
+        factored: &mut bool,
+    ) -> Result<(), Error> {
+        if !*factored && at.straight_line() {
+            let safe = at.correction(base, &newton.residual, &mut newton.step);
+            if safe > 0.5 && all_finite(&newton.step) {
+                return Ok(());
+            }
+        }
+        at.jacobian(base, &mut newton.jacobian);
+        if !*factored {
+            (self.place, self.cautious) = (None, true);
+            self.factor(at, base, &mut newton.jacobian)?;
+            *factored = true;
+        }
+        self.solve(at, newton);
+        Ok(())
     }
 
     /// The minimal Δ with A Δ = −φ into the step.

@@ -122,8 +122,8 @@ impl Problem for Run<'_, '_> {
         Ok(())
     }
 
-    fn is_near(&mut self, at: Sample<'_>) -> bool {
-        self.projector.is_near(at.t, at.q, at.v)
+    fn excess(&mut self, at: Sample<'_>, change: &mut [f64]) {
+        self.projector.excess(at.t, at.q, at.v, change);
     }
 
     fn jump(&mut self, at: Sample<'_>, t_old: f64) -> Option<Error> {

@@ -364,7 +364,8 @@ impl<'a, L: Lanes> Group<'a, L> {
         let changes = changes.map(|((raw, new), old)| (*new - *raw, *old, *raw));
         let change = error_norm(changes, tolerance);
         for (k, running) in lanes.iter_mut().enumerate() {
-            let near = |running: &mut Running| running.is_near(&lane(&self.raw, k));
+            let [new, raw, old] = [&*new, &self.raw, &self.y].map(|y| lane(y, k));
+            let near = |running: &mut Running| running.is_near(&new, &raw, &old);
             alive[k] &= change.lane(k) <= PROJECTION_LIMIT || running.as_mut().is_some_and(near);
         }
     }

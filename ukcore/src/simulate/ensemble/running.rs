@@ -4,7 +4,9 @@ use super::Member;
 use crate::assemble::State;
 use crate::error::Error;
 use crate::integrate::sample::Sample;
-use crate::integrate::{Cause, Conflict, Course, Interpolant, Settings, Trial, Trouble};
+use crate::integrate::{
+    Cause, Conflict, Course, Interpolant, PROJECTION_LIMIT, Settings, Trial, Trouble, error_norm,
+};
 use crate::manifold::Projector;
 use crate::simulate::Simulation;
 use crate::simulate::agenda::Agenda;
@@ -88,10 +90,14 @@ impl Running {
         result.map_err(|error| self.note(Sample::of(t, &raw), error))
     }
 
-    /// Whether rounding alone keeps the new state from being nearer to the constraints.
-    pub(super) fn is_near(&mut self, y: &[f64]) -> bool {
-        let Sample { t, q, v } = Sample::of(self.trial.end.t, y);
-        self.projector.is_near(t, q, v)
+    /// Whether a projection of `raw` to `new` is small without what rounding makes of it.
+    pub(super) fn is_near(&mut self, new: &[f64], raw: &[f64], old: &[f64]) -> bool {
+        let Sample { t, q, v } = Sample::of(self.trial.end.t, raw);
+        let mut excess: Vec<f64> = new.iter().zip(raw).map(|(new, raw)| new - raw).collect();
+        self.projector.excess(t, q, v, &mut excess);
+        let changes = excess.iter().zip(old).zip(raw);
+        let changes = changes.map(|((excess, old), raw)| (*excess, *old, *raw));
+        error_norm(changes, self.settings.tolerance) <= PROJECTION_LIMIT
     }
 
     /// Whether a sample lies within the step in hand.
