@@ -158,7 +158,11 @@ impl Found {
         if worst(known, &known.state) <= 1.0 {
             // The sledge's velocities are known at its angle alone.
             let any = (random.signed().abs() * q.len() as f64) as usize;
-            let held = if M::SPEC.name == "Sledge" { Sledge::TH } else { any };
+            let held = if M::SPEC.name == "Sledge" {
+                Sledge::TH
+            } else {
+                any
+            };
             (guess.q[held], guess.v[held]) = (q[held], v[held]);
             self.guess(known, &guess, &[M::SPEC.coords[held]], reached);
         }

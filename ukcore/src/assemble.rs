@@ -192,7 +192,7 @@ impl Search {
                 let share = ((k as f64 + 1.0) * GOLDEN).fract();
                 place[j] += shake * size * (2.0 * share - 1.0);
             }
-            let cost = self.manifold.search(at, &mut place);
+            let cost = self.manifold.search(at, guess, &mut place);
             if cost == 0.0 {
                 return Ok(place);
             }

@@ -168,8 +168,10 @@ impl Projector {
     /// without such constraints.
     pub(crate) fn length(&mut self, t: f64, q: &[f64], v: &[f64]) -> f64 {
         let at = At::new(&self.mechanism, Level::Position, t, v);
-        self.manifold.meets(&at, q, 0.0);
-        self.manifold.newton.acceptance.length(at.rows())
+        let newton = &mut self.manifold.newton;
+        newton.weigh(&at, q);
+        newton.rounding(&at, q, &mut self.manifold.noise, [0.0; 2]);
+        newton.acceptance.length(at.rows())
     }
 
     /// The mechanism, with the parameters whose constraints count.
@@ -283,7 +285,7 @@ impl Manifold {
     fn excess(&mut self, at: &At<'_, f64>, x: &[f64], change: &mut [f64]) {
         let newton = &mut self.newton;
         newton.evaluate(at, x);
-        newton.measure(at, x, &mut self.noise, None);
+        newton.rounding(at, x, &mut self.noise, [0.0; 2]);
         newton.acceptance.clear(&mut newton.residual[..at.rows()]);
         if at.rows() > 0 && self.factors.step(at, x, newton, &mut false).is_ok() {
             change.copy_from_slice(&newton.step);
@@ -296,7 +298,7 @@ impl Manifold {
         self.newton.weigh(at, x);
         let dense = factored.then_some(&mut self.factors.dense);
         self.newton.measure(at, x, &mut self.noise, dense);
-        self.newton.violated(at, x).next().is_none()
+        self.newton.violated(at).next().is_none()
     }
 
     /// Why they will not.
@@ -306,7 +308,7 @@ impl Manifold {
             return at.non_finite(x, residual);
         }
         let (mut violations, mut scale) = (vec![0.0; residual.len()], vec![1.0; residual.len()]);
-        for c in self.newton.violated(at, x) {
+        for c in self.newton.violated(at) {
             violations[c] = residual[c];
             scale[c] = self.newton.acceptance.scale(c).recip();
         }

@@ -31,16 +31,26 @@ impl Noise {
         }
     }
 
-    /// Goes to a state of `mechanism`, which has its parameters, taken to be exact, and held branches.
-    pub(crate) fn go(&mut self, mechanism: &Prepared, t: f64, q: &[f64], v: &[f64]) {
+    /// Goes to a state of `mechanism`, which has its parameters, taken to be exact, and held branches. Its coordinates and velocities are known
+    /// to rounding of the sizes `least`, in units of `ease`, where they are less themselves.
+    pub(crate) fn go(
+        &mut self,
+        mechanism: &Prepared,
+        t: f64,
+        state: [&[f64]; 2],
+        least: [f64; 2],
+        ease: &[f64],
+    ) {
         let given = mechanism.parameters().iter();
         self.mechanism
             .set_parameters(given.map(|p| Rounded::exact(*p)));
         self.mechanism.hold_as(mechanism);
         self.t = Rounded::unknown(t);
-        for (rounded, x) in [(&mut self.q, q), (&mut self.v, v)] {
-            let pairs = rounded.iter_mut().zip(x);
-            pairs.for_each(|(r, x)| *r = Rounded::unknown(*x));
+        for ((rounded, x), least) in [&mut self.q, &mut self.v].into_iter().zip(state).zip(least) {
+            for (j, (rounded, x)) in rounded.iter_mut().zip(x).enumerate() {
+                let ease = ease.get(j).unwrap_or(&1.0);
+                *rounded = Rounded::within(*x, least * ease);
+            }
         }
     }
 
@@ -57,6 +67,25 @@ impl Noise {
         self.mechanism
             .residual_rate(self.t, &self.q, &self.v, &mut self.rows);
         bounds(&self.rows, out);
+    }
+
+    /// Puts zeros in place of the rows of A that are less than `share` ε of their rounding in all coordinates that move.
+    pub(crate) fn clear(&mut self, jacobian: &mut [f64], share: f64, ease: &[f64]) {
+        self.terms
+            .dynamics(&self.mechanism, self.t, &self.q, &self.v);
+        let m = self.rows.len();
+        for c in 0..m {
+            let entry = |j: usize| {
+                jacobian[j * m + c].abs() > share * self.terms.jacobian[j * m + c].bound()
+            };
+            if !(0..ease.len()).any(|j| ease[j] > 0.0 && entry(j)) {
+                jacobian
+                    .iter_mut()
+                    .skip(c)
+                    .step_by(m)
+                    .for_each(|a| *a = 0.0);
+            }
+        }
     }
 
     /// That of A q̈ − b.

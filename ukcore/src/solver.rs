@@ -526,7 +526,7 @@ impl Solver {
                 return Ok(());
             }
         }
-        self.noise.go(&self.mechanism, t, q, v);
+        self.noise.go(&self.mechanism, t, [q, v], [0.0; 2], &[]);
         self.noise.motion(acceleration, &mut self.carried);
         if self.agrees(acceleration, tolerance) {
             return Ok(());

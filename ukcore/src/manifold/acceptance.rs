@@ -1,7 +1,6 @@
 //! What counts as zero.
 
 use crate::lanes::Lanes;
-use crate::scan::largest;
 
 /// A residual is at rounding level if it does not exceed this many ε of the size Σ|A_ij q_j| of what q's own rounding contributes:
 /// one for q, one or two for the evaluation of φ.
@@ -10,7 +9,7 @@ pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Where no step makes it less, a residual will do if it does not exceed this many ε of max|A_ij| max|q_j|, or of the rounding that
 /// evaluating it carries where that is more: terms that cancel, or constraints that nearly lose rank, can keep it above [`ROUNDING`].
 /// Lengths of links among coordinates thirty times as large still hold to 1e-12.
-const STALLED: f64 = 64.0 * f64::EPSILON;
+pub(super) const STALLED: f64 = 64.0 * f64::EPSILON;
 
 /// The largest coordinate counts into the size of every constraint's terms with this share: a coordinate that the constraints put
 /// to zero takes rounding errors from the others through the solve, and has no size of its own to measure them by. The share is
@@ -43,16 +42,6 @@ impl<L: Lanes> Acceptance<L> {
             largest: vec![zero; m],
             rounding: vec![0.0; m],
         }
-    }
-
-    /// max|x_j| / ease_j.
-    pub(super) fn extent(&self, x: &[L]) -> L {
-        if self.ease.is_empty() {
-            return largest(x);
-        }
-        let pairs = x.iter().zip(&self.ease).filter(|(_, ease)| **ease > 0.0);
-        let sizes = pairs.map(|(x, ease)| x.abs() / L::from_f64(*ease));
-        sizes.fold(L::from_f64(0.0), |s, x| x.larger(s))
     }
 
     /// Takes the sizes at `x`, where A has the entries `jacobian`.
@@ -104,13 +93,9 @@ impl Acceptance<f64> {
             })
     }
 
-    /// The constraints at `x`, of whose `residuals` some would not do even where no step makes them less.
-    pub(super) fn violated(&self, residuals: &[f64], x: &[f64]) -> impl Iterator<Item = usize> {
-        let size = self.size.max(self.extent(x));
-        let bound = move |c: usize| {
-            let loose = STALLED * self.rounding[c].max(self.largest[c] * size);
-            loose.max(ROUNDING * self.terms[c])
-        };
+    /// The constraints whose `residuals` would not do even where no step makes them less.
+    pub(super) fn violated(&self, residuals: &[f64]) -> impl Iterator<Item = usize> {
+        let bound = |c: usize| (STALLED * self.rounding[c]).max(ROUNDING * self.terms[c]);
         let residuals = residuals.iter().enumerate();
         let violated = residuals.filter(move |(c, r)| !(r.abs() <= bound(*c)));
         violated.map(|(c, _)| c)

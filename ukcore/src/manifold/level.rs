@@ -22,7 +22,7 @@ impl Level {
     }
 
     /// q and q̇ of `x` and `other`.
-    pub(super) fn state<'a, S>(self, x: &'a [S], other: &'a [S]) -> (&'a [S], &'a [S]) {
+    pub(super) fn state<T>(self, x: T, other: T) -> (T, T) {
         match self {
             Level::Position => (x, other),
             Level::Velocity => (other, x),

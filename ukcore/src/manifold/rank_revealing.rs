@@ -148,6 +148,9 @@ impl Manifold {
         let (mut stalls, mut fresh, mut failure) = (0, false, None);
         let (good, count) = self.newton.iterate(at, x, 1.0, MAX_STEPS, |newton, x, _| {
             newton.weigh(at, x);
+            if !newton.acceptance.ease.is_empty() {
+                newton.measure(at, x, noise, None);
+            }
             let off = newton.acceptance.distance(&newton.residual[..at.rows()]);
             if off < least {
                 least = off;
@@ -163,7 +166,7 @@ impl Manifold {
                 } else {
                     stalls += 1;
                     newton.measure(at, x, noise, Some(&mut factors.dense));
-                    if stalls > MAX_STALLS || newton.violated(at, x).next().is_none() {
+                    if stalls > MAX_STALLS || newton.violated(at).next().is_none() {
                         return (0.0, 0.0);
                     }
                 }

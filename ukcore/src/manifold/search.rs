@@ -6,6 +6,7 @@ use super::Manifold;
 use super::level::At;
 use super::newton::Newton;
 use crate::mechanism::Prepared;
+use crate::scan::extent;
 
 /// Steps at most from one guess. They converge quadratically at the end; a long chain laid out wrongly takes some tens of steps to unfold.
 const MAX_STEPS: usize = 200;
@@ -86,9 +87,10 @@ impl Manifold {
         manifold
     }
 
-    /// Moves `x` onto the constraints from far off, by Levenberg and Marquardt's method, and by projection in the end. Returns 0, or the sum of the squares of the scaled residuals where it is least.
-    pub(crate) fn search(&mut self, at: &At<'_, f64>, x: &mut [f64]) -> f64 {
-        let rows = at.rows();
+    /// Moves `x`, which is at or near `guess`, onto the constraints from far off, by Levenberg and Marquardt's method, and by projection in the
+    /// end. Returns 0, or the sum of the squares of the scaled residuals where it is least.
+    pub(crate) fn search(&mut self, at: &At<'_, f64>, guess: &[f64], x: &mut [f64]) -> f64 {
+        let (rows, size) = (at.rows(), extent(guess, &self.newton.acceptance.ease));
         let (mut best, mut cost): (Option<Best>, f64) = (None, f64::INFINITY);
         let (mut damping, mut stalls) = (DAMPING, 0);
         let noise = &mut self.noise;
@@ -99,12 +101,13 @@ impl Manifold {
                 // At the rounding level costs may fall for ever by tiny amounts.
                 stalls = if trial > 0.99 * cost { stalls + 1 } else { 0 };
                 damping = (damping / DAMPING_FACTOR).max(f64::EPSILON);
+                newton.acceptance.size = size;
                 newton.weigh(at, x);
                 newton.measure(at, x, noise, None);
                 let there = Best::new(newton, rows, x);
                 cost = there.residual.norm_squared();
                 best = Some(there);
-                if newton.violated(at, x).next().is_none() {
+                if newton.violated(at).next().is_none() {
                     return (1.0, 0.0);
                 }
             } else {
@@ -128,7 +131,7 @@ impl Manifold {
         if let Some(best) = best {
             x.copy_from_slice(&best.x);
         }
-        let met = self.meets(at, x, self.newton.acceptance.size);
+        let met = self.meets(at, x, size);
         let off = self
             .newton
             .acceptance
