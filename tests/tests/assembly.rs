@@ -125,6 +125,21 @@ struct Known<M> {
     reach: f64,
 }
 
+impl<M: Mechanism> Known<M> {
+    /// Whether the other coordinates follow where coordinate `held` is: no row depends on it alone there.
+    fn holds(&self, held: usize) -> bool {
+        let (m, State { t, q, v }) = (M::SPEC.m(), &self.state);
+        let mut a = vec![0.0; q.len() * m];
+        self.mechanism.prepared::<f64>().jacobian(*t, q, v, &mut a);
+        let follow = |c: usize| {
+            let size = |j: usize| (a[j * m + c] * self.lengths[j]).abs();
+            let others = (0..q.len()).filter(|j| *j != held).map(size);
+            size(held) <= 1e3 * others.fold(0.0, f64::max)
+        };
+        worst(self, &self.state) <= 1.0 && (0..m).all(follow)
+    }
+}
+
 /// What became of guesses.
 #[derive(Debug, Clone, Copy, Default)]
 struct Found {
@@ -155,14 +170,14 @@ impl Found {
         };
         let reached = off <= known.reach;
         self.guess(known, &guess, &[], reached);
-        if worst(known, &known.state) <= 1.0 {
-            // The sledge's velocities are known at its angle alone.
-            let any = (random.signed().abs() * q.len() as f64) as usize;
-            let held = if M::SPEC.name == "Sledge" {
-                Sledge::TH
-            } else {
-                any
-            };
+        // The sledge's velocities are known at its angle alone.
+        let any = (random.signed().abs() * q.len() as f64) as usize;
+        let held = if M::SPEC.name == "Sledge" {
+            Sledge::TH
+        } else {
+            any
+        };
+        if reached && known.holds(held) {
             (guess.q[held], guess.v[held]) = (q[held], v[held]);
             self.guess(known, &guess, &[M::SPEC.coords[held]], reached);
         }
@@ -352,7 +367,7 @@ fn hinge(random: &mut Random) -> Known<Hinge> {
         state: State { t: 0.0, q, v },
         rates: lengths.clone(),
         lengths,
-        reach: 1.0,
+        reach: 0.3,
     }
 }
 

@@ -149,8 +149,8 @@ fn blame(mech: &Prepared, guess: &State, held: &[usize], mut error: Error) -> Er
 /// The search for q, then for q̇.
 struct Search {
     manifold: Manifold,
-    /// How readily each coordinate moves: 1/√M_jj, 0 for one that is held.
-    ease: Vec<f64>,
+    /// Coordinates that may change.
+    free: Vec<usize>,
 }
 
 impl Search {
@@ -162,12 +162,11 @@ impl Search {
         let massive: Vec<f64> = (0..n).filter_map(inertia).map(f64::ln).collect();
         // Massless coordinates move as readily as the middling massive ones.
         let typical = (massive.iter().sum::<f64>() / massive.len().max(1) as f64).exp();
+        // How readily each moves: 1/√M_jj.
         let ease = |j: usize| inertia(j).unwrap_or(typical).sqrt().recip();
-        let mut ease: Vec<f64> = (0..n).map(ease).collect();
-        held.iter().for_each(|j| ease[*j] = 0.0);
         Search {
-            manifold: Manifold::with_ease(mech, ease.clone()),
-            ease,
+            manifold: Manifold::with_ease(mech, (0..n).map(ease).collect(), held.to_vec()),
+            free: (0..n).filter(|j| !held.contains(j)).collect(),
         }
     }
 
@@ -186,8 +185,7 @@ impl Search {
         let shakes = if at.linear() { &SHAKES[..1] } else { &SHAKES };
         for shake in shakes {
             let mut place = guess.to_vec();
-            let free = (0..place.len()).filter(|j| self.ease[*j] > 0.0);
-            for (k, j) in free.enumerate() {
+            for (k, &j) in self.free.iter().enumerate() {
                 // Deterministic, and no two coordinates alike.
                 let share = ((k as f64 + 1.0) * GOLDEN).fract();
                 place[j] += shake * size * (2.0 * share - 1.0);

@@ -69,8 +69,8 @@ impl Noise {
         bounds(&self.rows, out);
     }
 
-    /// Puts zeros in place of the rows of A that are less than `share` ε of their rounding in all coordinates that move.
-    pub(crate) fn clear(&mut self, jacobian: &mut [f64], share: f64, ease: &[f64]) {
+    /// Puts zeros in place of the rows of A that are less than `share` ε of their rounding in all coordinates but those `held`.
+    pub(crate) fn clear(&mut self, jacobian: &mut [f64], share: f64, held: &[usize]) {
         self.terms
             .dynamics(&self.mechanism, self.t, &self.q, &self.v);
         let m = self.rows.len();
@@ -78,7 +78,7 @@ impl Noise {
             let entry = |j: usize| {
                 jacobian[j * m + c].abs() > share * self.terms.jacobian[j * m + c].bound()
             };
-            if !(0..ease.len()).any(|j| ease[j] > 0.0 && entry(j)) {
+            if !(0..self.q.len()).any(|j| !held.contains(&j) && entry(j)) {
                 jacobian
                     .iter_mut()
                     .skip(c)

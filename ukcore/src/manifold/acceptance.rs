@@ -21,6 +21,8 @@ pub(super) const NEIGHBOUR: f64 = 1e-4;
 pub(crate) struct Acceptance<L> {
     /// How readily coordinates move, which says what is the same for coordinates of different units; empty where all count alike.
     pub(super) ease: Vec<f64>,
+    /// Coordinates that do not move at all.
+    pub(super) held: Vec<usize>,
     /// max|x_j| / ease_j where the search began: what coordinates that are zero themselves are measured by.
     pub(super) size: L,
     /// Σ|A_cj| (|x_j| + [`NEIGHBOUR`] ease_j size).
@@ -37,6 +39,7 @@ impl<L: Lanes> Acceptance<L> {
         let zero = L::from_f64(0.0);
         Acceptance {
             ease: Vec::new(),
+            held: Vec::new(),
             size: zero,
             terms: vec![zero; m],
             largest: vec![zero; m],

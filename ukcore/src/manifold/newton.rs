@@ -222,9 +222,14 @@ impl Newton<f64> {
             .level
             .state(size.max(extent(x, ease)), extent(at.other, ease));
         self.rounding(at, x, noise, least.into());
-        let Acceptance { ease, rounding, .. } = &mut self.acceptance;
+        let Acceptance {
+            ease,
+            held,
+            rounding,
+            ..
+        } = &mut self.acceptance;
         if !ease.is_empty() {
-            noise.clear(&mut self.jacobian, STALLED, ease);
+            noise.clear(&mut self.jacobian, STALLED, held);
         }
         if let Some(factors) = factors {
             factors.share(&mut rounding[..at.rows()]);

@@ -34,8 +34,6 @@ pub(super) struct Factors {
     /// Time and position up to which they hold all rows of A, for the velocity projection that follows.
     place: Option<f64>,
     q: Vec<f64>,
-    /// Coordinates that no step moves.
-    pub(super) held: Vec<usize>,
     /// Whether rows below the ceiling are left out.
     cautious: bool,
 }
@@ -50,7 +48,6 @@ impl Factors {
             best: vec![0.0; n],
             place: None,
             q: vec![0.0; n],
-            held: Vec::new(),
             cautious: true,
         }
     }
@@ -58,14 +55,20 @@ impl Factors {
     /// Takes M and A (all rows, of which those of the level count) at `x`. While `cautious`, rows of a significance below the ceiling are
     /// left out: off the manifold nobody can tell whether they are implied; if they are not, the residual will not fall, and they are
     /// taken in.
-    fn factor(&mut self, at: &At<'_, f64>, x: &[f64], jacobian: &mut [f64]) -> Result<(), Error> {
+    fn factor(
+        &mut self,
+        at: &At<'_, f64>,
+        x: &[f64],
+        newton: &mut Newton<f64>,
+    ) -> Result<(), Error> {
+        let jacobian = &mut newton.jacobian;
         let spec = at.mech.spec();
         at.mass_matrix(x, &mut self.mass);
         if !all_finite(&self.mass) || !all_finite(jacobian) {
             let what = diagnose::non_finite_matrices(spec, &self.mass, jacobian);
             return Err(Error::NonFinite { what });
         }
-        self.hold(jacobian);
+        self.hold(jacobian, &newton.acceptance.held);
         let (a, dense, mass) = (rows(at, jacobian), &mut self.dense, &self.mass);
         let route = if spec.structure.massless.is_empty() {
             Route::Regular
@@ -90,9 +93,9 @@ impl Factors {
     }
 
     /// Takes what is held out of A, and makes it a part by itself of M.
-    fn hold(&mut self, jacobian: &mut [f64]) {
+    fn hold(&mut self, jacobian: &mut [f64], held: &[usize]) {
         let (n, m) = (self.q.len(), self.rhs.len());
-        for &j in &self.held {
+        for &j in held {
             jacobian[j * m..(j + 1) * m].fill(0.0);
             self.mass[j * n..(j + 1) * n].fill(0.0);
             (0..n).for_each(|i| self.mass[i * n + j] = 0.0);
@@ -118,7 +121,7 @@ impl Factors {
         at.jacobian(base, &mut newton.jacobian);
         if !*factored {
             (self.place, self.cautious) = (None, true);
-            self.factor(at, base, &mut newton.jacobian)?;
+            self.factor(at, base, newton)?;
             *factored = true;
         }
         self.solve(at, newton);
@@ -174,7 +177,7 @@ impl Manifold {
             fresh = !(factored && off <= KEEP_FACTORS * previous);
             previous = off;
             if fresh && off.is_finite() {
-                failure = factors.factor(at, x, &mut newton.jacobian).err();
+                failure = factors.factor(at, x, newton).err();
                 factored = failure.is_none();
             }
             if !factored || !off.is_finite() {

@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::Manifold;
+use super::acceptance::Acceptance;
 use super::level::At;
 use super::newton::Newton;
 use crate::mechanism::Prepared;
@@ -35,8 +36,8 @@ struct Best {
 
 impl Best {
     /// The place `x`, where residuals and A are known.
-    fn new(newton: &Newton<f64>, rows: usize, x: &[f64]) -> Self {
-        let (m, ease) = (newton.residual.len(), &newton.acceptance.ease);
+    fn new(newton: &Newton<f64>, rows: usize, x: &[f64], ease: &[f64]) -> Self {
+        let m = newton.residual.len();
         let entry = |c: usize, j: usize| newton.jacobian[j * m + c];
         let mut matrix = DMatrix::from_fn(rows, x.len(), |c, j| entry(c, j) * ease[j]);
         let norm = |c: usize| match matrix.row(c).norm() {
@@ -78,19 +79,20 @@ impl Best {
 }
 
 impl Manifold {
-    /// One in which coordinates move as readily as `ease` says, and not at all where it is 0.
-    pub(crate) fn with_ease(mechanism: &Prepared, ease: Vec<f64>) -> Self {
+    /// One in which coordinates move as readily as `ease` says, and those `held` not at all.
+    pub(crate) fn with_ease(mechanism: &Prepared, ease: Vec<f64>, held: Vec<usize>) -> Self {
         let mut manifold = Manifold::new(mechanism);
-        let held = (0..ease.len()).filter(|j| ease[*j] == 0.0);
-        manifold.factors.held = held.collect();
-        manifold.newton.acceptance.ease = ease;
+        let acceptance = &mut manifold.newton.acceptance;
+        (acceptance.ease, acceptance.held) = (ease, held);
         manifold
     }
 
     /// Moves `x`, which is at or near `guess`, onto the constraints from far off, by Levenberg and Marquardt's method, and by projection in the
     /// end. Returns 0, or the sum of the squares of the scaled residuals where it is least.
     pub(crate) fn search(&mut self, at: &At<'_, f64>, guess: &[f64], x: &mut [f64]) -> f64 {
-        let (rows, size) = (at.rows(), extent(guess, &self.newton.acceptance.ease));
+        let Acceptance { ease, held, .. } = &self.newton.acceptance;
+        let (rows, size, mut ease) = (at.rows(), extent(guess, ease), ease.clone());
+        held.iter().for_each(|j| ease[*j] = 0.0);
         let (mut best, mut cost): (Option<Best>, f64) = (None, f64::INFINITY);
         let (mut damping, mut stalls) = (DAMPING, 0);
         let noise = &mut self.noise;
@@ -104,7 +106,7 @@ impl Manifold {
                 newton.acceptance.size = size;
                 newton.weigh(at, x);
                 newton.measure(at, x, noise, None);
-                let there = Best::new(newton, rows, x);
+                let there = Best::new(newton, rows, x, &ease);
                 cost = there.residual.norm_squared();
                 best = Some(there);
                 if newton.violated(at).next().is_none() {
@@ -119,7 +121,6 @@ impl Manifold {
             // √cost → 0 takes the damping with it: quadratic convergence at the end.
             while damping <= DAMPING_LIMIT {
                 if let Some(step) = best.step(damping * cost.sqrt().min(1.0)) {
-                    let ease = &newton.acceptance.ease;
                     let steps = newton.step.iter_mut().zip(x).enumerate();
                     steps.for_each(|(j, (d, x))| *d = best.x[j] + ease[j] * step[j] - x);
                     return (0.0, 1.0);
