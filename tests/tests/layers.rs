@@ -143,6 +143,7 @@ fn ukcore() {
             "equations",
             "metric",
             "dense",
+            "noise",
             "saddle",
             "diagnose",
             "solver",

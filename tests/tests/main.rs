@@ -1,6 +1,7 @@
 //! All tests of this crate as one program: what they share is compiled and linked once.
 
 mod allocation;
+mod assembly;
 mod certificate;
 mod closed_forms;
 mod derivatives;
@@ -23,6 +24,7 @@ mod projection;
 mod rattle;
 mod redundant_loop;
 mod registry;
+mod rows_in_time;
 mod stability;
 mod stiff;
 mod streaming;

@@ -1,8 +1,10 @@
 //! Projection of every model from states off its constraints, by the emitted elimination where there is one.
 
 use models::Model;
-use tests::{Check, every_model, largest};
+use nalgebra::{DMatrix, DVector};
+use tests::{Check, every_model, largest, pseudo_inverse};
 use ukcore::manifold::Projector;
+use ukcore::{State, assemble};
 
 /// Numbers between -1 and 1.
 fn numbers(mut state: u64) -> impl FnMut() -> f64 {
@@ -15,7 +17,7 @@ fn numbers(mut state: u64) -> impl FnMut() -> f64 {
 }
 
 #[test]
-fn to_rounding_from_any_distance_and_no_further() {
+fn to_rounding_and_to_the_nearest_place() {
     struct Projection;
     impl Check for Projection {
         fn check<M: Model>(&self) {
@@ -33,6 +35,7 @@ fn to_rounding_from_any_distance_and_no_further() {
                     q.iter_mut().for_each(|q| *q += off * next());
                     v.iter_mut().for_each(|v| *v += off * next());
                     let before = q.clone();
+                    let rough = v.clone();
                     let position = projector.position(start.t, &mut q, &v);
                     let position = position.unwrap_or_else(|e| panic!("{place}: {e}"));
                     let velocity = projector.velocity(start.t, &q, &mut v);
@@ -57,10 +60,86 @@ fn to_rounding_from_any_distance_and_no_further() {
                         velocity.residual <= bound * size * speed,
                         "{place}: {velocity:?}"
                     );
-                    assert!(position.norm <= 1e3 * off, "{place}: {position:?}");
+                    // The rank-revealing solve, which assembly takes, has the same one.
+                    let guess = State {
+                        t: start.t,
+                        q: q.clone(),
+                        v: rough.clone(),
+                    };
+                    let assembled = assemble(&prepared, guess, &[]);
+                    let assembled = assembled.unwrap_or_else(|e| panic!("{place}: {e}"));
+                    let bound = 1e3 * off * off + 256.0 * f64::EPSILON * speed;
+                    let differences = assembled.v.iter().zip(&v).map(|(a, b)| a - b);
+                    let difference = differences.fold(0.0, |most: f64, d| most.max(d.abs()));
+                    assert!(difference <= bound, "{place}: {difference:e}");
+                    // Of all places on the constraints that one is nearest; the start is another one.
+                    let away: Vec<f64> = before.iter().zip(&start.q).map(|(a, b)| a - b).collect();
+                    let metric = Metric::at(&model, start.t, &before, &v);
+                    let (moved, away) = (metric.norm(&changes), metric.norm(&away));
+                    let rounding = 8.0 * f64::EPSILON * metric.norm(&vec![size; n]);
+                    assert!(
+                        moved <= away + rounding,
+                        "{place}: {moved:e} is more than {away:e}"
+                    );
+                    // And no change along the constraints makes it nearer.
+                    let metric = Metric::at(&model, start.t, &q, &v);
+                    let (along, rounding) = (10.0 * off, 64.0 * f64::EPSILON / off);
+                    let changes_v: Vec<f64> = v.iter().zip(&rough).map(|(a, b)| a - b).collect();
+                    for (changes, size) in [(&changes, size), (&changes_v, speed)] {
+                        let share = metric.tangential(changes);
+                        assert!(
+                            share <= along + rounding * size,
+                            "{place}: {share:e} of {changes:?}"
+                        );
+                    }
                 }
             }
         }
     }
     every_model(&Projection);
+}
+
+/// M and A at a state.
+struct Metric {
+    mass: DMatrix<f64>,
+    jacobian: DMatrix<f64>,
+}
+
+impl Metric {
+    fn at<M: Model>(model: &M, t: f64, q: &[f64], v: &[f64]) -> Self {
+        let (n, m) = (M::SPEC.n(), M::SPEC.m());
+        let (mut mass, mut jacobian) = (DMatrix::zeros(n, n), DMatrix::zeros(m, n));
+        let prepared = model.prepared();
+        prepared.mass_matrix(t, q, mass.as_mut_slice());
+        prepared.jacobian(t, q, v, jacobian.as_mut_slice());
+        Metric { mass, jacobian }
+    }
+
+    /// √(ΔᵀMΔ).
+    fn norm(&self, change: &[f64]) -> f64 {
+        let change = DVector::from_column_slice(change);
+        change.dot(&(&self.mass * &change)).max(0.0).sqrt()
+    }
+
+    /// The part of M Δ that is no Aᵀλ, as a share of what M Δ may be.
+    fn tangential(&self, change: &[f64]) -> f64 {
+        let heaviest = self.mass.amax();
+        let root = self
+            .mass
+            .diagonal()
+            .map(|m| if m > 1e-9 * heaviest { m } else { heaviest }.sqrt());
+        let change = DVector::from_column_slice(change);
+        let pull = (&self.mass * &change).component_div(&root);
+        let mut rows = self.jacobian.transpose();
+        for (mut row, root) in rows.row_iter_mut().zip(&root) {
+            row /= *root;
+        }
+        for mut column in rows.column_iter_mut() {
+            let norm = column.norm();
+            column /= if norm > 0.0 { norm } else { 1.0 };
+        }
+        let left = &pull - &rows * (pseudo_inverse(&rows, 1e-9) * &pull);
+        let size = root.component_mul(&change).norm();
+        if size > 0.0 { left.norm() / size } else { 0.0 }
+    }
 }

@@ -1,23 +1,15 @@
 //! From a rough guess to a consistent state.
 //!
 //! Closed loops cannot be drawn by hand to rounding. [`assemble`] takes a guess and coordinates to hold and finds a state near it that
-//! satisfies every constraint: damped Gauss-Newton (Levenberg-Marquardt) finds the place, and projection in the mass metric gives the
-//! last digits; velocities that enter linearly it gives at once. For the search each constraint is scaled to a row of A of unit norm, and
-//! each coordinate by the root of its inertia, so that the state found is near in the mass metric.
-
-use nalgebra::DMatrix;
+//! satisfies every constraint: a search finds the place, and projection in the mass metric gives the last digits; velocities that enter
+//! linearly it gives at once. For the search each coordinate is scaled by the root of its inertia, so that the state found is near in the
+//! mass metric.
 
 use crate::diagnose;
 use crate::error::Error;
 use crate::manifold::{At, Level, Manifold};
 use crate::mechanism::{Mechanism, Prepared};
-use crate::pinv::Decomposition;
 use crate::scan::largest;
-use crate::solver::RANK_TOLERANCE;
-
-/// Steps at most from one guess. Levenberg-Marquardt converges quadratically at the end; a long chain laid out wrongly takes some
-/// tens of steps to unfold.
-const MAX_STEPS: usize = 200;
 
 /// Guesses: the given one, then it with perturbations of [`SHAKES`] times the size of the coordinates. A guess with points that
 /// coincide has vanishing gradients, from which only a perturbation leads away.
@@ -25,19 +17,6 @@ const SHAKES: [f64; 4] = [0.0, 1e-3, 3e-2, 0.3];
 
 /// Fractional part of the golden ratio: its multiples fill the unit interval evenly.
 const GOLDEN: f64 = 0.618_033_988_749_895;
-
-/// Damping to start with, relative to rows of unit norm: near Gauss-Newton, yet proof against a vanishing singular value.
-const DAMPING: f64 = 1e-3;
-
-/// The damping grows by this after a step that made things worse, and falls by it after one that helped.
-const DAMPING_FACTOR: f64 = 10.0;
-
-/// Beyond this damping steps are below rounding: a minimum that is not zero.
-const DAMPING_LIMIT: f64 = 1e16;
-
-/// Where the search ends as near to the constraints as this share of lengths, √ε, it has found the place, and Newton's method does the
-/// rest.
-const NEAR: f64 = 1.5e-8;
 
 /// A time, coordinates and velocities.
 #[derive(Debug, Clone, PartialEq)]
@@ -170,53 +149,8 @@ fn blame(mech: &Prepared, guess: &State, held: &[usize], mut error: Error) -> Er
 /// The search for q, then for q̇.
 struct Search {
     manifold: Manifold,
-    /// Indices of the coordinates that may change, and 1/√M_jj for each.
+    /// Coordinates that may change.
     free: Vec<usize>,
-    scale: Vec<f64>,
-}
-
-/// One point of the search.
-struct Point {
-    x: Vec<f64>,
-    residual: Vec<f64>,
-    /// 1/‖row‖ over the free coordinates; over all where that is zero.
-    row_scale: Vec<f64>,
-    /// Rows scaled, columns scaled, free columns only.
-    matrix: DMatrix<f64>,
-    /// Whether the residuals will do, and whether Newton's method will make them do.
-    met: bool,
-    near: bool,
-}
-
-impl Point {
-    /// Σ (s_c φ_c)².
-    fn cost(&self, residual: &[f64]) -> f64 {
-        let scaled = residual.iter().zip(&self.row_scale);
-        scaled.map(|(r, s)| (r * s).powi(2)).sum()
-    }
-
-    /// d that minimises |J d + φ|² + μ|d|², by the decomposition of \[J; √μ I\].
-    fn step(&self, mu: f64) -> Vec<f64> {
-        let (rows, k) = self.matrix.shape();
-        let mut decomposition = Decomposition::new(rows + k, k);
-        let columns = decomposition.load(rows + k).chunks_exact_mut(k);
-        for (c, column) in columns.enumerate() {
-            column.fill(0.0);
-            if c < rows {
-                let row = self.matrix.row(c);
-                column.iter_mut().zip(&row).for_each(|(x, a)| *x = *a);
-            } else {
-                column[c - rows] = mu.sqrt();
-            }
-        }
-        decomposition.factor(&vec![1.0; k], &vec![1.0; rows + k], RANK_TOLERANCE);
-        let scaled = self.residual.iter().zip(&self.row_scale);
-        let mut right: Vec<f64> = scaled.map(|(r, s)| -r * s).collect();
-        right.resize(rows + k, 0.0);
-        let mut d = vec![0.0; k];
-        decomposition.solve(&right, &mut d);
-        d
-    }
 }
 
 impl Search {
@@ -228,119 +162,50 @@ impl Search {
         let massive: Vec<f64> = (0..n).filter_map(inertia).map(f64::ln).collect();
         // Massless coordinates move as readily as the middling massive ones.
         let typical = (massive.iter().sum::<f64>() / massive.len().max(1) as f64).exp();
-        let free: Vec<usize> = (0..n).filter(|j| !held.contains(j)).collect();
-        let scale = free.iter().map(|&j| inertia(j).unwrap_or(typical).sqrt());
+        // How readily each moves: 1/√M_jj.
+        let ease = |j: usize| inertia(j).unwrap_or(typical).sqrt().recip();
         Search {
-            manifold: Manifold::new(mech, held.to_vec()),
-            scale: scale.map(f64::recip).collect(),
-            free,
-        }
-    }
-
-    /// The point `x`. Coordinates that are zero are measured by `size`.
-    fn point(&mut self, at: &At<'_, f64>, x: Vec<f64>, size: f64) -> Point {
-        let (n, m, rows) = (x.len(), at.mech.spec().m(), at.rows());
-        let met = self.manifold.meets(at, &x, size);
-        let (newton, length) = (&self.manifold.newton, self.manifold.length(at));
-        let (a, residual) = (&newton.jacobian, newton.residual[..rows].to_vec());
-        let mut matrix = DMatrix::from_fn(rows, self.free.len(), |c, k| {
-            a[self.free[k] * m + c] * self.scale[k]
-        });
-        let mut row_scale = vec![1.0; rows];
-        for c in 0..rows {
-            let norm = matrix.row(c).norm();
-            let whole = (0..n).map(|j| a[j * m + c].powi(2)).sum::<f64>().sqrt();
-            if norm > 0.0 || whole > 0.0 {
-                row_scale[c] = if norm > 0.0 { norm } else { whole }.recip();
-            }
-            matrix.row_mut(c).scale_mut(row_scale[c]);
-        }
-        Point {
-            near: met || newton.acceptance.distance(&residual) <= NEAR * length,
-            met,
-            residual,
-            row_scale,
-            matrix,
-            x,
+            manifold: Manifold::with_ease(mech, (0..n).map(ease).collect(), held.to_vec()),
+            free: (0..n).filter(|j| !held.contains(j)).collect(),
         }
     }
 
     /// The solution for one level; tries the guess, then perturbations of it.
     fn find(&mut self, at: &At<'_, f64>, guess: &[f64]) -> Result<Vec<f64>, Error> {
         let mut x = guess.to_vec();
-        if at.linear() && self.arrive(at, &mut x) {
+        if at.linear() && self.manifold.project(at, &mut x).is_ok() {
             return Ok(x);
         }
         let size = match largest(guess) {
             size if size > 0.0 => size,
             _ => 1.0,
         };
-        let mut best: Option<(f64, Vec<f64>)> = None;
-        for shake in SHAKES {
-            let mut x = guess.to_vec();
+        let mut least = f64::INFINITY;
+        // Of what is linear there is nothing else to find.
+        let shakes = if at.linear() { &SHAKES[..1] } else { &SHAKES };
+        for shake in shakes {
+            let mut place = guess.to_vec();
             for (k, &j) in self.free.iter().enumerate() {
                 // Deterministic, and no two coordinates alike.
                 let share = ((k as f64 + 1.0) * GOLDEN).fract();
-                x[j] += shake * size * (2.0 * share - 1.0);
+                place[j] += shake * size * (2.0 * share - 1.0);
             }
-            let mut point = self.descend(at, x, size);
-            if point.near && self.arrive(at, &mut point.x) {
-                return Ok(point.x);
+            let cost = self.manifold.search(at, guess, &mut place);
+            if cost == 0.0 {
+                return Ok(place);
             }
-            let cost = point.cost(&point.residual);
-            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
-                best = Some((cost, point.x));
-            }
-            if at.linear() {
-                // Nothing else to find.
-                break;
+            if cost < least {
+                (least, x) = (cost, place);
             }
         }
-        let x = best.map_or(x, |(_, x)| x);
-        match self.manifold.refusal(at, &x) {
-            None => Ok(x),
-            Some(Error::OffConstraint { level, constraints }) => Err(Error::NotAssembled {
+        Err(match self.manifold.refusal(at, &x) {
+            Error::OffConstraint { level, constraints } => Error::NotAssembled {
                 level,
                 constraints,
                 held: Vec::new(),
-            }),
-            Some(error) => Err(error),
-        }
-    }
-
-    /// The last digits: whether `x` is on the constraints then. What cannot be projected may be there already.
-    fn arrive(&mut self, at: &At<'_, f64>, x: &mut [f64]) -> bool {
-        self.manifold.project(at, x).is_ok() || self.manifold.refusal(at, x).is_none()
-    }
-
-    /// Levenberg-Marquardt from `x`, to a solution or as near to one as it comes.
-    fn descend(&mut self, at: &At<'_, f64>, x: Vec<f64>, size: f64) -> Point {
-        let mut point = self.point(at, x, size);
-        let (mut damping, mut stalls) = (DAMPING, 0);
-        for _ in 0..MAX_STEPS {
-            let hopeless = stalls > 3 || damping > DAMPING_LIMIT;
-            if point.met || hopeless || self.free.is_empty() {
-                break;
-            }
-            let cost = point.cost(&point.residual);
-            // √cost → 0 takes the damping with it: quadratic convergence at the end.
-            let step = point.step(damping * cost.sqrt().min(1.0));
-            let mut x = point.x.clone();
-            for ((&j, scale), d) in self.free.iter().zip(&self.scale).zip(&step) {
-                x[j] += scale * d;
-            }
-            self.manifold.newton.evaluate(at, &x);
-            let trial = point.cost(&self.manifold.newton.residual[..at.rows()]);
-            if trial < cost {
-                // At the rounding level costs may fall for ever by tiny amounts.
-                stalls = if trial > 0.99 * cost { stalls + 1 } else { 0 };
-                damping = (damping / DAMPING_FACTOR).max(f64::EPSILON);
-                point = self.point(at, x, size);
-            } else {
-                damping *= DAMPING_FACTOR;
-            }
-        }
-        point
+            },
+            error => error,
+        })
     }
 }
 

@@ -85,6 +85,8 @@ pub(crate) struct Dense {
     pub(crate) unconstrained: Vec<f64>,
     work: Vec<f64>,
     reduced: Vec<f64>,
+    dependences: Vec<f64>,
+    left: Vec<f64>,
 }
 
 impl Dense {
@@ -111,6 +113,8 @@ impl Dense {
             unconstrained: vec![0.0; n],
             work: vec![0.0; n],
             reduced: vec![0.0; n],
+            dependences: vec![0.0; m * m],
+            left: vec![0.0; m],
         }
     }
 
@@ -330,6 +334,28 @@ impl Dense {
             axpy(*z, &self.basis[o * n..(o + 1) * n], out);
         }
         self.metric.divide(out);
+    }
+
+    /// What the solve may leave of `errors` of the right-hand sides: it meets rows that imply each other as well as it can together, so of
+    /// errors that contradict each other it leaves to each row its share in the dependence, however small its own is.
+    pub(crate) fn share(&mut self, errors: &mut [f64]) {
+        let rows = errors.len();
+        let dependences = &mut self.dependences[..rows * (rows - self.cod.rank())];
+        self.cod.dependences(dependences);
+        // In rows scaled as they are solved; one of zeros has no scale.
+        let unit = |scale: f64| if scale > 0.0 { scale } else { 1.0 };
+        let scaled = errors.iter_mut().zip(&self.row_scale);
+        scaled.for_each(|(error, scale)| *error *= unit(*scale));
+        self.left.fill(0.0);
+        for shares in dependences.chunks_exact(rows) {
+            let terms = shares.iter().zip(&*errors);
+            let error: f64 = terms.map(|(share, error)| share.abs() * error).sum();
+            let left = self.left.iter_mut().zip(shares);
+            left.for_each(|(left, share)| *left += share.abs() * error);
+        }
+        for ((error, left), scale) in errors.iter_mut().zip(&self.left).zip(&self.row_scale) {
+            *error = error.max(*left) / unit(*scale);
+        }
     }
 
     /// λ of least norm (after undoing the row scaling) with Aᵀλ = f for an f in the range of Aᵀ; `f` is overwritten. Allocates

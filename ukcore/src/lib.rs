@@ -43,6 +43,7 @@ pub mod manifold;
 pub mod mechanism;
 mod metric;
 pub mod model;
+mod noise;
 pub mod numbers;
 mod pinv;
 pub mod plan;

@@ -13,6 +13,7 @@ use std::str::FromStr;
 use crate::diagnose;
 use crate::error::Error;
 use crate::mechanism::Prepared;
+use crate::noise::Noise;
 use crate::numbers::full;
 use crate::scan::{all_finite, largest_difference};
 use crate::solver::Baumgarte;
@@ -21,11 +22,11 @@ mod acceptance;
 mod level;
 mod newton;
 mod rank_revealing;
+mod search;
 
 pub(crate) use level::{At, Level};
 pub(crate) use newton::Newton;
 
-use acceptance::Rounding;
 use newton::Steps;
 use rank_revealing::Factors;
 
@@ -109,7 +110,7 @@ impl Projector {
     pub fn new(mechanism: impl Into<Prepared>) -> Self {
         let mechanism = mechanism.into();
         Projector {
-            manifold: Manifold::new(&mechanism, Vec::new()),
+            manifold: Manifold::new(&mechanism),
             mechanism,
         }
     }
@@ -153,12 +154,24 @@ impl Projector {
         self.manifold.reach(&at, q, shift)
     }
 
+    /// What a projection would change a state by if the constraints were met as nearly as rounding of time, coordinates and velocities lets it:
+    /// far from t = 0, or driven fast, that may be farther off than an error that is asked for. Leaves `change` alone where that is unknown.
+    pub(crate) fn excess(&mut self, t: f64, q: &[f64], v: &[f64], change: &mut [f64]) {
+        let levels = [(Level::Position, q, v), (Level::Velocity, v, q)];
+        for ((level, x, other), change) in levels.into_iter().zip(change.chunks_mut(q.len())) {
+            let at = At::new(&self.mechanism, level, t, other);
+            self.manifold.excess(&at, x, change);
+        }
+    }
+
     /// The largest length in a holonomic constraint at q, in the unit of the coordinates: what rounding makes of φ, over ε max|A_cj|. 0
     /// without such constraints.
     pub(crate) fn length(&mut self, t: f64, q: &[f64], v: &[f64]) -> f64 {
         let at = At::new(&self.mechanism, Level::Position, t, v);
-        self.manifold.meets(&at, q, 0.0);
-        self.manifold.length(&at)
+        let newton = &mut self.manifold.newton;
+        newton.weigh(&at, q);
+        newton.rounding(&at, q, &mut self.manifold.noise, [0.0; 2]);
+        newton.acceptance.length(at.rows())
     }
 
     /// The mechanism, with the parameters whose constraints count.
@@ -170,7 +183,6 @@ impl Projector {
     /// Holds switch `switch` in `branch`, or follows it again.
     pub(crate) fn hold(&mut self, switch: usize, branch: crate::mechanism::Branch) {
         self.mechanism.hold(switch, branch);
-        self.manifold.rounding.mechanism.hold(switch, branch);
     }
 
     fn check_lengths(&self, q: &[f64], v: &[f64]) -> Result<(), Error> {
@@ -183,19 +195,18 @@ impl Projector {
 /// What all ways onto the constraints share, for one mechanism.
 #[derive(Debug, Clone)]
 pub(crate) struct Manifold {
-    pub(crate) newton: Newton<f64>,
-    rounding: Rounding,
+    newton: Newton<f64>,
+    noise: Noise,
     factors: Factors,
     start: Vec<f64>,
 }
 
 impl Manifold {
-    /// For `mechanism`, with coordinates `held` that keep their values and velocities.
-    pub(crate) fn new(mechanism: &Prepared, held: Vec<usize>) -> Self {
+    pub(crate) fn new(mechanism: &Prepared) -> Self {
         Manifold {
             newton: Newton::new(mechanism.spec()),
-            rounding: Rounding::new(mechanism),
-            factors: Factors::new(mechanism, held),
+            noise: Noise::new(mechanism),
+            factors: Factors::new(mechanism),
             start: vec![0.0; mechanism.spec().n()],
         }
     }
@@ -207,7 +218,7 @@ impl Manifold {
         }
         self.start.copy_from_slice(x);
         let mut count = None;
-        if at.straight_line() && self.factors.held.is_empty() {
+        if at.straight_line() && self.newton.acceptance.ease.is_empty() {
             let (good, stalled, steps) = self.newton.eliminate(at, x, 1.0);
             if good > 0.5 || stalled > 0.5 && self.accept(at, x, false) {
                 count = Some(steps);
@@ -260,21 +271,8 @@ impl Manifold {
                 sums.for_each(|(sum, d)| *sum += d);
             }
             begun = true;
-            if !factored && at.straight_line() {
-                let safe = at.correction(base, &newton.residual, &mut newton.step);
-                if safe > 0.5 && all_finite(&newton.step) {
-                    return safe;
-                }
-            }
-            at.jacobian(base, &mut newton.jacobian);
-            if !factored {
-                failure = factors.begin(at, base, &mut newton.jacobian).err();
-                factored = failure.is_none();
-            }
-            if factored {
-                factors.solve(at, newton);
-            }
-            f64::from(u8::from(factored))
+            failure = factors.step(at, base, newton, &mut factored).err();
+            f64::from(u8::from(failure.is_none()))
         });
         match failure {
             Some(error) => Err(error),
@@ -283,14 +281,24 @@ impl Manifold {
         }
     }
 
+    /// See [`Projector::excess`], of one level.
+    fn excess(&mut self, at: &At<'_, f64>, x: &[f64], change: &mut [f64]) {
+        let newton = &mut self.newton;
+        newton.evaluate(at, x);
+        newton.rounding(at, x, &mut self.noise, [0.0; 2]);
+        newton.acceptance.clear(&mut newton.residual[..at.rows()]);
+        if at.rows() > 0 && self.factors.step(at, x, newton, &mut false).is_ok() {
+            change.copy_from_slice(&newton.step);
+        }
+    }
+
     /// Whether residuals, known at `x`, will do where no step makes them less; for what is `factored`, constraints that imply each other
     /// included.
     fn accept(&mut self, at: &At<'_, f64>, x: &[f64], factored: bool) -> bool {
         self.newton.weigh(at, x);
         let dense = factored.then_some(&mut self.factors.dense);
-        self.rounding.measure(at, x, dense);
-        let mut violated = self.rounding.violated(at, &self.newton, x);
-        violated.next().is_none()
+        self.newton.measure(at, x, &mut self.noise, dense);
+        self.newton.violated(at).next().is_none()
     }
 
     /// Why they will not.
@@ -300,7 +308,7 @@ impl Manifold {
             return at.non_finite(x, residual);
         }
         let (mut violations, mut scale) = (vec![0.0; residual.len()], vec![1.0; residual.len()]);
-        for c in self.rounding.violated(at, &self.newton, x) {
+        for c in self.newton.violated(at) {
             violations[c] = residual[c];
             scale[c] = self.newton.acceptance.scale(c).recip();
         }
@@ -311,20 +319,16 @@ impl Manifold {
     }
 
     /// Takes residuals, A and sizes at `x`, where coordinates that are zero are measured by `size`. Whether x is on the constraints.
-    pub(crate) fn meets(&mut self, at: &At<'_, f64>, x: &[f64], size: f64) -> bool {
+    fn meets(&mut self, at: &At<'_, f64>, x: &[f64], size: f64) -> bool {
         self.newton.acceptance.size = size;
         self.newton.evaluate(at, x);
         self.accept(at, x, false)
     }
 
-    /// The largest length in the constraints there, in the unit of x.
-    pub(crate) fn length(&self, at: &At<'_, f64>) -> f64 {
-        self.newton.acceptance.length(at.rows(), &self.rounding)
-    }
-
-    /// Why `x` is not on the constraints, if it is not.
-    pub(crate) fn refusal(&mut self, at: &At<'_, f64>, x: &[f64]) -> Option<Error> {
-        (!self.meets(at, x, 0.0)).then(|| self.error(at, x))
+    /// Why `x` is not on the constraints.
+    pub(crate) fn refusal(&mut self, at: &At<'_, f64>, x: &[f64]) -> Error {
+        self.meets(at, x, 0.0);
+        self.error(at, x)
     }
 }
 

@@ -11,7 +11,7 @@ use crate::scalar::Scalar;
 mod prepared;
 
 pub use prepared::Prepared;
-pub(crate) use prepared::{Constraints, Dynamics};
+pub(crate) use prepared::{Dynamics, Equations};
 
 use crate::spec::Spec;
 
@@ -176,7 +176,7 @@ impl<S: Scalar> Evaluated<S> {
     }
 
     /// The terms of `mech` at (t, q, q̇).
-    pub(crate) fn dynamics<C: ?Sized + Dynamics<S>>(
+    pub(crate) fn dynamics<C: ?Sized + Equations<S>>(
         &mut self,
         mech: &Prepared<S, C>,
         t: S,

@@ -37,6 +37,12 @@ impl Rounded {
         }
     }
 
+    /// A number that is known to an error, in units of ε, but not better than to rounding.
+    pub(crate) fn within(value: f64, error: f64) -> Self {
+        let error = error.max(value.abs());
+        Rounded { value, error }
+    }
+
     /// A result: what its operands bring with them, and its own rounding.
     fn result(value: f64, inherited: f64) -> Self {
         Rounded {

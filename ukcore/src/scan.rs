@@ -24,6 +24,16 @@ pub(crate) fn largest<S: Scalar>(x: &[S]) -> S {
     reduce(x, x, |x, _| x.abs(), |s, x| x.larger(s))
 }
 
+/// max|x_j| / ease_j, where coordinates move as readily as `ease` says. Where that is not known, `ease` is empty, and all count alike.
+pub(crate) fn extent<S: Scalar>(x: &[S], ease: &[f64]) -> S {
+    if ease.is_empty() {
+        return largest(x);
+    }
+    let pairs = x.iter().zip(ease);
+    let sizes = pairs.map(|(x, ease)| x.abs() / S::from_f64(*ease));
+    sizes.fold(S::from_f64(0.0), |s, x| x.larger(s))
+}
+
 /// max|x − y|, 0 of none. Passes over NaN in an `f64`.
 #[inline]
 pub(crate) fn largest_difference<S: Scalar>(x: &[S], y: &[S]) -> S {

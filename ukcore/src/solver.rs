@@ -14,13 +14,15 @@
 //!   the manifold, hence bounds what significance drift alone can lend. The tolerance is raised to [`DRIFT_FACTOR`] |ΔA|
 //!   (relative to the row), up to the ceiling.
 //!
-//! The same difference, |Δb| + |ΔA||q̈|, is granted to the redundant rows before they are called inconsistent.
+//! The same difference, |Δb| + |ΔA||q̈|, is granted to the redundant rows before they are called inconsistent, and so is the rounding of A
+//! and b.
 
 use crate::dense::{Dense, Route, Rows};
 use crate::diagnose;
 use crate::error::Error;
 use crate::mechanism::{Evaluated, Prepared};
 use crate::metric::MassFault;
+use crate::noise::Noise;
 use crate::saddle::Saddle;
 use crate::scan::all_finite;
 use crate::spec::Spec;
@@ -73,6 +75,11 @@ pub struct Solver {
     dense: Dense,
     saddle: Option<Saddle>,
     drift: Drift,
+    noise: Noise,
+    /// What rounding A q̈ − b carries, in units of ε, where that is known; else 0.
+    carried: Vec<f64>,
+    /// What drift and rounding are granted of each row.
+    granted: Vec<f64>,
 }
 
 /// The equations at the nearest state on the manifold.
@@ -83,6 +90,19 @@ struct Drift {
     q: Vec<f64>,
     v: Vec<f64>,
     correction: Vec<f64>,
+}
+
+impl Drift {
+    /// What it explains of the residual of row `c` of A q̈ = b, where A is `a` and b is `rhs`.
+    fn explains(&self, a: Rows<'_>, rhs: &[f64], c: usize, acceleration: &[f64]) -> f64 {
+        if !self.known {
+            return 0.0;
+        }
+        let there = rows(&self.there, rhs.len());
+        let change = a.row(c).zip(there.row(c)).zip(acceleration);
+        let change: f64 = change.map(|((a, b), x)| ((a - b) * x).abs()).sum();
+        (self.there.rhs[c] - rhs[c]).abs() + change
+    }
 }
 
 /// Rank and formula of the evaluation in hand.
@@ -106,7 +126,6 @@ impl Solver {
         let (n, m) = (spec.n(), spec.m());
         let saddle = (options.formula == Formula::Kkt).then(|| Saddle::new(n, m));
         Solver {
-            mechanism,
             options: SolverOptions {
                 rank_tolerance: match options.rank_tolerance {
                     x if x.is_nan() => RANK_TOLERANCE,
@@ -137,6 +156,10 @@ impl Solver {
                 v: vec![0.0; n],
                 correction: vec![0.0; n],
             },
+            noise: Noise::new(&mechanism),
+            carried: vec![0.0; m],
+            granted: vec![0.0; m],
+            mechanism,
         }
     }
 
@@ -361,6 +384,7 @@ impl Solver {
         self.here.dynamics(&self.mechanism, t, q, v);
         self.work.evaluations += 1;
         self.drift.known = false;
+        self.carried.fill(0.0);
         self.rhs.copy_from_slice(&self.here.rhs);
         if let Some(baumgarte) = self.options.baumgarte {
             self.mechanism.residual(t, q, &mut self.position);
@@ -502,6 +526,11 @@ impl Solver {
                 return Ok(());
             }
         }
+        self.noise.go(&self.mechanism, t, [q, v], [0.0; 2], &[]);
+        self.noise.motion(acceleration, &mut self.carried);
+        if self.agrees(acceleration, tolerance) {
+            return Ok(());
+        }
         let a = self.rows();
         let residual: Vec<f64> = (0..self.m)
             .map(|c| a.product(c, acceleration) - self.rhs[c])
@@ -511,36 +540,36 @@ impl Solver {
         })
     }
 
-    /// Whether A q̈ = b holds up to `tolerance` and drift. At rest q̈ is the difference of what the forces and what the constraints
-    /// do, so the tolerance refers to these.
-    fn agrees(&self, acceleration: &[f64], tolerance: f64) -> bool {
-        let a = self.rows();
+    /// Whether A q̈ = b holds up to `tolerance`, drift and the rounding that is known. At rest q̈ is the difference of what the forces and
+    /// what the constraints do, so the tolerance refers to these.
+    fn agrees(&mut self, acceleration: &[f64], tolerance: f64) -> bool {
+        let (m, a, scale) = (self.m, rows(&self.here, self.m), &self.dense.row_scale);
         let free = &self.dense.unconstrained;
         let size =
             |c: usize| self.rhs[c].abs() + a.magnitude(c, acceleration) + a.magnitude(c, free);
-        let scale = &self.dense.row_scale;
-        let largest = (0..self.m).map(|c| scale[c] * size(c)).fold(0.0, f64::max);
+        let largest = (0..m).map(|c| scale[c] * size(c)).fold(0.0, f64::max);
         let rounding = DRIFT_FACTOR * tolerance.min(RANK_CEILING) * largest;
-        (0..self.m).all(|c| {
-            let residual = (self.rhs[c] - a.product(c, acceleration)).abs();
-            if scale[c] == 0.0 {
-                return residual == 0.0 || residual <= self.granted(c, acceleration);
-            }
-            let granted = scale[c] * self.granted(c, acceleration);
-            scale[c] * residual <= rounding + granted.min(RANK_CEILING * largest)
-        })
-    }
-
-    /// What drift explains of the residual of row `c`.
-    fn granted(&self, c: usize, acceleration: &[f64]) -> f64 {
-        if !self.drift.known {
-            return 0.0;
+        for c in 0..m {
+            let finite = |x: f64| if x.is_finite() { x } else { 0.0 };
+            // Both the size of the terms that b is made of, which may cancel, and in units of ε their rounding.
+            let carried = finite(self.carried[c]);
+            let most = RANK_CEILING * carried.max(largest / scale[c]);
+            let drift = finite(self.drift.explains(a, &self.rhs, c, acceleration));
+            self.granted[c] =
+                (DRIFT_FACTOR * drift).min(most) + DRIFT_FACTOR * f64::EPSILON * carried;
         }
-        let there = rows(&self.drift.there, self.m);
-        let change = self.rows().row(c).zip(there.row(c)).zip(acceleration);
-        let change: f64 = change.map(|((a, b), x)| ((a - b) * x).abs()).sum();
-        let granted = DRIFT_FACTOR * ((self.drift.there.rhs[c] - self.rhs[c]).abs() + change);
-        if granted.is_finite() { granted } else { 0.0 }
+        let met = |scale: &[f64], granted: &[f64]| {
+            (0..m).all(|c| {
+                let excess = (self.rhs[c] - a.product(c, acceleration)).abs() - granted[c];
+                excess <= 0.0 || scale[c] > 0.0 && scale[c] * excess <= rounding
+            })
+        };
+        // Rows that imply each other are granted it together.
+        met(&self.dense.row_scale, &self.granted)
+            || self.drift.known && {
+                self.dense.share(&mut self.granted);
+                met(&self.dense.row_scale, &self.granted)
+            }
     }
 }
 

@@ -194,9 +194,21 @@ impl Driver<'_> {
         if all_pairs(&self.raw, new, |raw, new| (new - raw).abs() <= least) {
             return Ok(());
         }
-        let pairs = self.raw.iter().zip(new).zip(old);
-        let change = pairs.map(|((raw, new), old)| (new - raw, *old, *raw));
+        let states = || old.iter().zip(&self.raw);
+        let change = new.iter().zip(states());
+        let change = change.map(|(new, (old, raw))| (new - raw, *old, *raw));
         if error_norm(change, tolerance) <= PROJECTION_LIMIT {
+            return Ok(());
+        }
+        let mut excess: Vec<f64> = new
+            .iter()
+            .zip(&self.raw)
+            .map(|(new, raw)| new - raw)
+            .collect();
+        problem.excess(raw, &mut excess);
+        let excess = excess.iter().zip(states());
+        let excess = excess.map(|(excess, (old, raw))| (*excess, *old, *raw));
+        if error_norm(excess, tolerance) <= PROJECTION_LIMIT {
             return Ok(());
         }
         // Asked close to the place alone, so that the error has its time.

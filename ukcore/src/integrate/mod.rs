@@ -150,6 +150,10 @@ pub(crate) trait Problem {
     ) -> Result<(), Error>;
     /// Moves the velocities `v` to the nearest ones that are consistent at (t, `q`).
     fn project_velocity(&mut self, t: f64, q: &[f64], v: &mut [f64]) -> Result<(), Error>;
+    /// Puts into `change`, by which a projection changes a state, what is left of it without what rounding makes of it.
+    fn excess(&mut self, at: Sample<'_>, change: &mut [f64]) {
+        let _ = (at, change);
+    }
     /// Why the nearest consistent state is far from the one where a step arrived that began at `t_old`; of use where no shorter step comes
     /// nearer.
     fn jump(&mut self, at: Sample<'_>, t_old: f64) -> Option<Error> {

@@ -1,12 +1,6 @@
 //! What counts as zero.
 
-use super::level::At;
-use super::newton::Newton;
-use crate::dense::Dense;
 use crate::lanes::Lanes;
-use crate::mechanism::{Constraints, Prepared};
-use crate::rounding::Rounded;
-use crate::scan::largest;
 
 /// A residual is at rounding level if it does not exceed this many ε of the size Σ|A_ij q_j| of what q's own rounding contributes:
 /// one for q, one or two for the evaluation of φ.
@@ -15,7 +9,7 @@ pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Where no step makes it less, a residual will do if it does not exceed this many ε of max|A_ij| max|q_j|, or of the rounding that
 /// evaluating it carries where that is more: terms that cancel, or constraints that nearly lose rank, can keep it above [`ROUNDING`].
 /// Lengths of links among coordinates thirty times as large still hold to 1e-12.
-const STALLED: f64 = 64.0 * f64::EPSILON;
+pub(super) const STALLED: f64 = 64.0 * f64::EPSILON;
 
 /// The largest coordinate counts into the size of every constraint's terms with this share: a coordinate that the constraints put
 /// to zero takes rounding errors from the others through the solve, and has no size of its own to measure them by. The share is
@@ -25,12 +19,18 @@ pub(super) const NEIGHBOUR: f64 = 1e-4;
 /// Sizes of the constraints' terms at a place x, and with them the residuals that count as zero there.
 #[derive(Debug, Clone)]
 pub(crate) struct Acceptance<L> {
-    /// max|x| where the search began: what coordinates that are zero themselves are measured by.
+    /// How readily coordinates move, which says what is the same for coordinates of different units; empty where all count alike.
+    pub(super) ease: Vec<f64>,
+    /// Coordinates that do not move at all.
+    pub(super) held: Vec<usize>,
+    /// max|x_j| / ease_j where the search began: what coordinates that are zero themselves are measured by.
     pub(super) size: L,
-    /// Σ|A_cj| (|x_j| + [`NEIGHBOUR`] max|x|).
+    /// Σ|A_cj| (|x_j| + [`NEIGHBOUR`] ease_j size).
     terms: Vec<L>,
-    /// max|A_cj|.
+    /// max|A_cj| ease_j.
     largest: Vec<L>,
+    /// What rounding the evaluation of each residual carries, in units of ε.
+    pub(super) rounding: Vec<f64>,
 }
 
 impl<L: Lanes> Acceptance<L> {
@@ -38,22 +38,26 @@ impl<L: Lanes> Acceptance<L> {
     pub(super) fn new(m: usize) -> Self {
         let zero = L::from_f64(0.0);
         Acceptance {
+            ease: Vec::new(),
+            held: Vec::new(),
             size: zero,
             terms: vec![zero; m],
             largest: vec![zero; m],
+            rounding: vec![0.0; m],
         }
     }
 
     /// Takes the sizes at `x`, where A has the entries `jacobian`.
     pub(super) fn weigh(&mut self, pattern: &[(usize, usize)], jacobian: &[L], x: &[L]) {
         let (m, zero) = (self.terms.len(), L::from_f64(0.0));
-        let least = L::from_f64(NEIGHBOUR) * self.size;
+        let (one, least) = (L::from_f64(1.0), L::from_f64(NEIGHBOUR) * self.size);
         self.terms.fill(zero);
         self.largest.fill(zero);
         for &(c, j) in pattern {
+            let ease = self.ease.get(j).map_or(one, |ease| L::from_f64(*ease));
             let entry = jacobian[j * m + c].abs();
-            self.terms[c] = self.terms[c] + entry * (x[j].abs() + least);
-            self.largest[c] = entry.larger(self.largest[c]);
+            self.terms[c] = self.terms[c] + entry * (x[j].abs() + ease * least);
+            self.largest[c] = (entry * ease).larger(self.largest[c]);
         }
     }
 
@@ -79,7 +83,7 @@ impl Acceptance<f64> {
 
     /// How far off the constraints x is, in its own unit: the largest |φ_c| / max|A_cj| of those not at rounding level; NaN where one is
     /// not a number.
-    pub(crate) fn distance(&self, residual: &[f64]) -> f64 {
+    pub(super) fn distance(&self, residual: &[f64]) -> f64 {
         let rows = residual.iter().enumerate();
         rows.filter(|(c, r)| r.is_nan() || r.abs() > ROUNDING * self.terms[*c])
             .map(|(c, r)| r.abs() / self.scale(c))
@@ -92,103 +96,26 @@ impl Acceptance<f64> {
             })
     }
 
-    /// The residual of constraint `c` that will do where no step makes it less, with a largest coordinate `x`.
-    pub(super) fn loose(&self, c: usize, x: f64, rounding: &Rounding) -> f64 {
-        let size = self.largest[c] * self.size.max(x);
-        (STALLED * size.max(rounding.rows[c])).max(ROUNDING * self.terms[c])
+    /// The constraints whose `residuals` would not do even where no step makes them less.
+    pub(super) fn violated(&self, residuals: &[f64]) -> impl Iterator<Item = usize> {
+        let bound = |c: usize| (STALLED * self.rounding[c]).max(ROUNDING * self.terms[c]);
+        let residuals = residuals.iter().enumerate();
+        let violated = residuals.filter(move |(c, r)| !(r.abs() <= bound(*c)));
+        violated.map(|(c, _)| c)
+    }
+
+    /// Takes off `residuals` what rounding makes of them.
+    pub(super) fn clear(&self, residuals: &mut [f64]) {
+        for (r, size) in residuals.iter_mut().zip(&self.rounding) {
+            *r -= r.clamp(-STALLED * size, STALLED * size);
+        }
     }
 
     /// The largest length in the first `rows` constraints, in the unit of x: the rounding of a residual as the change of a coordinate that
     /// makes it.
-    pub(super) fn length(&self, rows: usize, rounding: &Rounding) -> f64 {
-        let sizes = self.largest[..rows].iter().zip(&rounding.rows);
+    pub(super) fn length(&self, rows: usize) -> f64 {
+        let sizes = self.largest[..rows].iter().zip(&self.rounding);
         let lengths = sizes.filter(|(entry, _)| **entry > 0.0);
         lengths.fold(0.0, |most: f64, (entry, size)| most.max(size / entry))
-    }
-}
-
-/// What rounding the evaluation of each residual carries. Where coordinates are small beside the lengths in a constraint (measured from
-/// the state at rest, say), this is far more than their own rounding makes of it.
-#[derive(Debug, Clone)]
-pub(super) struct Rounding {
-    pub(super) mechanism: Prepared<Rounded, dyn Constraints<Rounded>>,
-    given: Vec<Rounded>,
-    fixed: Vec<Rounded>,
-    residual: Vec<Rounded>,
-    /// In units of ε.
-    rows: Vec<f64>,
-    dependences: Vec<f64>,
-    left: Vec<f64>,
-}
-
-impl Rounding {
-    pub(super) fn new(mechanism: &Prepared) -> Self {
-        let (n, m) = (mechanism.spec().n(), mechanism.spec().m());
-        let zeros = |len: usize| vec![Rounded::exact(0.0); len];
-        Rounding {
-            mechanism: mechanism.rounded(),
-            given: zeros(n),
-            fixed: zeros(n),
-            residual: zeros(m),
-            rows: vec![0.0; m],
-            dependences: vec![0.0; m * m],
-            left: vec![0.0; m],
-        }
-    }
-
-    /// Measures it at `x`. Constraints that imply each other, which the factors `dense` know, share theirs.
-    pub(super) fn measure(&mut self, at: &At<'_, f64>, x: &[f64], dense: Option<&mut Dense>) {
-        let pairs = self.given.iter_mut().zip(x);
-        pairs.for_each(|(r, x)| *r = Rounded::unknown(*x));
-        let pairs = self.fixed.iter_mut().zip(at.other);
-        pairs.for_each(|(r, x)| *r = Rounded::exact(*x));
-        let (t, residual) = (Rounded::exact(at.t), &mut self.residual);
-        at.level
-            .residual(&self.mechanism, t, &self.given, &self.fixed, residual);
-        let rows = self.rows.iter_mut().zip(&self.residual);
-        rows.for_each(|(size, r)| *size = r.bound());
-        if let Some(dense) = dense {
-            self.share(dense);
-        }
-    }
-
-    /// The constraints at `x`, where sizes and rounding are known, whose residuals would not do even where no step makes them less.
-    pub(super) fn violated(
-        &self,
-        at: &At<'_, f64>,
-        newton: &Newton<f64>,
-        x: &[f64],
-    ) -> impl Iterator<Item = usize> {
-        let size = largest(x);
-        let bound = move |c| newton.acceptance.loose(c, size, self);
-        let met = move |c: usize| newton.residual[c].abs() <= bound(c);
-        (0..at.rows()).filter(move |c| !met(*c))
-    }
-
-    /// The solve meets constraints that imply each other as well as it can together: of errors that contradict each other it leaves to
-    /// each its share in the dependence, however small its own terms are.
-    fn share(&mut self, dense: &mut Dense) {
-        let rows = dense.cod.order().len();
-        let excess = rows - dense.cod.rank();
-        if excess == 0 {
-            return;
-        }
-        let dependences = &mut self.dependences[..rows * excess];
-        dense.cod.dependences(dependences);
-        // In rows scaled as they are solved; one of zeros has no scale.
-        let unit = |scale: f64| if scale > 0.0 { scale } else { 1.0 };
-        let sizes = self.rows.iter_mut().zip(&dense.row_scale);
-        sizes.for_each(|(size, scale)| *size *= unit(*scale));
-        self.left.fill(0.0);
-        for shares in dependences.chunks_exact(rows) {
-            let terms = shares.iter().zip(&self.rows);
-            let error: f64 = terms.map(|(share, size)| share.abs() * size).sum();
-            let left = self.left.iter_mut().zip(shares);
-            left.for_each(|(left, share)| *left += share.abs() * error);
-        }
-        let sizes = self.rows.iter_mut().zip(&self.left);
-        for ((size, left), scale) in sizes.zip(&dense.row_scale) {
-            *size = size.max(*left) / unit(*scale);
-        }
     }
 }

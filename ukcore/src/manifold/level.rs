@@ -2,7 +2,7 @@
 
 use crate::diagnose;
 use crate::error::Error;
-use crate::mechanism::{Constraints, Prepared};
+use crate::mechanism::Prepared;
 use crate::scalar::Scalar;
 
 /// Position (φ) or velocity (φ̇ and ψ).
@@ -22,7 +22,7 @@ impl Level {
     }
 
     /// q and q̇ of `x` and `other`.
-    fn state<'a, S>(self, x: &'a [S], other: &'a [S]) -> (&'a [S], &'a [S]) {
+    pub(super) fn state<T>(self, x: T, other: T) -> (T, T) {
         match self {
             Level::Position => (x, other),
             Level::Velocity => (other, x),
@@ -30,14 +30,7 @@ impl Level {
     }
 
     /// φ, or φ̇ and ψ, into the first of `out`.
-    pub(super) fn residual<S: Scalar, C: ?Sized + Constraints<S>>(
-        self,
-        mech: &Prepared<S, C>,
-        t: S,
-        x: &[S],
-        other: &[S],
-        out: &mut [S],
-    ) {
+    fn residual<S: Scalar>(self, mech: &Prepared<S>, t: S, x: &[S], other: &[S], out: &mut [S]) {
         match self {
             Level::Position => mech.residual(t, x, &mut out[..mech.spec().holonomic]),
             Level::Velocity => mech.residual_rate(t, other, x, out),

@@ -1,9 +1,11 @@
 //! Newton's method, lane by lane: one iteration for all ways onto the constraints, which differ in where their steps come from.
 
-use super::acceptance::{Acceptance, NEIGHBOUR, ROUNDING};
-use super::level::At;
+use super::acceptance::{Acceptance, NEIGHBOUR, ROUNDING, STALLED};
+use super::level::{At, Level};
+use crate::dense::Dense;
 use crate::lanes::Lanes;
-use crate::scan::{excess, largest, sum};
+use crate::noise::Noise;
+use crate::scan::{excess, extent, largest, sum};
 use crate::spec::Spec;
 
 /// Buffers of the method: what is known at a place, and the step from there.
@@ -83,7 +85,7 @@ impl<L: Lanes> Newton<L> {
         mut look: impl FnMut(&mut Self, &[L], L) -> (L, L),
     ) -> (L, L) {
         let (mut good, mut count, half) = (zero(), zero(), L::from_f64(0.5));
-        self.acceptance.size = largest(x);
+        self.acceptance.size = extent(x, &self.acceptance.ease);
         loop {
             self.evaluate(at, x);
             let (met, go) = look(self, x, left);
@@ -172,7 +174,6 @@ impl<L: Lanes> Newton<L> {
         [q, v]: [&mut [L]; 2],
         wanted: L,
     ) -> (L, L) {
-        use super::Level;
         let (mut good, mut count) = (wanted, zero());
         for level in [Level::Position, Level::Velocity] {
             let (x, other) = match level {
@@ -202,5 +203,63 @@ impl<L: Lanes> Newton<L> {
         at.jacobian(x, &mut self.jacobian);
         let pattern = at.mech.spec().structure.jacobian_pattern;
         self.acceptance.weigh(pattern, &self.jacobian, x);
+    }
+}
+
+impl Newton<f64> {
+    /// Takes what rounding the residuals at `x` carry, of which A is known: coordinates are known to rounding of `size`, or of what is larger of
+    /// the others. Constraints that imply each other, which factors know, share theirs; in assembly a row of A that is nothing but rounding,
+    /// where a rod has no length, say, has no direction.
+    pub(super) fn measure(
+        &mut self,
+        at: &At<'_, f64>,
+        x: &[f64],
+        noise: &mut Noise,
+        factors: Option<&mut Dense>,
+    ) {
+        let Acceptance { ease, size, .. } = &self.acceptance;
+        let least = at
+            .level
+            .state(size.max(extent(x, ease)), extent(at.other, ease));
+        self.rounding(at, x, noise, least.into());
+        let Acceptance {
+            ease,
+            held,
+            rounding,
+            ..
+        } = &mut self.acceptance;
+        if !ease.is_empty() {
+            noise.clear(&mut self.jacobian, STALLED, held);
+        }
+        if let Some(factors) = factors {
+            factors.share(&mut rounding[..at.rows()]);
+        }
+    }
+
+    /// Takes what rounding the residuals at `x` carry, with coordinates and velocities that are known to rounding of the sizes `least`.
+    pub(super) fn rounding(
+        &mut self,
+        at: &At<'_, f64>,
+        x: &[f64],
+        noise: &mut Noise,
+        least: [f64; 2],
+    ) {
+        let Acceptance { ease, rounding, .. } = &mut self.acceptance;
+        noise.go(
+            at.mech,
+            at.t,
+            at.level.state(x, at.other).into(),
+            least,
+            ease,
+        );
+        match at.level {
+            Level::Position => noise.residual(rounding),
+            Level::Velocity => noise.residual_rate(rounding),
+        }
+    }
+
+    /// The constraints, of which all is known, whose residuals would not do even where no step makes them less.
+    pub(super) fn violated(&self, at: &At<'_, f64>) -> impl Iterator<Item = usize> {
+        self.acceptance.violated(&self.residual[..at.rows()])
     }
 }

@@ -34,14 +34,12 @@ pub(super) struct Factors {
     /// Time and position up to which they hold all rows of A, for the velocity projection that follows.
     place: Option<f64>,
     q: Vec<f64>,
-    /// Coordinates that no step moves.
-    pub(super) held: Vec<usize>,
     /// Whether rows below the ceiling are left out.
     cautious: bool,
 }
 
 impl Factors {
-    pub(super) fn new(mechanism: &Prepared, held: Vec<usize>) -> Self {
+    pub(super) fn new(mechanism: &Prepared) -> Self {
         let (n, m) = (mechanism.spec().n(), mechanism.spec().m());
         Factors {
             dense: Dense::new(n, m, mechanism.spec().structure.mass_diagonal),
@@ -50,33 +48,27 @@ impl Factors {
             best: vec![0.0; n],
             place: None,
             q: vec![0.0; n],
-            held,
             cautious: true,
         }
-    }
-
-    /// Factors for all steps from one place, `x`.
-    pub(super) fn begin(
-        &mut self,
-        at: &At<'_, f64>,
-        x: &[f64],
-        jacobian: &mut [f64],
-    ) -> Result<(), Error> {
-        (self.place, self.cautious) = (None, true);
-        self.factor(at, x, jacobian)
     }
 
     /// Takes M and A (all rows, of which those of the level count) at `x`. While `cautious`, rows of a significance below the ceiling are
     /// left out: off the manifold nobody can tell whether they are implied; if they are not, the residual will not fall, and they are
     /// taken in.
-    fn factor(&mut self, at: &At<'_, f64>, x: &[f64], jacobian: &mut [f64]) -> Result<(), Error> {
+    fn factor(
+        &mut self,
+        at: &At<'_, f64>,
+        x: &[f64],
+        newton: &mut Newton<f64>,
+    ) -> Result<(), Error> {
+        let jacobian = &mut newton.jacobian;
         let spec = at.mech.spec();
         at.mass_matrix(x, &mut self.mass);
         if !all_finite(&self.mass) || !all_finite(jacobian) {
             let what = diagnose::non_finite_matrices(spec, &self.mass, jacobian);
             return Err(Error::NonFinite { what });
         }
-        self.hold(jacobian);
+        self.hold(jacobian, &newton.acceptance.held);
         let (a, dense, mass) = (rows(at, jacobian), &mut self.dense, &self.mass);
         let route = if spec.structure.massless.is_empty() {
             Route::Regular
@@ -101,14 +93,39 @@ impl Factors {
     }
 
     /// Takes what is held out of A, and makes it a part by itself of M.
-    fn hold(&mut self, jacobian: &mut [f64]) {
+    fn hold(&mut self, jacobian: &mut [f64], held: &[usize]) {
         let (n, m) = (self.q.len(), self.rhs.len());
-        for &j in &self.held {
+        for &j in held {
             jacobian[j * m..(j + 1) * m].fill(0.0);
             self.mass[j * n..(j + 1) * n].fill(0.0);
             (0..n).for_each(|i| self.mass[i * n + j] = 0.0);
             self.mass[j * n + j] = 1.0;
         }
+    }
+
+    /// The minimal Δ with A Δ = −φ, where A is that of the place `base`, into the step: by the emitted elimination, or by factors, which serve
+    /// all steps once they are there.
+    pub(super) fn step(
+        &mut self,
+        at: &At<'_, f64>,
+        base: &[f64],
+        newton: &mut Newton<f64>,
+        factored: &mut bool,
+    ) -> Result<(), Error> {
+        if !*factored && at.straight_line() {
+            let safe = at.correction(base, &newton.residual, &mut newton.step);
+            if safe > 0.5 && all_finite(&newton.step) {
+                return Ok(());
+            }
+        }
+        at.jacobian(base, &mut newton.jacobian);
+        if !*factored {
+            (self.place, self.cautious) = (None, true);
+            self.factor(at, base, newton)?;
+            *factored = true;
+        }
+        self.solve(at, newton);
+        Ok(())
     }
 
     /// The minimal Δ with A Δ = −φ into the step.
@@ -125,7 +142,7 @@ impl Manifold {
     /// Moves `x` onto the constraints, and returns the number of steps. Here the rows say where it ends, since those left out show in no
     /// step.
     pub(super) fn reveal(&mut self, at: &At<'_, f64>, x: &mut [f64]) -> Result<f64, Error> {
-        let (rounding, factors) = (&mut self.rounding, &mut self.factors);
+        let (noise, factors) = (&mut self.noise, &mut self.factors);
         let kept = factors.place.take() == Some(at.t);
         let mut factored = kept && at.level == Level::Velocity && factors.q == at.other;
         factors.cautious |= !factored;
@@ -134,6 +151,9 @@ impl Manifold {
         let (mut stalls, mut fresh, mut failure) = (0, false, None);
         let (good, count) = self.newton.iterate(at, x, 1.0, MAX_STEPS, |newton, x, _| {
             newton.weigh(at, x);
+            if !newton.acceptance.ease.is_empty() {
+                newton.measure(at, x, noise, None);
+            }
             let off = newton.acceptance.distance(&newton.residual[..at.rows()]);
             if off < least {
                 least = off;
@@ -148,8 +168,8 @@ impl Manifold {
                     factors.cautious = false;
                 } else {
                     stalls += 1;
-                    rounding.measure(at, x, Some(&mut factors.dense));
-                    if stalls > MAX_STALLS || rounding.violated(at, newton, x).next().is_none() {
+                    newton.measure(at, x, noise, Some(&mut factors.dense));
+                    if stalls > MAX_STALLS || newton.violated(at).next().is_none() {
                         return (0.0, 0.0);
                     }
                 }
@@ -157,7 +177,7 @@ impl Manifold {
             fresh = !(factored && off <= KEEP_FACTORS * previous);
             previous = off;
             if fresh && off.is_finite() {
-                failure = factors.factor(at, x, &mut newton.jacobian).err();
+                failure = factors.factor(at, x, newton).err();
                 factored = failure.is_none();
             }
             if !factored || !off.is_finite() {

@@ -15,20 +15,20 @@ use crate::rounding::Rounded;
 use crate::scalar::{Dual, Scalar};
 use crate::spec::Spec;
 
-/// The emitted functions that concern constraints alone, in numbers `S`.
-pub trait Constraints<S>: Send + Sync + 'static {
+/// The equations of motion and the constraints, in numbers `S`.
+pub trait Equations<S>: Send + Sync + 'static {
     /// [`Mechanism::prepare`].
     fn prepare(&self, given: &[S], prepared: &mut [S]);
     /// [`Mechanism::residual`].
     fn residual(&self, prepared: &[S], t: S, q: &[S], phi: &mut [S]);
     /// [`Mechanism::residual_rate`].
     fn residual_rate(&self, prepared: &[S], t: S, q: &[S], v: &[S], rate: &mut [S]);
-}
-
-/// The emitted functions of which derivatives are taken, in numbers `S`.
-pub trait Dynamics<S>: Constraints<S> {
     /// [`Mechanism::dynamics`].
     fn dynamics(&self, prepared: &[S], t: S, q: &[S], v: &[S], out: &mut Terms<'_, S>);
+}
+
+/// What else derivatives are taken of, in numbers `S`.
+pub trait Dynamics<S>: Equations<S> {
     /// [`Mechanism::switching`].
     fn switching(&self, prepared: &[S], t: S, q: &[S], v: &[S], switching: &mut [S]);
     /// [`Mechanism::acceleration`].
@@ -68,7 +68,7 @@ pub trait Face: Send + Sync + 'static {
     /// In numbers that carry a derivative.
     fn dual(&self) -> &'static dyn Dynamics<Dual>;
     /// In numbers that add up their rounding.
-    fn rounded(&self) -> &'static dyn Constraints<Rounded>;
+    fn rounded(&self) -> &'static dyn Equations<Rounded>;
 }
 
 /// The functions of `M`.
@@ -84,12 +84,12 @@ impl<M: Mechanism> Face for Of<M> {
     fn dual(&self) -> &'static dyn Dynamics<Dual> {
         &Of::<M>(PhantomData)
     }
-    fn rounded(&self) -> &'static dyn Constraints<Rounded> {
+    fn rounded(&self) -> &'static dyn Equations<Rounded> {
         &Of::<M>(PhantomData)
     }
 }
 
-impl<M: Mechanism, S: Scalar> Constraints<S> for Of<M> {
+impl<M: Mechanism, S: Scalar> Equations<S> for Of<M> {
     fn prepare(&self, given: &[S], prepared: &mut [S]) {
         M::prepare(given, prepared);
     }
@@ -99,12 +99,12 @@ impl<M: Mechanism, S: Scalar> Constraints<S> for Of<M> {
     fn residual_rate(&self, prepared: &[S], t: S, q: &[S], v: &[S], rate: &mut [S]) {
         M::residual_rate(prepared, t, q, v, rate);
     }
-}
-
-impl<M: Mechanism, S: Scalar> Dynamics<S> for Of<M> {
     fn dynamics(&self, prepared: &[S], t: S, q: &[S], v: &[S], out: &mut Terms<'_, S>) {
         M::dynamics(prepared, t, q, v, out);
     }
+}
+
+impl<M: Mechanism, S: Scalar> Dynamics<S> for Of<M> {
     fn switching(&self, prepared: &[S], t: S, q: &[S], v: &[S], switching: &mut [S]) {
         M::switching(prepared, t, q, v, switching);
     }
@@ -179,7 +179,7 @@ impl<S: Scalar> Prepared<S> {
     }
 }
 
-impl<S: Scalar, C: ?Sized + Constraints<S>> Prepared<S, C> {
+impl<S: Scalar, C: ?Sized + Equations<S>> Prepared<S, C> {
     fn with(code: &'static C, spec: &'static Spec, given: Vec<S>) -> Self {
         assert_eq!(given.len(), spec.params.len(), "one value a parameter");
         let mut prepared = Prepared {
@@ -249,6 +249,12 @@ impl<S: Scalar, C: ?Sized + Constraints<S>> Prepared<S, C> {
     pub fn residual_rate(&self, t: S, q: &[S], v: &[S], rate: &mut [S]) {
         self.code.residual_rate(&self.values, t, q, v, rate);
     }
+
+    /// M, Q, c, A and b at (t, q, q̇); see [`Mechanism::dynamics`].
+    #[inline]
+    pub fn dynamics(&self, t: S, q: &[S], v: &[S], out: &mut Terms<'_, S>) {
+        self.code.dynamics(&self.values, t, q, v, out);
+    }
 }
 
 impl<S: Scalar, C: ?Sized + Dynamics<S>> Prepared<S, C> {
@@ -256,12 +262,6 @@ impl<S: Scalar, C: ?Sized + Dynamics<S>> Prepared<S, C> {
     #[inline]
     pub fn switching(&self, t: S, q: &[S], v: &[S], switching: &mut [S]) {
         self.code.switching(&self.values, t, q, v, switching);
-    }
-
-    /// M, Q, c, A and b at (t, q, q̇); see [`Mechanism::dynamics`].
-    #[inline]
-    pub fn dynamics(&self, t: S, q: &[S], v: &[S], out: &mut Terms<'_, S>) {
-        self.code.dynamics(&self.values, t, q, v, out);
     }
 
     /// q̈ by the emitted elimination and its certificate at (t, q, q̇); see [`Mechanism::acceleration`]. [`Solver`](crate::Solver) wraps
@@ -350,11 +350,11 @@ impl Prepared {
     }
 
     /// This mechanism in numbers that add up their rounding, with its parameters, taken to be exact, and held branches.
-    pub(crate) fn rounded(&self) -> Prepared<Rounded, dyn Constraints<Rounded>> {
+    pub(crate) fn rounded(&self) -> Prepared<Rounded, dyn Equations<Rounded>> {
         self.lift(self.code.face().rounded(), Rounded::exact)
     }
 
-    fn lift<T: Scalar, C: ?Sized + Constraints<T>>(
+    fn lift<T: Scalar, C: ?Sized + Equations<T>>(
         &self,
         code: &'static C,
         number: fn(f64) -> T,

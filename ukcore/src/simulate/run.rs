@@ -120,6 +120,10 @@ impl Problem for Run<'_> {
         Ok(())
     }
 
+    fn excess(&mut self, at: Sample<'_>, change: &mut [f64]) {
+        self.recorder.projector.excess(at.t, at.q, at.v, change);
+    }
+
     fn jump(&mut self, at: Sample<'_>, t_old: f64) -> Option<Error> {
         obstacles::jump(&mut self.solver, at, t_old)
     }

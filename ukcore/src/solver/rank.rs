@@ -54,21 +54,16 @@ impl Solver {
         } = &mut self.drift;
         *known = true;
         self.mechanism.residual(t, q, &mut self.position);
-        self.mechanism.residual_rate(t, q, v, &mut self.rate);
-        self.dense.least_norm(&self.rate, correction);
-        near_v
-            .iter_mut()
-            .zip(v)
-            .zip(&*correction)
-            .for_each(|((x, v), d)| *x = v - d);
         self.rate.fill(0.0);
         self.rate[..self.position.len()].copy_from_slice(&self.position);
         self.dense.least_norm(&self.rate, correction);
-        near_q
-            .iter_mut()
-            .zip(q)
-            .zip(&*correction)
-            .for_each(|((x, q), d)| *x = q - d);
+        let pairs = near_q.iter_mut().zip(q).zip(&*correction);
+        pairs.for_each(|((x, q), d)| *x = q - d);
+        // Off the manifold rates contradict each other, and no correction of velocities meets them all.
+        self.mechanism.residual_rate(t, near_q, v, &mut self.rate);
+        self.dense.least_norm(&self.rate, correction);
+        let pairs = near_v.iter_mut().zip(v).zip(&*correction);
+        pairs.for_each(|((x, v), d)| *x = v - d);
         there.dynamics(&self.mechanism, t, near_q, near_v);
         self.work.evaluations += 1;
     }

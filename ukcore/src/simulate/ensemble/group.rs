@@ -300,8 +300,10 @@ impl<'a> Group<'a> {
         let changes = changes.map(|((raw, new), old)| (*new - *raw, *old, *raw));
         let relative = self.ensemble.tolerance;
         let change = error_norm(changes, Tolerance { relative, absolute });
-        for (k, alive) in alive.iter_mut().enumerate() {
-            *alive &= change.lane(k) <= PROJECTION_LIMIT;
+        for (k, running) in members.running(&alive.clone()) {
+            let [new, raw, old] = [new, &self.raw, old].map(|y| lane(y, k));
+            let near = change.lane(k) <= PROJECTION_LIMIT;
+            alive[k] = near || running.is_near(&new, &raw, &old);
         }
         members.alive = alive;
     }

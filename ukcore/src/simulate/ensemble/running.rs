@@ -3,7 +3,7 @@
 use super::Member;
 use crate::error::Error;
 use crate::integrate::sample::Sample;
-use crate::integrate::{Course, Settings, StepSize, Trial};
+use crate::integrate::{Course, PROJECTION_LIMIT, Settings, StepSize, Trial, error_norm};
 use crate::simulate::Simulation;
 use crate::simulate::record::Recorder;
 use crate::solver::SolverWork;
@@ -57,6 +57,16 @@ impl Running {
         let result = self.recorder.project(t, q, v);
         let noted = result.map_err(|error| self.note(Sample::of(t, &raw), error));
         noted.is_ok()
+    }
+
+    /// Whether a projection of `raw` to `new` is small without what rounding makes of it.
+    pub(super) fn is_near(&mut self, new: &[f64], raw: &[f64], old: &[f64]) -> bool {
+        let Sample { t, q, v } = Sample::of(self.trial.end.t, raw);
+        let mut excess: Vec<f64> = new.iter().zip(raw).map(|(new, raw)| new - raw).collect();
+        self.recorder.projector.excess(t, q, v, &mut excess);
+        let changes = excess.iter().zip(old).zip(raw);
+        let changes = changes.map(|((excess, old), raw)| (*excess, *old, *raw));
+        error_norm(changes, self.settings.tolerance) <= PROJECTION_LIMIT
     }
 
     /// Whether a sample lies within the step in hand.

@@ -1,0 +1,249 @@
+//! Prescribed motions: rows that imply each other and contain the time, and times so late, or so fast a motion, that rounding of the time is more than
+//! the error that is asked for.
+
+use ukcore::{Error, Mechanism, Method, Prepared, Simulation, State, Trajectory, assemble};
+
+macro_rules! driven {
+    ($($(#[$doc:meta])* $name:ident($($coordinate:ident),+) { $($sections:tt)+ })+) => {
+        $(ukcore::multibody! {
+            $(#[$doc])*
+            $name {
+                params { a = 1.0, w = 1.0, k = 1.0 }
+                coords { $($coordinate),+ }
+                mass { $($coordinate: 1.0),+ }
+                let now = a * sin(w * t);
+                $($sections)+
+            }
+        })+
+    };
+}
+
+driven! {
+    /// Nothing redundant.
+    Alone(x) { holonomic { on: x = now } }
+    Squared(x) { holonomic { on: x = now, again: k * sq(x + 2 * a) = k * sq(now + 2 * a) } }
+    SquaredFirst(x) { holonomic { again: k * sq(x + 2 * a) = k * sq(now + 2 * a), on: x = now } }
+    /// The square's gradient vanishes where x does.
+    Vanishing(x) { holonomic { on: x = now, again: k * sq(x) = k * sq(now) } }
+    Exponential(x) { holonomic { on: x = now, again: k * exp(x / a) = k * exp(sin(w * t)) } }
+    Thrice(x) {
+        holonomic { on: x = now, again: k * sq(x + 2 * a) = k * sq(now + 2 * a), third: (x + 3 * a).powi(3) = (now + 3 * a).powi(3) }
+    }
+    Circle(x, y) { holonomic { on: x = now, up: y = a * cos(w * t), again: k * (sq(x) + sq(y)) = k * sq(a) } }
+    Product(x, y) { holonomic { on: x = now, up: y = a * (1 + sq(sin(w * t))), again: k * x * y = k * now * a * (1 + sq(sin(w * t))) } }
+    Rates(x) { holonomic { on: x = now } nonholonomic { again: k * sq(dot(x) + 2 * a * w) = k * sq(a * w * cos(w * t) + 2 * a * w) } }
+    /// Comes apart with the third power of the time.
+    Apart(x) { holonomic { on: x = now, again: k * sq(x + 2 * a) = k * sq(now + 2 * a + 1e-3 * a * (w * t).powi(3)) } }
+}
+
+/// What happened, without its time.
+fn cause(error: Error) -> Error {
+    match error {
+        Error::At { source, .. } => *source,
+        error => error,
+    }
+}
+
+fn run(mechanism: &Prepared, method: Method, span: f64) -> Result<Trajectory, Error> {
+    let n = mechanism.spec().n();
+    let (a, w) = (mechanism.get("a")?, mechanism.get("w")?);
+    let state = |first: f64, second: f64| [first, second][..n].to_vec();
+    let guess = State {
+        t: 0.0,
+        q: state(0.0, a),
+        v: state(a * w, 0.0),
+    };
+    let start = assemble(mechanism, guess, &[])?;
+    let run = Simulation::new(mechanism)
+        .start(start)
+        .method(method)
+        .until(span / w);
+    run.map_err(|failure| cause(failure.error))
+}
+
+/// All amplitudes, frequencies and scales of the redundant row.
+fn each<M: Mechanism + Default>(check: impl Fn(&str, &Prepared, Method)) {
+    for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
+        for (a, w) in [
+            (1.0, 1.0),
+            (1.0, 1e3),
+            (1e-6, 50.0),
+            (1e6, 1e-3),
+            (1e-9, 1.0),
+        ] {
+            for k in [1.0, 1e-6, 1e6] {
+                let mut mechanism: Prepared = M::default().prepared();
+                for (name, value) in [("a", a), ("w", w), ("k", k)] {
+                    mechanism.set(name, value).expect("declared");
+                }
+                let place = format!(
+                    "{} a = {a:e}, w = {w:e}, k = {k:e} by {method}",
+                    M::SPEC.name
+                );
+                check(&place, &mechanism, method);
+            }
+        }
+    }
+}
+
+fn as_alone<M: Mechanism + Default>() {
+    each::<M>(|place, mechanism, method| {
+        let mut alone: Prepared = Alone::default().prepared();
+        let (a, w) = (
+            mechanism.get("a").expect("declared"),
+            mechanism.get("w").expect("declared"),
+        );
+        alone.set("a", a).expect("declared");
+        alone.set("w", w).expect("declared");
+        let alone = run(&alone, method, 4.0).unwrap_or_else(|e| panic!("{place}, alone: {e}"));
+        let found = run(mechanism, method, 4.0).unwrap_or_else(|e| panic!("{place}: {e}"));
+        let last = found.last().expect("it has an end");
+        let (x, v) = (a * (w * last.t).sin(), a * w * (w * last.t).cos());
+        assert!((last.q[0] - x).abs() <= 1e-13 * a, "{place}: {last:?}");
+        assert!((last.v[0] - v).abs() <= 1e-12 * a * w, "{place}: {last:?}");
+        // Off the constraints redundant rows disagree, so stages are not exact as those of x = f(t) are; but no more than that.
+        let (steps, expected) = (found.work().steps, alone.work().steps);
+        assert!(
+            steps <= 4 * expected + 40,
+            "{place}: {steps} steps for {expected}"
+        );
+    });
+}
+
+#[test]
+fn redundant_rows_in_time_cost_little() {
+    as_alone::<Squared>();
+    as_alone::<SquaredFirst>();
+    as_alone::<Vanishing>();
+    as_alone::<Exponential>();
+    as_alone::<Thrice>();
+    as_alone::<Circle>();
+    as_alone::<Product>();
+    as_alone::<Rates>();
+}
+
+#[test]
+fn rows_that_come_apart_are_named() {
+    each::<Apart>(|place, mechanism, method| {
+        let error = run(mechanism, method, 4.0).expect_err(place);
+        let (Error::Inconsistent { constraints } | Error::OffConstraint { constraints, .. }) =
+            &error
+        else {
+            panic!("{place}: {error}");
+        };
+        let names: Vec<&str> = constraints.iter().map(|(name, _)| name.as_str()).collect();
+        assert!(
+            names.contains(&"on") && names.contains(&"again"),
+            "{place}: {error}"
+        );
+    });
+}
+
+ukcore::multibody! {
+    /// A pendulum on a shaking pivot, upright.
+    Shaken {
+        params { a = 0.1, w = 100.0, l = 1.0, g = 9.81 }
+        coords { s, x, y }
+        mass { s: 1, x: 1, y: 1 }
+        potential { g * y }
+        holonomic { pivot: s = a * cos(w * t), rod: sq(x) + sq(y - s) = sq(l) }
+    }
+}
+
+ukcore::multibody! {
+    /// A slide that jumps, in place or velocity.
+    Jumps {
+        params { h = 0.0, r = 0.0, at = 0.5 }
+        coords { x }
+        mass { x: 1 }
+        holonomic { slide: x = h * sign(t - at) + r * abs(t - at) }
+    }
+}
+
+/// From t0, or with the frequency `w` for as many turns, at the tolerance.
+fn shaken(t0: f64, w: f64, tolerance: f64, method: Method) -> Trajectory {
+    // A whole number of turns from t = 0, as nearly as there is one.
+    let turn = 2.0 * std::f64::consts::PI / w;
+    let t = (t0 / turn).round() * turn;
+    let mechanism = Shaken {
+        w,
+        a: 10.0 / w,
+        ..Shaken::default()
+    };
+    let guess = State {
+        t,
+        q: vec![10.0 / w, 0.1, 1.1],
+        v: vec![0.0; 3],
+    };
+    let start = assemble(&mechanism, guess, &["x"]).expect("on a circle");
+    let run = Simulation::new(&mechanism)
+        .start(start)
+        .tolerance(tolerance)
+        .method(method);
+    run.until(t + 100.0 / w)
+        .unwrap_or_else(|e| panic!("from {t0:e} at {w:e} to {tolerance:e}: {e}"))
+}
+
+#[test]
+fn rounding_of_the_time_is_no_jump() {
+    for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
+        for (t0, w) in [
+            (0.0, 100.0),
+            (1e3, 100.0),
+            (1e6, 100.0),
+            (3e7, 100.0),
+            (1.0, 1e9),
+            (1e-3, 1e12),
+            (-1e6, 100.0),
+        ] {
+            let (expected, found) = (shaken(0.0, w, 1e-9, method), shaken(t0, w, 1e-9, method));
+            let pair = [&expected, &found].map(|run| run.last().expect("it has an end"));
+            // Rounding of the phase, and what the motion makes of it.
+            let bound = 1e-7 + 1e3 * f64::EPSILON * t0.abs() * w;
+            let off = |a: &[f64], b: &[f64]| {
+                a.iter()
+                    .zip(b)
+                    .fold(0.0, |s: f64, (a, b)| s.max((a - b).abs()))
+            };
+            let (q, v) = (off(pair[0].q, pair[1].q), off(pair[0].v, pair[1].v) / 10.0);
+            assert!(
+                q <= bound && v <= bound,
+                "{method} from {t0:e}, w = {w:e}: {q:e}, {v:e}"
+            );
+        }
+        assert!(
+            shaken(0.0, 100.0, 3e-14, method)
+                .residuals()
+                .iter()
+                .all(|r| r.largest() < 1e-11)
+        );
+    }
+}
+
+#[test]
+fn jumps_are_named_early_and_late() {
+    for (t0, tolerance) in [(0.0, 1e-9), (0.0, 1e-13), (1e3, 1e-9), (1e6, 1e-6)] {
+        for (h, r) in [(0.1, 0.0), (0.0, 0.1), (1e-3, 0.0)] {
+            let mechanism = Jumps { h, r, at: t0 + 0.5 };
+            let start = assemble(
+                &mechanism,
+                State {
+                    t: t0,
+                    q: vec![0.0],
+                    v: vec![0.0],
+                },
+                &[],
+            )
+            .expect("one row");
+            let run = Simulation::new(&mechanism)
+                .start(start)
+                .tolerance(tolerance)
+                .until(t0 + 1.0);
+            let error = cause(run.expect_err("it jumps").error);
+            assert!(
+                matches!(&error, Error::Jump { constraints, .. } if constraints[0].0 == "slide"),
+                "{t0:e} {h} {r}: {error}"
+            );
+        }
+    }
+}
