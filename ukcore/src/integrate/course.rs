@@ -118,13 +118,12 @@ impl Course {
     ///
     /// # Errors
     /// [`Error::TooManySteps`], [`Error::Chattering`] where the run would use up its steps without getting on; [`Error::StepTooSmall`] where
-    /// the step would be lost in rounding, [`Error::InvalidSetting`] where the end of the run is to blame.
+    /// it stands still, or the step would be lost in rounding; [`Error::InvalidSetting`] where the end of the run is to blame.
     pub(crate) fn plan(&mut self, goal: Option<Trial>) -> Result<Trial, Error> {
-        let left = self.end.t - self.now.t;
-        if self.attempts >= self.settings.max_steps || self.pace.hopeless(left) {
+        let used_up = self.attempts >= self.settings.max_steps;
+        if let Some(error) = self.pace.verdict(used_up, self.end.s - self.now.s) {
             self.trouble = None;
-            let steps = self.settings.max_steps;
-            return Err(self.pace.explain(Error::TooManySteps { steps }));
+            return Err(error);
         }
         let trial = match goal {
             Some(goal) => goal,
@@ -157,7 +156,7 @@ impl Course {
         let step = self.h.abs();
         let chosen = self.attempts == 0 && self.settings.first_step.is_none();
         if !(chosen && step > 0.0 && step < f64::EPSILON * self.end.s.abs()) {
-            return Error::StepTooSmall { step };
+            return Error::too_small(step);
         }
         let t = self.end.t;
         let reason = format!(
@@ -221,11 +220,11 @@ impl Course {
         trial: Trial,
         states: impl FnOnce() -> [Y; 2],
     ) {
-        if self.pace.watches() {
-            let [old, new] = states();
-            let time = trial.end.t - self.now.t;
-            self.pace.step(time, old.as_ref(), new.as_ref());
-        }
+        let largest = self
+            .settings
+            .max_step
+            .is_some_and(|most| trial.h.abs() >= most);
+        self.pace.step(trial.h, largest, states);
         self.conflict.pass(self.now.t, trial.end.t);
         self.now = trial.end;
         self.steps += 1;

@@ -61,7 +61,10 @@ impl Run<'_> {
             Outcome::Reached => trajectory.ending = Ending::Completed,
             // It was told why.
             Outcome::Stopped => {}
-            Outcome::Failed(trouble) => return Err(trouble.into_error()),
+            Outcome::Failed(trouble) => {
+                let mechanism = trajectory.mechanism();
+                return Err(obstacles::explain(mechanism, settings.tolerance, trouble));
+            }
         }
         Ok(())
     }
