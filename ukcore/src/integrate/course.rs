@@ -79,6 +79,11 @@ impl Course {
         }
     }
 
+    /// Attempted steps.
+    pub(crate) fn attempts(&self) -> usize {
+        self.attempts
+    }
+
     /// Attempted steps that were not accepted.
     pub(crate) fn rejected(&self) -> usize {
         self.attempts - self.steps

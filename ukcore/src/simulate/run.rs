@@ -57,6 +57,7 @@ impl Run<'_> {
         work.rejected = report.rejected;
         work.factorisations = report.factorisations;
         work.switches = report.landings;
+        work.rounded = report.rounded;
         match report.outcome {
             Outcome::Reached => trajectory.ending = Ending::Completed,
             // It was told why.
