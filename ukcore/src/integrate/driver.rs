@@ -25,7 +25,7 @@ const TIGHT: f64 = 1e-11;
 const SELDOM: usize = 1000;
 
 /// Most that the stages of a step make of the rounding of one of them in the estimate of its error.
-const STAGES: f64 = 4.0;
+const STAGES: f64 = 1.5;
 
 /// Why an attempted step is not accepted.
 enum Refusal {

@@ -133,16 +133,6 @@ impl Switches {
         self.doubt = (0..self.values.len()).any(|k| outside(k) && !self.targets.contains(&k));
     }
 
-    /// Follows all switches again where the step in hand was outside of a branch; returns whether it was.
-    pub(super) fn release(&mut self, problem: &mut dyn Problem) -> bool {
-        if self.doubt {
-            for k in 0..self.branches.len() {
-                self.set(problem, k, Branch::Followed);
-            }
-        }
-        std::mem::take(&mut self.doubt)
-    }
-
     /// Whether the step may have left its branches, which ends at this state.
     pub(super) fn suspect(&mut self, problem: &mut dyn Problem, at: Sample<'_>) -> bool {
         self.look(problem, at);

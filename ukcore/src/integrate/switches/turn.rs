@@ -22,8 +22,12 @@ impl<'p> Equations<'p> {
 
     /// Follows all switches again where the step in hand was outside of a branch; returns whether it was.
     pub(in crate::integrate) fn release(&mut self) -> bool {
-        let (all, problem) = self.parts();
-        all.release(problem)
+        let doubt = std::mem::take(&mut self.switches.doubt);
+        if doubt {
+            let all: Vec<usize> = (0..self.switches.branches.len()).collect();
+            self.set_branch(&all, Branch::Followed);
+        }
+        doubt
     }
 
     /// Chooses branches at the start of a run. A function that is zero there goes where it moves; returns these.
