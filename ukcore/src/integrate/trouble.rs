@@ -30,9 +30,7 @@ impl Trouble {
 
     /// The error with its place.
     pub(crate) fn into_error(self) -> Error {
-        let State { t, q, v } = self.state;
-        let source = Box::new(self.error);
-        Error::At { t, q, v, source }
+        Sample::from(&self.state).locate(self.error)
     }
 }
 
