@@ -132,7 +132,8 @@ pub enum Error {
     },
     /// The number of steps allowed was used up.
     #[error(
-        "{steps} steps were not enough; raise `max_steps` or loosen the tolerance; where forces are stiff, soften them or take `Method::Radau5`"
+        "{steps} steps were not enough; raise `max_steps` or loosen the tolerance; where forces are stiff, soften them or take \
+         `Method::Radau5`"
     )]
     TooManySteps {
         /// The number.

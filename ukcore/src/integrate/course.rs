@@ -109,7 +109,12 @@ impl Course {
 
     /// The step of size `h` from here; `None` where it would be lost in rounding.
     pub(crate) fn step(&self, h: f64) -> Option<Trial> {
-        let (start, end, last) = (self.now, self.place(self.now.s + h), false);
+        self.towards(self.place(self.now.s + h), h, false)
+    }
+
+    /// The step of size `h` from here to `end`; `None` where it would be lost in rounding.
+    fn towards(&self, end: Place, h: f64, last: bool) -> Option<Trial> {
+        let start = self.now;
         let moves = end.t != start.t && self.is_before(start.s, end.s);
         moves.then_some(Trial {
             start,
@@ -122,8 +127,8 @@ impl Course {
     /// The step to be tried next: `goal` if there is one, else one of the proposed size.
     ///
     /// # Errors
-    /// [`Error::TooManySteps`], [`Error::Chattering`] where the run would use up its steps without getting on; [`Error::StepTooSmall`] where
-    /// it stands still, or the step would be lost in rounding; [`Error::InvalidSetting`] where the end of the run is to blame.
+    /// [`Error::TooManySteps`], [`Error::Chattering`] where the run would use up its steps without getting on; [`Error::StepTooSmall`]
+    /// where it stands still, or the step would be lost in rounding; [`Error::InvalidSetting`] where the end of the run is to blame.
     pub(crate) fn plan(&mut self, goal: Option<Trial>) -> Result<Trial, Error> {
         let used_up = self.attempts >= self.settings.max_steps;
         if let Some(error) = self.pace.verdict(used_up, self.end.s - self.now.s) {
@@ -140,21 +145,16 @@ impl Course {
 
     /// The step of the proposed size; `None` where it would be lost in rounding.
     fn proposed(&self) -> Option<Trial> {
-        let (h, start) = (self.h, self.now);
-        let last = self.is_before(self.end.s, start.s + (1.0 + LAST) * h);
+        let s = self.now.s;
+        let last = self.is_before(self.end.s, s + (1.0 + LAST) * self.h);
         let (h, end) = match last {
-            true => (self.end.s - start.s, self.end),
-            false => (h, self.place(start.s + h)),
+            true => (self.end.s - s, self.end),
+            false => (self.h, self.place(s + self.h)),
         };
         // The proposed size counts, not what is left to the end.
-        let lost = 0.1 * self.h.abs() <= start.s.abs() * f64::EPSILON
-            || h.abs() < SHORTEST * self.end.s.abs();
-        (!lost && end.t != start.t).then_some(Trial {
-            start,
-            end,
-            h,
-            last,
-        })
+        let shortest = SHORTEST * self.end.s.abs();
+        let lost = 0.1 * self.h.abs() <= s.abs() * f64::EPSILON || h.abs() < shortest;
+        self.towards(end, h, last).filter(|_| !lost)
     }
 
     fn no_step(&self) -> Error {

@@ -95,7 +95,8 @@ pub(super) fn jump(solver: &mut Solver, at: Sample<'_>, t_old: f64) -> Option<Er
     (weakest <= RANK_CEILING).then(|| singular(solver, RANK_CEILING))
 }
 
-/// The error of a run with this tolerance that ends with `trouble`; where its steps became too small, with the acceleration that has them so.
+/// The error of a run with this tolerance that ends with `trouble`; where its steps became too small, with the acceleration that has
+/// them so.
 pub(super) fn explain(mechanism: &Prepared, tolerance: Tolerance, mut trouble: Trouble) -> Error {
     if let Error::StepTooSmall { fastest, .. } = &mut trouble.error {
         let State { t, q, v } = &trouble.state;
