@@ -84,6 +84,32 @@ fn members_move_as_they_do_alone() {
 }
 
 #[test]
+fn samples_of_members_that_go_backward_are_those_of_runs_that_do() {
+    let mut random = Random::new(3);
+    let mut member = || {
+        let mechanism: Pendulum = random.parameters(0.1);
+        let state = random.consistent_state(&mechanism, 0.1);
+        (mechanism, State { t: 2.0, ..state })
+    };
+    let members: Vec<_> = (0..9).map(|_| member()).collect();
+    // Several in one step, and start and end among them.
+    let times = vec![2.0, 1.999, 1.998, 1.997, 1.5, 0.7, 0.1, -1.0];
+    let results = Ensemble::new(members.clone()).at(times.clone()).until(-1.0);
+    for ((mechanism, start), result) in members.into_iter().zip(results) {
+        let member = result.expect("it swings");
+        let run = Simulation::new(&mechanism).start(start).at(times.clone());
+        let run = run.until(-1.0).expect("it swings");
+        let found: Vec<f64> = member.samples.iter().map(|s| s.t).collect();
+        assert_eq!((&found[..], run.times()), (&times[..], &times[..]));
+        for (found, expected) in member.samples.iter().zip(run.samples()) {
+            assert_all_close("q", &found.q, expected.q, 1e-8);
+            assert_all_close("v", &found.v, expected.v, 1e-7);
+        }
+        assert_eq!(member.samples.last(), Some(&member.end));
+    }
+}
+
+#[test]
 fn a_result_depends_on_neither_neighbours_nor_threads() {
     struct Company;
     impl Check for Company {

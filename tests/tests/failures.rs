@@ -158,6 +158,117 @@ fn friction_that_brings_to_rest_is_named_with_the_remedy() {
 }
 
 ukcore::multibody! {
+    /// A point that is drawn to the origin or driven away from it, beside a swing that goes on whatever the point does.
+    pub Singular {
+        params { pull = 0.0, push = 0.0 }
+        coords { swing, x }
+        mass { swing: 1.0, x: 1.0 }
+        force { swing: -swing, x: push * x.powi(3) - pull / x.powi(3) }
+    }
+}
+
+#[test]
+fn a_motion_that_ends_in_finite_time_ends_there_and_names_its_acceleration() {
+    // From rest at a: x² = a² − t²/a² under the pull; under the push x = a / cn(a t) with modulus 1/√2, which ends at K(1/√2) / a.
+    let quarter = 1.854_074_677_301_372;
+    for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
+        for short in [1.0_f64, 1e-3, 1e-6, 1e-8] {
+            let by_pull = (1.0, 0.0, short, short * short);
+            let by_push = (0.0, 1.0, short.recip(), quarter * short);
+            for (pull, push, size, end) in [by_pull, by_push] {
+                for sign in [1.0, -1.0] {
+                    let start = State {
+                        t: 0.0,
+                        q: vec![1.0, size],
+                        v: vec![0.0; 2],
+                    };
+                    let run = Simulation::new(Singular { pull, push }).start(start);
+                    let run = run.method(method).max_steps(20_000);
+                    let failure = run.until(sign * 10.0).unwrap_err();
+                    let (t, error) = place(&failure);
+                    assert!((sign * t - end).abs() < 1e-6 * end, "{method}: {t}, {end}");
+                    let Error::StepTooSmall { step, fastest } = error else {
+                        panic!("{method}, {size}: {error}");
+                    };
+                    assert!(*step > 0.0 && *step < 1e-14 * end, "{step}");
+                    let (name, acceleration) = fastest.as_ref().expect("it has one");
+                    let expected = (push - pull) * f64::INFINITY;
+                    assert_eq!(
+                        (name.as_str(), acceleration * f64::INFINITY),
+                        ("x", expected)
+                    );
+                    assert!(
+                        acceleration.abs() > 1e6 * size / (end * end),
+                        "{acceleration}"
+                    );
+                    assert!(
+                        failure.to_string().contains("`x` accelerates by"),
+                        "{failure}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// A planet.
+    pub Orbit {
+        params { k = 1.0 }
+        coords { x, y }
+        mass { x: 1.0, y: 1.0 }
+        potential { -k / sqrt(sq(x) + sq(y)) }
+    }
+}
+
+#[test]
+fn a_motion_too_fast_for_its_run_is_given_up_before_all_steps_are_used_up() {
+    for sign in [1.0, -1.0] {
+        let run = |turns: f64, max_steps: usize| {
+            let radius = 1e-8_f64;
+            let start = State {
+                t: 0.0,
+                q: vec![radius, 0.0],
+                v: vec![0.0, radius.sqrt().recip()],
+            };
+            let run = Simulation::new(Orbit::default()).start(start).at(vec![]);
+            let period = std::f64::consts::TAU * radius.powf(1.5);
+            run.max_steps(max_steps).until(sign * turns * period)
+        };
+        let failure = run(1e12, 10_000_000).unwrap_err();
+        let (_, error) = place(&failure);
+        let Error::StepTooSmall { step, fastest } = error else {
+            panic!("{error}");
+        };
+        assert!((1e-14..1e-12).contains(step), "{step}");
+        assert!(fastest.as_ref().is_some_and(|(_, a)| a.abs() > 1e15));
+        assert_eq!(failure.trajectory.work().steps, 100_000);
+        // Few steps are used up; a run that gets on ends, however short its steps are.
+        let failure = run(1e12, 1_000).unwrap_err();
+        let (_, error) = place(&failure);
+        assert_eq!(*error, Error::TooManySteps { steps: 1_000 });
+        assert!(failure.to_string().contains("Radau5"), "{failure}");
+        assert!(run(100.0, 10_000_000).is_ok());
+    }
+}
+
+#[test]
+fn steps_kept_short_on_purpose_do_not_chatter() {
+    for max_step in [1e-8, 1e-6] {
+        let start = State {
+            t: 0.0,
+            q: vec![0.0; 2],
+            v: vec![1.0, 0.0],
+        };
+        let run = Simulation::new(Block::default()).start(start);
+        let run = run.max_step(max_step).max_steps(1000);
+        let failure = run.until(0.1).unwrap_err();
+        let (_, error) = place(&failure);
+        assert_eq!(*error, Error::TooManySteps { steps: 1000 });
+    }
+}
+
+ukcore::multibody! {
     /// A carriage whose prescribed place, or velocity, jumps at t = 1/2.
     pub Carriage {
         params { place = 0.0, velocity = 0.0 }

@@ -191,3 +191,47 @@ fn strong_drag_is_followed_through_constraints_and_a_singular_mass_matrix() {
     let residuals = implicit.residuals();
     assert!(residuals.iter().all(|r| r.largest() < 1e-12));
 }
+
+ukcore::multibody! {
+    /// A body on a hard spring, one metre from the origin: its coordinate is rounded, and the spring makes forces of that.
+    pub Hung {
+        params { k = 1e8 }
+        coords { x }
+        mass { x: 1.0 }
+        potential { 0.5 * k * sq(x - 1.0) }
+    }
+}
+
+#[test]
+fn a_tolerance_below_the_rounding_of_forces_is_told_and_not_refined_past() {
+    for k in [1e8_f64, 1e10] {
+        for sign in [1.0, -1.0] {
+            let (frequency, phase, swing) = (k.sqrt(), 1000.0, 1e-3);
+            let run = |tolerance: f64| {
+                let start = State {
+                    t: 0.0,
+                    q: vec![1.0 + swing],
+                    v: vec![0.0],
+                };
+                let run = Simulation::new(Hung { k }).start(start).at(Vec::new());
+                let run = run.tolerance(tolerance).until(sign * phase / frequency);
+                let run = run.expect("it swings");
+                let State { q, v, .. } = end(&run);
+                let position = q[0] - 1.0 - swing * phase.cos();
+                let velocity = v[0] / frequency + sign * swing * phase.sin();
+                (position.abs().max(velocity.abs()), run.work())
+            };
+            let (_, plain) = run(1e-9);
+            assert_eq!(plain.rounded, 0);
+            let (_, fine) = run(1e-12);
+            // ε of the coordinate at all times adds up to as much.
+            let rounding = f64::EPSILON * phase;
+            for tolerance in [1e-13, 1e-14, 3e-15] {
+                let (error, work) = run(tolerance);
+                assert!(error < rounding, "{k}, {tolerance}: {error}");
+                assert!(2 * work.evaluations < 3 * fine.evaluations, "{work:?}");
+                assert!(work.rounded > 100, "{work:?}");
+            }
+        }
+    }
+}

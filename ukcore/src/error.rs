@@ -124,15 +124,18 @@ pub enum Error {
         /// Names of the constraints, with their residual after the shortest step.
         constraints: Vec<(String, f64)>,
     },
-    /// The step size fell below rounding at time `t`.
-    #[error("{}", too_small(*step))]
+    /// Steps became so small that the run does not get on.
+    #[error("{}", too_small(*step, fastest.as_ref()))]
     StepTooSmall {
-        /// Step size.
+        /// Step size; 0 where no step was tried.
         step: f64,
+        /// The coordinate with the largest acceleration beside the error allowed in its velocity, and this acceleration, if there is one.
+        fastest: Option<(String, f64)>,
     },
     /// The number of steps allowed was used up.
     #[error(
-        "{steps} steps were not enough; raise `max_steps`, loosen the tolerance, or soften stiff forces"
+        "{steps} steps were not enough; raise `max_steps` or loosen the tolerance; where forces are stiff, soften them or take \
+         `Method::Radau5`"
     )]
     TooManySteps {
         /// The number.
@@ -171,6 +174,12 @@ pub enum Error {
 const MOST_LISTED: usize = 8;
 
 impl Error {
+    /// An [`Error::StepTooSmall`] of which no more is known.
+    pub(crate) fn too_small(step: f64) -> Self {
+        let fastest = None;
+        Error::StepTooSmall { step, fastest }
+    }
+
     /// An [`Error::UnknownName`] with `names`, and the nearest of them.
     pub fn unknown_name(
         kind: &'static str,
@@ -257,13 +266,21 @@ fn alternatives(nearest: Option<&str>, known: &[String]) -> String {
     }
 }
 
-fn too_small(step: f64) -> String {
-    if step == 0.0 {
-        return "no step from here succeeds, however small; the motion may have a singularity here, or masses or forces are out of all proportion".to_owned();
-    }
-    format!(
-        "the step size fell to {step:.1e}, below rounding; the motion may have a singularity here, or the tolerance is too tight"
-    )
+fn too_small(step: f64, fastest: Option<&(String, f64)>) -> String {
+    let (size, cause) = match step {
+        0.0 => (
+            "no step from here succeeds, however small".to_owned(),
+            "or masses or forces are out of all proportion",
+        ),
+        _ => (
+            format!("steps fell to {step:.1e}, with which the run does not get on"),
+            "the tolerance be too tight, or forces so stiff that they take `Method::Radau5`",
+        ),
+    };
+    let fastest = fastest.map_or(String::new(), |(name, acceleration)| {
+        format!("; `{name}` accelerates by {acceleration:.1e}")
+    });
+    format!("{size}{fastest}; the motion may have a singularity here, {cause}")
 }
 
 /// As `Display`: `main` prints the error it returns by `Debug`.

@@ -131,6 +131,9 @@ impl Simulation {
 
     /// Tolerance of each step, relative to each coordinate and velocity; from [`SMALLEST_TOLERANCE`] to below 1. The
     /// [absolute](Simulation::absolute_tolerance) one follows it. RATTLE does not look at it.
+    ///
+    /// Hard springs make forces of the rounding of coordinates. In a long run by an explicit method with a tolerance below that, steps
+    /// are not refined past it, and [`Work::rounded`] counts them.
     #[must_use]
     pub fn tolerance(mut self, tolerance: f64) -> Self {
         self.tolerance = tolerance;

@@ -39,10 +39,14 @@ pub struct Work {
     pub rejected: usize,
     /// Steps onto zeros of [switching functions](crate::spec::SwitchSpec), each of them cut from a longer one.
     pub switches: usize,
+    /// Accepted steps whose error is above the tolerance because it is rounding: an error of ε in each coordinate and velocity makes as
+    /// much of the accelerations. Where there are many, the tolerance is below what the forces' rounding allows, and is not met.
+    pub rounded: usize,
     /// Evaluations of the mechanism's dynamics, those for drift estimates near singular configurations included; those that come with the
     /// Jacobians of an implicit method are not.
     pub evaluations: usize,
-    /// Jacobians of the accelerations, for an implicit method. Each takes a sweep of dual numbers for each of its 2n columns.
+    /// Jacobians of the accelerations, for an implicit method or to measure rounding. Each takes a sweep of dual numbers for each of its
+    /// 2n columns.
     pub jacobians: usize,
     /// Factorisations of the matrices of an implicit method, real and complex counted as one.
     pub factorisations: usize,

@@ -90,6 +90,7 @@ impl Summary<'_> {
                 "steps": work.steps,
                 "rejected": work.rejected,
                 "switches": work.switches,
+                "rounded": work.rounded,
                 "evaluations": work.evaluations,
                 "jacobians": work.jacobians,
                 "factorisations": work.factorisations,
@@ -123,6 +124,13 @@ impl Summary<'_> {
         match drift.energy_drift {
             Some(drift) => writeln!(out, "Energy drift: {drift:.1e} of the energy exchanged")?,
             None => writeln!(out, "Energy is not conserved in this model")?,
+        }
+        if w.rounded > 0 {
+            let steps = count(w.rounded, "step");
+            writeln!(
+                out,
+                "Tolerance below rounding: the error of {steps} is rounding of the forces; a looser one costs less and is as exact"
+            )?;
         }
         let implicit = match (w.jacobians, w.factorisations) {
             (0, 0) => String::new(),

@@ -79,6 +79,11 @@ impl Course {
         }
     }
 
+    /// Attempted steps.
+    pub(crate) fn attempts(&self) -> usize {
+        self.attempts
+    }
+
     /// Attempted steps that were not accepted.
     pub(crate) fn rejected(&self) -> usize {
         self.attempts - self.steps
@@ -104,7 +109,12 @@ impl Course {
 
     /// The step of size `h` from here; `None` where it would be lost in rounding.
     pub(crate) fn step(&self, h: f64) -> Option<Trial> {
-        let (start, end, last) = (self.now, self.place(self.now.s + h), false);
+        self.towards(self.place(self.now.s + h), h, false)
+    }
+
+    /// The step of size `h` from here to `end`; `None` where it would be lost in rounding.
+    fn towards(&self, end: Place, h: f64, last: bool) -> Option<Trial> {
+        let start = self.now;
         let moves = end.t != start.t && self.is_before(start.s, end.s);
         moves.then_some(Trial {
             start,
@@ -117,14 +127,13 @@ impl Course {
     /// The step to be tried next: `goal` if there is one, else one of the proposed size.
     ///
     /// # Errors
-    /// [`Error::TooManySteps`], [`Error::Chattering`] where the run would use up its steps without getting on; [`Error::StepTooSmall`] where
-    /// the step would be lost in rounding, [`Error::InvalidSetting`] where the end of the run is to blame.
+    /// [`Error::TooManySteps`], [`Error::Chattering`] where the run would use up its steps without getting on; [`Error::StepTooSmall`]
+    /// where it stands still, or the step would be lost in rounding; [`Error::InvalidSetting`] where the end of the run is to blame.
     pub(crate) fn plan(&mut self, goal: Option<Trial>) -> Result<Trial, Error> {
-        let left = self.end.t - self.now.t;
-        if self.attempts >= self.settings.max_steps || self.pace.hopeless(left) {
+        let used_up = self.attempts >= self.settings.max_steps;
+        if let Some(error) = self.pace.verdict(used_up, self.end.s - self.now.s) {
             self.trouble = None;
-            let steps = self.settings.max_steps;
-            return Err(self.pace.explain(Error::TooManySteps { steps }));
+            return Err(error);
         }
         let trial = match goal {
             Some(goal) => goal,
@@ -136,28 +145,23 @@ impl Course {
 
     /// The step of the proposed size; `None` where it would be lost in rounding.
     fn proposed(&self) -> Option<Trial> {
-        let (h, start) = (self.h, self.now);
-        let last = self.is_before(self.end.s, start.s + (1.0 + LAST) * h);
+        let s = self.now.s;
+        let last = self.is_before(self.end.s, s + (1.0 + LAST) * self.h);
         let (h, end) = match last {
-            true => (self.end.s - start.s, self.end),
-            false => (h, self.place(start.s + h)),
+            true => (self.end.s - s, self.end),
+            false => (self.h, self.place(s + self.h)),
         };
         // The proposed size counts, not what is left to the end.
-        let lost = 0.1 * self.h.abs() <= start.s.abs() * f64::EPSILON
-            || h.abs() < SHORTEST * self.end.s.abs();
-        (!lost && end.t != start.t).then_some(Trial {
-            start,
-            end,
-            h,
-            last,
-        })
+        let shortest = SHORTEST * self.end.s.abs();
+        let lost = 0.1 * self.h.abs() <= s.abs() * f64::EPSILON || h.abs() < shortest;
+        self.towards(end, h, last).filter(|_| !lost)
     }
 
     fn no_step(&self) -> Error {
         let step = self.h.abs();
         let chosen = self.attempts == 0 && self.settings.first_step.is_none();
         if !(chosen && step > 0.0 && step < f64::EPSILON * self.end.s.abs()) {
-            return Error::StepTooSmall { step };
+            return Error::too_small(step);
         }
         let t = self.end.t;
         let reason = format!(
@@ -221,11 +225,11 @@ impl Course {
         trial: Trial,
         states: impl FnOnce() -> [Y; 2],
     ) {
-        if self.pace.watches() {
-            let [old, new] = states();
-            let time = trial.end.t - self.now.t;
-            self.pace.step(time, old.as_ref(), new.as_ref());
-        }
+        let largest = self
+            .settings
+            .max_step
+            .is_some_and(|most| trial.h.abs() >= most);
+        self.pace.step(trial.h, largest, states);
         self.conflict.pass(self.now.t, trial.end.t);
         self.now = trial.end;
         self.steps += 1;

@@ -18,6 +18,15 @@ use switching::Goal;
 
 mod switching;
 
+/// A tolerance above this is above the rounding of any but hopelessly stiff forces.
+const TIGHT: f64 = 1e-11;
+
+/// Attempts from one measurement of rounding to the next: it takes as many evaluations as some ten of them.
+const SELDOM: usize = 1000;
+
+/// Most that the stages of a step make of the rounding of one of them in the estimate of its error.
+const STAGES: f64 = 1.5;
+
 /// Why an attempted step is not accepted.
 enum Refusal {
     /// It could not be made.
@@ -38,9 +47,14 @@ struct Driver<'p> {
     raw: Vec<f64>,
     /// The step to be tried next, where it goes onto the zero of a switch.
     goal: Option<Goal>,
-    /// Steps that were good but left their branches; those onto zeros of switches.
+    /// Steps that were good but left their branches; those onto zeros of switches; those whose error is rounding.
     repeated: usize,
     landings: usize,
+    rounded: usize,
+    /// What rounding of a state makes of velocities in a unit of time, in the error norm; when it was measured, if a method is of the kind
+    /// that needs it.
+    noise: f64,
+    measured: Option<usize>,
 }
 
 impl Method {
@@ -54,13 +68,14 @@ impl Method {
         settings: &Settings,
     ) -> Report {
         let tolerance = settings.tolerance;
-        let explicit = |stepper| {
+        let explicit = matches!(self, Method::Dop853 | Method::Dopri5);
+        let by_stepper = |stepper| {
             let size = StepSize::default();
             Box::new(Explicit { stepper, size })
         };
         let scheme: Box<dyn Scheme> = match self {
-            Method::Dop853 => explicit(Stepper::dop853(y0.to_vec(), tolerance)),
-            Method::Dopri5 => explicit(Stepper::dopri5(y0.to_vec(), tolerance)),
+            Method::Dop853 => by_stepper(Stepper::dop853(y0.to_vec(), tolerance)),
+            Method::Dopri5 => by_stepper(Stepper::dopri5(y0.to_vec(), tolerance)),
             Method::Radau5 => Box::new(Radau::new(y0, tolerance)),
             Method::Rattle { step } => Box::new(Rattle::new(y0, step, t_end - t0)),
         };
@@ -81,6 +96,9 @@ impl Method {
             goal: None,
             repeated: 0,
             landings: 0,
+            rounded: 0,
+            noise: 0.0,
+            measured: (explicit && tolerance.relative <= TIGHT).then_some(0),
         };
         let outcome = driver.run();
         let (scheme, course) = (driver.scheme, &mut driver.equations.course);
@@ -92,6 +110,7 @@ impl Method {
             steps: course.steps,
             rejected: course.rejected() - driver.repeated,
             landings: driver.landings,
+            rounded: driver.rounded,
             factorisations: scheme.factorisations(),
         }
     }
@@ -142,7 +161,10 @@ impl Driver<'_> {
         let h = trial.h;
         let (next, cause) = match refusal {
             Refusal::Leaves(leaving, error) => return self.follow(leaving, trial, whole(error)),
-            Refusal::Inaccurate(error) => (self.scheme.inaccurate(h, error), None),
+            Refusal::Inaccurate(error) => {
+                self.measure();
+                (self.scheme.inaccurate(h, error), None)
+            }
             // Beyond a zero there may be no value in the branch held.
             Refusal::Stage(Some(_)) | Refusal::End(Some(_)) if self.equations.release() => {
                 (h, None)
@@ -158,17 +180,45 @@ impl Driver<'_> {
     /// Tries a step, and moves to its end if it is good. Returns its error.
     fn attempt(&mut self, trial: Trial) -> Result<(Next, f64), Refusal> {
         self.equations.switches.begin();
+        // What is left of an error above the tolerance when it is rounding: a shorter step would have as much of it in the same time.
+        let rounding = f64::max(1.0, self.noise * trial.h.abs());
         let error = self.scheme.attempt(&mut self.equations, trial);
-        let early = small(error.map_err(Refusal::Stage)?)?;
+        let early = small(error.map_err(Refusal::Stage)? / rounding)?;
         self.project(trial.end.t)?;
         let error = self.scheme.close(&mut self.equations, trial);
-        let late = small(error.map_err(Refusal::End)?)?;
+        let late = small(error.map_err(Refusal::End)? / rounding)?;
         let error = early.max(late);
         let interpolated = self.stay(trial, error)?;
         let next = self.show(trial, interpolated)?;
         (self.equations.course).advance(trial, || self.scheme.states());
         self.scheme.advance();
+        self.rounded += usize::from(error * rounding > 1.0);
         Ok((next, error))
+    }
+
+    /// Measures the rounding of accelerations, now and then: what an error of ε in each coordinate and velocity makes of them.
+    fn measure(&mut self) {
+        let Equations { course, .. } = &self.equations;
+        let (s, attempts) = (course.now.s, course.attempts());
+        if self.measured.is_none_or(|last| attempts < last + SELDOM) {
+            return;
+        }
+        self.measured = Some(attempts);
+        let y = self.scheme.start();
+        let n = y.len() / 2;
+        let (mut acceleration, mut jacobian) = (vec![0.0; n], vec![0.0; 2 * n * n]);
+        let measured = (self.equations).jacobian(s, y, &mut acceleration, &mut jacobian);
+        if measured.is_err() {
+            return;
+        }
+        let mut rounding = vec![0.0; n];
+        for (column, y) in jacobian.chunks_exact(n).zip(y) {
+            let pairs = rounding.iter_mut().zip(column);
+            pairs.for_each(|(rounding, slope)| *rounding += f64::EPSILON * (slope * y).abs());
+        }
+        let still = y[..n].iter().map(|q| (0.0, *q, *q));
+        let moved = rounding.iter().zip(&y[n..]).map(|(x, v)| (*x, *v, *v));
+        self.noise = STAGES * error_norm(still.chain(moved), self.settings.tolerance);
     }
 
     /// Projects the new state. Refuses if that fails or the change says that the step was a bad one.

@@ -241,4 +241,6 @@ pub(crate) struct Report {
     pub(crate) factorisations: usize,
     /// Steps that went onto zeros of switches.
     pub(crate) landings: usize,
+    /// Accepted steps whose error is above the tolerance, but is rounding.
+    pub(crate) rounded: usize,
 }

@@ -41,8 +41,8 @@ impl Equations<'_> {
         result.map_err(|error| self.course.note(at, error))
     }
 
-    /// [`Problem::jacobian`] at (s, y), with q̈ into `acceleration` and 0 for derivatives that do not exist: iterations that use it go on as
-    /// well as they can without.
+    /// [`Problem::jacobian`] at (s, y), with q̈ into `acceleration` and 0 for derivatives that do not exist: iterations that use it go on
+    /// as well as they can without.
     pub(super) fn jacobian(
         &mut self,
         s: f64,

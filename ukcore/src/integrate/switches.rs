@@ -77,46 +77,6 @@ impl Switches {
         self.branches[k].sign() * (g - self.levels[k])
     }
 
-    /// From now on y' is that of `branch` of switch k, whatever the sign of its function.
-    fn set(&mut self, problem: &mut dyn Problem, k: usize, branch: Branch) {
-        self.branches[k] = branch;
-        problem.set_branch(k, branch);
-    }
-
-    /// Puts switch k into the other branch.
-    fn flip(&mut self, problem: &mut dyn Problem, k: usize) {
-        let other = match self.branches[k] {
-            Branch::Followed => Branch::Followed,
-            Branch::Negative => Branch::Positive,
-            Branch::Positive => Branch::Negative,
-        };
-        self.set(problem, k, other);
-        self.levels[k] = 0.0;
-    }
-
-    /// Puts each switch into the branch of its value at the start of a run; returns those that are zero, which are followed.
-    fn start(&mut self, problem: &mut dyn Problem, at: Sample<'_>) -> Vec<usize> {
-        if self.is_empty() {
-            return Vec::new();
-        }
-        problem.switching(at, &mut self.values);
-        for k in 0..self.branches.len() {
-            self.adopt(problem, k);
-        }
-        let zero = |k: &usize| self.branches[*k] == Branch::Followed;
-        (0..self.branches.len()).filter(zero).collect()
-    }
-
-    /// Puts switch k into the branch of its value, unless that is zero.
-    fn adopt(&mut self, problem: &mut dyn Problem, k: usize) {
-        let g = self.values[k];
-        if g > 0.0 {
-            self.set(problem, k, Branch::Positive);
-        } else if g < 0.0 {
-            self.set(problem, k, Branch::Negative);
-        }
-    }
-
     /// A step is to be tried.
     pub(super) fn begin(&mut self) {
         self.doubt = false;
@@ -131,16 +91,6 @@ impl Switches {
         problem.switching(at, &mut self.values);
         let outside = |k: usize| self.inside(k, self.values[k]) < 0.0;
         self.doubt = (0..self.values.len()).any(|k| outside(k) && !self.targets.contains(&k));
-    }
-
-    /// Follows all switches again where the step in hand was outside of a branch; returns whether it was.
-    pub(super) fn release(&mut self, problem: &mut dyn Problem) -> bool {
-        if self.doubt {
-            for k in 0..self.branches.len() {
-                self.set(problem, k, Branch::Followed);
-            }
-        }
-        std::mem::take(&mut self.doubt)
     }
 
     /// Whether the step may have left its branches, which ends at this state.
@@ -212,23 +162,5 @@ impl Switches {
         }
         (self.state, self.values) = (state, values);
         found
-    }
-
-    /// The run has got to this state.
-    fn arrive(&mut self, problem: &mut dyn Problem, at: Sample<'_>) {
-        if self.is_empty() {
-            return;
-        }
-        problem.switching(at, &mut self.values);
-        for k in 0..self.branches.len() {
-            let g = self.values[k];
-            if self.branches[k] == Branch::Followed {
-                self.adopt(problem, k);
-            } else if g * self.branches[k].sign() > 0.0 {
-                self.levels[k] = 0.0;
-            } else if self.inside(k, g) < 0.0 {
-                self.levels[k] = g;
-            }
-        }
     }
 }

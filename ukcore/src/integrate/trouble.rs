@@ -30,9 +30,7 @@ impl Trouble {
 
     /// The error with its place.
     pub(crate) fn into_error(self) -> Error {
-        let State { t, q, v } = self.state;
-        let source = Box::new(self.error);
-        Error::At { t, q, v, source }
+        Sample::from(&self.state).locate(self.error)
     }
 }
 
@@ -103,7 +101,7 @@ impl Conflict {
     }
 }
 
-/// So many steps decide whether a run is chattering: well below a second of computing.
+/// So many steps decide whether a run gets on: well below a second of computing.
 const WINDOW: usize = 100_000;
 
 /// Steps fewer than this say nothing of the pace.
@@ -114,20 +112,26 @@ const FEW: usize = 100;
 /// many thousands of tolerances.
 const CHATTER: f64 = 100.0;
 
-/// Watches the steps where the equations contain sign, abs, min or max.
+/// A run with whose pace all steps allowed would cover less than this part of its way does not get on: no motion is known whose steps grow
+/// so much after so many.
+const STANDSTILL: f64 = 1e-6;
+
+/// Watches the pace of a run.
 ///
-/// Where the motion is driven back onto a switch from both sides, as at rest under dry friction, no step that crosses the switch is
-/// good until it is tiny, and the next one crosses it again; the run would use up its steps there without getting on.
+/// Where equations contain sign, abs, min or max, and the motion is driven back onto a switch from both sides, as at rest under dry
+/// friction, no step that crosses the switch is good until it is tiny, and the next one crosses it again; the run would use up its steps
+/// there without getting on.
 #[derive(Debug)]
 pub(crate) struct Pace {
-    /// All switches of the equations; nothing is watched if there are none.
+    /// All switches of the equations.
     switches: &'static [SwitchSpec],
     tolerance: Tolerance,
-    /// Steps still allowed, as far as accepted ones count.
+    /// Steps allowed, and still allowed as far as accepted ones count.
+    most: usize,
     left: usize,
-    /// Steps of the window in hand, the time they took, and the changes of the state in units of the tolerance.
+    /// Steps of the window in hand, the way they made, and the changes of the state in units of the tolerance.
     steps: usize,
-    time: f64,
+    way: f64,
     change: f64,
     /// Steps in a row that changed the state as little as chattering does, and the size of the last.
     slow: usize,
@@ -145,9 +149,10 @@ impl Pace {
         Pace {
             switches,
             tolerance,
+            most: max_steps,
             left: max_steps,
             steps: 0,
-            time: 0.0,
+            way: 0.0,
             change: 0.0,
             slow: 0,
             size: 0.0,
@@ -155,20 +160,26 @@ impl Pace {
         }
     }
 
-    /// Whether there is a switch to be watched.
-    pub(crate) fn watches(&self) -> bool {
-        !self.switches.is_empty()
-    }
-
-    /// An accepted step from `y_old` to `y` that took `time`.
-    pub(crate) fn step(&mut self, time: f64, y_old: &[f64], y: &[f64]) {
+    /// An accepted step of size `h` between two states, as large as it may be or less.
+    pub(crate) fn step<Y: AsRef<[f64]>>(
+        &mut self,
+        h: f64,
+        largest: bool,
+        states: impl FnOnce() -> [Y; 2],
+    ) {
         if self.steps == WINDOW {
-            (self.steps, self.time, self.change) = (0, 0.0, 0.0);
+            (self.steps, self.way, self.change) = (0, 0.0, 0.0);
         }
         self.steps += 1;
         self.left = self.left.saturating_sub(1);
-        self.time += time.abs();
-        let pairs = y_old.iter().zip(y);
+        self.way += h.abs();
+        if self.switches.is_empty() || largest {
+            self.change += CHATTER;
+            self.slow = 0;
+            return;
+        }
+        let [old, new] = states();
+        let pairs = old.as_ref().iter().zip(new.as_ref());
         let change = pairs.map(|(old, new)| (new - old, *old, *new));
         let change = error_norm(change, self.tolerance);
         self.change += change;
@@ -181,7 +192,7 @@ impl Pace {
                 self.crossed.fill(0);
             }
         }
-        self.size = time.abs();
+        self.size = h.abs();
     }
 
     /// Whether the last steps may have been about the zero of a length, as far as the state tells.
@@ -204,25 +215,24 @@ impl Pace {
         Ok(())
     }
 
-    /// Whether the steps of a window chatter, and too slowly to get over `remaining` time with the steps left.
-    pub(crate) fn hopeless(&self, remaining: f64) -> bool {
-        let reach = || self.time * (self.left as f64 / WINDOW as f64);
-        self.steps == WINDOW && self.chatters() && reach() < remaining.abs()
+    /// Why the run ends with `remaining` way to go: its steps are used up, or those of a window get on too slowly.
+    pub(crate) fn verdict(&self, used_up: bool, remaining: f64) -> Option<Error> {
+        let window = self.steps == WINDOW;
+        let reach = |steps: usize| self.way * (steps as f64 / WINDOW as f64) / remaining.abs();
+        let step = self.way / self.steps as f64;
+        if used_up || window && self.chatters() && reach(self.left) < 1.0 {
+            let steps = self.most;
+            return Some(match self.chatters() {
+                true => chattering(step, self.switches.iter()),
+                false => Error::TooManySteps { steps },
+            });
+        }
+        let stands = window && reach(self.most) < STANDSTILL;
+        stands.then_some(Error::too_small(step))
     }
 
     fn chatters(&self) -> bool {
         self.steps >= FEW && self.change < CHATTER * self.steps as f64
-    }
-
-    /// What to report of a run whose steps were used up, or that was given up.
-    pub(crate) fn explain(&self, error: Error) -> Error {
-        match error {
-            Error::TooManySteps { .. } if self.chatters() => {
-                let step = self.time / self.steps as f64;
-                chattering(step, self.switches.iter())
-            }
-            other => other,
-        }
     }
 
     /// The error of a motion that is driven onto the zeros of `switches` from both sides.
@@ -287,7 +297,7 @@ mod tests {
         let last = at(-2.0, one(1e-3));
         assert_eq!(conflict.explain(last.clone()), last);
         conflict.note(Sample::of(-2.5, &[0.0; 2]), &split(0.5));
-        let other = at(-2.0, Error::StepTooSmall { step: 1e-20 });
+        let other = at(-2.0, Error::too_small(1e-20));
         assert_eq!(conflict.explain(other.clone()), other);
     }
 }

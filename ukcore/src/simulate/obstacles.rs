@@ -1,13 +1,14 @@
-//! Where the constraints do not let a motion through: branches that meet, and jumps.
+//! Where a motion does not get through: branches of the constraints that meet, jumps, accelerations out of all proportion.
 
+use crate::assemble::State;
 use crate::diagnose;
 use crate::error::Error;
-use crate::integrate::Step;
 use crate::integrate::sample::Sample;
+use crate::integrate::{Step, Tolerance, Trouble};
 use crate::manifold::Projector;
-use crate::mechanism::Branch;
+use crate::mechanism::{Branch, Prepared};
 use crate::scan::largest;
-use crate::solver::{RANK_CEILING, Solver};
+use crate::solver::{RANK_CEILING, Solver, SolverOptions};
 
 /// Significance of a constraint, √ε, below which the state cannot tell on which side of a singular position it is.
 const SINGULAR: f64 = 1.5e-8;
@@ -92,4 +93,21 @@ pub(super) fn jump(solver: &mut Solver, at: Sample<'_>, t_old: f64) -> Option<Er
     let (q, v) = (&near_q, &near_v);
     let weakest = weakest_at(solver, Sample { t, q, v }).ok()?;
     (weakest <= RANK_CEILING).then(|| singular(solver, RANK_CEILING))
+}
+
+/// The error of a run with this tolerance that ends with `trouble`; where its steps became too small, with the acceleration that has
+/// them so.
+pub(super) fn explain(mechanism: &Prepared, tolerance: Tolerance, mut trouble: Trouble) -> Error {
+    if let Error::StepTooSmall { fastest, .. } = &mut trouble.error {
+        let State { t, q, v } = &trouble.state;
+        let mut acceleration = vec![0.0; q.len()];
+        let mut solver = Solver::new(mechanism, SolverOptions::default());
+        if solver.acceleration(*t, q, v, &mut acceleration).is_ok() {
+            let share = |i: &usize| acceleration[*i].abs() / tolerance.at(v[*i].abs());
+            let first = (0..q.len()).max_by(|i, j| share(i).total_cmp(&share(j)));
+            let name = |i: usize| mechanism.spec().coords[i].to_owned();
+            *fastest = first.map(|i| (name(i), acceleration[i]));
+        }
+    }
+    trouble.into_error()
 }

@@ -57,11 +57,15 @@ impl Run<'_> {
         work.rejected = report.rejected;
         work.factorisations = report.factorisations;
         work.switches = report.landings;
+        work.rounded = report.rounded;
         match report.outcome {
             Outcome::Reached => trajectory.ending = Ending::Completed,
             // It was told why.
             Outcome::Stopped => {}
-            Outcome::Failed(trouble) => return Err(trouble.into_error()),
+            Outcome::Failed(trouble) => {
+                let mechanism = trajectory.mechanism();
+                return Err(obstacles::explain(mechanism, settings.tolerance, trouble));
+            }
         }
         Ok(())
     }

@@ -30,7 +30,7 @@ impl Driver<'_> {
         self.equations.set_branch(switches, Branch::Followed);
         self.scheme.begin(&mut self.equations).map_err(|cause| {
             self.equations.course.blame(cause);
-            Error::StepTooSmall { step: 0.0 }
+            Error::too_small(0.0)
         })
     }
 

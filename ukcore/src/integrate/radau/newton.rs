@@ -7,6 +7,7 @@ use crate::integrate::course::Trial;
 use crate::integrate::scheme::Equations;
 use crate::integrate::trouble::Cause;
 use crate::lu::Lu;
+use crate::pinv::axpy;
 
 /// Most iterations.
 pub(super) const MOST: usize = 7;
@@ -137,16 +138,10 @@ impl Stages {
                 out.fill(0.0);
                 for (k, jacobian) in self.jacobians.iter().enumerate() {
                     let factor = h * row[k] * h * A[k][stage];
-                    let by_position = &jacobian[own * n..][..n];
-                    out.iter_mut()
-                        .zip(by_position)
-                        .for_each(|(x, q)| *x -= factor * q);
+                    axpy(-factor, &jacobian[own * n..][..n], out);
                 }
                 let by_velocity = &self.jacobians[stage][(n + own) * n..][..n];
-                let factor = h * row[stage];
-                out.iter_mut()
-                    .zip(by_velocity)
-                    .for_each(|(x, v)| *x -= factor * v);
+                axpy(-h * row[stage], by_velocity, out);
             }
             column[j] += 1.0;
         }
@@ -495,7 +490,7 @@ impl Newton {
         let (p, r) = out.split_at_mut(n);
         // q: E x = μ p + h μ² (r − ∂a/∂q̇ p); q̇: (x / μ − p) / h.
         for (p, column) in p.iter().zip(self.jacobian[n * n..].chunks_exact(n)) {
-            r.iter_mut().zip(column).for_each(|(r, j)| *r -= j * p);
+            axpy(-p, column, r);
         }
         let x = &mut self.change_real;
         for i in 0..n {

@@ -1,36 +1,74 @@
 //! Which branches a motion takes from a state where switching functions are zero.
 
-use super::Switches;
-use crate::integrate::Problem;
 use crate::integrate::scheme::Equations;
 use crate::mechanism::Branch;
 
 /// Switches whose functions the motion drives back to zero in either branch: no step leads away from there.
 pub(in crate::integrate) struct Stuck(pub(in crate::integrate) Vec<usize>);
 
-impl<'p> Equations<'p> {
-    /// The switches, with the problem that is told of their branches.
-    fn parts(&mut self) -> (&mut Switches, &mut (dyn Problem + 'p)) {
-        (&mut self.switches, &mut *self.problem)
+impl Equations<'_> {
+    /// From now on y' is that of `branch` of switch k, whatever the sign of its function.
+    fn set(&mut self, k: usize, branch: Branch) {
+        self.switches.branches[k] = branch;
+        self.problem.set_branch(k, branch);
     }
 
     /// Puts `switches` into `branch`.
     pub(in crate::integrate) fn set_branch(&mut self, switches: &[usize], branch: Branch) {
-        let (all, problem) = self.parts();
-        switches.iter().for_each(|k| all.set(problem, *k, branch));
+        switches.iter().for_each(|k| self.set(*k, branch));
+    }
+
+    /// Puts `switches` into their other branches.
+    fn flip(&mut self, switches: &[usize]) {
+        for k in switches {
+            let other = match self.switches.branches[*k] {
+                Branch::Followed => Branch::Followed,
+                Branch::Negative => Branch::Positive,
+                Branch::Positive => Branch::Negative,
+            };
+            self.set(*k, other);
+            self.switches.levels[*k] = 0.0;
+        }
+    }
+
+    /// The run has got to this state: each switch that is followed takes the branch of its value, unless that is zero, and what is beyond
+    /// the zero of another is from now on the zero to it.
+    fn settle(&mut self, y: &[f64]) {
+        let at = self.at(self.course.now.s, y);
+        if self.switches.is_empty() {
+            return;
+        }
+        self.problem.switching(at, &mut self.switches.values);
+        for k in 0..self.switches.values.len() {
+            let all = &mut self.switches;
+            let (g, branch) = (all.values[k], all.branches[k]);
+            match branch {
+                Branch::Followed if g > 0.0 => self.set(k, Branch::Positive),
+                Branch::Followed if g < 0.0 => self.set(k, Branch::Negative),
+                Branch::Followed => {}
+                _ if g * branch.sign() > 0.0 => all.levels[k] = 0.0,
+                _ if all.inside(k, g) < 0.0 => all.levels[k] = g,
+                _ => {}
+            }
+        }
     }
 
     /// Follows all switches again where the step in hand was outside of a branch; returns whether it was.
     pub(in crate::integrate) fn release(&mut self) -> bool {
-        let (all, problem) = self.parts();
-        all.release(problem)
+        let doubt = std::mem::take(&mut self.switches.doubt);
+        if doubt {
+            let all: Vec<usize> = (0..self.switches.branches.len()).collect();
+            self.set_branch(&all, Branch::Followed);
+        }
+        doubt
     }
 
     /// Chooses branches at the start of a run. A function that is zero there goes where it moves; returns these.
     pub(in crate::integrate) fn choose(&mut self, y: &[f64]) -> Result<Vec<usize>, Stuck> {
-        let at = self.at(self.course.now.s, y);
-        let (all, problem) = self.parts();
-        let zeros = all.start(problem, at);
+        self.settle(y);
+        let branches = self.switches.branches.iter().enumerate();
+        let zeros = branches.filter(|(_, branch)| **branch == Branch::Followed);
+        let zeros: Vec<usize> = zeros.map(|(k, _)| k).collect();
         self.set_branch(&zeros, Branch::Positive);
         let down = self.driven_out(&zeros, y);
         let rest = self.at_rest(&zeros, y);
@@ -48,11 +86,9 @@ impl<'p> Equations<'p> {
     /// A step has got to this state, where the switches that it went onto take their other branches, unless they are driven back; returns
     /// these.
     pub(in crate::integrate) fn arrive(&mut self, y: &[f64]) -> Result<Vec<usize>, Stuck> {
-        let at = self.at(self.course.now.s, y);
-        let (all, problem) = self.parts();
-        let targets = std::mem::take(&mut all.targets);
-        targets.iter().for_each(|k| all.flip(problem, *k));
-        all.arrive(problem, at);
+        let targets = std::mem::take(&mut self.switches.targets);
+        self.flip(&targets);
+        self.settle(y);
         if !targets.is_empty() {
             self.turn(&targets, y)?;
         }
@@ -70,10 +106,8 @@ impl<'p> Equations<'p> {
         if out.is_empty() {
             return Ok(false);
         }
-        let at = self.at(self.course.now.s, y);
-        let (all, problem) = self.parts();
-        out.iter().for_each(|k| all.flip(problem, *k));
-        all.arrive(problem, at);
+        self.flip(&out);
+        self.settle(y);
         let stuck = self.driven_out(&out, y);
         match stuck.is_empty() {
             true => Ok(true),
@@ -116,12 +150,12 @@ impl<'p> Equations<'p> {
         if switches.is_empty() || self.acceleration(s, y, &mut acceleration).is_err() {
             return Vec::new();
         }
-        let (all, problem) = self.parts();
-        let mut rates = vec![0.0; all.branches.len()];
-        problem.switching_rate(at, &acceleration, &mut rates);
+        let branches = &self.switches.branches;
+        let mut rates = vec![0.0; branches.len()];
+        self.problem.switching_rate(at, &acceleration, &mut rates);
         let found = switches.iter().copied();
         found
-            .filter(|k| which(*k, all.branches[*k], rates[*k]))
+            .filter(|k| which(*k, branches[*k], rates[*k]))
             .collect()
     }
 }

@@ -149,7 +149,7 @@ impl<'a> Group<'a> {
         let Ok(()) = self.stepper.begin(members, s, choose(&fresh));
         for (k, fresh) in fresh.iter().enumerate() {
             if *fresh && !self.members.alive[k] {
-                self.fail(k, Error::StepTooSmall { step: 0.0 });
+                self.fail(k, Error::too_small(0.0));
             }
         }
         let members = &mut self.members;

@@ -4,8 +4,8 @@ use super::Member;
 use crate::error::Error;
 use crate::integrate::sample::Sample;
 use crate::integrate::{Course, PROJECTION_LIMIT, Settings, StepSize, Trial, error_norm};
-use crate::simulate::Simulation;
 use crate::simulate::record::Recorder;
+use crate::simulate::{Simulation, obstacles};
 use crate::solver::SolverWork;
 
 /// A member under way.
@@ -85,7 +85,9 @@ impl Running {
     /// Why the member ends with `error` at the state `y`, where it stands.
     pub(super) fn fail(mut self, error: Error, y: &[f64]) -> Error {
         let here = Sample::of(self.course.now.t, y);
-        self.course.explain(error, here).into_error()
+        let trouble = self.course.explain(error, here);
+        let mechanism = self.recorder.trajectory.mechanism();
+        obstacles::explain(mechanism, self.settings.tolerance, trouble)
     }
 
     /// The motion of a member that has arrived at the state `y`, with what its lane has done for it.
