@@ -24,7 +24,7 @@ use crate::mechanism::Prepared;
 use crate::metric::MassFault;
 use crate::noise::Noise;
 use crate::saddle::Saddle;
-use crate::scan::all_finite;
+use crate::scan::{Size, all_finite};
 use crate::spec::Spec;
 
 mod rank;
@@ -526,7 +526,8 @@ impl Solver {
                 return Ok(());
             }
         }
-        self.noise.go(&self.mechanism, t, [q, v], [0.0; 2], &[]);
+        self.noise
+            .go(&self.mechanism, t, [q, v], [Size::new(0.0); 2], &[]);
         self.noise.motion(acceleration, &mut self.carried);
         if self.agrees(acceleration, tolerance) {
             return Ok(());

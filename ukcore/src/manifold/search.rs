@@ -7,7 +7,7 @@ use super::acceptance::Acceptance;
 use super::level::At;
 use super::newton::Newton;
 use crate::mechanism::Prepared;
-use crate::scan::extent;
+use crate::scan::Size;
 
 /// Steps at most from one guess. They converge quadratically at the end; a long chain laid out wrongly takes some tens of steps to unfold.
 const MAX_STEPS: usize = 200;
@@ -91,7 +91,7 @@ impl Manifold {
     /// end. Returns 0, or the sum of the squares of the scaled residuals where it is least.
     pub(crate) fn search(&mut self, at: &At<'_, f64>, guess: &[f64], x: &mut [f64]) -> f64 {
         let Acceptance { ease, held, .. } = &self.newton.acceptance;
-        let (rows, size, mut ease) = (at.rows(), extent(guess, ease), ease.clone());
+        let (rows, size, mut ease) = (at.rows(), Size::of(guess, ease), ease.clone());
         held.iter().for_each(|j| ease[*j] = 0.0);
         let (mut best, mut cost): (Option<Best>, f64) = (None, f64::INFINITY);
         let (mut damping, mut stalls) = (DAMPING, 0);
