@@ -100,7 +100,7 @@ impl Acceptance<f64> {
     pub(super) fn violated(&self, residuals: &[f64]) -> impl Iterator<Item = usize> {
         let bound = |c: usize| (STALLED * self.rounding[c]).max(ROUNDING * self.terms[c]);
         let residuals = residuals.iter().enumerate();
-        let violated = residuals.filter(move |(c, r)| !(r.abs() <= bound(*c)));
+        let violated = residuals.filter(move |(c, r)| r.is_nan() || r.abs() > bound(*c));
         violated.map(|(c, _)| c)
     }
 
