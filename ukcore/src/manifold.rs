@@ -154,8 +154,9 @@ impl Projector {
         self.manifold.reach(&at, q, shift)
     }
 
-    /// What a projection would change a state by if the constraints were met as nearly as rounding of time, coordinates and velocities lets it:
-    /// far from t = 0, or driven fast, that may be farther off than an error that is asked for. Leaves `change` alone where that is unknown.
+    /// What a projection would change a state by if the constraints were met as nearly as rounding of time, coordinates and velocities
+    /// lets it: far from t = 0, or driven fast, that may be farther off than an error that is asked for. Leaves `change` alone where that
+    /// is unknown.
     pub(crate) fn excess(&mut self, t: f64, q: &[f64], v: &[f64], change: &mut [f64]) {
         let levels = [(Level::Position, q, v), (Level::Velocity, v, q)];
         for ((level, x, other), change) in levels.into_iter().zip(change.chunks_mut(q.len())) {

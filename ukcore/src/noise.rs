@@ -5,9 +5,9 @@ use crate::mechanism::{Equations, Prepared};
 use crate::rounding::Rounded;
 use crate::scan::Size;
 
-/// The equations in numbers that add up their rounding, at a state whose time, coordinates and velocities are known to rounding. What they
-/// carry comes for each constraint, in units of ε: where coordinates are small beside the lengths in it, or terms cancel, it is far more than
-/// derivatives tell.
+/// The equations in numbers that add up their rounding, at a state whose time, coordinates and velocities are known to rounding. What
+/// they carry comes for each constraint, in units of ε: where coordinates are small beside the lengths in it, or terms cancel, it is far
+/// more than derivatives tell.
 #[derive(Debug, Clone)]
 pub(crate) struct Noise {
     mechanism: Prepared<Rounded, dyn Equations<Rounded>>,
@@ -32,8 +32,8 @@ impl Noise {
         }
     }
 
-    /// Goes to a state of `mechanism`, which has its parameters, taken to be exact, and held branches. Its coordinates and velocities are known
-    /// to rounding of the sizes `least`, where they are less themselves.
+    /// Goes to a state of `mechanism`, which has its parameters, taken to be exact, and held branches. Its coordinates and velocities are
+    /// known to rounding of the sizes `least`, where they are less themselves.
     pub(crate) fn go(
         &mut self,
         mechanism: &Prepared,
@@ -69,7 +69,8 @@ impl Noise {
         bounds(&self.rows, out);
     }
 
-    /// Puts zeros in place of the rows of A that are less than `share` ε of their rounding in all coordinates but those `held`.
+    /// Puts zeros in place of the rows of A that are less than `share` of their rounding, in units of ε, in all coordinates but those
+    /// `held`.
     pub(crate) fn clear(&mut self, jacobian: &mut [f64], share: f64, held: &[usize]) {
         self.terms
             .dynamics(&self.mechanism, self.t, &self.q, &self.v);

@@ -7,9 +7,9 @@ use crate::scan::Size;
 /// one for q, one or two for the evaluation of φ.
 pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// Where no step makes it less, a residual will do if it does not exceed this many ε of max|A_ij| max|q_j|, or of the rounding that
-/// evaluating it carries where that is more: terms that cancel, or constraints that nearly lose rank, can keep it above [`ROUNDING`].
-/// Lengths of links among coordinates thirty times as large still hold to 1e-12.
+/// Where no step makes it less, a residual will do if it does not exceed this many ε of the rounding that evaluating it carries, where
+/// coordinates are known to rounding of the largest of them: terms that cancel, or constraints that nearly lose rank, can keep it above
+/// [`ROUNDING`]. Lengths of links among coordinates thirty times as large still hold to 1e-12.
 pub(super) const STALLED: f64 = 64.0 * f64::EPSILON;
 
 /// The largest coordinate counts into the size of every constraint's terms with this share: a coordinate that the constraints put

@@ -207,9 +207,9 @@ impl<L: Lanes> Newton<L> {
 }
 
 impl Newton<f64> {
-    /// Takes what rounding the residuals at `x` carry, of which A is known: coordinates are known to rounding of `size`, or of what is larger of
-    /// the others. Constraints that imply each other, which factors know, share theirs; in assembly a row of A that is nothing but rounding,
-    /// where a rod has no length, say, has no direction.
+    /// Takes what rounding the residuals at `x` carry, of which A is known: coordinates are known to rounding of `size`, or of what is
+    /// larger of the others. Constraints that imply each other, which factors know, share theirs; in assembly a row of A that is nothing
+    /// but rounding, where a rod has no length, say, has no direction.
     pub(super) fn measure(
         &mut self,
         at: &At<'_, f64>,

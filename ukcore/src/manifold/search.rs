@@ -81,8 +81,8 @@ impl Manifold {
         manifold
     }
 
-    /// Moves `x`, which is at or near `guess`, onto the constraints from far off, by Levenberg and Marquardt's method, and by projection in the
-    /// end. Returns 0, or the sum of the squares of the scaled residuals where it is least.
+    /// Moves `x`, which is at or near `guess`, onto the constraints from far off, by Levenberg and Marquardt's method, and by projection
+    /// in the end. Returns 0, or the sum of the squares of the scaled residuals where it is least.
     pub(crate) fn search(&mut self, at: &At<'_, f64>, guess: &[f64], x: &mut [f64]) -> f64 {
         let Acceptance { ease, held, .. } = &self.newton.acceptance;
         let (rows, size, mut ease) = (at.rows(), Size::of(guess, ease), ease.clone());
