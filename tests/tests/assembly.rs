@@ -1,5 +1,5 @@
-//! Assembly of random mechanisms whose consistent states are known by construction: zeros in coordinates, velocities and parameters, lengths of
-//! any unit, rows of any scale, rows that others imply.
+//! Assembly of random mechanisms whose consistent states are known by construction: zeros in coordinates, velocities and parameters,
+//! lengths of any unit, rows of any scale, rows that others imply.
 
 use std::fmt::Debug;
 use tests::Random;
@@ -18,7 +18,8 @@ ukcore::multibody! {
             for i in 0..3 {
                 row[i]: s[i] * f(i, x[0] / l[0], x[1] / l[1], x[2] / l[2], x[3] / l[3]) = s[i] * (f(i, p[0], p[1], p[2], p[3]) + now)
             }
-            again: s[3] * sq(f(0, x[0] / l[0], x[1] / l[1], x[2] / l[2], x[3] / l[3]) + 3) = s[3] * sq(f(0, p[0], p[1], p[2], p[3]) + now + 3)
+            again: s[3] * sq(f(0, x[0] / l[0], x[1] / l[1], x[2] / l[2], x[3] / l[3]) + 3)
+                = s[3] * sq(f(0, p[0], p[1], p[2], p[3]) + now + 3)
         }
     }
 }
@@ -270,8 +271,8 @@ fn worst<M: Mechanism>(known: &Known<M>, found: &State) -> f64 {
     })
 }
 
-/// The least singular value of A at the known place, in units of the coordinates and of the rows: where it is 0 rounding of the lengths may leave no
-/// state at all, and where it is small, none within a guess that is farther off.
+/// The least singular value of A at the known place, in units of the coordinates and of the rows: where it is 0 rounding of the lengths
+/// may leave no state at all, and where it is small, none within a guess that is farther off.
 fn regularity<M: Mechanism>(mechanism: &M, state: &State, lengths: &[f64]) -> f64 {
     let (n, m) = (M::SPEC.n(), M::SPEC.m());
     let mut a = vec![0.0; n * m];
@@ -537,13 +538,14 @@ fn hunt(seeds: std::ops::Range<u64>) -> [Found; 7] {
 
 #[test]
 fn random_mechanisms_with_zeros() {
-    for found in hunt(0..60) {
+    for found in hunt(0..24) {
         assert_eq!((found.silent, found.refused), (0, 0), "{found:?}");
         assert!(found.assembled > 40, "{found:?}");
     }
 }
 
-/// The same over as many seeds as one has patience for: `HUNT=100000 cargo test --release -p tests hunt_for_assembly -- --ignored --nocapture`.
+/// The same over as many seeds as one has patience for:
+/// `HUNT=100000 cargo test --release -p tests hunt_for_assembly -- --ignored --nocapture`.
 #[test]
 #[ignore = "a hunt over many seeds"]
 fn hunt_for_assembly() {

@@ -1,5 +1,5 @@
-//! Prescribed motions: rows that imply each other and contain the time, and times so late, or so fast a motion, that rounding of the time is more than
-//! the error that is asked for.
+//! Prescribed motions: rows that imply each other and contain the time, and times so late, or so fast a motion, that rounding of the time
+//! is more than the error that is asked for.
 
 use ukcore::{Error, Mechanism, Method, Prepared, Simulation, State, Trajectory, assemble};
 

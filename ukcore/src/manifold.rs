@@ -15,7 +15,7 @@ use crate::error::Error;
 use crate::mechanism::Prepared;
 use crate::noise::Noise;
 use crate::numbers::full;
-use crate::scan::{all_finite, largest_difference};
+use crate::scan::{Size, all_finite, largest_difference};
 use crate::solver::Baumgarte;
 
 mod acceptance;
@@ -154,8 +154,9 @@ impl Projector {
         self.manifold.reach(&at, q, shift)
     }
 
-    /// What a projection would change a state by if the constraints were met as nearly as rounding of time, coordinates and velocities lets it:
-    /// far from t = 0, or driven fast, that may be farther off than an error that is asked for. Leaves `change` alone where that is unknown.
+    /// What a projection would change a state by if the constraints were met as nearly as rounding of time, coordinates and velocities
+    /// lets it: far from t = 0, or driven fast, that may be farther off than an error that is asked for. Leaves `change` alone where that
+    /// is unknown.
     pub(crate) fn excess(&mut self, t: f64, q: &[f64], v: &[f64], change: &mut [f64]) {
         let levels = [(Level::Position, q, v), (Level::Velocity, v, q)];
         for ((level, x, other), change) in levels.into_iter().zip(change.chunks_mut(q.len())) {
@@ -170,7 +171,7 @@ impl Projector {
         let at = At::new(&self.mechanism, Level::Position, t, v);
         let newton = &mut self.manifold.newton;
         newton.weigh(&at, q);
-        newton.rounding(&at, q, &mut self.manifold.noise, [0.0; 2]);
+        newton.rounding(&at, q, &mut self.manifold.noise, [Size::new(0.0); 2]);
         newton.acceptance.length(at.rows())
     }
 
@@ -285,7 +286,7 @@ impl Manifold {
     fn excess(&mut self, at: &At<'_, f64>, x: &[f64], change: &mut [f64]) {
         let newton = &mut self.newton;
         newton.evaluate(at, x);
-        newton.rounding(at, x, &mut self.noise, [0.0; 2]);
+        newton.rounding(at, x, &mut self.noise, [Size::new(0.0); 2]);
         newton.acceptance.clear(&mut newton.residual[..at.rows()]);
         if at.rows() > 0 && self.factors.step(at, x, newton, &mut false).is_ok() {
             change.copy_from_slice(&newton.step);
@@ -319,7 +320,7 @@ impl Manifold {
     }
 
     /// Takes residuals, A and sizes at `x`, where coordinates that are zero are measured by `size`. Whether x is on the constraints.
-    fn meets(&mut self, at: &At<'_, f64>, x: &[f64], size: f64) -> bool {
+    fn meets(&mut self, at: &At<'_, f64>, x: &[f64], size: Size<f64>) -> bool {
         self.newton.acceptance.size = size;
         self.newton.evaluate(at, x);
         self.accept(at, x, false)
@@ -327,7 +328,7 @@ impl Manifold {
 
     /// Why `x` is not on the constraints.
     pub(crate) fn refusal(&mut self, at: &At<'_, f64>, x: &[f64]) -> Error {
-        self.meets(at, x, 0.0);
+        self.meets(at, x, Size::new(0.0));
         self.error(at, x)
     }
 }

@@ -2,10 +2,11 @@
 
 use crate::mechanism::{Equations, Evaluated, Prepared};
 use crate::rounding::Rounded;
+use crate::scan::Size;
 
-/// The equations in numbers that add up their rounding, at a state whose time, coordinates and velocities are known to rounding. What they
-/// carry comes for each constraint, in units of ε: where coordinates are small beside the lengths in it, or terms cancel, it is far more than
-/// derivatives tell.
+/// The equations in numbers that add up their rounding, at a state whose time, coordinates and velocities are known to rounding. What
+/// they carry comes for each constraint, in units of ε: where coordinates are small beside the lengths in it, or terms cancel, it is far
+/// more than derivatives tell.
 #[derive(Debug, Clone)]
 pub(crate) struct Noise {
     mechanism: Prepared<Rounded, dyn Equations<Rounded>>,
@@ -30,14 +31,14 @@ impl Noise {
         }
     }
 
-    /// Goes to a state of `mechanism`, which has its parameters, taken to be exact, and held branches. Its coordinates and velocities are known
-    /// to rounding of the sizes `least`, in units of `ease`, where they are less themselves.
+    /// Goes to a state of `mechanism`, which has its parameters, taken to be exact, and held branches. Its coordinates and velocities are
+    /// known to rounding of the sizes `least`, where they are less themselves.
     pub(crate) fn go(
         &mut self,
         mechanism: &Prepared,
         t: f64,
         state: [&[f64]; 2],
-        least: [f64; 2],
+        least: [Size<f64>; 2],
         ease: &[f64],
     ) {
         let given = mechanism.parameters().iter();
@@ -47,8 +48,7 @@ impl Noise {
         self.t = Rounded::unknown(t);
         for ((rounded, x), least) in [&mut self.q, &mut self.v].into_iter().zip(state).zip(least) {
             for (j, (rounded, x)) in rounded.iter_mut().zip(x).enumerate() {
-                let ease = ease.get(j).unwrap_or(&1.0);
-                *rounded = Rounded::within(*x, least * ease);
+                *rounded = Rounded::within(*x, least.least(ease, j));
             }
         }
     }
@@ -68,7 +68,8 @@ impl Noise {
         bounds(&self.rows, out);
     }
 
-    /// Puts zeros in place of the rows of A that are less than `share` ε of their rounding in all coordinates but those `held`.
+    /// Puts zeros in place of the rows of A that are less than `share` of their rounding, in units of ε, in all coordinates but those
+    /// `held`.
     pub(crate) fn clear(&mut self, jacobian: &mut [f64], share: f64, held: &[usize]) {
         self.terms
             .dynamics(&self.mechanism, self.t, &self.q, &self.v);

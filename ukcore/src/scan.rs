@@ -24,14 +24,44 @@ pub(crate) fn largest<S: Scalar>(x: &[S]) -> S {
     reduce(x, x, |x, _| x.abs(), |s, x| x.larger(s))
 }
 
-/// max|x_j| / ease_j, where coordinates move as readily as `ease` says. Where that is not known, `ease` is empty, and all count alike.
-pub(crate) fn extent<S: Scalar>(x: &[S], ease: &[f64]) -> S {
-    if ease.is_empty() {
-        return largest(x);
+/// What coordinates are measured by that are zero themselves: the others.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Size<S> {
+    /// max|x|.
+    pub(crate) largest: S,
+    /// max|x_j| / ease_j, where coordinates move as readily as `ease` says; the same where that is not known, and `ease` is empty.
+    even: S,
+}
+
+impl<S: Scalar> Size<S> {
+    pub(crate) const fn new(size: S) -> Self {
+        let (largest, even) = (size, size);
+        Size { largest, even }
     }
-    let pairs = x.iter().zip(ease);
-    let sizes = pairs.map(|(x, ease)| x.abs() / S::from_f64(*ease));
-    sizes.fold(S::from_f64(0.0), |s, x| x.larger(s))
+
+    pub(crate) fn of(x: &[S], ease: &[f64]) -> Self {
+        let mut size = Size::new(largest(x));
+        if !ease.is_empty() {
+            let sizes = x.iter().zip(ease).map(|(x, e)| x.abs() / S::from_f64(*e));
+            size.even = sizes.fold(S::from_f64(0.0), |s, x| x.larger(s));
+        }
+        size
+    }
+
+    pub(crate) fn larger(self, other: Self) -> Self {
+        Size {
+            largest: self.largest.larger(other.largest),
+            even: self.even.larger(other.even),
+        }
+    }
+
+    /// Of coordinate j. Inertia that vanishes at a place, as that of a quaternion does, makes none larger than all others.
+    pub(crate) fn least(self, ease: &[f64], j: usize) -> S {
+        match ease.get(j) {
+            Some(ease) => (S::from_f64(*ease) * self.even).min(self.largest),
+            None => self.largest,
+        }
+    }
 }
 
 /// max|x − y|, 0 of none. Passes over NaN in an `f64`.

@@ -24,7 +24,7 @@ use crate::mechanism::{Evaluated, Prepared};
 use crate::metric::MassFault;
 use crate::noise::Noise;
 use crate::saddle::Saddle;
-use crate::scan::all_finite;
+use crate::scan::{Size, all_finite};
 use crate::spec::Spec;
 
 mod rank;
@@ -526,7 +526,8 @@ impl Solver {
                 return Ok(());
             }
         }
-        self.noise.go(&self.mechanism, t, [q, v], [0.0; 2], &[]);
+        self.noise
+            .go(&self.mechanism, t, [q, v], [Size::new(0.0); 2], &[]);
         self.noise.motion(acceleration, &mut self.carried);
         if self.agrees(acceleration, tolerance) {
             return Ok(());
@@ -549,11 +550,11 @@ impl Solver {
             |c: usize| self.rhs[c].abs() + a.magnitude(c, acceleration) + a.magnitude(c, free);
         let largest = (0..m).map(|c| scale[c] * size(c)).fold(0.0, f64::max);
         let rounding = DRIFT_FACTOR * tolerance.min(RANK_CEILING) * largest;
-        for c in 0..m {
+        for (c, scale) in scale.iter().enumerate() {
             let finite = |x: f64| if x.is_finite() { x } else { 0.0 };
             // Both the size of the terms that b is made of, which may cancel, and in units of ε their rounding.
             let carried = finite(self.carried[c]);
-            let most = RANK_CEILING * carried.max(largest / scale[c]);
+            let most = RANK_CEILING * carried.max(largest / scale);
             let drift = finite(self.drift.explains(a, &self.rhs, c, acceleration));
             self.granted[c] =
                 (DRIFT_FACTOR * drift).min(most) + DRIFT_FACTOR * f64::EPSILON * carried;

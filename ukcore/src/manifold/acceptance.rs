@@ -1,14 +1,15 @@
 //! What counts as zero.
 
 use crate::lanes::Lanes;
+use crate::scan::Size;
 
 /// A residual is at rounding level if it does not exceed this many ε of the size Σ|A_ij q_j| of what q's own rounding contributes:
 /// one for q, one or two for the evaluation of φ.
 pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// Where no step makes it less, a residual will do if it does not exceed this many ε of max|A_ij| max|q_j|, or of the rounding that
-/// evaluating it carries where that is more: terms that cancel, or constraints that nearly lose rank, can keep it above [`ROUNDING`].
-/// Lengths of links among coordinates thirty times as large still hold to 1e-12.
+/// Where no step makes it less, a residual will do if it does not exceed this many ε of the rounding that evaluating it carries, where
+/// coordinates are known to rounding of the largest of them: terms that cancel, or constraints that nearly lose rank, can keep it above
+/// [`ROUNDING`]. Lengths of links among coordinates thirty times as large still hold to 1e-12.
 pub(super) const STALLED: f64 = 64.0 * f64::EPSILON;
 
 /// The largest coordinate counts into the size of every constraint's terms with this share: a coordinate that the constraints put
@@ -23,11 +24,11 @@ pub(crate) struct Acceptance<L> {
     pub(super) ease: Vec<f64>,
     /// Coordinates that do not move at all.
     pub(super) held: Vec<usize>,
-    /// max|x_j| / ease_j where the search began: what coordinates that are zero themselves are measured by.
-    pub(super) size: L,
-    /// Σ|A_cj| (|x_j| + [`NEIGHBOUR`] ease_j size).
+    /// What coordinates that are zero themselves are measured by: x where the search began.
+    pub(super) size: Size<L>,
+    /// Σ|A_cj| (|x_j| + [`NEIGHBOUR`] size).
     terms: Vec<L>,
-    /// max|A_cj| ease_j.
+    /// max|A_cj|.
     largest: Vec<L>,
     /// What rounding the evaluation of each residual carries, in units of ε.
     pub(super) rounding: Vec<f64>,
@@ -40,7 +41,7 @@ impl<L: Lanes> Acceptance<L> {
         Acceptance {
             ease: Vec::new(),
             held: Vec::new(),
-            size: zero,
+            size: Size::new(zero),
             terms: vec![zero; m],
             largest: vec![zero; m],
             rounding: vec![0.0; m],
@@ -50,14 +51,13 @@ impl<L: Lanes> Acceptance<L> {
     /// Takes the sizes at `x`, where A has the entries `jacobian`.
     pub(super) fn weigh(&mut self, pattern: &[(usize, usize)], jacobian: &[L], x: &[L]) {
         let (m, zero) = (self.terms.len(), L::from_f64(0.0));
-        let (one, least) = (L::from_f64(1.0), L::from_f64(NEIGHBOUR) * self.size);
         self.terms.fill(zero);
         self.largest.fill(zero);
         for &(c, j) in pattern {
-            let ease = self.ease.get(j).map_or(one, |ease| L::from_f64(*ease));
+            let least = L::from_f64(NEIGHBOUR) * self.size.least(&self.ease, j);
             let entry = jacobian[j * m + c].abs();
-            self.terms[c] = self.terms[c] + entry * (x[j].abs() + ease * least);
-            self.largest[c] = (entry * ease).larger(self.largest[c]);
+            self.terms[c] = self.terms[c] + entry * (x[j].abs() + least);
+            self.largest[c] = entry.larger(self.largest[c]);
         }
     }
 
@@ -100,7 +100,7 @@ impl Acceptance<f64> {
     pub(super) fn violated(&self, residuals: &[f64]) -> impl Iterator<Item = usize> {
         let bound = |c: usize| (STALLED * self.rounding[c]).max(ROUNDING * self.terms[c]);
         let residuals = residuals.iter().enumerate();
-        let violated = residuals.filter(move |(c, r)| !(r.abs() <= bound(*c)));
+        let violated = residuals.filter(move |(c, r)| r.is_nan() || r.abs() > bound(*c));
         violated.map(|(c, _)| c)
     }
 

@@ -5,7 +5,7 @@ use super::level::{At, Level};
 use crate::dense::Dense;
 use crate::lanes::Lanes;
 use crate::noise::Noise;
-use crate::scan::{excess, extent, largest, sum};
+use crate::scan::{Size, excess, largest, sum};
 use crate::spec::Spec;
 
 /// Buffers of the method: what is known at a place, and the step from there.
@@ -85,7 +85,7 @@ impl<L: Lanes> Newton<L> {
         mut look: impl FnMut(&mut Self, &[L], L) -> (L, L),
     ) -> (L, L) {
         let (mut good, mut count, half) = (zero(), zero(), L::from_f64(0.5));
-        self.acceptance.size = extent(x, &self.acceptance.ease);
+        self.acceptance.size = Size::of(x, &self.acceptance.ease);
         loop {
             self.evaluate(at, x);
             let (met, go) = look(self, x, left);
@@ -127,7 +127,7 @@ impl<L: Lanes> Newton<L> {
             // What is not finite makes the certificate NaN.
             let safe = make(newton, x) + zero::<L>() * sum(&newton.step);
             let go = le(half, safe, left - met);
-            let (change, size) = (largest(&newton.step), newton.acceptance.size);
+            let (change, size) = (largest(&newton.step), newton.acceptance.size.largest);
             let least = L::from_f64(if exact { 0.0 } else { NEIGHBOUR }) * size;
             let falls = le(change, L::from_f64(progress) * previous, go);
             let small = le(change, rounding * size, go);
@@ -207,9 +207,9 @@ impl<L: Lanes> Newton<L> {
 }
 
 impl Newton<f64> {
-    /// Takes what rounding the residuals at `x` carry, of which A is known: coordinates are known to rounding of `size`, or of what is larger of
-    /// the others. Constraints that imply each other, which factors know, share theirs; in assembly a row of A that is nothing but rounding,
-    /// where a rod has no length, say, has no direction.
+    /// Takes what rounding the residuals at `x` carry, of which A is known: coordinates are known to rounding of `size`, or of what is
+    /// larger of the others. Constraints that imply each other, which factors know, share theirs; in assembly a row of A that is nothing
+    /// but rounding, where a rod has no length, say, has no direction.
     pub(super) fn measure(
         &mut self,
         at: &At<'_, f64>,
@@ -218,9 +218,8 @@ impl Newton<f64> {
         factors: Option<&mut Dense>,
     ) {
         let Acceptance { ease, size, .. } = &self.acceptance;
-        let least = at
-            .level
-            .state(size.max(extent(x, ease)), extent(at.other, ease));
+        let size = size.larger(Size::of(x, ease));
+        let least = at.level.state(size, Size::of(at.other, ease));
         self.rounding(at, x, noise, least.into());
         let Acceptance {
             ease,
@@ -242,7 +241,7 @@ impl Newton<f64> {
         at: &At<'_, f64>,
         x: &[f64],
         noise: &mut Noise,
-        least: [f64; 2],
+        least: [Size<f64>; 2],
     ) {
         let Acceptance { ease, rounding, .. } = &mut self.acceptance;
         noise.go(

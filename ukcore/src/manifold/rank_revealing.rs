@@ -103,8 +103,8 @@ impl Factors {
         }
     }
 
-    /// The minimal Δ with A Δ = −φ, where A is that of the place `base`, into the step: by the emitted elimination, or by factors, which serve
-    /// all steps once they are there.
+    /// The minimal Δ with A Δ = −φ, where A is that of the place `base`, into the step: by the emitted elimination, or by factors, which
+    /// serve all steps once they are there.
     pub(super) fn step(
         &mut self,
         at: &At<'_, f64>,

@@ -3,11 +3,11 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::Manifold;
-use super::acceptance::Acceptance;
+use super::acceptance::{Acceptance, ROUNDING};
 use super::level::At;
 use super::newton::Newton;
 use crate::mechanism::Prepared;
-use crate::scan::extent;
+use crate::scan::Size;
 
 /// Steps at most from one guess. They converge quadratically at the end; a long chain laid out wrongly takes some tens of steps to unfold.
 const MAX_STEPS: usize = 200;
@@ -28,7 +28,7 @@ const NEAR: f64 = 1.5e-8;
 /// The best place so far: residuals and A there, each row scaled to unit norm, each column by how readily its coordinate moves.
 struct Best {
     x: Vec<f64>,
-    /// 1/‖row‖ of the coordinates that are free; of all where that is zero.
+    /// 1/‖row‖, 1 for a row of zeros.
     scale: Vec<f64>,
     residual: DVector<f64>,
     matrix: DMatrix<f64>,
@@ -38,18 +38,11 @@ impl Best {
     /// The place `x`, where residuals and A are known.
     fn new(newton: &Newton<f64>, rows: usize, x: &[f64], ease: &[f64]) -> Self {
         let m = newton.residual.len();
-        let entry = |c: usize, j: usize| newton.jacobian[j * m + c];
-        let mut matrix = DMatrix::from_fn(rows, x.len(), |c, j| entry(c, j) * ease[j]);
+        let mut matrix =
+            DMatrix::from_fn(rows, x.len(), |c, j| newton.jacobian[j * m + c] * ease[j]);
         let norm = |c: usize| match matrix.row(c).norm() {
             norm if norm > 0.0 => norm.recip(),
-            _ => match (0..x.len())
-                .map(|j| entry(c, j).powi(2))
-                .sum::<f64>()
-                .sqrt()
-            {
-                norm if norm > 0.0 => norm.recip(),
-                _ => 1.0,
-            },
+            _ => 1.0,
         };
         let scale: Vec<f64> = (0..rows).map(norm).collect();
         for (mut row, scale) in matrix.row_iter_mut().zip(&scale) {
@@ -69,9 +62,10 @@ impl Best {
         scaled.map(|(r, s)| (r * s).powi(2)).sum()
     }
 
-    /// d that minimises |J d + φ|² + μ|d|²: Jᵀ (J Jᵀ + μ)⁻¹ (−φ).
+    /// d that minimises |J d + φ|² + μ|d|²: Jᵀ (J Jᵀ + μ)⁻¹ (−φ). What is below rounding of J Jᵀ does not count in μ.
     fn step(&self, mu: f64) -> Option<DVector<f64>> {
         let mut normal = &self.matrix * self.matrix.transpose();
+        let mu = mu.max(ROUNDING * normal.nrows() as f64);
         (0..normal.nrows()).for_each(|c| normal[(c, c)] += mu);
         let multipliers = normal.cholesky()?.solve(&self.residual);
         Some(-self.matrix.tr_mul(&multipliers))
@@ -87,11 +81,11 @@ impl Manifold {
         manifold
     }
 
-    /// Moves `x`, which is at or near `guess`, onto the constraints from far off, by Levenberg and Marquardt's method, and by projection in the
-    /// end. Returns 0, or the sum of the squares of the scaled residuals where it is least.
+    /// Moves `x`, which is at or near `guess`, onto the constraints from far off, by Levenberg and Marquardt's method, and by projection
+    /// in the end. Returns 0, or the sum of the squares of the scaled residuals where it is least.
     pub(crate) fn search(&mut self, at: &At<'_, f64>, guess: &[f64], x: &mut [f64]) -> f64 {
         let Acceptance { ease, held, .. } = &self.newton.acceptance;
-        let (rows, size, mut ease) = (at.rows(), extent(guess, ease), ease.clone());
+        let (rows, size, mut ease) = (at.rows(), Size::of(guess, ease), ease.clone());
         held.iter().for_each(|j| ease[*j] = 0.0);
         let (mut best, mut cost): (Option<Best>, f64) = (None, f64::INFINITY);
         let (mut damping, mut stalls) = (DAMPING, 0);
@@ -115,19 +109,17 @@ impl Manifold {
             } else {
                 damping *= DAMPING_FACTOR;
             }
-            let Some(best) = best.as_ref().filter(|_| stalls <= 3) else {
+            let hopeless = stalls > 3 || damping > DAMPING_LIMIT;
+            let Some(best) = best.as_ref().filter(|_| !hopeless) else {
                 return (0.0, 0.0);
             };
             // √cost → 0 takes the damping with it: quadratic convergence at the end.
-            while damping <= DAMPING_LIMIT {
-                if let Some(step) = best.step(damping * cost.sqrt().min(1.0)) {
-                    let steps = newton.step.iter_mut().zip(x).enumerate();
-                    steps.for_each(|(j, (d, x))| *d = best.x[j] + ease[j] * step[j] - x);
-                    return (0.0, 1.0);
-                }
-                damping *= DAMPING_FACTOR;
-            }
-            (0.0, 0.0)
+            let Some(step) = best.step(damping * cost.sqrt().min(1.0)) else {
+                return (0.0, 0.0);
+            };
+            let steps = newton.step.iter_mut().zip(x).enumerate();
+            steps.for_each(|(j, (d, x))| *d = best.x[j] + ease[j] * step[j] - x);
+            (0.0, 1.0)
         });
         if let Some(best) = best {
             x.copy_from_slice(&best.x);
