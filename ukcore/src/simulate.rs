@@ -19,6 +19,7 @@ pub use ensemble::{Ensemble, Member};
 mod agenda;
 mod angles;
 mod check;
+mod crossing;
 mod energy;
 #[cfg(feature = "ensemble")]
 mod ensemble;
@@ -311,6 +312,8 @@ impl Simulation {
             recorder: Recorder::new(agenda, self.events, spec.n(), sink),
             progress: self.progress,
             t_end,
+            weakest: 1.0,
+            nearest: None,
             trajectory,
         };
         let result = run.integrate(start, self.method, &settings);

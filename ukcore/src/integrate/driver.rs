@@ -14,8 +14,10 @@ use super::trouble::{Cause, Trouble};
 use super::{Method, Next, Outcome, PROJECTION_LIMIT, Problem, Report, Settings, Step};
 use crate::error::Error;
 use crate::scan::{all_finite, all_pairs};
+use passage::Passage;
 use switching::Goal;
 
+mod passage;
 mod switching;
 
 /// Why an attempted step is not accepted.
@@ -26,6 +28,10 @@ enum Refusal {
     Inaccurate(f64),
     /// The state at its end does not do.
     End(Cause),
+    /// It goes over a singular position where it was not to.
+    Unplanned,
+    /// There is a singular position ahead of which nobody can tell whether the motion passes it.
+    Undecided(Trouble),
     /// It is good, with this error, but leaves the branches of its start.
     Leaves(Leaving, f64),
 }
@@ -41,6 +47,7 @@ struct Driver<'p> {
     raw: Vec<f64>,
     /// The step to be tried next, where it goes onto the zero of a switch.
     goal: Option<Goal>,
+    passage: Passage,
     /// Steps that were good but left their branches; those onto zeros of switches.
     repeated: usize,
     landings: usize,
@@ -75,6 +82,7 @@ pub(super) fn run(
         y: y0.to_vec(),
         raw: y0.to_vec(),
         goal: None,
+        passage: Passage::default(),
         repeated: 0,
         landings: 0,
     };
@@ -98,6 +106,7 @@ impl Driver<'_> {
         self.start()?;
         loop {
             let goal = self.goal.take();
+            self.approach();
             let trial = self.course.plan(goal.as_ref().map(|goal| goal.trial))?;
             // How long a step may be was found out by the one that a step onto a zero was cut from.
             let whole = |error: f64| goal.as_ref().map_or((trial.size, error), |goal| goal.whole);
@@ -133,6 +142,7 @@ impl Driver<'_> {
 
     /// Chooses the size of the next step after one that was accepted; size and error are those that count.
     fn accept(&mut self, (size, error): (f64, f64)) -> Result<(), Error> {
+        self.passage.plans = 0;
         self.course.check_pace()?;
         let next = self.scheme.accepted(&mut self.course.size, size, error);
         self.course.propose(next);
@@ -154,6 +164,11 @@ impl Driver<'_> {
         let (h, size) = (trial.size, &mut self.course.size);
         let (next, cause) = match refusal {
             Refusal::Leaves(leaving, error) => return self.follow(leaving, trial, whole(error)),
+            Refusal::Unplanned => (self.course.h, None),
+            Refusal::Undecided(trouble) => {
+                self.course.refuse(Some(Box::new(trouble)));
+                return Err(Error::StepTooSmall { step: h });
+            }
             Refusal::Inaccurate(error) => (self.scheme.inaccurate(size, h, error), None),
             // Beyond a zero there may be no value in the branch held.
             Refusal::Stage(Some(_)) | Refusal::End(Some(_)) if self.equations.release() => {
@@ -171,12 +186,10 @@ impl Driver<'_> {
     fn attempt(&mut self, trial: Trial) -> Result<(Next, f64), Refusal> {
         let step = self.course.attempt(trial);
         self.equations.switches.begin();
-        let error = self.scheme.attempt(&mut self.equations, step, &self.y);
-        let early = small(error.map_err(Refusal::Stage)?)?;
-        self.project(trial.end.t)?;
-        let error = self.scheme.close(&mut self.equations, step, &self.y);
-        let late = small(error.map_err(Refusal::End)?)?;
-        let error = early.max(late);
+        self.equations.passing = self.passage.passing;
+        let made = self.make(step, trial);
+        self.survey(trial)?;
+        let error = made?;
         let interpolated = self.stay(step, trial, error)?;
         let next = self.show(step, trial, interpolated)?;
         self.equations.conflict.pass(self.course.now.t, trial.end.t);
@@ -185,6 +198,16 @@ impl Driver<'_> {
         self.course.advance(trial);
         self.scheme.advance(&mut self.y);
         Ok((next, error))
+    }
+
+    /// Makes a step up to its projected end. Returns its error.
+    fn make(&mut self, step: Attempt, trial: Trial) -> Result<f64, Refusal> {
+        let error = self.scheme.attempt(&mut self.equations, step, &self.y);
+        let early = small(error.map_err(Refusal::Stage)?)?;
+        self.project(trial.end.t)?;
+        let error = self.scheme.close(&mut self.equations, step, &self.y);
+        let late = small(error.map_err(Refusal::End)?)?;
+        Ok(early.max(late))
     }
 
     /// Projects the new state. Refuses if that fails or the change says that the step was a bad one.

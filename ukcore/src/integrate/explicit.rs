@@ -33,6 +33,10 @@ impl Scheme for Explicit {
         self.stepper.begin(f, s, y)
     }
 
+    fn gap(&self) -> f64 {
+        self.tableau.gap()
+    }
+
     fn first_size(
         &mut self,
         equations: &mut Equations<'_>,

@@ -158,6 +158,10 @@ pub(crate) trait Problem {
         let _ = (at, t_old);
         None
     }
+    /// The singular position that the states evaluated since the last call came near, if they did.
+    fn singular(&mut self) -> Option<Singular> {
+        None
+    }
     /// The next time at which an interpolant is wanted, if any; may change in [`Problem::step`].
     fn next_sample(&self) -> Option<f64>;
     /// Number of switches: functions g(t, q, q̇) at whose zeros q̈ may have kinks or jumps, onto which steps are to go.
@@ -178,6 +182,17 @@ pub(crate) trait Problem {
     }
     /// Called after each accepted step. After an error nothing of this call may be kept: the step is tried again, shorter.
     fn step(&mut self, step: &Step<'_>) -> Result<Next, Error>;
+}
+
+/// A position ahead of a motion, or behind it, where constraints come to imply the others.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Singular {
+    /// When the motion is there, or nearest to it.
+    pub(crate) t: f64,
+    /// How long it takes to turn there; 0 where it passes, NaN where rounding does not tell.
+    pub(crate) gap: f64,
+    /// These constraints.
+    pub(crate) constraints: Vec<String>,
 }
 
 /// An accepted step.

@@ -196,6 +196,10 @@ impl Radau {
 }
 
 impl Scheme for Radau {
+    fn gap(&self) -> f64 {
+        0.4
+    }
+
     fn begin(&mut self, equations: &mut Equations<'_>, s: f64, y: &[f64]) -> Result<(), Cause> {
         self.newton.forget();
         self.h_previous = None;

@@ -103,6 +103,10 @@ fn add(x: &mut [f64], lost: &mut [f64], c: f64, d: &[f64]) {
 }
 
 impl Scheme for Rattle {
+    fn gap(&self) -> f64 {
+        0.5
+    }
+
     fn begin(&mut self, equations: &mut Equations<'_>, s: f64, y: &[f64]) -> Result<(), Cause> {
         equations.rate(s, y, &mut self.rate)
     }

@@ -16,6 +16,9 @@ pub(super) struct Equations<'p> {
     pub(super) t0: f64,
     pub(super) switches: Switches,
     pub(super) conflict: Conflict,
+    /// f is that at the nearest consistent state, as in a step over a singular position.
+    pub(super) passing: bool,
+    consistent: Vec<f64>,
 }
 
 impl<'p> Equations<'p> {
@@ -25,15 +28,41 @@ impl<'p> Equations<'p> {
             t0,
             switches,
             conflict: Conflict::default(),
+            passing: false,
+            consistent: Vec::new(),
         }
     }
 
     /// y' at (s, y) into `rate`.
     pub(super) fn rate(&mut self, s: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Cause> {
+        if self.passing {
+            return self.rate_nearby(s, y, rate);
+        }
         let at = Sample::of(self.t0 + s, y);
         let (q_rate, v_rate) = rate.split_at_mut(at.q.len());
         q_rate.copy_from_slice(at.v);
         self.acceleration(at, v_rate)
+    }
+
+    /// The same at the nearest consistent state.
+    fn rate_nearby(&mut self, s: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Cause> {
+        let mut nearby = std::mem::take(&mut self.consistent);
+        nearby.clear();
+        nearby.extend_from_slice(y);
+        let t = self.t0 + s;
+        let (q, v) = nearby.split_at_mut(y.len() / 2);
+        let projected = self.problem.project(t, q, v);
+        let result = match projected {
+            Ok(()) => {
+                let at = Sample::of(t, &nearby);
+                let (q_rate, v_rate) = rate.split_at_mut(at.q.len());
+                q_rate.copy_from_slice(at.v);
+                self.acceleration(at, v_rate)
+            }
+            Err(error) => Err(self.refuse(Sample::of(t, y), error)),
+        };
+        self.consistent = nearby;
+        result
     }
 
     /// q̈ at a state into `out`.
@@ -153,6 +182,9 @@ pub(super) trait Scheme {
     fn unfit(&mut self, size: &mut StepSize, h: f64) -> f64 {
         size.unfit(h)
     }
+
+    /// The middle of the widest gap between the times of stages, as a share of the step.
+    fn gap(&self) -> f64;
 
     /// Factorisations so far.
     fn factorisations(&self) -> usize {

@@ -55,6 +55,28 @@ pub(crate) struct Sums<S> {
     pub(crate) dense: fn(&mut [S], S, &[S]),
 }
 
+impl Tableau {
+    /// The middle of the widest gap between the times of stages, as a share of the step.
+    pub(super) fn gap(&self) -> f64 {
+        let mut times: Vec<f64> = self
+            .stages
+            .iter()
+            .map(|stage| stage.c)
+            .chain([0.0, 1.0])
+            .collect();
+        times.sort_by(f64::total_cmp);
+        let pairs = times
+            .windows(2)
+            .map(|pair| (pair[1] - pair[0], 0.5 * (pair[0] + pair[1])));
+        pairs
+            .fold(
+                (0.0, 0.5),
+                |widest, gap| if gap.0 > widest.0 { gap } else { widest },
+            )
+            .1
+    }
+}
+
 /// Makes the table of a method and, from the same digits, its sums.
 macro_rules! method {
     (

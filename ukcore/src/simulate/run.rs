@@ -2,17 +2,19 @@
 
 use std::ops::ControlFlow;
 
+use super::crossing;
 use super::energy::EnergyWatch;
 use super::obstacles;
 use super::record::{Recorder, project};
+use crate::assemble::State;
 use crate::error::Error;
 use crate::integrate::sample::Sample;
-use crate::integrate::{Method, Next, Outcome, Problem, Settings, Step};
+use crate::integrate::{Method, Next, Outcome, Problem, Settings, Singular, Step};
 use crate::linearise::Slopes;
 use crate::manifold::Projector;
 use crate::mechanism::{Branch, Dynamics, Prepared};
 use crate::scalar::Dual;
-use crate::solver::Solver;
+use crate::solver::{RANK_CEILING, Solver};
 use crate::trajectory::{Ending, Trajectory};
 
 /// What is called after each accepted step.
@@ -31,6 +33,10 @@ pub(super) struct Run<'a, 's> {
     pub(super) recorder: Recorder<'s>,
     pub(super) progress: Option<Progress>,
     pub(super) t_end: f64,
+    /// The least significance of a row in the step in hand.
+    pub(super) weakest: f64,
+    /// Where it was found.
+    pub(super) nearest: Option<State>,
     pub(super) trajectory: &'a mut Trajectory,
 }
 
@@ -79,7 +85,12 @@ impl Run<'_, '_> {
 
 impl Problem for Run<'_, '_> {
     fn acceleration(&mut self, at: Sample<'_>, out: &mut [f64]) -> Result<(), Error> {
-        self.solver.acceleration_in_run(at.t, at.q, at.v, out)
+        let weakest = self.solver.weakest();
+        let result = self.solver.acceleration_in_run(at.t, at.q, at.v, out);
+        if self.solver.weakest() < weakest {
+            self.nearest = Some(at.to_state());
+        }
+        result
     }
 
     fn jacobian(
@@ -126,6 +137,15 @@ impl Problem for Run<'_, '_> {
         obstacles::jump(&mut self.solver, at, t_old)
     }
 
+    fn singular(&mut self) -> Option<Singular> {
+        self.weakest = self.solver.take_weakest();
+        let nearest = self.nearest.take()?;
+        if self.weakest > RANK_CEILING {
+            return None;
+        }
+        crossing::find(self.solver.mechanism(), &nearest)
+    }
+
     fn next_sample(&self) -> Option<f64> {
         self.recorder.next_sample()
     }
@@ -167,7 +187,7 @@ impl Problem for Run<'_, '_> {
             let Sample { t, q, v } = step.new;
             energy.check(self.solver.mechanism().energy(t, q, v))?;
         }
-        obstacles::check_branch(&mut self.solver, step)?;
+        obstacles::check_branch(&mut self.solver, self.weakest, step)?;
         let recorder = &mut self.recorder;
         recorder.step(step, &mut self.projector, self.trajectory)?;
         let Some(end) = self.trajectory.last() else {

@@ -1,0 +1,92 @@
+//! Steps over singular positions, where the constraints lose rank and the motion goes on smoothly.
+//!
+//! Near such a position accelerations are known to ε over the distance; on the constraints they are smooth. So the position is put where
+//! the stages of one step leave a gap, those stages are evaluated on the constraints, and the step is as long, and has the order, that a
+//! smooth motion allows. Nothing is evaluated at the position itself.
+
+use super::{Driver, Refusal};
+use crate::error::Error;
+use crate::integrate::Singular;
+use crate::integrate::course::Trial;
+use crate::integrate::sample::Sample;
+use crate::integrate::trouble::Trouble;
+
+/// How far from the middle of the gap the position may be found to lie, as a share of the step.
+const OFF: f64 = 0.05;
+
+/// So often a step is planned anew from one place before it is halved.
+const PLANS: usize = 6;
+
+/// What is known of the singular position next to where the run stands.
+#[derive(Default)]
+pub(super) struct Passage {
+    ahead: Option<Singular>,
+    /// The step in hand goes over it.
+    pub(super) passing: bool,
+    pub(super) plans: usize,
+}
+
+impl Driver<'_> {
+    /// Shortens the next step so that it stays before the singular position ahead, or has it go over.
+    pub(super) fn approach(&mut self) {
+        self.passage.passing = false;
+        let Some(position) = &self.passage.ahead else {
+            return;
+        };
+        let left = self.course.clock.s(position.t) - self.course.now.s;
+        let h = &mut self.course.h;
+        if position.gap > 0.0 {
+            *h = h.min(0.5 * left.hypot(position.gap));
+            return;
+        }
+        if left <= 0.0 {
+            self.passage.ahead = None;
+            return;
+        }
+        let gap = self.scheme.gap();
+        let (size, rest) = (left / gap, self.course.end.s - self.course.now.s);
+        if rest < left {
+            *h = h.min(0.5 * left).min(rest);
+        } else if size > rest * (1.0 + OFF) {
+            // So that the rest is the step that goes over.
+            *h = h.min(0.5 * left).min((left - gap * rest) / (1.0 - gap));
+        } else if size <= *h {
+            *h = size;
+            self.passage.passing = true;
+        } else {
+            *h = h.min(0.5 * left);
+        }
+    }
+
+    /// Looks at what the attempted step has met. Refuses it if it goes over a singular position without having been planned so.
+    pub(super) fn survey(&mut self, trial: Trial) -> Result<(), Refusal> {
+        let Some(found) = self.equations.problem.singular() else {
+            return Ok(());
+        };
+        let left = self.course.clock.s(found.t) - self.course.now.s;
+        if found.gap.is_nan() && left > 0.0 {
+            let here = Sample::of(self.course.now.t, &self.y);
+            let constraints = found.constraints;
+            let error = Error::Singular { constraints };
+            return Err(Refusal::Undecided(Trouble::new(here, error)));
+        }
+        let good = if found.gap > 0.0 {
+            trial.size <= 0.51 * left.hypot(found.gap)
+        } else if left <= 0.0 {
+            return Ok(());
+        } else if self.passage.passing {
+            (left - self.scheme.gap() * trial.size).abs() <= OFF * trial.size
+        } else {
+            trial.size <= 0.51 * left
+        };
+        self.passage.ahead = Some(found);
+        if good {
+            return Ok(());
+        }
+        self.passage.plans += 1;
+        if self.passage.plans % PLANS == 0 {
+            self.course.h *= 0.5;
+        }
+        Err(Refusal::Unplanned)
+    }
+}
