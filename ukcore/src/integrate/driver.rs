@@ -145,7 +145,7 @@ impl Driver<'_> {
         self.passage.plans = 0;
         self.course.check_pace()?;
         let next = self.scheme.accepted(&mut self.course.size, size, error);
-        self.course.propose(next);
+        self.course.propose(next.max(self.passage.wanted));
         if self.arrive()? {
             // The other branch is not known yet.
             self.course.h = self.course.h.min(size);

@@ -287,6 +287,7 @@ impl<'a> Search<'a> {
                 })
                 .sum();
             last &= change.abs() <= noise;
+            if std::env::var("UKT").is_ok() { eprintln!("TRACE   j {j} k {k} e/noise {:.1e} noise {noise:.1e} change/noise {:.1e} step {step:?} t {}", e / noise, change / noise, self.t); }
             open = open.max(e.abs());
             crossing &= e.abs() <= ZERO * noise;
             if e.abs() > ZERO * noise && e.abs() <= GAP * noise {

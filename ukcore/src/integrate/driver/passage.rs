@@ -24,17 +24,21 @@ pub(super) struct Passage {
     /// The step in hand goes over it.
     pub(super) passing: bool,
     pub(super) plans: usize,
+    /// Size of the step in hand as it was proposed; 0 where it was not shortened.
+    pub(super) wanted: f64,
 }
 
 impl Driver<'_> {
     /// Shortens the next step so that it stays before the singular position ahead, or has it go over.
     pub(super) fn approach(&mut self) {
         self.passage.passing = false;
+        self.passage.wanted = 0.0;
         let Some(position) = &self.passage.ahead else {
             return;
         };
         let left = self.course.clock.s(position.t) - self.course.now.s;
         let h = &mut self.course.h;
+        self.passage.wanted = *h;
         if position.gap > 0.0 {
             *h = h.min(0.5 * left.hypot(position.gap));
             return;
@@ -64,6 +68,7 @@ impl Driver<'_> {
             return Ok(());
         };
         let left = self.course.clock.s(found.t) - self.course.now.s;
+        if std::env::var("UKT").is_ok() { eprintln!("TRACE survey now {} left {left:.2e} gap {:.1e} trial {:.2e} passing {} h {:.2e}", self.course.now.t, found.gap, trial.size, self.passage.passing, self.course.h); }
         if found.gap.is_nan() && left > 0.0 {
             let here = Sample::of(self.course.now.t, &self.y);
             let constraints = found.constraints;
