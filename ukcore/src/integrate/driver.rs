@@ -161,6 +161,20 @@ impl Driver<'_> {
         whole: impl Fn(f64) -> (f64, f64),
     ) -> Result<(), Error> {
         self.equations.switches.targets.clear();
+        if std::env::var("UKT").is_ok() {
+            match &refusal {
+                Refusal::Stage(c) => eprintln!(
+                    "TRACE refused stage {:?}",
+                    c.as_ref().map(|c| c.error.to_string())
+                ),
+                Refusal::End(c) => eprintln!(
+                    "TRACE refused end {:?}",
+                    c.as_ref().map(|c| c.error.to_string())
+                ),
+                Refusal::Inaccurate(e) => eprintln!("TRACE refused inaccurate {e:e}"),
+                _ => {}
+            }
+        }
         let (h, size) = (trial.size, &mut self.course.size);
         let (next, cause) = match refusal {
             Refusal::Leaves(leaving, error) => return self.follow(leaving, trial, whole(error)),
@@ -186,7 +200,6 @@ impl Driver<'_> {
     fn attempt(&mut self, trial: Trial) -> Result<(Next, f64), Refusal> {
         let step = self.course.attempt(trial);
         self.equations.switches.begin();
-        self.equations.passing = self.passage.passing;
         let made = self.make(step, trial);
         self.survey(trial)?;
         let error = made?;

@@ -16,8 +16,8 @@ pub(super) struct Equations<'p> {
     pub(super) t0: f64,
     pub(super) switches: Switches,
     pub(super) conflict: Conflict,
-    /// f is that at the nearest consistent state, as in a step over a singular position.
-    pub(super) passing: bool,
+    /// f is that at the nearest consistent state, as near a singular position.
+    pub(super) nearby: bool,
     consistent: Vec<f64>,
 }
 
@@ -28,14 +28,14 @@ impl<'p> Equations<'p> {
             t0,
             switches,
             conflict: Conflict::default(),
-            passing: false,
+            nearby: false,
             consistent: Vec::new(),
         }
     }
 
     /// y' at (s, y) into `rate`.
     pub(super) fn rate(&mut self, s: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Cause> {
-        if self.passing {
+        if self.nearby {
             return self.rate_nearby(s, y, rate);
         }
         let at = Sample::of(self.t0 + s, y);

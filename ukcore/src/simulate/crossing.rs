@@ -19,8 +19,8 @@ use crate::solver::{RANK_CEILING, RANK_TOLERANCE, leading};
 const ZERO: f64 = 8.0;
 const GAP: f64 = 200.0;
 
-/// Rows go singular together if their significances differ by less than this factor.
-const TOGETHER: f64 = 8.0;
+/// Guesses at most of how many rows go singular.
+const TRIES: usize = 4;
 
 /// Newton steps at most.
 const MOST: usize = 12;
@@ -33,6 +33,8 @@ pub(super) struct Search<'a> {
     terms: Evaluated,
     /// As many rows as count.
     rank: usize,
+    /// The longest step so far.
+    reach: f64,
     t: f64,
     q: Vec<f64>,
     /// u and W, in units of coordinates by time; time goes on along u alone.
@@ -46,19 +48,21 @@ pub(super) fn find(mech: &Prepared, near: &State) -> Option<Singular> {
     let mut search = Search::new(mech, near);
     search.factor(&near.v)?;
     let pivots = search.dense.cod.pivots();
-    let (counting, last) = (pivots.len(), *pivots.last()?);
-    let most = leading(pivots, RANK_CEILING);
-    let together = leading(pivots, (TOGETHER * last).min(RANK_CEILING));
-    for rank in [together, most] {
-        search.rank = rank;
-        (search.t, search.q) = (near.t, near.q.clone());
-        if rank < counting
-            && let Some(found) = search.critical(&near.v, counting - rank)
-        {
-            return Some(found);
+    let counting = pivots.len();
+    let mut rank = leading(pivots, RANK_CEILING);
+    for _ in 0..TRIES {
+        if rank >= counting {
+            return None;
         }
-        if most == together {
-            break;
+        search.rank = rank;
+        (search.t, search.q, search.reach) = (near.t, near.q.clone(), 0.0);
+        let found = search.critical(&near.v, counting - rank);
+        // As many as all but depend on the others there.
+        let there = leading(search.dense.cod.pivots(), RANK_CEILING).min(rank);
+        match found {
+            Some(found) if there == rank => return Some(found),
+            Some(_) => rank = there,
+            None => rank += 1,
         }
     }
     None
@@ -74,6 +78,7 @@ impl<'a> Search<'a> {
             dense: Dense::new(n, m, spec.structure.mass_diagonal),
             terms: Evaluated::new(n, m),
             rank: m,
+            reach: 0.0,
             t: near.t,
             q: near.q.clone(),
             directions: Vec::new(),
@@ -273,7 +278,15 @@ impl<'a> Search<'a> {
             return None;
         }
         *before = 0.5 * size;
-        let (mut last, mut open, mut crossing) = (true, 0.0_f64, true);
+        self.reach = self.reach.max(size);
+        let left = right.chunks_exact(k).zip(matrix.chunks_exact(k * k)).fold(
+            0.0,
+            |most: f64, (right, rows)| {
+                let pairs = right.iter().zip(rows.chunks_exact(k));
+                pairs.fold(most, |most, (b, row)| most.max((b - dot(row, &step)).abs()))
+            },
+        );
+        let (mut last, mut agree, mut open, mut crossing) = (true, true, 0.0_f64, true);
         for (j, shares) in self.shares.iter().enumerate() {
             let e = dot(shares, &phi);
             let pairs = shares.iter().zip(&rounding);
@@ -287,7 +300,15 @@ impl<'a> Search<'a> {
                 })
                 .sum();
             last &= change.abs() <= noise;
-            if std::env::var("UKT").is_ok() { eprintln!("TRACE   j {j} k {k} e/noise {:.1e} noise {noise:.1e} change/noise {:.1e} step {step:?} t {}", e / noise, change / noise, self.t); }
+            agree &= left <= 1e-5 * largest * self.reach + (largest * noise).sqrt();
+            if std::env::var("UKT").is_ok() {
+                eprintln!(
+                    "TRACE   j {j} k {k} e/noise {:.1e} noise {noise:.1e} change/noise {:.1e} step {step:?} t {}",
+                    e / noise,
+                    change / noise,
+                    self.t
+                );
+            }
             open = open.max(e.abs());
             crossing &= e.abs() <= ZERO * noise;
             if e.abs() > ZERO * noise && e.abs() <= GAP * noise {
@@ -300,6 +321,9 @@ impl<'a> Search<'a> {
         }
         if !last {
             return Some(None);
+        }
+        if !agree {
+            return None;
         }
         let names = self.dense.cod.order()[self.dense.cod.rank()..].iter();
         let names = names.map(|c| self.mech.spec().constraints[*c].name.to_owned());

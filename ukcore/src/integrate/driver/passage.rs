@@ -14,6 +14,10 @@ use crate::integrate::trouble::Trouble;
 /// How far from the middle of the gap the position may be found to lie, as a share of the step.
 const OFF: f64 = 0.05;
 
+/// Steps before the position may have been shorter for the sake of it: the first one that goes over is tried at up to so many times their
+/// size.
+const BOLD: f64 = 16.0;
+
 /// So often a step is planned anew from one place before it is halved.
 const PLANS: usize = 6;
 
@@ -24,6 +28,8 @@ pub(super) struct Passage {
     /// The step in hand goes over it.
     pub(super) passing: bool,
     pub(super) plans: usize,
+    /// It has not been tried yet to pass it.
+    untried: bool,
     /// Size of the step in hand as it was proposed; 0 where it was not shortened.
     pub(super) wanted: f64,
 }
@@ -31,44 +37,54 @@ pub(super) struct Passage {
 impl Driver<'_> {
     /// Shortens the next step so that it stays before the singular position ahead, or has it go over.
     pub(super) fn approach(&mut self) {
-        self.passage.passing = false;
-        self.passage.wanted = 0.0;
-        let Some(position) = &self.passage.ahead else {
+        let (passage, course) = (&mut self.passage, &mut self.course);
+        (passage.passing, passage.wanted) = (false, 0.0);
+        self.equations.nearby = false;
+        let Some(position) = &passage.ahead else {
             return;
         };
-        let left = self.course.clock.s(position.t) - self.course.now.s;
-        let h = &mut self.course.h;
-        self.passage.wanted = *h;
+        let left = course.clock.s(position.t) - course.now.s;
         if position.gap > 0.0 {
-            *h = h.min(0.5 * left.hypot(position.gap));
+            passage.wanted = course.h;
+            course.h = course.h.min(0.5 * left.hypot(position.gap));
             return;
         }
+        self.equations.nearby = true;
         if left <= 0.0 {
-            self.passage.ahead = None;
             return;
         }
-        let gap = self.scheme.gap();
-        let (size, rest) = (left / gap, self.course.end.s - self.course.now.s);
+        passage.wanted = course.h;
+        let (gap, rest) = (self.scheme.gap(), course.end.s - course.now.s);
+        let size = left / gap;
+        let bold = std::mem::take(&mut passage.untried) && size <= BOLD * course.h;
         if rest < left {
-            *h = h.min(0.5 * left).min(rest);
+            course.h = course.h.min(0.5 * left).min(rest);
         } else if size > rest * (1.0 + OFF) {
             // So that the rest is the step that goes over.
-            *h = h.min(0.5 * left).min((left - gap * rest) / (1.0 - gap));
-        } else if size <= *h {
-            *h = size;
-            self.passage.passing = true;
+            course.h = (course.h.min(0.5 * left)).min((left - gap * rest) / (1.0 - gap));
+        } else if size <= course.h || bold {
+            course.h = size;
+            passage.passing = true;
         } else {
-            *h = h.min(0.5 * left);
+            course.h = course.h.min(0.5 * left);
         }
     }
 
     /// Looks at what the attempted step has met. Refuses it if it goes over a singular position without having been planned so.
     pub(super) fn survey(&mut self, trial: Trial) -> Result<(), Refusal> {
         let Some(found) = self.equations.problem.singular() else {
+            let behind =
+                |position: &mut Singular| self.course.clock.s(position.t) <= self.course.now.s;
+            self.passage.ahead.take_if(behind);
             return Ok(());
         };
         let left = self.course.clock.s(found.t) - self.course.now.s;
-        if std::env::var("UKT").is_ok() { eprintln!("TRACE survey now {} left {left:.2e} gap {:.1e} trial {:.2e} passing {} h {:.2e}", self.course.now.t, found.gap, trial.size, self.passage.passing, self.course.h); }
+        if std::env::var("UKT").is_ok() {
+            eprintln!(
+                "TRACE survey now {} left {left:.2e} gap {:.1e} trial {:.2e} passing {} h {:.2e}",
+                self.course.now.t, found.gap, trial.size, self.passage.passing, self.course.h
+            );
+        }
         if found.gap.is_nan() && left > 0.0 {
             let here = Sample::of(self.course.now.t, &self.y);
             let constraints = found.constraints;
@@ -78,12 +94,13 @@ impl Driver<'_> {
         let good = if found.gap > 0.0 {
             trial.size <= 0.51 * left.hypot(found.gap)
         } else if left <= 0.0 {
-            return Ok(());
+            true
         } else if self.passage.passing {
             (left - self.scheme.gap() * trial.size).abs() <= OFF * trial.size
         } else {
             trial.size <= 0.51 * left
         };
+        self.passage.untried |= self.passage.ahead.is_none();
         self.passage.ahead = Some(found);
         if good {
             return Ok(());
