@@ -198,7 +198,7 @@ impl Driver<'_> {
 
     /// Tries a step, and moves to its end if it is good. Returns its error.
     fn attempt(&mut self, trial: Trial) -> Result<(Next, f64), Refusal> {
-        let step = self.course.attempt(trial);
+        let step = self.careful(self.course.attempt(trial));
         self.equations.switches.begin();
         let made = self.make(step, trial);
         self.survey(trial)?;

@@ -191,6 +191,8 @@ pub(crate) struct Singular {
     pub(crate) t: f64,
     /// How long it takes to turn there; 0 where it passes, NaN where rounding does not tell.
     pub(crate) gap: f64,
+    /// The least significance of a constraint where the motion was nearest.
+    pub(crate) significance: f64,
     /// These constraints.
     pub(crate) constraints: Vec<String>,
 }

@@ -44,7 +44,7 @@ pub(super) struct Search<'a> {
 }
 
 /// The singular position that `near`, a state of a motion, is near; `None` if there is none or the motion does not lead there.
-pub(super) fn find(mech: &Prepared, near: &State) -> Option<Singular> {
+pub(super) fn find(mech: &Prepared, near: &State, significance: f64) -> Option<Singular> {
     let mut search = Search::new(mech, near);
     search.factor(&near.v)?;
     let pivots = search.dense.cod.pivots();
@@ -60,7 +60,12 @@ pub(super) fn find(mech: &Prepared, near: &State) -> Option<Singular> {
         // As many as all but depend on the others there.
         let there = leading(search.dense.cod.pivots(), RANK_CEILING).min(rank);
         match found {
-            Some(found) if there == rank => return Some(found),
+            Some(found) if there == rank => {
+                return Some(Singular {
+                    significance,
+                    ..found
+                });
+            }
             Some(_) => rank = there,
             None => rank += 1,
         }
@@ -334,6 +339,7 @@ impl<'a> Search<'a> {
             } else {
                 (2.0 * open / largest).sqrt()
             },
+            significance: 0.0,
             constraints: names.collect(),
         }))
     }

@@ -143,7 +143,7 @@ impl Problem for Run<'_, '_> {
         if self.weakest > RANK_CEILING {
             return None;
         }
-        crossing::find(self.solver.mechanism(), &nearest)
+        crossing::find(self.solver.mechanism(), &nearest, self.weakest)
     }
 
     fn next_sample(&self) -> Option<f64> {

@@ -9,6 +9,7 @@ use crate::error::Error;
 use crate::integrate::Singular;
 use crate::integrate::course::Trial;
 use crate::integrate::sample::Sample;
+use crate::integrate::scheme::Attempt;
 use crate::integrate::trouble::Trouble;
 
 /// How far from the middle of the gap the position may be found to lie, as a share of the step.
@@ -17,6 +18,12 @@ const OFF: f64 = 0.05;
 /// Steps before the position may have been shorter for the sake of it: the first one that goes over is tried at up to so many times their
 /// size.
 const BOLD: f64 = 16.0;
+
+/// Least tolerance near the position.
+const LEAST: f64 = 3e-11;
+
+/// Significance of a constraint below which accelerations have no digits left that would justify a passage.
+const CLOSE: f64 = 1e-5;
 
 /// So often a step is planned anew from one place before it is halved.
 const PLANS: usize = 6;
@@ -70,6 +77,17 @@ impl Driver<'_> {
         }
     }
 
+    /// Near a singular position, where rounding of the accelerations is ε over the third power of the distance, no less than [`LEAST`] is
+    /// asked for.
+    pub(super) fn careful(&self, mut step: Attempt) -> Attempt {
+        if self.equations.nearby {
+            let coarser = (LEAST / step.tolerance.relative).max(1.0);
+            step.tolerance.relative *= coarser;
+            step.tolerance.absolute *= coarser;
+        }
+        step
+    }
+
     /// Looks at what the attempted step has met. Refuses it if it goes over a singular position without having been planned so.
     pub(super) fn survey(&mut self, trial: Trial) -> Result<(), Refusal> {
         let Some(found) = self.equations.problem.singular() else {
@@ -85,7 +103,8 @@ impl Driver<'_> {
                 self.course.now.t, found.gap, trial.size, self.passage.passing, self.course.h
             );
         }
-        if found.gap.is_nan() && left > 0.0 {
+        let close = self.passage.ahead.is_some() && found.gap == 0.0 && found.significance < CLOSE;
+        if (found.gap.is_nan() || close) && left > 0.0 {
             let here = Sample::of(self.course.now.t, &self.y);
             let constraints = found.constraints;
             let error = Error::Singular { constraints };
