@@ -198,7 +198,8 @@ impl Driver<'_> {
 
     /// Tries a step, and moves to its end if it is good. Returns its error.
     fn attempt(&mut self, trial: Trial) -> Result<(Next, f64), Refusal> {
-        let step = self.careful(self.course.attempt(trial));
+        let mut step = self.course.attempt(trial);
+        step.tolerance = self.tolerance();
         self.equations.switches.begin();
         let made = self.make(step, trial);
         self.survey(trial)?;
@@ -232,6 +233,7 @@ impl Driver<'_> {
         if self.scheme.keeps_constraints() {
             return Ok(());
         }
+        let tolerance = self.tolerance();
         let new = self.scheme.state_mut();
         self.raw.copy_from_slice(new);
         let raw = Sample::of(t, &self.raw);
@@ -242,7 +244,6 @@ impl Driver<'_> {
             return Err(refuse(error));
         }
         // No weight of the norm is above 1 / absolute tolerance.
-        let tolerance = self.settings.tolerance;
         let least = PROJECTION_LIMIT * tolerance.absolute;
         if all_pairs(&self.raw, new, |raw, new| (new - raw).abs() <= least) {
             return Ok(());

@@ -6,11 +6,10 @@
 
 use super::{Driver, Refusal};
 use crate::error::Error;
-use crate::integrate::Singular;
 use crate::integrate::course::Trial;
 use crate::integrate::sample::Sample;
-use crate::integrate::scheme::Attempt;
 use crate::integrate::trouble::Trouble;
+use crate::integrate::{Singular, Tolerance};
 
 /// How far from the middle of the gap the position may be found to lie, as a share of the step.
 const OFF: f64 = 0.05;
@@ -20,7 +19,7 @@ const OFF: f64 = 0.05;
 const BOLD: f64 = 16.0;
 
 /// Least tolerance near the position.
-const LEAST: f64 = 3e-11;
+const LEAST: f64 = 1e-10;
 
 /// Significance of a constraint below which accelerations have no digits left that would justify a passage.
 const CLOSE: f64 = 1e-5;
@@ -79,13 +78,14 @@ impl Driver<'_> {
 
     /// Near a singular position, where rounding of the accelerations is ε over the third power of the distance, no less than [`LEAST`] is
     /// asked for.
-    pub(super) fn careful(&self, mut step: Attempt) -> Attempt {
+    pub(super) fn tolerance(&self) -> Tolerance {
+        let mut tolerance = self.settings.tolerance;
         if self.equations.nearby {
-            let coarser = (LEAST / step.tolerance.relative).max(1.0);
-            step.tolerance.relative *= coarser;
-            step.tolerance.absolute *= coarser;
+            let coarser = (LEAST / tolerance.relative).max(1.0);
+            tolerance.relative *= coarser;
+            tolerance.absolute *= coarser;
         }
-        step
+        tolerance
     }
 
     /// Looks at what the attempted step has met. Refuses it if it goes over a singular position without having been planned so.
