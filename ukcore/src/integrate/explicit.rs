@@ -33,7 +33,7 @@ impl Scheme for Explicit {
         self.stepper.begin(f, s, y)
     }
 
-    fn gap(&self) -> f64 {
+    fn gap(&self) -> [f64; 2] {
         self.tableau.gap()
     }
 

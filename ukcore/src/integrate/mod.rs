@@ -191,8 +191,9 @@ pub(crate) struct Singular {
     pub(crate) t: f64,
     /// How long it takes to turn there; 0 where it passes, NaN where rounding does not tell.
     pub(crate) gap: f64,
-    /// The least significance of a constraint where the motion was nearest.
+    /// The least significance of a constraint where the motion was nearest, and by how much it falls in a unit of time from there on.
     pub(crate) significance: f64,
+    pub(crate) rate: f64,
     /// These constraints.
     pub(crate) constraints: Vec<String>,
 }

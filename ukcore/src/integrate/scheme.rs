@@ -183,8 +183,8 @@ pub(super) trait Scheme {
         size.unfit(h)
     }
 
-    /// The middle of the widest gap between the times of stages, as a share of the step.
-    fn gap(&self) -> f64;
+    /// Where the widest gap between the times of stages begins and ends, as shares of the step.
+    fn gap(&self) -> [f64; 2];
 
     /// Factorisations so far.
     fn factorisations(&self) -> usize {

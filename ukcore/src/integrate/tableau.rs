@@ -56,24 +56,14 @@ pub(crate) struct Sums<S> {
 }
 
 impl Tableau {
-    /// The middle of the widest gap between the times of stages, as a share of the step.
-    pub(super) fn gap(&self) -> f64 {
-        let mut times: Vec<f64> = self
-            .stages
-            .iter()
-            .map(|stage| stage.c)
-            .chain([0.0, 1.0])
-            .collect();
+    /// Where the widest gap between the times of stages begins and ends, as shares of the step.
+    pub(super) fn gap(&self) -> [f64; 2] {
+        let times = self.stages.iter().map(|stage| stage.c);
+        let mut times: Vec<f64> = times.chain([0.0, 1.0]).collect();
         times.sort_by(f64::total_cmp);
-        let pairs = times
-            .windows(2)
-            .map(|pair| (pair[1] - pair[0], 0.5 * (pair[0] + pair[1])));
-        pairs
-            .fold(
-                (0.0, 0.5),
-                |widest, gap| if gap.0 > widest.0 { gap } else { widest },
-            )
-            .1
+        let gaps = times.windows(2).map(|pair| [pair[0], pair[1]]);
+        let widest = |a: &[f64; 2], b: &[f64; 2]| (a[1] - a[0]).total_cmp(&(b[1] - b[0]));
+        gaps.max_by(widest).unwrap_or([0.0, 1.0])
     }
 }
 

@@ -63,6 +63,7 @@ pub(super) fn find(mech: &Prepared, near: &State, significance: f64) -> Option<S
             Some(found) if there == rank => {
                 return Some(Singular {
                     significance,
+                    rate: significance / (found.t - near.t).abs(),
                     ..found
                 });
             }
@@ -340,6 +341,7 @@ impl<'a> Search<'a> {
                 (2.0 * open / largest).sqrt()
             },
             significance: 0.0,
+            rate: 0.0,
             constraints: names.collect(),
         }))
     }

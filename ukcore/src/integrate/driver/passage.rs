@@ -18,8 +18,10 @@ const OFF: f64 = 0.05;
 /// size.
 const BOLD: f64 = 16.0;
 
-/// Least tolerance near the position.
-const LEAST: f64 = 1e-10;
+/// At a significance δ velocities are known to some ε/δ², and no less is asked for: so many times that, up to the largest tolerance with
+/// which a passage still counts as one.
+const NOISE: f64 = 16.0 * f64::EPSILON;
+const COARSEST: f64 = 1e-8;
 
 /// Significance of a constraint below which accelerations have no digits left that would justify a passage.
 const CLOSE: f64 = 1e-5;
@@ -32,12 +34,14 @@ const PLANS: usize = 6;
 pub(super) struct Passage {
     ahead: Option<Singular>,
     /// The step in hand goes over it.
-    pub(super) passing: bool,
-    pub(super) plans: usize,
+    passing: bool,
     /// It has not been tried yet to pass it.
     untried: bool,
+    pub(super) plans: usize,
     /// Size of the step in hand as it was proposed; 0 where it was not shortened.
     pub(super) wanted: f64,
+    /// How near to the position the step in hand evaluates anything; no matter where none is near.
+    distance: f64,
 }
 
 impl Driver<'_> {
@@ -56,32 +60,38 @@ impl Driver<'_> {
             return;
         }
         self.equations.nearby = true;
+        passage.distance = left.abs();
         if left <= 0.0 {
             return;
         }
         passage.wanted = course.h;
-        let (gap, rest) = (self.scheme.gap(), course.end.s - course.now.s);
-        let size = left / gap;
+        let ([from, to], rest) = (self.scheme.gap(), course.end.s - course.now.s);
+        let middle = 0.5 * (from + to);
+        let size = left / middle;
         let bold = std::mem::take(&mut passage.untried) && size <= BOLD * course.h;
         if rest < left {
-            course.h = course.h.min(0.5 * left).min(rest);
+            course.h = course.h.min(rest);
         } else if size > rest * (1.0 + OFF) {
             // So that the rest is the step that goes over.
-            course.h = (course.h.min(0.5 * left)).min((left - gap * rest) / (1.0 - gap));
+            course.h = (course.h.min(0.5 * left)).min((left - middle * rest) / (1.0 - middle));
         } else if size <= course.h || bold {
             course.h = size;
             passage.passing = true;
+            passage.distance = 0.5 * (to - from) * size;
+            return;
         } else {
             course.h = course.h.min(0.5 * left);
         }
+        passage.distance = left - course.h;
     }
 
-    /// Near a singular position, where rounding of the accelerations is ε over the third power of the distance, no less than [`LEAST`] is
-    /// asked for.
+    /// The tolerance of the step in hand.
     pub(super) fn tolerance(&self) -> Tolerance {
         let mut tolerance = self.settings.tolerance;
-        if self.equations.nearby {
-            let coarser = (LEAST / tolerance.relative).max(1.0);
+        if let (true, Some(position)) = (self.equations.nearby, &self.passage.ahead) {
+            let significance = self.passage.distance * position.rate;
+            let least = (NOISE / (significance * significance)).min(COARSEST);
+            let coarser = (least / tolerance.relative).max(1.0);
             tolerance.relative *= coarser;
             tolerance.absolute *= coarser;
         }
@@ -91,16 +101,23 @@ impl Driver<'_> {
     /// Looks at what the attempted step has met. Refuses it if it goes over a singular position without having been planned so.
     pub(super) fn survey(&mut self, trial: Trial) -> Result<(), Refusal> {
         let Some(found) = self.equations.problem.singular() else {
-            let behind =
-                |position: &mut Singular| self.course.clock.s(position.t) <= self.course.now.s;
+            let now = self.course.now.s;
+            let behind = |position: &mut Singular| self.course.clock.s(position.t) <= now;
             self.passage.ahead.take_if(behind);
             return Ok(());
         };
         let left = self.course.clock.s(found.t) - self.course.now.s;
         if std::env::var("UKT").is_ok() {
             eprintln!(
-                "TRACE survey now {} left {left:.2e} gap {:.1e} trial {:.2e} passing {} h {:.2e}",
-                self.course.now.t, found.gap, trial.size, self.passage.passing, self.course.h
+                "TRACE survey now {} left {left:.2e} gap {:.1e} trial {:.2e} passing {} h {:.2e} sig {:.1e} rate {:.1e} tol {:.1e}",
+                self.course.now.t,
+                found.gap,
+                trial.size,
+                self.passage.passing,
+                self.course.h,
+                found.significance,
+                found.rate,
+                self.tolerance().relative
             );
         }
         let close = self.passage.ahead.is_some() && found.gap == 0.0 && found.significance < CLOSE;
@@ -110,14 +127,15 @@ impl Driver<'_> {
             let error = Error::Singular { constraints };
             return Err(Refusal::Undecided(Trouble::new(here, error)));
         }
+        let [from, to] = self.scheme.gap();
         let good = if found.gap > 0.0 {
             trial.size <= 0.51 * left.hypot(found.gap)
         } else if left <= 0.0 {
             true
         } else if self.passage.passing {
-            (left - self.scheme.gap() * trial.size).abs() <= OFF * trial.size
+            (left - 0.5 * (from + to) * trial.size).abs() <= OFF * trial.size
         } else {
-            trial.size <= 0.51 * left
+            trial.size <= 0.51 * left || trial.last && trial.size < left
         };
         self.passage.untried |= self.passage.ahead.is_none();
         self.passage.ahead = Some(found);
