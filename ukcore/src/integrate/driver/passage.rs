@@ -20,7 +20,7 @@ const BOLD: f64 = 16.0;
 
 /// At a significance δ velocities are known to some ε/δ², and no less is asked for: so many times that, up to the largest tolerance with
 /// which a passage still counts as one.
-const NOISE: f64 = 16.0 * f64::EPSILON;
+const NOISE: f64 = 256.0 * f64::EPSILON;
 const COARSEST: f64 = 1e-8;
 
 /// Significance of a constraint below which accelerations have no digits left that would justify a passage.
