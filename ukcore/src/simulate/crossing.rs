@@ -297,21 +297,12 @@ impl<'a> Search<'a> {
             let e = dot(shares, &phi);
             let pairs = shares.iter().zip(&rounding);
             let noise = f64::EPSILON * pairs.map(|(share, r)| (share * r).abs()).sum::<f64>();
-            let change: f64 = (0..k)
-                .map(|row| {
-                    let half: f64 = (0..k)
-                        .map(|column| 0.5 * matrix[(j * k + row) * k + column] * step[column])
-                        .sum();
-                    step[row] * (half - right[j * k + row])
-                })
-                .sum();
-            last &= change.abs() <= noise;
+            last &= largest * size * size <= noise;
             agree &= left <= 1e-5 * largest * self.reach + (largest * noise).sqrt();
             if std::env::var("UKT").is_ok() {
                 eprintln!(
-                    "TRACE   j {j} k {k} e/noise {:.1e} noise {noise:.1e} change/noise {:.1e} step {step:?} t {}",
+                    "TRACE   j {j} k {k} e/noise {:.1e} noise {noise:.1e} step {step:?} t {}",
                     e / noise,
-                    change / noise,
                     self.t
                 );
             }
