@@ -276,6 +276,7 @@ impl Driver<'_> {
         let step = Step {
             old: Sample::of(now.t, &self.y),
             new,
+            nearby: self.equations.nearby,
             interpolant: wanted.then_some(Interpolant {
                 clock,
                 s_old: now.s,

@@ -206,6 +206,8 @@ pub(crate) struct Step<'a> {
     pub(crate) new: Sample<'a>,
     /// States between; there if [`Settings::dense`] is set or [`Problem::next_sample`] lies in this step.
     pub(crate) interpolant: Option<Interpolant<'a>>,
+    /// It is near a singular position, or goes over it.
+    pub(crate) nearby: bool,
 }
 
 /// How to go on after a step.
