@@ -1,12 +1,12 @@
 //! Where a run stands, which step it tries next, and what became of those before: the same for a run of its own and for each lane of an
 //! ensemble.
 
-use super::Settings;
 use super::control::StepSize;
 use super::dense::Clock;
 use super::sample::Sample;
 use super::scheme::Attempt;
 use super::trouble::{Cause, Conflict, Pace, Trouble};
+use super::{Report, Settings};
 use crate::error::Error;
 
 /// A step is the last one if what would remain behind it is less than this part of it.
@@ -183,6 +183,14 @@ impl Course {
         let ahead = |t: f64| (0.0..=reach).contains(&(sign * (t - trial.end.t)));
         let passed = |trouble: &mut Box<Trouble>| !ahead(trouble.state.t);
         self.trouble.take_if(passed);
+    }
+
+    /// Another run has got to `end`.
+    pub(super) fn detour(&mut self, end: Place, report: &Report) {
+        self.now = end;
+        self.steps += report.steps;
+        self.attempts += report.steps + report.rejected;
+        self.trouble = None;
     }
 
     /// Watches `trial`, which is about to be accepted, with the states at its start and its end.

@@ -62,6 +62,18 @@ pub(super) fn run(
     t_end: f64,
     settings: &Settings,
 ) -> Report {
+    travel(method, problem, t0, y0, t_end, settings).0
+}
+
+/// The same, and the state at its end.
+fn travel(
+    method: Method,
+    problem: &mut dyn Problem,
+    t0: f64,
+    y0: &[f64],
+    t_end: f64,
+    settings: &Settings,
+) -> (Report, Vec<f64>) {
     let n = y0.len();
     let scheme: Box<dyn Scheme> = match method {
         Method::Dop853 => Box::new(Explicit::new(Stepper::dop853(n))),
@@ -91,13 +103,14 @@ pub(super) fn run(
         let conflict = &mut driver.equations.conflict;
         Outcome::Failed(driver.course.explain(error, here, conflict))
     });
-    Report {
+    let report = Report {
         outcome,
         steps: driver.course.steps,
         rejected: driver.course.rejected() - driver.repeated,
         landings: driver.landings,
         factorisations: driver.scheme.factorisations(),
-    }
+    };
+    (report, driver.y)
 }
 
 impl Driver<'_> {
@@ -105,6 +118,9 @@ impl Driver<'_> {
     fn run(&mut self) -> Result<Outcome, Error> {
         self.start()?;
         loop {
+            if let Some(outcome) = self.detour()? {
+                return Ok(outcome);
+            }
             let goal = self.goal.take();
             self.approach();
             let trial = self.course.plan(goal.as_ref().map(|goal| goal.trial))?;

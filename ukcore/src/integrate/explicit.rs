@@ -33,8 +33,8 @@ impl Scheme for Explicit {
         self.stepper.begin(f, s, y)
     }
 
-    fn gap(&self) -> [f64; 2] {
-        self.tableau.gap()
+    fn gap(&self) -> Option<[f64; 2]> {
+        Some(self.tableau.gap())
     }
 
     fn first_size(

@@ -196,8 +196,8 @@ impl Radau {
 }
 
 impl Scheme for Radau {
-    fn gap(&self) -> [f64; 2] {
-        [0.155, 0.645]
+    fn gap(&self) -> Option<[f64; 2]> {
+        Some([0.155, 0.645])
     }
 
     fn begin(&mut self, equations: &mut Equations<'_>, s: f64, y: &[f64]) -> Result<(), Cause> {

@@ -103,8 +103,8 @@ fn add(x: &mut [f64], lost: &mut [f64], c: f64, d: &[f64]) {
 }
 
 impl Scheme for Rattle {
-    fn gap(&self) -> [f64; 2] {
-        [0.4, 0.6]
+    fn gap(&self) -> Option<[f64; 2]> {
+        None
     }
 
     fn begin(&mut self, equations: &mut Equations<'_>, s: f64, y: &[f64]) -> Result<(), Cause> {

@@ -183,8 +183,9 @@ pub(super) trait Scheme {
         size.unfit(h)
     }
 
-    /// Where the widest gap between the times of stages begins and ends, as shares of the step.
-    fn gap(&self) -> [f64; 2];
+    /// Where the widest gap between the times of stages begins and ends, as shares of the step; `None` where steps are of one size, and
+    /// cannot be put so that a place lies in it.
+    fn gap(&self) -> Option<[f64; 2]>;
 
     /// Factorisations so far.
     fn factorisations(&self) -> usize {

@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::integrate::course::Trial;
 use crate::integrate::sample::Sample;
 use crate::integrate::trouble::Trouble;
-use crate::integrate::{Singular, Tolerance};
+use crate::integrate::{Method, Outcome, Singular, Tolerance};
 
 /// How far from the middle of the gap the position may be found to lie, as a share of the step.
 const OFF: f64 = 0.05;
@@ -22,6 +22,9 @@ const BOLD: f64 = 16.0;
 /// which a passage still counts as one.
 const NOISE: f64 = 256.0 * f64::EPSILON;
 const COARSEST: f64 = 1e-8;
+
+/// Tolerance of what is made in place of steps of one size.
+const DETOUR: f64 = 1e-11;
 
 /// Significance of a constraint below which accelerations have no digits left that would justify a passage.
 const CLOSE: f64 = 1e-5;
@@ -50,7 +53,7 @@ impl Driver<'_> {
         let (passage, course) = (&mut self.passage, &mut self.course);
         (passage.passing, passage.wanted) = (false, 0.0);
         self.equations.nearby = false;
-        let Some(position) = &passage.ahead else {
+        let (Some(position), Some([from, to])) = (&passage.ahead, self.scheme.gap()) else {
             return;
         };
         let left = course.clock.s(position.t) - course.now.s;
@@ -65,8 +68,7 @@ impl Driver<'_> {
             return;
         }
         passage.wanted = course.h;
-        let ([from, to], rest) = (self.scheme.gap(), course.end.s - course.now.s);
-        let middle = 0.5 * (from + to);
+        let (middle, rest) = (0.5 * (from + to), course.end.s - course.now.s);
         let size = left / middle;
         let bold = std::mem::take(&mut passage.untried) && size <= BOLD * course.h;
         if rest < left {
@@ -83,6 +85,55 @@ impl Driver<'_> {
             course.h = course.h.min(0.5 * left);
         }
         passage.distance = left - course.h;
+    }
+
+    /// Where steps are of one size, those that would go over the singular position ahead are made by another method, so exactly that they
+    /// are as good as the motion itself.
+    pub(super) fn detour(&mut self) -> Result<Option<Outcome>, Error> {
+        if self.scheme.gap().is_some() {
+            return Ok(None);
+        }
+        let Some(position) = self.passage.ahead.take() else {
+            return Ok(None);
+        };
+        let course = &self.course;
+        let left = course.clock.s(position.t) - course.now.s;
+        let count = ((left + position.gap.max(0.0)) / course.h).ceil().max(0.0) + 1.0;
+        let trial = course
+            .within(count * course.h)
+            .filter(|trial| trial.end.s < course.end.s);
+        let (end, last) = trial.map_or((course.end, true), |trial| (trial.end, false));
+        let mut settings = *self.settings;
+        let finer = DETOUR / settings.tolerance.relative;
+        settings.tolerance.relative *= finer;
+        settings.tolerance.absolute *= finer;
+        (settings.first_step, settings.max_step) = (None, Some(course.h));
+        let problem = &mut *self.equations.problem;
+        let (report, y) = super::travel(
+            Method::Dop853,
+            problem,
+            course.now.t,
+            &self.y,
+            end.t,
+            &settings,
+        );
+        self.y = y;
+        self.course.detour(end, &report);
+        match report.outcome {
+            Outcome::Failed(trouble) => {
+                self.course.refuse(Some(Box::new(trouble)));
+                Err(Error::StepTooSmall { step: 0.0 })
+            }
+            Outcome::Reached if !last => {
+                let begun = self.begin();
+                begun.map_err(|cause| {
+                    self.course.refuse(cause);
+                    Error::StepTooSmall { step: 0.0 }
+                })?;
+                Ok(None)
+            }
+            outcome => Ok(Some(outcome)),
+        }
     }
 
     /// The tolerance of the step in hand.
@@ -121,13 +172,20 @@ impl Driver<'_> {
             );
         }
         let close = self.passage.ahead.is_some() && found.gap == 0.0 && found.significance < CLOSE;
-        if (found.gap.is_nan() || close) && left > 0.0 {
+        if (found.gap.is_nan() || close) && left > 0.0 && self.scheme.gap().is_some() {
             let here = Sample::of(self.course.now.t, &self.y);
             let constraints = found.constraints;
             let error = Error::Singular { constraints };
             return Err(Refusal::Undecided(Trouble::new(here, error)));
         }
-        let [from, to] = self.scheme.gap();
+        let Some([from, to]) = self.scheme.gap() else {
+            if left > 0.0 && left < trial.size + found.gap.min(trial.size) || left.abs() < found.gap
+            {
+                self.passage.ahead = Some(found);
+                return Err(Refusal::Unplanned);
+            }
+            return Ok(());
+        };
         let good = if found.gap > 0.0 {
             trial.size <= 0.51 * left.hypot(found.gap)
         } else if left <= 0.0 {
