@@ -48,6 +48,8 @@ struct Driver<'p> {
     /// The step to be tried next, where it goes onto the zero of a switch.
     goal: Option<Goal>,
     passage: Passage,
+    /// Time and state up to which the steps are known already.
+    shown: Option<(f64, Vec<f64>)>,
     /// Steps that were good but left their branches; those onto zeros of switches.
     repeated: usize,
     landings: usize,
@@ -62,55 +64,63 @@ pub(super) fn run(
     t_end: f64,
     settings: &Settings,
 ) -> Report {
-    travel(method, problem, t0, y0, t_end, settings).0
+    Driver::new(method, problem, t0, y0, t_end, settings)
+        .travel()
+        .0
 }
 
-/// The same, and the state at its end.
-fn travel(
-    method: Method,
-    problem: &mut dyn Problem,
-    t0: f64,
-    y0: &[f64],
-    t_end: f64,
-    settings: &Settings,
-) -> (Report, Vec<f64>) {
-    let n = y0.len();
-    let scheme: Box<dyn Scheme> = match method {
-        Method::Dop853 => Box::new(Explicit::new(Stepper::dop853(n))),
-        Method::Dopri5 => Box::new(Explicit::new(Stepper::dopri5(n))),
-        Method::Radau5 => Box::new(Radau::new(n)),
-        Method::Rattle { step } => Box::new(Rattle::new(n, step, (t_end - t0).abs())),
-    };
-    let located = match method {
-        // Its steps are of one size.
-        Method::Rattle { .. } => 0,
-        _ => problem.switches(),
-    };
-    let mut driver = Driver {
-        equations: Equations::new(problem, t0, Switches::new(located, n)),
-        settings,
-        scheme,
-        course: Course::new(t0, t_end, settings),
-        y: y0.to_vec(),
-        raw: y0.to_vec(),
-        goal: None,
-        passage: Passage::default(),
-        repeated: 0,
-        landings: 0,
-    };
-    let outcome = driver.run().unwrap_or_else(|error| {
-        let here = Sample::of(driver.course.now.t, &driver.y);
-        let conflict = &mut driver.equations.conflict;
-        Outcome::Failed(driver.course.explain(error, here, conflict))
-    });
-    let report = Report {
-        outcome,
-        steps: driver.course.steps,
-        rejected: driver.course.rejected() - driver.repeated,
-        landings: driver.landings,
-        factorisations: driver.scheme.factorisations(),
-    };
-    (report, driver.y)
+impl<'p> Driver<'p> {
+    fn new(
+        method: Method,
+        problem: &'p mut dyn Problem,
+        t0: f64,
+        y0: &[f64],
+        t_end: f64,
+        settings: &'p Settings,
+    ) -> Self {
+        let n = y0.len();
+        let scheme: Box<dyn Scheme> = match method {
+            Method::Dop853 => Box::new(Explicit::new(Stepper::dop853(n))),
+            Method::Dopri5 => Box::new(Explicit::new(Stepper::dopri5(n))),
+            Method::Radau5 => Box::new(Radau::new(n)),
+            Method::Rattle { step } => Box::new(Rattle::new(n, step, (t_end - t0).abs())),
+        };
+        let located = match method {
+            // Its steps are of one size.
+            Method::Rattle { .. } => 0,
+            _ => problem.switches(),
+        };
+        Driver {
+            equations: Equations::new(problem, t0, Switches::new(located, n)),
+            settings,
+            scheme,
+            course: Course::new(t0, t_end, settings),
+            y: y0.to_vec(),
+            raw: y0.to_vec(),
+            goal: None,
+            passage: Passage::default(),
+            shown: None,
+            repeated: 0,
+            landings: 0,
+        }
+    }
+
+    /// All steps. Returns the state at the end, too.
+    fn travel(mut self) -> (Report, Vec<f64>) {
+        let outcome = self.run().unwrap_or_else(|error| {
+            let here = Sample::of(self.course.now.t, &self.y);
+            let conflict = &mut self.equations.conflict;
+            Outcome::Failed(self.course.explain(error, here, conflict))
+        });
+        let report = Report {
+            outcome,
+            steps: self.course.steps,
+            rejected: self.course.rejected() - self.repeated,
+            landings: self.landings,
+            factorisations: self.scheme.factorisations(),
+        };
+        (report, self.y)
+    }
 }
 
 impl Driver<'_> {
@@ -225,6 +235,9 @@ impl Driver<'_> {
         self.equations.conflict.pass(self.course.now.t, trial.end.t);
         self.course
             .watch(trial, || (&self.y[..], self.scheme.state()));
+        if self.scheme.gap().is_none() {
+            self.passage.before = Some((self.course.now.t, self.y.clone()));
+        }
         self.course.advance(trial);
         self.scheme.advance(&mut self.y);
         Ok((next, error))
@@ -281,6 +294,10 @@ impl Driver<'_> {
     fn show(&mut self, step: Attempt, trial: Trial, interpolated: bool) -> Result<Next, Refusal> {
         let Trial { size, end, .. } = trial;
         let (clock, now) = (self.course.clock, self.course.now);
+        let known = self.shown.as_ref().map(|(t, y)| Sample::of(*t, y));
+        if known.is_some_and(|known| end.s <= clock.s(known.t)) {
+            return Ok(Next::Continue);
+        }
         let within = |sample: f64| clock.passed(sample, end.s);
         let wanted =
             self.settings.dense || (self.equations.problem.next_sample()).is_some_and(within);
@@ -290,7 +307,7 @@ impl Driver<'_> {
         }
         let new = Sample::of(end.t, self.scheme.state());
         let step = Step {
-            old: Sample::of(now.t, &self.y),
+            old: known.unwrap_or(Sample::of(now.t, &self.y)),
             new,
             nearby: self.equations.nearby,
             interpolant: wanted.then_some(Interpolant {
@@ -301,7 +318,11 @@ impl Driver<'_> {
             }),
         };
         let shown = self.equations.problem.step(&step);
-        shown.map_err(|error| Refusal::End(Some(Box::new(Trouble::new(new, error)))))
+        let next = shown.map_err(|error| Refusal::End(Some(Box::new(Trouble::new(new, error)))));
+        if next.is_ok() {
+            self.shown = None;
+        }
+        next
     }
 }
 

@@ -43,6 +43,8 @@ pub(super) struct Passage {
     pub(super) plans: usize,
     /// Size of the step in hand as it was proposed; 0 where it was not shortened.
     pub(super) wanted: f64,
+    /// Time and state at the start of the last step, where steps are of one size.
+    pub(super) before: Option<(f64, Vec<f64>)>,
     /// How near to the position the step in hand evaluates anything; no matter where none is near.
     distance: f64,
 }
@@ -98,25 +100,25 @@ impl Driver<'_> {
         };
         let course = &self.course;
         let left = course.clock.s(position.t) - course.now.s;
-        let count = ((left + position.gap.max(0.0)) / course.h).ceil().max(0.0) + 1.0;
-        let trial = course
-            .within(count * course.h)
-            .filter(|trial| trial.end.s < course.end.s);
+        let size = (2.0 * left.max(0.0)).max(course.h) + position.gap.max(0.0);
+        let trial = course.within((size / course.h).ceil() * course.h);
+        let trial = trial.filter(|trial| trial.end.s < course.end.s);
         let (end, last) = trial.map_or((course.end, true), |trial| (trial.end, false));
         let mut settings = *self.settings;
         let finer = DETOUR / settings.tolerance.relative;
         settings.tolerance.relative *= finer;
         settings.tolerance.absolute *= finer;
-        (settings.first_step, settings.max_step) = (None, Some(course.h));
+        settings.first_step = None;
+        // From far enough away: the last step may have gone just before the position.
+        let start = std::mem::take(&mut self.passage.before);
+        let (t, y) = match &start {
+            Some((t, y)) if left < course.h => (*t, y),
+            _ => (course.now.t, &self.y),
+        };
         let problem = &mut *self.equations.problem;
-        let (report, y) = super::travel(
-            Method::Dop853,
-            problem,
-            course.now.t,
-            &self.y,
-            end.t,
-            &settings,
-        );
+        let mut other = Driver::new(Method::Dop853, problem, t, y, end.t, &settings);
+        other.shown = Some((course.now.t, self.y.clone()));
+        let (report, y) = other.travel();
         self.y = y;
         self.course.detour(end, &report);
         match report.outcome {
