@@ -228,7 +228,7 @@ impl Driver<'_> {
         step.tolerance = self.tolerance();
         self.equations.switches.begin();
         let made = self.make(step, trial);
-        self.survey(trial)?;
+        self.survey(trial, made.is_ok())?;
         let error = made?;
         let interpolated = self.stay(step, trial, error)?;
         let next = self.show(step, trial, interpolated)?;

@@ -158,8 +158,9 @@ pub(crate) trait Problem {
         let _ = (at, t_old);
         None
     }
-    /// The singular position that the states evaluated since the last call came near, if they did.
-    fn singular(&mut self) -> Option<Singular> {
+    /// The singular position that the states evaluated since the last call came near, if they did; else one near `stands`.
+    fn singular(&mut self, stands: Option<Sample<'_>>) -> Option<Singular> {
+        let _ = stands;
         None
     }
     /// The next time at which an interpolant is wanted, if any; may change in [`Problem::step`].

@@ -19,6 +19,9 @@ use crate::solver::{RANK_CEILING, RANK_TOLERANCE, leading};
 const ZERO: f64 = 8.0;
 const GAP: f64 = 200.0;
 
+/// Rows go singular together if their significances differ by less than this factor; where they are nearly so already, all are tried.
+const TOGETHER: f64 = 2.0;
+
 /// Guesses at most of how many rows go singular.
 const TRIES: usize = 4;
 
@@ -44,12 +47,13 @@ pub(super) struct Search<'a> {
 }
 
 /// The singular position that `near`, a state of a motion, is near; `None` if there is none or the motion does not lead there.
-pub(super) fn find(mech: &Prepared, near: &State, significance: f64) -> Option<Singular> {
+pub(super) fn find(mech: &Prepared, near: &State) -> Option<Singular> {
     let mut search = Search::new(mech, near);
     search.factor(&near.v)?;
     let pivots = search.dense.cod.pivots();
     let counting = pivots.len();
-    let mut rank = leading(pivots, RANK_CEILING);
+    let significance = *pivots.last()?;
+    let mut rank = leading(pivots, RANK_CEILING.max(TOGETHER * significance));
     for _ in 0..TRIES {
         if rank >= counting {
             return None;

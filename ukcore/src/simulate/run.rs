@@ -137,13 +137,11 @@ impl Problem for Run<'_, '_> {
         obstacles::jump(&mut self.solver, at, t_old)
     }
 
-    fn singular(&mut self) -> Option<Singular> {
+    fn singular(&mut self, stands: Option<Sample<'_>>) -> Option<Singular> {
         self.weakest = self.solver.take_weakest();
-        let nearest = self.nearest.take()?;
-        if self.weakest > RANK_CEILING {
-            return None;
-        }
-        crossing::find(self.solver.mechanism(), &nearest, self.weakest)
+        let nearest = self.nearest.take().filter(|_| self.weakest <= RANK_CEILING);
+        let near = nearest.or_else(|| stands.map(Sample::to_state))?;
+        crossing::find(self.solver.mechanism(), &near)
     }
 
     fn next_sample(&self) -> Option<f64> {

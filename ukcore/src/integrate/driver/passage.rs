@@ -152,8 +152,11 @@ impl Driver<'_> {
     }
 
     /// Looks at what the attempted step has met. Refuses it if it goes over a singular position without having been planned so.
-    pub(super) fn survey(&mut self, trial: Trial) -> Result<(), Refusal> {
-        let Some(found) = self.equations.problem.singular() else {
+    pub(super) fn survey(&mut self, trial: Trial, made: bool) -> Result<(), Refusal> {
+        // A step of the one size may come to nothing before anything near is evaluated.
+        let stands = Sample::of(self.course.now.t, &self.y);
+        let stands = (!made && self.scheme.gap().is_none()).then_some(stands);
+        let Some(found) = self.equations.problem.singular(stands) else {
             let now = self.course.now.s;
             let behind = |position: &mut Singular| self.course.clock.s(position.t) <= now;
             self.passage.ahead.take_if(behind);
@@ -181,8 +184,7 @@ impl Driver<'_> {
             return Err(Refusal::Undecided(Trouble::new(here, error)));
         }
         let Some([from, to]) = self.scheme.gap() else {
-            if left > 0.0 && left < trial.size + found.gap.min(trial.size) || left.abs() < found.gap
-            {
+            if left > 0.0 || left.abs() < found.gap {
                 self.passage.ahead = Some(found);
                 return Err(Refusal::Unplanned);
             }
