@@ -29,6 +29,8 @@ const DETOUR: f64 = 1e-11;
 /// Significance of a constraint below which accelerations have no digits left that would justify a passage.
 const CLOSE: f64 = 1e-5;
 
+const SEEN: f64 = 0.2;
+
 /// So often a step is planned anew from one place before it is halved.
 const PLANS: usize = 6;
 
@@ -41,6 +43,7 @@ pub(super) struct Passage {
     /// It has not been tried yet to pass it.
     untried: bool,
     pub(super) plans: usize,
+    turns: f64,
     /// Size of the step in hand as it was proposed; 0 where it was not shortened.
     pub(super) wanted: f64,
     /// Time and state at the start of the last step, where steps are of one size.
@@ -55,7 +58,13 @@ impl Driver<'_> {
         let (passage, course) = (&mut self.passage, &mut self.course);
         (passage.passing, passage.wanted) = (false, 0.0);
         self.equations.nearby = false;
-        let (Some(position), Some([from, to])) = (&passage.ahead, self.scheme.gap()) else {
+        let Some([from, to]) = self.scheme.gap() else {
+            return;
+        };
+        if passage.turns > 0.0 {
+            course.h = course.h.min(SEEN / passage.turns);
+        }
+        let Some(position) = &passage.ahead else {
             return;
         };
         let left = course.clock.s(position.t) - course.now.s;
@@ -199,6 +208,9 @@ impl Driver<'_> {
         } else {
             trial.size <= 0.51 * left || trial.last && trial.size < left
         };
+        if found.gap > 0.0 && left > 4.0 * found.gap {
+            self.passage.turns = self.passage.turns.max(found.rate);
+        }
         self.passage.untried |= self.passage.ahead.is_none();
         self.passage.ahead = Some(found);
         if good {
