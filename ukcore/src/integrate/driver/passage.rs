@@ -21,7 +21,7 @@ const BOLD: f64 = 16.0;
 /// At a significance δ velocities are known to some ε/δ², and no less is asked for: so many times that, up to the largest tolerance with
 /// which a passage still counts as one.
 const NOISE: f64 = 256.0 * f64::EPSILON;
-const COARSEST: f64 = 1e-8;
+const COARSEST: f64 = 1e-9;
 
 /// Tolerance of what is made in place of steps of one size.
 const DETOUR: f64 = 1e-11;
@@ -70,7 +70,9 @@ impl Driver<'_> {
         let left = course.clock.s(position.t) - course.now.s;
         if position.gap > 0.0 {
             passage.wanted = course.h;
-            course.h = course.h.min(0.5 * left.hypot(position.gap));
+            let away = left.hypot(position.gap);
+            course.h = course.h.min(0.5 * away);
+            passage.distance = away - course.h;
             return;
         }
         self.equations.nearby = true;
@@ -150,7 +152,7 @@ impl Driver<'_> {
     /// The tolerance of the step in hand.
     pub(super) fn tolerance(&self) -> Tolerance {
         let mut tolerance = self.settings.tolerance;
-        if let (true, Some(position)) = (self.equations.nearby, &self.passage.ahead) {
+        if let Some(position) = &self.passage.ahead {
             let significance = self.passage.distance * position.rate;
             let least = (NOISE / (significance * significance)).min(COARSEST);
             let coarser = (least / tolerance.relative).max(1.0);
