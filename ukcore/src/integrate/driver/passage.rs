@@ -154,7 +154,8 @@ impl Driver<'_> {
         let mut tolerance = self.settings.tolerance;
         if let Some(position) = &self.passage.ahead {
             let significance = self.passage.distance * position.rate;
-            let least = (NOISE / (significance * significance)).min(COARSEST);
+            let noise = if position.gap > 0.0 { NOISE / 1024.0 } else { NOISE };
+            let least = (noise / (significance * significance)).min(COARSEST);
             let coarser = (least / tolerance.relative).max(1.0);
             tolerance.relative *= coarser;
             tolerance.absolute *= coarser;
