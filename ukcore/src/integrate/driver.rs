@@ -187,20 +187,6 @@ impl Driver<'_> {
         whole: impl Fn(f64) -> (f64, f64),
     ) -> Result<(), Error> {
         self.equations.switches.targets.clear();
-        if std::env::var("UKT").is_ok() {
-            match &refusal {
-                Refusal::Stage(c) => eprintln!(
-                    "TRACE refused stage {:?}",
-                    c.as_ref().map(|c| c.error.to_string())
-                ),
-                Refusal::End(c) => eprintln!(
-                    "TRACE refused end {:?}",
-                    c.as_ref().map(|c| c.error.to_string())
-                ),
-                Refusal::Inaccurate(e) => eprintln!("TRACE refused inaccurate {e:e}"),
-                _ => {}
-            }
-        }
         let (h, size) = (trial.size, &mut self.course.size);
         let (next, cause) = match refusal {
             Refusal::Leaves(leaving, error) => return self.follow(leaving, trial, whole(error)),

@@ -296,24 +296,16 @@ impl<'a> Search<'a> {
                 pairs.fold(most, |most, (b, row)| most.max((b - dot(row, &step)).abs()))
             },
         );
-        let (mut last, mut agree, mut open, mut crossing) = (true, true, 0.0_f64, true);
-        for (j, shares) in self.shares.iter().enumerate() {
+        let (mut last, mut agree, mut doubt, mut open) = (true, true, false, 0.0_f64);
+        for shares in &self.shares {
             let e = dot(shares, &phi);
             let pairs = shares.iter().zip(&rounding);
             let noise = f64::EPSILON * pairs.map(|(share, r)| (share * r).abs()).sum::<f64>();
             last &= largest * size * size <= noise;
             agree &= left <= 1e-5 * largest * self.reach + (largest * noise).sqrt();
-            if std::env::var("UKT").is_ok() {
-                eprintln!(
-                    "TRACE   j {j} k {k} e/noise {:.1e} noise {noise:.1e} step {step:?} t {}",
-                    e / noise,
-                    self.t
-                );
-            }
-            open = open.max(e.abs());
-            crossing &= e.abs() <= ZERO * noise;
-            if e.abs() > ZERO * noise && e.abs() <= GAP * noise {
-                open = f64::NAN;
+            if e.abs() > ZERO * noise {
+                open = open.max(e.abs());
+                doubt |= e.abs() <= GAP * noise;
             }
         }
         self.t += step[0];
@@ -330,8 +322,8 @@ impl<'a> Search<'a> {
         let names = names.map(|c| self.mech.spec().constraints[*c].name.to_owned());
         Some(Some(Singular {
             t: self.t,
-            gap: if crossing {
-                0.0
+            gap: if doubt {
+                f64::NAN
             } else {
                 (2.0 * open / largest).sqrt()
             },

@@ -154,7 +154,11 @@ impl Driver<'_> {
         let mut tolerance = self.settings.tolerance;
         if let Some(position) = &self.passage.ahead {
             let significance = self.passage.distance * position.rate;
-            let noise = if position.gap > 0.0 { NOISE / 1024.0 } else { NOISE };
+            let noise = if position.gap > 0.0 {
+                NOISE / 1024.0
+            } else {
+                NOISE
+            };
             let least = (noise / (significance * significance)).min(COARSEST);
             let coarser = (least / tolerance.relative).max(1.0);
             tolerance.relative *= coarser;
@@ -175,19 +179,6 @@ impl Driver<'_> {
             return Ok(());
         };
         let left = self.course.clock.s(found.t) - self.course.now.s;
-        if std::env::var("UKT").is_ok() {
-            eprintln!(
-                "TRACE survey now {} left {left:.2e} gap {:.1e} trial {:.2e} passing {} h {:.2e} sig {:.1e} rate {:.1e} tol {:.1e}",
-                self.course.now.t,
-                found.gap,
-                trial.size,
-                self.passage.passing,
-                self.course.h,
-                found.significance,
-                found.rate,
-                self.tolerance().relative
-            );
-        }
         let close = self.passage.ahead.is_some() && found.gap == 0.0 && found.significance < CLOSE;
         if (found.gap.is_nan() || close) && left > 0.0 && self.scheme.gap().is_some() {
             let here = Sample::of(self.course.now.t, &self.y);

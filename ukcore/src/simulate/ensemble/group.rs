@@ -11,7 +11,7 @@ use crate::integrate::{Guess, PROJECTION_LIMIT, Stepper, Tolerance, error_norm};
 use crate::lanes::{LaneSolver, Lanes};
 use crate::manifold::Newton;
 use crate::mechanism::Prepared;
-use crate::solver::SolverWork;
+use crate::solver::{RANK_CEILING, SolverWork};
 
 /// As many members as there are lanes, at most.
 pub(super) struct Group<'a, L: Lanes> {
@@ -263,7 +263,8 @@ impl<'a, L: Lanes> Group<'a, L> {
         if let Some(running) = equations.lanes[k].take() {
             let index = running.index;
             let error = running.fail(error, &lane(&self.y, k));
-            self.results.push((index, Err(error)));
+            self.results
+                .push((index, self.alone(equations, k, index).unwrap_or(Err(error))));
         }
     }
 
@@ -331,8 +332,20 @@ impl<'a, L: Lanes> Group<'a, L> {
         if let Some(running) = equations.lanes[k].take() {
             let index = running.index;
             let member = running.finish(&lane(&self.y, k), equations.solver.work(k));
-            self.results.push((index, Ok(member)));
+            self.results
+                .push((index, self.alone(equations, k, index).unwrap_or(Ok(member))));
         }
+    }
+
+    /// The result of member `index` alone, if it came near a singular position in lane `k`.
+    fn alone(
+        &self,
+        equations: &Equations<L>,
+        k: usize,
+        index: usize,
+    ) -> Option<Result<Member, Error>> {
+        let near = equations.solver.weakest(k) <= RANK_CEILING;
+        near.then(|| self.ensemble.alone(index, self.t_end))
     }
 
     /// Projects the new states. Lanes where that fails, or the change says that the step was a bad one, take no further part.
