@@ -24,7 +24,7 @@ const NOISE: f64 = 256.0 * f64::EPSILON;
 const COARSEST: f64 = 1e-9;
 
 /// Tolerance of what is made in place of steps of one size.
-const DETOUR: f64 = 1e-11;
+const DETOUR: f64 = 1e-10;
 
 /// Significance of a constraint below which accelerations have no digits left that would justify a passage.
 const CLOSE: f64 = 1e-5;
