@@ -295,7 +295,7 @@ impl Outcomes {
                     Method::Rattle { .. } => drift <= 1e-3,
                     _ => drift <= 3e3 * tolerance + 1e-7,
                 };
-                if off <= tolerance.max(1e-9) && accurate {
+                if off <= (10.0 * tolerance).max(1e-8) && accurate {
                     self.passed += 1;
                 } else {
                     self.wrong
@@ -304,7 +304,7 @@ impl Outcomes {
             }
             Err(failure) => {
                 let off = worst(&failure.trajectory, off);
-                if off <= tolerance.max(1e-9) {
+                if off <= (10.0 * tolerance).max(1e-8) {
                     self.refused += 1;
                 } else {
                     self.wrong.push(format!(

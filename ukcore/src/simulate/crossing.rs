@@ -26,7 +26,10 @@ const TOGETHER: f64 = 2.0;
 const TRIES: usize = 4;
 
 /// Newton steps at most.
-const MOST: usize = 12;
+const MOST: usize = 20;
+
+/// A Newton step longer than the first one by this factor leads elsewhere.
+const WIDEST: f64 = 2.0;
 
 /// A search for singular positions near a state, in buffers that are allocated where the first one is near.
 pub(super) struct Search<'a> {
@@ -36,7 +39,7 @@ pub(super) struct Search<'a> {
     terms: Evaluated,
     /// As many rows as count.
     rank: usize,
-    /// The longest step so far.
+    /// Length of the first step, in time as the directions are.
     reach: f64,
     t: f64,
     q: Vec<f64>,
@@ -231,9 +234,8 @@ impl<'a> Search<'a> {
         self.directions = vec![u];
         self.share();
         self.bar(count, speed)?;
-        let mut before = f64::INFINITY;
         for _ in 0..MOST {
-            let found = self.newton(&mut before)?;
+            let found = self.newton()?;
             if let Some(found) = found {
                 return Some(found);
             }
@@ -242,7 +244,7 @@ impl<'a> Search<'a> {
     }
 
     /// One step towards q*; what is found there if it is the last one. `None` if there is none.
-    fn newton(&mut self, before: &mut f64) -> Option<Option<Singular>> {
+    fn newton(&mut self) -> Option<Option<Singular>> {
         let u = self.directions[0].clone();
         self.factor(&u)?;
         self.settle();
@@ -283,12 +285,12 @@ impl<'a> Search<'a> {
         let mut step = vec![0.0; k];
         system.solve(&right, &mut step);
         let size = dot(&step, &step).sqrt();
-        // The directions' own length is a time.
-        if !(size < *before) {
+        if self.reach == 0.0 {
+            self.reach = size;
+        }
+        if !(size <= WIDEST * self.reach) {
             return None;
         }
-        *before = 0.5 * size;
-        self.reach = self.reach.max(size);
         let left = right.chunks_exact(k).zip(matrix.chunks_exact(k * k)).fold(
             0.0,
             |most: f64, (right, rows)| {
