@@ -31,7 +31,7 @@ enum Refusal {
     /// It goes over a singular position where it was not to.
     Unplanned,
     /// There is a singular position ahead of which nobody can tell whether the motion passes it.
-    Undecided(Trouble),
+    Undecided(Box<Trouble>),
     /// It is good, with this error, but leaves the branches of its start.
     Leaves(Leaving, f64),
 }
@@ -132,7 +132,7 @@ impl Driver<'_> {
                 return Ok(outcome);
             }
             let goal = self.goal.take();
-            self.approach();
+            self.approach(goal.is_some());
             let trial = self.course.plan(goal.as_ref().map(|goal| goal.trial))?;
             // How long a step may be was found out by the one that a step onto a zero was cut from.
             let whole = |error: f64| goal.as_ref().map_or((trial.size, error), |goal| goal.whole);
@@ -192,7 +192,7 @@ impl Driver<'_> {
             Refusal::Leaves(leaving, error) => return self.follow(leaving, trial, whole(error)),
             Refusal::Unplanned => (self.course.h, None),
             Refusal::Undecided(trouble) => {
-                self.course.refuse(Some(Box::new(trouble)));
+                self.course.refuse(Some(trouble));
                 return Err(Error::StepTooSmall { step: h });
             }
             Refusal::Inaccurate(error) => (self.scheme.inaccurate(size, h, error), None),
@@ -222,7 +222,9 @@ impl Driver<'_> {
         self.course
             .watch(trial, || (&self.y[..], self.scheme.state()));
         if self.scheme.gap().is_none() {
-            self.passage.before = Some((self.course.now.t, self.y.clone()));
+            let (t, y) = self.passage.before.get_or_insert_default();
+            *t = self.course.now.t;
+            y.clone_from(&self.y);
         }
         self.course.advance(trial);
         self.scheme.advance(&mut self.y);

@@ -288,7 +288,7 @@ impl<'a> Search<'a> {
         if self.reach == 0.0 {
             self.reach = size;
         }
-        if !(size <= WIDEST * self.reach) {
+        if size.is_nan() || size > WIDEST * self.reach {
             return None;
         }
         let left = right.chunks_exact(k).zip(matrix.chunks_exact(k * k)).fold(

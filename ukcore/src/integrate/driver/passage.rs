@@ -18,9 +18,13 @@ const OFF: f64 = 0.05;
 /// size.
 const BOLD: f64 = 16.0;
 
-/// At a significance δ velocities are known to some ε/δ², and no less is asked for: so many times that, up to the largest tolerance with
-/// which a passage still counts as one.
+/// At a significance δ velocities are known to some ε/δ²: no less than so many times that is asked for in a passage.
 const NOISE: f64 = 256.0 * f64::EPSILON;
+
+/// The same where the motion turns, and most of the error is across it.
+const TURNING: f64 = 0.25 * f64::EPSILON;
+
+/// The largest tolerance that this may lead to: the one where nothing is said.
 const COARSEST: f64 = 1e-9;
 
 /// Tolerance of what is made in place of steps of one size.
@@ -29,6 +33,7 @@ const DETOUR: f64 = 1e-10;
 /// Significance of a constraint below which accelerations have no digits left that would justify a passage.
 const CLOSE: f64 = 1e-5;
 
+/// After a near miss, significances fall by no more than this in a step, so that a stage comes near the next one.
 const SEEN: f64 = 0.2;
 
 /// So often a step is planned anew from one place before it is halved.
@@ -42,7 +47,9 @@ pub(super) struct Passage {
     passing: bool,
     /// It has not been tried yet to pass it.
     untried: bool,
+    /// How often the step in hand has been planned anew.
     pub(super) plans: usize,
+    /// The fastest fall of a significance in a unit of time towards a place where the motion turned; 0 before there was one.
     turns: f64,
     /// Size of the step in hand as it was proposed; 0 where it was not shortened.
     pub(super) wanted: f64,
@@ -53,10 +60,13 @@ pub(super) struct Passage {
 }
 
 impl Driver<'_> {
-    /// Shortens the next step so that it stays before the singular position ahead, or has it go over.
-    pub(super) fn approach(&mut self) {
+    /// Shortens the next step so that it stays before the singular position ahead, or has it go over; not one that is `planned` already.
+    pub(super) fn approach(&mut self, planned: bool) {
         let (passage, course) = (&mut self.passage, &mut self.course);
         (passage.passing, passage.wanted) = (false, 0.0);
+        if planned {
+            return;
+        }
         self.equations.nearby = false;
         let Some([from, to]) = self.scheme.gap() else {
             return;
@@ -154,11 +164,7 @@ impl Driver<'_> {
         let mut tolerance = self.settings.tolerance;
         if let Some(position) = &self.passage.ahead {
             let significance = self.passage.distance * position.rate;
-            let noise = if position.gap > 0.0 {
-                NOISE / 1024.0
-            } else {
-                NOISE
-            };
+            let noise = if position.gap > 0.0 { TURNING } else { NOISE };
             let least = (noise / (significance * significance)).min(COARSEST);
             let coarser = (least / tolerance.relative).max(1.0);
             tolerance.relative *= coarser;
@@ -184,7 +190,7 @@ impl Driver<'_> {
             let here = Sample::of(self.course.now.t, &self.y);
             let constraints = found.constraints;
             let error = Error::Singular { constraints };
-            return Err(Refusal::Undecided(Trouble::new(here, error)));
+            return Err(Refusal::Undecided(Box::new(Trouble::new(here, error))));
         }
         let Some([from, to]) = self.scheme.gap() else {
             if left > 0.0 || left.abs() < found.gap {
@@ -211,7 +217,7 @@ impl Driver<'_> {
             return Ok(());
         }
         self.passage.plans += 1;
-        if self.passage.plans % PLANS == 0 {
+        if self.passage.plans.is_multiple_of(PLANS) {
             self.course.h *= 0.5;
         }
         Err(Refusal::Unplanned)
