@@ -19,6 +19,7 @@ mod linearise;
 mod orientations;
 mod paper_fish;
 mod paper_uchain;
+mod passing;
 mod plan;
 mod projection;
 mod rattle;

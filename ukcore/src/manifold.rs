@@ -138,6 +138,18 @@ impl Projector {
         self.manifold.project(&at, v)
     }
 
+    /// Moves a state onto the constraints but for those that all but depend on the others there: at a singular position these do not tell
+    /// in which branch of the motion it is.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`], [`Error::IndefiniteMass`].
+    pub(crate) fn settle(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Error> {
+        let at = At::new(&self.mechanism, Level::Position, t, v);
+        self.manifold.settle(&at, q)?;
+        let at = At::new(&self.mechanism, Level::Velocity, t, q);
+        self.manifold.settle(&at, v)
+    }
+
     /// Moves `q` onto φ(q, t) = 0 along M⁻¹A(`base`)ᵀ, for mechanisms with holonomic constraints alone; `shift` is the sum of all moves,
     /// which is more exact than the difference of coordinates.
     ///

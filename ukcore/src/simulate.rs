@@ -18,6 +18,7 @@ pub use ensemble::{Ensemble, Member};
 mod agenda;
 mod angles;
 mod check;
+mod crossing;
 mod energy;
 #[cfg(feature = "ensemble")]
 mod ensemble;
@@ -292,6 +293,8 @@ impl Simulation {
             recorder,
             progress: self.progress,
             t_end,
+            weakest: 1.0,
+            nearest: None,
         };
         let result = run.integrate(Sample::from(&start), self.method, &settings);
         let trajectory = run.finish();

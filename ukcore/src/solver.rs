@@ -341,6 +341,11 @@ impl Solver {
         std::mem::replace(&mut self.weakest, 1.0)
     }
 
+    /// The same, to be asked for again.
+    pub(crate) fn weakest(&self) -> f64 {
+        self.weakest
+    }
+
     /// Constraints whose significance in the last solution was not above `significance`, or that were left out.
     pub(crate) fn rows_below(&self, significance: f64) -> &[usize] {
         let cod = &self.dense.cod;

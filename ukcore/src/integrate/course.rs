@@ -4,7 +4,7 @@
 use super::dense::Interpolant;
 use super::sample::Sample;
 use super::trouble::{Cause, Conflict, Pace, Trouble};
-use super::{Settings, Step};
+use super::{Report, Settings, Step};
 use crate::error::Error;
 
 /// A step is the last one if what would remain behind it is less than this part of it.
@@ -100,6 +100,11 @@ impl Course {
 
     fn place(&self, s: f64) -> Place {
         Place { s, t: self.t0 + s }
+    }
+
+    /// How far ahead the time `t` lies; negative where it is passed.
+    pub(super) fn ahead(&self, t: f64) -> f64 {
+        self.along * (t - self.t0 - self.now.s)
     }
 
     /// Whether the place `a` comes before `b` on the way.
@@ -216,6 +221,7 @@ impl Course {
                 h,
                 coefficients,
             }),
+            nearby: false,
         }
     }
 
@@ -238,6 +244,14 @@ impl Course {
         let ahead = |t: f64| (0.0..=reach).contains(&(along * (t - trial.end.t)));
         let passed = |trouble: &mut Box<Trouble>| !ahead(trouble.state.t);
         self.trouble.take_if(passed);
+    }
+
+    /// Another run has got to `end`.
+    pub(super) fn detour(&mut self, end: Place, report: &Report) {
+        self.now = end;
+        self.steps += report.steps;
+        self.attempts += report.steps + report.rejected;
+        self.trouble = None;
     }
 
     /// Proposes a size for the step after an accepted one.

@@ -14,8 +14,10 @@ use super::trouble::{Cause, Trouble};
 use super::{Method, Next, Outcome, PROJECTION_LIMIT, Problem, Report, Settings};
 use crate::error::Error;
 use crate::scan::{all_finite, all_pairs};
+use passage::Passage;
 use switching::Goal;
 
+mod passage;
 mod switching;
 
 /// A tolerance above this is above the rounding of any but hopelessly stiff forces.
@@ -35,6 +37,10 @@ enum Refusal {
     Inaccurate(f64),
     /// The state at its end does not do.
     End(Cause),
+    /// It goes over a singular position where it was not to.
+    Unplanned,
+    /// There is a singular position ahead of which nobody can tell whether the motion passes it.
+    Undecided(Box<Trouble>),
     /// It is good, with this error, but leaves the branches of its start.
     Leaves(Leaving, f64),
 }
@@ -47,6 +53,9 @@ struct Driver<'p> {
     raw: Vec<f64>,
     /// The step to be tried next, where it goes onto the zero of a switch.
     goal: Option<Goal>,
+    passage: Passage,
+    /// Time and state up to which the steps are known already.
+    shown: Option<(f64, Vec<f64>)>,
     /// Steps that were good but left their branches; those onto zeros of switches; those whose error is rounding.
     repeated: usize,
     landings: usize,
@@ -67,52 +76,76 @@ impl Method {
         t_end: f64,
         settings: &Settings,
     ) -> Report {
+        Driver::new(self, problem, t0, y0, t_end, settings)
+            .travel()
+            .0
+    }
+}
+
+impl<'p> Driver<'p> {
+    fn new(
+        method: Method,
+        problem: &'p mut dyn Problem,
+        t0: f64,
+        y0: &[f64],
+        t_end: f64,
+        settings: &'p Settings,
+    ) -> Self {
         let tolerance = settings.tolerance;
-        let explicit = matches!(self, Method::Dop853 | Method::Dopri5);
+        let explicit = matches!(method, Method::Dop853 | Method::Dopri5);
         let by_stepper = |stepper| {
             let size = StepSize::default();
             Box::new(Explicit { stepper, size })
         };
-        let scheme: Box<dyn Scheme> = match self {
+        let scheme: Box<dyn Scheme> = match method {
             Method::Dop853 => by_stepper(Stepper::dop853(y0.to_vec(), tolerance)),
             Method::Dopri5 => by_stepper(Stepper::dopri5(y0.to_vec(), tolerance)),
             Method::Radau5 => Box::new(Radau::new(y0, tolerance)),
             Method::Rattle { step } => Box::new(Rattle::new(y0, step, t_end - t0)),
         };
-        let located = match self {
+        let located = match method {
             // Its steps are of one size.
             Method::Rattle { .. } => 0,
             _ => problem.switches(),
         };
-        let mut driver = Driver {
+        Driver {
             equations: Equations {
                 problem,
                 switches: Switches::new(located, y0.len()),
                 course: Course::new(t0, t_end, settings),
+                nearby: false,
+                consistent: Vec::new(),
             },
             settings,
             scheme,
             raw: y0.to_vec(),
             goal: None,
+            passage: Passage::default(),
+            shown: None,
             repeated: 0,
             landings: 0,
             rounded: 0,
             noise: 0.0,
             measured: (explicit && tolerance.relative <= TIGHT).then_some(0),
-        };
-        let outcome = driver.run();
-        let (scheme, course) = (driver.scheme, &mut driver.equations.course);
-        Report {
+        }
+    }
+
+    /// All steps. Returns the state at the end, too.
+    fn travel(mut self) -> (Report, Vec<f64>) {
+        let outcome = self.run();
+        let (scheme, course) = (self.scheme, &mut self.equations.course);
+        let report = Report {
             outcome: outcome.unwrap_or_else(|error| {
                 let here = Sample::of(course.now.t, scheme.start());
                 Outcome::Failed(course.explain(error, here))
             }),
             steps: course.steps,
-            rejected: course.rejected() - driver.repeated,
-            landings: driver.landings,
-            rounded: driver.rounded,
+            rejected: course.rejected() - self.repeated,
+            landings: self.landings,
+            rounded: self.rounded,
             factorisations: scheme.factorisations(),
-        }
+        };
+        (report, scheme.start().to_vec())
     }
 }
 
@@ -126,7 +159,11 @@ impl Driver<'_> {
             None => self.scheme.first_size(&mut self.equations, largest),
         };
         loop {
+            if let Some(outcome) = self.detour()? {
+                return Ok(outcome);
+            }
             let goal = self.goal.take();
+            self.approach(goal.is_some());
             let trial = (self.equations.course).plan(goal.as_ref().map(|goal| goal.trial))?;
             // How long a step may be was found out by the one that a step onto a zero was cut from.
             let whole = |error: f64| goal.as_ref().map_or((trial.h, error), |goal| goal.whole);
@@ -141,8 +178,9 @@ impl Driver<'_> {
 
     /// Chooses the size of the next step after one that was accepted; size and error are those that count.
     fn accept(&mut self, (h, error): (f64, f64)) -> Result<(), Error> {
-        let next = self.scheme.accepted(h, error);
-        self.equations.course.propose(next);
+        self.passage.plans = 0;
+        let next = self.scheme.accepted(h, error).abs();
+        self.equations.course.propose(next.max(self.passage.wanted));
         if self.arrive()? {
             // The other branch is not known yet.
             self.equations.course.limit(h);
@@ -161,6 +199,11 @@ impl Driver<'_> {
         let h = trial.h;
         let (next, cause) = match refusal {
             Refusal::Leaves(leaving, error) => return self.follow(leaving, trial, whole(error)),
+            Refusal::Unplanned => (self.equations.course.h, None),
+            Refusal::Undecided(trouble) => {
+                self.equations.course.blame(Some(trouble));
+                return Err(Error::too_small(h.abs()));
+            }
             Refusal::Inaccurate(error) => {
                 self.measure();
                 (self.scheme.inaccurate(h, error), None)
@@ -182,18 +225,32 @@ impl Driver<'_> {
         self.equations.switches.begin();
         // What is left of an error above the tolerance when it is rounding: a shorter step would have as much of it in the same time.
         let rounding = f64::max(1.0, self.noise * trial.h.abs());
+        self.scheme.tolerate(self.tolerance());
+        let made = self.make(trial, rounding);
+        self.survey(trial, made.is_ok())?;
+        let error = made?;
+        let interpolated = self.stay(trial, error)?;
+        let next = self.show(trial, interpolated)?;
+        if self.scheme.gap().is_none() {
+            let (t, y) = self.passage.before.get_or_insert_default();
+            *t = self.equations.course.now.t;
+            y.clear();
+            y.extend_from_slice(self.scheme.start());
+        }
+        (self.equations.course).advance(trial, || self.scheme.states());
+        self.scheme.advance();
+        self.rounded += usize::from(error * rounding > 1.0);
+        Ok((next, error))
+    }
+
+    /// Makes a step up to its projected end. Returns its error as a part of the tolerance, or of `rounding` times it.
+    fn make(&mut self, trial: Trial, rounding: f64) -> Result<f64, Refusal> {
         let error = self.scheme.attempt(&mut self.equations, trial);
         let early = small(error.map_err(Refusal::Stage)? / rounding)?;
         self.project(trial.end.t)?;
         let error = self.scheme.close(&mut self.equations, trial);
         let late = small(error.map_err(Refusal::End)? / rounding)?;
-        let error = early.max(late);
-        let interpolated = self.stay(trial, error)?;
-        let next = self.show(trial, interpolated)?;
-        (self.equations.course).advance(trial, || self.scheme.states());
-        self.scheme.advance();
-        self.rounded += usize::from(error * rounding > 1.0);
-        Ok((next, error))
+        Ok(early.max(late))
     }
 
     /// Measures the rounding of accelerations, now and then: what an error of ε in each coordinate and velocity makes of them.
@@ -229,6 +286,7 @@ impl Driver<'_> {
         if self.scheme.keeps_constraints() {
             return Ok(());
         }
+        let tolerance = self.tolerance();
         let Equations {
             problem, course, ..
         } = &mut self.equations;
@@ -239,7 +297,6 @@ impl Driver<'_> {
         projected.map_err(|error| Refusal::End(course.note(raw, error)))?;
         let [old, new] = self.scheme.states();
         // No weight of the norm is above 1 / absolute tolerance.
-        let tolerance = self.settings.tolerance;
         let least = PROJECTION_LIMIT * tolerance.absolute;
         if all_pairs(&self.raw, new, |raw, new| (new - raw).abs() <= least) {
             return Ok(());
@@ -274,6 +331,10 @@ impl Driver<'_> {
     /// Shows the problem the step, with its interpolant if one is wanted.
     fn show(&mut self, trial: Trial, interpolated: bool) -> Result<Next, Refusal> {
         let equations = &mut self.equations;
+        let known = self.shown.as_ref().map(|(t, y)| Sample::of(*t, y));
+        if known.is_some_and(|known| equations.course.ahead(known.t) >= trial.h.abs()) {
+            return Ok(Next::Continue);
+        }
         let next = equations.problem.next_sample();
         let wanted = self.settings.dense || equations.course.covers(trial, next);
         if wanted && !interpolated {
@@ -281,9 +342,14 @@ impl Driver<'_> {
             stages.map_err(Refusal::End)?;
         }
         let coefficients = wanted.then(|| self.scheme.dense());
-        let step = (equations.course).show(trial, self.scheme.states(), coefficients);
+        let mut step = (equations.course).show(trial, self.scheme.states(), coefficients);
+        step.old = known.unwrap_or(step.old);
+        step.nearby = equations.nearby;
         let shown = equations.problem.step(&step);
-        shown.map_err(|error| Refusal::End(Some(Box::new(Trouble::new(step.new, error)))))
+        let next =
+            shown.map_err(|error| Refusal::End(Some(Box::new(Trouble::new(step.new, error)))))?;
+        self.shown = None;
+        Ok(next)
     }
 }
 

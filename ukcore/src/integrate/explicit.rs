@@ -1,5 +1,6 @@
 //! The explicit Runge-Kutta methods as schemes.
 
+use super::Tolerance;
 use super::control::StepSize;
 use super::course::Trial;
 use super::scheme::{Equations, Scheme};
@@ -19,6 +20,14 @@ impl Scheme for Explicit {
 
     fn end_mut(&mut self) -> &mut [f64] {
         self.stepper.end_mut()
+    }
+
+    fn gap(&self) -> Option<[f64; 2]> {
+        Some(self.stepper.gap())
+    }
+
+    fn tolerate(&mut self, tolerance: Tolerance) {
+        self.stepper.tolerance = tolerance;
     }
 
     fn begin(&mut self, equations: &mut Equations<'_>) -> Result<(), Cause> {

@@ -160,6 +160,11 @@ pub(crate) trait Problem {
         let _ = (at, t_old);
         None
     }
+    /// The singular position that the states evaluated since the last call came near, if they did; else one near `stands`.
+    fn singular(&mut self, stands: Option<Sample<'_>>) -> Option<Singular> {
+        let _ = stands;
+        None
+    }
     /// The next time at which an interpolant is wanted, if any; may change in [`Problem::step`].
     fn next_sample(&self) -> Option<f64>;
     /// Number of switches: functions g(t, q, q̇) at whose zeros q̈ may have kinks or jumps, onto which steps are to go.
@@ -182,6 +187,20 @@ pub(crate) trait Problem {
     fn step(&mut self, step: &Step<'_>) -> Result<Next, Error>;
 }
 
+/// A position ahead of a motion, or behind it, where constraints come to imply the others.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Singular {
+    /// When the motion is there, or nearest to it.
+    pub(crate) t: f64,
+    /// How long it takes to turn there; 0 where it passes, NaN where rounding does not tell.
+    pub(crate) gap: f64,
+    /// The least significance of a constraint where the motion was nearest, and by how much it falls in a unit of time from there on.
+    pub(crate) significance: f64,
+    pub(crate) rate: f64,
+    /// These constraints.
+    pub(crate) constraints: Vec<String>,
+}
+
 /// An accepted step.
 pub(crate) struct Step<'a> {
     /// State at its start.
@@ -190,6 +209,8 @@ pub(crate) struct Step<'a> {
     pub(crate) new: Sample<'a>,
     /// States between; there if [`Settings::dense`] is set or [`Problem::next_sample`] lies in this step.
     pub(crate) interpolant: Option<Interpolant<&'a [f64]>>,
+    /// It is near a singular position, or goes over it.
+    pub(crate) nearby: bool,
 }
 
 /// How to go on after a step.

@@ -199,6 +199,14 @@ impl Radau {
 }
 
 impl Scheme for Radau {
+    fn gap(&self) -> Option<[f64; 2]> {
+        Some([0.155, 0.645])
+    }
+
+    fn tolerate(&mut self, tolerance: Tolerance) {
+        self.tolerance = estimate_tolerance(tolerance);
+    }
+
     fn states(&self) -> [&[f64]; 2] {
         [&self.start, &self.end]
     }

@@ -3,18 +3,21 @@
 //! The loop over steps, their ends, projections, failures and samples is [`driver`](super::driver)'s and the same for all methods. A
 //! [`Scheme`] makes one step at a time and says how long the next one should be.
 
-use super::Problem;
 use super::course::{Course, Trial};
 use super::sample::Sample;
 use super::stepper::Rates;
 use super::switches::Switches;
 use super::trouble::Cause;
+use super::{Problem, Tolerance};
 
 /// The problem's functions over s, the signed time since the start of the run, and what they were found to do.
 pub(super) struct Equations<'p> {
     pub(super) problem: &'p mut (dyn Problem + 'p),
     pub(super) switches: Switches,
     pub(super) course: Course,
+    /// f is that at the nearest consistent state, as near a singular position.
+    pub(super) nearby: bool,
+    pub(super) consistent: Vec<f64>,
 }
 
 impl Rates<f64> for Equations<'_> {
@@ -22,8 +25,14 @@ impl Rates<f64> for Equations<'_> {
 
     fn rate(&mut self, s: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Cause> {
         let (q_rate, v_rate) = rate.split_at_mut(y.len() / 2);
+        if self.nearby {
+            return self.with_nearby(s, y, |equations, y| {
+                q_rate.copy_from_slice(&y[q_rate.len()..]);
+                equations.look(s, y, v_rate)
+            });
+        }
         q_rate.copy_from_slice(&y[q_rate.len()..]);
-        self.acceleration(s, y, v_rate)
+        self.look(s, y, v_rate)
     }
 }
 
@@ -33,8 +42,35 @@ impl Equations<'_> {
         Sample::of(self.course.t0 + s, y)
     }
 
+    /// `what` of the consistent state that is nearest to (s, y).
+    fn with_nearby(
+        &mut self,
+        s: f64,
+        y: &[f64],
+        what: impl FnOnce(&mut Self, &[f64]) -> Result<(), Cause>,
+    ) -> Result<(), Cause> {
+        let mut nearby = std::mem::take(&mut self.consistent);
+        nearby.clear();
+        nearby.extend_from_slice(y);
+        let (q, v) = nearby.split_at_mut(y.len() / 2);
+        let projected = self.problem.project(self.course.t0 + s, q, v);
+        let result = match projected {
+            Ok(()) => what(self, &nearby),
+            Err(error) => Err(self.course.note(self.at(s, y), error)),
+        };
+        self.consistent = nearby;
+        result
+    }
+
     /// q̈ at (s, y) into `out`.
     pub(super) fn acceleration(&mut self, s: f64, y: &[f64], out: &mut [f64]) -> Result<(), Cause> {
+        match self.nearby {
+            true => self.with_nearby(s, y, |equations, y| equations.look(s, y, out)),
+            false => self.look(s, y, out),
+        }
+    }
+
+    fn look(&mut self, s: f64, y: &[f64], out: &mut [f64]) -> Result<(), Cause> {
         let at = self.at(s, y);
         self.switches.look(self.problem, at);
         let result = self.problem.acceleration(at, out);
@@ -117,6 +153,13 @@ pub(super) trait Scheme {
 
     /// Size of the next attempt after one of size `h` whose end did not do.
     fn unfit(&mut self, h: f64) -> f64;
+
+    /// From the next attempt on steps have this tolerance.
+    fn tolerate(&mut self, tolerance: Tolerance);
+
+    /// Where the widest gap between the times of stages begins and ends, as shares of the step; `None` where steps are of one size, and
+    /// cannot be put so that a place lies in it.
+    fn gap(&self) -> Option<[f64; 2]>;
 
     /// Factorisations so far.
     fn factorisations(&self) -> usize {

@@ -25,7 +25,7 @@ pub(crate) struct Stepper<S> {
     sums: Sums<S>,
     n: usize,
     /// Of a step.
-    tolerance: Tolerance<S>,
+    pub(super) tolerance: Tolerance<S>,
     /// State at the start of the step.
     start: Vec<S>,
     /// State at its end.
@@ -56,6 +56,11 @@ impl<L: Lanes> Stepper<L> {
             self.control().order,
             self.tolerance,
         )
+    }
+
+    /// Where the widest gap between the times of stages begins and ends, as shares of the step.
+    pub(super) fn gap(&self) -> [f64; 2] {
+        self.tableau.gap()
     }
 
     /// Another motion begins in lane `k` at `y`, with this absolute tolerance.

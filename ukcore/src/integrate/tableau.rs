@@ -55,6 +55,18 @@ pub(crate) struct Sums<S> {
     pub(crate) dense: fn(&mut [S], S, &[S]),
 }
 
+impl Tableau {
+    /// Where the widest gap between the times of stages begins and ends, as shares of the step.
+    pub(super) fn gap(&self) -> [f64; 2] {
+        let times = self.stages.iter().map(|stage| stage.c);
+        let mut times: Vec<f64> = times.chain([0.0, 1.0]).collect();
+        times.sort_by(f64::total_cmp);
+        let gaps = times.windows(2).map(|pair| [pair[0], pair[1]]);
+        let widest = |a: &[f64; 2], b: &[f64; 2]| (a[1] - a[0]).total_cmp(&(b[1] - b[0]));
+        gaps.max_by(widest).unwrap_or([0.0, 1.0])
+    }
+}
+
 /// Makes the table of a method and, from the same digits, its sums.
 macro_rules! method {
     (

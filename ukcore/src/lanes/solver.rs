@@ -137,6 +137,13 @@ impl<L: Lanes> LaneSolver<L> {
         self.errors[lane].is_none()
     }
 
+    /// How near lane `lane` has come to a singular position, as [`Solver::weakest`] has it.
+    #[cfg(feature = "ensemble")]
+    pub(crate) fn weakest(&self, lane: usize) -> f64 {
+        let own = self.own[lane].as_ref();
+        own.map_or(1.0, |own| own.solver.weakest())
+    }
+
     /// Why lane `lane` had no acceleration when it was wanted last.
     #[must_use]
     pub fn error(&self, lane: usize) -> Option<&Error> {

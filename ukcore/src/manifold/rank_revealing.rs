@@ -8,6 +8,7 @@ use crate::diagnose;
 use crate::error::Error;
 use crate::mechanism::Prepared;
 use crate::metric::MassFault;
+use crate::pinv::axpy;
 use crate::scan::all_finite;
 use crate::solver::{RANK_CEILING, RANK_TOLERANCE, leading, mass_error};
 
@@ -19,6 +20,9 @@ const KEEP_FACTORS: f64 = 1e-2;
 
 /// Newton steps at most. Quadratic convergence needs about six from any useful state; some more for states far off.
 const MAX_STEPS: usize = 40;
+
+/// Newton steps from a state that is as near as an interpolant.
+const NEARBY: usize = 3;
 
 /// Steps without progress before giving up: far from the manifold the residual need not fall at once.
 const MAX_STALLS: usize = 6;
@@ -139,6 +143,19 @@ impl Factors {
 }
 
 impl Manifold {
+    /// Moves `x` onto the constraints that count beyond doubt, by as many steps as that takes from nearby.
+    pub(super) fn settle(&mut self, at: &At<'_, f64>, x: &mut [f64]) -> Result<(), Error> {
+        for _ in 0..if at.rows() > 0 { NEARBY } else { 0 } {
+            self.newton.evaluate(at, x);
+            at.jacobian(x, &mut self.newton.jacobian);
+            (self.factors.place, self.factors.cautious) = (None, true);
+            self.factors.factor(at, x, &mut self.newton)?;
+            self.factors.solve(at, &mut self.newton);
+            axpy(1.0, &self.newton.step, x);
+        }
+        Ok(())
+    }
+
     /// Moves `x` onto the constraints, and returns the number of steps. Here the rows say where it ends, since those left out show in no
     /// step.
     pub(super) fn reveal(&mut self, at: &At<'_, f64>, x: &mut [f64]) -> Result<f64, Error> {

@@ -5,7 +5,7 @@ use crate::mechanism::Energy;
 use crate::trajectory::EnergyDrift;
 
 /// Largest change of the energy, as a share of the energy exchanged, with which a motion still counts as one of the mechanism.
-const ASTRAY: f64 = 0.5;
+const ASTRAY: f64 = 0.1;
 
 /// Changes of the energy below this share of its terms may be rounding.
 const NO_CHANGE: f64 = 1e-9;

@@ -12,8 +12,8 @@ use std::sync::atomic::AtomicUsize;
 
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
-use super::Simulation;
 use super::agenda::Sampling;
+use super::{Sample, Simulation, Switching};
 use crate::assemble::State;
 use crate::error::Error;
 use crate::mechanism::{Mechanism, Prepared};
@@ -112,6 +112,20 @@ impl Ensemble {
         let mut all: Vec<_> = parts.into_iter().flatten().collect();
         all.sort_by_key(|(index, _)| *index);
         all.into_iter().map(|(_, result)| result).collect()
+    }
+
+    /// The motion of member `index` as it is alone: lanes do not pass singular positions.
+    fn alone(&self, index: usize, t_end: f64) -> Result<Member, Error> {
+        let simulation = self.simulation(index).switching(Switching::Ignored);
+        let run = simulation.until(t_end).map_err(|failure| failure.error)?;
+        let end = run
+            .last()
+            .map_or_else(|| self.members[index].1.clone(), Sample::to_state);
+        Ok(Member {
+            end,
+            samples: run.samples().map(Sample::to_state).collect(),
+            work: run.work(),
+        })
     }
 
     /// Member `index` alone.

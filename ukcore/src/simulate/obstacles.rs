@@ -17,8 +17,12 @@ const SINGULAR: f64 = 1.5e-8;
 ///
 /// A significance δ leaves q off by ε/δ, so below √ε the state does not say on which side of the singular position it is, nor which
 /// branch of the motion it takes: any of them conserves energy. A step that passes over the place is not concerned.
-pub(super) fn check_branch(solver: &mut Solver, step: &Step<'_>) -> Result<(), Error> {
-    if solver.take_weakest() > 16.0 * SINGULAR {
+pub(super) fn check_branch(
+    solver: &mut Solver,
+    weakest: f64,
+    step: &Step<'_>,
+) -> Result<(), Error> {
+    if weakest > 16.0 * SINGULAR {
         return Ok(());
     }
     if weakest_at(solver, step.new)? > SINGULAR {

@@ -234,7 +234,11 @@ impl States for Within<'_, '_> {
         self.state(t, y);
         if self.project && self.end(t).is_none() {
             let state = y.split_at_mut(self.step.new.q.len());
-            project(self.projector, self.work, t, state)?;
+            if self.step.nearby {
+                self.projector.settle(t, state.0, state.1)?;
+            } else {
+                project(self.projector, self.work, t, state)?;
+            }
         }
         Ok(())
     }

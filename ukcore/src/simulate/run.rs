@@ -2,16 +2,18 @@
 
 use std::ops::ControlFlow;
 
+use super::crossing;
 use super::energy::EnergyWatch;
 use super::obstacles;
 use super::record::Recorder;
+use crate::assemble::State;
 use crate::error::Error;
 use crate::integrate::sample::Sample;
-use crate::integrate::{Method, Next, Outcome, Problem, Settings, Step};
+use crate::integrate::{Method, Next, Outcome, Problem, Settings, Singular, Step};
 use crate::linearise::Slopes;
 use crate::mechanism::{Branch, Dynamics, Prepared};
 use crate::scalar::Dual;
-use crate::solver::Solver;
+use crate::solver::{RANK_CEILING, Solver};
 use crate::trajectory::{Ending, Trajectory};
 
 /// What is called after each accepted step.
@@ -29,6 +31,10 @@ pub(super) struct Run<'s> {
     pub(super) recorder: Recorder<'s>,
     pub(super) progress: Option<Progress>,
     pub(super) t_end: f64,
+    /// The least significance of a row in the step in hand.
+    pub(super) weakest: f64,
+    /// Where it was found.
+    pub(super) nearest: Option<State>,
 }
 
 impl Run<'_> {
@@ -82,7 +88,12 @@ impl Run<'_> {
 
 impl Problem for Run<'_> {
     fn acceleration(&mut self, at: Sample<'_>, out: &mut [f64]) -> Result<(), Error> {
-        self.solver.acceleration_in_run(at.t, at.q, at.v, out)
+        let weakest = self.solver.weakest();
+        let result = self.solver.acceleration_in_run(at.t, at.q, at.v, out);
+        if self.solver.weakest() < weakest {
+            self.nearest = Some(at.to_state());
+        }
+        result
     }
 
     fn jacobian(
@@ -132,6 +143,13 @@ impl Problem for Run<'_> {
         obstacles::jump(&mut self.solver, at, t_old)
     }
 
+    fn singular(&mut self, stands: Option<Sample<'_>>) -> Option<Singular> {
+        self.weakest = self.solver.take_weakest();
+        let nearest = self.nearest.take().filter(|_| self.weakest <= RANK_CEILING);
+        let near = nearest.or_else(|| stands.map(Sample::to_state))?;
+        crossing::find(self.solver.mechanism(), &near)
+    }
+
     fn next_sample(&self) -> Option<f64> {
         self.recorder.next_sample()
     }
@@ -173,7 +191,7 @@ impl Problem for Run<'_> {
             let Sample { t, q, v } = step.new;
             energy.check(self.solver.mechanism().energy(t, q, v))?;
         }
-        obstacles::check_branch(&mut self.solver, step)?;
+        obstacles::check_branch(&mut self.solver, self.weakest, step)?;
         self.recorder.step(step)?;
         let Some(end) = self.recorder.trajectory.last() else {
             return Ok(Next::Continue);

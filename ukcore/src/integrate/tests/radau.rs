@@ -66,6 +66,8 @@ fn steps_estimates_and_interpolants_have_their_order() {
                 problem: &mut problem,
                 switches: Switches::new(0, 2),
                 course: Course::new(0.3, 0.3 + h, &settings(1e-12)),
+                nearby: false,
+                consistent: Vec::new(),
             };
             let mut scheme = Radau::new(&start, both(1e-12));
             let step = equations.course.step(h).unwrap();

@@ -12,6 +12,7 @@ use crate::lanes::{LaneSolver, Lanes};
 use crate::manifold::Newton;
 use crate::mechanism::Prepared;
 use crate::scalar::Scalar;
+use crate::solver::RANK_CEILING;
 
 /// As many members as there are lanes, at most.
 pub(super) struct Group<'a> {
@@ -212,7 +213,8 @@ impl<'a> Group<'a> {
         if let Some(running) = self.members.lanes[k].take() {
             let index = running.index;
             let error = running.fail(error, &lane(self.stepper.states()[0], k));
-            self.results.push((index, Err(error)));
+            let result = self.alone(k, index).unwrap_or(Err(error));
+            self.results.push((index, result));
         }
     }
 
@@ -225,8 +227,10 @@ impl<'a> Group<'a> {
             lane(self.stepper.states()[0], k),
             self.members.solver.work(k),
         );
-        self.results
-            .push((running.index, Ok(running.finish(&y, work))));
+        let index = running.index;
+        let result = self.alone(k, index);
+        let result = result.unwrap_or_else(|| Ok(running.finish(&y, work)));
+        self.results.push((index, result));
         true
     }
 
@@ -269,6 +273,12 @@ impl<'a> Group<'a> {
         for k in (0..Wide::WIDTH).filter(|&k| alive[k]) {
             self.finish(k);
         }
+    }
+
+    /// The result of member `index` alone, if it came near a singular position in lane `k`.
+    fn alone(&self, k: usize, index: usize) -> Option<Result<Member, Error>> {
+        let near = self.members.solver.weakest(k) <= RANK_CEILING;
+        near.then(|| self.ensemble.alone(index, self.t_end))
     }
 
     /// Projects the new states. Lanes where that fails, or the change says that the step was a bad one, take no further part.

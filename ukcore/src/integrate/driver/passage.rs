@@ -1,0 +1,230 @@
+//! Steps over singular positions, where the constraints lose rank and the motion goes on smoothly.
+//!
+//! Near such a position accelerations are known to ε over the distance; on the constraints they are smooth. So the position is put where
+//! the stages of one step leave a gap, those stages are evaluated on the constraints, and the step is as long, and has the order, that a
+//! smooth motion allows. Nothing is evaluated at the position itself.
+
+use super::{Driver, Refusal};
+use crate::error::Error;
+use crate::integrate::course::Trial;
+use crate::integrate::sample::Sample;
+use crate::integrate::scheme::Equations;
+use crate::integrate::trouble::Trouble;
+use crate::integrate::{Method, Outcome, Singular, Tolerance};
+
+/// How far from the middle of the gap the position may be found to lie, as a share of the step.
+const OFF: f64 = 0.05;
+
+/// Steps before the position may have been shorter for the sake of it: the first one that goes over is tried at up to so many times their
+/// size.
+const BOLD: f64 = 16.0;
+
+/// At a significance δ velocities are known to some ε/δ²: no less than so many times that is asked for in a passage.
+const NOISE: f64 = 256.0 * f64::EPSILON;
+
+/// The same where the motion turns, and most of the error is across it.
+const TURNING: f64 = 0.25 * f64::EPSILON;
+
+/// The largest tolerance that this may lead to: the one where nothing is said.
+const COARSEST: f64 = 1e-9;
+
+/// Tolerance of what is made in place of steps of one size.
+const DETOUR: f64 = 1e-10;
+
+/// Significance of a constraint below which accelerations have no digits left that would justify a passage.
+const CLOSE: f64 = 1e-5;
+
+/// After a near miss, significances fall by no more than this in a step, so that a stage comes near the next one.
+const SEEN: f64 = 0.2;
+
+/// So often a step is planned anew from one place before it is halved.
+const PLANS: usize = 6;
+
+/// What is known of the singular position next to where the run stands.
+#[derive(Default)]
+pub(super) struct Passage {
+    ahead: Option<Singular>,
+    /// The step in hand goes over it.
+    passing: bool,
+    /// It has not been tried yet to pass it.
+    untried: bool,
+    /// How often the step in hand has been planned anew.
+    pub(super) plans: usize,
+    /// The fastest fall of a significance in a unit of time towards a place where the motion turned; 0 before there was one.
+    turns: f64,
+    /// Size of the step in hand as it was proposed; 0 where it was not shortened.
+    pub(super) wanted: f64,
+    /// Time and state at the start of the last step, where steps are of one size.
+    pub(super) before: Option<(f64, Vec<f64>)>,
+    /// How near to the position the step in hand evaluates anything; no matter where none is near.
+    distance: f64,
+}
+
+impl Driver<'_> {
+    /// Shortens the next step so that it stays before the singular position ahead, or has it go over; not one that is `planned` already.
+    pub(super) fn approach(&mut self, planned: bool) {
+        let Equations { course, nearby, .. } = &mut self.equations;
+        let passage = &mut self.passage;
+        (passage.passing, passage.wanted) = (false, 0.0);
+        if planned {
+            return;
+        }
+        *nearby = false;
+        let Some([from, to]) = self.scheme.gap() else {
+            return;
+        };
+        if passage.turns > 0.0 {
+            course.limit(SEEN / passage.turns);
+        }
+        let Some(position) = &passage.ahead else {
+            return;
+        };
+        let (left, h) = (course.ahead(position.t), course.h.abs());
+        if position.gap > 0.0 {
+            passage.wanted = h;
+            let away = left.hypot(position.gap);
+            course.limit(0.5 * away);
+            passage.distance = away - course.h.abs();
+            return;
+        }
+        *nearby = true;
+        passage.distance = left.abs();
+        if left <= 0.0 {
+            return;
+        }
+        passage.wanted = h;
+        let (middle, rest) = (0.5 * (from + to), course.ahead(course.end.t));
+        let size = left / middle;
+        let bold = std::mem::take(&mut passage.untried) && size <= BOLD * h;
+        if rest < left {
+            course.limit(rest);
+        } else if size > rest * (1.0 + OFF) {
+            // So that the rest is the step that goes over.
+            course.limit((0.5 * left).min((left - middle * rest) / (1.0 - middle)));
+        } else if size <= h || bold {
+            course.h = course.along * size;
+            passage.passing = true;
+            passage.distance = 0.5 * (to - from) * size;
+            return;
+        } else {
+            course.limit(0.5 * left);
+        }
+        passage.distance = left - course.h.abs();
+    }
+
+    /// Where steps are of one size, those near a singular position are made by another method, so exactly that they are as good as the
+    /// motion itself.
+    pub(super) fn detour(&mut self) -> Result<Option<Outcome>, Error> {
+        if self.scheme.gap().is_some() {
+            return Ok(None);
+        }
+        let Some(position) = self.passage.ahead.take() else {
+            return Ok(None);
+        };
+        let course = &mut self.equations.course;
+        let (left, h) = (course.ahead(position.t), course.h.abs());
+        let size = (2.0 * left.max(0.0)).max(h) + position.gap.max(0.0);
+        let trial = course.step(course.along * (size / h).ceil() * h);
+        let trial = trial.filter(|trial| course.ahead(trial.end.t) < course.ahead(course.end.t));
+        let (end, last) = trial.map_or((course.end, true), |trial| (trial.end, false));
+        let mut settings = *self.settings;
+        let finer = DETOUR / settings.tolerance.relative;
+        settings.tolerance.relative *= finer;
+        settings.tolerance.absolute *= finer;
+        settings.first_step = None;
+        // From far enough away: the last step may have gone just before the position.
+        let here = (course.now.t, self.scheme.start().to_vec());
+        let before = self
+            .passage
+            .before
+            .take()
+            .filter(|_| (0.0..h).contains(&left));
+        let (t, y) = before.as_ref().unwrap_or(&here);
+        let problem = &mut *self.equations.problem;
+        let mut other = Driver::new(Method::Dop853, problem, *t, y, end.t, &settings);
+        other.shown = Some(here.clone());
+        let (report, y) = other.travel();
+        self.scheme.end_mut().copy_from_slice(&y);
+        self.scheme.advance();
+        let course = &mut self.equations.course;
+        course.detour(end, &report);
+        match report.outcome {
+            Outcome::Failed(trouble) => {
+                course.blame(Some(Box::new(trouble)));
+                Err(Error::too_small(0.0))
+            }
+            Outcome::Reached if !last => {
+                let begun = self.scheme.begin(&mut self.equations);
+                begun.map_err(|cause| {
+                    self.equations.course.blame(cause);
+                    Error::too_small(0.0)
+                })?;
+                Ok(None)
+            }
+            outcome => Ok(Some(outcome)),
+        }
+    }
+
+    /// The tolerance of the step in hand.
+    pub(super) fn tolerance(&self) -> Tolerance {
+        let mut tolerance = self.settings.tolerance;
+        if let Some(position) = &self.passage.ahead {
+            let significance = self.passage.distance * position.rate;
+            let noise = if position.gap > 0.0 { TURNING } else { NOISE };
+            let least = (noise / (significance * significance)).min(COARSEST);
+            let coarser = (least / tolerance.relative).max(1.0);
+            tolerance.relative *= coarser;
+            tolerance.absolute *= coarser;
+        }
+        tolerance
+    }
+
+    /// Looks at what the attempted step has met. Refuses it if it goes over a singular position without having been planned so.
+    pub(super) fn survey(&mut self, trial: Trial, made: bool) -> Result<(), Refusal> {
+        // A step of the one size may come to nothing before anything near is evaluated.
+        let Equations {
+            course, problem, ..
+        } = &mut self.equations;
+        let here = Sample::of(course.now.t, self.scheme.start());
+        let gap = self.scheme.gap();
+        let Some(found) = problem.singular((!made && gap.is_none()).then_some(here)) else {
+            let behind = |position: &mut Singular| course.ahead(position.t) <= 0.0;
+            self.passage.ahead.take_if(behind);
+            return Ok(());
+        };
+        let left = course.ahead(found.t);
+        let Some([from, to]) = gap else {
+            self.passage.ahead = Some(found);
+            return Err(Refusal::Unplanned);
+        };
+        let close = self.passage.ahead.is_some() && found.gap == 0.0 && found.significance < CLOSE;
+        if (found.gap.is_nan() || close) && left > 0.0 {
+            let constraints = found.constraints;
+            let error = Error::Singular { constraints };
+            return Err(Refusal::Undecided(Box::new(Trouble::new(here, error))));
+        }
+        let size = trial.h.abs();
+        let good = if found.gap > 0.0 {
+            size <= 0.51 * left.hypot(found.gap)
+        } else if left <= 0.0 {
+            true
+        } else if self.passage.passing {
+            (left - 0.5 * (from + to) * size).abs() <= OFF * size
+        } else {
+            size <= 0.51 * left || trial.last && size < left
+        };
+        if found.gap > 0.0 && left > 4.0 * found.gap {
+            self.passage.turns = self.passage.turns.max(found.rate);
+        }
+        self.passage.untried |= self.passage.ahead.is_none();
+        self.passage.ahead = Some(found);
+        if good {
+            return Ok(());
+        }
+        self.passage.plans += 1;
+        if self.passage.plans.is_multiple_of(PLANS) {
+            course.h *= 0.5;
+        }
+        Err(Refusal::Unplanned)
+    }
+}

@@ -1,0 +1,377 @@
+//! Where constraints come to imply each other: the singular positions that a motion meets, and whether it can pass them.
+//!
+//! Let rows of A all but depend on each other near a state of the motion. On the manifold of the constraints that count still, what is left
+//! of the others is a function f of the direction u of the motion and of the directions W that they bar, and at the singular position q*
+//! its derivatives by all of these vanish: f = e + ½ zᵀH z. Where e = 0 branches of the motion cross in q*, smooth each for itself, and a
+//! motion passes it in the branch it came on: the one without a jump of its velocity. Where e is not 0 no motion gets there: it turns,
+//! within √(2|e|/|H|), from one asymptote to the other. So e decides, and rounding how well it is known.
+
+use crate::assemble::State;
+use crate::dense::{Dense, Route, Rows};
+use crate::integrate::Singular;
+use crate::mechanism::{Equations, Evaluated, Prepared};
+use crate::metric::MassFault;
+use crate::pinv::{Decomposition, axpy, dot};
+use crate::rounding::Rounded;
+use crate::solver::{RANK_CEILING, RANK_TOLERANCE, leading};
+
+/// Roundings of f up to which e counts as zero, and above which it does not.
+const ZERO: f64 = 8.0;
+const GAP: f64 = 1e4;
+
+/// Rows go singular together if their significances differ by less than this factor; where they are nearly so already, all are tried.
+const TOGETHER: f64 = 2.0;
+
+/// Guesses at most of how many rows go singular.
+const TRIES: usize = 4;
+
+/// Newton steps at most.
+const MOST: usize = 20;
+
+/// A Newton step longer than the first one by this factor leads elsewhere.
+const WIDEST: f64 = 2.0;
+
+/// A search for singular positions near a state, in buffers that are allocated where the first one is near.
+pub(super) struct Search<'a> {
+    mech: &'a Prepared,
+    rounded: Prepared<Rounded, dyn Equations<Rounded>>,
+    dense: Dense,
+    terms: Evaluated,
+    /// As many rows as count.
+    rank: usize,
+    /// Length of the first step, in time as the directions are.
+    reach: f64,
+    t: f64,
+    q: Vec<f64>,
+    /// u and W, in units of coordinates by time; time goes on along u alone.
+    directions: Vec<Vec<f64>>,
+    /// Multipliers of the rows that make up f, one column for each that is left out.
+    shares: Vec<Vec<f64>>,
+}
+
+/// The singular position that `near`, a state of a motion, is near; `None` if there is none or the motion does not lead there.
+pub(super) fn find(mech: &Prepared, near: &State) -> Option<Singular> {
+    let mut search = Search::new(mech, near);
+    search.factor(&near.v)?;
+    let pivots = search.dense.cod.pivots();
+    let counting = pivots.len();
+    let significance = *pivots.last()?;
+    let mut rank = leading(pivots, RANK_CEILING.max(TOGETHER * significance));
+    for _ in 0..TRIES {
+        if rank >= counting {
+            return None;
+        }
+        search.rank = rank;
+        (search.t, search.q, search.reach) = (near.t, near.q.clone(), 0.0);
+        let found = search.critical(&near.v, counting - rank);
+        // As many as all but depend on the others there.
+        let there = leading(search.dense.cod.pivots(), RANK_CEILING).min(rank);
+        match found {
+            Some(found) if there == rank => {
+                return Some(Singular {
+                    significance,
+                    rate: significance / (found.t - near.t).abs(),
+                    ..found
+                });
+            }
+            Some(_) => rank = there,
+            None => rank += 1,
+        }
+    }
+    None
+}
+
+impl<'a> Search<'a> {
+    fn new(mech: &'a Prepared, near: &State) -> Self {
+        let spec = mech.spec();
+        let (n, m) = (spec.n(), spec.m());
+        Search {
+            mech,
+            rounded: mech.rounded(),
+            dense: Dense::new(n, m, spec.structure.mass_diagonal),
+            terms: Evaluated::new(n, m),
+            rank: m,
+            reach: 0.0,
+            t: near.t,
+            q: near.q.clone(),
+            directions: Vec::new(),
+            shares: Vec::new(),
+        }
+    }
+
+    fn rows(&self) -> Rows<'_> {
+        let m = self.mech.spec().m();
+        Rows {
+            jacobian: &self.terms.jacobian,
+            stride: m,
+            rows: m,
+        }
+    }
+
+    /// Evaluates and factors the equations where the search stands, and takes the rank.
+    fn factor(&mut self, v: &[f64]) -> Option<()> {
+        self.terms.dynamics(self.mech, self.t, &self.q, v);
+        let spec = self.mech.spec();
+        let a = Rows {
+            jacobian: &self.terms.jacobian,
+            stride: spec.m(),
+            rows: spec.m(),
+        };
+        let mut factor = |route| {
+            self.dense
+                .factor(route, &self.terms.mass, a, RANK_TOLERANCE)
+        };
+        let factored = match spec.structure.massless.is_empty() {
+            true => match factor(Route::Regular) {
+                Err(MassFault::Singular(_)) => factor(Route::Singular),
+                other => other,
+            },
+            false => factor(Route::Singular),
+        };
+        factored.ok()?;
+        let rank = self.rank.min(self.dense.cod.pivots().len());
+        self.dense.set_rank(rank, &self.terms.mass).ok()
+    }
+
+    /// φ, zero for constraints that have none.
+    fn position(&self) -> Vec<f64> {
+        let mut phi = vec![0.0; self.mech.spec().m()];
+        let holonomic = self.mech.spec().holonomic;
+        self.mech.residual(self.t, &self.q, &mut phi[..holonomic]);
+        phi
+    }
+
+    /// The same in units of ε, of which it is uncertain.
+    fn uncertainty(&self) -> Vec<f64> {
+        let mut phi = vec![Rounded::exact(0.0); self.mech.spec().m()];
+        let q: Vec<Rounded> = self.q.iter().map(|q| Rounded::unknown(*q)).collect();
+        let holonomic = self.mech.spec().holonomic;
+        (self.rounded).residual(Rounded::unknown(self.t), &q, &mut phi[..holonomic]);
+        phi.into_iter().map(Rounded::bound).collect()
+    }
+
+    /// Moves onto the constraints that count.
+    fn settle(&mut self) {
+        let mut change = vec![0.0; self.q.len()];
+        let phi = self.position();
+        self.dense.least_norm(&phi, &mut change);
+        axpy(-1.0, &change, &mut self.q);
+    }
+
+    /// The part of `v` that the constraints that count allow.
+    fn allowed(&mut self, v: &[f64]) -> Vec<f64> {
+        let (mut rate, mut change) = (vec![0.0; self.mech.spec().m()], vec![0.0; v.len()]);
+        let mut v = v.to_vec();
+        (self.mech).residual_rate(self.t, &self.q, &v, &mut rate);
+        self.dense.least_norm(&rate, &mut change);
+        axpy(-1.0, &change, &mut v);
+        v
+    }
+
+    /// The multipliers of f.
+    fn share(&mut self) {
+        let m = self.mech.spec().m();
+        let rank = self.dense.cod.rank();
+        let mut basis = vec![0.0; m * (m - rank)];
+        self.dense.cod.dependences(&mut basis);
+        let scaled = |shares: &[f64]| {
+            let pairs = shares.iter().zip(&self.dense.row_scale);
+            pairs.map(|(share, scale)| share * scale).collect()
+        };
+        self.shares = basis.chunks_exact(m).map(scaled).collect();
+    }
+
+    /// `count` directions that the rows left out bar, as fast as `speed`.
+    fn bar(&mut self, count: usize, speed: f64) -> Option<()> {
+        let n = self.q.len();
+        let mut barred: Vec<Vec<f64>> = Vec::new();
+        for shares in &self.shares {
+            let mut x: Vec<f64> = (0..n)
+                .map(|j| {
+                    dot(
+                        &self.terms.jacobian[j * shares.len()..][..shares.len()],
+                        shares,
+                    )
+                })
+                .collect();
+            self.dense.metric.divide(&mut x);
+            barred.push(x);
+        }
+        for _ in 0..count {
+            let norm = |x: &Vec<f64>| dot(x, x).sqrt();
+            let longest =
+                (0..barred.len()).max_by(|i, j| norm(&barred[*i]).total_cmp(&norm(&barred[*j])))?;
+            let mut x = barred.swap_remove(longest);
+            let length = norm(&x);
+            if length == 0.0 || !length.is_finite() {
+                return None;
+            }
+            x.iter_mut().for_each(|x| *x /= length);
+            for other in &mut barred {
+                axpy(-dot(&x, other), &x, other);
+            }
+            self.dense.metric.divide_transposed(&mut x);
+            x.iter_mut().for_each(|x| *x *= speed);
+            self.directions.push(x);
+        }
+        Some(())
+    }
+
+    /// Searches q* with as many barred directions as `count`, for a motion with velocity `v`.
+    fn critical(&mut self, v: &[f64], count: usize) -> Option<Singular> {
+        self.factor(v)?;
+        self.settle();
+        self.factor(v)?;
+        let u = self.allowed(v);
+        let n = u.len();
+        let speed = (0..n)
+            .map(|j| u[j] * dot(&self.terms.mass[j * n..][..n], &u))
+            .sum::<f64>()
+            .sqrt();
+        if !(speed > 0.0 && speed < f64::INFINITY) {
+            return None;
+        }
+        self.directions = vec![u];
+        self.share();
+        self.bar(count, speed)?;
+        for _ in 0..MOST {
+            let found = self.newton()?;
+            if let Some(found) = found {
+                return Some(found);
+            }
+        }
+        None
+    }
+
+    /// One step towards q*; what is found there if it is the last one. `None` if there is none.
+    fn newton(&mut self) -> Option<Option<Singular>> {
+        let u = self.directions[0].clone();
+        self.factor(&u)?;
+        self.settle();
+        self.factor(&u)?;
+        self.share();
+        let k = self.directions.len();
+        // f, its slopes and its second derivatives, for each of its components.
+        let (phi, rounding) = (self.position(), self.uncertainty());
+        let mut rate = vec![0.0; phi.len()];
+        self.mech.residual_rate(self.t, &self.q, &u, &mut rate);
+        let a = self.rows();
+        let mut slopes = vec![rate];
+        for w in &self.directions[1..] {
+            slopes.push((0..phi.len()).map(|c| a.product(c, w)).collect());
+        }
+        let curvatures = self.curvatures();
+        let equations = self.shares.len() * k;
+        let mut system = Decomposition::new(equations, k);
+        let mut right = Vec::with_capacity(equations);
+        let matrix = system.load(equations);
+        for (j, shares) in self.shares.iter().enumerate() {
+            for (row, slope) in slopes.iter().enumerate() {
+                right.push(-dot(shares, slope));
+                for column in 0..k {
+                    matrix[(j * k + row) * k + column] = dot(shares, &curvatures[row * k + column]);
+                }
+            }
+        }
+        let matrix = matrix.to_vec();
+        let largest = matrix.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
+        if !(largest > 0.0 && largest < f64::INFINITY) {
+            return None;
+        }
+        system.factor(&vec![1.0; k], &vec![largest.recip(); equations], 1e-6);
+        if system.rank() < k {
+            return None;
+        }
+        let mut step = vec![0.0; k];
+        system.solve(&right, &mut step);
+        let size = dot(&step, &step).sqrt();
+        if self.reach == 0.0 {
+            self.reach = size;
+        }
+        if size.is_nan() || size > WIDEST * self.reach {
+            return None;
+        }
+        let left = right.chunks_exact(k).zip(matrix.chunks_exact(k * k)).fold(
+            0.0,
+            |most: f64, (right, rows)| {
+                let pairs = right.iter().zip(rows.chunks_exact(k));
+                pairs.fold(most, |most, (b, row)| most.max((b - dot(row, &step)).abs()))
+            },
+        );
+        let (mut last, mut agree, mut doubt, mut open) = (true, true, false, 0.0_f64);
+        for shares in &self.shares {
+            let e = dot(shares, &phi);
+            let pairs = shares.iter().zip(&rounding);
+            let noise = f64::EPSILON * pairs.map(|(share, r)| (share * r).abs()).sum::<f64>();
+            last &= largest * size * size <= noise;
+            agree &= left <= 1e-5 * largest * self.reach + (largest * noise).sqrt();
+            if e.abs() > ZERO * noise {
+                open = open.max(e.abs());
+                doubt |= e.abs() <= GAP * noise;
+            }
+        }
+        self.t += step[0];
+        for (direction, part) in self.directions.iter().zip(&step) {
+            axpy(*part, direction, &mut self.q);
+        }
+        if !last {
+            return Some(None);
+        }
+        if !agree {
+            return None;
+        }
+        let names = self.dense.cod.order()[self.dense.cod.rank()..].iter();
+        let names = names.map(|c| self.mech.spec().constraints[*c].name.to_owned());
+        Some(Some(Singular {
+            t: self.t,
+            gap: if doubt {
+                f64::NAN
+            } else {
+                (2.0 * open / largest).sqrt()
+            },
+            significance: 0.0,
+            rate: 0.0,
+            constraints: names.collect(),
+        }))
+    }
+
+    /// The second derivatives of all residuals by each pair of directions, from b = −q̇ᵀ ∂²φ q̇, which is quadratic in q̇.
+    fn curvatures(&mut self) -> Vec<Vec<f64>> {
+        let k = self.directions.len();
+        let mut b = |parts: &[(usize, f64)]| -> Vec<f64> {
+            let mut v = self.directions[0].clone();
+            for (i, sign) in parts {
+                axpy(*sign, &self.directions[*i], &mut v);
+            }
+            self.terms.dynamics(self.mech, self.t, &self.q, &v);
+            self.terms.rhs.clone()
+        };
+        let along = b(&[]);
+        let mut all = vec![Vec::new(); k * k];
+        let sides: Vec<[Vec<f64>; 2]> = (1..k).map(|i| [b(&[(i, 1.0)]), b(&[(i, -1.0)])]).collect();
+        all[0] = along.iter().map(|b| -b).collect();
+        for i in 1..k {
+            let [plus, minus] = &sides[i - 1];
+            let pairs = plus.iter().zip(minus);
+            let mixed: Vec<f64> = pairs.clone().map(|(p, m)| 0.25 * (m - p)).collect();
+            all[i].clone_from(&mixed);
+            all[i * k] = mixed;
+            let pure = pairs.zip(&along).map(|((p, m), b)| b - 0.5 * (p + m));
+            all[i * k + i] = pure.collect();
+            for j in 1..i {
+                let both = b(&[(i, 1.0), (j, 1.0)]);
+                let terms = both
+                    .iter()
+                    .zip(&sides[i - 1][0])
+                    .zip(&sides[j - 1][0])
+                    .zip(&along);
+                let mixed: Vec<f64> = terms
+                    .map(|(((both, i), j), b)| -0.5 * (both - i - j + b))
+                    .collect();
+                all[i * k + j].clone_from(&mixed);
+                all[j * k + i] = mixed;
+            }
+        }
+        all
+    }
+}
