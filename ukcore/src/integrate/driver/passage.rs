@@ -110,8 +110,8 @@ impl Driver<'_> {
         passage.distance = left - course.h;
     }
 
-    /// Where steps are of one size, those that would go over the singular position ahead are made by another method, so exactly that they
-    /// are as good as the motion itself.
+    /// Where steps are of one size, those near a singular position are made by another method, so exactly that they are as good as the
+    /// motion itself.
     pub(super) fn detour(&mut self) -> Result<Option<Outcome>, Error> {
         if self.scheme.gap().is_some() {
             return Ok(None);
@@ -133,7 +133,7 @@ impl Driver<'_> {
         // From far enough away: the last step may have gone just before the position.
         let start = std::mem::take(&mut self.passage.before);
         let (t, y) = match &start {
-            Some((t, y)) if left < course.h => (*t, y),
+            Some((t, y)) if (0.0..course.h).contains(&left) => (*t, y),
             _ => (course.now.t, &self.y),
         };
         let problem = &mut *self.equations.problem;
@@ -193,11 +193,8 @@ impl Driver<'_> {
             return Err(Refusal::Undecided(Box::new(Trouble::new(here, error))));
         }
         let Some([from, to]) = self.scheme.gap() else {
-            if left > 0.0 || left.abs() < found.gap {
-                self.passage.ahead = Some(found);
-                return Err(Refusal::Unplanned);
-            }
-            return Ok(());
+            self.passage.ahead = Some(found);
+            return Err(Refusal::Unplanned);
         };
         let good = if found.gap > 0.0 {
             trial.size <= 0.51 * left.hypot(found.gap)
