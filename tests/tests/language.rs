@@ -19,6 +19,7 @@ ukcore::multibody! {
             circular: sin(-2.0 * u) + cos(-u) * u.sin() + tan(-0.5 * u) = cos(x - y) - sin(y - x)
             inverse: asin(-0.5 * u) + acos(-0.5 * u) * z + (-u).atan() + atan2(-u, x + 3.0) = u.atan2(-y)
             hyperbolic: sinh(-u) + cosh(-u) * tanh(-u) = z.sinh()
+            areas: asinh(-2.0 * u) + acosh(u + 3.0) * atanh(-0.5 * u) = z.asinh() - (-u).atanh()
             powers: exp(-u) + ln(u + 3.0) + (u + 3.0).powf(p) + powf(u + 3.0, 2.5) + powf(u - 3.0, 3.0) = powi(u - 3.0, -3) + recip(u + 3.0)
             kinks: abs(-u) * u + sign(-u) * x + min(x, y) * max(u, -z) = hypot(x, -y) - min(z, 0.1)
             varying: (2.0 + x).powf(y) - (x - y) / (2.0 * x - 5.0) = (-3.0 * x * y) / (-(z + 4.0).powi(2))
@@ -40,6 +41,8 @@ impl Functions {
             twice.sin() + minus.cos() * u.sin() + half.tan() - ((x - y).cos() - (y - x).sin()),
             half.asin() + half.acos() * z + minus.atan() + minus.atan2(x + c(3.0)) - u.atan2(-y),
             minus.sinh() + minus.cosh() * minus.tanh() - z.sinh(),
+            (c(-2.0) * u).asinh() + (u + c(3.0)).acosh() * half.atanh()
+                - (z.asinh() - minus.atanh()),
             minus.exp()
                 + (u + c(3.0)).ln()
                 + (u + c(3.0)).powf(c(self.p))

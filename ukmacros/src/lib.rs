@@ -64,13 +64,13 @@ use proc_macro2::TokenStream;
 ///
 /// Rust's grammar. Numbers, `PI`, the time `t`, names, members `x[i + 1]`, `+ - * /`, vectors `[a, b]` (sum, difference, product and
 /// quotient with a number), `dot(q)` for a velocity (of an expression of q and t: its total time derivative), `sum(0..N, |i| …)`, and in
-/// function or method form: `sqrt sin cos tan asin acos atan atan2 sinh cosh tanh exp ln abs sign min max hypot sq powi powf recip`. A
-/// power is `x.powi(2)` (exponents from −64 to 64) or `sq(x)`, never `x ^ 2`. Parentheses around a sum are kept in the emitted
-/// arithmetic. Sums and products may be as long as they like, but are nested at most 100 deep.
+/// function or method form: `sqrt sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh exp ln abs sign atan2 min max hypot powf`,
+/// `sq`, `recip` and `powi`. A power is `x.powi(2)` (exponents from −64 to 64) or `sq(x)`, never `x ^ 2`. Parentheses around a sum are
+/// kept in the emitted arithmetic. Sums and products may be as long as they like, but are nested at most 100 deep.
 ///
 /// abs and sign have derivative sign and 0 (0 at 0); min and max follow the branch taken. Where the equations of motion depend on one of
 /// them, the function whose sign decides its branch is a switch: it stands in `T::SPEC.switches`, and simulations step onto its zeros.
-/// sqrt at 0, asin and acos at ±1, ln and negative powers at 0, atan2 and hypot at (0, 0) have no finite derivative: evaluating there is
+/// sqrt at 0, asin, acos and atanh at ±1, acosh at 1, ln and negative powers at 0, atan2 and hypot at (0, 0) have no finite derivative: evaluating there is
 /// reported as an error at run time.
 ///
 /// # What is emitted

@@ -13,7 +13,7 @@
 
 use super::dynamics::Dynamics;
 use super::probe::{Probe, Random};
-use crate::expr::{Func, Graph, Id, Node, Symbol, System, eval};
+use crate::expr::{Graph, Id, Node, Symbol, System, eval};
 use std::collections::BTreeSet;
 
 /// A pivot of a block of M below this share of what its diagonal is at other states is singular: rounding of the entries makes 1e-15, masses of
@@ -455,7 +455,7 @@ fn bounded(id: Id, g: &Graph) -> bool {
         Node::Scale(c, inner) => c.get() > 0.0 && bounded(*inner, g),
         Node::Held(inner) => bounded(*inner, g),
         Node::Product(factors) => factors.iter().all(|(f, e)| *e > 0 && bounded(*f, g)),
-        Node::Call(Func::Cosh, _) => true,
+        Node::Call(func, _) => func.row().least.is_some_and(|least| least > 0.0),
         _ => false,
     }
 }
@@ -474,10 +474,7 @@ fn never_negative(id: Id, g: &Graph) -> bool {
         Node::Product(factors) => factors
             .iter()
             .all(|(f, e)| e % 2 == 0 || never_negative(*f, g)),
-        Node::Call(func, _) => matches!(
-            func,
-            Func::Abs | Func::Sqrt | Func::Exp | Func::Cosh | Func::Hypot
-        ),
+        Node::Call(func, _) => func.row().least.is_some(),
         Node::Select { .. } => false,
     }
 }

@@ -237,7 +237,7 @@ impl Writer<'_> {
             Node::Held(inner) => self.write(*inner),
             Node::Call(func, args) => {
                 let receiver = self.receiver(args[0]);
-                let name = format_ident!("{}", func.name());
+                let name = format_ident!("{}", func.row().name);
                 let rest = args[1..].iter().map(|a| self.expression(*a));
                 (quote! { #receiver.#name(#(#rest),*) }, Binding::Call)
             }

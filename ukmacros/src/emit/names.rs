@@ -231,7 +231,7 @@ impl<'a> Namer<'a> {
         let name = match self.graph.node(id) {
             Node::Call(func, args) => {
                 let args: Option<Vec<String>> = args.iter().map(|a| self.atom(*a)).collect();
-                format!("{}_{}", func.name(), args?.join("_"))
+                format!("{}_{}", func.row().name, args?.join("_"))
             }
             Node::Sum(c, terms) if c.get() == 0.0 && terms.len() == 2 => {
                 let (a, b) = (terms[0], terms[1]);
@@ -293,7 +293,7 @@ impl<'a> Namer<'a> {
                 parts?.join("_and_")
             }
             Node::Call(func, args) if args.len() == 1 => {
-                format!("{}_{}", func.name(), self.describe(args[0])?)
+                format!("{}_{}", func.row().name, self.describe(args[0])?)
             }
             _ => return None,
         };

@@ -1,10 +1,7 @@
-//! Derivatives.
-//!
-//! Domains: where a function has no derivative, one is chosen and the emitted code follows it. abs′ is sign, with 0 at 0;
-//! sign′ is 0; min and max take the branch of the smaller (larger) argument, the first at a tie. sqrt′ is unbounded at 0,
-//! asin′ and acos′ at ±1, ln′ and negative powers at 0, atan2′ and hypot′ at (0, 0): there the result is not finite.
+//! Derivatives. Those of functions stand in their table.
 
-use super::graph::{Func, Graph, Id, Node, Symbol};
+use super::functions::{Form, Func};
+use super::graph::{Graph, Id, Node, Symbol};
 use std::collections::{HashMap, HashSet};
 
 /// A derivation: how symbols change. Remembers what it has differentiated.
@@ -147,89 +144,16 @@ impl Derivative {
     }
 
     fn of_call(&mut self, func: Func, args: &[Id], value: Id, g: &mut Graph) -> Id {
-        let u = args[0];
-        let du = self.of(u, g);
-        if let [_, w] = *args {
-            let dw = self.of(w, g);
-            return of_call2(func, (u, du), (w, dw), value, g);
+        let derived: Vec<Id> = args.iter().map(|arg| self.of(*arg, g)).collect();
+        match (&func.row().form, args, &derived[..]) {
+            (Form::One { slope, .. }, [u], [du]) => {
+                let slope = slope(g, *u, value);
+                g.mul(slope, *du)
+            }
+            (Form::Two { derivative, .. }, [u, w], [du, dw]) => {
+                derivative(g, (*u, *du), (*w, *dw), value)
+            }
+            _ => g.zero(),
         }
-        let slope = match func {
-            Func::Sqrt => {
-                let r = g.pow(value, -1);
-                g.scale(0.5, r)
-            }
-            Func::Sin => g.call1(Func::Cos, u),
-            Func::Cos => {
-                let s = g.call1(Func::Sin, u);
-                g.neg(s)
-            }
-            Func::Tan => {
-                let (one, square) = (g.one(), g.square(value));
-                g.add(one, square)
-            }
-            Func::Asin | Func::Acos => {
-                let (one, square) = (g.one(), g.square(u));
-                let radicand = g.sub(one, square);
-                let root = g.call1(Func::Sqrt, radicand);
-                let r = g.pow(root, -1);
-                g.scale(if func == Func::Asin { 1.0 } else { -1.0 }, r)
-            }
-            Func::Atan => {
-                let (one, square) = (g.one(), g.square(u));
-                let d = g.add(one, square);
-                g.pow(d, -1)
-            }
-            Func::Sinh => g.call1(Func::Cosh, u),
-            Func::Cosh => g.call1(Func::Sinh, u),
-            Func::Tanh => {
-                let (one, square) = (g.one(), g.square(value));
-                g.sub(one, square)
-            }
-            Func::Exp => value,
-            Func::Ln => g.pow(u, -1),
-            Func::Abs => g.call1(Func::Sign, u),
-            Func::Sign
-            | Func::Atan2
-            | Func::Min
-            | Func::Max
-            | Func::Hypot
-            | Func::Powf
-            | Func::Branch => g.zero(),
-        };
-        g.mul(slope, du)
-    }
-}
-
-/// Derivative of a function of two arguments, each with its own derivative.
-fn of_call2(func: Func, (u, du): (Id, Id), (w, dw): (Id, Id), value: Id, g: &mut Graph) -> Id {
-    match func {
-        Func::Min => g.select(u, w, du, dw),
-        Func::Max => g.select(w, u, du, dw),
-        Func::Hypot => {
-            let (a, b) = (g.mul(u, du), g.mul(w, dw));
-            let sum = g.add(a, b);
-            g.div(sum, value)
-        }
-        Func::Atan2 => {
-            let (a, b) = (g.mul(w, du), g.mul(u, dw));
-            let top = g.sub(a, b);
-            let (uu, ww) = (g.square(u), g.square(w));
-            let bottom = g.add(uu, ww);
-            g.div(top, bottom)
-        }
-        Func::Powf => {
-            // u^w: w u^(w−1) u′ + u^w ln u · w′; the second only where the exponent varies.
-            let one = g.one();
-            let lower = g.sub(w, one);
-            let power = g.call2(Func::Powf, u, lower);
-            let base = g.product(&[(w, 1), (power, 1), (du, 1)]);
-            if g.is_zero(dw) {
-                return base;
-            }
-            let ln = g.call1(Func::Ln, u);
-            let exponent = g.product(&[(value, 1), (ln, 1), (dw, 1)]);
-            g.add(base, exponent)
-        }
-        _ => g.zero(),
     }
 }

@@ -1,6 +1,6 @@
 //! Numeric value of an expression: parameter defaults, and the check of each pass by substitution.
 
-use super::graph::{Func, Graph, Id, Node, Symbol};
+use super::graph::{Graph, Id, Node, Symbol};
 
 /// Values of the symbols.
 pub(crate) struct Point<'a> {
@@ -74,30 +74,7 @@ fn value(node: &Node, values: &[f64], point: &Point<'_>) -> f64 {
         Node::Call(func, args) => {
             let u = at(&args[0]);
             let w = args.get(1).map_or(f64::NAN, at);
-            match func {
-                Func::Sqrt => u.sqrt(),
-                Func::Sin => u.sin(),
-                Func::Cos => u.cos(),
-                Func::Tan => u.tan(),
-                Func::Asin => u.asin(),
-                Func::Acos => u.acos(),
-                Func::Atan => u.atan(),
-                Func::Sinh => u.sinh(),
-                Func::Cosh => u.cosh(),
-                Func::Tanh => u.tanh(),
-                Func::Exp => u.exp(),
-                Func::Ln => u.ln(),
-                Func::Abs => u.abs(),
-                Func::Sign if u == 0.0 => 0.0,
-                Func::Sign => u.signum(),
-                Func::Atan2 => u.atan2(w),
-                Func::Min => u.min(w),
-                Func::Max => u.max(w),
-                Func::Hypot => u.hypot(w),
-                Func::Powf => u.powf(w),
-                Func::Branch if w == 0.0 => u,
-                Func::Branch => w,
-            }
+            func.value(u, w)
         }
         Node::Select {
             a,

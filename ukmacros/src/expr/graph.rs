@@ -10,6 +10,7 @@
 //! - a product has no product or scale among its factors. A sum may have a sum among its terms: parentheses are kept,
 //!   since regrouping a sum changes its rounding.
 
+use super::functions::{Cost, Func};
 use std::collections::{HashMap, HashSet};
 
 /// A node's place in the arena.
@@ -52,91 +53,6 @@ pub(crate) enum Symbol {
     Prepared(usize),
     /// The branch that a switch is held in, by the switch's position: its sign ±1, or 0 where none is held.
     Branch(usize),
-}
-
-/// A function of one or two arguments.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub(crate) enum Func {
-    Sqrt,
-    Sin,
-    Cos,
-    Tan,
-    Asin,
-    Acos,
-    Atan,
-    Sinh,
-    Cosh,
-    Tanh,
-    Exp,
-    Ln,
-    Abs,
-    Sign,
-    Atan2,
-    Min,
-    Max,
-    Hypot,
-    Powf,
-    /// The branch held (second argument), or the switching function (first) where none is. No function of the language.
-    Branch,
-}
-
-impl Func {
-    /// Name in the declaration and in the emitted code.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Func::Sqrt => "sqrt",
-            Func::Sin => "sin",
-            Func::Cos => "cos",
-            Func::Tan => "tan",
-            Func::Asin => "asin",
-            Func::Acos => "acos",
-            Func::Atan => "atan",
-            Func::Sinh => "sinh",
-            Func::Cosh => "cosh",
-            Func::Tanh => "tanh",
-            Func::Exp => "exp",
-            Func::Ln => "ln",
-            Func::Abs => "abs",
-            Func::Sign => "sign",
-            Func::Atan2 => "atan2",
-            Func::Min => "min",
-            Func::Max => "max",
-            Func::Hypot => "hypot",
-            Func::Powf => "powf",
-            Func::Branch => "branch",
-        }
-    }
-
-    /// The functions of the language.
-    pub(crate) const ALL: [Func; 19] = [
-        Func::Sqrt,
-        Func::Sin,
-        Func::Cos,
-        Func::Tan,
-        Func::Asin,
-        Func::Acos,
-        Func::Atan,
-        Func::Sinh,
-        Func::Cosh,
-        Func::Tanh,
-        Func::Exp,
-        Func::Ln,
-        Func::Abs,
-        Func::Sign,
-        Func::Atan2,
-        Func::Min,
-        Func::Max,
-        Func::Hypot,
-        Func::Powf,
-    ];
-
-    /// Number of arguments.
-    pub(crate) fn arity(self) -> usize {
-        match self {
-            Func::Atan2 | Func::Min | Func::Max | Func::Hypot | Func::Powf | Func::Branch => 2,
-            _ => 1,
-        }
-    }
 }
 
 /// A node.
@@ -352,10 +268,12 @@ fn own_latency(node: &Node) -> u32 {
         Node::Sum(..) | Node::Scale(..) => 4,
         Node::Product(factors) if factors.iter().any(|(_, e)| *e < 0) => 18,
         Node::Product(_) => 4,
-        Node::Call(Func::Abs | Func::Sign | Func::Min | Func::Max | Func::Branch, _)
-        | Node::Select { .. } => 4,
-        Node::Call(Func::Sqrt, _) => 18,
-        Node::Call(..) => 50,
+        Node::Select { .. } => 4,
+        Node::Call(func, _) => match func.row().cost {
+            Cost::Selection => 4,
+            Cost::SquareRoot => 18,
+            Cost::Transcendental => 50,
+        },
     }
 }
 

@@ -4,7 +4,9 @@ mod diff;
 mod display;
 mod eval;
 mod fold;
+mod functions;
 mod graph;
+mod jet;
 mod lower;
 mod rest;
 
@@ -12,5 +14,7 @@ pub(crate) use diff::Derivative;
 pub(crate) use display::Printer;
 pub(crate) use eval::{Point, eval, eval_shaken};
 pub(crate) use fold::is_power_of_two;
-pub(crate) use graph::{Func, Graph, Id, Node, Num, Symbol};
+pub(crate) use functions::{Cost, Func};
+pub(crate) use graph::{Graph, Id, Node, Num, Symbol};
+pub(crate) use jet::Jet;
 pub(crate) use lower::{ConstraintRef, Kind, System, lower};

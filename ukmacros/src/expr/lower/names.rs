@@ -4,7 +4,8 @@ use super::value::is_integer;
 use super::{Binding, Env, Lowering, Place, Value};
 use crate::diag::{Loc, suggest};
 use crate::expr::diff::Derivative;
-use crate::expr::graph::{Func, Id, Symbol};
+use crate::expr::functions::Func;
+use crate::expr::graph::{Id, Symbol};
 use crate::model::{Name, Scope};
 use crate::parse::Expr;
 use proc_macro2::Ident;
@@ -204,7 +205,7 @@ impl<'m> Lowering<'m> {
             }
             _ => {}
         }
-        let Some(func) = Func::ALL.into_iter().find(|f| f.name() == text) else {
+        let Some(func) = Func::all().find(|f| f.row().name == text) else {
             return self.unknown_function(name, env);
         };
         if args.len() != func.arity() {
@@ -235,7 +236,7 @@ impl<'m> Lowering<'m> {
                 format!("`{text}` is not a function; write `*` for a product, `,` between entries"),
             );
         }
-        let mut names: Vec<&str> = Func::ALL.iter().map(|f| f.name()).collect();
+        let mut names: Vec<&str> = Func::all().map(|f| f.row().name).collect();
         names.extend(["sq", "powi", "recip", "dot", "sum"]);
         let list = names.join(", ");
         let functions = self
