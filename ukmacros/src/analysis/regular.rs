@@ -221,7 +221,7 @@ impl<'a> States<'a> {
             .iter()
             .flat_map(|id| g.support(*id))
             .filter_map(|s| match s {
-                Symbol::Coord(i) => Some(*i),
+                Symbol::Coord(i) => Some(i),
                 _ => None,
             })
             .collect();

@@ -1,7 +1,7 @@
 //! Facts about a mechanism that solver and reader use, and what the emitted code leaves out because of them.
 
 use super::dynamics::Dynamics;
-use crate::expr::{Derivative, Func, Graph, Id, Kind, Node, Symbol, System};
+use crate::expr::{Func, Gradient, Graph, Id, Kind, Node, Symbol, System};
 use std::collections::{BTreeSet, HashSet};
 
 /// Facts known at compile time.
@@ -176,10 +176,11 @@ fn quadratic(kinetic: Id, g: &mut Graph) -> bool {
 
 /// ∂/∂q̇ of `id`, for each velocity in it.
 fn slopes(id: Id, g: &mut Graph) -> Vec<Id> {
-    let symbols = g.support(id).to_vec().into_iter();
-    let velocities = symbols.filter(|s| matches!(s, Symbol::Velocity(_)));
+    let gradient = Gradient::of(id, g);
+    let velocities = gradient.symbols();
     velocities
-        .map(|s| Derivative::partial(s).of(id, g))
+        .filter(|s| matches!(s, Symbol::Velocity(_)))
+        .map(|s| gradient.along(s, g))
         .collect()
 }
 

@@ -1,13 +1,93 @@
 //! Derivatives. Those of functions stand in their table.
 
 use super::functions::{Form, Func};
-use super::graph::{Graph, Id, Node, Symbol};
-use std::collections::{HashMap, HashSet};
+use super::graph::{Graph, Id, Node, Num, Symbol};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use std::rc::Rc;
 
 /// A derivation: how symbols change. Remembers what it has differentiated.
 pub(crate) struct Derivative {
     seed: Seed,
     known: HashMap<Id, Id>,
+    /// Of sums, the terms that matter.
+    sums: Rc<Sums>,
+}
+
+/// Of long sums, the terms that depend on a symbol: all derivatives of a sum cost one look at each term.
+#[derive(Default)]
+struct Sums(HashMap<Id, BTreeMap<Symbol, Vec<(Num, Id)>>>);
+
+/// Sums of more terms are long.
+const LONG: usize = 8;
+
+impl Sums {
+    /// Enters `id` and the sums it is a sum of.
+    fn of(id: Id, g: &Graph) -> Self {
+        let mut sums = Sums::default();
+        let mut stack = vec![id];
+        while let Some(id) = stack.pop() {
+            let (_, id) = g.unscaled(id);
+            let Node::Sum(_, terms) = g.node(id) else {
+                continue;
+            };
+            stack.extend(terms.iter().map(|(_, term)| *term));
+            if terms.len() > LONG && !sums.0.contains_key(&id) {
+                let of_sum = sums.0.entry(id).or_default();
+                for (c, term) in terms {
+                    for symbol in g.support(*term) {
+                        of_sum.entry(symbol).or_default().push((*c, *term));
+                    }
+                }
+            }
+        }
+        sums
+    }
+
+    /// The terms of the sum `id` that depend on `symbol`, if it was entered.
+    fn terms(&self, id: Id, seed: Seed) -> Option<&[(Num, Id)]> {
+        let (Seed::Partial(symbol), Some(sum)) = (seed, self.0.get(&id)) else {
+            return None;
+        };
+        Some(sum.get(&symbol).map_or(&[], Vec::as_slice))
+    }
+}
+
+/// Partial derivatives of a value by all the coordinates and velocities it depends on.
+pub(crate) struct Gradient {
+    of: Id,
+    sums: Rc<Sums>,
+    symbols: BTreeSet<Symbol>,
+}
+
+impl Gradient {
+    pub(crate) fn of(id: Id, g: &Graph) -> Self {
+        Gradient {
+            of: id,
+            sums: Rc::new(Sums::of(id, g)),
+            symbols: g.support(id),
+        }
+    }
+
+    /// What the value depends on.
+    pub(crate) fn symbols(&self) -> impl Iterator<Item = Symbol> {
+        self.symbols.iter().copied()
+    }
+
+    /// ∂/∂symbol.
+    pub(crate) fn along(&self, symbol: Symbol, g: &mut Graph) -> Id {
+        self.by(&mut Derivative::partial(symbol), g)
+    }
+
+    /// The same by a derivative that is kept.
+    pub(crate) fn by(&self, derivative: &mut Derivative, g: &mut Graph) -> Id {
+        match derivative.seed {
+            Seed::Partial(symbol) if !self.symbols.contains(&symbol) => g.zero(),
+            _ => {
+                derivative.sums = self.sums.clone();
+                derivative.of(self.of, g)
+            }
+        }
+    }
 }
 
 #[derive(Clone, Copy)]
@@ -24,6 +104,7 @@ impl Derivative {
         Derivative {
             seed: Seed::Partial(symbol),
             known: HashMap::new(),
+            sums: Rc::default(),
         }
     }
 
@@ -32,6 +113,7 @@ impl Derivative {
         Derivative {
             seed: Seed::Total,
             known: HashMap::new(),
+            sums: Rc::default(),
         }
     }
 
@@ -44,11 +126,12 @@ impl Derivative {
         }
     }
 
-    /// Whether the derivative of `id` is zero for want of dependence.
+    /// Whether the derivative of `id` is zero because nothing below can depend on the symbol.
     fn blind(&self, id: Id, g: &Graph) -> bool {
         let uses = g.uses(id);
         match self.seed {
-            Seed::Partial(s @ (Symbol::Coord(_) | Symbol::Velocity(_))) => !g.depends(id, s),
+            Seed::Partial(Symbol::Coord(_)) => !uses.coord,
+            Seed::Partial(Symbol::Velocity(_)) => !uses.velocity,
             Seed::Partial(Symbol::Time) => !uses.time,
             Seed::Partial(Symbol::Param(_) | Symbol::Prepared(_)) => !uses.param,
             Seed::Partial(Symbol::Residual(_)) => !uses.residual,
@@ -67,7 +150,11 @@ impl Derivative {
         let mut seen = HashSet::from([id]);
         let mut at = 0;
         while let Some(next) = needed.get(at) {
-            for operand in g.operands(*next) {
+            let operands = match self.sums.terms(*next, self.seed) {
+                Some(terms) => terms.iter().map(|(_, term)| *term).collect(),
+                None => g.operands(*next),
+            };
+            for operand in operands {
                 if self.known(operand, g).is_none() && seen.insert(operand) {
                     needed.push(operand);
                 }
@@ -99,7 +186,10 @@ impl Derivative {
                 let d = self.of(inner, g);
                 g.scale(c.get(), d)
             }
-            Node::Sum(_, terms) => {
+            Node::Sum(_, mut terms) => {
+                if let Some(those) = self.sums.terms(id, self.seed) {
+                    terms = those.to_vec();
+                }
                 let mut derived = Vec::with_capacity(terms.len());
                 for (c, term) in terms {
                     // A group stays a group; the product rule's terms are opened.
@@ -145,6 +235,9 @@ impl Derivative {
 
     fn of_call(&mut self, func: Func, args: &[Id], value: Id, g: &mut Graph) -> Id {
         let derived: Vec<Id> = args.iter().map(|arg| self.of(*arg, g)).collect();
+        if derived.iter().all(|d| g.is_zero(*d)) {
+            return g.zero();
+        }
         match (&func.row().form, args, &derived[..]) {
             (Form::One { slope, .. }, [u], [du]) => {
                 let slope = slope(g, *u, value);

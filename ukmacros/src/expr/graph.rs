@@ -11,7 +11,7 @@
 //!   since regrouping a sum changes its rounding.
 
 use super::functions::{Cost, Func};
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 /// A node's place in the arena.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -114,8 +114,6 @@ pub(crate) struct Graph {
     uses: Vec<Uses>,
     /// Estimated latency of each node, in cycles: its place on the critical path.
     latency: Vec<u32>,
-    /// Coordinates and velocities below each node, sorted.
-    support: Vec<Vec<Symbol>>,
     known: HashMap<Node, Id>,
 }
 
@@ -139,19 +137,26 @@ impl Graph {
         self.uses[id.index()]
     }
 
-    /// Whether `id` depends on the coordinate or velocity `symbol`.
-    pub(crate) fn depends(&self, id: Id, symbol: Symbol) -> bool {
-        self.support[id.index()].binary_search(&symbol).is_ok()
-    }
-
     /// Estimated cycles until `id` is known.
     pub(crate) fn latency(&self, id: Id) -> u32 {
         self.latency[id.index()]
     }
 
     /// Coordinates and velocities that `id` depends on.
-    pub(crate) fn support(&self, id: Id) -> &[Symbol] {
-        &self.support[id.index()]
+    pub(crate) fn support(&self, id: Id) -> BTreeSet<Symbol> {
+        let moving = |id: &Id| self.uses(*id).coord || self.uses(*id).velocity;
+        let mut stack: Vec<Id> = [id].into_iter().filter(moving).collect();
+        let (mut seen, mut found) = (HashSet::new(), BTreeSet::new());
+        while let Some(id) = stack.pop() {
+            match *self.node(id) {
+                Node::Symbol(symbol) => drop(found.insert(symbol)),
+                _ if seen.insert(id) => {
+                    stack.extend(self.operands(id).iter().filter(|id| moving(id)))
+                }
+                _ => {}
+            }
+        }
+        found
     }
 
     /// The node itself if it is known, else a new one. Only `fold` calls this: it keeps the invariants.
@@ -165,7 +170,6 @@ impl Graph {
         let latency = slowest.unwrap_or(0) + own_latency(&node);
         self.latency.push(latency);
         let mut uses = Uses::default();
-        let mut support = Vec::new();
         if let Node::Symbol(s) = node {
             match s {
                 Symbol::Param(_) | Symbol::Prepared(_) => uses.param = true,
@@ -175,19 +179,12 @@ impl Graph {
                 Symbol::Residual(_) => uses.residual = true,
                 Symbol::Branch(_) => uses.branch = true,
             }
-            if uses.coord || uses.velocity {
-                support.push(s);
-            }
         }
         for operand in operands {
             uses = uses.join(self.uses[operand.index()]);
-            support.extend_from_slice(&self.support[operand.index()]);
         }
-        support.sort_unstable();
-        support.dedup();
         self.nodes.push(node.clone());
         self.uses.push(uses);
-        self.support.push(support);
         self.known.insert(node, id);
         id
     }
