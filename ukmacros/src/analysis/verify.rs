@@ -253,10 +253,10 @@ impl Motion<'_> {
 impl Path<'_> {
     fn jets(&self, g: &Graph, roots: &[Id], shake: &mut Shake) -> Vec<Jet> {
         let top = roots.iter().map(|r| r.index() + 1).max().unwrap_or(0);
-        let mut values: Vec<Jet> = Vec::with_capacity(top);
-        for i in 0..top {
-            let Jet(a, b, c) = self.jet(g.node(g.at(i)), &values);
-            values.push(Jet(shake.change(a), shake.change(b), shake.change(c)));
+        let mut values = vec![Jet::constant(0.0); top];
+        for id in g.reachable(roots) {
+            let Jet(a, b, c) = self.jet(g.node(id), &values);
+            values[id.index()] = Jet(shake.change(a), shake.change(b), shake.change(c));
         }
         roots.iter().map(|r| values[r.index()]).collect()
     }

@@ -129,6 +129,9 @@ enum Binding {
     Call,
 }
 
+/// Sums of more terms are written in parts: the compiler of the emitted code recurses on `a.mul_add(b, c.mul_add(d, …))`.
+const LONGEST: usize = 64;
+
 /// Factors of a product, each wrapped so that it can be multiplied.
 type Factors = Vec<(TokenStream, Binding)>;
 
@@ -263,11 +266,18 @@ impl Writer<'_> {
             terms[..=first].rotate_right(1);
         }
         let mut out = None;
+        let mut before = TokenStream::new();
         let leading = c != 0.0 && (c > 0.0 || first.is_none());
         if leading {
             out = Some((constant(c), Binding::Call));
         }
-        for (k, term) in &terms {
+        for (at, (k, term)) in terms.iter().enumerate() {
+            if at % LONGEST == LONGEST - 1
+                && let Some((sum, _)) = out
+            {
+                before.extend(quote! { let sum = #sum; });
+                out = Some((quote! { sum }, Binding::Call));
+            }
             let factors = self.term(k.abs(), *term);
             let negative = *k < 0.0;
             let Some((sum, _)) = out else {
@@ -310,15 +320,17 @@ impl Writer<'_> {
             });
         }
         let (sum, binding) = out.unwrap_or_else(|| (constant(c), Binding::Call));
-        if c == 0.0 || leading {
-            return (sum, binding);
-        }
         let value = constant(c.abs());
-        let sum = match c > 0.0 {
-            true => quote! { #sum + #value },
-            false => quote! { #sum - #value },
+        let (sum, binding) = match c {
+            _ if c == 0.0 || leading => (sum, binding),
+            _ if c > 0.0 => (quote! { #sum + #value }, Binding::Sum),
+            _ => (quote! { #sum - #value }, Binding::Sum),
         };
-        (sum, Binding::Sum)
+        match before.is_empty() {
+            true => (sum, binding),
+            // In parentheses, as a statement may begin with it.
+            false => (quote! { ({ #before #sum }) }, Binding::Call),
+        }
     }
 
     /// c · id as factors, in the order in which they are known; a single one may be added, several may be multiplied.

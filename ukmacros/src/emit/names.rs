@@ -7,7 +7,7 @@ use quote::format_ident;
 use std::collections::{HashMap, HashSet};
 
 /// Names that emitted functions use themselves, or that Rust reserves.
-const TAKEN: [&str; 70] = [
+const TAKEN: [&str; 71] = [
     "given",
     "prepared",
     "t",
@@ -15,6 +15,7 @@ const TAKEN: [&str; 70] = [
     "v",
     "out",
     "lit",
+    "sum",
     "mass",
     "force",
     "nonideal",
@@ -125,6 +126,8 @@ pub(super) struct Namer<'a> {
     variables: HashMap<Id, String>,
     reciprocals: HashMap<Id, String>,
     taken: HashSet<String>,
+    /// How often each was wished for again.
+    repeated: HashMap<String, usize>,
 }
 
 impl<'a> Namer<'a> {
@@ -142,6 +145,7 @@ impl<'a> Namer<'a> {
             variables: HashMap::new(),
             reciprocals: HashMap::new(),
             taken: TAKEN.iter().map(|s| (*s).to_owned()).collect(),
+            repeated: HashMap::new(),
         };
         namer.symbols.insert(Symbol::Time, "t".to_owned());
         let mut enter = |symbol: Symbol, text: &str| {
@@ -185,9 +189,9 @@ impl<'a> Namer<'a> {
 
     fn fresh(&mut self, wish: &str) -> String {
         let mut name = wish.to_owned();
-        let mut k = 1;
         while !self.taken.insert(name.clone()) {
-            k += 1;
+            let k = self.repeated.entry(wish.to_owned()).or_insert(1);
+            *k += 1;
             name = format!("{wish}_{k}");
         }
         name

@@ -24,7 +24,7 @@ impl Point<'_> {
     };
 }
 
-/// Values of all nodes up to the highest of `roots`, in one sweep; returns those of `roots`.
+/// Values of `roots`, in one sweep over what they are made of.
 pub(crate) fn eval(g: &Graph, roots: &[Id], point: &Point<'_>) -> Vec<f64> {
     eval_shaken(g, roots, point, &mut |x| x)
 }
@@ -36,20 +36,10 @@ pub(crate) fn eval_shaken(
     point: &Point<'_>,
     shake: &mut dyn FnMut(f64) -> f64,
 ) -> Vec<f64> {
-    let mut needed = vec![false; roots.iter().map(|r| r.index() + 1).max().unwrap_or(0)];
-    for root in roots {
-        needed[root.index()] = true;
-    }
-    for i in (0..needed.len()).rev() {
-        if needed[i] {
-            for operand in g.operands(g.at(i)) {
-                needed[operand.index()] = true;
-            }
-        }
-    }
-    let mut values = vec![0.0; needed.len()];
-    for i in (0..needed.len()).filter(|i| needed[*i]) {
-        values[i] = shake(value(g.node(g.at(i)), &values, point));
+    let top = roots.iter().map(|r| r.index() + 1).max().unwrap_or(0);
+    let mut values = vec![0.0; top];
+    for id in g.reachable(roots) {
+        values[id.index()] = shake(value(g.node(id), &values, point));
     }
     roots.iter().map(|r| values[r.index()]).collect()
 }

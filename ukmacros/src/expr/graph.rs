@@ -118,11 +118,6 @@ pub(crate) struct Graph {
 }
 
 impl Graph {
-    /// The node at position `index` (below the number of nodes).
-    pub(crate) fn at(&self, index: usize) -> Id {
-        Id(u32::try_from(index).unwrap_or(u32::MAX))
-    }
-
     /// Number of nodes.
     #[cfg(test)]
     pub(crate) fn len(&self) -> usize {
@@ -225,14 +220,15 @@ impl Graph {
 
     /// The nodes that `roots` are made of, themselves included, operands before users.
     pub(crate) fn reachable(&self, roots: &[Id]) -> Vec<Id> {
-        let mut found = HashSet::new();
-        let mut stack = roots.to_vec();
+        let top = roots.iter().map(|r| r.index() + 1).max().unwrap_or(0);
+        let mut seen = vec![false; top];
+        let (mut found, mut stack) = (Vec::new(), roots.to_vec());
         while let Some(id) = stack.pop() {
-            if found.insert(id) {
+            if !std::mem::replace(&mut seen[id.index()], true) {
+                found.push(id);
                 stack.extend(self.operands(id));
             }
         }
-        let mut found: Vec<Id> = found.into_iter().collect();
         found.sort_unstable();
         found
     }
