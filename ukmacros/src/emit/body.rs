@@ -16,6 +16,12 @@ pub(super) struct Writing<'a> {
     pub(super) function: &'a Function,
 }
 
+/// In functions of more steps, variables are declared in groups: the compiler of the emitted code opens a scope within a scope at each `let`, and
+/// recurses on them where it writes what debuggers read.
+const MANY: usize = 1000;
+/// Variables of a group.
+const GROUP: usize = 64;
+
 /// Writes the straight-line code of a function, with the coordinates, velocities and parameters that it reads.
 pub(super) fn body(writing: &Writing<'_>) -> TokenStream {
     let Writing {
@@ -33,7 +39,10 @@ pub(super) fn body(writing: &Writing<'_>) -> TokenStream {
     let inputs = writer.inputs(model, system.constraints.len(), prepared, program);
     let purpose = |root: usize| writing.purpose(roots[root].0);
     let exits: HashSet<Id> = function.exits.iter().copied().collect();
-    let mut statements = TokenStream::new();
+    let many = program.steps.len() > MANY;
+    let declare = (!many).then(|| quote! { let });
+    let (mut statements, mut group, mut declared) =
+        (TokenStream::new(), TokenStream::new(), Vec::new());
     // Helpers are named for the value whose computation needs them first: the next one stored.
     let mut next = 0;
     for step in &program.steps {
@@ -46,33 +55,43 @@ pub(super) fn body(writing: &Writing<'_>) -> TokenStream {
                     false => format!("{}_part", purpose(next)),
                 };
                 let name = writer.namer.declare(id, &purpose);
-                statements.extend(quote! { let #name = #value; });
+                group.extend(quote! { #declare #name = #value; });
                 if exits.contains(&id) {
-                    statements.extend(quote! { if #name.is_zero() { return #name; } });
+                    group.extend(quote! { if #name.is_zero() { return #name; } });
                 }
+                declared.push(name);
             }
             Step::Reciprocal(id) => {
                 let receiver = writer.receiver(id);
                 let name = writer.namer.declare_reciprocal(id, &purpose(next));
-                statements.extend(quote! { let #name = #receiver.recip(); });
+                group.extend(quote! { #declare #name = #receiver.recip(); });
+                declared.push(name);
             }
             Step::SinCos { sin, cos } => {
                 let argument = g.operands(sin)[0];
                 let argument = writer.receiver(argument);
                 let sin = writer.namer.declare(sin, &purpose(next));
                 let cos = writer.namer.declare(cos, &purpose(next));
-                statements.extend(quote! { let (#sin, #cos) = #argument.sin_cos(); });
+                group.extend(quote! { #declare (#sin, #cos) = #argument.sin_cos(); });
+                declared.extend([sin, cos]);
             }
             Step::Store(k) => {
                 let (place, id) = roots[k];
                 let value = writer.expression(id);
                 let place = stored(place);
-                statements.extend(quote! { #place = #value; });
+                group.extend(quote! { #place = #value; });
                 next = (k + 1).min(roots.len() - 1);
             }
         }
+        if declared.len() >= GROUP {
+            let names = std::mem::take(&mut declared);
+            let names = many.then(|| quote! { let (#(#names),*); });
+            statements.extend(quote! { #names #group });
+            group = TokenStream::new();
+        }
     }
-    quote! { #inputs #statements }
+    let names = (many && !declared.is_empty()).then(|| quote! { let (#(#declared,)*); });
+    quote! { #inputs #statements #names #group }
 }
 
 /// The left side of an assignment to `place`.
