@@ -459,9 +459,12 @@ impl Writer<'_> {
 
 /// a * b * c
 fn join(factors: &[(TokenStream, Binding)]) -> TokenStream {
-    let factors = factors.iter().map(|(tokens, _)| tokens.clone());
-    let joined = factors.reduce(|a, b| quote! { #a * #b });
-    joined.unwrap_or_default()
+    let mut product = TokenStream::new();
+    for (k, (factor, _)) in factors.iter().enumerate() {
+        let times = (k > 0).then(|| quote! { * });
+        product.extend(quote! { #times #factor });
+    }
+    product
 }
 
 fn wrap((tokens, binding): (TokenStream, Binding), least: Binding) -> TokenStream {

@@ -1,14 +1,14 @@
 //! Derivatives. Those of functions stand in their table.
 
 use super::functions::{Form, Func};
-use super::graph::{Graph, Id, Node, Num, Symbol};
+use super::graph::{Graph, Id, Map, Node, Num, Symbol};
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::rc::Rc;
 
 /// A derivation: how symbols change. Remembers what it has differentiated.
 pub(crate) struct Derivative {
     seed: Seed,
-    known: HashMap<Id, Id>,
+    known: Map<Id, Id>,
     /// Of sums, the terms that matter.
     sums: Rc<Sums>,
 }
@@ -103,7 +103,7 @@ impl Derivative {
     pub(crate) fn partial(symbol: Symbol) -> Self {
         Derivative {
             seed: Seed::Partial(symbol),
-            known: HashMap::new(),
+            known: Map::default(),
             sums: Rc::default(),
         }
     }
@@ -112,7 +112,7 @@ impl Derivative {
     pub(crate) fn total() -> Self {
         Derivative {
             seed: Seed::Total,
-            known: HashMap::new(),
+            known: Map::default(),
             sums: Rc::default(),
         }
     }

@@ -7,8 +7,7 @@
 //! ([`Node::Held`]).
 
 use super::functions::{Func, Symmetry};
-use super::graph::{Graph, Id, Node, Num, Symbol};
-use std::collections::HashMap;
+use super::graph::{Graph, Id, Map, Node, Num, Symbol};
 
 /// Products of more factors stay whole inside of other products. Opened, a chain of products of products would lose what it shares.
 const MAX_OPENED: usize = 16;
@@ -79,7 +78,7 @@ impl Graph {
     pub(crate) fn sum(&mut self, terms: &[(f64, Id)]) -> Id {
         let mut constant = 0.0;
         let mut collected: Vec<(f64, Id)> = Vec::with_capacity(terms.len());
-        let mut place: HashMap<Id, usize> = HashMap::with_capacity(terms.len());
+        let mut place: Map<Id, usize> = Map::default();
         for &(c, id) in terms {
             if let Some(x) = self.as_const(id) {
                 constant += c * x;
@@ -476,7 +475,7 @@ impl Graph {
 #[derive(Default)]
 struct Factors {
     list: Vec<(Id, i32)>,
-    place: HashMap<Id, usize>,
+    place: Map<Id, usize>,
 }
 
 impl Factors {

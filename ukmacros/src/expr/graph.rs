@@ -12,6 +12,32 @@
 
 use super::functions::{Cost, Func};
 use std::collections::{BTreeSet, HashMap, HashSet};
+use std::hash::{BuildHasherDefault, Hasher};
+
+/// A map whose hashes cost little where the compiler is not optimised, as macros are not.
+pub(super) type Map<K, V> = HashMap<K, V, BuildHasherDefault<Hash>>;
+
+/// Multiplies and rotates; keys are not chosen by an adversary.
+#[derive(Default)]
+pub(super) struct Hash(u64);
+
+impl Hasher for Hash {
+    fn finish(&self) -> u64 {
+        self.0.rotate_left(26)
+    }
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|b| self.write_u64(u64::from(*b)));
+    }
+    fn write_u32(&mut self, x: u32) {
+        self.write_u64(u64::from(x));
+    }
+    fn write_u64(&mut self, x: u64) {
+        self.0 = (self.0.rotate_left(5) ^ x).wrapping_mul(0xF135_7AEA_2E62_A9C5);
+    }
+    fn write_usize(&mut self, x: usize) {
+        self.write_u64(x as u64);
+    }
+}
 
 /// A node's place in the arena.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -114,7 +140,7 @@ pub(crate) struct Graph {
     uses: Vec<Uses>,
     /// Estimated latency of each node, in cycles: its place on the critical path.
     latency: Vec<u32>,
-    known: HashMap<Node, Id>,
+    known: Map<Node, Id>,
 }
 
 impl Graph {

@@ -1,7 +1,9 @@
 //! A declaration whose names are known.
 
+use crate::diag::Loc;
 use crate::parse::{Const, Expr};
 use proc_macro2::Ident;
+use std::cell::Cell;
 use std::collections::{BTreeMap, HashMap};
 
 /// Names of a declaration, resolved.
@@ -17,12 +19,16 @@ pub(crate) struct Model {
     pub(crate) coord_elements: Vec<Element>,
     /// What each name stands for.
     pub(crate) names: HashMap<String, Name>,
+    /// How often loops were repeated in all.
+    pub(crate) repetitions: Cell<i64>,
 }
 
 /// `const N: usize = …;`
 pub(crate) struct Integer {
     pub(crate) docs: Vec<String>,
     pub(crate) name: Ident,
+    /// Of its value.
+    pub(crate) loc: Loc,
     /// Nothing where it is in error, which is reported.
     pub(crate) value: Option<i64>,
 }

@@ -233,12 +233,14 @@ cases! {
     negative_index: "coords { x[3] } mass { for i in 0..3 { x[i]: 1.0 } } force { x[«-1»]: 1.0 }" => "index -1 is out of range";
     range_not_constant: "params { n = 3.0 } coords { x[3] } mass { for i in 0..«n» { x[i]: 1.0 } }" => "`n` is not an integer constant or loop variable";
     fractional_index: "coords { x[3] } mass { for i in 0..3 { x[i]: 1.0 } } force { x[«1.5»]: 1.0 }" => "not an integer known at compile time";
-    endless_range: "coords { x[3] } mass { for i in «0..1000000000» { x[i]: 1.0 } }" => "is not unrolled";
+    endless_range: "coords { x[3] } mass { for i in 0..«1000000000» { x[i]: 1.0 } }" => "up to 5000 compile";
+    endless_constant: "const N: usize = «100000»; coords { x[N], y[2 * N] } mass { for i in 0..N - 1 { x[i]: sum(0..N, |k| 1.0) } }" => "by `N` = 100000 have";
+    loops_in_loops: "const N: usize = 1000; coords { x[N] } mass { for i in 0..N { x[i]: sum(«0..N», |k| 1.0) } }" => "100000 repetitions in all";
     loop_variable_taken: "coords { x } mass { x: 1.0 } force { for «x» in 0..2 { x: 1.0 } }" => "`x` is declared twice";
     nested_loop_variable: "coords { x } mass { x: 1.0 } force { for i in 0..2 { for «i» in 0..2 { x: 1.0 } } }" => "`i` is already a loop variable";
     family_without_index: "coords { x[3] } mass { for i in 0..3 { x[i]: 1.0 } } force { «x»: 1.0 }" => "`x` is a family; choose a member, `x[0]` to `x[2]`";
     scalar_with_index: "coords { x } mass { x: 1.0 } force { x[«0»]: 1.0 }" => "`x` is not a family";
-    empty_family: "coords { x[«0»], y } mass { y: 1.0 }" => "a family needs between 1 and 100000 members";
+    empty_family: "coords { x[«0»], y } mass { y: 1.0 }" => "a family needs at least 1 member, not 0";
     integer_overflow: "const N: usize = «9223372036854775807 + 1»; coords { x } mass { x: 1.0 }" => "integer overflow";
     integer_division_by_zero: "const N: usize = «1 / 0»; coords { x } mass { x: 1.0 }" => "division by zero";
     negative_constant: "const N: usize = «2 - 3»; coords { x } mass { x: 1.0 }" => "cannot be negative";

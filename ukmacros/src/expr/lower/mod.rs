@@ -132,7 +132,7 @@ impl<'m> Lowering<'m> {
         let defaults = self.defaults();
         self.lower_lets(decl, &top);
 
-        let mut mass: BTreeMap<(usize, usize), (Id, Loc)> = BTreeMap::new();
+        let mut mass: BTreeMap<(usize, usize), (Vec<Id>, Loc)> = BTreeMap::new();
         if let Some(section) = &decl.mass {
             top.unroll(&section.blocks, self.diag, &mut |entry, scope| {
                 let row = self.coordinate(&entry.key, scope);
@@ -154,12 +154,14 @@ impl<'m> Lowering<'m> {
                     Some((Some(c), _)) => c,
                 };
                 let place = (row.max(column), row.min(column));
-                let old = mass.get(&place).map(|(id, _)| *id);
-                let sum = self.accumulate(old, value);
-                let loc = mass.get(&place).map_or(entry.key.loc, |(_, loc)| *loc);
-                mass.insert(place, (sum, loc));
+                let entries = mass.entry(place).or_insert((Vec::new(), entry.key.loc));
+                entries.0.push(value);
             });
         }
+        let mass = mass.into_iter();
+        let mass = mass
+            .map(|(at, (values, loc))| (at, (self.total_of(&values), loc)))
+            .collect();
         if let (Some(_), Some(kinetic)) = (&decl.mass, &decl.kinetic) {
             self.diag.error(
                 kinetic.keyword.span(),
@@ -345,12 +347,17 @@ impl<'m> Lowering<'m> {
         }
     }
 
-    fn accumulate(&mut self, old: Option<Id>, value: Id) -> Id {
-        old.map_or(value, |old| {
-            let mut terms = self.graph.open(1.0, old);
-            terms.push((1.0, value));
-            self.graph.sum(&terms)
-        })
+    /// What several entries for one place add up to.
+    fn total_of(&mut self, values: &[Id]) -> Id {
+        let [first, rest @ ..] = values else {
+            return self.graph.zero();
+        };
+        if rest.is_empty() {
+            return *first;
+        }
+        let mut terms = self.graph.open(1.0, *first);
+        terms.extend(rest.iter().map(|id| (1.0, *id)));
+        self.graph.sum(&terms)
     }
 
     /// Sum of the terms of `kinetic` or `potential`.
@@ -368,16 +375,16 @@ impl<'m> Lowering<'m> {
         top: &Scope<'m>,
         place: Place,
     ) -> BTreeMap<usize, Id> {
-        let mut out = BTreeMap::new();
+        let mut out: BTreeMap<usize, Vec<Id>> = BTreeMap::new();
         top.unroll(blocks, self.diag, &mut |entry, scope| {
             let coordinate = self.coordinate(&entry.key, scope);
             let value = self.scalar(&entry.value, &Env::new(scope, place));
             if let Some(i) = coordinate {
-                let sum = self.accumulate(out.get(&i).copied(), value);
-                out.insert(i, sum);
+                out.entry(i).or_default().push(value);
             }
         });
-        out
+        let out = out.into_iter();
+        out.map(|(i, values)| (i, self.total_of(&values))).collect()
     }
 
     fn equation(
