@@ -117,7 +117,7 @@ fn expand(input: TokenStream) -> (TokenStream, diag::Diagnostics) {
         return (diag.to_tokens(), diag);
     };
     let before = diag.len();
-    let model = model::resolve(&mut decl, &diag);
+    let model = model::resolve(&mut decl, expr::Func::all().map(|f| f.row().name), &diag);
     // Where names are missing because of an error, what follows from that is not reported.
     let quiet = diag::Diagnostics::default();
     let trusted = !diag.damaged() && diag.len() == before;

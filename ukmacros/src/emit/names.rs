@@ -7,79 +7,10 @@ use quote::format_ident;
 use std::collections::{HashMap, HashSet};
 
 /// Names that emitted functions use themselves, or that Rust reserves.
-const TAKEN: [&str; 71] = [
-    "given",
-    "prepared",
-    "t",
-    "q",
-    "v",
-    "out",
-    "lit",
-    "sum",
-    "mass",
-    "force",
-    "nonideal",
-    "jacobian",
-    "rhs",
-    "phi",
-    "rate",
-    "outputs",
-    "kinetic",
-    "potential",
-    "as",
-    "break",
-    "const",
-    "continue",
-    "crate",
-    "else",
-    "enum",
-    "extern",
-    "false",
-    "fn",
-    "for",
-    "if",
-    "impl",
-    "in",
-    "let",
-    "loop",
-    "match",
-    "mod",
-    "move",
-    "mut",
-    "pub",
-    "ref",
-    "return",
-    "self",
-    "static",
-    "struct",
-    "super",
-    "trait",
-    "true",
-    "type",
-    "unsafe",
-    "use",
-    "where",
-    "while",
-    "async",
-    "await",
-    "dyn",
-    "abstract",
-    "become",
-    "box",
-    "do",
-    "final",
-    "macro",
-    "override",
-    "priv",
-    "typeof",
-    "try",
-    "gen",
-    "yield",
-    "safe",
-    "residual",
-    "virtual",
-    "unsized",
-];
+const TAKEN: &str = "given residual t q v lit sum safe kinetic potential prepared mass force nonideal jacobian rhs phi rate outputs switching out as \
+    break const continue crate else enum extern false fn for if impl in let loop match mod move mut pub ref return self static struct \
+    super trait true type unsafe use where while async await dyn abstract become box do final macro override priv typeof try gen yield \
+    virtual unsized";
 
 /// Longest composed name.
 const LONGEST: usize = 32;
@@ -144,7 +75,7 @@ impl<'a> Namer<'a> {
             symbols: HashMap::new(),
             variables: HashMap::new(),
             reciprocals: HashMap::new(),
-            taken: TAKEN.iter().map(|s| (*s).to_owned()).collect(),
+            taken: TAKEN.split(' ').map(str::to_owned).collect(),
             repeated: HashMap::new(),
         };
         namer.symbols.insert(Symbol::Time, "t".to_owned());
@@ -312,6 +243,7 @@ impl<'a> Namer<'a> {
     }
 }
 
+/// In lower case; θ and Θ in one crate are reported as look-alikes.
 fn snake(text: &str) -> String {
-    plain(text).to_lowercase()
+    plain(text).replace('Θ', "theta").to_lowercase()
 }

@@ -12,18 +12,21 @@ const MAX_MEMBERS: i64 = 5_000;
 /// Repetitions of all loops, those in loops included.
 const MAX_REPETITIONS: i64 = 20 * MAX_MEMBERS;
 
-/// Names with a fixed meaning.
-const RESERVED: [&str; 34] = [
-    "t", "PI", "dot", "ddot", "sum", "sq", "sin", "cos", "tan", "asin", "acos", "atan", "atan2",
-    "sinh", "cosh", "tanh", "exp", "ln", "abs", "sign", "signum", "min", "max", "hypot", "sqrt",
-    "powi", "powf", "recip", "self", "Self", "super", "crate", "gen", "_",
+/// Names with a fixed meaning, beside those of functions.
+const RESERVED: [&str; 15] = [
+    "t", "PI", "dot", "ddot", "sum", "sq", "signum", "powi", "recip", "self", "Self", "super",
+    "crate", "gen", "_",
 ];
 
 /// Columns of every run beside coordinates, velocities and outputs.
 const COLUMNS: [&str; 3] = ["t", "energy", "residual"];
 
-/// Resolves constants, parameters and coordinates.
-pub(crate) fn resolve(decl: &mut Declaration, diag: &Diagnostics) -> Model {
+/// Resolves constants, parameters and coordinates. `functions` are the names of functions.
+pub(crate) fn resolve(
+    decl: &mut Declaration,
+    functions: impl Iterator<Item = &'static str>,
+    diag: &Diagnostics,
+) -> Model {
     let mut model = Model {
         integers: BTreeMap::new(),
         floats: Vec::new(),
@@ -33,6 +36,7 @@ pub(crate) fn resolve(decl: &mut Declaration, diag: &Diagnostics) -> Model {
         coord_elements: Vec::new(),
         names: HashMap::new(),
         repetitions: Cell::new(0),
+        reserved: functions.chain(RESERVED).collect(),
     };
     for constant in std::mem::take(&mut decl.consts) {
         let name = constant.name.to_string();
@@ -222,22 +226,25 @@ fn declare(name: &Ident, meaning: Name, model: &mut Model, diag: &Diagnostics) -
 impl Model {
     /// Whether `name` may still be declared; the reason if not.
     pub(crate) fn free(&self, name: &Ident) -> Result<(), String> {
-        let text = name.to_string();
-        if RESERVED.contains(&text.as_str()) || text.starts_with("r#") {
-            return Err(format!("`{text}` is reserved; choose another name"));
-        }
+        let text = self.unreserved(name)?;
         if self.names.contains_key(&text) {
             return Err(format!("`{text}` is declared twice; names must be unique"));
         }
         Ok(())
     }
 
+    /// The text of a name that has no fixed meaning.
+    fn unreserved(&self, name: &Ident) -> Result<String, String> {
+        let text = name.to_string();
+        match self.reserved.contains(&text.as_str()) || text.starts_with("r#") {
+            true => Err(format!("`{text}` is reserved; choose another name")),
+            false => Ok(text),
+        }
+    }
+
     /// Whether `name` may head a column of a run's table; the reason if not.
     pub(crate) fn column(&self, name: &Ident) -> Result<(), String> {
-        let text = name.to_string();
-        if RESERVED.contains(&text.as_str()) || text.starts_with("r#") {
-            return Err(format!("`{text}` is reserved; choose another name"));
-        }
+        let text = self.unreserved(name)?;
         if COLUMNS.contains(&text.as_str()) {
             return Err(format!(
                 "`{text}` is a column of every run; choose another name"

@@ -4,7 +4,7 @@ use crate::diag::Loc;
 use crate::parse::{Const, Expr};
 use proc_macro2::Ident;
 use std::cell::Cell;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Names of a declaration, resolved.
 pub(crate) struct Model {
@@ -21,6 +21,8 @@ pub(crate) struct Model {
     pub(crate) names: HashMap<String, Name>,
     /// How often loops were repeated in all.
     pub(crate) repetitions: Cell<i64>,
+    /// Names with a fixed meaning.
+    pub(crate) reserved: HashSet<&'static str>,
 }
 
 /// `const N: usize = …;`

@@ -307,6 +307,12 @@ cases! {
     outputs_alike_but_for_case: "coords { x } mass { x: 1.0 } output { o = x, «O» = 2.0 * x }" => "output `O` and output `o` would both become the constant `OUT_O`";
     output_and_coordinate: "coords { out_fall } mass { out_fall: 1.0 } output { «fall» = 2.0 * out_fall }" => "output `fall` and coordinate `out_fall` would both become the constant `OUT_FALL`";
     float_constant_and_coordinate: "const A: f64 = 1.0; coords { «a» } mass { a: A }" => "coordinate `a` and constant `A` would both become the constant `A`";
+    coordinate_named_code: "coords { «code» } mass { code: 1.0 }" => "the constant `CODE`, which every mechanism has";
+    constraint_in_a_force: "coords { x } mass { x: 1.0 } force { x: -0.1 * abs(«rod») } holonomic { for i in 0..1 { rod: sin(x) = t } }" => "`rod` is a constraint: no expression can use it, and its multiplier";
+    output_in_an_output: "coords { x } mass { x: 1.0 } output { o = x, p = 2.0 * «o» }" => "`o` is an output, which no expression can use";
+    unknown_function_many_times: "coords { x } let a = «foo»(x); let b = a[0]; mass { x: foo(x) * foo(x) } force { x: foo(2 * b) }" => "unknown function `foo`";
+    unknown_function_in_a_family: "coords { x } let { for i in 0..3 { a[i] = «foo»(x) } } mass { x: 1.0 } force { x: a[2] }" => "unknown function `foo`";
+    unknown_name_many_times: "coords { x } mass { x: «mm» } force { x: -mm * 9.81 }" => "unknown name `mm`";
     coordinate_named_spec: "coords { «spec» } mass { spec: 1.0 }" => "the constant `SPEC`, which every mechanism has";
     constraint_with_and_without_an_index: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { rod: x = 1.0  «rod[0]»: y = 1.0 }" => "constraint `rod` is declared both with and without an index";
     vector_constraint_and_a_member: "coords { x, y, z } mass { x: 1.0, y: 1.0, z: 1.0 } holonomic { joint: [x, y] = 0.0  «joint[0]»: z = 1.0 }" => "constraint `joint` is declared both with and without an index";

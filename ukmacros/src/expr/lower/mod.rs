@@ -86,7 +86,16 @@ pub(crate) fn lower(decl: &Declaration, model: &Model, diag: &Diagnostics) -> Sy
         outermost: None,
         known_params: 0,
         hints: HashMap::new(),
+        unknown: HashSet::new(),
+        results: HashMap::new(),
     };
+    let results = &mut lowering.results;
+    for block in decl.holonomic.iter().chain(&decl.nonholonomic) {
+        block.each(&mut |c| results.extend([(c.key.name.to_string(), true)]));
+    }
+    for block in &decl.outputs {
+        block.each(&mut |o| results.extend([(o.key.name.to_string(), false)]));
+    }
     lowering.run(decl)
 }
 
@@ -105,6 +114,10 @@ struct Lowering<'m> {
     /// Parameters whose default is known: those a default may use.
     known_params: usize,
     hints: HashMap<Id, String>,
+    /// Names and functions that were reported to be unknown.
+    unknown: HashSet<String>,
+    /// Names of constraints (true) and outputs (false).
+    results: HashMap<String, bool>,
 }
 
 /// An expression's surroundings: loop variables, function arguments, section.

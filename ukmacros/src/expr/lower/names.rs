@@ -73,6 +73,25 @@ impl<'m> Lowering<'m> {
 
     fn unknown(&mut self, name: &Ident, env: &Env<'m>) -> Value {
         let text = name.to_string();
+        // Once for all its uses.
+        if !self.unknown.insert(text.clone()) {
+            return Value::Error;
+        }
+        match self.results.get(&text) {
+            Some(true) => {
+                return self.error(
+                    name.span(),
+                    format!("`{text}` is a constraint: no expression can use it, and its multiplier and force are what is solved for"),
+                );
+            }
+            Some(false) => {
+                return self.error(
+                    name.span(),
+                    format!("`{text}` is an output, which no expression can use; declare its value by `let`"),
+                );
+            }
+            None => {}
+        }
         let names = self
             .model
             .names
@@ -99,11 +118,15 @@ impl<'m> Lowering<'m> {
             _ => None,
         });
         if let Some(value) = vector {
-            let Value::Vector(components) = &value else {
-                return self.error(
-                    index.loc,
-                    format!("`{text}` is a number; write it without an index"),
-                );
+            let components = match &value {
+                Value::Vector(components) => components,
+                Value::Error => return zero,
+                Value::Scalar(_) => {
+                    return self.error(
+                        index.loc,
+                        format!("`{text}` is a number; write it without an index"),
+                    );
+                }
             };
             let Some(i) = self.integer(index, &env.scope) else {
                 return zero;
@@ -140,6 +163,8 @@ impl<'m> Lowering<'m> {
                     };
                     match members.get(&i).cloned() {
                         Some(value) => self.allowed_value(value, name.span().into(), env),
+                        // The loop that declares it ended at an error.
+                        None if members.values().any(|v| matches!(v, Value::Error)) => zero,
                         None => {
                             self.error(index.loc, format!("`{text}[{i}]` is not declared (yet)"))
                         }
@@ -235,6 +260,9 @@ impl<'m> Lowering<'m> {
                 name.span(),
                 format!("`{text}` is not a function; write `*` for a product, `,` between entries"),
             );
+        }
+        if !self.unknown.insert(text.clone()) {
+            return Value::Error;
         }
         let mut names: Vec<&str> = Func::all().map(|f| f.row().name).collect();
         names.extend(["sq", "powi", "recip", "dot", "sum"]);
