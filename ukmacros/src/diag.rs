@@ -20,6 +20,14 @@ impl From<Span> for Loc {
 }
 
 impl Loc {
+    /// From the start of this to the end of `end`.
+    pub(crate) fn to(self, end: Loc) -> Self {
+        Loc {
+            start: self.start,
+            end: end.end,
+        }
+    }
+
     /// The range that `tokens` cover; the macro call itself if there are none.
     pub(crate) fn of(tokens: &impl quote::ToTokens) -> Self {
         let mut iter = tokens.to_token_stream().into_iter();

@@ -18,14 +18,25 @@ pub(crate) struct Operations {
 }
 
 impl Operations {
+    /// The names of the fields.
+    pub(crate) const NAMES: [&str; 6] = [
+        "additions",
+        "multiplications",
+        "divisions",
+        "square_roots",
+        "transcendentals",
+        "selections",
+    ];
+
     /// The counts, in the order of the fields.
     pub(crate) fn counts(self) -> [usize; 6] {
+        let (n, root) = (self.transcendentals, self.square_roots);
         [
             self.additions,
             self.multiplications,
             self.divisions,
-            self.square_roots,
-            self.transcendentals,
+            root,
+            n,
             self.selections,
         ]
     }

@@ -69,29 +69,41 @@ pub(crate) fn resolve(
             model.floats.push(constant);
         }
     }
+    let mut found = Vec::new();
     for block in &decl.params {
-        let mut found = Vec::new();
         let looped = matches!(block, Block::For { .. });
         Scope::new(&model).unroll(std::slice::from_ref(block), diag, &mut |param, scope| {
-            let default = (param.default.clone(), scope.variables.clone());
-            collect(&param.key, &param.docs, looped, scope, diag, &mut found);
-            for f in found.iter_mut().filter(|f| f.default.is_none()) {
-                f.default = Some(default.clone());
-            }
+            let default = Some((param.default.clone(), scope.variables.clone()));
+            collect(
+                &param.key,
+                &param.docs,
+                looped,
+                default,
+                scope,
+                diag,
+                &mut found,
+            );
         });
-        for f in found {
-            add(f, Kind::Param, &mut model, diag);
-        }
+        found
+            .drain(..)
+            .for_each(|f| add(f, Kind::Param, &mut model, diag));
     }
     for block in &decl.coords {
-        let mut found = Vec::new();
         let looped = matches!(block, Block::For { .. });
         Scope::new(&model).unroll(std::slice::from_ref(block), diag, &mut |coord, scope| {
-            collect(&coord.key, &coord.docs, looped, scope, diag, &mut found);
+            collect(
+                &coord.key,
+                &coord.docs,
+                looped,
+                None,
+                scope,
+                diag,
+                &mut found,
+            );
         });
-        for f in found {
-            add(f, Kind::Coord, &mut model, diag);
-        }
+        found
+            .drain(..)
+            .for_each(|f| add(f, Kind::Coord, &mut model, diag));
     }
     if model.coord_elements.is_empty() && diag.is_empty() {
         diag.error(
@@ -125,6 +137,7 @@ fn collect(
     key: &Key,
     docs: &[String],
     looped: bool,
+    default: Option<(Expr, Vec<(String, i64)>)>,
     scope: &Scope<'_>,
     diag: &Diagnostics,
     out: &mut Vec<Found>,
@@ -135,7 +148,7 @@ fn collect(
             docs: docs.to_vec(),
             index,
             loc: key.loc,
-            default: None,
+            default: default.clone(),
         });
     };
     let Some(index) = &key.index else {
@@ -319,10 +332,7 @@ impl<'m> Scope<'m> {
             ExprKind::Chain(first, rest) => {
                 let mut result = self.integer(first, diag)?;
                 for (op, operand) in rest {
-                    let loc = Loc {
-                        start: e.loc.start,
-                        end: operand.loc.end,
-                    };
+                    let loc = e.loc.to(operand.loc);
                     let b = self.integer(operand, diag)?;
                     if *op == BinaryOp::Div && b == 0 {
                         diag.error(loc, "division by zero");
@@ -366,10 +376,7 @@ impl<'m> Scope<'m> {
         let so_far = &self.model.repetitions;
         so_far.set(so_far.get() + length.max(0));
         if so_far.get() > MAX_REPETITIONS {
-            let loc = Loc {
-                start: range.from.loc.start,
-                end: range.to.loc.end,
-            };
+            let loc = range.from.loc.to(range.to.loc);
             diag.error(
                 loc,
                 format!("with this loop, {MAX_REPETITIONS} repetitions in all are exceeded, which would keep the compiler busy for hours"),

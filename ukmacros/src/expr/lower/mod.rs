@@ -270,12 +270,8 @@ impl<'m> Lowering<'m> {
         top.unroll(&decl.lets, self.diag, &mut |binding, scope| {
             let key = &binding.key;
             let name = key.name.to_string();
-            let index = match &key.index {
-                None => None,
-                Some(i) => match self.integer(i, scope) {
-                    Some(i) => Some(i),
-                    None => return,
-                },
+            let Ok(index) = self.index(key, scope) else {
+                return;
             };
             let again = match (self.lets.get(&name), index) {
                 (None, _) => false,
@@ -409,12 +405,8 @@ impl<'m> Lowering<'m> {
         out: &mut Vec<Constraint>,
     ) {
         let key = &equation.key;
-        let index = match &key.index {
-            None => None,
-            Some(i) => match self.integer(i, scope) {
-                Some(i) => Some(i),
-                None => return,
-            },
+        let Ok(index) = self.index(key, scope) else {
+            return;
         };
         let mut item = ConstraintRef {
             base: key.name.clone(),
@@ -477,12 +469,8 @@ impl<'m> Lowering<'m> {
         let mut names = Names::default();
         top.unroll(&decl.outputs, self.diag, &mut |output, scope| {
             let key = &output.key;
-            let index = match &key.index {
-                None => None,
-                Some(i) => match self.integer(i, scope) {
-                    Some(i) => Some(i),
-                    None => return,
-                },
+            let Ok(index) = self.index(key, scope) else {
+                return;
             };
             let mut item = ConstraintRef {
                 base: key.name.clone(),
@@ -527,6 +515,12 @@ impl<'m> Lowering<'m> {
             }
         });
         out
+    }
+
+    /// The index of `key`, if it has one.
+    fn index(&self, key: &Key, scope: &Scope<'m>) -> Result<Option<i64>, ()> {
+        let index = key.index.as_ref().map(|i| self.integer(i, scope).ok_or(()));
+        index.transpose()
     }
 
     /// Position in q of the coordinate that `key` names.

@@ -32,20 +32,7 @@ impl<'m> Lowering<'m> {
             _ => {}
         }
         match self.model.names.get(&text) {
-            Some(Name::Param(family)) => {
-                let Some(i) = self.member(name, None, &self.model.params[*family], &env.scope)
-                else {
-                    return Value::Error;
-                };
-                self.allowed(Symbol::Param(i), name.span(), env)
-            }
-            Some(Name::Coord(family)) => {
-                let Some(i) = self.member(name, None, &self.model.coords[*family], &env.scope)
-                else {
-                    return Value::Error;
-                };
-                self.allowed(Symbol::Coord(i), name.span(), env)
-            }
+            Some(Name::Param(_) | Name::Coord(_)) => self.element(name, None, env),
             Some(Name::Float(i)) => match self.floats.get(*i) {
                 Some(id) => Value::Scalar(*id),
                 None => self.error(
@@ -104,6 +91,20 @@ impl<'m> Lowering<'m> {
         self.error(name.span(), format!("unknown name `{text}`{end}"))
     }
 
+    /// A parameter or coordinate.
+    fn element(&mut self, name: &Ident, index: Option<&Expr>, env: &Env<'m>) -> Value {
+        let (model, names) = (self.model, &self.model.names);
+        let (family, symbol): (_, fn(usize) -> Symbol) = match names.get(&name.to_string()) {
+            Some(Name::Param(family)) => (&model.params[*family], Symbol::Param),
+            Some(Name::Coord(family)) => (&model.coords[*family], Symbol::Coord),
+            _ => return Value::Error,
+        };
+        match self.member(name, index, family, &env.scope) {
+            Some(i) => self.allowed(symbol(i), name.span(), env),
+            None => Value::Error,
+        }
+    }
+
     pub(super) fn indexed(&mut self, name: &Ident, index: &Expr, env: &Env<'m>) -> Value {
         let text = name.to_string();
         let zero = Value::Error;
@@ -143,18 +144,7 @@ impl<'m> Lowering<'m> {
             };
         }
         match self.model.names.get(&text) {
-            Some(Name::Param(family)) => {
-                match self.member(name, Some(index), &self.model.params[*family], &env.scope) {
-                    Some(i) => self.allowed(Symbol::Param(i), name.span(), env),
-                    None => zero,
-                }
-            }
-            Some(Name::Coord(family)) => {
-                match self.member(name, Some(index), &self.model.coords[*family], &env.scope) {
-                    Some(i) => self.allowed(Symbol::Coord(i), name.span(), env),
-                    None => zero,
-                }
-            }
+            Some(Name::Param(_) | Name::Coord(_)) => self.element(name, Some(index), env),
             Some(_) => self.error(name.span(), format!("`{text}` is not a family")),
             None => match self.lets.get(&text) {
                 Some(Binding::Family(members)) => {
