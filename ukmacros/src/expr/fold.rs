@@ -331,10 +331,10 @@ impl Graph {
     }
 
     pub(crate) fn call1(&mut self, func: Func, arg: Id) -> Id {
-        if let Some(x) = self.as_const(arg) {
-            if let Some(x) = func.folded(x, f64::NAN) {
-                return self.constant(x);
-            }
+        if let Some(x) = self.as_const(arg)
+            && let Some(x) = func.folded(x, f64::NAN)
+        {
+            return self.constant(x);
         }
         let (c, inner) = self.unscaled(arg);
         // Even and odd functions of −u are functions of u: one node serves both.

@@ -19,6 +19,9 @@ pub(crate) struct Function {
     pub(crate) least: Option<f64>,
 }
 
+/// The derivative of f(u, w): of u and w, each with its own, and of f(u, w).
+type Derivative = fn(&mut Graph, (Id, Id), (Id, Id), Id) -> Id;
+
 /// The function itself. Second derivatives serve the check of the symbolic ones, and are not made of them.
 pub(super) enum Form {
     One {
@@ -30,8 +33,7 @@ pub(super) enum Form {
     },
     Two {
         value: fn(f64, f64) -> f64,
-        /// The derivative of f(u, w), of both with theirs and of f(u, w).
-        derivative: fn(&mut Graph, (Id, Id), (Id, Id), Id) -> Id,
+        derivative: Derivative,
         jet: fn(Jet, Jet) -> Jet,
     },
 }
@@ -112,7 +114,7 @@ const fn one(
 const fn two(
     name: &'static str,
     value: fn(f64, f64) -> f64,
-    derivative: fn(&mut Graph, (Id, Id), (Id, Id), Id) -> Id,
+    derivative: Derivative,
     jet: fn(Jet, Jet) -> Jet,
 ) -> Function {
     Function::new(
