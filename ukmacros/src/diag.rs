@@ -132,7 +132,7 @@ fn compile_error(diagnostic: &Diagnostic) -> TokenStream {
     .collect()
 }
 
-/// The end of an error message about `name`: the nearest of `names`, if at most a third of it differs, rounded, case ignored;
+/// The end of an error message about `name`: the nearest of `names`, if at most half of it differs, case ignored;
 /// else the `remedy`.
 pub(crate) fn suggest<'a>(
     name: &str,
@@ -148,7 +148,7 @@ pub(crate) fn suggest<'a>(
             )
         })
         .min()
-        .filter(|(d, n)| *d <= (n.chars().count().max(name.chars().count()) + 1) / 3);
+        .filter(|(d, n)| *d <= n.chars().count().max(name.chars().count()) / 2);
     match near {
         Some((_, n)) => format!("; did you mean `{n}`?"),
         None => format!("; {remedy}"),
