@@ -315,8 +315,8 @@ fn bent(bend: f64) -> impl Iterator<Item = State> {
     })
 }
 
-/// A light mass between heavy ones costs the pivots digits, but no constraint comes near the others: the straight line serves, refined, as accurate
-/// as the dense solve, by 31 digits.
+/// A light mass between heavy ones costs the pivots digits, but no constraint comes near the others: the straight line serves, refined, as
+/// accurate as the dense solve, by 31 digits.
 #[test]
 fn light_masses_between_heavy_ones() {
     let digits =

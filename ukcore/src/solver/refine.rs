@@ -1,9 +1,10 @@
 //! The straight line where its pivots lose digits though no constraint is near the others: light masses between heavy ones.
 //!
-//! Its certificate compares pivots in the mass metric, in which the rows of two links that share a light mass are nearly parallel. Whether a row counts
-//! is a matter of A alone, though. So where all rows of A counted for certain in a rank-revealing solve, they do while A has not changed much; and what
-//! the straight line lacks in digits, refinement gives back. Its q̈ satisfies M q̈ = Q + c + Aᵀλ for some λ row by row, as do the corrections Δ of
-//! M Δ = Aᵀμ, A Δ = b − A q̈: with A q̈ = b to rounding, q̈ + Δ solves equations that are as near (Higham 2002, §12.2).
+//! Its certificate compares pivots in the mass metric, in which the rows of two links that share a light mass are nearly parallel. Whether
+//! a row counts is a matter of A alone, though. So where all rows of A counted for certain in a rank-revealing solve, they do while A has
+//! not changed much; and what the straight line lacks in digits, refinement gives back. Its q̈ satisfies M q̈ = Q + c + Aᵀλ for some λ row
+//! by row, as do the corrections Δ of M Δ = Aᵀμ, A Δ = b − A q̈: with A q̈ = b to rounding, q̈ + Δ solves equations that are as near
+//! (Higham 2002, §12.2).
 
 use super::{Formula, RANK_CEILING, Solver, rows};
 use crate::pinv::axpy;

@@ -73,6 +73,16 @@ struct Compared {
 }
 
 impl Compared {
+    fn new(what: impl Into<String>, found: f64, expected: f64, scale: f64) -> Self {
+        let what = what.into();
+        Compared {
+            what,
+            found,
+            expected,
+            scale,
+        }
+    }
+
     /// Whether both agree to rounding, which can explain a difference of `rounding`; outside of a function's domain nothing is claimed.
     fn agrees(&self, rounding: f64) -> bool {
         let (a, b) = (self.found, self.expected);
@@ -142,12 +152,8 @@ impl Motion<'_> {
                 Kind::Nonholonomic => (jet.0, jet.1),
             };
             for (expected, found, scale) in [(first, rate[row], 1.0), (next, value, size)] {
-                pairs.push(Compared {
-                    what: format!("constraint `{}`", constraint.item.text()),
-                    found,
-                    expected,
-                    scale,
-                });
+                let name = format!("constraint `{}`", constraint.item.text());
+                pairs.push(Compared::new(name, found, expected, scale));
             }
         }
         pairs
@@ -226,12 +232,7 @@ impl Motion<'_> {
             let mut t =
                 |a: &[f64], b: &[f64], c: f64| self.line(a, b, c).jets(g, &[kinetic], shake)[0];
             let bend = t(&still, direction, 0.0).2;
-            pairs.push(Compared {
-                what: "M".to_owned(),
-                found: twice,
-                expected: bend,
-                scale: twice.abs() + 1.0,
-            });
+            pairs.push(Compared::new("M", twice, bend, twice.abs() + 1.0));
             // d/dt (δ · ∂T/∂q̇) is a mixed second derivative, by polarisation.
             let both: Vec<f64> = self.a.iter().zip(direction).map(|(a, d)| a + d).collect();
             let (sum, time) = (t(&self.v, &both, 1.0).2, t(&self.v, &self.a, 1.0).2);
@@ -240,12 +241,7 @@ impl Motion<'_> {
             expected += momentum - (rate - gradient);
             scale += sum.abs() + time.abs() + bend.abs() + gradient.abs() + momentum.abs();
         }
-        pairs.push(Compared {
-            what: "Q".to_owned(),
-            found: force,
-            expected,
-            scale,
-        });
+        pairs.push(Compared::new("Q", force, expected, scale));
         pairs
     }
 }

@@ -16,8 +16,8 @@ pub(super) struct Writing<'a> {
     pub(super) function: &'a Function,
 }
 
-/// In functions of more steps, variables are declared in groups: the compiler of the emitted code opens a scope within a scope at each `let`, and
-/// recurses on them where it writes what debuggers read.
+/// In functions of more steps, variables are declared in groups: the compiler of the emitted code opens a scope within a scope at each
+/// `let`, and recurses on them where it writes what debuggers read.
 const MANY: usize = 1000;
 /// Variables of a group.
 const GROUP: usize = 64;

@@ -7,8 +7,8 @@ use proc_macro2::Ident;
 use std::cell::Cell;
 use std::collections::{BTreeMap, HashMap};
 
-/// Largest family, and longest loop. A link of a chain takes the macro 3 ms and the compiler 12 ms in all, a chain of so many a minute. (With
-/// optimisation, which takes more than linear time, one of 400 takes as long.)
+/// Largest family, and longest loop. A link of a chain takes the macro 3 ms and the compiler 12 ms in all, a chain of so many a minute.
+/// (With optimisation, which takes more than linear time, one of 400 takes as long.)
 const MAX_MEMBERS: i64 = 5_000;
 /// Repetitions of all loops, those in loops included.
 const MAX_REPETITIONS: i64 = 20 * MAX_MEMBERS;

@@ -173,8 +173,8 @@ fn build(g: &mut Graph, steps: &[(u8, u8, u8)]) -> Id {
     *made.last().unwrap_or(&made[0])
 }
 
-/// The value of a recipe, step by step, without any graph; and the largest value on the way, infinite where an angle jumps: there rounding, and the
-/// sign of a zero, decide.
+/// The value of a recipe, step by step, without any graph; and the largest value on the way, infinite where an angle jumps: there rounding,
+/// and the sign of a zero, decide.
 fn naive(steps: &[(u8, u8, u8)], x: f64, y: f64) -> (f64, f64) {
     let mut made = vec![x, y, 2.0, -0.5];
     let mut jumps = false;
