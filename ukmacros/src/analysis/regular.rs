@@ -428,9 +428,11 @@ fn rank(mut a: Vec<f64>, k: usize) -> usize {
             break;
         }
         left.swap_remove(at);
-        for i in &left {
+        let near = left.iter().filter(|i| a[*i * k + p] != 0.0);
+        let near: Vec<usize> = near.copied().collect();
+        for i in &near {
             let factor = a[i * k + p] / pivot;
-            for j in &left {
+            for j in &near {
                 a[i * k + j] -= factor * a[p * k + j];
             }
         }

@@ -34,6 +34,8 @@ const MET: f64 = 2e-12;
 /// the compiler of the emitted code: it packs scalars of one stretch without branches into vectors, and in long stretches finds pairs that are far
 /// apart and have to be kept for each other. The U-chain with 65 links takes 280 ns with exits and 450 without, that with 17 links 79 and 67.
 const UNBROKEN: usize = 24;
+/// Selections written within each other.
+const NESTED: usize = 32;
 /// See [`UNBROKEN`].
 const STRETCH: usize = 12;
 
@@ -102,9 +104,15 @@ impl Straight {
     ) -> Self {
         let g = &mut system.graph;
         let (certificate, chain) = elimination.certificate(g);
-        let met_too = met
-            .iter()
-            .fold(certificate, |safe, row| elimination.meets(*row, d, safe, g));
+        let mut met_too = certificate;
+        for (k, row) in met.iter().enumerate() {
+            met_too = elimination.meets(*row, d, met_too, g);
+            // A variable now and then: one selection within another is written, and read, by recursion.
+            if k % NESTED == NESTED - 1 {
+                let name = format!("met_{}", k / NESTED);
+                system.inner_hints.insert(met_too, name);
+            }
+        }
         let mut stages = Vec::new();
         let mut links = vec![Vec::new(); elimination.divisors.len()];
         for (of, link) in &chain {
