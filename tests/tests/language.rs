@@ -19,6 +19,7 @@ ukcore::multibody! {
             circular: sin(-2.0 * u) + cos(-u) * u.sin() + tan(-0.5 * u) = cos(x - y) - sin(y - x)
             inverse: asin(-0.5 * u) + acos(-0.5 * u) * z + (-u).atan() + atan2(-u, x + 3.0) = u.atan2(-y)
             hyperbolic: sinh(-u) + cosh(-u) * tanh(-u) = z.sinh()
+            areas: asinh(-2.0 * u) + acosh(u + 3.0) * atanh(-0.5 * u) = z.asinh() - (-0.5 * z).atanh()
             powers: exp(-u) + ln(u + 3.0) + (u + 3.0).powf(p) + powf(u + 3.0, 2.5) + powf(u - 3.0, 3.0) = powi(u - 3.0, -3) + recip(u + 3.0)
             kinks: abs(-u) * u + sign(-u) * x + min(x, y) * max(u, -z) = hypot(x, -y) - min(z, 0.1)
             varying: (2.0 + x).powf(y) - (x - y) / (2.0 * x - 5.0) = (-3.0 * x * y) / (-(z + 4.0).powi(2))
@@ -40,6 +41,8 @@ impl Functions {
             twice.sin() + minus.cos() * u.sin() + half.tan() - ((x - y).cos() - (y - x).sin()),
             half.asin() + half.acos() * z + minus.atan() + minus.atan2(x + c(3.0)) - u.atan2(-y),
             minus.sinh() + minus.cosh() * minus.tanh() - z.sinh(),
+            (c(-2.0) * u).asinh() + (u + c(3.0)).acosh() * half.atanh()
+                - (z.asinh() - (c(-0.5) * z).atanh()),
             minus.exp()
                 + (u + c(3.0)).ln()
                 + (u + c(3.0)).powf(c(self.p))
@@ -96,7 +99,7 @@ fn every_function_is_emitted_as_it_is_written() {
                 accuracy,
             );
         };
-        let mut phi = [0.0; 8];
+        let mut phi = [0.0; 9];
         mechanism.prepared().residual(t, &q, &mut phi);
         // φ, φ̇ and φ̈ along q + v s, t + s.
         let first = Dual::new(t, 1.0);
@@ -106,7 +109,7 @@ fn every_function_is_emitted_as_it_is_written() {
             .map(|(q, v)| Dual::new(Dual::new(*q, *v), Dual::new(*v, 0.0)))
             .collect();
         let twice = mechanism.by_hand(Dual::new(first, Dual::new(1.0, 0.0)), &along);
-        let mut rate = [0.0; 8];
+        let mut rate = [0.0; 9];
         mechanism.prepared().residual_rate(t, &q, &v, &mut rate);
         for (row, by_hand) in twice.iter().enumerate() {
             close("φ", row, phi[row], by_hand.re.re);

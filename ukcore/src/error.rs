@@ -193,7 +193,8 @@ impl Error {
             .iter()
             .map(|n| (distance(name, n), n))
             .min_by_key(|(d, _)| *d)
-            .filter(|(d, n)| *d <= n.len().max(name.len()) / 2)
+            // At most half of it, as for names in a declaration.
+            .filter(|(d, n)| *d <= n.chars().count().max(name.chars().count()) / 2)
             .map(|(_, n)| n.clone());
         Error::UnknownName {
             kind,

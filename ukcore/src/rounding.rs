@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::scalar::{Dual, Scalar};
+use crate::scalar::{Dual, Scalar, functions};
 
 /// A value and the size of its rounding error, in units of ε: that of the inputs, carried on to first order, and one unit of each
 /// intermediate result. (A running error analysis: Higham, Accuracy and Stability of Numerical Algorithms, §3.3.)
@@ -109,9 +109,9 @@ impl Neg for Rounded {
     }
 }
 
-macro_rules! functions {
-    (@unary $($name:ident)*) => { $(fn $name(self) -> Self { self.unary(Scalar::$name) })* };
-    (@binary $($name:ident)*) => { $(fn $name(self, o: Self) -> Self { self.binary(o, Scalar::$name) })* };
+macro_rules! by_slopes {
+    (@unary: $($name:ident)*) => { $(fn $name(self) -> Self { self.unary(Scalar::$name) })* };
+    (@binary: $($name:ident)*) => { $(fn $name(self, o: Self) -> Self { self.binary(o, Scalar::$name) })* };
 }
 
 impl Scalar for Rounded {
@@ -124,8 +124,9 @@ impl Scalar for Rounded {
     fn sin_cos(self) -> (Self, Self) {
         (self.unary(Scalar::sin), self.unary(Scalar::cos))
     }
-    functions!(@unary sqrt tan asin acos atan sinh cosh tanh exp ln abs sign);
-    functions!(@binary atan2 min max hypot powf);
+    functions!(by_slopes!());
+    by_slopes!(@unary: sqrt exp abs sign);
+    by_slopes!(@binary: min max);
     fn powi(self, n: i32) -> Self {
         self.binary(Rounded::exact(0.0), |x, _| x.powi(n))
     }

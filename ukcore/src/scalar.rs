@@ -85,6 +85,12 @@ pub trait Scalar:
     fn cosh(self) -> Self;
     /// Hyperbolic tangent.
     fn tanh(self) -> Self;
+    /// Inverse of the hyperbolic sine.
+    fn asinh(self) -> Self;
+    /// Inverse of the hyperbolic cosine, at least 0; NaN below 1.
+    fn acosh(self) -> Self;
+    /// Inverse of the hyperbolic tangent.
+    fn atanh(self) -> Self;
     /// eˣ.
     fn exp(self) -> Self;
     /// Natural logarithm.
@@ -104,6 +110,15 @@ pub trait Scalar:
     /// xʸ.
     fn powf(self, y: Self) -> Self;
 }
+
+/// Hands the functions that every number type takes from `f64`, or from a rule for any function, to the macro `$to`.
+macro_rules! functions {
+    ($to:ident!($($arguments:tt)*)) => {
+        $to!(@unary $($arguments)*: tan asin acos atan sinh cosh tanh asinh acosh atanh ln);
+        $to!(@binary $($arguments)*: atan2 hypot powf);
+    };
+}
+pub(crate) use functions;
 
 macro_rules! float {
     ($f:ident) => {
@@ -149,8 +164,9 @@ macro_rules! float {
             fn sign(self) -> Self {
                 if self == 0.0 { 0.0 } else { $f::signum(self) }
             }
-            float!(@unary $f: sqrt sin cos tan asin acos atan sinh cosh tanh exp ln abs recip);
-            float!(@binary $f: atan2 min max hypot powf);
+            functions!(float!($f));
+            float!(@unary $f: sqrt sin cos exp abs recip);
+            float!(@binary $f: min max);
             #[inline]
             fn powi(self, n: i32) -> Self {
                 $f::powi(self, n)
@@ -278,6 +294,18 @@ impl<S: Scalar> Scalar for Dual<S> {
         let r = self.re.tanh();
         self.chain(r, S::from_f64(1.0) - r * r)
     }
+    fn asinh(self) -> Self {
+        let root = (self.re * self.re + S::from_f64(1.0)).sqrt();
+        self.chain(self.re.asinh(), root.recip())
+    }
+    fn acosh(self) -> Self {
+        let root = (self.re * self.re - S::from_f64(1.0)).sqrt();
+        self.chain(self.re.acosh(), root.recip())
+    }
+    fn atanh(self) -> Self {
+        let slope = (S::from_f64(1.0) - self.re * self.re).recip();
+        self.chain(self.re.atanh(), slope)
+    }
     fn exp(self) -> Self {
         let r = self.re.exp();
         self.chain(r, r)
@@ -350,8 +378,9 @@ mod tests {
                 $(for x in $points { check(stringify!($name), x, |x| Scalar::$name(x), |x| Scalar::$name(x)); })*
             };
         }
-        unary!([-0.7, 0.3, 0.85]; sin cos tan asin acos atan sinh cosh tanh exp abs sign recip);
+        unary!([-0.7, 0.3, 0.85]; sin cos tan asin acos atan sinh cosh tanh asinh atanh exp abs sign recip);
         unary!([0.2, 1.0, 30.0]; sqrt ln);
+        unary!([1.7, 3.0, 30.0]; acosh);
         for x in [-2.0, -0.4, 0.9, 3.0] {
             check("powi 3", x, |x| x.powi(3), |x| Scalar::powi(x, 3));
             check("powi -2", x, |x| x.powi(-2), |x| Scalar::powi(x, -2));

@@ -28,6 +28,7 @@ use crate::scan::{Size, all_finite};
 use crate::spec::Spec;
 
 mod rank;
+mod refine;
 mod settings;
 
 pub(crate) use rank::leading;
@@ -80,6 +81,7 @@ pub struct Solver {
     carried: Vec<f64>,
     /// What drift and rounding are granted of each row.
     granted: Vec<f64>,
+    known: refine::Known,
 }
 
 /// The equations at the nearest state on the manifold.
@@ -156,6 +158,7 @@ impl Solver {
                 v: vec![0.0; n],
                 correction: vec![0.0; n],
             },
+            known: refine::Known::new(n, m),
             noise: Noise::new(&mechanism),
             carried: vec![0.0; m],
             granted: vec![0.0; m],
@@ -200,8 +203,14 @@ impl Solver {
         out: &mut [f64],
     ) -> Result<(), Error> {
         if self.straight_line && !self.singular {
+            // It may leave before it writes anything.
+            out.iter_mut().take(1).for_each(|x| *x = f64::NAN);
             if self.mechanism.acceleration(t, q, v, out) > 0.5 && all_finite(out) {
                 self.work.evaluations += 1;
+                self.full = self.m;
+                return Ok(());
+            }
+            if self.refined(t, q, v, out) {
                 self.full = self.m;
                 return Ok(());
             }
@@ -233,6 +242,7 @@ impl Solver {
             self.force.copy_from_slice(&self.here.force);
         }
         self.solve_for_force(decided.formula, out);
+        self.remember(decided.formula);
         self.check(t, q, v, decided.tolerance, out)
     }
 
@@ -360,6 +370,7 @@ impl Solver {
 
     /// The mechanism, to set parameters or to hold switches; what follows is solved with them.
     pub fn mechanism_mut(&mut self) -> &mut Prepared {
+        self.known.valid = false;
         &mut self.mechanism
     }
 

@@ -20,6 +20,14 @@ impl From<Span> for Loc {
 }
 
 impl Loc {
+    /// From the start of this to the end of `end`.
+    pub(crate) fn to(self, end: Loc) -> Self {
+        Loc {
+            start: self.start,
+            end: end.end,
+        }
+    }
+
     /// The range that `tokens` cover; the macro call itself if there are none.
     pub(crate) fn of(tokens: &impl quote::ToTokens) -> Self {
         let mut iter = tokens.to_token_stream().into_iter();
@@ -124,7 +132,8 @@ fn compile_error(diagnostic: &Diagnostic) -> TokenStream {
     .collect()
 }
 
-/// The end of an error message about `name`: the nearest of `names`, if one is near, and the `remedy`.
+/// The end of an error message about `name`: the nearest of `names`, if at most half of it differs, case ignored;
+/// else the `remedy`.
 pub(crate) fn suggest<'a>(
     name: &str,
     names: impl IntoIterator<Item = &'a str>,
@@ -132,27 +141,16 @@ pub(crate) fn suggest<'a>(
 ) -> String {
     let near = names
         .into_iter()
-        .map(|n| (distance(name, n), n))
+        .map(|n| {
+            (
+                strsim::levenshtein(&name.to_lowercase(), &n.to_lowercase()),
+                n,
+            )
+        })
         .min()
-        .filter(|(d, n)| *d <= n.len().max(name.len()) / 3);
+        .filter(|(d, n)| *d <= n.chars().count().max(name.chars().count()) / 2);
     match near {
         Some((_, n)) => format!("; did you mean `{n}`?"),
         None => format!("; {remedy}"),
     }
-}
-
-/// Levenshtein distance.
-fn distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, ca) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, cb) in b.iter().enumerate() {
-            let substitution = diagonal + usize::from(ca != *cb);
-            diagonal = row[j + 1];
-            row[j + 1] = substitution.min(diagonal + 1).min(row[j] + 1);
-        }
-    }
-    row[b.len()]
 }

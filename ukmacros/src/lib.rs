@@ -43,7 +43,8 @@ use proc_macro2::TokenStream;
 /// # Sections
 ///
 /// All are optional but `coords`, and one of `mass`, `kinetic` or `holonomic`. Entries are separated by commas, which may be left out
-/// where the next entry starts with a name. `for i in a..b { … }` repeats entries in every section, and may be nested.
+/// where the next entry starts with a name. `for i in a..b { … }` repeats entries in every section, and may be nested. Families and loops
+/// have at most 5000 members.
 ///
 /// | section | entries | meaning |
 /// | --- | --- | --- |
@@ -64,23 +65,23 @@ use proc_macro2::TokenStream;
 ///
 /// Rust's grammar. Numbers, `PI`, the time `t`, names, members `x[i + 1]`, `+ - * /`, vectors `[a, b]` (sum, difference, product and
 /// quotient with a number), `dot(q)` for a velocity (of an expression of q and t: its total time derivative), `sum(0..N, |i| …)`, and in
-/// function or method form: `sqrt sin cos tan asin acos atan atan2 sinh cosh tanh exp ln abs sign min max hypot sq powi powf recip`. A
-/// power is `x.powi(2)` (exponents from −64 to 64) or `sq(x)`, never `x ^ 2`. Parentheses around a sum are kept in the emitted
-/// arithmetic. Sums and products may be as long as they like, but are nested at most 100 deep.
+/// function or method form: `sqrt sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh exp ln abs sign atan2 min max hypot powf`,
+/// `sq`, `recip` and `powi`. A power is `x.powi(2)` (exponents from −64 to 64) or `sq(x)`, never `x ^ 2`. Parentheses around a sum are
+/// kept in the emitted arithmetic. Sums and products may be as long as they like, but are nested at most 100 deep.
 ///
 /// abs and sign have derivative sign and 0 (0 at 0); min and max follow the branch taken. Where the equations of motion depend on one of
 /// them, the function whose sign decides its branch is a switch: it stands in `T::SPEC.switches`, and simulations step onto its zeros.
 /// So does the length that they divide by in v/|v|, as `dot(x) / hypot(dot(x), dot(y))`: a run that comes to rest there is told of it.
-/// sqrt at 0, asin and acos at ±1, ln and negative powers at 0, atan2 and hypot at (0, 0) have no finite derivative: evaluating there is
-/// reported as an error at run time.
+/// sqrt at 0, asin, acos and atanh at ±1, acosh at 1, ln and negative powers at 0, atan2 and hypot at (0, 0) have no finite derivative:
+/// evaluating there is reported as an error at run time.
 ///
 /// # What is emitted
 ///
 /// For `pub T { … }`: `struct T` with its parameters as public fields, `Default`, `Clone`, `Debug`, `PartialEq`; `T::N` for constant `N`;
-/// index constants `T::X` for coordinate `x` (`[usize; N]` for families), `T::ROD` for the row of constraint `rod`, `T::OUT_FALL` for
-/// output `fall`. Families of constraints and outputs have theirs if their indices are 0, 1, 2, … and their members are numbers, or
-/// vectors of one length; the names of all stand in `T::SPEC`. Two names that would become one constant are an error. Further, `impl
-/// ukcore::Mechanism for T`.
+/// index constants `T::X` for coordinate `x` (`[usize; N]` for families; θ stays `T::θ`, which Θ looks like), `T::ROD` for the row of
+/// constraint `rod`, `T::OUT_FALL` for output `fall`. Families of constraints and outputs have theirs if their indices are 0, 1, 2, … and
+/// their members are numbers, or vectors of one length; the names of all stand in `T::SPEC`. Two names that would become one constant are
+/// an error. Further, `impl ukcore::Mechanism for T`.
 ///
 /// What is emitted names the crate `::ukcore`. Where it has another name, or is reached through another crate, the declaration says so
 /// before the type: `#[ukcore(crate = my::path::to::ukcore)]`.
@@ -118,7 +119,7 @@ fn expand(input: TokenStream) -> (TokenStream, diag::Diagnostics) {
         return (diag.to_tokens(), diag);
     };
     let before = diag.len();
-    let model = model::resolve(&mut decl, &diag);
+    let model = model::resolve(&mut decl, expr::Func::all().map(|f| f.row().name), &diag);
     // Where names are missing because of an error, what follows from that is not reported.
     let quiet = diag::Diagnostics::default();
     let trusted = !diag.damaged() && diag.len() == before;

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use serde_json::{Map, Value, json};
 use ukcore::simulate::Ending;
-use ukcore::{Method, Trajectory};
+use ukcore::{Method, Solver, SolverOptions, Trajectory};
 
 use crate::drift::Drift;
 use crate::numbers::{count, fixed, full, width};
@@ -151,7 +151,36 @@ impl Summary<'_> {
             count(w.projection_iterations, "iteration"),
             count(w.fallbacks, "fallback"),
             self.seconds
-        )
+        )?;
+        // Each may have taken two evaluations.
+        if 3 * w.fallbacks > w.evaluations {
+            writeln!(
+                out,
+                "Most evaluations fell back from the straight line to the rank-revealing solve: {}",
+                self.doubt()
+            )?;
+        }
+        Ok(())
+    }
+
+    /// Why the straight line was left, as far as the last state tells.
+    fn doubt(&self) -> String {
+        let mechanism = self.trajectory.mechanism();
+        let solution = self.trajectory.last().and_then(|last| {
+            Solver::new(mechanism.clone(), SolverOptions::default())
+                .solve(last.t, last.q, last.v)
+                .ok()
+        });
+        let constraints = self.trajectory.spec().constraints;
+        let redundant = solution.map_or(Vec::new(), |s| s.redundant);
+        let names: Vec<String> = redundant
+            .iter()
+            .map(|i| format!("`{}`", constraints[*i].name))
+            .collect();
+        match names.is_empty() {
+            false => format!("the other constraints imply {}", names.join(", ")),
+            true => "its pivots lose their digits, as constraints nearly imply each other or masses are many orders apart".to_owned(),
+        }
     }
 
     fn write_last(&self, out: &mut dyn Write) -> io::Result<()> {

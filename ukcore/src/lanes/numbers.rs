@@ -5,7 +5,7 @@
 //! through `f64`.
 
 use super::Lanes;
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, functions};
 use wide::{f64x4, f64x8};
 
 /// Largest angle for which sine and cosine are those of `wide`: the reduction by three parts of π/2 keeps all digits of the rest up to
@@ -131,8 +131,7 @@ macro_rules! lanes {
                 }
                 if n < 0 { result.recip() } else { result }
             }
-            lanes!(@unary $L: tan asin acos atan sinh cosh tanh ln);
-            lanes!(@binary $L: atan2 hypot powf);
+            functions!(lanes!($L));
         }
     };
     (@unary $L:ident: $($name:ident)*) => {
@@ -232,7 +231,7 @@ mod tests {
                     $(compare(stringify!($name), $bound, x, lanes.$name(), &|x| Scalar::$name(x));)*
                 };
             }
-            unary!(0: sqrt abs sign recip tan asin acos atan sinh cosh tanh ln);
+            unary!(0: sqrt abs sign recip tan asin acos atan sinh cosh tanh asinh acosh atanh ln);
             unary!(2: sin cos exp);
             for n in [0, 1, 2, 3, 7, -1, -2, -5] {
                 compare("powi", 0, x, lanes.powi(n), &|x| Scalar::powi(x, n));

@@ -82,6 +82,20 @@ impl DoubleDouble {
         self.hi < o.hi || (self.hi == o.hi && self.lo < o.lo)
     }
 
+    /// The y near `guess` at which a function has this value, by Newton's method; `f` gives the function and its slope.
+    fn solved(self, guess: f64, f: fn(Self) -> (Self, Self)) -> Self {
+        let mut y = DoubleDouble::from_f64(guess);
+        for _ in 0..2 {
+            let (value, slope) = f(y);
+            let step = (self - value) / slope;
+            if !step.hi.is_finite() {
+                break;
+            }
+            y = y + step;
+        }
+        y
+    }
+
     /// Taylor's series Σ xᵏ/k! over k = first, first + step, …, with the signs of `sign`ᵏ.
     fn series(self, first: i32, step: i32, sign: f64) -> Self {
         let mut term = if first == 0 { ONE } else { self };
@@ -227,6 +241,15 @@ impl Scalar for DoubleDouble {
         }
         self.sinh() / self.cosh()
     }
+    fn asinh(self) -> Self {
+        self.solved(self.hi.asinh(), |y| (y.sinh(), y.cosh()))
+    }
+    fn acosh(self) -> Self {
+        (self + (self - ONE).sqrt() * (self + ONE).sqrt()).ln()
+    }
+    fn atanh(self) -> Self {
+        (self / ((ONE - self) * (ONE + self)).sqrt()).asinh()
+    }
     fn exp(self) -> Self {
         if self.hi.is_nan() || self.hi.abs() > 709.0 {
             return DoubleDouble::from_f64(self.hi.exp());
@@ -242,14 +265,7 @@ impl Scalar for DoubleDouble {
         y.scale(k as i32)
     }
     fn ln(self) -> Self {
-        let mut y = DoubleDouble::from_f64(self.hi.ln());
-        if !y.hi.is_finite() {
-            return y;
-        }
-        for _ in 0..2 {
-            y = y + self * (-y).exp() - ONE;
-        }
-        y
+        self.solved(self.hi.ln(), |y| [y.exp(); 2].into())
     }
     fn abs(self) -> Self {
         if self.less(ZERO) { -self } else { self }
@@ -327,6 +343,9 @@ mod tests {
             same("period", (x + full).sin(), sin, 1e-30);
             same("exp ln", x.exp().ln(), x, 1e-29);
             same("cosh, sinh", x.cosh() - x.sinh(), (-x).exp(), 1e-29);
+            same("asinh sinh", x.sinh().asinh(), x, 1e-29);
+            same("cosh acosh", x.cosh().acosh().cosh(), x.cosh(), 1e-29);
+            same("tanh atanh", x.tanh().atanh().tanh(), x.tanh(), 1e-29);
             same("tan atan", x.atan().tan(), x, 1e-29);
             same("sin asin", sin.asin().sin(), sin, 1e-30);
             same("cos acos", cos.acos().cos(), cos, 1e-30);

@@ -98,7 +98,8 @@ pub struct SolverWork {
     /// Evaluations of [`Mechanism::dynamics`](crate::Mechanism::dynamics), those for drift estimates included.
     pub evaluations: usize,
     /// Solutions that had to leave the formula first tried for a more general one: a mass matrix that looked regular at compile
-    /// time and is singular at run time, or redundant constraints under [`Formula::Kkt`].
+    /// time and is singular at run time, redundant constraints under [`Formula::Kkt`], or pivots of the straight line that refinement could
+    /// not save.
     pub fallbacks: usize,
 }
 

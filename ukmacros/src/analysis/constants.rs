@@ -6,6 +6,18 @@ use crate::model::Model;
 use proc_macro2::Ident;
 use std::collections::HashMap;
 
+/// Constants of `ukcore::Mechanism`.
+pub(crate) const ASSOCIATED: [&str; 2] = ["SPEC", "CODE"];
+
+/// In upper case, but for a θ: both cases of it in one crate are reported as look-alikes.
+fn upper(text: &str) -> String {
+    let upper = |c: char| match c {
+        'θ' => c.to_string(),
+        _ => c.to_uppercase().to_string(),
+    };
+    text.chars().map(upper).collect()
+}
+
 /// One constant.
 pub(crate) struct Constant {
     pub(crate) name: String,
@@ -82,9 +94,9 @@ impl Register<'_> {
         value: ConstantValue,
     ) {
         let what = format!("{what} `{source}`");
-        if name == "SPEC" {
+        if ASSOCIATED.contains(&name.as_str()) {
             let message = format!(
-                "{what} would become the constant `SPEC`, which every mechanism has; rename it"
+                "{what} would become the constant `{name}`, which every mechanism has; rename it"
             );
             self.diag.error(source.span(), message);
             return;
@@ -105,7 +117,7 @@ impl Register<'_> {
             [] => vec![format!("Constant `{source}` of the declaration.")],
             docs => docs.to_vec(),
         };
-        let name = source.to_string().to_uppercase();
+        let name = upper(&source.to_string());
         self.enter(name, "constant", source, docs, value);
     }
 
@@ -123,7 +135,7 @@ impl Register<'_> {
             "s"
         };
         let docs = vec![format!("{of} {what}{plural} `{source}`.")];
-        let name = format!("{prefix}{source}").to_uppercase();
+        let name = upper(&format!("{prefix}{source}"));
         self.enter(name, what, source, docs, ConstantValue::Position(positions));
     }
 }

@@ -3,7 +3,7 @@
 use super::elimination::Straight;
 use super::functions::{Function, Role};
 use super::schedule::{Sequence, schedule};
-use crate::expr::{Func, Graph, Id, Node};
+use crate::expr::{Cost, Func, Graph, Id, Node};
 use std::collections::{HashMap, HashSet};
 
 /// Operations of straight-line code; each node is computed once.
@@ -18,14 +18,25 @@ pub(crate) struct Operations {
 }
 
 impl Operations {
+    /// The names of the fields.
+    pub(crate) const NAMES: [&str; 6] = [
+        "additions",
+        "multiplications",
+        "divisions",
+        "square_roots",
+        "transcendentals",
+        "selections",
+    ];
+
     /// The counts, in the order of the fields.
     pub(crate) fn counts(self) -> [usize; 6] {
+        let (n, root) = (self.transcendentals, self.square_roots);
         [
             self.additions,
             self.multiplications,
             self.divisions,
-            self.square_roots,
-            self.transcendentals,
+            root,
+            n,
             self.selections,
         ]
     }
@@ -93,16 +104,14 @@ pub(crate) fn count(g: &Graph, needed: &HashSet<Id>, reciprocals: &HashSet<Id>) 
                 }
                 n.divisions += usize::from(!below.is_empty());
             }
-            Node::Call(func, args) => match func {
-                Func::Sqrt => n.square_roots += 1,
-                Func::Abs | Func::Sign | Func::Min | Func::Max | Func::Branch => {
-                    n.selections += 1;
-                }
-                // Counted with its sine.
-                Func::Cos
-                    if g.find_call(Func::Sin, args[0])
-                        .is_some_and(|s| needed.contains(&s)) => {}
-                _ => n.transcendentals += 1,
+            // A cosine is counted with its sine.
+            Node::Call(Func::Cos, args)
+                if g.find_call(Func::Sin, args[0])
+                    .is_some_and(|s| needed.contains(&s)) => {}
+            Node::Call(func, _) => match func.row().cost {
+                Cost::Selection => n.selections += 1,
+                Cost::SquareRoot => n.square_roots += 1,
+                Cost::Transcendental => n.transcendentals += 1,
             },
             Node::Select { .. } => n.selections += 1,
         }

@@ -1,6 +1,6 @@
 //! M, Q, A, b from what was declared.
 
-use crate::expr::{Derivative, Graph, Id, Kind, Symbol, System};
+use crate::expr::{Derivative, Gradient, Graph, Id, Kind, Symbol, System};
 use std::collections::BTreeMap;
 
 /// The equations of motion as nodes. Notation as in Zhao, Zhen & Chen 2013.
@@ -70,9 +70,10 @@ pub(crate) fn derive(system: &mut System, n: usize) -> Dynamics {
         kinetic = half_square(&mass, g);
     }
     let potential = system.potential.unwrap_or(zero);
+    let gradient = Gradient::of(potential, g);
     for (i, f) in force.iter_mut().enumerate() {
-        let gradient = Derivative::partial(Symbol::Coord(i)).of(potential, g);
-        *f = subtract(*f, gradient, g);
+        let slope = gradient.along(Symbol::Coord(i), g);
+        *f = subtract(*f, slope, g);
     }
     let mut nonideal = vec![zero; n];
     for (i, c) in system.nonideal.iter().flatten() {
@@ -80,14 +81,7 @@ pub(crate) fn derive(system: &mut System, n: usize) -> Dynamics {
     }
 
     let mut total = Derivative::total();
-    let mut partials: Vec<(Derivative, Derivative)> = (0..n)
-        .map(|i| {
-            (
-                Derivative::partial(Symbol::Coord(i)),
-                Derivative::partial(Symbol::Velocity(i)),
-            )
-        })
-        .collect();
+    let mut partials: BTreeMap<Symbol, Derivative> = BTreeMap::new();
     let mut jacobian = BTreeMap::new();
     let (mut rhs, mut phi, mut rate) = (Vec::new(), Vec::new(), Vec::new());
     for (row, constraint) in system.constraints.iter().enumerate() {
@@ -99,16 +93,18 @@ pub(crate) fn derive(system: &mut System, n: usize) -> Dynamics {
             Kind::Nonholonomic => constraint.phi,
         };
         rate.push(velocity_level);
-        for symbol in g.support(constraint.phi).to_vec() {
-            let entry = match (constraint.kind, symbol) {
-                (Kind::Holonomic, Symbol::Coord(i)) => (i, partials[i].0.of(constraint.phi, g)),
-                (Kind::Nonholonomic, Symbol::Velocity(i)) => {
-                    (i, partials[i].1.of(constraint.phi, g))
-                }
-                _ => continue,
+        let gradient = Gradient::of(constraint.phi, g);
+        for symbol in gradient.symbols() {
+            let ((Kind::Holonomic, Symbol::Coord(i)) | (Kind::Nonholonomic, Symbol::Velocity(i))) =
+                (constraint.kind, symbol)
+            else {
+                continue;
             };
-            if !g.is_zero(entry.1) {
-                jacobian.insert((row, entry.0), entry.1);
+            let partial = partials.entry(symbol);
+            let partial = partial.or_insert_with(|| Derivative::partial(symbol));
+            let entry = gradient.by(partial, g);
+            if !g.is_zero(entry) {
+                jacobian.insert((row, i), entry);
             }
         }
         // d/dt of the velocity level is A q̈ + (its value at q̈ = 0), so b is minus the latter.
@@ -131,19 +127,25 @@ pub(crate) fn derive(system: &mut System, n: usize) -> Dynamics {
 /// Lagrange's equations d/dt(∂T/∂q̇) − ∂T/∂q = Q: M = ∂²T/∂q̇², and the rest of the left side goes into Q.
 fn lagrange(t: Id, mass: &mut BTreeMap<(usize, usize), Id>, force: &mut [Id], g: &mut Graph) {
     let mut total = Derivative::total();
+    let energy = Gradient::of(t, g);
     for (i, force) in force.iter_mut().enumerate() {
-        let momentum = Derivative::partial(Symbol::Velocity(i)).of(t, g);
-        for j in 0..=i {
-            let entry = Derivative::partial(Symbol::Velocity(j)).of(momentum, g);
-            if !g.is_zero(entry) {
-                mass.insert((i, j), entry);
+        let momentum = energy.along(Symbol::Velocity(i), g);
+        let inertia = Gradient::of(momentum, g);
+        for symbol in inertia.symbols() {
+            if let Symbol::Velocity(j) = symbol
+                && j <= i
+            {
+                let entry = inertia.along(symbol, g);
+                if !g.is_zero(entry) {
+                    mass.insert((i, j), entry);
+                }
             }
         }
         let transport = total.of(momentum, g);
-        let gradient = Derivative::partial(Symbol::Coord(i)).of(t, g);
+        let slope = energy.along(Symbol::Coord(i), g);
         let mut terms = g.open(1.0, *force);
         terms.extend(g.open(-1.0, transport));
-        terms.extend(g.open(1.0, gradient));
+        terms.extend(g.open(1.0, slope));
         *force = g.sum(&terms);
     }
 }

@@ -93,21 +93,26 @@ pub(crate) fn functions(system: &System, hoisted: &Hoisted) -> Vec<Function> {
         functions.push(all(Role::Switching, Slice::Switching, &hoisted.switches));
     }
     if let Ok(straight) = &hoisted.straight {
-        let elimination = &straight.elimination;
-        for (role, values, safe) in [
-            (
+        let Straight {
+            met_too,
+            certificate,
+            elimination,
+            ..
+        } = straight;
+        functions.extend([
+            builder.solve(
                 Role::Acceleration,
+                straight,
                 &elimination.acceleration,
-                straight.met_too,
+                *met_too,
             ),
-            (
+            builder.solve(
                 Role::Correction,
+                straight,
                 &elimination.correction,
-                straight.certificate,
+                *certificate,
             ),
-        ] {
-            functions.push(builder.solve(role, straight, values, safe));
-        }
+        ]);
     }
     functions
 }
@@ -193,16 +198,14 @@ fn mass(d: &Dynamics) -> Vec<(Place, Id)> {
         }
     }
     entries.sort_unstable_by_key(|(at, _)| *at);
-    let entries = entries.into_iter();
-    entries
-        .map(|(at, id)| (Place::Element(Slice::Mass, at), id))
-        .collect()
+    let place = |(at, id)| (Place::Element(Slice::Mass, at), id);
+    entries.into_iter().map(place).collect()
 }
 
 fn jacobian(d: &Dynamics) -> Vec<(Place, Id)> {
     let m = d.rhs.len();
-    let entries = d.jacobian.iter();
-    entries
-        .map(|((row, column), id)| (Place::Element(Slice::Jacobian, row + m * column), *id))
-        .collect()
+    let place = |((row, column), id): (&(usize, usize), &Id)| {
+        (Place::Element(Slice::Jacobian, row + m * column), *id)
+    };
+    d.jacobian.iter().map(place).collect()
 }

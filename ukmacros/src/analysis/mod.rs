@@ -16,6 +16,8 @@ mod switches;
 mod verify;
 
 pub(crate) use check::check;
+#[cfg(test)]
+pub(crate) use constants::ASSOCIATED;
 pub(crate) use constants::{Constant, ConstantValue, Positions, constants};
 pub(crate) use cost::{Costs, Operations};
 pub(crate) use dynamics::{Dynamics, derive};

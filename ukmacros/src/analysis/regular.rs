@@ -13,8 +13,8 @@
 
 use super::dynamics::Dynamics;
 use super::probe::{Probe, Random};
-use crate::expr::{Func, Graph, Id, Node, Symbol, System, eval};
-use std::collections::BTreeSet;
+use crate::expr::{Graph, Id, Node, Symbol, System, eval};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A pivot of a block of M below this share of what its diagonal is at other states is singular: rounding of the entries makes 1e-15, masses of
 /// one block that differ by nine orders are not touched.
@@ -69,8 +69,7 @@ pub(crate) fn regular(system: &mut System, d: &Dynamics) -> Regular {
         let own: Vec<Id> = own.map(|i| found.dynamics.mass[&(*i, *i)]).collect();
         let vanish = states.may_vanish(&own, regular, g);
         if vanish {
-            let touching = (0..d.rhs.len()).filter(|row| block.meets(*row, d));
-            found.met.extend(touching);
+            found.met.extend(&block.rows);
         }
     }
     found.rows.sort_unstable();
@@ -139,13 +138,8 @@ struct Block {
     coordinates: Vec<usize>,
     /// Whether their part of M is the same at all states.
     constant: bool,
-}
-
-impl Block {
-    /// Whether `row` contains one of the coordinates.
-    fn meets(&self, row: usize, d: &Dynamics) -> bool {
-        entries(row, d).any(|(i, _)| self.coordinates.contains(&i))
-    }
+    /// The constraints on them.
+    rows: BTreeSet<usize>,
 }
 
 /// The coefficients of `row`.
@@ -157,7 +151,6 @@ fn entries(row: usize, d: &Dynamics) -> impl Iterator<Item = (usize, Id)> {
 /// The blocks of M that may be singular without being zero, and that constraints act on.
 fn blocks(d: &Dynamics, g: &Graph) -> Vec<Block> {
     let n = d.force.len();
-    let inert: Vec<bool> = (0..n).map(|i| d.mass.contains_key(&(i, i))).collect();
     let mut label: Vec<usize> = (0..n).collect();
     fn root(label: &mut [usize], mut i: usize) -> usize {
         while label[i] != i {
@@ -170,26 +163,33 @@ fn blocks(d: &Dynamics, g: &Graph) -> Vec<Block> {
         let (a, b) = (root(&mut label, *i), root(&mut label, *j));
         label[a.max(b)] = a.min(b);
     }
-    let mut members = vec![Vec::new(); n];
+    let mut blocks: BTreeMap<usize, Block> = BTreeMap::new();
+    let mut roots = Vec::with_capacity(n);
     for i in 0..n {
         let at = root(&mut label, i);
-        members[at].push(i);
+        roots.push(at);
+        let block = blocks.entry(at).or_insert_with(|| Block {
+            coordinates: Vec::new(),
+            constant: true,
+            rows: BTreeSet::new(),
+        });
+        block.coordinates.push(i);
     }
-    let blocks = members.into_iter().filter(|b| !b.is_empty());
-    let blocks = blocks.map(|coordinates| {
-        let mut own = d.mass.range((coordinates[0], 0)..);
-        let constant = own.all(|((i, _), m)| !coordinates.contains(i) || g.uses(*m).constant());
-        Block {
-            coordinates,
-            constant,
-        }
-    });
+    for ((i, _), m) in &d.mass {
+        let constant = g.uses(*m).constant();
+        blocks
+            .entry(roots[*i])
+            .and_modify(|b| b.constant &= constant);
+    }
+    for (row, i) in d.jacobian.keys() {
+        let block = blocks.entry(roots[*i]);
+        block.and_modify(|b| b.rows.extend([*row]));
+    }
     let doubtful = |b: &Block| {
-        let inert = b.coordinates.iter().all(|i| inert[*i]);
-        let met = || (0..d.rhs.len()).any(|row| b.meets(row, d));
-        inert && (b.coordinates.len() > 1 || !b.constant) && met()
+        let inert = b.coordinates.iter().all(|i| d.mass.contains_key(&(*i, *i)));
+        inert && (b.coordinates.len() > 1 || !b.constant) && !b.rows.is_empty()
     };
-    blocks.filter(doubtful).collect()
+    blocks.into_values().filter(doubtful).collect()
 }
 
 /// States at which a block is looked at, with what M and A are there.
@@ -221,7 +221,7 @@ impl<'a> States<'a> {
             .iter()
             .flat_map(|id| g.support(*id))
             .filter_map(|s| match s {
-                Symbol::Coord(i) => Some(*i),
+                Symbol::Coord(i) => Some(i),
                 _ => None,
             })
             .collect();
@@ -234,8 +234,8 @@ impl<'a> States<'a> {
         }
         // Rows that may be added: with inertia at each of their coordinates.
         let inert = |i: usize| d.mass.contains_key(&(i, i));
-        let usable = |row: &usize| block.meets(*row, d) && entries(*row, d).all(|(i, _)| inert(i));
-        let candidates: Vec<usize> = (0..d.rhs.len()).filter(usable).collect();
+        let usable = |row: &&usize| entries(**row, d).all(|(i, _)| inert(i));
+        let candidates: Vec<usize> = block.rows.iter().filter(usable).copied().collect();
         let mut all = present;
         for row in &candidates {
             let own = entries(*row, d).filter(|(i, _)| block.coordinates.contains(i));
@@ -351,8 +351,7 @@ impl<'a> States<'a> {
             deficient.retain(|(_, rank)| *rank < k);
         }
         let left = deficient.iter().filter(|(s, _)| *s < self.generic).count();
-        let excluded = (0..d.rhs.len())
-            .any(|row| block.meets(row, d) && !self.rows.iter().any(|(known, _)| *known == row));
+        let excluded = self.rows.len() < block.rows.len();
         let singular = self.generic > 0 && left == self.generic && !excluded;
         (
             chosen.into_iter().map(|at| self.rows[at].0).collect(),
@@ -429,9 +428,11 @@ fn rank(mut a: Vec<f64>, k: usize) -> usize {
             break;
         }
         left.swap_remove(at);
-        for i in &left {
+        let near = left.iter().filter(|i| a[*i * k + p] != 0.0);
+        let near: Vec<usize> = near.copied().collect();
+        for i in &near {
             let factor = a[i * k + p] / pivot;
-            for j in &left {
+            for j in &near {
                 a[i * k + j] -= factor * a[p * k + j];
             }
         }
@@ -455,7 +456,7 @@ fn bounded(id: Id, g: &Graph) -> bool {
         Node::Scale(c, inner) => c.get() > 0.0 && bounded(*inner, g),
         Node::Held(inner) => bounded(*inner, g),
         Node::Product(factors) => factors.iter().all(|(f, e)| *e > 0 && bounded(*f, g)),
-        Node::Call(Func::Cosh, _) => true,
+        Node::Call(func, _) => func.row().least.is_some_and(|least| least > 0.0),
         _ => false,
     }
 }
@@ -474,10 +475,7 @@ fn never_negative(id: Id, g: &Graph) -> bool {
         Node::Product(factors) => factors
             .iter()
             .all(|(f, e)| e % 2 == 0 || never_negative(*f, g)),
-        Node::Call(func, _) => matches!(
-            func,
-            Func::Abs | Func::Sqrt | Func::Exp | Func::Cosh | Func::Hypot
-        ),
+        Node::Call(func, _) => func.row().least.is_some(),
         Node::Select { .. } => false,
     }
 }

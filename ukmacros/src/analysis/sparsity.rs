@@ -4,11 +4,10 @@
 /// If none is left out the matrix has full row rank for almost all values of its entries.
 pub(crate) fn unmatched_rows(columns_of_row: &[Vec<usize>], columns: usize) -> Vec<usize> {
     let mut row_of_column: Vec<Option<usize>> = vec![None; columns];
+    // For which row each column was visited last.
+    let mut visited = vec![usize::MAX; columns];
     (0..columns_of_row.len())
-        .filter(|row| {
-            let mut visited = vec![false; columns];
-            !augment(*row, columns_of_row, &mut row_of_column, &mut visited)
-        })
+        .filter(|row| !augment(*row, columns_of_row, &mut row_of_column, &mut visited))
         .collect()
 }
 
@@ -16,7 +15,7 @@ fn augment(
     row: usize,
     columns_of_row: &[Vec<usize>],
     row_of_column: &mut [Option<usize>],
-    visited: &mut [bool],
+    visited: &mut [usize],
 ) -> bool {
     // An augmenting path found iteratively: the depth can reach the number of rows.
     let mut path: Vec<(usize, usize)> = vec![(row, 0)];
@@ -26,7 +25,7 @@ fn augment(
             continue;
         };
         *next += 1;
-        if std::mem::replace(&mut visited[column], true) {
+        if std::mem::replace(&mut visited[column], row) == row {
             continue;
         }
         match row_of_column[column] {

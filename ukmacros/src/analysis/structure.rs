@@ -1,7 +1,7 @@
 //! Facts about a mechanism that solver and reader use, and what the emitted code leaves out because of them.
 
 use super::dynamics::Dynamics;
-use crate::expr::{Derivative, Func, Graph, Id, Kind, Node, Symbol, System};
+use crate::expr::{Func, Gradient, Graph, Id, Kind, Node, Symbol, System};
 use std::collections::{BTreeSet, HashSet};
 
 /// Facts known at compile time.
@@ -28,11 +28,11 @@ pub(crate) fn structure(system: &mut System, dynamics: &Dynamics) -> Structure {
         None => true,
     };
     let g = &system.graph;
-    let has_mass = |i: usize| dynamics.mass.keys().any(|(r, c)| *r == i || *c == i);
+    let massive: BTreeSet<usize> = dynamics.mass.keys().flat_map(|(r, c)| [*r, *c]).collect();
     let mass_diagonal = dynamics.mass.keys().all(|(r, c)| r == c);
     let mass_constant = dynamics.mass.values().all(|m| g.uses(*m).constant());
     let jacobian_constant = dynamics.jacobian.values().all(|a| g.uses(*a).constant());
-    let massless: Vec<usize> = (0..n).filter(|i| !has_mass(*i)).collect();
+    let massless: Vec<usize> = (0..n).filter(|i| !massive.contains(i)).collect();
     let equations = dynamics
         .mass
         .values()
@@ -98,58 +98,40 @@ fn angles(d: &Dynamics, g: &Graph) -> Vec<usize> {
 
 fn left_out(s: &Structure, system: &System, dynamics: &Dynamics) -> Vec<String> {
     let g = &system.graph;
-    let mut out = Vec::new();
-    let n = dynamics.force.len();
-    let m = dynamics.rhs.len();
-    let mut say = |when: bool, text: String| {
-        if when {
-            out.push(text);
-        }
+    let (n, m) = (dynamics.force.len(), dynamics.rhs.len());
+    let written = dynamics.jacobian.len();
+    let zeros = |ids: &[Id]| ids.iter().filter(|id| g.is_zero(**id)).count();
+    let (zero_rhs, unforced) = (zeros(&dynamics.rhs), zeros(&dynamics.force));
+    let entries = |count: usize, of: usize, what: &str| {
+        format!("{count} of {of} entries of {what}: identically zero")
     };
-    say(
-        m == 0,
-        "constraint solve: there are no constraints, M q̈ = Q".to_owned(),
-    );
-    say(
-        m > 0 && dynamics.jacobian.len() < n * m,
-        format!(
-            "{} of the {} entries of A: structurally zero, never written",
-            n * m - dynamics.jacobian.len(),
-            n * m
+    let all = [
+        (m == 0, "constraint solve: there are no constraints, M q̈ = Q".to_owned()),
+        (
+            m > 0 && written < n * m,
+            format!("{} of the {} entries of A: structurally zero, never written", n * m - written, n * m),
         ),
-    );
-    say(
-        s.mass_diagonal,
-        "off-diagonal entries of M: M is diagonal, its square root is taken entry by entry"
-            .to_owned(),
-    );
-    say(
-        s.mass_constant && system.kinetic.is_some(),
-        "velocity terms of Lagrange's equations: M is constant".to_owned(),
-    );
-    say(
-        s.scleronomic,
-        "∂/∂t terms: no equation contains the time".to_owned(),
-    );
-    say(
-        !s.nonideal,
-        "non-ideal force c (eq. 12): all constraints are ideal".to_owned(),
-    );
-    let zero_rhs = dynamics.rhs.iter().filter(|b| g.is_zero(**b)).count();
-    say(
-        zero_rhs > 0,
-        format!("{zero_rhs} of {m} entries of b: identically zero"),
-    );
-    let unforced = dynamics.force.iter().filter(|f| g.is_zero(**f)).count();
-    say(
-        unforced > 0,
-        format!("{unforced} of {n} entries of Q: identically zero"),
-    );
-    say(
-        s.massless.is_empty() && s.mass_diagonal,
-        "Udwadia-Phohomsiri formula (eq. 19): no coordinate is massless while the parameters are positive".to_owned(),
-    );
-    out
+        (
+            s.mass_diagonal,
+            "off-diagonal entries of M: M is diagonal, its square root is taken entry by entry".to_owned(),
+        ),
+        (
+            s.mass_constant && system.kinetic.is_some(),
+            "velocity terms of Lagrange's equations: M is constant".to_owned(),
+        ),
+        (s.scleronomic, "∂/∂t terms: no equation contains the time".to_owned()),
+        (!s.nonideal, "non-ideal force c (eq. 12): all constraints are ideal".to_owned()),
+        (zero_rhs > 0, entries(zero_rhs, m, "b")),
+        (unforced > 0, entries(unforced, n, "Q")),
+        (
+            s.massless.is_empty() && s.mass_diagonal,
+            "Udwadia-Phohomsiri formula (eq. 19): no coordinate is massless while the parameters are positive".to_owned(),
+        ),
+    ];
+    all.into_iter()
+        .filter(|(holds, _)| *holds)
+        .map(|(_, text)| text)
+        .collect()
 }
 
 /// Whether all nonholonomic constraints are linear in q̇ without a rest, so that their forces do no work.
@@ -176,10 +158,11 @@ fn quadratic(kinetic: Id, g: &mut Graph) -> bool {
 
 /// ∂/∂q̇ of `id`, for each velocity in it.
 fn slopes(id: Id, g: &mut Graph) -> Vec<Id> {
-    let symbols = g.support(id).to_vec().into_iter();
-    let velocities = symbols.filter(|s| matches!(s, Symbol::Velocity(_)));
+    let gradient = Gradient::of(id, g);
+    let velocities = gradient.symbols();
     velocities
-        .map(|s| Derivative::partial(s).of(id, g))
+        .filter(|s| matches!(s, Symbol::Velocity(_)))
+        .map(|s| gradient.along(s, g))
         .collect()
 }
 

@@ -7,7 +7,7 @@
 
 use super::dynamics::Dynamics;
 use super::probe::{Random, Shake};
-use crate::expr::{Func, Graph, Id, Kind, Node, Point, Symbol, System, eval_shaken};
+use crate::expr::{Graph, Id, Jet, Kind, Node, Point, Symbol, System, eval_shaken};
 use std::cell::RefCell;
 use std::collections::HashSet;
 
@@ -73,6 +73,16 @@ struct Compared {
 }
 
 impl Compared {
+    fn new(what: impl Into<String>, found: f64, expected: f64, scale: f64) -> Self {
+        let what = what.into();
+        Compared {
+            what,
+            found,
+            expected,
+            scale,
+        }
+    }
+
     /// Whether both agree to rounding, which can explain a difference of `rounding`; outside of a function's domain nothing is claimed.
     fn agrees(&self, rounding: f64) -> bool {
         let (a, b) = (self.found, self.expected);
@@ -142,12 +152,8 @@ impl Motion<'_> {
                 Kind::Nonholonomic => (jet.0, jet.1),
             };
             for (expected, found, scale) in [(first, rate[row], 1.0), (next, value, size)] {
-                pairs.push(Compared {
-                    what: format!("constraint `{}`", constraint.item.text()),
-                    found,
-                    expected,
-                    scale,
-                });
+                let name = format!("constraint `{}`", constraint.item.text());
+                pairs.push(Compared::new(name, found, expected, scale));
             }
         }
         pairs
@@ -226,12 +232,7 @@ impl Motion<'_> {
             let mut t =
                 |a: &[f64], b: &[f64], c: f64| self.line(a, b, c).jets(g, &[kinetic], shake)[0];
             let bend = t(&still, direction, 0.0).2;
-            pairs.push(Compared {
-                what: "M".to_owned(),
-                found: twice,
-                expected: bend,
-                scale: twice.abs() + 1.0,
-            });
+            pairs.push(Compared::new("M", twice, bend, twice.abs() + 1.0));
             // d/dt (δ · ∂T/∂q̇) is a mixed second derivative, by polarisation.
             let both: Vec<f64> = self.a.iter().zip(direction).map(|(a, d)| a + d).collect();
             let (sum, time) = (t(&self.v, &both, 1.0).2, t(&self.v, &self.a, 1.0).2);
@@ -240,12 +241,7 @@ impl Motion<'_> {
             expected += momentum - (rate - gradient);
             scale += sum.abs() + time.abs() + bend.abs() + gradient.abs() + momentum.abs();
         }
-        pairs.push(Compared {
-            what: "Q".to_owned(),
-            found: force,
-            expected,
-            scale,
-        });
+        pairs.push(Compared::new("Q", force, expected, scale));
         pairs
     }
 }
@@ -253,10 +249,10 @@ impl Motion<'_> {
 impl Path<'_> {
     fn jets(&self, g: &Graph, roots: &[Id], shake: &mut Shake) -> Vec<Jet> {
         let top = roots.iter().map(|r| r.index() + 1).max().unwrap_or(0);
-        let mut values: Vec<Jet> = Vec::with_capacity(top);
-        for i in 0..top {
-            let Jet(a, b, c) = self.jet(g.node(g.at(i)), &values);
-            values.push(Jet(shake.change(a), shake.change(b), shake.change(c)));
+        let mut values = vec![Jet::constant(0.0); top];
+        for id in g.reachable(roots) {
+            let Jet(a, b, c) = self.jet(g.node(id), &values);
+            values[id.index()] = Jet(shake.change(a), shake.change(b), shake.change(c));
         }
         roots.iter().map(|r| values[r.index()]).collect()
     }
@@ -264,22 +260,22 @@ impl Path<'_> {
     fn jet(&self, node: &Node, values: &[Jet]) -> Jet {
         let at = |id: &Id| values[id.index()];
         match node {
-            Node::Const(x) => Jet(x.get(), 0.0, 0.0),
-            Node::Symbol(Symbol::Param(i)) => Jet(self.params[*i], 0.0, 0.0),
+            Node::Const(x) => Jet::constant(x.get()),
+            Node::Symbol(Symbol::Param(i)) => Jet::constant(self.params[*i]),
             Node::Symbol(Symbol::Coord(i)) => self.q[*i],
             Node::Symbol(Symbol::Velocity(i)) => self.v[*i],
             Node::Symbol(Symbol::Time) => self.t,
             Node::Symbol(Symbol::Residual(_) | Symbol::Prepared(_) | Symbol::Branch(_)) => {
-                Jet(0.0, 0.0, 0.0)
+                Jet::constant(0.0)
             }
-            Node::Sum(c, terms) => terms.iter().fold(Jet(c.get(), 0.0, 0.0), |sum, (k, t)| {
-                sum.plus(at(t).times(Jet(k.get(), 0.0, 0.0)))
+            Node::Sum(c, terms) => terms.iter().fold(Jet::constant(c.get()), |sum, (k, t)| {
+                sum.plus(at(t).times(Jet::constant(k.get())))
             }),
-            Node::Scale(c, inner) => at(inner).times(Jet(c.get(), 0.0, 0.0)),
+            Node::Scale(c, inner) => at(inner).times(Jet::constant(c.get())),
             Node::Product(factors) => {
                 factors
                     .iter()
-                    .fold(Jet(1.0, 0.0, 0.0), |product, (base, e)| {
+                    .fold(Jet::constant(1.0), |product, (base, e)| {
                         let (u, e) = (at(base), *e);
                         let slope = f64::from(e) * u.0.powi(e - 1);
                         let bend = f64::from(e) * f64::from(e - 1) * u.0.powi(e - 2);
@@ -287,7 +283,7 @@ impl Path<'_> {
                     })
             }
             Node::Held(inner) => at(inner),
-            Node::Call(func, args) => call(*func, at(&args[0]), args.get(1).map(at)),
+            Node::Call(func, args) => func.jet(at(&args[0]), args.get(1).map(at)),
             Node::Select {
                 a,
                 b,
@@ -300,96 +296,6 @@ impl Path<'_> {
                     at(otherwise)
                 }
             }
-        }
-    }
-}
-
-/// Value, first and second derivative in s.
-#[derive(Clone, Copy)]
-struct Jet(f64, f64, f64);
-
-impl Jet {
-    fn plus(self, o: Jet) -> Jet {
-        Jet(self.0 + o.0, self.1 + o.1, self.2 + o.2)
-    }
-    fn times(self, o: Jet) -> Jet {
-        Jet(
-            self.0 * o.0,
-            self.1 * o.0 + self.0 * o.1,
-            self.2 * o.0 + 2.0 * self.1 * o.1 + self.0 * o.2,
-        )
-    }
-    /// f(u) from f, f′ and f″ at u.
-    fn chain(self, value: f64, slope: f64, bend: f64) -> Jet {
-        Jet(
-            value,
-            slope * self.1,
-            bend * self.1 * self.1 + slope * self.2,
-        )
-    }
-    fn ln(self) -> Jet {
-        self.chain(self.0.ln(), 1.0 / self.0, -1.0 / (self.0 * self.0))
-    }
-    fn exp(self) -> Jet {
-        let e = self.0.exp();
-        self.chain(e, e, e)
-    }
-    fn sqrt(self) -> Jet {
-        let r = self.0.sqrt();
-        self.chain(r, 0.5 / r, -0.25 / (r * r * r))
-    }
-}
-
-fn call(func: Func, u: Jet, w: Option<Jet>) -> Jet {
-    let x = u.0;
-    let w = w.unwrap_or(Jet(0.0, 0.0, 0.0));
-    match func {
-        Func::Sqrt => u.sqrt(),
-        Func::Sin => u.chain(x.sin(), x.cos(), -x.sin()),
-        Func::Cos => u.chain(x.cos(), -x.sin(), -x.cos()),
-        Func::Tan => {
-            let t = x.tan();
-            u.chain(t, 1.0 + t * t, 2.0 * t * (1.0 + t * t))
-        }
-        Func::Asin | Func::Acos => {
-            let r = (1.0 - x * x).sqrt();
-            let (slope, bend) = (1.0 / r, x / (r * r * r));
-            if func == Func::Asin {
-                u.chain(x.asin(), slope, bend)
-            } else {
-                u.chain(x.acos(), -slope, -bend)
-            }
-        }
-        Func::Atan => {
-            let d = 1.0 + x * x;
-            u.chain(x.atan(), 1.0 / d, -2.0 * x / (d * d))
-        }
-        Func::Sinh => u.chain(x.sinh(), x.cosh(), x.sinh()),
-        Func::Cosh => u.chain(x.cosh(), x.sinh(), x.cosh()),
-        Func::Tanh => {
-            let t = x.tanh();
-            u.chain(t, 1.0 - t * t, -2.0 * t * (1.0 - t * t))
-        }
-        Func::Exp => u.exp(),
-        Func::Ln => u.ln(),
-        Func::Abs if x < 0.0 => u.times(Jet(-1.0, 0.0, 0.0)),
-        Func::Abs => u,
-        Func::Sign => u.chain(if x == 0.0 { 0.0 } else { x.signum() }, 0.0, 0.0),
-        Func::Min if x <= w.0 => u,
-        Func::Max if x >= w.0 => u,
-        Func::Min | Func::Max => w,
-        Func::Branch if w.0 == 0.0 => u,
-        Func::Branch => w,
-        Func::Hypot => u.times(u).plus(w.times(w)).sqrt(),
-        Func::Powf => u.ln().times(w).exp(),
-        Func::Atan2 => {
-            // θ′ = (w u′ − u w′)/(u² + w²), and the quotient's own derivative.
-            let top = w.0 * u.1 - u.0 * w.1;
-            let bottom = u.0 * u.0 + w.0 * w.0;
-            let top1 = w.0 * u.2 - u.0 * w.2;
-            let bottom1 = 2.0 * (u.0 * u.1 + w.0 * w.1);
-            let rate = top / bottom;
-            Jet(x.atan2(w.0), rate, (top1 - rate * bottom1) / bottom)
         }
     }
 }

@@ -16,6 +16,12 @@ pub(super) struct Writing<'a> {
     pub(super) function: &'a Function,
 }
 
+/// In functions of more steps, variables are declared in groups: the compiler of the emitted code opens a scope within a scope at each
+/// `let`, and recurses on them where it writes what debuggers read.
+const MANY: usize = 1000;
+/// Variables of a group.
+const GROUP: usize = 64;
+
 /// Writes the straight-line code of a function, with the coordinates, velocities and parameters that it reads.
 pub(super) fn body(writing: &Writing<'_>) -> TokenStream {
     let Writing {
@@ -33,7 +39,10 @@ pub(super) fn body(writing: &Writing<'_>) -> TokenStream {
     let inputs = writer.inputs(model, system.constraints.len(), prepared, program);
     let purpose = |root: usize| writing.purpose(roots[root].0);
     let exits: HashSet<Id> = function.exits.iter().copied().collect();
-    let mut statements = TokenStream::new();
+    let many = program.steps.len() > MANY;
+    let declare = (!many).then(|| quote! { let });
+    let (mut statements, mut group, mut declared) =
+        (TokenStream::new(), TokenStream::new(), Vec::new());
     // Helpers are named for the value whose computation needs them first: the next one stored.
     let mut next = 0;
     for step in &program.steps {
@@ -46,33 +55,43 @@ pub(super) fn body(writing: &Writing<'_>) -> TokenStream {
                     false => format!("{}_part", purpose(next)),
                 };
                 let name = writer.namer.declare(id, &purpose);
-                statements.extend(quote! { let #name = #value; });
+                group.extend(quote! { #declare #name = #value; });
                 if exits.contains(&id) {
-                    statements.extend(quote! { if #name.is_zero() { return #name; } });
+                    group.extend(quote! { if #name.is_zero() { return #name; } });
                 }
+                declared.push(name);
             }
             Step::Reciprocal(id) => {
                 let receiver = writer.receiver(id);
                 let name = writer.namer.declare_reciprocal(id, &purpose(next));
-                statements.extend(quote! { let #name = #receiver.recip(); });
+                group.extend(quote! { #declare #name = #receiver.recip(); });
+                declared.push(name);
             }
             Step::SinCos { sin, cos } => {
                 let argument = g.operands(sin)[0];
                 let argument = writer.receiver(argument);
                 let sin = writer.namer.declare(sin, &purpose(next));
                 let cos = writer.namer.declare(cos, &purpose(next));
-                statements.extend(quote! { let (#sin, #cos) = #argument.sin_cos(); });
+                group.extend(quote! { #declare (#sin, #cos) = #argument.sin_cos(); });
+                declared.extend([sin, cos]);
             }
             Step::Store(k) => {
                 let (place, id) = roots[k];
                 let value = writer.expression(id);
                 let place = stored(place);
-                statements.extend(quote! { #place = #value; });
+                group.extend(quote! { #place = #value; });
                 next = (k + 1).min(roots.len() - 1);
             }
         }
+        if declared.len() >= GROUP {
+            let names = std::mem::take(&mut declared);
+            let names = many.then(|| quote! { let (#(#names),*); });
+            statements.extend(quote! { #names #group });
+            group = TokenStream::new();
+        }
     }
-    quote! { #inputs #statements }
+    let names = (many && !declared.is_empty()).then(|| quote! { let (#(#declared,)*); });
+    quote! { #inputs #statements #names #group }
 }
 
 /// The left side of an assignment to `place`.
@@ -128,6 +147,9 @@ enum Binding {
     Sign,
     Call,
 }
+
+/// Sums of more terms are written in parts: the compiler of the emitted code recurses on `a.mul_add(b, c.mul_add(d, …))`.
+const LONGEST: usize = 64;
 
 /// Factors of a product, each wrapped so that it can be multiplied.
 type Factors = Vec<(TokenStream, Binding)>;
@@ -237,7 +259,7 @@ impl Writer<'_> {
             Node::Held(inner) => self.write(*inner),
             Node::Call(func, args) => {
                 let receiver = self.receiver(args[0]);
-                let name = format_ident!("{}", func.name());
+                let name = format_ident!("{}", func.row().name);
                 let rest = args[1..].iter().map(|a| self.expression(*a));
                 (quote! { #receiver.#name(#(#rest),*) }, Binding::Call)
             }
@@ -263,11 +285,18 @@ impl Writer<'_> {
             terms[..=first].rotate_right(1);
         }
         let mut out = None;
+        let mut before = TokenStream::new();
         let leading = c != 0.0 && (c > 0.0 || first.is_none());
         if leading {
             out = Some((constant(c), Binding::Call));
         }
-        for (k, term) in &terms {
+        for (at, (k, term)) in terms.iter().enumerate() {
+            if at % LONGEST == LONGEST - 1
+                && let Some((sum, _)) = out
+            {
+                before.extend(quote! { let sum = #sum; });
+                out = Some((quote! { sum }, Binding::Call));
+            }
             let factors = self.term(k.abs(), *term);
             let negative = *k < 0.0;
             let Some((sum, _)) = out else {
@@ -310,15 +339,17 @@ impl Writer<'_> {
             });
         }
         let (sum, binding) = out.unwrap_or_else(|| (constant(c), Binding::Call));
-        if c == 0.0 || leading {
-            return (sum, binding);
-        }
         let value = constant(c.abs());
-        let sum = match c > 0.0 {
-            true => quote! { #sum + #value },
-            false => quote! { #sum - #value },
+        let (sum, binding) = match c {
+            _ if c == 0.0 || leading => (sum, binding),
+            _ if c > 0.0 => (quote! { #sum + #value }, Binding::Sum),
+            _ => (quote! { #sum - #value }, Binding::Sum),
         };
-        (sum, Binding::Sum)
+        match before.is_empty() {
+            true => (sum, binding),
+            // In parentheses, as a statement may begin with it.
+            false => (quote! { ({ #before #sum }) }, Binding::Call),
+        }
     }
 
     /// c · id as factors, in the order in which they are known; a single one may be added, several may be multiplied.
@@ -428,9 +459,12 @@ impl Writer<'_> {
 
 /// a * b * c
 fn join(factors: &[(TokenStream, Binding)]) -> TokenStream {
-    let factors = factors.iter().map(|(tokens, _)| tokens.clone());
-    let joined = factors.reduce(|a, b| quote! { #a * #b });
-    joined.unwrap_or_default()
+    let mut product = TokenStream::new();
+    for (k, (factor, _)) in factors.iter().enumerate() {
+        let times = (k > 0).then(|| quote! { * });
+        product.extend(quote! { #times #factor });
+    }
+    product
 }
 
 fn wrap((tokens, binding): (TokenStream, Binding), least: Binding) -> TokenStream {

@@ -49,42 +49,34 @@ fn equations(listing: &Listing, system: &System, model: &Model) -> String {
         }
         let _ = writeln!(out, "```\n");
     };
-    let definitions = listing
-        .definitions
-        .iter()
-        .map(|(n, t)| format!("{n} = {t}"));
-    let mass = listing
-        .mass
-        .iter()
-        .map(|(i, j, t)| format!("M[{}, {}] = {t}", coord(*i), coord(*j)));
-    let force = listing
-        .force
-        .iter()
-        .map(|(i, t)| format!("Q[{}] = {t}", coord(*i)));
-    let nonideal = listing
-        .nonideal
-        .iter()
-        .map(|(i, t)| format!("c[{}] = {t}", coord(*i)));
-    let phi = listing
-        .phi
-        .iter()
-        .enumerate()
-        .map(|(i, t)| format!("{}: {t}", constraint(i)));
-    let jacobian = listing
-        .jacobian
-        .iter()
-        .map(|(i, j, t)| format!("A[{}, {}] = {t}", constraint(*i), coord(*j)));
-    let rhs = listing
-        .rhs
-        .iter()
-        .map(|(i, t)| format!("b[{}] = {t}", constraint(*i)));
+    let of_coordinates = |name: &str, rows: &[(usize, String)]| -> Vec<String> {
+        let rows = rows.iter();
+        rows.map(|(i, t)| format!("{name}[{}] = {t}", coord(*i)))
+            .collect()
+    };
+    let definitions = listing.definitions.iter();
+    let definitions = definitions.map(|(n, t)| format!("{n} = {t}"));
+    let mass = listing.mass.iter();
+    let mass = mass.map(|(i, j, t)| format!("M[{}, {}] = {t}", coord(*i), coord(*j)));
+    let phi = listing.phi.iter().enumerate();
+    let phi = phi.map(|(i, t)| format!("{}: {t}", constraint(i)));
+    let jacobian = listing.jacobian.iter();
+    let jacobian = jacobian.map(|(i, j, t)| format!("A[{}, {}] = {t}", constraint(*i), coord(*j)));
+    let rhs = listing.rhs.iter();
+    let rhs = rhs.map(|(i, t)| format!("b[{}] = {t}", constraint(*i)));
     block("Abbreviations:", definitions.collect());
     block("Mass matrix M (lower triangle), eq. 1:", mass.collect());
-    block("Generalised force Q, eq. 1:", force.collect());
+    block(
+        "Generalised force Q, eq. 1:",
+        of_coordinates("Q", &listing.force),
+    );
     block("Constraints φ, eqs. 3 and 4:", phi.collect());
     block("Constraint Jacobian A, eq. 5:", jacobian.collect());
     block("Right-hand side b, eq. 5:", rhs.collect());
-    block("Non-ideal force c, eq. 8:", nonideal.collect());
+    block(
+        "Non-ideal force c, eq. 8:",
+        of_coordinates("c", &listing.nonideal),
+    );
     let switches = listing.switches.iter();
     let switches = switches.map(|(g, terms)| format!("{g}: {}", terms.join(", ")));
     block(

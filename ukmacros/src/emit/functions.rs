@@ -101,37 +101,21 @@ fn statements(
 }
 
 impl Role {
-    fn name(self) -> &'static str {
-        match self {
-            Role::Prepare => "prepare",
-            Role::Dynamics => "dynamics",
-            Role::MassMatrix => "mass_matrix",
-            Role::Jacobian => "jacobian",
-            Role::Residual => "residual",
-            Role::ResidualRate => "residual_rate",
-            Role::Energy => "energy",
-            Role::Outputs => "outputs",
-            Role::Switching => "switching",
-            Role::Acceleration => "acceleration",
-            Role::Correction => "correction",
+    /// The function's name: `mass_matrix` of `MassMatrix`.
+    fn name(self) -> String {
+        let mut name = String::new();
+        for c in format!("{self:?}").chars() {
+            if c.is_uppercase() && !name.is_empty() {
+                name.push('_');
+            }
+            name.extend(c.to_lowercase());
         }
+        name
     }
 }
 
 impl Slice {
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Slice::Prepared => "prepared",
-            Slice::Mass => "mass",
-            Slice::Force => "force",
-            Slice::Nonideal => "nonideal",
-            Slice::Jacobian => "jacobian",
-            Slice::Rhs => "rhs",
-            Slice::Phi => "phi",
-            Slice::Rate => "rate",
-            Slice::Outputs => "outputs",
-            Slice::Switching => "switching",
-            Slice::Out => "out",
-        }
+    pub(super) fn name(self) -> String {
+        format!("{self:?}").to_lowercase()
     }
 }

@@ -7,78 +7,10 @@ use quote::format_ident;
 use std::collections::{HashMap, HashSet};
 
 /// Names that emitted functions use themselves, or that Rust reserves.
-const TAKEN: [&str; 70] = [
-    "given",
-    "prepared",
-    "t",
-    "q",
-    "v",
-    "out",
-    "lit",
-    "mass",
-    "force",
-    "nonideal",
-    "jacobian",
-    "rhs",
-    "phi",
-    "rate",
-    "outputs",
-    "kinetic",
-    "potential",
-    "as",
-    "break",
-    "const",
-    "continue",
-    "crate",
-    "else",
-    "enum",
-    "extern",
-    "false",
-    "fn",
-    "for",
-    "if",
-    "impl",
-    "in",
-    "let",
-    "loop",
-    "match",
-    "mod",
-    "move",
-    "mut",
-    "pub",
-    "ref",
-    "return",
-    "self",
-    "static",
-    "struct",
-    "super",
-    "trait",
-    "true",
-    "type",
-    "unsafe",
-    "use",
-    "where",
-    "while",
-    "async",
-    "await",
-    "dyn",
-    "abstract",
-    "become",
-    "box",
-    "do",
-    "final",
-    "macro",
-    "override",
-    "priv",
-    "typeof",
-    "try",
-    "gen",
-    "yield",
-    "safe",
-    "residual",
-    "virtual",
-    "unsized",
-];
+const TAKEN: &str = "given residual t q v lit sum safe kinetic potential prepared mass force nonideal jacobian rhs phi rate outputs switching out as \
+    break const continue crate else enum extern false fn for if impl in let loop match mod move mut pub ref return self static struct \
+    super trait true type unsafe use where while async await dyn abstract become box do final macro override priv typeof try gen yield \
+    virtual unsized";
 
 /// Longest composed name.
 const LONGEST: usize = 32;
@@ -125,6 +57,8 @@ pub(super) struct Namer<'a> {
     variables: HashMap<Id, String>,
     reciprocals: HashMap<Id, String>,
     taken: HashSet<String>,
+    /// How often each was wished for again.
+    repeated: HashMap<String, usize>,
 }
 
 impl<'a> Namer<'a> {
@@ -141,7 +75,8 @@ impl<'a> Namer<'a> {
             symbols: HashMap::new(),
             variables: HashMap::new(),
             reciprocals: HashMap::new(),
-            taken: TAKEN.iter().map(|s| (*s).to_owned()).collect(),
+            taken: TAKEN.split(' ').map(str::to_owned).collect(),
+            repeated: HashMap::new(),
         };
         namer.symbols.insert(Symbol::Time, "t".to_owned());
         let mut enter = |symbol: Symbol, text: &str| {
@@ -185,9 +120,9 @@ impl<'a> Namer<'a> {
 
     fn fresh(&mut self, wish: &str) -> String {
         let mut name = wish.to_owned();
-        let mut k = 1;
         while !self.taken.insert(name.clone()) {
-            k += 1;
+            let k = self.repeated.entry(wish.to_owned()).or_insert(1);
+            *k += 1;
             name = format!("{wish}_{k}");
         }
         name
@@ -231,7 +166,7 @@ impl<'a> Namer<'a> {
         let name = match self.graph.node(id) {
             Node::Call(func, args) => {
                 let args: Option<Vec<String>> = args.iter().map(|a| self.atom(*a)).collect();
-                format!("{}_{}", func.name(), args?.join("_"))
+                format!("{}_{}", func.row().name, args?.join("_"))
             }
             Node::Sum(c, terms) if c.get() == 0.0 && terms.len() == 2 => {
                 let (a, b) = (terms[0], terms[1]);
@@ -293,7 +228,7 @@ impl<'a> Namer<'a> {
                 parts?.join("_and_")
             }
             Node::Call(func, args) if args.len() == 1 => {
-                format!("{}_{}", func.name(), self.describe(args[0])?)
+                format!("{}_{}", func.row().name, self.describe(args[0])?)
             }
             _ => return None,
         };
@@ -308,6 +243,7 @@ impl<'a> Namer<'a> {
     }
 }
 
+/// In lower case; θ and Θ in one crate are reported as look-alikes.
 fn snake(text: &str) -> String {
-    plain(text).to_lowercase()
+    plain(text).replace('Θ', "theta").to_lowercase()
 }

@@ -168,58 +168,33 @@ fn solve(solve: &Solve, n: usize) -> TokenStream {
 }
 
 fn costs(costs: &Costs) -> TokenStream {
-    let Costs {
-        dynamics,
-        dense,
-        unprepared,
-        acceleration,
-        correction,
-        prepare,
-    } = costs;
-    let all = [
-        dynamics,
-        dense,
-        unprepared,
-        acceleration,
-        correction,
-        prepare,
+    let parts = [
+        ("dynamics", costs.dynamics),
+        ("dense", costs.dense),
+        ("unprepared", costs.unprepared),
+        ("acceleration", costs.acceleration),
+        ("correction", costs.correction),
+        ("prepare", costs.prepare),
     ];
-    let [
-        dynamics,
-        dense,
-        unprepared,
-        acceleration,
-        correction,
-        prepare,
-    ] = all.map(|operations| operations_literal(*operations));
-    quote! {
-        ukcore::Costs {
-            dynamics: #dynamics,
-            dense: #dense,
-            unprepared: #unprepared,
-            acceleration: #acceleration,
-            correction: #correction,
-            prepare: #prepare,
-        }
-    }
+    let fields = parts.map(|(part, operations)| {
+        let part = format_ident!("{part}");
+        let names = Operations::NAMES.map(|name| format_ident!("{name}"));
+        let counts = operations.counts().map(number);
+        quote! { #part: ukcore::Operations { #(#names: #counts,)* }, }
+    });
+    quote! { ukcore::Costs { #(#fields)* } }
 }
 
 fn equations(listing: &Listing) -> TokenStream {
     let triple = |rows: &[(usize, usize, String)]| -> Vec<TokenStream> {
-        rows.iter()
-            .map(|(i, j, text)| {
-                let (i, j) = (number(*i), number(*j));
-                quote! { (#i, #j, #text) }
-            })
+        let row = |(i, j, text): &(usize, usize, String)| (number(*i), number(*j), text.clone());
+        let rows = rows.iter().map(row);
+        rows.map(|(i, j, text)| quote! { (#i, #j, #text) })
             .collect()
     };
     let pairs = |rows: &[(usize, String)]| -> Vec<TokenStream> {
-        rows.iter()
-            .map(|(i, text)| {
-                let i = number(*i);
-                quote! { (#i, #text) }
-            })
-            .collect()
+        let rows = rows.iter().map(|(i, text)| (number(*i), text));
+        rows.map(|(i, text)| quote! { (#i, #text) }).collect()
     };
     let definitions = listing.definitions.iter().map(|(n, t)| quote! { (#n, #t) });
     let (mass, jacobian) = (triple(&listing.mass), triple(&listing.jacobian));
@@ -236,27 +211,6 @@ fn equations(listing: &Listing) -> TokenStream {
             nonideal: &[#(#nonideal),*],
             jacobian: &[#(#jacobian),*],
             rhs: &[#(#rhs),*],
-        }
-    }
-}
-
-fn operations_literal(o: Operations) -> TokenStream {
-    let [
-        additions,
-        multiplications,
-        divisions,
-        square_roots,
-        transcendentals,
-        selections,
-    ] = o.counts().map(number);
-    quote! {
-        ukcore::Operations {
-            additions: #additions,
-            multiplications: #multiplications,
-            divisions: #divisions,
-            square_roots: #square_roots,
-            transcendentals: #transcendentals,
-            selections: #selections,
         }
     }
 }

@@ -1,16 +1,93 @@
-//! Derivatives.
-//!
-//! Domains: where a function has no derivative, one is chosen and the emitted code follows it. abs′ is sign, with 0 at 0;
-//! sign′ is 0; min and max take the branch of the smaller (larger) argument, the first at a tie. sqrt′ is unbounded at 0,
-//! asin′ and acos′ at ±1, ln′ and negative powers at 0, atan2′ and hypot′ at (0, 0): there the result is not finite.
+//! Derivatives. Those of functions stand in their table.
 
-use super::graph::{Func, Graph, Id, Node, Symbol};
-use std::collections::{HashMap, HashSet};
+use super::functions::{Form, Func};
+use super::graph::{Graph, Id, Map, Node, Num, Symbol};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+use std::rc::Rc;
 
 /// A derivation: how symbols change. Remembers what it has differentiated.
 pub(crate) struct Derivative {
     seed: Seed,
-    known: HashMap<Id, Id>,
+    known: Map<Id, Id>,
+    /// Of sums, the terms that matter.
+    sums: Rc<Sums>,
+}
+
+/// Of long sums, the terms that depend on a symbol: all derivatives of a sum cost one look at each term.
+#[derive(Default)]
+struct Sums(HashMap<Id, BTreeMap<Symbol, Vec<(Num, Id)>>>);
+
+/// Sums of more terms are long.
+const LONG: usize = 8;
+
+impl Sums {
+    /// Enters `id` and the sums it is a sum of.
+    fn of(id: Id, g: &Graph) -> Self {
+        let mut sums = Sums::default();
+        let mut stack = vec![id];
+        while let Some(id) = stack.pop() {
+            let (_, id) = g.unscaled(id);
+            let Node::Sum(_, terms) = g.node(id) else {
+                continue;
+            };
+            stack.extend(terms.iter().map(|(_, term)| *term));
+            if terms.len() > LONG && !sums.0.contains_key(&id) {
+                let of_sum = sums.0.entry(id).or_default();
+                for (c, term) in terms {
+                    for symbol in g.support(*term) {
+                        of_sum.entry(symbol).or_default().push((*c, *term));
+                    }
+                }
+            }
+        }
+        sums
+    }
+
+    /// The terms of the sum `id` that depend on `symbol`, if it was entered.
+    fn terms(&self, id: Id, seed: Seed) -> Option<&[(Num, Id)]> {
+        let (Seed::Partial(symbol), Some(sum)) = (seed, self.0.get(&id)) else {
+            return None;
+        };
+        Some(sum.get(&symbol).map_or(&[], Vec::as_slice))
+    }
+}
+
+/// Partial derivatives of a value by all the coordinates and velocities it depends on.
+pub(crate) struct Gradient {
+    of: Id,
+    sums: Rc<Sums>,
+    symbols: BTreeSet<Symbol>,
+}
+
+impl Gradient {
+    pub(crate) fn of(id: Id, g: &Graph) -> Self {
+        Gradient {
+            of: id,
+            sums: Rc::new(Sums::of(id, g)),
+            symbols: g.support(id),
+        }
+    }
+
+    /// What the value depends on.
+    pub(crate) fn symbols(&self) -> impl Iterator<Item = Symbol> {
+        self.symbols.iter().copied()
+    }
+
+    /// ∂/∂symbol.
+    pub(crate) fn along(&self, symbol: Symbol, g: &mut Graph) -> Id {
+        self.by(&mut Derivative::partial(symbol), g)
+    }
+
+    /// The same by a derivative that is kept.
+    pub(crate) fn by(&self, derivative: &mut Derivative, g: &mut Graph) -> Id {
+        match derivative.seed {
+            Seed::Partial(symbol) if !self.symbols.contains(&symbol) => g.zero(),
+            _ => {
+                derivative.sums = self.sums.clone();
+                derivative.of(self.of, g)
+            }
+        }
+    }
 }
 
 #[derive(Clone, Copy)]
@@ -26,7 +103,8 @@ impl Derivative {
     pub(crate) fn partial(symbol: Symbol) -> Self {
         Derivative {
             seed: Seed::Partial(symbol),
-            known: HashMap::new(),
+            known: Map::default(),
+            sums: Rc::default(),
         }
     }
 
@@ -34,7 +112,8 @@ impl Derivative {
     pub(crate) fn total() -> Self {
         Derivative {
             seed: Seed::Total,
-            known: HashMap::new(),
+            known: Map::default(),
+            sums: Rc::default(),
         }
     }
 
@@ -47,11 +126,12 @@ impl Derivative {
         }
     }
 
-    /// Whether the derivative of `id` is zero for want of dependence.
+    /// Whether the derivative of `id` is zero because nothing below can depend on the symbol.
     fn blind(&self, id: Id, g: &Graph) -> bool {
         let uses = g.uses(id);
         match self.seed {
-            Seed::Partial(s @ (Symbol::Coord(_) | Symbol::Velocity(_))) => !g.depends(id, s),
+            Seed::Partial(Symbol::Coord(_)) => !uses.coord,
+            Seed::Partial(Symbol::Velocity(_)) => !uses.velocity,
             Seed::Partial(Symbol::Time) => !uses.time,
             Seed::Partial(Symbol::Param(_) | Symbol::Prepared(_)) => !uses.param,
             Seed::Partial(Symbol::Residual(_)) => !uses.residual,
@@ -70,7 +150,11 @@ impl Derivative {
         let mut seen = HashSet::from([id]);
         let mut at = 0;
         while let Some(next) = needed.get(at) {
-            for operand in g.operands(*next) {
+            let operands = match self.sums.terms(*next, self.seed) {
+                Some(terms) => terms.iter().map(|(_, term)| *term).collect(),
+                None => g.operands(*next),
+            };
+            for operand in operands {
                 if self.known(operand, g).is_none() && seen.insert(operand) {
                     needed.push(operand);
                 }
@@ -102,7 +186,10 @@ impl Derivative {
                 let d = self.of(inner, g);
                 g.scale(c.get(), d)
             }
-            Node::Sum(_, terms) => {
+            Node::Sum(_, mut terms) => {
+                if let Some(those) = self.sums.terms(id, self.seed) {
+                    terms = those.to_vec();
+                }
                 let mut derived = Vec::with_capacity(terms.len());
                 for (c, term) in terms {
                     // A group stays a group; the product rule's terms are opened.
@@ -147,89 +234,19 @@ impl Derivative {
     }
 
     fn of_call(&mut self, func: Func, args: &[Id], value: Id, g: &mut Graph) -> Id {
-        let u = args[0];
-        let du = self.of(u, g);
-        if let [_, w] = *args {
-            let dw = self.of(w, g);
-            return of_call2(func, (u, du), (w, dw), value, g);
+        let derived: Vec<Id> = args.iter().map(|arg| self.of(*arg, g)).collect();
+        if derived.iter().all(|d| g.is_zero(*d)) {
+            return g.zero();
         }
-        let slope = match func {
-            Func::Sqrt => {
-                let r = g.pow(value, -1);
-                g.scale(0.5, r)
+        match (&func.row().form, args, &derived[..]) {
+            (Form::One { slope, .. }, [u], [du]) => {
+                let slope = slope(g, *u, value);
+                g.mul(slope, *du)
             }
-            Func::Sin => g.call1(Func::Cos, u),
-            Func::Cos => {
-                let s = g.call1(Func::Sin, u);
-                g.neg(s)
+            (Form::Two { derivative, .. }, [u, w], [du, dw]) => {
+                derivative(g, (*u, *du), (*w, *dw), value)
             }
-            Func::Tan => {
-                let (one, square) = (g.one(), g.square(value));
-                g.add(one, square)
-            }
-            Func::Asin | Func::Acos => {
-                let (one, square) = (g.one(), g.square(u));
-                let radicand = g.sub(one, square);
-                let root = g.call1(Func::Sqrt, radicand);
-                let r = g.pow(root, -1);
-                g.scale(if func == Func::Asin { 1.0 } else { -1.0 }, r)
-            }
-            Func::Atan => {
-                let (one, square) = (g.one(), g.square(u));
-                let d = g.add(one, square);
-                g.pow(d, -1)
-            }
-            Func::Sinh => g.call1(Func::Cosh, u),
-            Func::Cosh => g.call1(Func::Sinh, u),
-            Func::Tanh => {
-                let (one, square) = (g.one(), g.square(value));
-                g.sub(one, square)
-            }
-            Func::Exp => value,
-            Func::Ln => g.pow(u, -1),
-            Func::Abs => g.call1(Func::Sign, u),
-            Func::Sign
-            | Func::Atan2
-            | Func::Min
-            | Func::Max
-            | Func::Hypot
-            | Func::Powf
-            | Func::Branch => g.zero(),
-        };
-        g.mul(slope, du)
-    }
-}
-
-/// Derivative of a function of two arguments, each with its own derivative.
-fn of_call2(func: Func, (u, du): (Id, Id), (w, dw): (Id, Id), value: Id, g: &mut Graph) -> Id {
-    match func {
-        Func::Min => g.select(u, w, du, dw),
-        Func::Max => g.select(w, u, du, dw),
-        Func::Hypot => {
-            let (a, b) = (g.mul(u, du), g.mul(w, dw));
-            let sum = g.add(a, b);
-            g.div(sum, value)
+            _ => g.zero(),
         }
-        Func::Atan2 => {
-            let (a, b) = (g.mul(w, du), g.mul(u, dw));
-            let top = g.sub(a, b);
-            let (uu, ww) = (g.square(u), g.square(w));
-            let bottom = g.add(uu, ww);
-            g.div(top, bottom)
-        }
-        Func::Powf => {
-            // u^w: w u^(w−1) u′ + u^w ln u · w′; the second only where the exponent varies.
-            let one = g.one();
-            let lower = g.sub(w, one);
-            let power = g.call2(Func::Powf, u, lower);
-            let base = g.product(&[(w, 1), (power, 1), (du, 1)]);
-            if g.is_zero(dw) {
-                return base;
-            }
-            let ln = g.call1(Func::Ln, u);
-            let exponent = g.product(&[(value, 1), (ln, 1), (dw, 1)]);
-            g.add(base, exponent)
-        }
-        _ => g.zero(),
     }
 }

@@ -1,6 +1,6 @@
 //! Expressions as a reader writes them.
 
-use super::graph::{Func, Graph, Id, Node, Symbol};
+use super::graph::{Graph, Id, Node, Symbol};
 use std::collections::HashMap;
 
 /// Prints expressions with the modeller's names.
@@ -70,10 +70,7 @@ impl Printer<'_> {
             Node::Held(inner) => self.print(*inner, by_name),
             Node::Call(func, args) => {
                 let args: Vec<String> = args.iter().map(|a| self.text(*a)).collect();
-                let name = match func {
-                    Func::Powf => "pow",
-                    f => f.name(),
-                };
+                let name = func.row().name;
                 (format!("{name}({})", args.join(", ")), Binding::Atom)
             }
             Node::Select {

@@ -1,6 +1,6 @@
 //! Numeric value of an expression: parameter defaults, and the check of each pass by substitution.
 
-use super::graph::{Func, Graph, Id, Node, Symbol};
+use super::graph::{Graph, Id, Node, Symbol};
 
 /// Values of the symbols.
 pub(crate) struct Point<'a> {
@@ -24,7 +24,7 @@ impl Point<'_> {
     };
 }
 
-/// Values of all nodes up to the highest of `roots`, in one sweep; returns those of `roots`.
+/// Values of `roots`, in one sweep over what they are made of.
 pub(crate) fn eval(g: &Graph, roots: &[Id], point: &Point<'_>) -> Vec<f64> {
     eval_shaken(g, roots, point, &mut |x| x)
 }
@@ -36,20 +36,10 @@ pub(crate) fn eval_shaken(
     point: &Point<'_>,
     shake: &mut dyn FnMut(f64) -> f64,
 ) -> Vec<f64> {
-    let mut needed = vec![false; roots.iter().map(|r| r.index() + 1).max().unwrap_or(0)];
-    for root in roots {
-        needed[root.index()] = true;
-    }
-    for i in (0..needed.len()).rev() {
-        if needed[i] {
-            for operand in g.operands(g.at(i)) {
-                needed[operand.index()] = true;
-            }
-        }
-    }
-    let mut values = vec![0.0; needed.len()];
-    for i in (0..needed.len()).filter(|i| needed[*i]) {
-        values[i] = shake(value(g.node(g.at(i)), &values, point));
+    let top = roots.iter().map(|r| r.index() + 1).max().unwrap_or(0);
+    let mut values = vec![0.0; top];
+    for id in g.reachable(roots) {
+        values[id.index()] = shake(value(g.node(id), &values, point));
     }
     roots.iter().map(|r| values[r.index()]).collect()
 }
@@ -74,30 +64,7 @@ fn value(node: &Node, values: &[f64], point: &Point<'_>) -> f64 {
         Node::Call(func, args) => {
             let u = at(&args[0]);
             let w = args.get(1).map_or(f64::NAN, at);
-            match func {
-                Func::Sqrt => u.sqrt(),
-                Func::Sin => u.sin(),
-                Func::Cos => u.cos(),
-                Func::Tan => u.tan(),
-                Func::Asin => u.asin(),
-                Func::Acos => u.acos(),
-                Func::Atan => u.atan(),
-                Func::Sinh => u.sinh(),
-                Func::Cosh => u.cosh(),
-                Func::Tanh => u.tanh(),
-                Func::Exp => u.exp(),
-                Func::Ln => u.ln(),
-                Func::Abs => u.abs(),
-                Func::Sign if u == 0.0 => 0.0,
-                Func::Sign => u.signum(),
-                Func::Atan2 => u.atan2(w),
-                Func::Min => u.min(w),
-                Func::Max => u.max(w),
-                Func::Hypot => u.hypot(w),
-                Func::Powf => u.powf(w),
-                Func::Branch if w == 0.0 => u,
-                Func::Branch => w,
-            }
+            func.value(u, w)
         }
         Node::Select {
             a,

@@ -6,8 +6,8 @@
 //! Where folding would leave the range of `f64` or of exponents, or make one product of very many factors, a part stays whole
 //! ([`Node::Held`]).
 
-use super::graph::{Func, Graph, Id, Node, Num, Symbol};
-use std::collections::HashMap;
+use super::functions::{Func, Symmetry};
+use super::graph::{Graph, Id, Map, Node, Num, Symbol};
 
 /// Products of more factors stay whole inside of other products. Opened, a chain of products of products would lose what it shares.
 const MAX_OPENED: usize = 16;
@@ -78,7 +78,7 @@ impl Graph {
     pub(crate) fn sum(&mut self, terms: &[(f64, Id)]) -> Id {
         let mut constant = 0.0;
         let mut collected: Vec<(f64, Id)> = Vec::with_capacity(terms.len());
-        let mut place: HashMap<Id, usize> = HashMap::with_capacity(terms.len());
+        let mut place: Map<Id, usize> = Map::default();
         for &(c, id) in terms {
             if let Some(x) = self.as_const(id) {
                 constant += c * x;
@@ -331,38 +331,18 @@ impl Graph {
     }
 
     pub(crate) fn call1(&mut self, func: Func, arg: Id) -> Id {
-        if let Some(x) = self.as_const(arg) {
-            // Only where the value is exact, so that the emitted code does not depend on the compiling machine's libm.
-            let folded = match func {
-                Func::Sqrt if x >= 0.0 => Some(x.sqrt()),
-                Func::Abs => Some(x.abs()),
-                Func::Sign => Some(if x == 0.0 { 0.0 } else { x.signum() }),
-                Func::Sin | Func::Tan | Func::Asin | Func::Atan | Func::Sinh | Func::Tanh
-                    if x == 0.0 =>
-                {
-                    Some(0.0)
-                }
-                Func::Cos | Func::Cosh | Func::Exp if x == 0.0 => Some(1.0),
-                Func::Ln | Func::Acos if x == 1.0 => Some(0.0),
-                _ => None,
-            };
-            if let Some(x) = folded {
-                return self.constant(x);
-            }
+        if let Some(x) = self.as_const(arg)
+            && let Some(x) = func.folded(x, f64::NAN)
+        {
+            return self.constant(x);
         }
         let (c, inner) = self.unscaled(arg);
         // Even and odd functions of −u are functions of u: one node serves both.
         if c < 0.0 {
             let positive = self.scale(-c, inner);
-            match func {
-                Func::Cos | Func::Cosh | Func::Abs => return self.call1(func, positive),
-                Func::Sin
-                | Func::Tan
-                | Func::Asin
-                | Func::Atan
-                | Func::Sinh
-                | Func::Tanh
-                | Func::Sign => {
+            match func.row().symmetry {
+                Symmetry::Even => return self.call1(func, positive),
+                Symmetry::Odd => {
                     let value = self.call1(func, positive);
                     return self.neg(value);
                 }
@@ -387,24 +367,17 @@ impl Graph {
                 return self.pow(a, y as i32);
             }
         }
-        if let (Some(x), Some(y)) = (self.as_const(a), self.as_const(b)) {
-            let folded = match func {
-                Func::Min => Some(x.min(y)),
-                Func::Max => Some(x.max(y)),
-                _ => None,
-            };
-            if let Some(x) = folded {
-                return self.constant(x);
-            }
+        if let (Some(x), Some(y)) = (self.as_const(a), self.as_const(b))
+            && let Some(x) = func.folded(x, y)
+        {
+            return self.constant(x);
         }
         if a == b && matches!(func, Func::Min | Func::Max) {
             return a;
         }
-        let args = match func {
-            // Symmetric functions: one order.
-            Func::Min | Func::Max | Func::Hypot if b < a => vec![b, a],
-            _ => vec![a, b],
-        };
+        // Symmetric functions: one order.
+        let swapped = func.row().symmetry == Symmetry::Commutative && b < a;
+        let args = if swapped { vec![b, a] } else { vec![a, b] };
         self.intern(Node::Call(func, args))
     }
 
@@ -502,7 +475,7 @@ impl Graph {
 #[derive(Default)]
 struct Factors {
     list: Vec<(Id, i32)>,
-    place: HashMap<Id, usize>,
+    place: Map<Id, usize>,
 }
 
 impl Factors {

@@ -10,7 +10,34 @@
 //! - a product has no product or scale among its factors. A sum may have a sum among its terms: parentheses are kept,
 //!   since regrouping a sum changes its rounding.
 
-use std::collections::{HashMap, HashSet};
+use super::functions::{Cost, Func};
+use std::collections::{BTreeSet, HashMap, HashSet};
+use std::hash::{BuildHasherDefault, Hasher};
+
+/// A map whose hashes cost little where the compiler is not optimised, as macros are not.
+pub(super) type Map<K, V> = HashMap<K, V, BuildHasherDefault<Hash>>;
+
+/// Multiplies and rotates; keys are not chosen by an adversary.
+#[derive(Default)]
+pub(super) struct Hash(u64);
+
+impl Hasher for Hash {
+    fn finish(&self) -> u64 {
+        self.0.rotate_left(26)
+    }
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|b| self.write_u64(u64::from(*b)));
+    }
+    fn write_u32(&mut self, x: u32) {
+        self.write_u64(u64::from(x));
+    }
+    fn write_u64(&mut self, x: u64) {
+        self.0 = (self.0.rotate_left(5) ^ x).wrapping_mul(0xF135_7AEA_2E62_A9C5);
+    }
+    fn write_usize(&mut self, x: usize) {
+        self.write_u64(x as u64);
+    }
+}
 
 /// A node's place in the arena.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -52,91 +79,6 @@ pub(crate) enum Symbol {
     Prepared(usize),
     /// The branch that a switch is held in, by the switch's position: its sign ±1, or 0 where none is held.
     Branch(usize),
-}
-
-/// A function of one or two arguments.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub(crate) enum Func {
-    Sqrt,
-    Sin,
-    Cos,
-    Tan,
-    Asin,
-    Acos,
-    Atan,
-    Sinh,
-    Cosh,
-    Tanh,
-    Exp,
-    Ln,
-    Abs,
-    Sign,
-    Atan2,
-    Min,
-    Max,
-    Hypot,
-    Powf,
-    /// The branch held (second argument), or the switching function (first) where none is. No function of the language.
-    Branch,
-}
-
-impl Func {
-    /// Name in the declaration and in the emitted code.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Func::Sqrt => "sqrt",
-            Func::Sin => "sin",
-            Func::Cos => "cos",
-            Func::Tan => "tan",
-            Func::Asin => "asin",
-            Func::Acos => "acos",
-            Func::Atan => "atan",
-            Func::Sinh => "sinh",
-            Func::Cosh => "cosh",
-            Func::Tanh => "tanh",
-            Func::Exp => "exp",
-            Func::Ln => "ln",
-            Func::Abs => "abs",
-            Func::Sign => "sign",
-            Func::Atan2 => "atan2",
-            Func::Min => "min",
-            Func::Max => "max",
-            Func::Hypot => "hypot",
-            Func::Powf => "powf",
-            Func::Branch => "branch",
-        }
-    }
-
-    /// The functions of the language.
-    pub(crate) const ALL: [Func; 19] = [
-        Func::Sqrt,
-        Func::Sin,
-        Func::Cos,
-        Func::Tan,
-        Func::Asin,
-        Func::Acos,
-        Func::Atan,
-        Func::Sinh,
-        Func::Cosh,
-        Func::Tanh,
-        Func::Exp,
-        Func::Ln,
-        Func::Abs,
-        Func::Sign,
-        Func::Atan2,
-        Func::Min,
-        Func::Max,
-        Func::Hypot,
-        Func::Powf,
-    ];
-
-    /// Number of arguments.
-    pub(crate) fn arity(self) -> usize {
-        match self {
-            Func::Atan2 | Func::Min | Func::Max | Func::Hypot | Func::Powf | Func::Branch => 2,
-            _ => 1,
-        }
-    }
 }
 
 /// A node.
@@ -198,17 +140,10 @@ pub(crate) struct Graph {
     uses: Vec<Uses>,
     /// Estimated latency of each node, in cycles: its place on the critical path.
     latency: Vec<u32>,
-    /// Coordinates and velocities below each node, sorted.
-    support: Vec<Vec<Symbol>>,
-    known: HashMap<Node, Id>,
+    known: Map<Node, Id>,
 }
 
 impl Graph {
-    /// The node at position `index` (below the number of nodes).
-    pub(crate) fn at(&self, index: usize) -> Id {
-        Id(u32::try_from(index).unwrap_or(u32::MAX))
-    }
-
     /// Number of nodes.
     #[cfg(test)]
     pub(crate) fn len(&self) -> usize {
@@ -223,19 +158,26 @@ impl Graph {
         self.uses[id.index()]
     }
 
-    /// Whether `id` depends on the coordinate or velocity `symbol`.
-    pub(crate) fn depends(&self, id: Id, symbol: Symbol) -> bool {
-        self.support[id.index()].binary_search(&symbol).is_ok()
-    }
-
     /// Estimated cycles until `id` is known.
     pub(crate) fn latency(&self, id: Id) -> u32 {
         self.latency[id.index()]
     }
 
     /// Coordinates and velocities that `id` depends on.
-    pub(crate) fn support(&self, id: Id) -> &[Symbol] {
-        &self.support[id.index()]
+    pub(crate) fn support(&self, id: Id) -> BTreeSet<Symbol> {
+        let moving = |id: &Id| self.uses(*id).coord || self.uses(*id).velocity;
+        let mut stack: Vec<Id> = [id].into_iter().filter(moving).collect();
+        let (mut seen, mut found) = (HashSet::new(), BTreeSet::new());
+        while let Some(id) = stack.pop() {
+            match *self.node(id) {
+                Node::Symbol(symbol) => drop(found.insert(symbol)),
+                _ if seen.insert(id) => {
+                    stack.extend(self.operands(id).iter().filter(|id| moving(id)))
+                }
+                _ => {}
+            }
+        }
+        found
     }
 
     /// The node itself if it is known, else a new one. Only `fold` calls this: it keeps the invariants.
@@ -249,7 +191,6 @@ impl Graph {
         let latency = slowest.unwrap_or(0) + own_latency(&node);
         self.latency.push(latency);
         let mut uses = Uses::default();
-        let mut support = Vec::new();
         if let Node::Symbol(s) = node {
             match s {
                 Symbol::Param(_) | Symbol::Prepared(_) => uses.param = true,
@@ -259,19 +200,12 @@ impl Graph {
                 Symbol::Residual(_) => uses.residual = true,
                 Symbol::Branch(_) => uses.branch = true,
             }
-            if uses.coord || uses.velocity {
-                support.push(s);
-            }
         }
         for operand in operands {
             uses = uses.join(self.uses[operand.index()]);
-            support.extend_from_slice(&self.support[operand.index()]);
         }
-        support.sort_unstable();
-        support.dedup();
         self.nodes.push(node.clone());
         self.uses.push(uses);
-        self.support.push(support);
         self.known.insert(node, id);
         id
     }
@@ -312,14 +246,15 @@ impl Graph {
 
     /// The nodes that `roots` are made of, themselves included, operands before users.
     pub(crate) fn reachable(&self, roots: &[Id]) -> Vec<Id> {
-        let mut found = HashSet::new();
-        let mut stack = roots.to_vec();
+        let top = roots.iter().map(|r| r.index() + 1).max().unwrap_or(0);
+        let mut seen = vec![false; top];
+        let (mut found, mut stack) = (Vec::new(), roots.to_vec());
         while let Some(id) = stack.pop() {
-            if found.insert(id) {
+            if !std::mem::replace(&mut seen[id.index()], true) {
+                found.push(id);
                 stack.extend(self.operands(id));
             }
         }
-        let mut found: Vec<Id> = found.into_iter().collect();
         found.sort_unstable();
         found
     }
@@ -352,10 +287,12 @@ fn own_latency(node: &Node) -> u32 {
         Node::Sum(..) | Node::Scale(..) => 4,
         Node::Product(factors) if factors.iter().any(|(_, e)| *e < 0) => 18,
         Node::Product(_) => 4,
-        Node::Call(Func::Abs | Func::Sign | Func::Min | Func::Max | Func::Branch, _)
-        | Node::Select { .. } => 4,
-        Node::Call(Func::Sqrt, _) => 18,
-        Node::Call(..) => 50,
+        Node::Select { .. } => 4,
+        Node::Call(func, _) => match func.row().cost {
+            Cost::Selection => 4,
+            Cost::SquareRoot => 18,
+            Cost::Transcendental => 50,
+        },
     }
 }
 

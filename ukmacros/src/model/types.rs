@@ -1,8 +1,10 @@
 //! A declaration whose names are known.
 
+use crate::diag::Loc;
 use crate::parse::{Const, Expr};
 use proc_macro2::Ident;
-use std::collections::{BTreeMap, HashMap};
+use std::cell::Cell;
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Names of a declaration, resolved.
 pub(crate) struct Model {
@@ -17,12 +19,18 @@ pub(crate) struct Model {
     pub(crate) coord_elements: Vec<Element>,
     /// What each name stands for.
     pub(crate) names: HashMap<String, Name>,
+    /// How often loops were repeated in all.
+    pub(crate) repetitions: Cell<i64>,
+    /// Names with a fixed meaning.
+    pub(crate) reserved: HashSet<&'static str>,
 }
 
 /// `const N: usize = …;`
 pub(crate) struct Integer {
     pub(crate) docs: Vec<String>,
     pub(crate) name: Ident,
+    /// Of its value.
+    pub(crate) loc: Loc,
     /// Nothing where it is in error, which is reported.
     pub(crate) value: Option<i64>,
 }

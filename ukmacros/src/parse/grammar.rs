@@ -1,21 +1,5 @@
 //! Sections and entries.
-//!
-//! ```ebnf
-//! declaration = docs, ["#[ukcore(crate = path)]"], [vis], NAME, "{", { section }, "}" ;
-//! section     = "const", NAME, ":", ("usize" | "f64"), "=", expr, ";"
-//!             | "let", NAME, "=", (expr | function), ";"
-//!             | "let", block(key, "=", (expr | function))
-//!             | "params", block(docs, key, "=", expr)
-//!             | "coords", block(docs, key)
-//!             | "mass", block((key | "(", key, ",", key, ")"), ":", expr)
-//!             | ("kinetic" | "potential"), block(expr)
-//!             | ("force" | "nonideal"), block(key, ":", expr)
-//!             | ("holonomic" | "nonholonomic"), block(key, ":", expr, "=", expr)
-//!             | "output", block(docs, key, "=", expr) ;
-//! block(e)    = "{", { (e | "for", NAME, "in", expr, "..", expr, "{", { e }, "}"), ["," | ";"] }, "}" ;
-//! key         = NAME, ["[", expr, "]"] ;
-//! function    = "|", NAME, { ",", NAME }, "|", expr ;
-//! ```
+//! The grammar stands in the documentation of `multibody!`.
 //! `expr` is Rust's expression grammar, of which `+ - * /`, calls, method calls, indexing, vectors `[a, b]` and `sum(a..b, |i| …)` have a
 //! meaning.
 
@@ -31,20 +15,8 @@ use quote::ToTokens as _;
 use syn::parse::ParseStream;
 use syn::{Token, braced, bracketed, parenthesized};
 
-const SECTIONS: [&str; 12] = [
-    "const",
-    "params",
-    "coords",
-    "let",
-    "mass",
-    "kinetic",
-    "force",
-    "potential",
-    "holonomic",
-    "nonholonomic",
-    "nonideal",
-    "output",
-];
+const SECTIONS: &str =
+    "const params coords let mass kinetic force potential holonomic nonholonomic nonideal output";
 
 /// Parses a declaration; `None` if not even its name could be read.
 pub(crate) fn parse(mut tokens: TokenStream, diag: &Diagnostics) -> Option<Declaration> {
@@ -126,9 +98,9 @@ fn section(
         }
         return Ok(());
     }
-    let keyword: Ident = input.parse().map_err(|e| {
-        syn::Error::new(e.span(), format!("expected a section: {}", list(&SECTIONS)))
-    })?;
+    let keyword: Ident = input
+        .parse()
+        .map_err(|e| syn::Error::new(e.span(), format!("expected a section: {}", sections())))?;
     let name = keyword.to_string();
     if seen.contains(&name) {
         diag.error(
@@ -149,11 +121,8 @@ fn section(
         "nonholonomic" => blocks(input, &mut out.nonholonomic, diag, equation),
         "output" => blocks(input, &mut out.outputs, diag, output_entry),
         _ => {
-            let near = suggest(
-                &name,
-                SECTIONS,
-                &format!("sections are {}", list(&SECTIONS)),
-            );
+            let remedy = format!("sections are {}", sections());
+            let near = suggest(&name, SECTIONS.split(' '), &remedy);
             diag.damage(keyword.span(), format!("unknown section `{name}`{near}"));
             skip(input);
             Ok(())
@@ -175,9 +144,8 @@ fn skip(input: ParseStream<'_>) {
     }
 }
 
-fn list(names: &[&str]) -> String {
-    let quoted: Vec<String> = names.iter().map(|n| format!("`{n}`")).collect();
-    quoted.join(", ")
+fn sections() -> String {
+    format!("`{}`", SECTIONS.replace(' ', "`, `"))
 }
 
 /// What stands before a declaration, a section or an entry.

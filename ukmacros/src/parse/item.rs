@@ -42,6 +42,16 @@ pub(crate) enum Block<T> {
     },
 }
 
+impl<T> Block<T> {
+    /// Visits every entry once, those in loops included.
+    pub(crate) fn each(&self, visit: &mut dyn FnMut(&T)) {
+        match self {
+            Block::One(entry) => visit(entry),
+            Block::For { body, .. } => body.iter().for_each(|block| block.each(visit)),
+        }
+    }
+}
+
 /// `const N: usize = 17;`
 pub(crate) struct Const {
     pub(crate) docs: Vec<String>,

@@ -28,6 +28,12 @@ fn angles_are_what_sines_are_taken_of() {
         ("holonomic { rod: [x, y] = [cos(th), sin(th)] }", &["th"]),
         ("nonholonomic { blade: dot(x) * sin(th) = dot(y) }", &["th"]),
         ("nonideal { x: -dot(x) * sq(cos(y)) }", &["y"]),
+        ("force { x: -atan(x) }", &[]),
+        (
+            "let s = x + 2.0 * y - w * th + k + t; force { y: sin(s) }",
+            &["x", "y", "th"],
+        ),
+        ("force { x: sin(th + k) }", &["th"]),
         // An output turns nothing.
         ("output { o = sin(x) }", &[]),
     ] {
@@ -46,4 +52,140 @@ fn the_runtime_is_called_what_the_user_calls_it() {
         "{renamed}"
     );
     assert!(!renamed.contains("::ukcore;") && !renamed.contains("::ukcore::"));
+}
+
+/// All names that a pattern binds.
+fn bound(pattern: &syn::Pat, names: &mut Vec<String>) {
+    match pattern {
+        syn::Pat::Ident(p) => names.push(p.ident.to_string()),
+        syn::Pat::Type(p) => bound(&p.pat, names),
+        syn::Pat::Tuple(p) => p.elems.iter().for_each(|p| bound(p, names)),
+        syn::Pat::Slice(p) => p.elems.iter().for_each(|p| bound(p, names)),
+        _ => {}
+    }
+}
+
+/// The functions of the emitted code, each with the names it binds, but for `lit` and a `sum` within a block.
+fn functions(code: proc_macro2::TokenStream) -> Vec<(String, Vec<String>)> {
+    let items = syn::parse2::<syn::File>(code)
+        .expect("emitted code is Rust")
+        .items;
+    let blocks = items.into_iter().filter_map(|item| match item {
+        syn::Item::Const(item) => Some(*item.expr),
+        _ => None,
+    });
+    let items = blocks.flat_map(|block| match block {
+        syn::Expr::Block(b) => b.block.stmts,
+        _ => Vec::new(),
+    });
+    let members = items.flat_map(|item| match item {
+        syn::Stmt::Item(syn::Item::Impl(item)) => item.items,
+        _ => Vec::new(),
+    });
+    let functions = members.filter_map(|member| match member {
+        syn::ImplItem::Fn(f) => Some(f),
+        _ => None,
+    });
+    let named = functions.map(|f| {
+        let mut names = Vec::new();
+        for argument in &f.sig.inputs {
+            if let syn::FnArg::Typed(argument) = argument {
+                bound(&argument.pat, &mut names);
+            }
+        }
+        for statement in &f.block.stmts {
+            if let syn::Stmt::Local(local) = statement {
+                bound(&local.pat, &mut names);
+            }
+        }
+        (f.sig.ident.to_string(), names)
+    });
+    named.collect()
+}
+
+#[test]
+fn no_name_of_the_user_is_one_of_the_emitted_code() {
+    let declaration = |name: &str| {
+        format!(
+            "pub T {{ params {{ k = 1.0 }} coords {{ zx, zy }} let {name} = zx * zy + k; \
+             kinetic {{ 0.5 * sq(dot(zx)), sq({name}) * sq(dot(zy)) }} potential {{ {name} * sq({name}) }} \
+             force {{ zx: abs({name}) + sin({name}), zy: sign(dot({name})) }} nonideal {{ zx: -{name} }} \
+             holonomic {{ zc: {name} * zx = sin({name}) }} output {{ zo = {name} * sq({name}) }} }}"
+        )
+    };
+    let emitted = functions(expand(&declaration("zz")).0);
+    let mut names: Vec<String> = emitted
+        .into_iter()
+        .flat_map(|(name, bound)| [vec![name], bound].concat())
+        .collect();
+    names.sort_unstable();
+    names.dedup();
+    names.retain(|name| !["k", "zx", "zy"].contains(&name.as_str()));
+    assert!(names.len() > 40, "{names:?}");
+    for name in names {
+        let (code, errors) = expand(&declaration(&name));
+        if !errors.is_empty() {
+            assert!(
+                errors.len() == 1 && errors[0].message.contains("reserved"),
+                "{name}: {errors:?}"
+            );
+            continue;
+        }
+        for (function, bound) in functions(code) {
+            let slices = [
+                "out",
+                "mass",
+                "force",
+                "nonideal",
+                "jacobian",
+                "rhs",
+                "phi",
+                "rate",
+                "outputs",
+                "switching",
+                "prepared",
+            ];
+            let mut seen = std::collections::HashMap::new();
+            for bound in bound {
+                let times = seen.entry(bound.clone()).or_insert(0);
+                *times += 1;
+                // A slice is bound as an argument, and with its length.
+                let allowed = if slices.contains(&bound.as_str()) {
+                    2
+                } else {
+                    1
+                };
+                assert!(
+                    *times <= allowed,
+                    "`{name}` in `{function}`: `{bound}` is bound twice"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn constants_of_every_mechanism_are_reserved() {
+    let source = include_str!("../../../ukcore/src/mechanism.rs");
+    let (_, body) = source.split_once("pub trait Mechanism").expect("the trait");
+    let (body, _) = body.split_once("\n}\n").expect("its end");
+    let names: Vec<&str> = body
+        .lines()
+        .filter_map(|line| line.trim().strip_prefix("const ")?.split(':').next())
+        .collect();
+    assert_eq!(names, crate::analysis::ASSOCIATED);
+    for name in names {
+        let name = name.to_lowercase();
+        for sections in [
+            format!("coords {{ {name} }} mass {{ {name}: 1.0 }}"),
+            format!("coords {{ x }} mass {{ x: 1.0 }} holonomic {{ {name}: x = t }}"),
+            format!("const {name}: usize = 3; coords {{ x }} mass {{ x: 1.0 }}"),
+        ] {
+            let (_, errors) = expand(&format!("pub T {{ {sections} }}"));
+            assert!(
+                errors.len() == 1 && errors[0].message.contains("which every mechanism has"),
+                "{sections}: {errors:?}"
+            );
+        }
+    }
 }

@@ -144,7 +144,7 @@ fn chains_of_values_make_graphs_in_proportion() {
                 "pub T {{ coords {{ x, y }} let a0 = x * y; {lets} mass {{ x: 1.0, y: 1.0 }} holonomic {{ c: a{n} = 1.0 }} }}"
             )
         };
-        let (short, long) = (nodes(&chain(250)), nodes(&chain(500)));
+        let (short, long) = (nodes(&chain(120)), nodes(&chain(240)));
         assert!(long < 9 * short / 4, "{step}: {short} nodes, then {long}");
     }
 }

@@ -30,7 +30,8 @@ fn expand(source: &str) -> (TokenStream, Vec<Diagnostic>) {
 fn lowered(tokens: TokenStream) -> (Declaration, Model, System) {
     let diag = Diagnostics::default();
     let mut declaration = crate::parse::parse(tokens, &diag).expect("a declaration");
-    let model = crate::model::resolve(&mut declaration, &diag);
+    let functions = crate::expr::Func::all().map(|f| f.row().name);
+    let model = crate::model::resolve(&mut declaration, functions, &diag);
     let system = crate::expr::lower(&declaration, &model, &diag);
     assert!(diag.is_empty(), "{:?}", diag.take());
     (declaration, model, system)

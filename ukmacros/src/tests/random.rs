@@ -2,6 +2,7 @@
 
 use super::expand;
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 
 /// Pieces that declarations are made of, and some that they are not.
 const PIECES: [&str; 58] = [
@@ -84,8 +85,18 @@ fn the_whole_declaration_compiles() {
     assert!(errors.is_empty(), "{errors:?}");
 }
 
+/// So many cases, the same at each run.
+pub(super) fn fixed(cases: u32) -> ProptestConfig {
+    ProptestConfig {
+        cases,
+        failure_persistence: None,
+        rng_seed: RngSeed::Fixed(1),
+        ..ProptestConfig::default()
+    }
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(fixed(400))]
 
     #[test]
     fn random_pieces(picks in proptest::collection::vec(0usize..PIECES.len(), 0..40)) {

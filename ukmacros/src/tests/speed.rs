@@ -21,3 +21,28 @@ fn macro_cost() {
         println!("{name:<28} {:>10.2} {size:>12}", 1e3 * least);
     }
 }
+
+/// A chain of `n` links with its members declared by loops.
+pub(super) fn chain(n: usize) -> String {
+    format!(
+        "pub Chain {{ const N: usize = {n}; params {{ l = 0.1, g = 9.81, m = 1.0 }} coords {{ x[N], y[N] }} \
+         mass {{ for i in 0..N {{ x[i]: m, y[i]: m }} }} potential {{ sum(0..N, |i| m * g * y[i]) }} \
+         holonomic {{ top: sq(x[0]) + sq(y[0]) = sq(l) \
+         for i in 1..N {{ link[i]: sq(x[i] - x[i - 1]) + sq(y[i] - y[i - 1]) = sq(l) }} }} }}"
+    )
+}
+
+#[test]
+#[ignore = "a measurement: cargo test -p ukmacros -- --ignored growth --nocapture"]
+fn growth() {
+    let sizes = std::env::var("SIZES").unwrap_or("100 200 400 800".to_owned());
+    println!("{:>8} {:>10} {:>14}", "members", "s", "ms per member");
+    for n in sizes.split_whitespace() {
+        let n: usize = n.parse().expect("a size");
+        let start = Instant::now();
+        let (code, errors) = crate::expand(chain(n).parse().expect("tokens"));
+        assert!(errors.is_empty() && !code.is_empty());
+        let time = start.elapsed().as_secs_f64();
+        println!("{n:>8} {time:>10.2} {:>14.3}", 1e3 * time / n as f64);
+    }
+}

@@ -86,7 +86,16 @@ pub(crate) fn lower(decl: &Declaration, model: &Model, diag: &Diagnostics) -> Sy
         outermost: None,
         known_params: 0,
         hints: HashMap::new(),
+        unknown: HashSet::new(),
+        results: HashMap::new(),
     };
+    let results = &mut lowering.results;
+    for block in decl.holonomic.iter().chain(&decl.nonholonomic) {
+        block.each(&mut |c| results.extend([(c.key.name.to_string(), true)]));
+    }
+    for block in &decl.outputs {
+        block.each(&mut |o| results.extend([(o.key.name.to_string(), false)]));
+    }
     lowering.run(decl)
 }
 
@@ -105,6 +114,10 @@ struct Lowering<'m> {
     /// Parameters whose default is known: those a default may use.
     known_params: usize,
     hints: HashMap<Id, String>,
+    /// Names and functions that were reported to be unknown.
+    unknown: HashSet<String>,
+    /// Names of constraints (true) and outputs (false).
+    results: HashMap<String, bool>,
 }
 
 /// An expression's surroundings: loop variables, function arguments, section.
@@ -132,7 +145,7 @@ impl<'m> Lowering<'m> {
         let defaults = self.defaults();
         self.lower_lets(decl, &top);
 
-        let mut mass: BTreeMap<(usize, usize), (Id, Loc)> = BTreeMap::new();
+        let mut mass: BTreeMap<(usize, usize), (Vec<Id>, Loc)> = BTreeMap::new();
         if let Some(section) = &decl.mass {
             top.unroll(&section.blocks, self.diag, &mut |entry, scope| {
                 let row = self.coordinate(&entry.key, scope);
@@ -154,12 +167,14 @@ impl<'m> Lowering<'m> {
                     Some((Some(c), _)) => c,
                 };
                 let place = (row.max(column), row.min(column));
-                let old = mass.get(&place).map(|(id, _)| *id);
-                let sum = self.accumulate(old, value);
-                let loc = mass.get(&place).map_or(entry.key.loc, |(_, loc)| *loc);
-                mass.insert(place, (sum, loc));
+                let entries = mass.entry(place).or_insert((Vec::new(), entry.key.loc));
+                entries.0.push(value);
             });
         }
+        let mass = mass.into_iter();
+        let mass = mass
+            .map(|(at, (values, loc))| (at, (self.total_of(&values), loc)))
+            .collect();
         if let (Some(_), Some(kinetic)) = (&decl.mass, &decl.kinetic) {
             self.diag.error(
                 kinetic.keyword.span(),
@@ -255,12 +270,8 @@ impl<'m> Lowering<'m> {
         top.unroll(&decl.lets, self.diag, &mut |binding, scope| {
             let key = &binding.key;
             let name = key.name.to_string();
-            let index = match &key.index {
-                None => None,
-                Some(i) => match self.integer(i, scope) {
-                    Some(i) => Some(i),
-                    None => return,
-                },
+            let Ok(index) = self.index(key, scope) else {
+                return;
             };
             let again = match (self.lets.get(&name), index) {
                 (None, _) => false,
@@ -345,12 +356,17 @@ impl<'m> Lowering<'m> {
         }
     }
 
-    fn accumulate(&mut self, old: Option<Id>, value: Id) -> Id {
-        old.map_or(value, |old| {
-            let mut terms = self.graph.open(1.0, old);
-            terms.push((1.0, value));
-            self.graph.sum(&terms)
-        })
+    /// What several entries for one place add up to.
+    fn total_of(&mut self, values: &[Id]) -> Id {
+        let [first, rest @ ..] = values else {
+            return self.graph.zero();
+        };
+        if rest.is_empty() {
+            return *first;
+        }
+        let mut terms = self.graph.open(1.0, *first);
+        terms.extend(rest.iter().map(|id| (1.0, *id)));
+        self.graph.sum(&terms)
     }
 
     /// Sum of the terms of `kinetic` or `potential`.
@@ -368,16 +384,16 @@ impl<'m> Lowering<'m> {
         top: &Scope<'m>,
         place: Place,
     ) -> BTreeMap<usize, Id> {
-        let mut out = BTreeMap::new();
+        let mut out: BTreeMap<usize, Vec<Id>> = BTreeMap::new();
         top.unroll(blocks, self.diag, &mut |entry, scope| {
             let coordinate = self.coordinate(&entry.key, scope);
             let value = self.scalar(&entry.value, &Env::new(scope, place));
             if let Some(i) = coordinate {
-                let sum = self.accumulate(out.get(&i).copied(), value);
-                out.insert(i, sum);
+                out.entry(i).or_default().push(value);
             }
         });
-        out
+        let out = out.into_iter();
+        out.map(|(i, values)| (i, self.total_of(&values))).collect()
     }
 
     fn equation(
@@ -389,12 +405,8 @@ impl<'m> Lowering<'m> {
         out: &mut Vec<Constraint>,
     ) {
         let key = &equation.key;
-        let index = match &key.index {
-            None => None,
-            Some(i) => match self.integer(i, scope) {
-                Some(i) => Some(i),
-                None => return,
-            },
+        let Ok(index) = self.index(key, scope) else {
+            return;
         };
         let mut item = ConstraintRef {
             base: key.name.clone(),
@@ -457,12 +469,8 @@ impl<'m> Lowering<'m> {
         let mut names = Names::default();
         top.unroll(&decl.outputs, self.diag, &mut |output, scope| {
             let key = &output.key;
-            let index = match &key.index {
-                None => None,
-                Some(i) => match self.integer(i, scope) {
-                    Some(i) => Some(i),
-                    None => return,
-                },
+            let Ok(index) = self.index(key, scope) else {
+                return;
             };
             let mut item = ConstraintRef {
                 base: key.name.clone(),
@@ -507,6 +515,12 @@ impl<'m> Lowering<'m> {
             }
         });
         out
+    }
+
+    /// The index of `key`, if it has one.
+    fn index(&self, key: &Key, scope: &Scope<'m>) -> Result<Option<i64>, ()> {
+        let index = key.index.as_ref().map(|i| self.integer(i, scope).ok_or(()));
+        index.transpose()
     }
 
     /// Position in q of the coordinate that `key` names.

@@ -4,7 +4,8 @@ use super::value::is_integer;
 use super::{Binding, Env, Lowering, Place, Value};
 use crate::diag::{Loc, suggest};
 use crate::expr::diff::Derivative;
-use crate::expr::graph::{Func, Id, Symbol};
+use crate::expr::functions::Func;
+use crate::expr::graph::{Id, Symbol};
 use crate::model::{Name, Scope};
 use crate::parse::Expr;
 use proc_macro2::Ident;
@@ -31,20 +32,7 @@ impl<'m> Lowering<'m> {
             _ => {}
         }
         match self.model.names.get(&text) {
-            Some(Name::Param(family)) => {
-                let Some(i) = self.member(name, None, &self.model.params[*family], &env.scope)
-                else {
-                    return Value::Error;
-                };
-                self.allowed(Symbol::Param(i), name.span(), env)
-            }
-            Some(Name::Coord(family)) => {
-                let Some(i) = self.member(name, None, &self.model.coords[*family], &env.scope)
-                else {
-                    return Value::Error;
-                };
-                self.allowed(Symbol::Coord(i), name.span(), env)
-            }
+            Some(Name::Param(_) | Name::Coord(_)) => self.element(name, None, env),
             Some(Name::Float(i)) => match self.floats.get(*i) {
                 Some(id) => Value::Scalar(*id),
                 None => self.error(
@@ -72,6 +60,25 @@ impl<'m> Lowering<'m> {
 
     fn unknown(&mut self, name: &Ident, env: &Env<'m>) -> Value {
         let text = name.to_string();
+        // Once for all its uses.
+        if !self.unknown.insert(text.clone()) {
+            return Value::Error;
+        }
+        match self.results.get(&text) {
+            Some(true) => {
+                return self.error(
+                    name.span(),
+                    format!("`{text}` is a constraint: no expression can use it, and its multiplier and force are what is solved for"),
+                );
+            }
+            Some(false) => {
+                return self.error(
+                    name.span(),
+                    format!("`{text}` is an output, which no expression can use; declare its value by `let`"),
+                );
+            }
+            None => {}
+        }
         let names = self
             .model
             .names
@@ -82,6 +89,20 @@ impl<'m> Lowering<'m> {
         let remedy = "declare it under `params`, `coords` or by `let` before its use";
         let end = suggest(&text, names.chain(["t", "PI"]), remedy);
         self.error(name.span(), format!("unknown name `{text}`{end}"))
+    }
+
+    /// A parameter or coordinate.
+    fn element(&mut self, name: &Ident, index: Option<&Expr>, env: &Env<'m>) -> Value {
+        let (model, names) = (self.model, &self.model.names);
+        let (family, symbol): (_, fn(usize) -> Symbol) = match names.get(&name.to_string()) {
+            Some(Name::Param(family)) => (&model.params[*family], Symbol::Param),
+            Some(Name::Coord(family)) => (&model.coords[*family], Symbol::Coord),
+            _ => return Value::Error,
+        };
+        match self.member(name, index, family, &env.scope) {
+            Some(i) => self.allowed(symbol(i), name.span(), env),
+            None => Value::Error,
+        }
     }
 
     pub(super) fn indexed(&mut self, name: &Ident, index: &Expr, env: &Env<'m>) -> Value {
@@ -98,11 +119,15 @@ impl<'m> Lowering<'m> {
             _ => None,
         });
         if let Some(value) = vector {
-            let Value::Vector(components) = &value else {
-                return self.error(
-                    index.loc,
-                    format!("`{text}` is a number; write it without an index"),
-                );
+            let components = match &value {
+                Value::Vector(components) => components,
+                Value::Error => return zero,
+                Value::Scalar(_) => {
+                    return self.error(
+                        index.loc,
+                        format!("`{text}` is a number; write it without an index"),
+                    );
+                }
             };
             let Some(i) = self.integer(index, &env.scope) else {
                 return zero;
@@ -119,18 +144,7 @@ impl<'m> Lowering<'m> {
             };
         }
         match self.model.names.get(&text) {
-            Some(Name::Param(family)) => {
-                match self.member(name, Some(index), &self.model.params[*family], &env.scope) {
-                    Some(i) => self.allowed(Symbol::Param(i), name.span(), env),
-                    None => zero,
-                }
-            }
-            Some(Name::Coord(family)) => {
-                match self.member(name, Some(index), &self.model.coords[*family], &env.scope) {
-                    Some(i) => self.allowed(Symbol::Coord(i), name.span(), env),
-                    None => zero,
-                }
-            }
+            Some(Name::Param(_) | Name::Coord(_)) => self.element(name, Some(index), env),
             Some(_) => self.error(name.span(), format!("`{text}` is not a family")),
             None => match self.lets.get(&text) {
                 Some(Binding::Family(members)) => {
@@ -139,6 +153,8 @@ impl<'m> Lowering<'m> {
                     };
                     match members.get(&i).cloned() {
                         Some(value) => self.allowed_value(value, name.span().into(), env),
+                        // The loop that declares it ended at an error.
+                        None if members.values().any(|v| matches!(v, Value::Error)) => zero,
                         None => {
                             self.error(index.loc, format!("`{text}[{i}]` is not declared (yet)"))
                         }
@@ -204,7 +220,7 @@ impl<'m> Lowering<'m> {
             }
             _ => {}
         }
-        let Some(func) = Func::ALL.into_iter().find(|f| f.name() == text) else {
+        let Some(func) = Func::all().find(|f| f.row().name == text) else {
             return self.unknown_function(name, env);
         };
         if args.len() != func.arity() {
@@ -235,7 +251,10 @@ impl<'m> Lowering<'m> {
                 format!("`{text}` is not a function; write `*` for a product, `,` between entries"),
             );
         }
-        let mut names: Vec<&str> = Func::ALL.iter().map(|f| f.name()).collect();
+        if !self.unknown.insert(text.clone()) {
+            return Value::Error;
+        }
+        let mut names: Vec<&str> = Func::all().map(|f| f.row().name).collect();
         names.extend(["sq", "powi", "recip", "dot", "sum"]);
         let list = names.join(", ");
         let functions = self

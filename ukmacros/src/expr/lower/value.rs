@@ -131,10 +131,7 @@ impl<'m> Lowering<'m> {
             Value::Error => failed = true,
         }
         for (op, operand) in rest {
-            let loc = Loc {
-                start: first.loc.start,
-                end: operand.loc.end,
-            };
+            let loc = first.loc.to(operand.loc);
             let divides = *op == BinaryOp::Div;
             let by = integer(operand);
             if let (true, Some(x), Some(y)) = (divides, whole, by)

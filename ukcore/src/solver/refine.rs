@@ -1,0 +1,116 @@
+//! The straight line where its pivots lose digits though no constraint is near the others: light masses between heavy ones.
+//!
+//! Its certificate compares pivots in the mass metric, in which the rows of two links that share a light mass are nearly parallel. Whether
+//! a row counts is a matter of A alone, though. So where all rows of A counted for certain in a rank-revealing solve, they do while A has
+//! not changed much; and what the straight line lacks in digits, refinement gives back. Its q̈ satisfies M q̈ = Q + c + Aᵀλ for some λ row
+//! by row, as do the corrections Δ of M Δ = Aᵀμ, A Δ = b − A q̈: with A q̈ = b to rounding, q̈ + Δ solves equations that are as near
+//! (Higham 2002, §12.2).
+
+use super::{Formula, RANK_CEILING, Solver, rows};
+use crate::pinv::axpy;
+use crate::scan::all_finite;
+
+/// Refinements tried; each has to gain a digit.
+const STEPS: usize = 5;
+/// What is left of A q̈ = b, in ε of its terms.
+const LEFT: f64 = 64.0;
+
+/// A at a state where every row counted.
+#[derive(Debug, Clone)]
+pub(super) struct Known {
+    /// Whether there was one, with the parameters of now.
+    pub(super) valid: bool,
+    jacobian: Vec<f64>,
+    /// Of each row, how much its entries may change.
+    slack: Vec<f64>,
+}
+
+impl Known {
+    pub(super) fn new(n: usize, m: usize) -> Self {
+        Known {
+            valid: false,
+            jacobian: vec![0.0; m * n],
+            slack: vec![0.0; m],
+        }
+    }
+}
+
+impl Solver {
+    /// Remembers A of the rank-revealing solution in hand, if M is a regular constant and all rows counted clearly.
+    pub(super) fn remember(&mut self, formula: Formula) {
+        let weakest = self.dense.cod.pivots().last().copied().unwrap_or(0.0);
+        let clear = self.dense.cod.rank() == self.m && weakest > 2.0 * RANK_CEILING;
+        let fixed = self.mechanism.spec().structure.mass_constant;
+        self.known.valid = clear && fixed && self.m > 0 && formula == Formula::UdwadiaKalaba;
+        if self.known.valid {
+            // Singular values of A with rows of length 1 change by no more than √m times the largest change of a row.
+            let share = (weakest - RANK_CEILING) / (2.0 * (self.m as f64).sqrt());
+            let a = rows(&self.here, self.m);
+            let slack = self.known.slack.iter_mut().enumerate();
+            slack.for_each(|(c, slack)| *slack = share * a.largest(c));
+            self.known.jacobian.copy_from_slice(&self.here.jacobian);
+        }
+    }
+
+    /// Refines q̈ of the straight line, in `out`; false where that does not lead to rounding.
+    pub(super) fn refined(&mut self, t: f64, q: &[f64], v: &[f64], out: &mut [f64]) -> bool {
+        let known = &self.known;
+        if !(known.valid && all_finite(out)) {
+            return false;
+        }
+        self.here.dynamics(&self.mechanism, t, q, v);
+        self.work.evaluations += 1;
+        let a = &self.here.jacobian;
+        let columns = a.chunks_exact(self.m);
+        let mut columns = columns.zip(known.jacobian.chunks_exact(self.m));
+        let near = columns.all(|(here, there)| {
+            let entries = here.iter().zip(there).zip(&known.slack);
+            // Without branches.
+            entries.fold(true, |near, ((a, b), slack)| {
+                near & ((a - b).abs() <= *slack)
+            })
+        });
+        if !near {
+            return false;
+        }
+        let masses = || self.here.mass.iter().step_by(self.n + 1);
+        let norm = |x: &[f64]| masses().zip(x).map(|(m, x)| m * x * x).sum::<f64>().sqrt();
+        let applied = self.here.force.iter().zip(&self.here.nonideal);
+        let free = masses().zip(applied).map(|(m, (f, c))| (f + c).powi(2) / m);
+        let scale = norm(out).max(free.sum::<f64>().sqrt());
+        let (residual, step) = (&mut self.rhs, &mut self.force);
+        let mut last = scale;
+        for _ in 0..STEPS {
+            residual
+                .iter_mut()
+                .zip(&self.here.rhs)
+                .for_each(|(r, b)| *r = -b);
+            for (x, column) in out.iter().zip(a.chunks_exact(self.m)) {
+                axpy(*x, column, residual);
+            }
+            step.fill(f64::NAN);
+            self.mechanism.correction(t, q, v, residual, step);
+            let size = norm(step);
+            if size.is_nan() || size > 0.1 * last {
+                return false;
+            }
+            out.iter_mut().zip(&*step).for_each(|(x, d)| *x += d);
+            // What the next step would change, as each gains as much.
+            if size * size <= f64::EPSILON * scale * last {
+                return self.met(out);
+            }
+            last = size;
+        }
+        false
+    }
+
+    /// Whether A q̈ = b to rounding.
+    fn met(&self, out: &[f64]) -> bool {
+        let (a, b) = (self.rows(), &self.here.rhs);
+        all_finite(out)
+            && (0..self.m).all(|c| {
+                let size = b[c].abs() + a.magnitude(c, out);
+                (a.product(c, out) - b[c]).abs() <= LEFT * f64::EPSILON * size
+            })
+    }
+}
