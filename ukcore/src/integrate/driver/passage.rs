@@ -132,12 +132,18 @@ impl Driver<'_> {
         settings.first_step = None;
         // From far enough away: the last step may have gone just before the position.
         let start = std::mem::take(&mut self.passage.before);
-        let (t, y) = match &start {
-            Some((t, y)) if (0.0..course.h).contains(&left) => (*t, y),
-            _ => (course.now.t, &self.y),
+        let (t, start) = match start {
+            Some(before) if (0.0..course.h).contains(&left) => before,
+            _ => (course.now.t, self.y.clone()),
         };
         let problem = &mut *self.equations.problem;
-        let mut other = Driver::new(Method::Dop853, problem, t, y, end.t, &settings);
+        // Steps of one size may have come so near that they kept to the constraints no longer.
+        let mut y = start.clone();
+        let (q, v) = y.split_at_mut(start.len() / 2);
+        if problem.project(t, q, v).is_err() {
+            y = start;
+        }
+        let mut other = Driver::new(Method::Dop853, problem, t, &y, end.t, &settings);
         other.shown = Some((course.now.t, self.y.clone()));
         let (report, y) = other.travel();
         self.y = y;
