@@ -54,6 +54,9 @@ pub const SMALLEST_TOLERANCE: f64 = 10.0 * f64::EPSILON;
 /// [`PROJECTION_LIMIT`] in the norm of error control, the step is rejected and
 /// repeated with half its size.
 ///
+/// Where constraints come to imply the others and branches of the motion cross, it goes on in the branch it came on, its velocity without a
+/// jump; where rounding does not tell whether they do, the run ends before with [`Error::Singular`].
+///
 /// Where abs, sign, min or max change their branch within a step, it is repeated up to there, unless
 /// [`switching`](Simulation::switching) says otherwise.
 pub struct Simulation {

@@ -17,7 +17,7 @@ use crate::solver::{RANK_CEILING, RANK_TOLERANCE, leading};
 
 /// Roundings of f up to which e counts as zero, and above which it does not.
 const ZERO: f64 = 8.0;
-const GAP: f64 = 1e4;
+const GAP: f64 = 1e3;
 
 /// Rows go singular together if their significances differ by less than this factor; where they are nearly so already, all are tried.
 const TOGETHER: f64 = 2.0;

@@ -139,10 +139,16 @@ impl Driver<'_> {
             .before
             .take()
             .filter(|_| (0.0..h).contains(&left));
-        let (t, y) = before.as_ref().unwrap_or(&here);
+        let (t, start) = before.unwrap_or_else(|| here.clone());
         let problem = &mut *self.equations.problem;
-        let mut other = Driver::new(Method::Dop853, problem, *t, y, end.t, &settings);
-        other.shown = Some(here.clone());
+        // Steps of one size may have come so near that they kept to the constraints no longer.
+        let mut y = start.clone();
+        let (q, v) = y.split_at_mut(start.len() / 2);
+        if problem.project(t, q, v).is_err() {
+            y = start;
+        }
+        let mut other = Driver::new(Method::Dop853, problem, t, &y, end.t, &settings);
+        other.shown = Some(here);
         let (report, y) = other.travel();
         self.scheme.end_mut().copy_from_slice(&y);
         self.scheme.advance();
