@@ -202,25 +202,51 @@ impl Solver {
         v: &[f64],
         out: &mut [f64],
     ) -> Result<(), Error> {
-        if self.straight_line && !self.singular {
-            // It may leave before it writes anything.
-            out.iter_mut().take(1).for_each(|x| *x = f64::NAN);
-            if self.mechanism.acceleration(t, q, v, out) > 0.5 && all_finite(out) {
-                self.work.evaluations += 1;
-                self.full = self.m;
-                return Ok(());
-            }
-            if self.refined(t, q, v, out) {
-                self.full = self.m;
-                return Ok(());
-            }
-            // Once for a solution, whatever else is left on the way.
-            let fallbacks = self.work.fallbacks + 1;
-            let result = self.rank_revealing(t, q, v, out);
-            self.work.fallbacks = fallbacks;
-            return result;
+        match self.goes_straight(t, q, v, out) {
+            true => Ok(()),
+            false => self.goes_round(t, q, v, out),
         }
-        self.rank_revealing(t, q, v, out)
+    }
+
+    /// Accelerations by the straight line, if it can be trusted.
+    #[inline]
+    pub(crate) fn goes_straight(&mut self, t: f64, q: &[f64], v: &[f64], out: &mut [f64]) -> bool {
+        if !self.straight_line || self.singular {
+            return false;
+        }
+        // It may leave before it writes anything.
+        if let Some(first) = out.first_mut() {
+            *first = f64::NAN;
+        }
+        let good = self.mechanism.acceleration(t, q, v, out) > 0.5 && all_finite(out);
+        if good {
+            self.work.evaluations += 1;
+            self.full = self.m;
+        }
+        good
+    }
+
+    /// Accelerations where the straight line was tried, and left them in `out` for refinement, or there is none.
+    #[cold]
+    pub(crate) fn goes_round(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        out: &mut [f64],
+    ) -> Result<(), Error> {
+        if !self.straight_line || self.singular {
+            return self.rank_revealing(t, q, v, out);
+        }
+        if self.refined(t, q, v, out) {
+            self.full = self.m;
+            return Ok(());
+        }
+        // Once for a solution, whatever else is left on the way.
+        let fallbacks = self.work.fallbacks + 1;
+        let result = self.rank_revealing(t, q, v, out);
+        self.work.fallbacks = fallbacks;
+        result
     }
 
     /// Accelerations by the rank-revealing solve.

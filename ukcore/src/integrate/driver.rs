@@ -54,6 +54,8 @@ struct Driver<'p> {
     /// The step to be tried next, where it goes onto the zero of a switch.
     goal: Option<Goal>,
     passage: Passage,
+    /// [`Scheme::gap`] of the scheme.
+    gap: Option<[f64; 2]>,
     /// Time and state up to which the steps are known already.
     shown: Option<(f64, Vec<f64>)>,
     /// Steps that were good but left their branches; those onto zeros of switches; those whose error is rounding.
@@ -117,6 +119,7 @@ impl<'p> Driver<'p> {
                 consistent: Vec::new(),
             },
             settings,
+            gap: scheme.gap(),
             scheme,
             raw: y0.to_vec(),
             goal: None,
@@ -231,7 +234,7 @@ impl Driver<'_> {
         let error = made?;
         let interpolated = self.stay(trial, error)?;
         let next = self.show(trial, interpolated)?;
-        if self.scheme.gap().is_none() {
+        if self.gap.is_none() {
             let (t, y) = self.passage.before.get_or_insert_default();
             *t = self.equations.course.now.t;
             y.clear();

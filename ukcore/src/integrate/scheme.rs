@@ -26,13 +26,13 @@ impl Rates<f64> for Equations<'_> {
     fn rate(&mut self, s: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Cause> {
         let (q_rate, v_rate) = rate.split_at_mut(y.len() / 2);
         if self.nearby {
-            return self.with_nearby(s, y, |equations, y| {
+            return self.with_nearby(s, y, &mut |equations, y| {
                 q_rate.copy_from_slice(&y[q_rate.len()..]);
-                equations.look(s, y, v_rate)
+                equations.evaluate(s, y, v_rate)
             });
         }
         q_rate.copy_from_slice(&y[q_rate.len()..]);
-        self.look(s, y, v_rate)
+        self.evaluate(s, y, v_rate)
     }
 }
 
@@ -43,11 +43,12 @@ impl Equations<'_> {
     }
 
     /// `what` of the consistent state that is nearest to (s, y).
+    #[cold]
     fn with_nearby(
         &mut self,
         s: f64,
         y: &[f64],
-        what: impl FnOnce(&mut Self, &[f64]) -> Result<(), Cause>,
+        what: &mut dyn FnMut(&mut Self, &[f64]) -> Result<(), Cause>,
     ) -> Result<(), Cause> {
         let mut nearby = std::mem::take(&mut self.consistent);
         nearby.clear();
@@ -64,13 +65,14 @@ impl Equations<'_> {
 
     /// q̈ at (s, y) into `out`.
     pub(super) fn acceleration(&mut self, s: f64, y: &[f64], out: &mut [f64]) -> Result<(), Cause> {
-        match self.nearby {
-            true => self.with_nearby(s, y, |equations, y| equations.look(s, y, out)),
-            false => self.look(s, y, out),
+        if self.nearby {
+            return self.with_nearby(s, y, &mut |equations, y| equations.evaluate(s, y, out));
         }
+        self.evaluate(s, y, out)
     }
 
-    fn look(&mut self, s: f64, y: &[f64], out: &mut [f64]) -> Result<(), Cause> {
+    #[inline(always)]
+    fn evaluate(&mut self, s: f64, y: &[f64], out: &mut [f64]) -> Result<(), Cause> {
         let at = self.at(s, y);
         self.switches.look(self.problem, at);
         let result = self.problem.acceleration(at, out);

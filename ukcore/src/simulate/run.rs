@@ -88,8 +88,11 @@ impl Run<'_> {
 
 impl Problem for Run<'_> {
     fn acceleration(&mut self, at: Sample<'_>, out: &mut [f64]) -> Result<(), Error> {
+        if self.solver.goes_straight(at.t, at.q, at.v, out) {
+            return Ok(());
+        }
         let weakest = self.solver.weakest();
-        let result = self.solver.acceleration_in_run(at.t, at.q, at.v, out);
+        let result = self.solver.goes_round(at.t, at.q, at.v, out);
         if self.solver.weakest() < weakest {
             self.nearest = Some(at.to_state());
         }

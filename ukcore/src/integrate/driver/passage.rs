@@ -70,7 +70,7 @@ impl Driver<'_> {
             return;
         }
         *nearby = false;
-        let Some([from, to]) = self.scheme.gap() else {
+        let Some([from, to]) = self.gap else {
             return;
         };
         if passage.turns > 0.0 {
@@ -115,7 +115,7 @@ impl Driver<'_> {
     /// Where steps are of one size, those near a singular position are made by another method, so exactly that they are as good as the
     /// motion itself.
     pub(super) fn detour(&mut self) -> Result<Option<Outcome>, Error> {
-        if self.scheme.gap().is_some() {
+        if self.gap.is_some() {
             return Ok(None);
         }
         let Some(position) = self.passage.ahead.take() else {
@@ -192,7 +192,7 @@ impl Driver<'_> {
             course, problem, ..
         } = &mut self.equations;
         let here = Sample::of(course.now.t, self.scheme.start());
-        let gap = self.scheme.gap();
+        let gap = self.gap;
         let Some(found) = problem.singular((!made && gap.is_none()).then_some(here)) else {
             let behind = |position: &mut Singular| course.ahead(position.t) <= 0.0;
             self.passage.ahead.take_if(behind);
