@@ -168,8 +168,11 @@ impl Projector {
 
     /// What a projection would change a state by if the constraints were met as nearly as rounding of time, coordinates and velocities
     /// lets it: far from t = 0, or driven fast, that may be farther off than an error that is asked for. Leaves `change` alone where that
-    /// is unknown.
+    /// is unknown, and where no time is in the equations.
     pub(crate) fn excess(&mut self, t: f64, q: &[f64], v: &[f64], change: &mut [f64]) {
+        if self.mechanism.spec().structure.scleronomic {
+            return;
+        }
         let levels = [(Level::Position, q, v), (Level::Velocity, v, q)];
         for ((level, x, other), change) in levels.into_iter().zip(change.chunks_mut(q.len())) {
             let at = At::new(&self.mechanism, level, t, other);
@@ -300,7 +303,12 @@ impl Manifold {
         newton.evaluate(at, x);
         newton.rounding(at, x, &mut self.noise, [Size::new(0.0); 2]);
         newton.acceptance.clear(&mut newton.residual[..at.rows()]);
-        if at.rows() > 0 && self.factors.step(at, x, newton, &mut false).is_ok() {
+        let mut factored = false;
+        if at.rows() == 0 || (self.factors.step(at, x, newton, &mut factored)).is_err() {
+            return;
+        }
+        // The projection may have taken in rows in doubt, which are left out here.
+        if !(factored && self.factors.doubts()) {
             change.copy_from_slice(&newton.step);
         }
     }

@@ -96,6 +96,12 @@ impl Factors {
         ranked.map_err(|fault| mass_error(spec, fault))
     }
 
+    /// Whether there are rows of a significance below the ceiling.
+    pub(super) fn doubts(&self) -> bool {
+        let pivots = self.dense.cod.pivots();
+        leading(pivots, RANK_CEILING) < pivots.len()
+    }
+
     /// Takes what is held out of A, and makes it a part by itself of M.
     fn hold(&mut self, jacobian: &mut [f64], held: &[usize]) {
         let (n, m) = (self.q.len(), self.rhs.len());
