@@ -1,5 +1,6 @@
 use super::*;
 use crate::fixture::*;
+use approx::assert_abs_diff_eq;
 
 fn consistent<M: Mechanism>(mech: &M, state: &State) {
     let r = residuals(mech, state).unwrap();
@@ -27,7 +28,7 @@ fn rough_guesses_become_consistent_states() {
     )
     .unwrap();
     consistent(&Pendulum::default(), &s);
-    assert!((s.q[0] - 0.6).abs() < 0.1);
+    assert_abs_diff_eq!(s.q[0], 0.6, epsilon = 0.1);
     let s = assemble(
         Twice::default(),
         state(0.0, &[0.1, 0.4, 3.0, 0.2], &[1.0, 0.0, 0.0, 1.0]),
@@ -43,7 +44,7 @@ fn rough_guesses_become_consistent_states() {
     .unwrap();
     consistent(&Springs::default(), &s);
     assert_eq!((s.q[0], s.v[0]), (1.0, 1.0));
-    assert!((s.q[1] - 0.625).abs() < 1e-15);
+    assert_abs_diff_eq!(s.q[1], 0.625, epsilon = 1e-15);
     let s = assemble(
         Prescribed::default(),
         state(0.5, &[9.0, 2.0], &[0.0, 3.0]),

@@ -2,6 +2,7 @@
 
 use super::control::StepSize;
 use super::*;
+use approx::assert_abs_diff_eq;
 
 mod oracle;
 mod order;
@@ -236,7 +237,7 @@ fn projection_costs_no_evaluation_and_evaluations_are_made_at_projected_states()
         assert_eq!(report.steps, plain.steps.len());
         for step in &plain.steps {
             let (_, t, y) = step;
-            assert!((f64::hypot(y[0], y[1]) - 1.0).abs() < 4e-16);
+            assert_abs_diff_eq!(f64::hypot(y[0], y[1]), 1.0, epsilon = 4e-16);
             assert!(
                 plain
                     .evaluations
@@ -327,7 +328,7 @@ fn a_failing_right_hand_side_is_reported_where_no_step_avoids_it() {
             assert!((t.abs() - 1.0).abs() < 1e-13, "{method:?} at {t}");
             assert!(y[0] < 0.0 && y[0] > -1e-13);
             let last = plain.steps.last().unwrap();
-            assert!((last.1.abs() - 1.0).abs() < 1e-13);
+            assert_abs_diff_eq!(last.1.abs(), 1.0, epsilon = 1e-13);
             assert!(report.rejected > 10);
             assert_eq!(report.steps, plain.steps.len());
         }

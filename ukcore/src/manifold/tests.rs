@@ -1,6 +1,7 @@
 use super::*;
 use crate::fixture::*;
 use crate::mechanism::Mechanism;
+use approx::assert_abs_diff_eq;
 
 fn numbers(mut state: u64) -> impl FnMut() -> f64 {
     move || {
@@ -141,7 +142,7 @@ fn the_change_is_minimal_in_the_mass_metric() {
         .zip(q0)
         .fold(0.0_f64, |s, (a, b)| s.max((a - b).abs()));
     assert_eq!(correction.norm, largest);
-    assert!((q[2] - 1.2).abs() < 1e-6);
+    assert_abs_diff_eq!(q[2], 1.2, epsilon = 1e-6);
 }
 
 #[test]

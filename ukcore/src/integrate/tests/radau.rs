@@ -6,6 +6,7 @@ use crate::integrate::radau::newton::{A, PAIR, REAL, T, T_INVERSE};
 use crate::integrate::radau::{C, Radau};
 use crate::integrate::scheme::{Equations, Scheme};
 use crate::integrate::switches::Switches;
+use approx::assert_abs_diff_eq;
 
 type Matrix = [[f64; 3]; 3];
 
@@ -25,7 +26,7 @@ fn coefficients_are_those_of_collocation_at_the_radau_points() {
     for (row, c) in A.iter().zip(C) {
         for power in 1..=3 {
             let sum: f64 = row.iter().zip(C).map(|(a, c)| a * c.powi(power - 1)).sum();
-            assert!((sum - c.powi(power) / f64::from(power)).abs() < 4e-16);
+            assert_abs_diff_eq!(sum, c.powi(power) / f64::from(power), epsilon = 4e-16);
         }
     }
     // The last stage is the end, whose quadrature is exact to order 5.

@@ -1,6 +1,7 @@
 //! Events along a run.
 
 use super::*;
+use approx::assert_abs_diff_eq;
 
 #[test]
 fn events_are_located_at_the_quarters_of_the_period() {
@@ -60,12 +61,16 @@ fn a_terminal_event_ends_the_run_at_its_state() {
     let hit = &run.all_events()[1];
     let end = run.last().unwrap();
     assert_eq!((end.t, end.q, end.v), (hit.t, &hit.q[..], &hit.v[..]));
-    assert!((end.t - 0.25 * period(FRAC_PI_2)).abs() < 1e-10);
+    assert_abs_diff_eq!(end.t, 0.25 * period(FRAC_PI_2), epsilon = 1e-10);
     assert_eq!(run.samples().next_back(), run.last());
     assert_eq!(run.len(), 2 + (end.t / 0.01) as usize);
 
     // The run can go on from there without meeting the same zero again.
     let on = Simulation::new(Pendulum::default()).start(end.to_state());
     let on = on.tolerance(1e-12).event(bottom()).until(10.0).unwrap();
-    assert!((on.last().unwrap().t - 0.75 * period(FRAC_PI_2)).abs() < 1e-10);
+    assert_abs_diff_eq!(
+        on.last().unwrap().t,
+        0.75 * period(FRAC_PI_2),
+        epsilon = 1e-10
+    );
 }

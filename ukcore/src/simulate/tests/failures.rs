@@ -1,6 +1,7 @@
 //! What is refused, and what is kept of a run that fails.
 
 use super::*;
+use approx::assert_abs_diff_eq;
 
 #[test]
 fn a_failing_force_is_reported_with_its_time_and_the_motion_kept() {
@@ -21,7 +22,7 @@ fn a_failing_force_is_reported_with_its_time_and_the_motion_kept() {
         let kept = &failure.trajectory;
         assert_eq!(kept.ending(), Ending::Failed);
         assert_eq!(kept.len(), 16);
-        assert!((kept.last().unwrap().t - 1.5).abs() < 1e-12);
+        assert_abs_diff_eq!(kept.last().unwrap().t, 1.5, epsilon = 1e-12);
         let mut csv = Vec::new();
         kept.write_csv(&mut csv).unwrap();
         assert_eq!(String::from_utf8(csv).unwrap().lines().count(), 17);
@@ -36,10 +37,10 @@ fn an_event_that_is_not_a_number_and_too_few_steps_are_failures_that_keep_the_mo
     let event = Event::new("root", |t, _, _| (1.0 - t).sqrt());
     let failure = swing(1.0, 1e-9).event(event).until(2.0).unwrap_err();
     let (t, error) = source(&failure);
-    assert!((t - 1.0).abs() < 1e-12);
+    assert_abs_diff_eq!(t, 1.0, epsilon = 1e-12);
     let what = vec!["event root".to_owned()];
     assert_eq!(error, Error::NonFinite { what });
-    assert!((failure.trajectory.last().unwrap().t - 1.0).abs() < 1e-12);
+    assert_abs_diff_eq!(failure.trajectory.last().unwrap().t, 1.0, epsilon = 1e-12);
 
     let failure = swing(1.0, 1e-9).max_steps(5).until(20.0).unwrap_err();
     let (_, error) = source(&failure);

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::mechanism::Mechanism;
+use approx::assert_abs_diff_eq;
 
 #[test]
 fn a_pendulum_returns_after_its_period() {
@@ -106,7 +107,7 @@ fn a_run_backward_returns_to_the_start() {
             let (a, b) = (there.at(t).unwrap(), back.at(t).unwrap());
             assert!((a.q[0] - b.q[0]).abs() < 1e-9, "{a:?} {b:?}");
             let r = f64::hypot(b.q[0], b.q[1]);
-            assert!((r - 1.0).abs() < 1e-15);
+            assert_abs_diff_eq!(r, 1.0, epsilon = 1e-15);
         }
         assert!(there.at(3.1).is_err());
         assert!(there.at(f64::NAN).is_err());
@@ -147,15 +148,15 @@ fn massless_and_prescribed_coordinates_follow_closed_forms() {
     let run = run.every(0.1).until(20.0).unwrap();
     for sample in run.samples() {
         let x = 0.8 * (rate * sample.t).cos();
-        assert!((sample.q[0] - x).abs() < 1e-9);
-        assert!((sample.q[1] - 0.625 * sample.q[0]).abs() < 1e-14);
+        assert_abs_diff_eq!(sample.q[0], x, epsilon = 1e-9);
+        assert_abs_diff_eq!(sample.q[1], 0.625 * sample.q[0], epsilon = 1e-14);
     }
     let run = toy(fixture::Prescribed::default(), &[0.0, 0.0], &[1.0, 0.0]);
     let run = run.every(0.1).until(-7.0).unwrap();
     for sample in run.samples() {
-        assert!((sample.q[0] - sample.t.sin()).abs() < 1e-14);
-        assert!((sample.v[0] - sample.t.cos()).abs() < 1e-14);
-        assert!((sample.q[1] - 1.5 * sample.t * sample.t).abs() < 1e-9);
+        assert_abs_diff_eq!(sample.q[0], sample.t.sin(), epsilon = 1e-14);
+        assert_abs_diff_eq!(sample.v[0], sample.t.cos(), epsilon = 1e-14);
+        assert_abs_diff_eq!(sample.q[1], 1.5 * sample.t * sample.t, epsilon = 1e-9);
     }
 }
 

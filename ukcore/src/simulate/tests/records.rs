@@ -1,6 +1,7 @@
 //! What a run records: samples, counters, quantities along the motion, CSV.
 
 use super::*;
+use approx::assert_abs_diff_eq;
 
 #[test]
 fn samples_do_not_change_the_steps_and_lie_near_the_end_of_runs_to_them() {
@@ -111,7 +112,7 @@ fn quantities_along_the_motion_agree_with_closed_forms() {
     let angles = run.output("angle").unwrap();
     let solutions = run.solutions().unwrap();
     let accelerations = run.accelerations().unwrap();
-    assert!((angles[0] - angle).abs() < 1e-15);
+    assert_abs_diff_eq!(angles[0], angle, epsilon = 1e-15);
     for (i, sample) in run.samples().enumerate() {
         // Tension: m (v²/l + g cos θ), along the rod; λ = −tension / 2l since A = 2 (x, y).
         let speed = sample.v[0] * sample.v[0] + sample.v[1] * sample.v[1];
@@ -119,7 +120,7 @@ fn quantities_along_the_motion_agree_with_closed_forms() {
         assert!((solutions[i].multipliers[0] + 0.5 * tension).abs() < 1e-12);
         let expect = [-tension * sample.q[0], -tension * sample.q[1] - 9.8];
         for (a, expect) in accelerations[i].iter().zip(expect) {
-            assert!((a - expect).abs() < 1e-12);
+            assert_abs_diff_eq!(*a, expect, epsilon = 1e-12);
         }
     }
     assert_eq!(run.coordinate("x").unwrap()[0], angle.sin());
