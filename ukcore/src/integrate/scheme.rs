@@ -26,10 +26,11 @@ impl Rates<f64> for Equations<'_> {
     fn rate(&mut self, s: f64, y: &[f64], rate: &mut [f64]) -> Result<(), Cause> {
         let (q_rate, v_rate) = rate.split_at_mut(y.len() / 2);
         if self.nearby {
-            return self.with_nearby(s, y, &mut |equations, y| {
-                q_rate.copy_from_slice(&y[q_rate.len()..]);
-                equations.evaluate(s, y, v_rate)
-            });
+            let nearest = self.nearest(s, y)?;
+            q_rate.copy_from_slice(&nearest[q_rate.len()..]);
+            let result = self.evaluate(s, &nearest, v_rate);
+            self.consistent = nearest;
+            return result;
         }
         q_rate.copy_from_slice(&y[q_rate.len()..]);
         self.evaluate(s, y, v_rate)
@@ -42,31 +43,25 @@ impl Equations<'_> {
         Sample::of(self.course.t0 + s, y)
     }
 
-    /// `what` of the consistent state that is nearest to (s, y).
+    /// The consistent state that is nearest to (s, y), in the buffer for it.
     #[cold]
-    fn with_nearby(
-        &mut self,
-        s: f64,
-        y: &[f64],
-        what: &mut dyn FnMut(&mut Self, &[f64]) -> Result<(), Cause>,
-    ) -> Result<(), Cause> {
-        let mut nearby = std::mem::take(&mut self.consistent);
-        nearby.clear();
-        nearby.extend_from_slice(y);
-        let (q, v) = nearby.split_at_mut(y.len() / 2);
+    fn nearest(&mut self, s: f64, y: &[f64]) -> Result<Vec<f64>, Cause> {
+        let mut nearest = std::mem::take(&mut self.consistent);
+        nearest.clear();
+        nearest.extend_from_slice(y);
+        let (q, v) = nearest.split_at_mut(y.len() / 2);
         let projected = self.problem.project(self.course.t0 + s, q, v);
-        let result = match projected {
-            Ok(()) => what(self, &nearby),
-            Err(error) => Err(self.course.note(self.at(s, y), error)),
-        };
-        self.consistent = nearby;
-        result
+        projected.map_err(|error| self.course.note(self.at(s, y), error))?;
+        Ok(nearest)
     }
 
     /// q̈ at (s, y) into `out`.
     pub(super) fn acceleration(&mut self, s: f64, y: &[f64], out: &mut [f64]) -> Result<(), Cause> {
         if self.nearby {
-            return self.with_nearby(s, y, &mut |equations, y| equations.evaluate(s, y, out));
+            let nearest = self.nearest(s, y)?;
+            let result = self.evaluate(s, &nearest, out);
+            self.consistent = nearest;
+            return result;
         }
         self.evaluate(s, y, out)
     }
