@@ -276,18 +276,18 @@ impl Simulation {
         let admitted = self.admit(t_end, sink);
         let (recorder, start, settings) =
             admitted.map_err(|error| failure(error, self.trajectory()))?;
-        let locate =
-            self.switching == Switching::Located && !self.mechanism.spec().switches.is_empty();
-        let energy = match self.method {
+        let has_switches = !self.mechanism.spec().switches.is_empty();
+        let (located, energy) = match self.method {
+            // Its steps are of one size: they go across switches, as do those made in their place.
             Method::Rattle { step } => {
                 let first = self.mechanism.energy(start.t, &start.q, &start.v);
-                Some(EnergyWatch::new(step, first))
+                (false, Some(EnergyWatch::new(step, first)))
             }
-            _ => None,
+            _ => (self.switching == Switching::Located && has_switches, None),
         };
         let mut run = Run {
             solver: Solver::new(&self.mechanism, recorder.trajectory.options),
-            located: locate.then(|| self.mechanism.dual()),
+            located: located.then(|| self.mechanism.dual()),
             slopes: None,
             energy,
             recorder,

@@ -103,15 +103,10 @@ impl<'p> Driver<'p> {
             Method::Radau5 => Box::new(Radau::new(y0, tolerance)),
             Method::Rattle { step } => Box::new(Rattle::new(y0, step, t_end - t0)),
         };
-        let located = match method {
-            // Its steps are of one size.
-            Method::Rattle { .. } => 0,
-            _ => problem.switches(),
-        };
         Driver {
             equations: Equations {
+                switches: Switches::new(problem.switches(), y0.len()),
                 problem,
-                switches: Switches::new(located, y0.len()),
                 course: Course::new(t0, t_end, settings),
                 nearby: false,
                 consistent: Vec::new(),
