@@ -10,6 +10,7 @@
 //! Each row of B (or Ĉ) is divided by its norm first. For consistent constraints that changes neither the set of q̈ with A q̈ = b
 //! nor, hence, the one of least norm in it, and rank decisions become independent of how a constraint is scaled.
 
+use crate::mechanism::Evaluated;
 use crate::metric::{MassFault, Metric, pivoted_cholesky};
 use crate::pinv::{Decomposition, axpy, dot};
 use crate::scan::largest;
@@ -50,6 +51,18 @@ impl<'a> Rows<'a> {
     /// max |A_ci|.
     pub(crate) fn largest(self, c: usize) -> f64 {
         self.row(c).fold(0.0, |s, a| s.max(a.abs()))
+    }
+}
+
+impl Evaluated {
+    /// All rows of A.
+    pub(crate) fn rows(&self) -> Rows<'_> {
+        let rows = self.rhs.len();
+        Rows {
+            jacobian: &self.jacobian,
+            stride: rows,
+            rows,
+        }
     }
 }
 
@@ -153,6 +166,23 @@ impl Dense {
         self.cod
             .factor(&self.metric.root, &self.significance[..a.rows], floor);
         Ok(())
+    }
+
+    /// The same by the route that M needs, which has no inertia in some coordinates if it is `massless`.
+    pub(crate) fn factor_as_needed(
+        &mut self,
+        massless: bool,
+        mass: &[f64],
+        a: Rows<'_>,
+        floor: f64,
+    ) -> Result<(), MassFault> {
+        if !massless {
+            match self.factor(Route::Regular, mass, a, floor) {
+                Err(MassFault::Singular(_)) => {}
+                factored => return factored,
+            }
+        }
+        self.factor(Route::Singular, mass, a, floor)
     }
 
     /// Takes the first `rank` pivots as the rank. On the singular route Nᵀ M̂ N is factored; `Indefinite` names a coordinate if

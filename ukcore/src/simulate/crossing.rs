@@ -7,10 +7,9 @@
 //! within √(2|e|/|H|), from one asymptote to the other. So e decides, and rounding how well it is known.
 
 use crate::assemble::State;
-use crate::dense::{Dense, Route, Rows};
+use crate::dense::Dense;
 use crate::integrate::Singular;
 use crate::mechanism::{Equations, Evaluated, Prepared};
-use crate::metric::MassFault;
 use crate::pinv::{Decomposition, axpy, dot};
 use crate::rounding::Rounded;
 use crate::solver::{RANK_CEILING, RANK_TOLERANCE, leading};
@@ -99,35 +98,13 @@ impl<'a> Search<'a> {
         }
     }
 
-    fn rows(&self) -> Rows<'_> {
-        let m = self.mech.spec().m();
-        Rows {
-            jacobian: &self.terms.jacobian,
-            stride: m,
-            rows: m,
-        }
-    }
-
     /// Evaluates and factors the equations where the search stands, and takes the rank.
     fn factor(&mut self, v: &[f64]) -> Option<()> {
         self.terms.dynamics(self.mech, self.t, &self.q, v);
-        let spec = self.mech.spec();
-        let a = Rows {
-            jacobian: &self.terms.jacobian,
-            stride: spec.m(),
-            rows: spec.m(),
-        };
-        let mut factor = |route| {
-            self.dense
-                .factor(route, &self.terms.mass, a, RANK_TOLERANCE)
-        };
-        let factored = match spec.structure.massless.is_empty() {
-            true => match factor(Route::Regular) {
-                Err(MassFault::Singular(_)) => factor(Route::Singular),
-                other => other,
-            },
-            false => factor(Route::Singular),
-        };
+        let massless = !self.mech.spec().structure.massless.is_empty();
+        let Evaluated { mass, .. } = &self.terms;
+        let factored =
+            (self.dense).factor_as_needed(massless, mass, self.terms.rows(), RANK_TOLERANCE);
         factored.ok()?;
         let rank = self.rank.min(self.dense.cod.pivots().len());
         self.dense.set_rank(rank, &self.terms.mass).ok()
@@ -255,7 +232,7 @@ impl<'a> Search<'a> {
         let (phi, rounding) = (self.position(), self.uncertainty());
         let mut rate = vec![0.0; phi.len()];
         self.mech.residual_rate(self.t, &self.q, &u, &mut rate);
-        let a = self.rows();
+        let a = self.terms.rows();
         let mut slopes = vec![rate];
         for w in &self.directions[1..] {
             slopes.push((0..phi.len()).map(|c| a.product(c, w)).collect());

@@ -1,6 +1,6 @@
 //! How many constraints count: the tolerance of the rank, as far as drift lends significance.
 
-use super::{DRIFT_FACTOR, Drift, RANK_CEILING, Solver, mass_error, rows};
+use super::{DRIFT_FACTOR, Drift, RANK_CEILING, Solver, mass_error};
 use crate::error::Error;
 
 impl Solver {
@@ -12,8 +12,8 @@ impl Solver {
         if clear < rank {
             self.dense.cod.set_rank(clear);
             self.measure_drift(t, q, v);
-            let there = rows(&self.drift.there, self.m);
-            let here = rows(&self.here, self.m);
+            let there = self.drift.there.rows();
+            let here = self.here.rows();
             for c in 0..self.m {
                 let change = here.row(c).zip(there.row(c)).map(|(a, b)| (a - b).abs());
                 // Not finite: no state worth the name is near.

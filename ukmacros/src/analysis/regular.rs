@@ -476,6 +476,6 @@ fn never_negative(id: Id, g: &Graph) -> bool {
             .iter()
             .all(|(f, e)| e % 2 == 0 || never_negative(*f, g)),
         Node::Call(func, _) => func.row().least.is_some(),
-        Node::Select { .. } => false,
+        Node::Select(_) => false,
     }
 }

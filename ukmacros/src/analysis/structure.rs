@@ -174,7 +174,7 @@ fn smooth(id: Id, g: &Graph) -> bool {
         if !g.uses(id).velocity || !seen.insert(id) {
             continue;
         }
-        if matches!(g.node(id), Node::Call(..) | Node::Select { .. }) {
+        if matches!(g.node(id), Node::Call(..) | Node::Select(_)) {
             return false;
         }
         stack.extend(g.operands(id));

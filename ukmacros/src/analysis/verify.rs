@@ -284,12 +284,7 @@ impl Path<'_> {
             }
             Node::Held(inner) => at(inner),
             Node::Call(func, args) => func.jet(at(&args[0]), args.get(1).map(at)),
-            Node::Select {
-                a,
-                b,
-                then,
-                otherwise,
-            } => {
+            Node::Select([a, b, then, otherwise]) => {
                 if at(a).0 <= at(b).0 {
                     at(then)
                 } else {

@@ -73,7 +73,7 @@ pub(super) fn listing(system: &System, model: &Model, analysis: &Analysis) -> Li
     let names = prepared_names(system, model, prepared);
     let texts = prepared.iter().map(|id| match g.node(*id) {
         // The part of the certificate that parameters decide.
-        Node::Select { .. } => format!(
+        Node::Select(_) => format!(
             "1 if the pivots that depend on {} alone are positive and finite, else 0",
             parameters_of(*id, system, &params)
         ),

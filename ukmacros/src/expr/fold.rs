@@ -412,13 +412,8 @@ impl Graph {
                     _ => self.call1(func, args[0]),
                 }
             }
-            Node::Select {
-                a,
-                b,
-                then,
-                otherwise,
-            } => {
-                let [a, b, then, otherwise] = [a, b, then, otherwise].map(|id| new(self, id));
+            Node::Select(args) => {
+                let [a, b, then, otherwise] = args.map(|id| new(self, id));
                 self.select(a, b, then, otherwise)
             }
         }
@@ -462,12 +457,7 @@ impl Graph {
         if then == otherwise {
             return then;
         }
-        self.intern(Node::Select {
-            a,
-            b,
-            then,
-            otherwise,
-        })
+        self.intern(Node::Select([a, b, then, otherwise]))
     }
 }
 
