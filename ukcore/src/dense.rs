@@ -31,11 +31,8 @@ pub(crate) struct Rows<'a> {
 impl<'a> Rows<'a> {
     /// Entries of row `c`.
     pub(crate) fn row(self, c: usize) -> impl Iterator<Item = f64> + 'a {
-        self.jacobian
-            .iter()
-            .skip(c)
-            .step_by(self.stride.max(1))
-            .copied()
+        let entries = self.jacobian.iter().skip(c);
+        entries.step_by(self.stride.max(1)).copied()
     }
 
     /// (A x)_c.
@@ -245,11 +242,8 @@ impl Dense {
             }
             y.push(1.0);
             let mut direction = vec![0.0; n];
-            for (y, &o) in y.iter().zip(
-                self.inertia_order[..k]
-                    .iter()
-                    .chain([&self.inertia_order[j]]),
-            ) {
+            let order = self.inertia_order[..k].iter();
+            for (y, o) in y.iter().zip(order.chain([&self.inertia_order[j]])) {
                 axpy(*y, &self.basis[o * n..(o + 1) * n], &mut direction);
             }
             let largest = largest(&direction);
@@ -335,10 +329,8 @@ impl Dense {
         match force {
             Some(f) => {
                 let scaled = f.iter().zip(&self.metric.root).map(|(f, root)| f / root);
-                self.work
-                    .iter_mut()
-                    .zip(scaled)
-                    .for_each(|(x, f)| *x = f - *x);
+                let pairs = self.work.iter_mut().zip(scaled);
+                pairs.for_each(|(x, f)| *x = f - *x);
             }
             None => self.work.iter_mut().for_each(|x| *x = -*x),
         }
@@ -393,10 +385,8 @@ impl Dense {
     pub(crate) fn multipliers(&mut self, f: &mut [f64], lambda: &mut [f64]) {
         self.metric.divide(f);
         self.cod.solve_transposed(f, lambda);
-        lambda
-            .iter_mut()
-            .zip(&self.row_scale)
-            .for_each(|(l, s)| *l *= s);
+        let pairs = lambda.iter_mut().zip(&self.row_scale);
+        pairs.for_each(|(l, s)| *l *= s);
         let m = lambda.len();
         let excess = m - self.cod.rank();
         if excess == 0 {

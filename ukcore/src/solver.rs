@@ -505,15 +505,11 @@ impl Solver {
     ) -> Result<(), Error> {
         let spec = self.mechanism.spec();
         if !all_finite(acceleration) {
-            let names = spec
-                .coords
-                .iter()
-                .zip(acceleration)
-                .filter(|(_, x)| !x.is_finite());
+            let pairs = spec.coords.iter().zip(acceleration);
+            let broken = pairs.filter(|(_, x)| !x.is_finite());
+            let what = broken.map(|(name, _)| format!("acceleration of {name}"));
             return Err(Error::NonFinite {
-                what: names
-                    .map(|(name, _)| format!("acceleration of {name}"))
-                    .collect(),
+                what: what.collect(),
             });
         }
         if self.dense.cod.rank() == self.m || self.agrees(acceleration, tolerance) {
@@ -532,9 +528,8 @@ impl Solver {
             return Ok(());
         }
         let a = self.here.rows();
-        let residual: Vec<f64> = (0..self.m)
-            .map(|c| a.product(c, acceleration) - self.rhs[c])
-            .collect();
+        let residual = (0..self.m).map(|c| a.product(c, acceleration) - self.rhs[c]);
+        let residual: Vec<f64> = residual.collect();
         Err(Error::Inconsistent {
             constraints: diagnose::offending(spec, &residual, &self.dense.residual_scale()),
         })

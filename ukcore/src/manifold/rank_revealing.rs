@@ -76,14 +76,8 @@ impl Factors {
         let massless = !spec.structure.massless.is_empty();
         let factored = dense.factor_as_needed(massless, mass, a, RANK_TOLERANCE);
         let ranked = factored.and_then(|()| {
-            let pivots = dense.cod.pivots();
-            let all = pivots.len();
-            let rank = if self.cautious {
-                leading(pivots, RANK_CEILING)
-            } else {
-                all
-            };
-            dense.set_rank(rank, mass)
+            let least = if self.cautious { RANK_CEILING } else { 0.0 };
+            dense.set_rank(leading(dense.cod.pivots(), least), mass)
         });
         ranked.map_err(|fault| mass_error(spec, fault))
     }

@@ -17,12 +17,9 @@ impl Solver {
             for c in 0..self.m {
                 let change = here.row(c).zip(there.row(c)).map(|(a, b)| (a - b).abs());
                 // Not finite: no state worth the name is near.
-                let change = change.fold(0.0, |s: f64, x| {
-                    if x.is_finite() {
-                        s.max(x)
-                    } else {
-                        f64::INFINITY
-                    }
+                let change = change.fold(0.0, |s: f64, x| match x.is_finite() {
+                    true => s.max(x),
+                    false => f64::INFINITY,
                 });
                 if change > 0.0 {
                     tolerance = tolerance.max(DRIFT_FACTOR * change / here.largest(c));

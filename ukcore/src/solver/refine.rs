@@ -81,10 +81,8 @@ impl Solver {
         let (residual, step) = (&mut self.rhs, &mut self.force);
         let mut last = scale;
         for _ in 0..STEPS {
-            residual
-                .iter_mut()
-                .zip(&self.here.rhs)
-                .for_each(|(r, b)| *r = -b);
+            residual.fill(0.0);
+            axpy(-1.0, &self.here.rhs, residual);
             for (x, column) in out.iter().zip(a.chunks_exact(self.m)) {
                 axpy(*x, column, residual);
             }

@@ -28,16 +28,9 @@ pub(super) struct Listing {
 pub(super) fn listing(system: &System, model: &Model, analysis: &Analysis) -> Listing {
     let dynamics = &analysis.dynamics;
     let prepared: &[Id] = &analysis.prepared;
-    let coords: Vec<String> = model
-        .coord_elements
-        .iter()
-        .map(|e| e.name.clone())
-        .collect();
-    let params: Vec<String> = model
-        .param_elements
-        .iter()
-        .map(|e| e.name.clone())
-        .collect();
+    let coords = model.coord_elements.iter().map(|e| e.name.clone());
+    let params = model.param_elements.iter().map(|e| e.name.clone());
+    let (coords, params): (Vec<String>, Vec<String>) = (coords.collect(), params.collect());
     let mut printer = Printer {
         graph: &system.graph,
         coords: &coords,
