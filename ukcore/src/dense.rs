@@ -10,6 +10,7 @@
 //! Each row of B (or Ĉ) is divided by its norm first. For consistent constraints that changes neither the set of q̈ with A q̈ = b
 //! nor, hence, the one of least norm in it, and rank decisions become independent of how a constraint is scaled.
 
+use crate::mechanism::Evaluated;
 use crate::metric::{MassFault, Metric, pivoted_cholesky};
 use crate::pinv::{Decomposition, axpy, dot};
 use crate::scan::largest;
@@ -30,11 +31,8 @@ pub(crate) struct Rows<'a> {
 impl<'a> Rows<'a> {
     /// Entries of row `c`.
     pub(crate) fn row(self, c: usize) -> impl Iterator<Item = f64> + 'a {
-        self.jacobian
-            .iter()
-            .skip(c)
-            .step_by(self.stride.max(1))
-            .copied()
+        let entries = self.jacobian.iter().skip(c);
+        entries.step_by(self.stride.max(1)).copied()
     }
 
     /// (A x)_c.
@@ -50,6 +48,18 @@ impl<'a> Rows<'a> {
     /// max |A_ci|.
     pub(crate) fn largest(self, c: usize) -> f64 {
         self.row(c).fold(0.0, |s, a| s.max(a.abs()))
+    }
+}
+
+impl Evaluated {
+    /// All rows of A.
+    pub(crate) fn rows(&self) -> Rows<'_> {
+        let rows = self.rhs.len();
+        Rows {
+            jacobian: &self.jacobian,
+            stride: rows,
+            rows,
+        }
     }
 }
 
@@ -155,6 +165,23 @@ impl Dense {
         Ok(())
     }
 
+    /// The same by the route that M needs, which has no inertia in some coordinates if it is `massless`.
+    pub(crate) fn factor_as_needed(
+        &mut self,
+        massless: bool,
+        mass: &[f64],
+        a: Rows<'_>,
+        floor: f64,
+    ) -> Result<(), MassFault> {
+        if !massless {
+            match self.factor(Route::Regular, mass, a, floor) {
+                Err(MassFault::Singular(_)) => {}
+                factored => return factored,
+            }
+        }
+        self.factor(Route::Singular, mass, a, floor)
+    }
+
     /// Takes the first `rank` pivots as the rank. On the singular route Nᵀ M̂ N is factored; `Indefinite` names a coordinate if
     /// it has a negative eigenvalue.
     pub(crate) fn set_rank(&mut self, rank: usize, mass: &[f64]) -> Result<(), MassFault> {
@@ -215,11 +242,8 @@ impl Dense {
             }
             y.push(1.0);
             let mut direction = vec![0.0; n];
-            for (y, &o) in y.iter().zip(
-                self.inertia_order[..k]
-                    .iter()
-                    .chain([&self.inertia_order[j]]),
-            ) {
+            let order = self.inertia_order[..k].iter();
+            for (y, o) in y.iter().zip(order.chain([&self.inertia_order[j]])) {
                 axpy(*y, &self.basis[o * n..(o + 1) * n], &mut direction);
             }
             let largest = largest(&direction);
@@ -305,10 +329,8 @@ impl Dense {
         match force {
             Some(f) => {
                 let scaled = f.iter().zip(&self.metric.root).map(|(f, root)| f / root);
-                self.work
-                    .iter_mut()
-                    .zip(scaled)
-                    .for_each(|(x, f)| *x = f - *x);
+                let pairs = self.work.iter_mut().zip(scaled);
+                pairs.for_each(|(x, f)| *x = f - *x);
             }
             None => self.work.iter_mut().for_each(|x| *x = -*x),
         }
@@ -363,10 +385,8 @@ impl Dense {
     pub(crate) fn multipliers(&mut self, f: &mut [f64], lambda: &mut [f64]) {
         self.metric.divide(f);
         self.cod.solve_transposed(f, lambda);
-        lambda
-            .iter_mut()
-            .zip(&self.row_scale)
-            .for_each(|(l, s)| *l *= s);
+        let pairs = lambda.iter_mut().zip(&self.row_scale);
+        pairs.for_each(|(l, s)| *l *= s);
         let m = lambda.len();
         let excess = m - self.cod.rank();
         if excess == 0 {

@@ -120,15 +120,13 @@ pub(crate) fn subnormal(mech: &Prepared) -> Result<(), Error> {
 /// An [`Error::NonFinite`] for the terms of the equations, in order: mass and constraints, forces, b.
 pub(crate) fn non_finite_terms(spec: &Spec, terms: &Evaluated, rhs: &[f64]) -> Error {
     let mut what = non_finite_matrices(spec, &terms.mass, &terms.jacobian);
-    for (name, x) in spec.coords.iter().zip(&terms.force) {
-        if !x.is_finite() {
-            what.push(format!("force on {name}"));
-        }
-    }
-    for (name, x) in spec.coords.iter().zip(&terms.nonideal) {
-        if !x.is_finite() {
-            what.push(format!("non-ideal force on {name}"));
-        }
+    for (kind, force) in [
+        ("force", &terms.force),
+        ("non-ideal force", &terms.nonideal),
+    ] {
+        let pairs = spec.coords.iter().zip(force);
+        let broken = pairs.filter(|(_, x)| !x.is_finite());
+        what.extend(broken.map(|(name, _)| format!("{kind} on {name}")));
     }
     if let Error::NonFinite { what: constraints } = non_finite_residual(spec, rhs) {
         for constraint in constraints {

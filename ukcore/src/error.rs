@@ -189,13 +189,10 @@ impl Error {
         names: &mut dyn Iterator<Item = &str>,
     ) -> Self {
         let known: Vec<String> = names.map(str::to_owned).collect();
-        let nearest = known
-            .iter()
-            .map(|n| (distance(name, n), n))
-            .min_by_key(|(d, _)| *d)
-            // At most half of it, as for names in a declaration.
-            .filter(|(d, n)| *d <= n.chars().count().max(name.chars().count()) / 2)
-            .map(|(_, n)| n.clone());
+        // At most half of it, as for names in a declaration.
+        let most = |n: &str| n.chars().count().max(name.chars().count()) / 2;
+        let nearest = known.iter().min_by_key(|n| distance(name, n));
+        let nearest = nearest.filter(|n| distance(name, n) <= most(n)).cloned();
         Error::UnknownName {
             kind,
             name: name.to_owned(),
@@ -223,17 +220,15 @@ fn distance(a: &str, b: &str) -> usize {
 
 /// Names with their residuals.
 fn named(constraints: &[(String, f64)]) -> String {
-    let texts = constraints
-        .iter()
-        .map(|(name, residual)| format!("`{name}` ({residual:.3e})"));
-    texts.collect::<Vec<_>>().join(", ")
+    let text = |(name, residual): &(String, f64)| format!("`{name}` ({residual:.3e})");
+    let texts: Vec<String> = constraints.iter().map(text).collect();
+    texts.join(", ")
 }
 
 fn quoted(names: &[String]) -> String {
-    let listed = if names.len() > MOST_LISTED {
-        MOST_LISTED - 1
-    } else {
-        names.len()
+    let listed = match names.len() {
+        len if len > MOST_LISTED => MOST_LISTED - 1,
+        len => len,
     };
     let mut text: Vec<String> = names[..listed].iter().map(|n| format!("`{n}`")).collect();
     if listed < names.len() {

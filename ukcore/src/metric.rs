@@ -159,10 +159,9 @@ impl Metric {
             let mut root = 0.0_f64;
             for c in 0..rows {
                 let entry = jacobian[j * stride + c].abs();
-                let massive = (0..n)
-                    .filter(|&i| mass[i * n + i] > 0.0)
-                    .map(|i| (jacobian[i * stride + c] / self.root[i]).abs())
-                    .fold(0.0_f64, f64::max);
+                let massive = (0..n).filter(|&i| mass[i * n + i] > 0.0);
+                let shares = massive.map(|i| (jacobian[i * stride + c] / self.root[i]).abs());
+                let massive = shares.fold(0.0_f64, f64::max);
                 if massive > 0.0 {
                     root = root.max(entry / massive);
                 }

@@ -79,11 +79,8 @@ impl Noise {
                 jacobian[j * m + c].abs() > share * self.terms.jacobian[j * m + c].bound()
             };
             if !(0..self.q.len()).any(|j| !held.contains(&j) && entry(j)) {
-                jacobian
-                    .iter_mut()
-                    .skip(c)
-                    .step_by(m)
-                    .for_each(|a| *a = 0.0);
+                let row = jacobian.iter_mut().skip(c).step_by(m);
+                row.for_each(|a| *a = 0.0);
             }
         }
     }

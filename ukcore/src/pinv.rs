@@ -92,9 +92,8 @@ impl Decomposition {
         }
         self.steps = 0;
         for k in 0..n.min(m) {
-            let best = self.significance[k..m]
-                .iter()
-                .fold(0.0_f64, |s, x| s.max(*x));
+            let left = self.significance[k..m].iter();
+            let best = left.fold(0.0_f64, |s, x| s.max(*x));
             if best <= floor {
                 break;
             }
@@ -151,10 +150,8 @@ impl Decomposition {
         let (beta, tau) = householder(x);
         self.tau[k] = tau;
         let v = &x[1..];
-        for (i, column) in right[..(self.m - k - 1) * n]
-            .chunks_exact_mut(n)
-            .enumerate()
-        {
+        let right = &mut right[..(self.m - k - 1) * n];
+        for (i, column) in right.chunks_exact_mut(n).enumerate() {
             let (head, tail) = column[k..].split_at_mut(1);
             let s = tau * (head[0] + dot(v, tail));
             if s != 0.0 {
@@ -344,12 +341,8 @@ fn householder(x: &mut [f64]) -> (f64, f64) {
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let n = a.len().min(b.len());
     let (a, b) = (a[..n].chunks_exact(4), b[..n].chunks_exact(4));
-    let rest: f64 = a
-        .remainder()
-        .iter()
-        .zip(b.remainder())
-        .map(|(a, b)| a * b)
-        .sum();
+    let rest = a.remainder().iter().zip(b.remainder());
+    let rest: f64 = rest.map(|(a, b)| a * b).sum();
     let mut sums = [0.0; 4];
     for (a, b) in a.zip(b) {
         for ((s, a), b) in sums.iter_mut().zip(a).zip(b) {

@@ -288,15 +288,22 @@ impl Plan {
     }
 
     fn switches(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let switches = self.spec.switches;
-        if switches.is_empty() {
-            return Ok(());
-        }
-        writeln!(f, "\nSwitches: a run steps onto the zeros of")?;
-        let wide = widest(switches.iter().map(|switch| switch.function));
-        for switch in switches {
-            let (function, terms) = (switch.function, switch.terms.join(", "));
-            item(f, &format!("{function:<wide$} in {terms}"))?;
+        for (length, head) in [
+            (false, "Switches: a run steps onto the zeros of"),
+            (
+                true,
+                "Lengths: a run steps across zeros of these, and ends where it comes to rest at one",
+            ),
+        ] {
+            let switches = || self.spec.switches.iter().filter(|s| s.length == length);
+            if switches().next().is_some() {
+                writeln!(f, "\n{head}")?;
+            }
+            let wide = widest(switches().map(|switch| switch.function));
+            for switch in switches() {
+                let (function, terms) = (switch.function, switch.terms.join(", "));
+                item(f, &format!("{function:<wide$} in {terms}"))?;
+            }
         }
         Ok(())
     }

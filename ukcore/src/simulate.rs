@@ -58,7 +58,8 @@ pub const SMALLEST_TOLERANCE: f64 = 10.0 * f64::EPSILON;
 /// jump; where rounding does not tell whether they do, the run ends before with [`Error::Singular`].
 ///
 /// Where abs, sign, min or max change their branch within a step, it is repeated up to there, unless
-/// [`switching`](Simulation::switching) says otherwise.
+/// [`switching`](Simulation::switching) says otherwise. A length that the equations divide by, as in v/|v|, is stepped across: a motion that
+/// passes straight through its zero has the error of a jump there; one that comes to rest ends with [`Error::Chattering`].
 pub struct Simulation {
     mechanism: Prepared,
     start: Option<State>,
@@ -279,18 +280,18 @@ impl Simulation {
         let admitted = self.admit(t_end, sink);
         let (recorder, start, settings) =
             admitted.map_err(|error| failure(error, self.trajectory()))?;
-        let locate =
-            self.switching == Switching::Located && !self.mechanism.spec().switches.is_empty();
-        let energy = match self.method {
+        let has_switches = !self.mechanism.spec().switches.is_empty();
+        let (located, energy) = match self.method {
+            // Its steps are of one size: they go across switches, as do those made in their place.
             Method::Rattle { step } => {
                 let first = self.mechanism.energy(start.t, &start.q, &start.v);
-                Some(EnergyWatch::new(step, first))
+                (false, Some(EnergyWatch::new(step, first)))
             }
-            _ => None,
+            _ => (self.switching == Switching::Located && has_switches, None),
         };
         let mut run = Run {
             solver: Solver::new(&self.mechanism, recorder.trajectory.options),
-            located: locate.then(|| self.mechanism.dual()),
+            located: located.then(|| self.mechanism.dual()),
             slopes: None,
             energy,
             recorder,

@@ -23,6 +23,7 @@ use crate::error::Error;
 use crate::mechanism::{Evaluated, Prepared};
 use crate::metric::MassFault;
 use crate::noise::Noise;
+use crate::pinv::axpy;
 use crate::saddle::Saddle;
 use crate::scan::{Size, all_finite};
 use crate::spec::Spec;
@@ -100,7 +101,7 @@ impl Drift {
         if !self.known {
             return 0.0;
         }
-        let there = rows(&self.there, rhs.len());
+        let there = self.there.rows();
         let change = a.row(c).zip(there.row(c)).zip(acceleration);
         let change: f64 = change.map(|((a, b), x)| ((a - b) * x).abs()).sum();
         (self.there.rhs[c] - rhs[c]).abs() + change
@@ -258,15 +259,7 @@ impl Solver {
         out: &mut [f64],
     ) -> Result<(), Error> {
         let decided = self.decide(t, q, v)?;
-        if self.mechanism.spec().structure.nonideal {
-            let sum = self.here.force.iter().zip(&self.here.nonideal);
-            self.force
-                .iter_mut()
-                .zip(sum)
-                .for_each(|(f, (a, b))| *f = a + b);
-        } else {
-            self.force.copy_from_slice(&self.here.force);
-        }
+        self.apply_all_forces();
         self.solve_for_force(decided.formula, out);
         self.remember(decided.formula);
         self.check(t, q, v, decided.tolerance, out)
@@ -288,26 +281,16 @@ impl Solver {
             force
         } else {
             let mut force = self.mass_times(&ideal);
-            force
-                .iter_mut()
-                .zip(&self.here.force)
-                .for_each(|(f, q)| *f -= q);
+            axpy(-1.0, &self.here.force, &mut force);
             force
         };
         let mut acceleration = ideal.clone();
         let mut nonideal_force = vec![0.0; n];
         if self.mechanism.spec().structure.nonideal {
-            let sum = self.here.force.iter().zip(&self.here.nonideal);
-            self.force
-                .iter_mut()
-                .zip(sum)
-                .for_each(|(f, (a, b))| *f = a + b);
+            self.apply_all_forces();
             self.solve_for_force(decided.formula, &mut acceleration);
-            let change: Vec<f64> = acceleration
-                .iter()
-                .zip(&ideal)
-                .map(|(a, b)| a - b)
-                .collect();
+            let mut change = acceleration.clone();
+            axpy(-1.0, &ideal, &mut change);
             nonideal_force = self.mass_times(&change);
         }
         self.check(t, q, v, decided.tolerance, &acceleration)?;
@@ -342,13 +325,11 @@ impl Solver {
         multipliers: &mut [f64],
     ) -> Result<Formula, Error> {
         let decided = self.decide(t, q, v)?;
-        let applied = self.here.force.iter().zip(&self.here.nonideal);
-        let applied: Vec<f64> = applied.map(|(a, b)| a + b).collect();
-        self.force.copy_from_slice(&applied);
+        self.apply_all_forces();
         self.solve_for_force(decided.formula, acceleration);
         self.check(t, q, v, decided.tolerance, acceleration)?;
         let mut reaction = self.mass_times(acceleration);
-        reaction.iter_mut().zip(&applied).for_each(|(r, f)| *r -= f);
+        axpy(-1.0, &self.force, &mut reaction);
         self.dense.multipliers(&mut reaction, multipliers);
         Ok(decided.formula)
     }
@@ -406,14 +387,10 @@ impl Solver {
         self.work
     }
 
-    fn rows(&self) -> Rows<'_> {
-        rows(&self.here, self.m)
-    }
-
     fn mass_times(&self, x: &[f64]) -> Vec<f64> {
         let mut y = vec![0.0; self.n];
         for (x, column) in x.iter().zip(self.here.mass.chunks_exact(self.n)) {
-            crate::pinv::axpy(*x, column, &mut y);
+            axpy(*x, column, &mut y);
         }
         y
     }
@@ -469,7 +446,7 @@ impl Solver {
     fn factor(&mut self) -> Result<Formula, Error> {
         let structure = &self.mechanism.spec().structure;
         let floor = self.options.rank_tolerance;
-        let a = rows(&self.here, self.m);
+        let a = self.here.rows();
         // Where M may come near singular, M⁻¹ Q and what the constraints take off it may be so large that q̈ is lost between them.
         let solve = &structure.solve;
         let regular =
@@ -502,7 +479,7 @@ impl Solver {
     fn eliminate(&mut self, formula: Formula) -> Formula {
         match &mut self.saddle {
             Some(saddle) if formula == Formula::Kkt => {
-                let a = rows(&self.here, self.m);
+                let a = self.here.rows();
                 let independent = leading(self.dense.cod.pivots(), RANK_CEILING) == self.m;
                 let scales = (&self.dense.metric.root[..], &self.dense.row_scale[..]);
                 if independent && saddle.factor(&self.here.mass, a, scales.0, scales.1) {
@@ -515,8 +492,14 @@ impl Solver {
         }
     }
 
+    /// Q + c into `force`.
+    fn apply_all_forces(&mut self) {
+        self.force.copy_from_slice(&self.here.force);
+        axpy(1.0, &self.here.nonideal, &mut self.force);
+    }
+
     fn solve_for_force(&mut self, formula: Formula, out: &mut [f64]) {
-        let a = rows(&self.here, self.m);
+        let a = self.here.rows();
         match &mut self.saddle {
             Some(saddle) if formula == Formula::Kkt => {
                 let (root, row_scale) = (&self.dense.metric.root, &self.dense.row_scale);
@@ -548,15 +531,11 @@ impl Solver {
     ) -> Result<(), Error> {
         let spec = self.mechanism.spec();
         if !all_finite(acceleration) {
-            let names = spec
-                .coords
-                .iter()
-                .zip(acceleration)
-                .filter(|(_, x)| !x.is_finite());
+            let pairs = spec.coords.iter().zip(acceleration);
+            let broken = pairs.filter(|(_, x)| !x.is_finite());
+            let what = broken.map(|(name, _)| format!("acceleration of {name}"));
             return Err(Error::NonFinite {
-                what: names
-                    .map(|(name, _)| format!("acceleration of {name}"))
-                    .collect(),
+                what: what.collect(),
             });
         }
         if self.dense.cod.rank() == self.m || self.agrees(acceleration, tolerance) {
@@ -574,10 +553,9 @@ impl Solver {
         if self.agrees(acceleration, tolerance) {
             return Ok(());
         }
-        let a = self.rows();
-        let residual: Vec<f64> = (0..self.m)
-            .map(|c| a.product(c, acceleration) - self.rhs[c])
-            .collect();
+        let a = self.here.rows();
+        let residual = (0..self.m).map(|c| a.product(c, acceleration) - self.rhs[c]);
+        let residual: Vec<f64> = residual.collect();
         Err(Error::Inconsistent {
             constraints: diagnose::offending(spec, &residual, &self.dense.residual_scale()),
         })
@@ -586,7 +564,7 @@ impl Solver {
     /// Whether A q̈ = b holds up to `tolerance`, drift and the rounding that is known. At rest q̈ is the difference of what the forces and
     /// what the constraints do, so the tolerance refers to these.
     fn agrees(&mut self, acceleration: &[f64], tolerance: f64) -> bool {
-        let (m, a, scale) = (self.m, rows(&self.here, self.m), &self.dense.row_scale);
+        let (m, a, scale) = (self.m, self.here.rows(), &self.dense.row_scale);
         let free = &self.dense.unconstrained;
         let size =
             |c: usize| self.rhs[c].abs() + a.magnitude(c, acceleration) + a.magnitude(c, free);
@@ -613,14 +591,6 @@ impl Solver {
                 self.dense.share(&mut self.granted);
                 met(&self.dense.row_scale, &self.granted)
             }
-    }
-}
-
-fn rows(terms: &Evaluated, m: usize) -> Rows<'_> {
-    Rows {
-        jacobian: &terms.jacobian,
-        stride: m,
-        rows: m,
     }
 }
 

@@ -72,10 +72,8 @@ impl Diagnostics {
         // Spans cannot be compared, but they can be printed.
         let place = |l: &Loc| format!("{:?} {:?}", l.start, l.end);
         let mut found = self.found.borrow_mut();
-        let known = found
-            .iter()
-            .any(|d| d.message == message && place(&d.loc) == place(&loc));
-        if !known {
+        let same = |d: &Diagnostic| d.message == message && place(&d.loc) == place(&loc);
+        if !found.iter().any(same) {
             found.push(Diagnostic { loc, message });
         }
     }
@@ -110,8 +108,7 @@ impl Diagnostics {
 /// `::core::compile_error! { "message" }`, whose first and last token carry the range, which is how rustc finds it.
 fn compile_error(diagnostic: &Diagnostic) -> TokenStream {
     let Loc { start, end } = diagnostic.loc;
-    let at = |span: Span, tree: TokenTree| {
-        let mut tree = tree;
+    let at = |span: Span, mut tree: TokenTree| {
         tree.set_span(span);
         tree
     };
@@ -139,17 +136,10 @@ pub(crate) fn suggest<'a>(
     names: impl IntoIterator<Item = &'a str>,
     remedy: &str,
 ) -> String {
-    let near = names
-        .into_iter()
-        .map(|n| {
-            (
-                strsim::levenshtein(&name.to_lowercase(), &n.to_lowercase()),
-                n,
-            )
-        })
-        .min()
-        .filter(|(d, n)| *d <= n.chars().count().max(name.chars().count()) / 2);
-    match near {
+    let distance = |n: &str| strsim::levenshtein(&name.to_lowercase(), &n.to_lowercase());
+    let nearest = names.into_iter().map(|n| (distance(n), n)).min();
+    let most = |n: &str| n.chars().count().max(name.chars().count()) / 2;
+    match nearest.filter(|(d, n)| *d <= most(n)) {
         Some((_, n)) => format!("; did you mean `{n}`?"),
         None => format!("; {remedy}"),
     }

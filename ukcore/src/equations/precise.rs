@@ -116,23 +116,18 @@ fn equilibrate(rows: &mut [Vec<DoubleDouble>]) -> Vec<DoubleDouble> {
     };
     let larger = |s: f64, x: &DoubleDouble| s.max(x.to_f64().abs());
     for _ in 0..SWEEPS {
-        let of_rows: Vec<_> = rows
-            .iter()
-            .map(|row| factor(row[..size].iter().fold(0.0, larger)))
-            .collect();
-        let of_columns: Vec<_> = (0..size)
-            .map(|j| factor(rows.iter().map(|row| &row[j]).fold(0.0, larger)))
-            .collect();
-        for (row, r) in rows.iter_mut().zip(&of_rows) {
-            row.iter_mut().for_each(|x| *x = *x * *r);
-            row.iter_mut()
-                .zip(&of_columns)
-                .for_each(|(x, c)| *x = *x * *c);
+        let column = |j: usize| factor(rows.iter().map(|row| &row[j]).fold(0.0, larger));
+        let of_columns: Vec<_> = (0..size).map(column).collect();
+        let scale = |row: &mut [DoubleDouble]| {
+            let pairs = row.iter_mut().zip(&of_columns);
+            pairs.for_each(|(x, c)| *x = *x * *c);
+        };
+        for row in rows.iter_mut() {
+            let r = factor(row[..size].iter().fold(0.0, larger));
+            row.iter_mut().for_each(|x| *x = *x * r);
+            scale(row);
         }
-        columns
-            .iter_mut()
-            .zip(&of_columns)
-            .for_each(|(x, c)| *x = *x * *c);
+        scale(&mut columns);
     }
     columns
 }

@@ -113,14 +113,10 @@ pub(super) fn first_size<L: Lanes>(
     let guess = L::from_lanes(|k| {
         let (value, slope) = (value.lane(k), slope.lane(k));
         let still = slope <= 1e-10 || value <= 1e-10;
-        signed(
-            k,
-            if still {
-                blind(k)
-            } else {
-                0.01 * (value / slope).sqrt()
-            },
-        )
+        match still {
+            true => signed(k, blind(k)),
+            false => signed(k, 0.01 * (value / slope).sqrt()),
+        }
     });
     let pairs = y.iter().zip(rate);
     let probe: Vec<L> = pairs.map(|(y, rate)| *y + guess * *rate).collect();

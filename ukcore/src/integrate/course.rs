@@ -57,7 +57,7 @@ pub(crate) struct Course {
     trouble: Cause,
     conflict: Conflict,
     /// Steps attempted and accepted.
-    attempts: usize,
+    pub(super) attempts: usize,
     pub(crate) steps: usize,
 }
 
@@ -77,11 +77,6 @@ impl Course {
             attempts: 0,
             steps: 0,
         }
-    }
-
-    /// Attempted steps.
-    pub(crate) fn attempts(&self) -> usize {
-        self.attempts
     }
 
     /// Attempted steps that were not accepted.
@@ -231,10 +226,8 @@ impl Course {
         trial: Trial,
         states: impl FnOnce() -> [Y; 2],
     ) {
-        let largest = self
-            .settings
-            .max_step
-            .is_some_and(|most| trial.h.abs() >= most);
+        let most = self.settings.max_step;
+        let largest = most.is_some_and(|most| trial.h.abs() >= most);
         self.pace.step(trial.h, largest, states);
         self.conflict.pass(self.now.t, trial.end.t);
         self.now = trial.end;

@@ -105,15 +105,10 @@ impl<'p> Driver<'p> {
             Method::Radau5 => Box::new(Radau::new(y0, tolerance)),
             Method::Rattle { step } => Box::new(Rattle::new(y0, step, t_end - t0)),
         };
-        let located = match method {
-            // Its steps are of one size.
-            Method::Rattle { .. } => 0,
-            _ => problem.switches(),
-        };
         Driver {
             equations: Equations {
+                switches: Switches::new(problem.switches(), y0.len()),
                 problem,
-                switches: Switches::new(located, y0.len()),
                 course: Course::new(t0, t_end, settings),
                 nearby: false,
                 consistent: Vec::new(),
@@ -259,7 +254,7 @@ impl Driver<'_> {
     /// Measures the rounding of accelerations, now and then: what an error of ε in each coordinate and velocity makes of them.
     fn measure(&mut self) {
         let Equations { course, .. } = &self.equations;
-        let (s, attempts) = (course.now.s, course.attempts());
+        let (s, attempts) = (course.now.s, course.attempts);
         if self.measured.is_none_or(|last| attempts < last + SELDOM) {
             return;
         }
@@ -304,21 +299,18 @@ impl Driver<'_> {
         if all_pairs(&self.raw, new, |raw, new| (new - raw).abs() <= least) {
             return Ok(());
         }
-        let states = || old.iter().zip(&self.raw);
-        let change = new.iter().zip(states());
-        let change = change.map(|(new, (old, raw))| (new - raw, *old, *raw));
-        if error_norm(change, tolerance) <= PROJECTION_LIMIT {
+        let change = || new.iter().zip(&self.raw).map(|(new, raw)| new - raw);
+        let is_small = |change: &mut dyn Iterator<Item = f64>| {
+            let states = old.iter().zip(&self.raw);
+            let changes = change.zip(states).map(|(d, (old, raw))| (d, *old, *raw));
+            error_norm(changes, tolerance) <= PROJECTION_LIMIT
+        };
+        if is_small(&mut change()) {
             return Ok(());
         }
-        let mut excess: Vec<f64> = new
-            .iter()
-            .zip(&self.raw)
-            .map(|(new, raw)| new - raw)
-            .collect();
+        let mut excess: Vec<f64> = change().collect();
         problem.excess(raw, &mut excess);
-        let excess = excess.iter().zip(states());
-        let excess = excess.map(|(excess, (old, raw))| (*excess, *old, *raw));
-        if error_norm(excess, tolerance) <= PROJECTION_LIMIT {
+        if is_small(&mut excess.into_iter()) {
             return Ok(());
         }
         // Asked close to the place alone, so that the error has its time.

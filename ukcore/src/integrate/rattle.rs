@@ -128,6 +128,7 @@ impl Scheme for Rattle {
     }
 
     fn begin(&mut self, equations: &mut Equations<'_>) -> Result<(), Cause> {
+        self.lost.fill(0.0);
         equations.rate(equations.course.now.s, &self.start, &mut self.rate)
     }
 

@@ -87,12 +87,9 @@ impl Acceptance<f64> {
         let rows = residual.iter().enumerate();
         rows.filter(|(c, r)| r.is_nan() || r.abs() > ROUNDING * self.terms[*c])
             .map(|(c, r)| r.abs() / self.scale(c))
-            .fold(0.0, |most: f64, off| {
-                if most.is_nan() || off <= most {
-                    most
-                } else {
-                    off
-                }
+            .fold(0.0, |most: f64, off| match most.is_nan() || off <= most {
+                true => most,
+                false => off,
             })
     }
 

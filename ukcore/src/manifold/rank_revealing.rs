@@ -3,11 +3,10 @@
 use super::Manifold;
 use super::level::{At, Level};
 use super::newton::Newton;
-use crate::dense::{Dense, Route, Rows};
+use crate::dense::{Dense, Rows};
 use crate::diagnose;
 use crate::error::Error;
 use crate::mechanism::Prepared;
-use crate::metric::MassFault;
 use crate::pinv::axpy;
 use crate::scan::all_finite;
 use crate::solver::{RANK_CEILING, RANK_TOLERANCE, leading, mass_error};
@@ -74,24 +73,11 @@ impl Factors {
         }
         self.hold(jacobian, &newton.acceptance.held);
         let (a, dense, mass) = (rows(at, jacobian), &mut self.dense, &self.mass);
-        let route = if spec.structure.massless.is_empty() {
-            Route::Regular
-        } else {
-            Route::Singular
-        };
-        let factored = match dense.factor(route, mass, a, RANK_TOLERANCE) {
-            Err(MassFault::Singular(_)) => dense.factor(Route::Singular, mass, a, RANK_TOLERANCE),
-            result => result,
-        };
+        let massless = !spec.structure.massless.is_empty();
+        let factored = dense.factor_as_needed(massless, mass, a, RANK_TOLERANCE);
         let ranked = factored.and_then(|()| {
-            let pivots = dense.cod.pivots();
-            let all = pivots.len();
-            let rank = if self.cautious {
-                leading(pivots, RANK_CEILING)
-            } else {
-                all
-            };
-            dense.set_rank(rank, mass)
+            let least = if self.cautious { RANK_CEILING } else { 0.0 };
+            dense.set_rank(leading(dense.cod.pivots(), least), mass)
         });
         ranked.map_err(|fault| mass_error(spec, fault))
     }

@@ -125,11 +125,8 @@ impl Manifold {
             x.copy_from_slice(&best.x);
         }
         let met = self.meets(at, x, size);
-        let off = self
-            .newton
-            .acceptance
-            .distance(&self.newton.residual[..rows]);
-        let near = met || off <= NEAR * self.newton.acceptance.length(rows);
+        let (acceptance, residual) = (&self.newton.acceptance, &self.newton.residual);
+        let near = met || acceptance.distance(&residual[..rows]) <= NEAR * acceptance.length(rows);
         if near && self.project(at, x).is_ok() || met {
             return 0.0;
         }

@@ -7,10 +7,9 @@
 //! within √(2|e|/|H|), from one asymptote to the other. So e decides, and rounding how well it is known.
 
 use crate::assemble::State;
-use crate::dense::{Dense, Route, Rows};
+use crate::dense::Dense;
 use crate::integrate::Singular;
 use crate::mechanism::{Equations, Evaluated, Prepared};
-use crate::metric::MassFault;
 use crate::pinv::{Decomposition, axpy, dot};
 use crate::rounding::Rounded;
 use crate::solver::{RANK_CEILING, RANK_TOLERANCE, leading};
@@ -99,35 +98,13 @@ impl<'a> Search<'a> {
         }
     }
 
-    fn rows(&self) -> Rows<'_> {
-        let m = self.mech.spec().m();
-        Rows {
-            jacobian: &self.terms.jacobian,
-            stride: m,
-            rows: m,
-        }
-    }
-
     /// Evaluates and factors the equations where the search stands, and takes the rank.
     fn factor(&mut self, v: &[f64]) -> Option<()> {
         self.terms.dynamics(self.mech, self.t, &self.q, v);
-        let spec = self.mech.spec();
-        let a = Rows {
-            jacobian: &self.terms.jacobian,
-            stride: spec.m(),
-            rows: spec.m(),
-        };
-        let mut factor = |route| {
-            self.dense
-                .factor(route, &self.terms.mass, a, RANK_TOLERANCE)
-        };
-        let factored = match spec.structure.massless.is_empty() {
-            true => match factor(Route::Regular) {
-                Err(MassFault::Singular(_)) => factor(Route::Singular),
-                other => other,
-            },
-            false => factor(Route::Singular),
-        };
+        let massless = !self.mech.spec().structure.massless.is_empty();
+        let Evaluated { mass, .. } = &self.terms;
+        let factored =
+            (self.dense).factor_as_needed(massless, mass, self.terms.rows(), RANK_TOLERANCE);
         factored.ok()?;
         let rank = self.rank.min(self.dense.cod.pivots().len());
         self.dense.set_rank(rank, &self.terms.mass).ok()
@@ -150,12 +127,14 @@ impl<'a> Search<'a> {
         phi.into_iter().map(Rounded::bound).collect()
     }
 
-    /// Moves onto the constraints that count.
-    fn settle(&mut self) {
+    /// Moves onto the constraints that count, and factors the equations there.
+    fn settle(&mut self, v: &[f64]) -> Option<()> {
+        self.factor(v)?;
         let mut change = vec![0.0; self.q.len()];
         let phi = self.position();
         self.dense.least_norm(&phi, &mut change);
         axpy(-1.0, &change, &mut self.q);
+        self.factor(v)
     }
 
     /// The part of `v` that the constraints that count allow.
@@ -183,17 +162,10 @@ impl<'a> Search<'a> {
 
     /// `count` directions that the rows left out bar, as fast as `speed`.
     fn bar(&mut self, count: usize, speed: f64) -> Option<()> {
-        let n = self.q.len();
         let mut barred: Vec<Vec<f64>> = Vec::new();
         for shares in &self.shares {
-            let mut x: Vec<f64> = (0..n)
-                .map(|j| {
-                    dot(
-                        &self.terms.jacobian[j * shares.len()..][..shares.len()],
-                        shares,
-                    )
-                })
-                .collect();
+            let columns = self.terms.jacobian.chunks_exact(shares.len());
+            let mut x: Vec<f64> = columns.map(|column| dot(column, shares)).collect();
             self.dense.metric.divide(&mut x);
             barred.push(x);
         }
@@ -219,15 +191,11 @@ impl<'a> Search<'a> {
 
     /// Searches q* with as many barred directions as `count`, for a motion with velocity `v`.
     fn critical(&mut self, v: &[f64], count: usize) -> Option<Singular> {
-        self.factor(v)?;
-        self.settle();
-        self.factor(v)?;
+        self.settle(v)?;
         let u = self.allowed(v);
-        let n = u.len();
-        let speed = (0..n)
-            .map(|j| u[j] * dot(&self.terms.mass[j * n..][..n], &u))
-            .sum::<f64>()
-            .sqrt();
+        let columns = u.iter().zip(self.terms.mass.chunks_exact(u.len()));
+        let energy = columns.map(|(v, column)| v * dot(column, &u)).sum::<f64>();
+        let speed = energy.sqrt();
         if !(speed > 0.0 && speed < f64::INFINITY) {
             return None;
         }
@@ -235,8 +203,7 @@ impl<'a> Search<'a> {
         self.share();
         self.bar(count, speed)?;
         for _ in 0..MOST {
-            let found = self.newton()?;
-            if let Some(found) = found {
+            if let Some(found) = self.newton()? {
                 return Some(found);
             }
         }
@@ -246,16 +213,14 @@ impl<'a> Search<'a> {
     /// One step towards q*; what is found there if it is the last one. `None` if there is none.
     fn newton(&mut self) -> Option<Option<Singular>> {
         let u = self.directions[0].clone();
-        self.factor(&u)?;
-        self.settle();
-        self.factor(&u)?;
+        self.settle(&u)?;
         self.share();
         let k = self.directions.len();
         // f, its slopes and its second derivatives, for each of its components.
         let (phi, rounding) = (self.position(), self.uncertainty());
         let mut rate = vec![0.0; phi.len()];
         self.mech.residual_rate(self.t, &self.q, &u, &mut rate);
-        let a = self.rows();
+        let a = self.terms.rows();
         let mut slopes = vec![rate];
         for w in &self.directions[1..] {
             slopes.push((0..phi.len()).map(|c| a.product(c, w)).collect());
@@ -360,14 +325,9 @@ impl<'a> Search<'a> {
             all[i * k + i] = pure.collect();
             for j in 1..i {
                 let both = b(&[(i, 1.0), (j, 1.0)]);
-                let terms = both
-                    .iter()
-                    .zip(&sides[i - 1][0])
-                    .zip(&sides[j - 1][0])
-                    .zip(&along);
-                let mixed: Vec<f64> = terms
-                    .map(|(((both, i), j), b)| -0.5 * (both - i - j + b))
-                    .collect();
+                let (one, other) = (&sides[i - 1][0], &sides[j - 1][0]);
+                let term = |c: usize| -0.5 * (both[c] - one[c] - other[c] + along[c]);
+                let mixed: Vec<f64> = (0..along.len()).map(term).collect();
                 all[i * k + j].clone_from(&mixed);
                 all[j * k + i] = mixed;
             }

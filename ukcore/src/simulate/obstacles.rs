@@ -47,8 +47,10 @@ fn singular(solver: &Solver, significance: f64) -> Error {
 /// The least significance of a constraint that counts at a state.
 fn weakest_at(solver: &mut Solver, at: Sample<'_>) -> Result<f64, Error> {
     let mut acceleration = vec![0.0; at.q.len()];
-    solver.acceleration_in_run(at.t, at.q, at.v, &mut acceleration)?;
-    Ok(solver.take_weakest())
+    let solved = solver.acceleration_in_run(at.t, at.q, at.v, &mut acceleration);
+    // In any case: what is left there would hide what the next step meets.
+    let weakest = solver.take_weakest();
+    solved.map(|()| weakest)
 }
 
 /// Why the nearest consistent state is far from the one `at` which a step arrived that began at `t_old`: a constraint jumps, or

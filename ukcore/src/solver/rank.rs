@@ -1,6 +1,6 @@
 //! How many constraints count: the tolerance of the rank, as far as drift lends significance.
 
-use super::{DRIFT_FACTOR, Drift, RANK_CEILING, Solver, mass_error, rows};
+use super::{DRIFT_FACTOR, Drift, RANK_CEILING, Solver, mass_error};
 use crate::error::Error;
 
 impl Solver {
@@ -12,17 +12,14 @@ impl Solver {
         if clear < rank {
             self.dense.cod.set_rank(clear);
             self.measure_drift(t, q, v);
-            let there = rows(&self.drift.there, self.m);
-            let here = rows(&self.here, self.m);
+            let there = self.drift.there.rows();
+            let here = self.here.rows();
             for c in 0..self.m {
                 let change = here.row(c).zip(there.row(c)).map(|(a, b)| (a - b).abs());
                 // Not finite: no state worth the name is near.
-                let change = change.fold(0.0, |s: f64, x| {
-                    if x.is_finite() {
-                        s.max(x)
-                    } else {
-                        f64::INFINITY
-                    }
+                let change = change.fold(0.0, |s: f64, x| match x.is_finite() {
+                    true => s.max(x),
+                    false => f64::INFINITY,
                 });
                 if change > 0.0 {
                     tolerance = tolerance.max(DRIFT_FACTOR * change / here.largest(c));

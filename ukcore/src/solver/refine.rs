@@ -6,7 +6,7 @@
 //! by row, as do the corrections Δ of M Δ = Aᵀμ, A Δ = b − A q̈: with A q̈ = b to rounding, q̈ + Δ solves equations that are as near
 //! (Higham 2002, §12.2).
 
-use super::{Formula, RANK_CEILING, Solver, rows};
+use super::{Formula, RANK_CEILING, Solver};
 use crate::pinv::axpy;
 use crate::scan::all_finite;
 
@@ -45,7 +45,7 @@ impl Solver {
         if self.known.valid {
             // Singular values of A with rows of length 1 change by no more than √m times the largest change of a row.
             let share = (weakest - RANK_CEILING) / (2.0 * (self.m as f64).sqrt());
-            let a = rows(&self.here, self.m);
+            let a = self.here.rows();
             let slack = self.known.slack.iter_mut().enumerate();
             slack.for_each(|(c, slack)| *slack = share * a.largest(c));
             self.known.jacobian.copy_from_slice(&self.here.jacobian);
@@ -81,10 +81,8 @@ impl Solver {
         let (residual, step) = (&mut self.rhs, &mut self.force);
         let mut last = scale;
         for _ in 0..STEPS {
-            residual
-                .iter_mut()
-                .zip(&self.here.rhs)
-                .for_each(|(r, b)| *r = -b);
+            residual.fill(0.0);
+            axpy(-1.0, &self.here.rhs, residual);
             for (x, column) in out.iter().zip(a.chunks_exact(self.m)) {
                 axpy(*x, column, residual);
             }
@@ -106,7 +104,7 @@ impl Solver {
 
     /// Whether A q̈ = b to rounding.
     fn met(&self, out: &[f64]) -> bool {
-        let (a, b) = (self.rows(), &self.here.rhs);
+        let (a, b) = (self.here.rows(), &self.here.rhs);
         all_finite(out)
             && (0..self.m).all(|c| {
                 let size = b[c].abs() + a.magnitude(c, out);

@@ -113,7 +113,7 @@ pub(crate) fn count(g: &Graph, needed: &HashSet<Id>, reciprocals: &HashSet<Id>) 
                 Cost::SquareRoot => n.square_roots += 1,
                 Cost::Transcendental => n.transcendentals += 1,
             },
-            Node::Select { .. } => n.selections += 1,
+            Node::Select(_) => n.selections += 1,
         }
     }
     n

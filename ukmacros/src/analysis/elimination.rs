@@ -85,23 +85,16 @@ pub(crate) fn eliminate(
     let (common_factor, d) = &without_common_factor(d, g);
     let common = (*common_factor != g.one()).then(|| {
         let position = d.mass.keys().next().map_or(0, |(i, _)| *i);
-        let (name, value, reference) = (names[position].clone(), *common_factor, *common_factor);
-        (
-            Divisor {
-                name,
-                position,
-                value,
-                reference,
-            },
-            None,
-        )
+        let divisor = Divisor {
+            name: names[position].clone(),
+            position,
+            value: *common_factor,
+            reference: *common_factor,
+        };
+        (divisor, None)
     });
-    let force: Vec<Id> = d
-        .force
-        .iter()
-        .zip(&d.nonideal)
-        .map(|(q, c)| g.add(*q, *c))
-        .collect();
+    let forces = d.force.iter().zip(&d.nonideal);
+    let force: Vec<Id> = forces.map(|(q, c)| g.add(*q, *c)).collect();
     // A constraint may be divided by a number: one that all its coefficients share would be multiplied through everything.
     let scales: Vec<f64> = (0..d.rhs.len()).map(|row| share(d, row, g)).collect();
     let mut jacobian = d.jacobian.clone();
@@ -124,9 +117,8 @@ pub(crate) fn eliminate(
         divisors.extend(divisor);
     }
     let motion = motion.solution(&factors, names, g, &mut hints)?;
-    let residuals: Vec<Id> = (0..d.rhs.len())
-        .map(|i| g.symbol(Symbol::Residual(i)))
-        .collect();
+    let residuals = (0..d.rhs.len()).map(|i| g.symbol(Symbol::Residual(i)));
+    let residuals: Vec<Id> = residuals.collect();
     let mut pull = vec![g.zero(); force.len()];
     for (row, i, weight) in weights {
         let weight = g.div(*weight, *common_factor);
@@ -137,9 +129,8 @@ pub(crate) fn eliminate(
     let mut projection = Forward::new(&pull, &residuals);
     factors.iter().for_each(|factor| projection.step(factor, g));
     let projection = projection.solution(&factors, names, g, &mut hints)?;
-    let divisors = divisors
-        .into_iter()
-        .zip(motion.rights.into_iter().map(Some));
+    let rights = motion.rights.into_iter().map(Some);
+    let divisors = divisors.into_iter().zip(rights);
     Ok(Elimination {
         acceleration: motion.coordinates,
         correction: projection.coordinates,
@@ -166,10 +157,8 @@ fn without_common_factor(d: &Dynamics, g: &mut Graph) -> (Id, Dynamics) {
         for value in scaled.mass.values_mut().chain(vectors) {
             // Term by term, so that the factor cancels where it can.
             let terms = g.open(1.0, *value);
-            let divided: Vec<(f64, Id)> = terms
-                .into_iter()
-                .map(|(k, term)| (k, g.div(term, factor)))
-                .collect();
+            let divided = terms.into_iter().map(|(k, term)| (k, g.div(term, factor)));
+            let divided: Vec<(f64, Id)> = divided.collect();
             *value = g.sum(&divided);
         }
     }
@@ -178,19 +167,13 @@ fn without_common_factor(d: &Dynamics, g: &mut Graph) -> (Id, Dynamics) {
 
 /// The magnitude that the coefficients of all entries of a row of A share, if it is a power of two (so that dividing is exact); else 1.
 fn share(d: &Dynamics, row: usize, g: &Graph) -> f64 {
-    let mut sizes = d
-        .jacobian
-        .range((row, 0)..(row + 1, 0))
-        .map(|(_, a)| match g.as_const(*a) {
-            Some(x) => x.abs(),
-            None => g.unscaled(*a).0.abs(),
-        });
-    let Some(first) = sizes.next() else {
-        return 1.0;
-    };
-    if is_power_of_two(first) && sizes.all(|s| s == first) {
-        first
-    } else {
-        1.0
+    let row = d.jacobian.range((row, 0)..(row + 1, 0));
+    let mut sizes = row.map(|(_, a)| match g.as_const(*a) {
+        Some(x) => x.abs(),
+        None => g.unscaled(*a).0.abs(),
+    });
+    match sizes.next() {
+        Some(first) if is_power_of_two(first) && sizes.all(|s| s == first) => first,
+        _ => 1.0,
     }
 }

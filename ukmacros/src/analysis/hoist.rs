@@ -150,7 +150,7 @@ impl<'g> Pass<'g> {
                 self.g.scale(c.get().signum(), scaled)
             }
             Node::Product(factors) => self.product(1.0, &factors),
-            Node::Call(..) | Node::Held(_) | Node::Select { .. } => {
+            Node::Call(..) | Node::Held(_) | Node::Select(_) => {
                 let operands = self.g.operands(id);
                 let values: HashMap<Id, Id> =
                     operands.into_iter().map(|o| (o, self.value(o))).collect();

@@ -68,10 +68,8 @@ impl Shake {
 
     /// What `values` are, and what rounding can explain of each.
     pub(crate) fn bounds(values: impl Fn(&mut Shake) -> Vec<f64>) -> Vec<(f64, f64)> {
-        let mut bounds: Vec<(f64, f64)> = values(&mut Shake(None))
-            .into_iter()
-            .map(|x| (x, 0.0))
-            .collect();
+        let exact = values(&mut Shake(None)).into_iter();
+        let mut bounds: Vec<(f64, f64)> = exact.map(|x| (x, 0.0)).collect();
         for seed in 0..SHAKES {
             let changed = values(&mut Shake(Some(Random(seed))));
             for ((x, bound), y) in bounds.iter_mut().zip(changed) {

@@ -67,8 +67,7 @@ pub(crate) fn regular(system: &mut System, d: &Dynamics) -> Regular {
         }
         let own = block.coordinates.iter();
         let own: Vec<Id> = own.map(|i| found.dynamics.mass[&(*i, *i)]).collect();
-        let vanish = states.may_vanish(&own, regular, g);
-        if vanish {
+        if states.may_vanish(&own, regular, g) {
             found.met.extend(&block.rows);
         }
     }
@@ -81,28 +80,18 @@ pub(crate) fn regular(system: &mut System, d: &Dynamics) -> Regular {
 impl Regular {
     /// Why there is no straight line, if M is singular whatever the state.
     pub(crate) fn refusal(&self, names: &[String]) -> Option<String> {
-        let list: Vec<String> = self
-            .singular
-            .iter()
-            .map(|i| format!("`{}`", names[*i]))
-            .collect();
-        let some = !list.is_empty();
-        some.then(|| {
-            format!(
-                "M is singular at any state, in the rows of {}, and no constraint makes it regular",
-                list.join(", ")
-            )
+        let list = self.singular.iter().map(|i| format!("`{}`", names[*i]));
+        let list = list.collect::<Vec<_>>().join(", ");
+        (!list.is_empty()).then(|| {
+            format!("M is singular at any state, in the rows of {list}, and no constraint makes it regular")
         })
     }
 
     /// Adds μ aᵀa to M and μ aᵀb to Q.
     fn add(&mut self, row: usize, block: &Block, d: &Dynamics, g: &mut Graph) {
         let entries: Vec<(usize, Id)> = entries(row, d).collect();
-        let own = || {
-            entries
-                .iter()
-                .filter(|(i, _)| block.coordinates.contains(i))
-        };
+        let within = |(i, _): &&(usize, Id)| block.coordinates.contains(i);
+        let own = || entries.iter().filter(within);
         let trace: Vec<(f64, Id)> = own().map(|(i, _)| (1.0, d.mass[&(*i, *i)])).collect();
         let trace = g.factored_sum(&trace);
         let length: Vec<(f64, Id)> = own().map(|(_, a)| (1.0, g.square(*a))).collect();
@@ -115,12 +104,8 @@ impl Regular {
             for (j, b) in &entries[..=k] {
                 let term = g.mul(weighed, *b);
                 let at = ((*i).max(*j), (*i).min(*j));
-                let before = self
-                    .dynamics
-                    .mass
-                    .get(&at)
-                    .copied()
-                    .unwrap_or_else(|| g.zero());
+                let before = self.dynamics.mass.get(&at).copied();
+                let before = before.unwrap_or_else(|| g.zero());
                 let sum = g.factored_sum(&[(1.0, before), (1.0, term)]);
                 self.dynamics.mass.insert(at, sum);
             }
@@ -213,18 +198,15 @@ impl<'a> States<'a> {
         }
         let present: Vec<Id> = ids.iter().flatten().copied().collect();
         let mut random = Random::new(5);
-        let mut probes: Vec<Probe<'_>> = (0..if block.constant { 1 } else { GENERIC })
-            .map(|_| Probe::signed(defaults, n, &mut random))
-            .collect();
-        let generic = probes.len();
-        let support: BTreeSet<usize> = present
-            .iter()
-            .flat_map(|id| g.support(*id))
-            .filter_map(|s| match s {
-                Symbol::Coord(i) => Some(i),
-                _ => None,
-            })
-            .collect();
+        let generic = if block.constant { 1 } else { GENERIC };
+        let probes = (0..generic).map(|_| Probe::signed(defaults, n, &mut random));
+        let mut probes: Vec<Probe<'_>> = probes.collect();
+        let coordinate = |s| match s {
+            Symbol::Coord(i) => Some(i),
+            _ => None,
+        };
+        let support = present.iter().flat_map(|id| g.support(*id));
+        let support: BTreeSet<usize> = support.filter_map(coordinate).collect();
         for zeros in choices(&support.into_iter().collect::<Vec<_>>()) {
             if k <= LARGE {
                 let mut probe = Probe::signed(defaults, n, &mut random);
@@ -242,10 +224,8 @@ impl<'a> States<'a> {
             all.extend(own.map(|(_, a)| a));
         }
         let values: Vec<Vec<f64>> = probes.iter().map(|p| eval(g, &all, &p.point())).collect();
-        let finite: Vec<bool> = values
-            .iter()
-            .map(|v| v.iter().all(|x| x.is_finite()))
-            .collect();
+        let finite = values.iter().map(|v| v.iter().all(|x| x.is_finite()));
+        let finite: Vec<bool> = finite.collect();
         let generic = finite[..generic].iter().filter(|f| **f).count();
         let keep = |at: usize| finite[at];
         let probes = keep_only(probes, keep);
@@ -259,16 +239,14 @@ impl<'a> States<'a> {
         let mut matrices = Vec::new();
         for values in &values {
             let mut values = values.iter().copied();
-            let matrix: Vec<f64> = ids
-                .iter()
-                .map(|id| id.map_or(0.0, |_| values.next().unwrap_or(f64::NAN)))
-                .collect();
-            matrices.push(matrix);
+            let mut value = || values.next().unwrap_or(f64::NAN);
+            let matrix = ids.iter().map(|id| id.map_or(0.0, |_| value()));
+            matrices.push(matrix.collect::<Vec<f64>>());
             for (row, at) in &mut states.rows {
                 let mut dense = vec![0.0; k];
                 for (i, _) in entries(*row, d) {
                     if let Ok(place) = block.coordinates.binary_search(&i) {
-                        dense[place] = values.next().unwrap_or(f64::NAN);
+                        dense[place] = value();
                     }
                 }
                 at.push(dense);
@@ -278,10 +256,8 @@ impl<'a> States<'a> {
             let own = matrices.iter().map(|m| m[i * k + i]);
             own.fold(0.0_f64, f64::max).sqrt()
         };
-        let scale: Vec<f64> = (0..k)
-            .map(largest)
-            .map(|s| if s > 0.0 { s } else { 1.0 })
-            .collect();
+        let unit = |s: f64| if s > 0.0 { s } else { 1.0 };
+        let scale: Vec<f64> = (0..k).map(largest).map(unit).collect();
         for mut matrix in matrices {
             for (at, x) in matrix.iter_mut().enumerate() {
                 *x /= scale[at / k] * scale[at % k];
@@ -332,31 +308,24 @@ impl<'a> States<'a> {
                 break;
             }
             chosen.push(at);
-            let after: Vec<usize> = deficient
+            let mut after = deficient.clone();
+            (after.iter_mut()).for_each(|(state, rank)| *rank = self.rank(*state, &chosen));
+            if after
                 .iter()
-                .map(|(state, _)| self.rank(*state, &chosen))
-                .collect();
-            if deficient
-                .iter()
-                .zip(&after)
-                .all(|((_, before), after)| after <= before)
+                .zip(&deficient)
+                .any(|(after, before)| after.1 > before.1)
             {
+                after.retain(|(_, rank)| *rank < k);
+                deficient = after;
+            } else {
                 chosen.pop();
-                continue;
             }
-            deficient
-                .iter_mut()
-                .zip(after)
-                .for_each(|(d, after)| d.1 = after);
-            deficient.retain(|(_, rank)| *rank < k);
         }
         let left = deficient.iter().filter(|(s, _)| *s < self.generic).count();
         let excluded = self.rows.len() < block.rows.len();
         let singular = self.generic > 0 && left == self.generic && !excluded;
-        (
-            chosen.into_iter().map(|at| self.rows[at].0).collect(),
-            singular,
-        )
+        let rows = chosen.into_iter().map(|at| self.rows[at].0);
+        (rows.collect(), singular)
     }
 
     /// Whether one of these diagonal entries of M may come near zero. Where rows made the block `regular` that is meant relative to all of it: it is small as a
@@ -365,11 +334,8 @@ impl<'a> States<'a> {
         if own.iter().all(|m| g.uses(*m).constant() || bounded(*m, g)) {
             return false;
         }
-        let mut values: Vec<Vec<f64>> = self
-            .probes
-            .iter()
-            .map(|p| eval(g, own, &p.point()))
-            .collect();
+        let values = self.probes.iter().map(|p| eval(g, own, &p.point()));
+        let mut values: Vec<Vec<f64>> = values.collect();
         let scale_by = |values: &mut Vec<Vec<f64>>| {
             for at in 0..own.len() {
                 let largest = values.iter().fold(0.0_f64, |s, v| s.max(v[at].abs()));
@@ -387,9 +353,8 @@ impl<'a> States<'a> {
         let values = &values;
         let open = own.iter().enumerate();
         let open = open.filter(|(_, m)| !(g.uses(**m).constant() || bounded(**m, g)));
-        let least = open
-            .flat_map(|(at, _)| values.iter().map(move |v| v[at]))
-            .fold(f64::INFINITY, f64::min);
+        let open = open.flat_map(|(at, _)| values.iter().map(move |v| v[at]));
+        let least = open.fold(f64::INFINITY, f64::min);
         least.is_nan() || least * VARIES < 1.0
     }
 }
@@ -472,10 +437,11 @@ fn never_negative(id: Id, g: &Graph) -> bool {
         }
         Node::Scale(c, inner) => c.get() >= 0.0 && never_negative(*inner, g),
         Node::Held(inner) => never_negative(*inner, g),
-        Node::Product(factors) => factors
-            .iter()
-            .all(|(f, e)| e % 2 == 0 || never_negative(*f, g)),
+        Node::Product(factors) => {
+            let rest = |(f, e): &(Id, i32)| e % 2 == 0 || never_negative(*f, g);
+            factors.iter().all(rest)
+        }
         Node::Call(func, _) => func.row().least.is_some(),
-        Node::Select { .. } => false,
+        Node::Select(_) => false,
     }
 }

@@ -163,10 +163,10 @@ fn count_uses(g: &Graph, roots: &[Id], ascending: &[Id]) -> HashMap<Id, usize> {
                     read(*base, times, &mut uses);
                 }
             }
-            _ => g
-                .operands(*id)
-                .into_iter()
-                .for_each(|o| read(o, 1, &mut uses)),
+            _ => {
+                let operands = g.operands(*id).into_iter();
+                operands.for_each(|o| read(o, 1, &mut uses));
+            }
         }
     }
     uses

@@ -33,15 +33,11 @@ pub(crate) fn structure(system: &mut System, dynamics: &Dynamics) -> Structure {
     let mass_constant = dynamics.mass.values().all(|m| g.uses(*m).constant());
     let jacobian_constant = dynamics.jacobian.values().all(|a| g.uses(*a).constant());
     let massless: Vec<usize> = (0..n).filter(|i| !massive.contains(i)).collect();
-    let equations = dynamics
-        .mass
-        .values()
-        .chain(&dynamics.force)
-        .chain(&dynamics.nonideal)
-        .chain(&dynamics.rate)
-        .chain(&dynamics.phi)
-        .chain([&dynamics.potential]);
-    let scleronomic = equations.into_iter().all(|id| !g.uses(*id).time);
+    let forces = dynamics.force.iter().chain(&dynamics.nonideal);
+    let constraints = dynamics.rate.iter().chain(&dynamics.phi);
+    let equations = dynamics.mass.values().chain(forces).chain(constraints);
+    let mut equations = equations.chain([&dynamics.potential]);
+    let scleronomic = equations.all(|id| !g.uses(*id).time);
     let nonideal = system.nonideal.is_some();
     let forced = system.force.values().any(|f| !g.is_zero(*f));
     let conservative = scleronomic
@@ -72,12 +68,8 @@ fn angles(d: &Dynamics, g: &Graph) -> Vec<usize> {
     let matrices = d.mass.values().chain(d.jacobian.values());
     let vectors = d.force.iter().chain(&d.nonideal).chain(&d.rhs);
     let roots: Vec<Id> = matrices.chain(vectors).copied().collect();
-    let turning = |id: &Id| {
-        matches!(
-            g.node(*id),
-            Node::Call(Func::Sin | Func::Cos | Func::Tan, _)
-        )
-    };
+    let turns = |func: &Func| matches!(func, Func::Sin | Func::Cos | Func::Tan);
+    let turning = |id: &Id| matches!(g.node(*id), Node::Call(func, _) if turns(func));
     let calls = g.reachable(&roots).into_iter().filter(turning);
     let mut stack: Vec<Id> = calls.flat_map(|id| g.operands(id)).collect();
     let mut seen = HashSet::new();
@@ -174,7 +166,7 @@ fn smooth(id: Id, g: &Graph) -> bool {
         if !g.uses(id).velocity || !seen.insert(id) {
             continue;
         }
-        if matches!(g.node(id), Node::Call(..) | Node::Select { .. }) {
+        if matches!(g.node(id), Node::Call(..) | Node::Select(_)) {
             return false;
         }
         stack.extend(g.operands(id));

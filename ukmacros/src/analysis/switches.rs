@@ -150,7 +150,7 @@ fn decision(id: Id, g: &mut Graph) -> Option<Decision> {
     let (a, b) = match *g.node(id) {
         Node::Call(Func::Abs | Func::Sign, ref args) => (args[0], None),
         Node::Call(Func::Min | Func::Max, ref args) => (args[0], Some(args[1])),
-        Node::Select { a, b, .. } => (a, Some(b)),
+        Node::Select([a, b, ..]) => (a, Some(b)),
         _ => return None,
     };
     let mut terms = g.open(1.0, a);
@@ -221,9 +221,7 @@ impl Pass {
                     _ => g.select(low, high, b, a),
                 }
             }
-            Node::Select {
-                then, otherwise, ..
-            } => {
+            Node::Select([.., then, otherwise]) => {
                 let (then, otherwise) = (self.known[&then], self.known[&otherwise]);
                 g.select(low, high, then, otherwise)
             }

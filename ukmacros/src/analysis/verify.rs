@@ -163,15 +163,8 @@ impl Motion<'_> {
     fn parabola(&self) -> Path<'_> {
         let of_q = self.q.iter().zip(&self.v).zip(&self.a);
         Path {
-            params: self.params,
             q: of_q.map(|((q, v), a)| Jet(*q, *v, *a)).collect(),
-            v: self
-                .v
-                .iter()
-                .zip(&self.a)
-                .map(|(v, a)| Jet(*v, *a, 0.0))
-                .collect(),
-            t: Jet(self.t, 1.0, 0.0),
+            ..self.line(&self.v, &self.a, 1.0)
         }
     }
 
@@ -284,12 +277,7 @@ impl Path<'_> {
             }
             Node::Held(inner) => at(inner),
             Node::Call(func, args) => func.jet(at(&args[0]), args.get(1).map(at)),
-            Node::Select {
-                a,
-                b,
-                then,
-                otherwise,
-            } => {
+            Node::Select([a, b, then, otherwise]) => {
                 if at(a).0 <= at(b).0 {
                     at(then)
                 } else {

@@ -139,9 +139,9 @@ impl Writing<'_> {
     }
 }
 
-/// How tightly an emitted expression binds.
+/// The outermost operator of an emitted expression, in the order of precedence.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Binding {
+enum Operator {
     Sum,
     Product,
     Sign,
@@ -152,7 +152,7 @@ enum Binding {
 const LONGEST: usize = 64;
 
 /// Factors of a product, each wrapped so that it can be multiplied.
-type Factors = Vec<(TokenStream, Binding)>;
+type Factors = Vec<(TokenStream, Operator)>;
 
 struct Writer<'a> {
     graph: &'a Graph,
@@ -223,9 +223,9 @@ impl Writer<'_> {
         self.write(id).0
     }
 
-    fn write(&self, id: Id) -> (TokenStream, Binding) {
+    fn write(&self, id: Id) -> (TokenStream, Operator) {
         match self.namer.variable(id) {
-            Some(name) => (quote! { #name }, Binding::Call),
+            Some(name) => (quote! { #name }, Operator::Call),
             None => self.node(id),
         }
     }
@@ -234,21 +234,21 @@ impl Writer<'_> {
         self.node(id).0
     }
 
-    fn wrapped(&self, id: Id, least: Binding) -> TokenStream {
-        wrap(self.write(id), least)
+    fn wrapped(&self, id: Id, least: Operator) -> TokenStream {
+        wrap(self.write(id), least).0
     }
 
     /// As the receiver of a method.
     fn receiver(&self, id: Id) -> TokenStream {
-        self.wrapped(id, Binding::Call)
+        self.wrapped(id, Operator::Call)
     }
 
-    fn node(&self, id: Id) -> (TokenStream, Binding) {
+    fn node(&self, id: Id) -> (TokenStream, Operator) {
         match self.graph.node(id) {
-            Node::Const(x) => (constant(x.get()), Binding::Call),
+            Node::Const(x) => (constant(x.get()), Operator::Call),
             Node::Symbol(s) => {
                 let name = self.namer.symbol(*s);
-                (quote! { #name }, Binding::Call)
+                (quote! { #name }, Operator::Call)
             }
             Node::Sum(c, terms) => {
                 let terms: Vec<(f64, Id)> = terms.iter().map(|(k, t)| (k.get(), *t)).collect();
@@ -261,23 +261,18 @@ impl Writer<'_> {
                 let receiver = self.receiver(args[0]);
                 let name = format_ident!("{}", func.row().name);
                 let rest = args[1..].iter().map(|a| self.expression(*a));
-                (quote! { #receiver.#name(#(#rest),*) }, Binding::Call)
+                (quote! { #receiver.#name(#(#rest),*) }, Operator::Call)
             }
-            Node::Select {
-                a,
-                b,
-                then,
-                otherwise,
-            } => {
-                let args = [a, b, then, otherwise].map(|id| self.expression(*id));
-                (quote! { S::select_le(#(#args),*) }, Binding::Call)
+            Node::Select(args) => {
+                let args = args.map(|id| self.expression(id));
+                (quote! { S::select_le(#(#args),*) }, Operator::Call)
             }
         }
     }
 
     /// What is known first is added first, behind a positive term, so that a difference needs no negation. Products are added in one
     /// step where the processor can.
-    fn sum(&self, c: f64, terms: &[(f64, Id)]) -> (TokenStream, Binding) {
+    fn sum(&self, c: f64, terms: &[(f64, Id)]) -> (TokenStream, Operator) {
         let mut terms = terms.to_vec();
         terms.sort_by_key(|(_, term)| self.graph.latency(*term));
         let first = terms.iter().position(|(k, _)| *k > 0.0);
@@ -288,28 +283,28 @@ impl Writer<'_> {
         let mut before = TokenStream::new();
         let leading = c != 0.0 && (c > 0.0 || first.is_none());
         if leading {
-            out = Some((constant(c), Binding::Call));
+            out = Some((constant(c), Operator::Call));
         }
         for (at, (k, term)) in terms.iter().enumerate() {
             if at % LONGEST == LONGEST - 1
                 && let Some((sum, _)) = out
             {
                 before.extend(quote! { let sum = #sum; });
-                out = Some((quote! { sum }, Binding::Call));
+                out = Some((quote! { sum }, Operator::Call));
             }
             let factors = self.term(k.abs(), *term);
             let negative = *k < 0.0;
             let Some((sum, _)) = out else {
-                let binding = match factors.len() {
+                let operator = match factors.len() {
                     1 => factors[0].1,
-                    _ => Binding::Product,
+                    _ => Operator::Product,
                 };
-                let product = (join(&factors), binding);
+                let product = (join(&factors), operator);
                 out = Some(match negative {
                     false => product,
                     true => {
-                        let product = wrap(product, Binding::Call);
-                        (quote! { -#product }, Binding::Sign)
+                        let (product, _) = wrap(product, Operator::Call);
+                        (quote! { -#product }, Operator::Sign)
                     }
                 });
                 continue;
@@ -318,7 +313,7 @@ impl Writer<'_> {
                 // The last factor is known last.
                 [factors @ .., (last, _)] if !factors.is_empty() => {
                     let receiver = match factors {
-                        [factor] => wrap(factor.clone(), Binding::Call),
+                        [factor] => wrap(factor.clone(), Operator::Call).0,
                         _ => {
                             let product = join(factors);
                             quote! { (#product) }
@@ -326,7 +321,7 @@ impl Writer<'_> {
                     };
                     let method = if negative { "neg_mul_add" } else { "mul_add" };
                     let method = format_ident!("{method}");
-                    (quote! { #receiver.#method(#last, #sum) }, Binding::Call)
+                    (quote! { #receiver.#method(#last, #sum) }, Operator::Call)
                 }
                 factors => {
                     let factor = join(factors);
@@ -334,21 +329,21 @@ impl Writer<'_> {
                         true => quote! { #sum - #factor },
                         false => quote! { #sum + #factor },
                     };
-                    (sum, Binding::Sum)
+                    (sum, Operator::Sum)
                 }
             });
         }
-        let (sum, binding) = out.unwrap_or_else(|| (constant(c), Binding::Call));
+        let (sum, operator) = out.unwrap_or_else(|| (constant(c), Operator::Call));
         let value = constant(c.abs());
-        let (sum, binding) = match c {
-            _ if c == 0.0 || leading => (sum, binding),
-            _ if c > 0.0 => (quote! { #sum + #value }, Binding::Sum),
-            _ => (quote! { #sum - #value }, Binding::Sum),
+        let (sum, operator) = match c {
+            _ if c == 0.0 || leading => (sum, operator),
+            _ if c > 0.0 => (quote! { #sum + #value }, Operator::Sum),
+            _ => (quote! { #sum - #value }, Operator::Sum),
         };
         match before.is_empty() {
-            true => (sum, binding),
+            true => (sum, operator),
             // In parentheses, as a statement may begin with it.
-            false => (quote! { ({ #before #sum }) }, Binding::Call),
+            false => (quote! { ({ #before #sum }) }, Operator::Call),
         }
     }
 
@@ -356,7 +351,7 @@ impl Writer<'_> {
     fn term(&self, c: f64, id: Id) -> Factors {
         let mut out = Vec::new();
         if c != 1.0 {
-            out.push((constant(c), Binding::Call));
+            out.push((constant(c), Operator::Call));
         }
         let factors = match self.graph.node(id) {
             Node::Product(factors) if self.namer.variable(id).is_none() => {
@@ -368,26 +363,17 @@ impl Writer<'_> {
             Some((above, _)) => out.extend(above),
             None => {
                 let least = if out.is_empty() {
-                    Binding::Product
+                    Operator::Product
                 } else {
-                    Binding::Sign
+                    Operator::Sign
                 };
-                let (tokens, binding) = self.write(id);
-                let wrapped = wrap((tokens, binding), least);
-                out.push((
-                    wrapped,
-                    if binding < least {
-                        Binding::Call
-                    } else {
-                        binding
-                    },
-                ));
+                out.push(wrap(self.write(id), least));
             }
         }
         out
     }
 
-    fn scale(&self, c: f64, inner: Id) -> (TokenStream, Binding) {
+    fn scale(&self, c: f64, inner: Id) -> (TokenStream, Operator) {
         // −(a − b) is b − a.
         if c == -1.0
             && self.namer.variable(inner).is_none()
@@ -397,25 +383,25 @@ impl Writer<'_> {
             return self.sum(-constant.get(), &flipped);
         }
         if c == -1.0 {
-            let factor = self.wrapped(inner, Binding::Call);
-            return (quote! { -#factor }, Binding::Sign);
+            let factor = self.wrapped(inner, Operator::Call);
+            return (quote! { -#factor }, Operator::Sign);
         }
-        let (value, factor) = (constant(c), self.wrapped(inner, Binding::Sign));
-        (quote! { #value * #factor }, Binding::Product)
+        let (value, factor) = (constant(c), self.wrapped(inner, Operator::Sign));
+        (quote! { #value * #factor }, Operator::Product)
     }
 
-    fn product(&self, factors: &[(Id, i32)]) -> (TokenStream, Binding) {
+    fn product(&self, factors: &[(Id, i32)]) -> (TokenStream, Operator) {
         let (above, below) = self.sides(factors);
         let (top, bottom) = (join(&above), join(&below));
         match (above.is_empty(), below.is_empty()) {
-            (_, true) => (top, Binding::Product),
+            (_, true) => (top, Operator::Product),
             (true, false) if matches!(factors, [(_, -1)]) => {
                 let base = self.receiver(factors[0].0);
-                (quote! { #base.recip() }, Binding::Call)
+                (quote! { #base.recip() }, Operator::Call)
             }
-            (true, false) => (quote! { (#bottom).recip() }, Binding::Call),
-            (false, false) if below.len() == 1 => (quote! { #top / #bottom }, Binding::Product),
-            (false, false) => (quote! { #top / (#bottom) }, Binding::Product),
+            (true, false) => (quote! { (#bottom).recip() }, Operator::Call),
+            (false, false) if below.len() == 1 => (quote! { #top / #bottom }, Operator::Product),
+            (false, false) => (quote! { #top / (#bottom) }, Operator::Product),
         }
     }
 
@@ -428,7 +414,7 @@ impl Writer<'_> {
             if exponent == -1
                 && let Some(name) = self.namer.reciprocal(base)
             {
-                sides.0.push((quote! { #name }, Binding::Call));
+                sides.0.push((quote! { #name }, Operator::Call));
                 continue;
             }
             let side = if exponent > 0 {
@@ -441,24 +427,18 @@ impl Writer<'_> {
             if n > 3 {
                 let receiver = self.receiver(base);
                 let n = Literal::i32_unsuffixed(exponent.saturating_abs());
-                side.push((quote! { #receiver.powi(#n) }, Binding::Call));
+                side.push((quote! { #receiver.powi(#n) }, Operator::Call));
                 continue;
             }
-            let (tokens, binding) = self.write(base);
-            let factor = wrap((tokens, binding), Binding::Sign);
-            let binding = if binding < Binding::Sign {
-                Binding::Call
-            } else {
-                binding
-            };
-            side.extend(std::iter::repeat_n((factor, binding), n as usize));
+            let factor = wrap(self.write(base), Operator::Sign);
+            side.extend(std::iter::repeat_n(factor, n as usize));
         }
         sides
     }
 }
 
 /// a * b * c
-fn join(factors: &[(TokenStream, Binding)]) -> TokenStream {
+fn join(factors: &[(TokenStream, Operator)]) -> TokenStream {
     let mut product = TokenStream::new();
     for (k, (factor, _)) in factors.iter().enumerate() {
         let times = (k > 0).then(|| quote! { * });
@@ -467,11 +447,11 @@ fn join(factors: &[(TokenStream, Binding)]) -> TokenStream {
     product
 }
 
-fn wrap((tokens, binding): (TokenStream, Binding), least: Binding) -> TokenStream {
-    if binding < least {
-        quote! { (#tokens) }
-    } else {
-        tokens
+/// In parentheses unless it binds as tightly as `least`.
+fn wrap((tokens, operator): (TokenStream, Operator), least: Operator) -> (TokenStream, Operator) {
+    match operator < least {
+        true => (quote! { (#tokens) }, Operator::Call),
+        false => (tokens, operator),
     }
 }
 

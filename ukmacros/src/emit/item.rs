@@ -9,16 +9,12 @@ use quote::{format_ident, quote};
 
 /// `"…"` for each line of a doc comment.
 pub(super) fn doc(text: &str) -> TokenStream {
-    text.lines()
-        .map(|line| {
-            let line = if line.is_empty() {
-                String::new()
-            } else {
-                format!(" {line}")
-            };
-            quote! { #[doc = #line] }
-        })
-        .collect()
+    let lines = text.lines().map(|line| {
+        let space = if line.is_empty() { "" } else { " " };
+        let line = format!("{space}{line}");
+        quote! { #[doc = #line] }
+    });
+    lines.collect()
 }
 
 /// The struct of parameters, and its default.
@@ -45,11 +41,8 @@ pub(super) fn item(
             family.docs.join("\n")
         };
         let docs = doc(&text);
-        let numbers: Vec<TokenStream> = family
-            .members
-            .iter()
-            .map(|i| float(defaults.get(*i).copied().unwrap_or(f64::NAN)))
-            .collect();
+        let number = |i: &usize| float(defaults.get(*i).copied().unwrap_or(f64::NAN));
+        let numbers: Vec<TokenStream> = family.members.iter().map(number).collect();
         if family.indexed {
             let len = Literal::usize_unsuffixed(family.members.len());
             fields.extend(quote! { #docs pub #field: [f64; #len], });

@@ -28,16 +28,9 @@ pub(super) struct Listing {
 pub(super) fn listing(system: &System, model: &Model, analysis: &Analysis) -> Listing {
     let dynamics = &analysis.dynamics;
     let prepared: &[Id] = &analysis.prepared;
-    let coords: Vec<String> = model
-        .coord_elements
-        .iter()
-        .map(|e| e.name.clone())
-        .collect();
-    let params: Vec<String> = model
-        .param_elements
-        .iter()
-        .map(|e| e.name.clone())
-        .collect();
+    let coords = model.coord_elements.iter().map(|e| e.name.clone());
+    let params = model.param_elements.iter().map(|e| e.name.clone());
+    let (coords, params): (Vec<String>, Vec<String>) = (coords.collect(), params.collect());
     let mut printer = Printer {
         graph: &system.graph,
         coords: &coords,
@@ -73,7 +66,7 @@ pub(super) fn listing(system: &System, model: &Model, analysis: &Analysis) -> Li
     let names = prepared_names(system, model, prepared);
     let texts = prepared.iter().map(|id| match g.node(*id) {
         // The part of the certificate that parameters decide.
-        Node::Select { .. } => format!(
+        Node::Select(_) => format!(
             "1 if the pivots that depend on {} alone are positive and finite, else 0",
             parameters_of(*id, system, &params)
         ),

@@ -220,12 +220,7 @@ impl Derivative {
             }
             Node::Call(func, args) => self.of_call(func, &args, id, g),
             Node::Held(inner) => self.of(inner, g),
-            Node::Select {
-                a,
-                b,
-                then,
-                otherwise,
-            } => {
+            Node::Select([a, b, then, otherwise]) => {
                 let then = self.of(then, g);
                 let otherwise = self.of(otherwise, g);
                 g.select(a, b, then, otherwise)

@@ -12,9 +12,9 @@ pub(crate) struct Printer<'a> {
     pub(crate) named: HashMap<Id, String>,
 }
 
-/// How tightly an expression binds.
+/// How tightly the outermost operator of a printed expression binds.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Binding {
+enum Precedence {
     Sum,
     Sign,
     Product,
@@ -44,26 +44,26 @@ impl Printer<'_> {
         self.print(id, false).0
     }
 
-    fn wrapped(&self, id: Id, least: Binding) -> String {
-        let (text, binding) = self.print(id, true);
-        if binding < least {
+    fn wrapped(&self, id: Id, least: Precedence) -> String {
+        let (text, precedence) = self.print(id, true);
+        if precedence < least {
             format!("({text})")
         } else {
             text
         }
     }
 
-    fn print(&self, id: Id, by_name: bool) -> (String, Binding) {
+    fn print(&self, id: Id, by_name: bool) -> (String, Precedence) {
         if by_name && let Some(name) = self.named.get(&id) {
-            return (name.clone(), Binding::Atom);
+            return (name.clone(), Precedence::Atom);
         }
         match self.graph.node(id) {
-            Node::Const(x) if x.get() < 0.0 => (number(x.get()), Binding::Sign),
-            Node::Const(x) => (number(x.get()), Binding::Atom),
-            Node::Symbol(s) => (self.symbol(*s), Binding::Atom),
+            Node::Const(x) if x.get() < 0.0 => (number(x.get()), Precedence::Sign),
+            Node::Const(x) => (number(x.get()), Precedence::Atom),
+            Node::Symbol(s) => (self.symbol(*s), Precedence::Atom),
             Node::Sum(c, terms) => {
                 let terms: Vec<(f64, Id)> = terms.iter().map(|(k, t)| (k.get(), *t)).collect();
-                (self.sum(c.get(), &terms), Binding::Sum)
+                (self.sum(c.get(), &terms), Precedence::Sum)
             }
             Node::Scale(c, inner) => self.scale(c.get(), *inner),
             Node::Product(factors) => self.product(1.0, factors),
@@ -71,23 +71,12 @@ impl Printer<'_> {
             Node::Call(func, args) => {
                 let args: Vec<String> = args.iter().map(|a| self.text(*a)).collect();
                 let name = func.row().name;
-                (format!("{name}({})", args.join(", ")), Binding::Atom)
+                (format!("{name}({})", args.join(", ")), Precedence::Atom)
             }
-            Node::Select {
-                a,
-                b,
-                then,
-                otherwise,
-            } => {
-                let text = |id: &Id| self.text(*id);
-                let text = format!(
-                    "({} ≤ {} ? {} : {})",
-                    text(a),
-                    text(b),
-                    text(then),
-                    text(otherwise)
-                );
-                (text, Binding::Atom)
+            Node::Select(args) => {
+                let [a, b, then, otherwise] = args.map(|id| self.text(id));
+                let text = format!("({a} ≤ {b} ? {then} : {otherwise})");
+                (text, Precedence::Atom)
             }
         }
     }
@@ -121,7 +110,7 @@ impl Printer<'_> {
             };
             out += sign;
             out += &match c.abs() {
-                1.0 => self.wrapped(*term, Binding::Product),
+                1.0 => self.wrapped(*term, Precedence::Product),
                 k => self.scale(k, *term).0,
             };
         }
@@ -131,7 +120,7 @@ impl Printer<'_> {
         out
     }
 
-    fn scale(&self, c: f64, inner: Id) -> (String, Binding) {
+    fn scale(&self, c: f64, inner: Id) -> (String, Precedence) {
         if !self.named.contains_key(&inner) {
             match self.graph.node(inner) {
                 // −(a − b) reads b − a, and −2·(a − b) reads 2·(b − a).
@@ -142,9 +131,9 @@ impl Printer<'_> {
                         terms.iter().map(|(k, t)| (-k.get(), *t)).collect();
                     let sum = self.sum(-constant.get(), &flipped);
                     if c == -1.0 {
-                        return (sum, Binding::Sum);
+                        return (sum, Precedence::Sum);
                     }
-                    return (format!("{}*({sum})", number(-c)), Binding::Product);
+                    return (format!("{}*({sum})", number(-c)), Precedence::Product);
                 }
                 Node::Product(factors) => return self.product(c, factors),
                 _ => {}
@@ -152,26 +141,26 @@ impl Printer<'_> {
         }
         if c == -1.0 {
             return (
-                format!("-{}", self.wrapped(inner, Binding::Product)),
-                Binding::Sign,
+                format!("-{}", self.wrapped(inner, Precedence::Product)),
+                Precedence::Sign,
             );
         }
-        let text = format!("{}*{}", number(c), self.wrapped(inner, Binding::Product));
+        let text = format!("{}*{}", number(c), self.wrapped(inner, Precedence::Product));
         (
             text,
             if c < 0.0 {
-                Binding::Sign
+                Precedence::Sign
             } else {
-                Binding::Product
+                Precedence::Product
             },
         )
     }
 
-    fn product(&self, coefficient: f64, factors: &[(Id, i32)]) -> (String, Binding) {
+    fn product(&self, coefficient: f64, factors: &[(Id, i32)]) -> (String, Precedence) {
         let power = |(id, e): &(Id, i32)| match e.abs() {
-            1 => self.wrapped(*id, Binding::Power),
+            1 => self.wrapped(*id, Precedence::Power),
             2 => format!("sq({})", self.text(*id)),
-            n => format!("{}^{n}", self.wrapped(*id, Binding::Atom)),
+            n => format!("{}^{n}", self.wrapped(*id, Precedence::Atom)),
         };
         let mut above: Vec<String> = factors.iter().filter(|(_, e)| *e > 0).map(power).collect();
         let below: Vec<String> = factors.iter().filter(|(_, e)| *e < 0).map(power).collect();
@@ -186,8 +175,8 @@ impl Printer<'_> {
             many => text += &format!("/({})", many.join("*")),
         }
         if coefficient < 0.0 {
-            return (format!("-{text}"), Binding::Sign);
+            return (format!("-{text}"), Precedence::Sign);
         }
-        (text, Binding::Product)
+        (text, Precedence::Product)
     }
 }

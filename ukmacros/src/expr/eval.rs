@@ -66,12 +66,7 @@ fn value(node: &Node, values: &[f64], point: &Point<'_>) -> f64 {
             let w = args.get(1).map_or(f64::NAN, at);
             func.value(u, w)
         }
-        Node::Select {
-            a,
-            b,
-            then,
-            otherwise,
-        } => {
+        Node::Select([a, b, then, otherwise]) => {
             if at(a) <= at(b) {
                 at(then)
             } else {

@@ -118,9 +118,8 @@ impl Graph {
         if constant == 0.0 {
             let first = collected[0].0;
             let alike = collected.iter().all(|(c, _)| c.abs() == first.abs());
-            let least = collected
-                .iter()
-                .fold(f64::INFINITY, |s, (c, _)| s.min(c.abs()));
+            let sizes = collected.iter().map(|(c, _)| c.abs());
+            let least = sizes.fold(f64::INFINITY, f64::min);
             // 2 x − 8 y is 2 (x − 4 y): exact for powers of two.
             let power = least > 1.0 && is_power_of_two(least);
             let multiples = collected.iter().all(|(c, _)| (c / least).fract() == 0.0);
@@ -132,11 +131,10 @@ impl Graph {
                 first.signum()
             };
         }
-        let terms = collected
-            .iter()
-            .map(|(c, id)| (Num::new(c / factor), *id))
-            .collect();
-        let sum = self.intern(Node::Sum(Num::new(constant), terms));
+        let terms = collected.iter();
+        let terms = terms.map(|(c, id)| (Num::new(c / factor), *id));
+        let sum = Node::Sum(Num::new(constant), terms.collect());
+        let sum = self.intern(sum);
         self.scale(factor, sum)
     }
 
@@ -412,13 +410,8 @@ impl Graph {
                     _ => self.call1(func, args[0]),
                 }
             }
-            Node::Select {
-                a,
-                b,
-                then,
-                otherwise,
-            } => {
-                let [a, b, then, otherwise] = [a, b, then, otherwise].map(|id| new(self, id));
+            Node::Select(args) => {
+                let [a, b, then, otherwise] = args.map(|id| new(self, id));
                 self.select(a, b, then, otherwise)
             }
         }
@@ -462,12 +455,7 @@ impl Graph {
         if then == otherwise {
             return then;
         }
-        self.intern(Node::Select {
-            a,
-            b,
-            then,
-            otherwise,
-        })
+        self.intern(Node::Select([a, b, then, otherwise]))
     }
 }
 

@@ -95,13 +95,8 @@ pub(crate) enum Node {
     Call(Func, Vec<Id>),
     /// The node itself, kept whole: products do not open it, so that it is computed once for all its users.
     Held(Id),
-    /// `then` where a ≤ b, else `otherwise`.
-    Select {
-        a: Id,
-        b: Id,
-        then: Id,
-        otherwise: Id,
-    },
+    /// Of [a, b, c, d] c where a ≤ b, else d.
+    Select([Id; 4]),
 }
 
 /// What a node depends on.
@@ -287,7 +282,7 @@ fn own_latency(node: &Node) -> u32 {
         Node::Sum(..) | Node::Scale(..) => 4,
         Node::Product(factors) if factors.iter().any(|(_, e)| *e < 0) => 18,
         Node::Product(_) => 4,
-        Node::Select { .. } => 4,
+        Node::Select(_) => 4,
         Node::Call(func, _) => match func.row().cost {
             Cost::Selection => 4,
             Cost::SquareRoot => 18,
@@ -303,11 +298,6 @@ fn operands(node: &Node) -> Vec<Id> {
         Node::Scale(_, inner) | Node::Held(inner) => vec![*inner],
         Node::Product(factors) => factors.iter().map(|(id, _)| *id).collect(),
         Node::Call(_, args) => args.clone(),
-        Node::Select {
-            a,
-            b,
-            then,
-            otherwise,
-        } => vec![*a, *b, *then, *otherwise],
+        Node::Select(args) => args.to_vec(),
     }
 }

@@ -70,42 +70,12 @@ pub(crate) fn resolve(
             model.floats.push(constant);
         }
     }
-    let mut found = Vec::new();
-    for block in &decl.params {
-        let looped = matches!(block, Block::For { .. });
-        Scope::new(&model).unroll(std::slice::from_ref(block), diag, &mut |param, scope| {
-            let default = Some((param.default.clone(), scope.variables.clone()));
-            collect(
-                &param.key,
-                &param.docs,
-                looped,
-                default,
-                scope,
-                diag,
-                &mut found,
-            );
-        });
-        found
-            .drain(..)
-            .for_each(|f| add(f, Kind::Param, &mut model, diag));
-    }
-    for block in &decl.coords {
-        let looped = matches!(block, Block::For { .. });
-        Scope::new(&model).unroll(std::slice::from_ref(block), diag, &mut |coord, scope| {
-            collect(
-                &coord.key,
-                &coord.docs,
-                looped,
-                None,
-                scope,
-                diag,
-                &mut found,
-            );
-        });
-        found
-            .drain(..)
-            .for_each(|f| add(f, Kind::Coord, &mut model, diag));
-    }
+    members(&decl.params, Kind::Param, &mut model, diag, |param| {
+        (&param.key, &param.docs, Some(&param.default))
+    });
+    members(&decl.coords, Kind::Coord, &mut model, diag, |coord| {
+        (&coord.key, &coord.docs, None)
+    });
     if model.coord_elements.is_empty() && diag.is_empty() {
         diag.error(
             decl.name.span(),
@@ -133,39 +103,45 @@ struct Found {
     default: Option<(Expr, Vec<(String, i64)>)>,
 }
 
-/// `x[N]` outside of a loop is a family of N; `x[i]` inside of one is its member i.
-fn collect(
-    key: &Key,
-    docs: &[String],
-    looped: bool,
-    default: Option<(Expr, Vec<(String, i64)>)>,
-    scope: &Scope<'_>,
+/// Enters parameters or coordinates: `x[N]` outside of a loop is a family of N; `x[i]` inside of one is its member i.
+fn members<T>(
+    blocks: &[Block<T>],
+    kind: Kind,
+    model: &mut Model,
     diag: &Diagnostics,
-    out: &mut Vec<Found>,
+    parts: impl Fn(&T) -> (&Key, &Vec<String>, Option<&Expr>),
 ) {
-    let mut push = |index| {
-        out.push(Found {
-            name: key.name.clone(),
-            docs: docs.to_vec(),
-            index,
-            loc: key.loc,
-            default: default.clone(),
+    for block in blocks {
+        let mut found = Vec::new();
+        let looped = matches!(block, Block::For { .. });
+        Scope::new(model).unroll(std::slice::from_ref(block), diag, &mut |item, scope| {
+            let (key, docs, default) = parts(item);
+            let mut push = |index| {
+                found.push(Found {
+                    name: key.name.clone(),
+                    docs: docs.clone(),
+                    index,
+                    loc: key.loc,
+                    default: default.map(|default| (default.clone(), scope.variables.clone())),
+                });
+            };
+            let Some(index) = &key.index else {
+                return push(None);
+            };
+            let Some(n) = scope.integer(index, diag) else {
+                return;
+            };
+            match usize::try_from(n) {
+                Ok(i) if looped => push(Some(i)),
+                Ok(_) if n > MAX_MEMBERS => scope.too_large(&[index], diag),
+                Ok(size) if size > 0 => (0..size).for_each(|i| push(Some(i))),
+                _ => diag.error(
+                    index.loc,
+                    format!("a family needs at least 1 member, not {n}"),
+                ),
+            }
         });
-    };
-    let Some(index) = &key.index else {
-        return push(None);
-    };
-    let Some(n) = scope.integer(index, diag) else {
-        return;
-    };
-    match usize::try_from(n) {
-        Ok(i) if looped => push(Some(i)),
-        Ok(_) if n > MAX_MEMBERS => scope.too_large(&[index], diag),
-        Ok(size) if size > 0 => (0..size).for_each(|i| push(Some(i))),
-        _ => diag.error(
-            index.loc,
-            format!("a family needs at least 1 member, not {n}"),
-        ),
+        found.into_iter().for_each(|f| add(f, kind, model, diag));
     }
 }
 

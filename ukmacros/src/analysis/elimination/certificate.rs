@@ -18,7 +18,7 @@
 //! itself, whose condition is the root of G's, and keeps twice the digits. What depends on parameters only also has to be finite: an
 //! infinite mass would vanish by its reciprocal.
 
-use super::{Divisor, Elimination, Pivoting};
+use super::{Elimination, Pivoting};
 use crate::analysis::dynamics::Dynamics;
 use crate::expr::{Func, Graph, Id, Node, System};
 use std::collections::{BTreeSet, HashSet};
@@ -127,16 +127,14 @@ impl Straight {
         let varying = chain.iter().filter(|(_, link)| !g.uses(*link).constant());
         let exits: Vec<Id> = match varying.clone().count() {
             0..=UNBROKEN => Vec::new(),
-            _ => varying
-                .skip(STRETCH - 1)
-                .step_by(STRETCH)
-                .map(|(_, link)| *link)
-                .collect(),
+            _ => {
+                let some = varying.skip(STRETCH - 1).step_by(STRETCH);
+                some.map(|(_, link)| *link).collect()
+            }
         };
         let checked = chain.iter().map(|(of, _)| &elimination.divisors[*of].0);
-        let checks = checked
-            .map(|d| (d.position, d.value != d.reference))
-            .collect();
+        let checked = checked.map(|d| (d.position, d.value != d.reference));
+        let checks = checked.collect();
         for (of, link) in chain {
             let name = &elimination.divisors[of].0.name;
             system.inner_hints.insert(link, format!("safe_{name}"));
@@ -176,18 +174,15 @@ impl Elimination {
         }
         let left: Vec<(f64, Id)> = terms.iter().map(|id| (1.0, *id)).collect();
         let left = g.sum(&[&[(-1.0, terms[0])], &left[1..]].concat());
-        let sizes: Vec<(f64, Id)> = terms
-            .iter()
-            .map(|id| (MET, g.call1(Func::Abs, *id)))
-            .collect();
+        let sizes = terms.iter().map(|id| (MET, g.call1(Func::Abs, *id)));
+        let sizes: Vec<(f64, Id)> = sizes.collect();
         let (left, size) = (g.call1(Func::Abs, left), g.sum(&sizes));
         let zero = g.zero();
         g.select(left, size, safe, zero)
     }
 
-    /// 1 where every pivot is safe, 0 where one is not, as a chain of selections, and its links with the
-    /// pivots they check: what depends on parameters only first, then
-    /// in the order of the elimination, so that no pivot has to be kept for it.
+    /// 1 where every pivot is safe, 0 where one is not, as a chain of selections, and its links with the pivots they check: what depends on
+    /// parameters only first, then in the order of the elimination, so that no pivot has to be kept for it.
     fn certificate(&self, g: &mut Graph) -> (Id, Vec<(usize, Id)>) {
         let (zero, tiny) = (g.zero(), g.constant(f64::MIN_POSITIVE));
         let largest = g.constant(f64::MAX);
@@ -199,14 +194,12 @@ impl Elimination {
         let mut conditions: Vec<(usize, Id, Id)> = Vec::new();
         let mut known = HashSet::new();
         for (k, divisor) in divisors().enumerate() {
-            let Divisor {
-                value, reference, ..
-            } = divisor;
+            let (value, reference) = (divisor.value, divisor.reference);
             let (value, least) = if value == reference {
                 // Nothing was taken off the diagonal: it has to be positive.
-                (sign_of(*value, &positive, g), tiny)
+                (sign_of(value, &positive, g), tiny)
             } else {
-                let (value, reference) = reduced(*value, *reference, &positive, g);
+                let (value, reference) = reduced(value, reference, &positive, g);
                 (value, g.scale(SAFE_SHARE, reference))
             };
             let holds = g.as_const(value).is_some_and(|x| x > 0.0) && least == tiny;

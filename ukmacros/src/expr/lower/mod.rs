@@ -225,19 +225,36 @@ impl<'m> Lowering<'m> {
     fn constants(&mut self, top: &Scope<'m>) -> Vec<f64> {
         let mut values = Vec::new();
         for constant in &self.model.floats {
-            let before = self.diag.len();
-            let id = self.scalar(&constant.value, &Env::new(top, Place::Const));
-            let value = eval(&self.graph, &[id], &Point::NOWHERE)[0];
-            if !value.is_finite() && self.diag.len() == before {
-                self.diag.error(
-                    constant.value.loc,
-                    format!("constant `{}` is not a finite number", constant.name),
-                );
-            }
+            let env = Env::new(top, Place::Const);
+            let (id, value) = self.evaluated(&constant.value, &env, &[], || {
+                format!("constant `{}`", constant.name)
+            });
             self.floats.push(id);
             values.push(value);
         }
         values
+    }
+
+    /// An expression of constants and of parameters with these values, and its own value; an error about `what` it is if that is not finite.
+    fn evaluated(
+        &mut self,
+        expr: &Expr,
+        env: &Env<'m>,
+        params: &[f64],
+        what: impl Fn() -> String,
+    ) -> (Id, f64) {
+        let before = self.diag.len();
+        let id = self.scalar(expr, env);
+        let point = Point {
+            params,
+            ..Point::NOWHERE
+        };
+        let value = eval(&self.graph, &[id], &point)[0];
+        if !value.is_finite() && self.diag.len() == before {
+            let message = format!("{} is not a finite number", what());
+            self.diag.error(expr.loc, message);
+        }
+        (id, value)
     }
 
     fn defaults(&mut self) -> Vec<f64> {
@@ -246,19 +263,9 @@ impl<'m> Lowering<'m> {
             let mut value = f64::NAN;
             if let Some((expr, variables)) = &element.default {
                 let scope = Scope::with(self.model, variables.clone());
-                let before = self.diag.len();
-                let id = self.scalar(expr, &Env::new(&scope, Place::Default));
-                let point = Point {
-                    params: &defaults,
-                    ..Point::NOWHERE
-                };
-                value = eval(&self.graph, &[id], &point)[0];
-                if !value.is_finite() && self.diag.len() == before {
-                    self.diag.error(
-                        expr.loc,
-                        format!("default of `{}` is not a finite number", element.name),
-                    );
-                }
+                let env = Env::new(&scope, Place::Default);
+                let what = || format!("default of `{}`", element.name);
+                (_, value) = self.evaluated(expr, &env, &defaults, what);
             }
             defaults.push(value);
             self.known_params = defaults.len();
@@ -435,32 +442,25 @@ impl<'m> Lowering<'m> {
         let mut terms = Vec::new();
         self.chain(&equation.lhs, 1.0, &env, &mut terms);
         self.chain(&equation.rhs, -1.0, &env, &mut terms);
-        let loc = key.loc;
-        match self.total(&terms, true) {
-            Value::Scalar(phi) => out.push(Constraint {
-                item,
+        let total = self.total(&terms, true);
+        for (component, phi) in self.components(total) {
+            item.component = component;
+            out.push(Constraint {
+                item: item.clone(),
                 kind,
                 phi,
-                loc,
-            }),
-            Value::Vector(components) => {
-                for (c, phi) in components.into_iter().enumerate() {
-                    item.component = Some(c);
-                    out.push(Constraint {
-                        item: item.clone(),
-                        kind,
-                        phi,
-                        loc,
-                    });
-                }
-            }
-            // The name stays declared: what uses it gives no second message.
-            Value::Error => out.push(Constraint {
-                item,
-                kind,
-                phi: self.graph.zero(),
-                loc,
-            }),
+                loc: key.loc,
+            });
+        }
+    }
+
+    /// The numbers that a value consists of, with their positions in a vector. The name of a faulty one stays declared, as zero: what uses
+    /// it gives no second message.
+    fn components(&mut self, value: Value) -> Vec<(Option<usize>, Id)> {
+        match value {
+            Value::Scalar(id) => vec![(None, id)],
+            Value::Vector(ids) => (0..).map(Some).zip(ids).collect(),
+            Value::Error => vec![(None, self.graph.zero())],
         }
     }
 
@@ -484,17 +484,7 @@ impl<'m> Lowering<'m> {
                 return;
             }
             let value = self.value(&output.value, &Env::new(scope, Place::Output));
-            let ids = match value {
-                Value::Scalar(id) => vec![(None, id)],
-                Value::Vector(ids) => ids
-                    .into_iter()
-                    .enumerate()
-                    .map(|(c, id)| (Some(c), id))
-                    .collect(),
-                // The name stays declared: what uses it gives no second message.
-                Value::Error => vec![(None, self.graph.zero())],
-            };
-            for (component, value) in ids {
+            for (component, value) in self.components(value) {
                 item.component = component;
                 let text = item.text();
                 let coordinates = &self.model.coord_elements;

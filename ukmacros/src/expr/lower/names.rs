@@ -79,12 +79,8 @@ impl<'m> Lowering<'m> {
             }
             None => {}
         }
-        let names = self
-            .model
-            .names
-            .keys()
-            .chain(self.lets.keys())
-            .map(String::as_str);
+        let names = self.model.names.keys().chain(self.lets.keys());
+        let names = names.map(String::as_str);
         let names = names.chain(env.args.iter().map(|(n, _)| n.as_str()));
         let remedy = "declare it under `params`, `coords` or by `let` before its use";
         let end = suggest(&text, names.chain(["t", "PI"]), remedy);
@@ -108,12 +104,8 @@ impl<'m> Lowering<'m> {
     pub(super) fn indexed(&mut self, name: &Ident, index: &Expr, env: &Env<'m>) -> Value {
         let text = name.to_string();
         let zero = Value::Error;
-        let argument = env
-            .args
-            .iter()
-            .rev()
-            .find(|(n, _)| *n == text)
-            .map(|(_, v)| v.clone());
+        let argument = env.args.iter().rev().find(|(n, _)| *n == text);
+        let argument = argument.map(|(_, v)| v.clone());
         let vector = argument.or_else(|| match self.lets.get(&text) {
             Some(Binding::Value(value)) => Some(value.clone()),
             _ => None,
@@ -257,10 +249,8 @@ impl<'m> Lowering<'m> {
         let mut names: Vec<&str> = Func::all().map(|f| f.row().name).collect();
         names.extend(["sq", "powi", "recip", "dot", "sum"]);
         let list = names.join(", ");
-        let functions = self
-            .lets
-            .iter()
-            .filter(|(_, b)| matches!(b, Binding::Function(_)));
+        let lets = self.lets.iter();
+        let functions = lets.filter(|(_, b)| matches!(b, Binding::Function(_)));
         names.extend(functions.map(|(n, _)| n.as_str()));
         let remedy = format!("functions are {list}, and those declared by `let f = |u| …;`");
         let end = suggest(&text, names, &remedy);
@@ -288,20 +278,15 @@ impl<'m> Lowering<'m> {
             return Value::Error;
         }
         // An integer argument may serve as an index inside the function.
-        let integers = parameters
-            .iter()
-            .zip(args)
-            .filter(|(_, a)| is_integer(a, &env.scope));
-        let integers = integers
-            .filter_map(|(p, a)| Some((p.to_string(), self.integer(a, &env.scope)?)))
-            .collect();
+        let pairs = parameters.iter().zip(args);
+        let pairs = pairs.filter(|(_, a)| is_integer(a, &env.scope));
+        let integers =
+            pairs.filter_map(|(p, a)| Some((p.to_string(), self.integer(a, &env.scope)?)));
+        let integers = integers.collect();
+        let arguments = parameters.iter().map(Ident::to_string);
         let inner = Env {
             scope: Scope::with(self.model, integers),
-            args: parameters
-                .iter()
-                .map(Ident::to_string)
-                .zip(values)
-                .collect(),
+            args: arguments.zip(values).collect(),
             place: Place::Let,
         };
         if self.active.is_empty() {
@@ -335,10 +320,8 @@ impl<'m> Lowering<'m> {
             return self.error(u.loc, "this does not change with time; `dot` takes a coordinate or an expression of coordinates and `t`");
         }
         let mut total = Derivative::total();
-        let dots: Vec<Id> = ids
-            .iter()
-            .map(|id| total.of(*id, &mut self.graph))
-            .collect();
+        let dots = ids.iter().map(|id| total.of(*id, &mut self.graph));
+        let dots: Vec<Id> = dots.collect();
         let value = match value {
             Value::Vector(_) => Value::Vector(dots),
             _ => Value::Scalar(dots[0]),

@@ -71,10 +71,8 @@ impl<'m> Lowering<'m> {
                 self.finite(value, e.loc, env)
             }
             ExprKind::Vector(components) => {
-                let components = components
-                    .iter()
-                    .map(|c| self.scalar(c, env))
-                    .collect::<Vec<_>>();
+                let components = components.iter().map(|c| self.scalar(c, env));
+                let components: Vec<Id> = components.collect();
                 if components.is_empty() {
                     return self.error(e.loc, "a vector needs at least one component");
                 }
