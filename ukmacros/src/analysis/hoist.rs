@@ -191,8 +191,8 @@ impl<'g> Pass<'g> {
     }
 }
 
-/// Whether both forms of the equations agree, checked in debug builds of the macro: the number of the first value that does not at any state where
-/// it is well conditioned.
+/// Whether both forms of the equations agree, checked in debug builds of the macro: the number of the first value that does not at any
+/// state where it is well conditioned.
 pub(crate) fn verify(
     system: &System,
     dynamics: &Dynamics,

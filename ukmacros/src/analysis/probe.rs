@@ -50,7 +50,8 @@ impl<'a> Probe<'a> {
     }
 }
 
-/// Changes numbers as rounding might, but by more: what two evaluations then differ by bounds what rounding can explain, cancellation included.
+/// Changes numbers as rounding might, but by more: what two evaluations then differ by bounds what rounding can explain, cancellation
+/// included.
 pub(crate) struct Shake(Option<Random>);
 
 /// How much a number is changed, relative: some 450 times its rounding.

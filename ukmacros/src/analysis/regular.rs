@@ -1,23 +1,25 @@
 //! Blocks of M that are singular, everywhere or somewhere, made regular by rows of A.
 //!
-//! Let a q̈ = b be a row of A q̈ = b. Then (M + μ aᵀa) q̈ = Q + μ aᵀb + Aᵀλ has the same q̈ and the same λ as M q̈ = Q + Aᵀλ, whatever μ: where the row holds,
-//! what is added to both sides is the same. And M + μ aᵀa is definite for μ > 0 if M is on all directions that the row leaves free. The kinetic energy of
-//! a body turned by a quaternion knows nothing of the quaternion's length, so M is singular along it; its constraint |e|² = 1 fixes nothing else.
-//! For corrections the same holds, with b = −residual: Δ is the one of least M-norm of the original M.
+//! Let a q̈ = b be a row of A q̈ = b. Then (M + μ aᵀa) q̈ = Q + μ aᵀb + Aᵀλ has the same q̈ and the same λ as M q̈ = Q + Aᵀλ, whatever μ:
+//! where the row holds, what is added to both sides is the same. And M + μ aᵀa is definite for μ > 0 if M is on all directions that the row
+//! leaves free. The kinetic energy of a body turned by a quaternion knows nothing of the quaternion's length, so M is singular along it;
+//! its constraint |e|² = 1 fixes nothing else. For corrections the same holds, with b = −residual: Δ is the one of least M-norm of the
+//! original M.
 //!
-//! μ = Σ M_ii/Σ a_i² over the block's coordinates in the row: what is added is as large as M, in its units, at any scale of masses and lengths.
+//! μ = Σ M_ii/Σ a_i² over the block's coordinates in the row: what is added is as large as M, in its units, at any scale of masses and
+//! lengths.
 //!
-//! Where M is singular is found numerically: at random states, and at states where some of the coordinates that M contains are zero (the identity among
-//! orientations, half turns; a mechanism's own singular states are likely there). What stays in doubt afterwards is checked at run time:
-//! see [`Regular::met`].
+//! Where M is singular is found numerically: at random states, and at states where some of the coordinates that M contains are zero (the
+//! identity among orientations, half turns; a mechanism's own singular states are likely there). What stays in doubt afterwards is checked
+//! at run time: see [`Regular::met`].
 
 use super::dynamics::Dynamics;
 use super::probe::{Probe, Random};
 use crate::expr::{Graph, Id, Node, Symbol, System, eval};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A pivot of a block of M below this share of what its diagonal is at other states is singular: rounding of the entries makes 1e-15, masses of
-/// one block that differ by nine orders are not touched.
+/// A pivot of a block of M below this share of what its diagonal is at other states is singular: rounding of the entries makes 1e-15,
+/// masses of one block that differ by nine orders are not touched.
 const SINGULAR: f64 = 1e-10;
 /// A diagonal that varies by more than this over the states looked at may vanish at states that were not.
 const VARIES: f64 = 16.0;
@@ -36,10 +38,10 @@ pub(crate) struct Regular {
     pub(crate) weights: Vec<(usize, usize, Id)>,
     /// The constraints that make M regular.
     pub(crate) rows: Vec<usize>,
-    /// Constraints whose row of A q̈ = b is checked, as they act on a coordinate whose inertia may vanish. There λ is a difference of numbers as large as
-    /// 1/M_ii, and the pivot cannot show it, being positive and exact. The residual does: computed q̈ and λ satisfy M q̈ = Q + Aᵀλ up to a few ε of
-    /// these terms (each q̈_i is found from its row), so that with A q̈ = b to rounding they are those of equations as near, and K = [M Aᵀ; A 0] is what
-    /// has to be well conditioned, not M.
+    /// Constraints whose row of A q̈ = b is checked, as they act on a coordinate whose inertia may vanish. There λ is a difference of
+    /// numbers as large as 1/M_ii, and the pivot cannot show it, being positive and exact. The residual does: computed q̈ and λ satisfy M
+    /// q̈ = Q + Aᵀλ up to a few ε of these terms (each q̈_i is found from its row), so that with A q̈ = b to rounding they are those of
+    /// equations as near, and K = [M Aᵀ; A 0] is what has to be well conditioned, not M.
     pub(crate) met: Vec<usize>,
     /// Coordinates of a block that is singular at any state, and that no constraint makes regular.
     pub(crate) singular: Vec<usize>,
@@ -328,8 +330,8 @@ impl<'a> States<'a> {
         (rows.collect(), singular)
     }
 
-    /// Whether one of these diagonal entries of M may come near zero. Where rows made the block `regular` that is meant relative to all of it: it is small as a
-    /// whole only where the rows themselves vanish.
+    /// Whether one of these diagonal entries of M may come near zero. Where rows made the block `regular` that is meant relative to all of
+    /// it: it is small as a whole only where the rows themselves vanish.
     fn may_vanish(&self, own: &[Id], regular: bool, g: &Graph) -> bool {
         if own.iter().all(|m| g.uses(*m).constant() || bounded(*m, g)) {
             return false;

@@ -30,9 +30,10 @@ pub(crate) const SAFE_SHARE: f64 = 1.0 / 1024.0;
 /// What may be left of A q̈ = b, as a share of its terms, where it is checked: the least that [`SAFE_SHARE`] can promise, for ten rows.
 const MET: f64 = 2e-12;
 
-/// A program with more pivots leaves early, after each [`STRETCH`] of them, if the certificate does not hold. That is seldom; what it is for is
-/// the compiler of the emitted code: it packs scalars of one stretch without branches into vectors, and in long stretches finds pairs that are far
-/// apart and have to be kept for each other. The U-chain with 65 links takes 280 ns with exits and 450 without, that with 17 links 79 and 67.
+/// A program with more pivots leaves early, after each [`STRETCH`] of them, if the certificate does not hold. That is seldom; what it is
+/// for is the compiler of the emitted code: it packs scalars of one stretch without branches into vectors, and in long stretches finds
+/// pairs that are far apart and have to be kept for each other. The U-chain with 65 links takes 280 ns with exits and 450 without, that
+/// with 17 links 79 and 67.
 const UNBROKEN: usize = 24;
 /// Selections written within each other.
 const NESTED: usize = 32;

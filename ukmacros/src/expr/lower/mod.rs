@@ -235,7 +235,8 @@ impl<'m> Lowering<'m> {
         values
     }
 
-    /// An expression of constants and of parameters with these values, and its own value; an error about `what` it is if that is not finite.
+    /// An expression of constants and of parameters with these values, and its own value; an error about `what` it is if that is not
+    /// finite.
     fn evaluated(
         &mut self,
         expr: &Expr,
