@@ -74,6 +74,16 @@ ukcore::multibody! {
 }
 
 ukcore::multibody! {
+    /// A driven block whose friction is written with a quotient.
+    Quotient {
+        params { mu = 3.2, drive = 6.0 }
+        coords { s }
+        mass { s: 1.0 }
+        force { s: drive - mu * dot(s) / abs(dot(s)) }
+    }
+}
+
+ukcore::multibody! {
     /// A ball that bounces on Hertz's spring, which has no force to be continued above the ground.
     Ball {
         params { m = 1.0, g = 9.81, k = 1e4 }
@@ -558,5 +568,24 @@ fn a_puck_that_goes_on_is_not_held_up() {
             assert_all_close("the same motion", a.q, b.q, 0.0);
             assert_eq!(watched.work(), alone.work());
         }
+    }
+}
+
+#[test]
+fn a_number_over_its_size_is_its_sign() {
+    assert_eq!(Quotient::SPEC.switches[0].function, "dot(s)");
+    for (method, k) in STEPPING
+        .into_iter()
+        .flat_map(|m| (0..20).map(move |k| (m, k)))
+    {
+        let (mech, v) = (Quotient::default(), -2.0 - 0.2 * f64::from(k));
+        let (up, down) = (mech.drive + mech.mu, mech.drive - mech.mu);
+        let rest = -v / up;
+        let expect = 0.5 * v * rest + 0.5 * down * (2.0 - rest).powi(2);
+        let run = simulation(mech, state(0.0, 0.0, v))
+            .method(method)
+            .until(2.0);
+        let run = run.unwrap_or_else(|f| panic!("{method}, {v}: {}", f.error));
+        assert_close("way", run.last().expect("samples").q[0], expect, 1e-9);
     }
 }

@@ -317,6 +317,7 @@ impl Graph {
     fn close(&mut self, coefficient: f64, collected: Factors) -> Id {
         let mut factors = collected.list;
         factors.retain(|(_, e)| *e != 0);
+        self.take_signs(&mut factors);
         factors.sort_unstable();
         if coefficient == 0.0 || factors.is_empty() {
             return self.constant(coefficient);
@@ -326,6 +327,26 @@ impl Graph {
             _ => self.intern(Node::Product(factors)),
         };
         self.scale(coefficient, product)
+    }
+
+    /// u/|u| becomes sign(u): the same but where u is zero, and known as a switch.
+    fn take_signs(&mut self, factors: &mut Vec<(Id, i32)>) {
+        for k in 0..factors.len() {
+            let Node::Call(Func::Abs, args) = self.node(factors[k].0) else {
+                continue;
+            };
+            let u = args[0];
+            let over = factors.iter().position(|(id, e)| *id == u && *e > 0);
+            if let Some(over) = over.filter(|_| factors[k].1 < 0) {
+                (factors[k].1, factors[over].1) = (factors[k].1 + 1, factors[over].1 - 1);
+                let sign = self.call1(Func::Sign, u);
+                match factors.iter_mut().find(|(id, _)| *id == sign) {
+                    Some((_, e)) => *e += 1,
+                    None => factors.push((sign, 1)),
+                }
+            }
+        }
+        factors.retain(|(_, e)| *e != 0);
     }
 
     pub(crate) fn call1(&mut self, func: Func, arg: Id) -> Id {
