@@ -322,8 +322,18 @@ fn literal(lit: &syn::Lit, diag: &Diagnostics) -> ExprKind {
                 _ => refuse("number is too large for an `f64`"),
             }
         }
-        syn::Lit::Int(_) | syn::Lit::Float(_) => refuse("only `f64` numbers here; drop the suffix"),
+        syn::Lit::Int(i) => refuse(&suffixed(i.base10_digits(), i.suffix())),
+        syn::Lit::Float(f) => refuse(&suffixed(f.base10_digits(), f.suffix())),
         _ => refuse("not a number"),
+    }
+}
+
+/// What is wrong with a number that ends in letters.
+fn suffixed(digits: &str, suffix: &str) -> String {
+    let bits = suffix.strip_prefix(['i', 'u', 'f']).unwrap_or_default();
+    match bits == "size" || bits.parse::<u32>().is_ok() {
+        true => "only `f64` numbers here; drop the suffix".to_owned(),
+        false => format!("a product is written with its sign: `{digits} * {suffix}`"),
     }
 }
 

@@ -206,6 +206,10 @@ fn docs(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Vec<String>> 
 fn constant(input: ParseStream<'_>, docs: Vec<String>, diag: &Diagnostics) -> syn::Result<Const> {
     let _: Token![const] = input.parse()?;
     let name: Ident = input.parse()?;
+    if !input.peek(Token![:]) {
+        let message = format!("a constant needs its type: `const {name}: usize = 3;`");
+        return Err(syn::Error::new(name.span(), message));
+    }
     let _: Token![:] = input.parse()?;
     let ty: Ident = input.parse()?;
     if ty != "usize" && ty != "f64" {

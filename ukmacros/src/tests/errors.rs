@@ -215,6 +215,8 @@ cases! {
     unnamed_constraint: "coords { x } mass { x: 1.0 } holonomic { «x» = 1.0 }" => "a constraint needs a name";
     field_access: "params { m = 1.0 } coords { x } mass { x: self.«m» }" => "no fields here";
     path: "coords { x } mass { x: 1.0 } force { x: «f64::consts::PI» }" => "no paths here; write `PI`";
+    constant_without_type: "const «N» = 3; coords { x[N] } mass { for i in 0..N { x[i]: 1.0 } }" => "a constant needs its type: `const N: usize = 3;`";
+    product_without_sign: "coords { x } mass { x: 1.0 } force { x: «2x» }" => "a product is written with its sign: `2 * x`";
     float_suffix: "coords { x } mass { x: «1.0f32» }" => "only `f64` numbers here";
     text: "coords { x } mass { x: «\"heavy\"» }" => "not a number";
     closure_in_place: "coords { x } mass { x: 1.0 } force { x: «|u| u» }" => "a function must be named first";
