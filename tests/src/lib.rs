@@ -61,6 +61,13 @@ pub fn assert_all_close(what: &str, found: &[f64], expected: &[f64], tolerance: 
     }
 }
 
+/// How many cases a hunt is to try: what the environment variable `HUNT` says, else `usual`.
+#[must_use]
+pub fn hunted(usual: u64) -> u64 {
+    let asked = std::env::var("HUNT").ok();
+    asked.and_then(|text| text.parse().ok()).unwrap_or(usual)
+}
+
 /// Largest absolute value; 0 of nothing.
 #[must_use]
 pub fn largest<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {

@@ -2,7 +2,7 @@
 //! lengths of any unit, rows of any scale, rows that others imply.
 
 use std::fmt::Debug;
-use tests::Random;
+use tests::{Random, hunted};
 use ukcore::scalar::{DoubleDouble, Scalar};
 use ukcore::{Error, Mechanism, Prepared, State, assemble};
 
@@ -549,10 +549,7 @@ fn random_mechanisms_with_zeros() {
 #[test]
 #[ignore = "a hunt over many seeds"]
 fn hunt_for_assembly() {
-    let count = std::env::var("HUNT")
-        .ok()
-        .and_then(|text| text.parse().ok());
-    for found in hunt(1_000_000..1_000_000 + count.unwrap_or(3_000)) {
+    for found in hunt(1_000_000..1_000_000 + hunted(3_000)) {
         assert_eq!((found.silent, found.refused), (0, 0), "{found:?}");
     }
 }

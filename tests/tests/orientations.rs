@@ -2,7 +2,7 @@
 //! and the constraint on its length mends that. Accelerations of the default solver against the same equations in 31 digits.
 
 use std::fmt::Debug;
-use tests::{Random, largest};
+use tests::{Random, hunted, largest};
 use ukcore::equations::precise;
 use ukcore::manifold::Projector;
 use ukcore::{Mechanism, Prepared, Solver, SolverOptions};
@@ -297,10 +297,7 @@ fn accelerations_near_the_identity_and_half_turns() {
 #[test]
 #[ignore = "a hunt over many seeds"]
 fn hunt_for_orientations() {
-    let count = std::env::var("HUNT")
-        .ok()
-        .and_then(|text| text.parse().ok());
     let mut found: [Found; 7] = Default::default();
-    (1_000_000..1_000_000 + count.unwrap_or(10_000)).for_each(|seed| case(seed, &mut found));
+    (1_000_000..1_000_000 + hunted(10_000)).for_each(|seed| case(seed, &mut found));
     println!("{found:#?}");
 }

@@ -2,6 +2,7 @@
 //! branch it came on, by every method, or is refused before a sample is wrong. Where branches only come near, it turns with its own.
 
 use models::FourBars;
+use tests::hunted;
 use ukcore::simulate::Sample;
 use ukcore::{Ensemble, Error, Mechanism, Method, Prepared, Simulation, State, Trajectory};
 
@@ -364,10 +365,7 @@ fn singular_positions_are_passed_by_every_method() {
 #[test]
 #[ignore = "a hunt over many rates"]
 fn hunt_for_branches() {
-    let count = std::env::var("HUNT")
-        .ok()
-        .and_then(|text| text.parse().ok())
-        .unwrap_or(400);
+    let count = hunted(400);
     let mut all = Outcomes::default();
     let every = [
         Method::Dop853,
@@ -398,7 +396,10 @@ fn hunt_for_branches() {
                 "{method}, {tolerance:e}, case {number}: {passed} passed, {refused} refused, {} wrong",
                 wrong.len()
             );
-            assert!(50 * refused <= count, "{refused} of {count} are refused");
+            assert!(
+                50 * refused as u64 <= count,
+                "{refused} of {count} are refused"
+            );
             all.wrong.extend(wrong);
         }
     }

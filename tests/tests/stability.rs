@@ -1,7 +1,7 @@
 //! No silent garbage: random mechanisms of rods (trees and loops, masses and lengths over many decades, rows scaled and declared again)
 //! come out right by an oracle in 31 digits, or as an error with a name.
 
-use tests::Random;
+use tests::{Random, hunted};
 use ukcore::manifold::Projector;
 use ukcore::mechanism::Terms;
 use ukcore::scalar::{DoubleDouble, Scalar};
@@ -404,11 +404,8 @@ fn large_projections_of_rows_in_doubt_refuse_the_step() {
 #[test]
 #[ignore = "a hunt over many seeds"]
 fn hunt() {
-    let count = std::env::var("HUNT")
-        .ok()
-        .and_then(|text| text.parse().ok());
     let (mut outcomes, mut wrong) = (Outcomes::default(), Vec::new());
-    for seed in 1_000_000..1_000_000 + count.unwrap_or(10_000) {
+    for seed in 1_000_000..1_000_000 + hunted(10_000) {
         wrong.extend(outcomes.case(seed, true).err());
     }
     println!("{outcomes:?}");

@@ -17,7 +17,7 @@
 //! The same difference, |Δb| + |ΔA||q̈|, is granted to the redundant rows before they are called inconsistent, and so is the rounding of A
 //! and b.
 
-use crate::dense::{Dense, Route, Rows};
+use crate::dense::{Dense, Route};
 use crate::diagnose;
 use crate::error::Error;
 use crate::mechanism::{Evaluated, Prepared};
@@ -25,13 +25,15 @@ use crate::metric::MassFault;
 use crate::noise::Noise;
 use crate::pinv::axpy;
 use crate::saddle::Saddle;
-use crate::scan::{Size, all_finite};
+use crate::scan::all_finite;
 use crate::spec::Spec;
 
+mod agreement;
 mod rank;
 mod refine;
 mod settings;
 
+use agreement::Drift;
 pub(crate) use rank::leading;
 pub use settings::{Baumgarte, Formula, Solution, SolverOptions, SolverWork};
 
@@ -85,29 +87,6 @@ pub struct Solver {
     known: refine::Known,
 }
 
-/// The equations at the nearest state on the manifold.
-#[derive(Debug, Clone)]
-struct Drift {
-    known: bool,
-    there: Evaluated,
-    q: Vec<f64>,
-    v: Vec<f64>,
-    correction: Vec<f64>,
-}
-
-impl Drift {
-    /// What it explains of the residual of row `c` of A q̈ = b, where A is `a` and b is `rhs`.
-    fn explains(&self, a: Rows<'_>, rhs: &[f64], c: usize, acceleration: &[f64]) -> f64 {
-        if !self.known {
-            return 0.0;
-        }
-        let there = self.there.rows();
-        let change = a.row(c).zip(there.row(c)).zip(acceleration);
-        let change: f64 = change.map(|((a, b), x)| ((a - b) * x).abs()).sum();
-        (self.there.rhs[c] - rhs[c]).abs() + change
-    }
-}
-
 /// Rank and formula of the evaluation in hand.
 #[derive(Debug, Clone, Copy)]
 struct Decided {
@@ -152,13 +131,7 @@ impl Solver {
             rate: vec![0.0; m],
             dense: Dense::new(n, m, spec.structure.mass_diagonal),
             saddle,
-            drift: Drift {
-                known: false,
-                there: Evaluated::new(n, m),
-                q: vec![0.0; n],
-                v: vec![0.0; n],
-                correction: vec![0.0; n],
-            },
+            drift: Drift::new(n, m),
             known: refine::Known::new(n, m),
             noise: Noise::new(&mechanism),
             carried: vec![0.0; m],
@@ -518,79 +491,6 @@ impl Solver {
         }
         let force = Some(&self.force[..]);
         self.dense.solve(&self.here.mass, a, force, &self.rhs, out);
-    }
-
-    /// Redundant rows must agree with the others, and q̈ must be finite.
-    fn check(
-        &mut self,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
-        tolerance: f64,
-        acceleration: &[f64],
-    ) -> Result<(), Error> {
-        let spec = self.mechanism.spec();
-        if !all_finite(acceleration) {
-            let pairs = spec.coords.iter().zip(acceleration);
-            let broken = pairs.filter(|(_, x)| !x.is_finite());
-            let what = broken.map(|(name, _)| format!("acceleration of {name}"));
-            return Err(Error::NonFinite {
-                what: what.collect(),
-            });
-        }
-        if self.dense.cod.rank() == self.m || self.agrees(acceleration, tolerance) {
-            return Ok(());
-        }
-        if !self.drift.known {
-            self.measure_drift(t, q, v);
-            if self.agrees(acceleration, tolerance) {
-                return Ok(());
-            }
-        }
-        self.noise
-            .go(&self.mechanism, t, [q, v], [Size::new(0.0); 2], &[]);
-        self.noise.motion(acceleration, &mut self.carried);
-        if self.agrees(acceleration, tolerance) {
-            return Ok(());
-        }
-        let a = self.here.rows();
-        let residual = (0..self.m).map(|c| a.product(c, acceleration) - self.rhs[c]);
-        let residual: Vec<f64> = residual.collect();
-        Err(Error::Inconsistent {
-            constraints: diagnose::offending(spec, &residual, &self.dense.residual_scale()),
-        })
-    }
-
-    /// Whether A q̈ = b holds up to `tolerance`, drift and the rounding that is known. At rest q̈ is the difference of what the forces and
-    /// what the constraints do, so the tolerance refers to these.
-    fn agrees(&mut self, acceleration: &[f64], tolerance: f64) -> bool {
-        let (m, a, scale) = (self.m, self.here.rows(), &self.dense.row_scale);
-        let free = &self.dense.unconstrained;
-        let size =
-            |c: usize| self.rhs[c].abs() + a.magnitude(c, acceleration) + a.magnitude(c, free);
-        let largest = (0..m).map(|c| scale[c] * size(c)).fold(0.0, f64::max);
-        let rounding = DRIFT_FACTOR * tolerance.min(RANK_CEILING) * largest;
-        for (c, scale) in scale.iter().enumerate() {
-            let finite = |x: f64| if x.is_finite() { x } else { 0.0 };
-            // Both the size of the terms that b is made of, which may cancel, and in units of ε their rounding.
-            let carried = finite(self.carried[c]);
-            let most = RANK_CEILING * carried.max(largest / scale);
-            let drift = finite(self.drift.explains(a, &self.rhs, c, acceleration));
-            self.granted[c] =
-                (DRIFT_FACTOR * drift).min(most) + DRIFT_FACTOR * f64::EPSILON * carried;
-        }
-        let met = |scale: &[f64], granted: &[f64]| {
-            (0..m).all(|c| {
-                let excess = (self.rhs[c] - a.product(c, acceleration)).abs() - granted[c];
-                excess <= 0.0 || scale[c] > 0.0 && scale[c] * excess <= rounding
-            })
-        };
-        // Rows that imply each other are granted it together.
-        met(&self.dense.row_scale, &self.granted)
-            || self.drift.known && {
-                self.dense.share(&mut self.granted);
-                met(&self.dense.row_scale, &self.granted)
-            }
     }
 }
 

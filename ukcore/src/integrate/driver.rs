@@ -8,10 +8,10 @@ use super::rattle::Rattle;
 use super::sample::Sample;
 use super::scheme::{Equations, Scheme};
 use super::stepper::Stepper;
-use super::sums::error_norm;
+use super::sums::{error_norm, projection_norm};
 use super::switches::{Leaving, Switches};
 use super::trouble::{Cause, Trouble};
-use super::{Method, Next, Outcome, PROJECTION_LIMIT, Problem, Report, Settings};
+use super::{Method, Next, Outcome, PROJECTION_LIMIT, Problem, Report, Settings, Tolerance};
 use crate::error::Error;
 use crate::scan::{all_finite, all_pairs};
 use passage::Passage;
@@ -49,6 +49,8 @@ struct Driver<'p> {
     equations: Equations<'p>,
     settings: &'p Settings,
     scheme: Box<dyn Scheme>,
+    /// That of the step in hand.
+    tolerance: Tolerance,
     /// State at the end of the attempted step before its projection.
     raw: Vec<f64>,
     /// The step to be tried next, where it goes onto the zero of a switch.
@@ -114,6 +116,7 @@ impl<'p> Driver<'p> {
                 consistent: Vec::new(),
             },
             settings,
+            tolerance,
             gap: scheme.gap(),
             scheme,
             raw: y0.to_vec(),
@@ -223,7 +226,11 @@ impl Driver<'_> {
         self.equations.switches.begin();
         // What is left of an error above the tolerance when it is rounding: a shorter step would have as much of it in the same time.
         let rounding = f64::max(1.0, self.noise * trial.h.abs());
-        self.scheme.tolerate(self.tolerance());
+        let tolerance = self.passage.tolerance(self.settings.tolerance);
+        if tolerance != self.tolerance {
+            self.tolerance = tolerance;
+            self.scheme.tolerate(tolerance);
+        }
         let made = self.make(trial, rounding);
         self.survey(trial, made.is_ok())?;
         let error = made?;
@@ -284,7 +291,7 @@ impl Driver<'_> {
         if self.scheme.keeps_constraints() {
             return Ok(());
         }
-        let tolerance = self.tolerance();
+        let tolerance = self.tolerance;
         let Equations {
             problem, course, ..
         } = &mut self.equations;
@@ -300,17 +307,13 @@ impl Driver<'_> {
             return Ok(());
         }
         let change = || new.iter().zip(&self.raw).map(|(new, raw)| new - raw);
-        let is_small = |change: &mut dyn Iterator<Item = f64>| {
-            let states = old.iter().zip(&self.raw);
-            let changes = change.zip(states).map(|(d, (old, raw))| (d, *old, *raw));
-            error_norm(changes, tolerance) <= PROJECTION_LIMIT
-        };
-        if is_small(&mut change()) {
+        let states = [old, &self.raw];
+        if projection_norm(change(), states, tolerance) <= PROJECTION_LIMIT {
             return Ok(());
         }
         let mut excess: Vec<f64> = change().collect();
         problem.excess(raw, &mut excess);
-        if is_small(&mut excess.into_iter()) {
+        if projection_norm(excess.into_iter(), states, tolerance) <= PROJECTION_LIMIT {
             return Ok(());
         }
         // Asked close to the place alone, so that the error has its time.

@@ -52,7 +52,7 @@ use sample::Sample;
 pub(crate) use stepper::{Rates, Stepper};
 pub(crate) use sums::Tolerance;
 #[cfg(feature = "ensemble")]
-pub(crate) use sums::error_norm;
+pub(crate) use sums::projection_norm;
 pub(crate) use trouble::Trouble;
 
 /// The methods on offer.

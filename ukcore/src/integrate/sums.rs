@@ -104,6 +104,17 @@ pub(super) fn sum_of_squares<S: Scalar>(x: &[S], weights: &[S]) -> S {
     (sums[0] + sums[1]) + (sums[2] + sums[3])
 }
 
+/// The norm of `change`, which a projection makes of `raw`, the end of a step that begins at `old`.
+pub(crate) fn projection_norm<S: Scalar>(
+    change: impl Iterator<Item = S>,
+    [old, raw]: [&[S]; 2],
+    tolerance: Tolerance<S>,
+) -> S {
+    let states = old.iter().zip(raw);
+    let change = change.zip(states).map(|(d, (old, raw))| (d, *old, *raw));
+    error_norm(change, tolerance)
+}
+
 /// Root mean square of change / tolerance at max(|y_old|, |y_new|) of triples (change, y_old, y_new): the norm in which the methods measure
 /// their error.
 pub(crate) fn error_norm<S: Scalar>(

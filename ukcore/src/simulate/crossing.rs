@@ -9,9 +9,10 @@
 use crate::assemble::State;
 use crate::dense::Dense;
 use crate::integrate::Singular;
-use crate::mechanism::{Equations, Evaluated, Prepared};
+use crate::mechanism::{Evaluated, Prepared};
+use crate::noise::Noise;
 use crate::pinv::{Decomposition, axpy, dot};
-use crate::rounding::Rounded;
+use crate::scan::Size;
 use crate::solver::{RANK_CEILING, RANK_TOLERANCE, leading};
 
 /// Roundings of f up to which e counts as zero, and above which it does not.
@@ -33,7 +34,7 @@ const WIDEST: f64 = 2.0;
 /// A search for singular positions near a state, in buffers that are allocated where the first one is near.
 pub(super) struct Search<'a> {
     mech: &'a Prepared,
-    rounded: Prepared<Rounded, dyn Equations<Rounded>>,
+    noise: Noise,
     dense: Dense,
     terms: Evaluated,
     /// As many rows as count.
@@ -86,7 +87,7 @@ impl<'a> Search<'a> {
         let (n, m) = (spec.n(), spec.m());
         Search {
             mech,
-            rounded: mech.rounded(),
+            noise: Noise::new(mech),
             dense: Dense::new(n, m, spec.structure.mass_diagonal),
             terms: Evaluated::new(n, m),
             rank: m,
@@ -116,15 +117,6 @@ impl<'a> Search<'a> {
         let holonomic = self.mech.spec().holonomic;
         self.mech.residual(self.t, &self.q, &mut phi[..holonomic]);
         phi
-    }
-
-    /// The same in units of ε, of which it is uncertain.
-    fn uncertainty(&self) -> Vec<f64> {
-        let mut phi = vec![Rounded::exact(0.0); self.mech.spec().m()];
-        let q: Vec<Rounded> = self.q.iter().map(|q| Rounded::unknown(*q)).collect();
-        let holonomic = self.mech.spec().holonomic;
-        (self.rounded).residual(Rounded::unknown(self.t), &q, &mut phi[..holonomic]);
-        phi.into_iter().map(Rounded::bound).collect()
     }
 
     /// Moves onto the constraints that count, and factors the equations there.
@@ -217,8 +209,11 @@ impl<'a> Search<'a> {
         self.share();
         let k = self.directions.len();
         // f, its slopes and its second derivatives, for each of its components.
-        let (phi, rounding) = (self.position(), self.uncertainty());
-        let mut rate = vec![0.0; phi.len()];
+        let phi = self.position();
+        let (mut rate, mut rounding) = (vec![0.0; phi.len()], vec![0.0; phi.len()]);
+        let exactly = [Size::new(0.0); 2];
+        (self.noise).go(self.mech, self.t, [&self.q, &u], exactly, &[]);
+        self.noise.residual(&mut rounding);
         self.mech.residual_rate(self.t, &self.q, &u, &mut rate);
         let a = self.terms.rows();
         let mut slopes = vec![rate];

@@ -1,6 +1,7 @@
 //! How many constraints count: the tolerance of the rank, as far as drift lends significance.
 
-use super::{DRIFT_FACTOR, Drift, RANK_CEILING, Solver, mass_error};
+use super::agreement::Drift;
+use super::{DRIFT_FACTOR, RANK_CEILING, Solver, mass_error};
 use crate::error::Error;
 
 impl Solver {

@@ -316,8 +316,8 @@ impl Graph {
 
     fn close(&mut self, coefficient: f64, collected: Factors) -> Id {
         let mut factors = collected.list;
-        factors.retain(|(_, e)| *e != 0);
         self.take_signs(&mut factors);
+        factors.retain(|(_, e)| *e != 0);
         factors.sort_unstable();
         if coefficient == 0.0 || factors.is_empty() {
             return self.constant(coefficient);
@@ -346,7 +346,6 @@ impl Graph {
                 }
             }
         }
-        factors.retain(|(_, e)| *e != 0);
     }
 
     pub(crate) fn call1(&mut self, func: Func, arg: Id) -> Id {

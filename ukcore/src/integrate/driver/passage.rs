@@ -60,6 +60,21 @@ pub(super) struct Passage {
     distance: f64,
 }
 
+impl Passage {
+    /// The tolerance of the step in hand, in a run with this one.
+    pub(super) fn tolerance(&self, mut tolerance: Tolerance) -> Tolerance {
+        if let Some(position) = &self.ahead {
+            let significance = self.distance * position.rate;
+            let noise = if position.gap > 0.0 { TURNING } else { NOISE };
+            let least = (noise / (significance * significance)).min(COARSEST);
+            let coarser = (least / tolerance.relative).max(1.0);
+            tolerance.relative *= coarser;
+            tolerance.absolute *= coarser;
+        }
+        tolerance
+    }
+}
+
 impl Driver<'_> {
     /// Shortens the next step so that it stays before the singular position ahead, or has it go over; not one that is `planned` already.
     pub(super) fn approach(&mut self, planned: bool) {
@@ -169,20 +184,6 @@ impl Driver<'_> {
             }
             outcome => Ok(Some(outcome)),
         }
-    }
-
-    /// The tolerance of the step in hand.
-    pub(super) fn tolerance(&self) -> Tolerance {
-        let mut tolerance = self.settings.tolerance;
-        if let Some(position) = &self.passage.ahead {
-            let significance = self.passage.distance * position.rate;
-            let noise = if position.gap > 0.0 { TURNING } else { NOISE };
-            let least = (noise / (significance * significance)).min(COARSEST);
-            let coarser = (least / tolerance.relative).max(1.0);
-            tolerance.relative *= coarser;
-            tolerance.absolute *= coarser;
-        }
-        tolerance
     }
 
     /// Looks at what the attempted step has met. Refuses it if it goes over a singular position without having been planned so.

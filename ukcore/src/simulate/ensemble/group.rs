@@ -7,7 +7,7 @@ use super::running::Running;
 use super::{Ensemble, Member, Wide};
 use crate::error::Error;
 use crate::integrate::sample::Sample;
-use crate::integrate::{PROJECTION_LIMIT, Rates, Stepper, Tolerance, error_norm};
+use crate::integrate::{PROJECTION_LIMIT, Rates, Stepper, Tolerance, projection_norm};
 use crate::lanes::{LaneSolver, Lanes};
 use crate::manifold::Newton;
 use crate::mechanism::Prepared;
@@ -306,10 +306,10 @@ impl<'a> Group<'a> {
             pairs.for_each(|(new, y)| new.set_lane(k, y));
         }
         let [old, new] = self.stepper.states();
-        let changes = self.raw.iter().zip(new).zip(old);
-        let changes = changes.map(|((raw, new), old)| (*new - *raw, *old, *raw));
+        let change = new.iter().zip(&self.raw).map(|(new, raw)| *new - *raw);
         let relative = self.ensemble.tolerance;
-        let change = error_norm(changes, Tolerance { relative, absolute });
+        let tolerance = Tolerance { relative, absolute };
+        let change = projection_norm(change, [old, &self.raw], tolerance);
         for (k, running) in members.running(&alive.clone()) {
             let [new, raw, old] = [new, &self.raw, old].map(|y| lane(y, k));
             let near = change.lane(k) <= PROJECTION_LIMIT;

@@ -3,7 +3,7 @@
 use super::Member;
 use crate::error::Error;
 use crate::integrate::sample::Sample;
-use crate::integrate::{Course, PROJECTION_LIMIT, Settings, StepSize, Trial, error_norm};
+use crate::integrate::{Course, PROJECTION_LIMIT, Settings, StepSize, Trial, projection_norm};
 use crate::simulate::record::Recorder;
 use crate::simulate::{Simulation, obstacles};
 use crate::solver::SolverWork;
@@ -64,9 +64,8 @@ impl Running {
         let Sample { t, q, v } = Sample::of(self.trial.end.t, raw);
         let mut excess: Vec<f64> = new.iter().zip(raw).map(|(new, raw)| new - raw).collect();
         self.recorder.projector.excess(t, q, v, &mut excess);
-        let changes = excess.iter().zip(old).zip(raw);
-        let changes = changes.map(|((excess, old), raw)| (*excess, *old, *raw));
-        error_norm(changes, self.settings.tolerance) <= PROJECTION_LIMIT
+        let tolerance = self.settings.tolerance;
+        projection_norm(excess.into_iter(), [old, raw], tolerance) <= PROJECTION_LIMIT
     }
 
     /// Whether a sample lies within the step in hand.
