@@ -34,13 +34,17 @@
 ///
 /// # How it is computed
 ///
-/// By the dense, rank-revealing solve: there is no straight line, since `joint` has no mass, and no constraint in which its coefficient is a number.
+/// By straight-line code: [M Aᵀ; A 0] is eliminated at compile time, which fills in 0 of its entries.
+/// Coordinate `joint` is not solved for, since `balance` replaces the inertia it lacks.
 ///
 /// | operations | add | multiply | divide | root | function | select |
 /// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
 /// | M, Q, c, A and b | 4 | 2 | 0 | 0 | 0 | 0 |
 /// | dense LDLᵀ of [M Aᵀ; A 0] after that | 10 | 16 | 3 | 0 | 0 | 0 |
-/// | once for a set of parameters | 1 | 1 | 0 | 0 | 0 | 0 |
+/// | straight line, nothing hoisted | 4 | 10 | 2 | 0 | 0 | 4 |
+/// | straight line, as emitted | 3 | 5 | 0 | 0 | 0 | 0 |
+/// | correction of a projection | 1 | 1 | 0 | 0 | 0 | 0 |
+/// | once for a set of parameters | 1 | 6 | 2 | 0 | 0 | 4 |
 ///
 /// `Mechanism::plan` tells the order, what is hoisted and left out, and draws the sparsity; `Mechanism::CODE` is the code.
 #[derive(Clone, Debug, PartialEq)]
@@ -111,7 +115,14 @@ const _: () = {
                 ("k2", "k2"),
                 ("m", "m"),
                 ("half_m", "0.5*m"),
+                ("per_k1_and_k2", "1/(k1 + k2)"),
+                ("per_m_k2", "k2/m"),
+                ("per_m_sq_k2_per_k1_and_k2", "sq(k2)/(m*(k1 + k2))"),
                 ("k1_and_k2", "k1 + k2"),
+                (
+                    "safe_balance",
+                    "1 if the pivots that depend on m, k1, k2 alone are positive and finite, else 0",
+                ),
             ],
             coords: &["joint", "x"],
             constraints: &[
@@ -130,10 +141,19 @@ const _: () = {
             ],
             switches: &[],
             structure: ukcore::Structure {
-                straight_line: false,
-                solve: ukcore::Solve::none(
-                    "`joint` has no mass, and no constraint in which its coefficient is a number",
-                ),
+                straight_line: true,
+                solve: ukcore::Solve {
+                    refusal: "",
+                    pivots: &[
+                        ukcore::Pivot::Massless(0, 0, "90"),
+                        ukcore::Pivot::Coordinate(1),
+                    ],
+                    fill: &[],
+                    checks: &[ukcore::Check::Positive(1), ukcore::Check::Positive(2)],
+                    least_share: 0.0009765625,
+                    regular: &[],
+                    met: &[],
+                },
                 mass_pattern: &[(1, 1)],
                 jacobian_pattern: &[(0, 0), (0, 1)],
                 mass_diagonal: true,
@@ -169,24 +189,24 @@ const _: () = {
                         selections: 0,
                     },
                     unprepared: ukcore::Operations {
-                        additions: 0,
-                        multiplications: 0,
-                        divisions: 0,
+                        additions: 4,
+                        multiplications: 10,
+                        divisions: 2,
                         square_roots: 0,
                         transcendentals: 0,
-                        selections: 0,
+                        selections: 4,
                     },
                     acceleration: ukcore::Operations {
-                        additions: 0,
-                        multiplications: 0,
+                        additions: 3,
+                        multiplications: 5,
                         divisions: 0,
                         square_roots: 0,
                         transcendentals: 0,
                         selections: 0,
                     },
                     correction: ukcore::Operations {
-                        additions: 0,
-                        multiplications: 0,
+                        additions: 1,
+                        multiplications: 1,
                         divisions: 0,
                         square_roots: 0,
                         transcendentals: 0,
@@ -194,11 +214,11 @@ const _: () = {
                     },
                     prepare: ukcore::Operations {
                         additions: 1,
-                        multiplications: 1,
-                        divisions: 0,
+                        multiplications: 6,
+                        divisions: 2,
                         square_roots: 0,
                         transcendentals: 0,
-                        selections: 0,
+                        selections: 4,
                     },
                 },
             },
@@ -228,14 +248,39 @@ const _: () = {
             }
         }
         fn prepare<S: ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
-            let prepared = ukcore::emitted::exact_mut::<S, 5>(prepared, "prepared");
+            let prepared = ukcore::emitted::exact_mut::<S, 9>(prepared, "prepared");
             let [m, k1, k2] = *ukcore::emitted::exact::<S, 3>(given, "given");
             let lit = S::from_f64;
             prepared[0] = k1;
             prepared[1] = k2;
+            let per_m = m.recip();
             prepared[2] = m;
             prepared[3] = lit(0.5) * m;
-            prepared[4] = k1 + k2;
+            let k1_plus_k2 = k1 + k2;
+            let per_k1_plus_k2 = k1_plus_k2.recip();
+            prepared[4] = per_k1_plus_k2;
+            prepared[5] = k2 * per_m;
+            prepared[6] = k2 * k2 * per_m * per_k1_plus_k2;
+            prepared[7] = k1_plus_k2;
+            let sq_k1_plus_k2 = k1_plus_k2 * k1_plus_k2;
+            let safe_x = S::select_le(
+                m,
+                lit(1.7976931348623157e308),
+                S::select_le(lit(2.2250738585072014e-308), m, lit(1.0), lit(0.0)),
+                lit(0.0),
+            );
+            let safe_balance = S::select_le(
+                sq_k1_plus_k2,
+                lit(1.7976931348623157e308),
+                S::select_le(
+                    lit(2.2250738585072014e-308),
+                    sq_k1_plus_k2,
+                    safe_x,
+                    lit(0.0),
+                ),
+                lit(0.0),
+            );
+            prepared[8] = safe_balance;
         }
         /// 4 additions, 2 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
         fn dynamics<S: ukcore::Scalar>(
@@ -250,9 +295,9 @@ const _: () = {
             let nonideal = ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
             let jacobian = ukcore::emitted::exact_mut::<S, 2>(out.jacobian, "jacobian");
             let rhs = ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
-            let [k1, k2, m, _, k1_and_k2] = *ukcore::emitted::exact::<
+            let [k1, k2, m, _, _, _, _, k1_and_k2, _] = *ukcore::emitted::exact::<
                 S,
-                5,
+                9,
             >(prepared, "prepared");
             let [joint, x] = *ukcore::emitted::exact::<S, 2>(q, "q");
             let lit = S::from_f64;
@@ -273,7 +318,10 @@ const _: () = {
             mass: &mut [S],
         ) {
             let mass = ukcore::emitted::exact_mut::<S, 4>(mass, "mass");
-            let [_, _, m, _, _] = *ukcore::emitted::exact::<S, 5>(prepared, "prepared");
+            let [_, _, m, _, _, _, _, _, _] = *ukcore::emitted::exact::<
+                S,
+                9,
+            >(prepared, "prepared");
             mass[3] = m;
         }
         fn jacobian<S: ukcore::Scalar>(
@@ -284,18 +332,18 @@ const _: () = {
             jacobian: &mut [S],
         ) {
             let jacobian = ukcore::emitted::exact_mut::<S, 2>(jacobian, "jacobian");
-            let [_, k2, _, _, k1_and_k2] = *ukcore::emitted::exact::<
+            let [_, k2, _, _, _, _, _, k1_and_k2, _] = *ukcore::emitted::exact::<
                 S,
-                5,
+                9,
             >(prepared, "prepared");
             jacobian[0] = k1_and_k2;
             jacobian[1] = -k2;
         }
         fn residual<S: ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
             let phi = ukcore::emitted::exact_mut::<S, 1>(phi, "phi");
-            let [k1, k2, _, _, _] = *ukcore::emitted::exact::<
+            let [k1, k2, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
                 S,
-                5,
+                9,
             >(prepared, "prepared");
             let [joint, x] = *ukcore::emitted::exact::<S, 2>(q, "q");
             phi[0] = k2.mul_add((joint - x), joint * k1);
@@ -308,9 +356,9 @@ const _: () = {
             rate: &mut [S],
         ) {
             let rate = ukcore::emitted::exact_mut::<S, 1>(rate, "rate");
-            let [k1, k2, _, _, _] = *ukcore::emitted::exact::<
+            let [k1, k2, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
                 S,
-                5,
+                9,
             >(prepared, "prepared");
             let [dot_joint, dot_x] = *ukcore::emitted::exact::<S, 2>(v, "v");
             rate[0] = k2.neg_mul_add((dot_x - dot_joint), dot_joint * k1);
@@ -321,9 +369,9 @@ const _: () = {
             q: &[S],
             v: &[S],
         ) -> ukcore::Energy<S> {
-            let [k1, k2, _, half_m, _] = *ukcore::emitted::exact::<
+            let [k1, k2, _, half_m, _, _, _, _, _] = *ukcore::emitted::exact::<
                 S,
-                5,
+                9,
             >(prepared, "prepared");
             let [joint, x] = *ukcore::emitted::exact::<S, 2>(q, "q");
             let [_, dot_x] = *ukcore::emitted::exact::<S, 2>(v, "v");
@@ -345,9 +393,52 @@ const _: () = {
             outputs: &mut [S],
         ) {
             let outputs = ukcore::emitted::exact_mut::<S, 1>(outputs, "outputs");
-            let [k1, _, _, _, _] = *ukcore::emitted::exact::<S, 5>(prepared, "prepared");
+            let [k1, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
+                S,
+                9,
+            >(prepared, "prepared");
             let [joint, _] = *ukcore::emitted::exact::<S, 2>(q, "q");
             outputs[0] = joint * k1;
+        }
+        /// 3 additions, 5 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
+        fn acceleration<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            out: &mut [S],
+        ) -> S {
+            let out = ukcore::emitted::exact_mut::<S, 2>(out, "out");
+            let [k1, k2, _, _, per_k1_and_k2, per_m_k2, per_m_sq_k2_per_k1_and_k2, _,
+            safe_balance] = *ukcore::emitted::exact::<S, 9>(prepared, "prepared");
+            let [joint, x] = *ukcore::emitted::exact::<S, 2>(q, "q");
+            let joint_minus_x = joint - x;
+            let right_x = per_k1_and_k2
+                .neg_mul_add(k2.mul_add(joint_minus_x, joint * k1), joint_minus_x);
+            let safe = safe_balance;
+            out[0] = per_m_sq_k2_per_k1_and_k2 * right_x;
+            out[1] = per_m_k2 * right_x;
+            safe
+        }
+        fn correction<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            residual: &[S],
+            out: &mut [S],
+        ) -> S {
+            let out = ukcore::emitted::exact_mut::<S, 2>(out, "out");
+            let [_, _, _, _, per_k1_and_k2, _, _, _, safe_balance] = *ukcore::emitted::exact::<
+                S,
+                9,
+            >(prepared, "prepared");
+            let [residual_0] = *ukcore::emitted::exact::<S, 1>(residual, "residual");
+            let lit = S::from_f64;
+            out[1] = lit(0.0);
+            let safe = safe_balance;
+            out[0] = -(residual_0 * per_k1_and_k2);
+            safe
         }
     }
 };

@@ -125,6 +125,18 @@ fn cost(g: &Graph, values: &[Id]) -> Operations {
     count(g, &program.needed, &program.reciprocals)
 }
 
+/// What computing `values` takes at each state, in multiplications: what depends on parameters alone is computed once.
+pub(super) fn work(g: &Graph, values: &[Id]) -> usize {
+    let program = schedule(g, values, &HashMap::new(), Sequence::Roots);
+    let mut needed = program.needed;
+    needed.retain(|id| !g.uses(*id).constant());
+    let mut reciprocals = program.reciprocals;
+    reciprocals.retain(|id| !g.uses(*id).constant());
+    let n = count(g, &needed, &reciprocals);
+    let slow = n.divisions + n.square_roots;
+    n.additions + n.multiplications + n.selections + 4 * slow + 12 * n.transcendentals
+}
+
 /// Operations of solving a dense symmetric system of `size` equations by LDLᵀ without pivoting, one reciprocal a pivot.
 fn dense(size: usize) -> Operations {
     let pairs = size * size.saturating_sub(1) / 2;

@@ -21,10 +21,12 @@ mod solution;
 
 pub(crate) use certificate::{SAFE_SHARE, Solve, Straight};
 
+use super::cost;
 use super::dynamics::Dynamics;
 use crate::expr::{Graph, Id, Symbol, is_power_of_two};
-use matrix::Matrix;
-use order::{Order, order};
+use matrix::{Factor, Matrix};
+use order::{Order, Taste, order};
+use pattern::Pattern;
 use solution::Forward;
 
 /// A 1 × 1 pivot d and the diagonal G it started from, both times a positive number: rank is lost where d/G falls to rounding.
@@ -61,37 +63,93 @@ pub(crate) enum Pivoting {
     Pair(Pair),
 }
 
-/// A coordinate that is eliminated with a constraint.
+/// A coordinate that is eliminated with a constraint in which its coefficient is fixed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pair {
     pub(crate) coordinate: usize,
     pub(crate) constraint: usize,
     /// The coordinate's coefficient in the constraint.
-    pub(crate) coefficient: f64,
-    /// Whether the coordinate has inertia; then the constraint prescribes it alone.
+    pub(crate) coefficient: Coefficient,
+    /// Whether the coordinate has inertia.
     pub(crate) massive: bool,
+    /// Whether the constraint contains nothing else.
+    pub(crate) alone: bool,
 }
 
-/// Eliminates; or says why the structure does not allow it. To M of `d` were added Σ μ aᵀa of rows a of A, to Q the Σ μ aᵀb; `weights` are
-/// the (row, coordinate, μ a_i), by which a correction has the like of its residuals.
+/// An entry of A, or of what is left of it, that is the same at all states.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Coefficient {
+    /// Its value; with the default parameters, if it is no number.
+    pub(crate) value: f64,
+    /// Whether it is a number: else it depends on parameters.
+    pub(crate) number: bool,
+}
+
+/// A difference below this share of what it is of may be rounding.
+const CLEAR: f64 = 1e-9;
+
+impl Coefficient {
+    const ZERO: Coefficient = Coefficient {
+        value: 0.0,
+        number: true,
+    };
+
+    /// self − f · o/pivot; nothing where that cancels to rounding for the default parameters alone.
+    fn less(self, f: Coefficient, o: Coefficient, pivot: Coefficient) -> Option<Coefficient> {
+        let taken = f.value * o.value / pivot.value;
+        let value = self.value - taken;
+        let number = self.number && f.number && o.number && pivot.number;
+        let clear = value.abs() > CLEAR * taken.abs() || (number && value == 0.0);
+        clear.then_some(Coefficient { value, number })
+    }
+}
+
+/// Eliminates in the order that costs least; or says why the structure does not allow it. To M of `d` were added Σ μ aᵀa of rows a of A, to
+/// Q the Σ μ aᵀb; `weights` are the (row, coordinate, μ a_i), by which a correction has the like of its residuals. `defaults` are those of
+/// the parameters.
 pub(crate) fn eliminate(
+    d: &Dynamics,
+    weights: &[(usize, usize, Id)],
+    names: &[String],
+    defaults: &[f64],
+    g: &mut Graph,
+) -> Result<Elimination, String> {
+    let pattern = Pattern::new(d, defaults, g);
+    let orders = Taste::ALL.map(|taste| order(taste, pattern.clone(), names));
+    let [first, second] = orders;
+    let (first, second) = match (first, second) {
+        (Ok(first), Ok(second)) if first.pairs() < second.pairs() => (first, second),
+        (Ok(one), _) | (Err(_), Ok(one)) => return in_order(one, d, weights, names, g),
+        (Err(refusal), Err(_)) => return Err(refusal),
+    };
+    let mut other = g.clone();
+    let one = in_order(first, d, weights, names, g)?;
+    let two = in_order(second, d, weights, names, &mut other)?;
+    if two.work(&mut other) < one.work(g) {
+        *g = other;
+        return Ok(two);
+    }
+    Ok(one)
+}
+
+/// Eliminates in the given order.
+fn in_order(
+    order: Order,
     d: &Dynamics,
     weights: &[(usize, usize, Id)],
     names: &[String],
     g: &mut Graph,
 ) -> Result<Elimination, String> {
-    let order = order(d, names, g)?;
     // A factor that all of M shares, as the one mass of all parts, only scales the multipliers: it is taken out of M and Q.
     let (common_factor, d) = &without_common_factor(d, g);
     let common = (*common_factor != g.one()).then(|| {
         let position = d.mass.keys().next().map_or(0, |(i, _)| *i);
-        let divisor = Divisor {
+        Divisor {
             name: names[position].clone(),
             position,
             value: *common_factor,
             reference: *common_factor,
-        };
-        (divisor, None)
+        }
     });
     let forces = d.force.iter().zip(&d.nonideal);
     let force: Vec<Id> = forces.map(|(q, c)| g.add(*q, *c)).collect();
@@ -110,11 +168,16 @@ pub(crate) fn eliminate(
     let mut matrix = Matrix::new(d, &jacobian, &order.pivots, g);
     let mut motion = Forward::new(&force, &rhs);
     let (mut factors, mut divisors) = (Vec::new(), Vec::new());
+    // What depends on parameters alone.
+    let mut fixed: Vec<Divisor> = common.into_iter().collect();
     for step in &order.pivots {
         let (factor, divisor) = matrix.step(*step, names, g, &mut hints)?;
         motion.step(&factor, g);
+        match factor {
+            Factor::Single(_) => divisors.extend(divisor),
+            Factor::Double(_) => fixed.extend(divisor),
+        }
         factors.push(factor);
-        divisors.extend(divisor);
     }
     let motion = motion.solution(&factors, names, g, &mut hints)?;
     let residuals = (0..d.rhs.len()).map(|i| g.symbol(Symbol::Residual(i)));
@@ -131,14 +194,25 @@ pub(crate) fn eliminate(
     let projection = projection.solution(&factors, names, g, &mut hints)?;
     let rights = motion.rights.into_iter().map(Some);
     let divisors = divisors.into_iter().zip(rights);
+    let fixed = fixed.into_iter().map(|divisor| (divisor, None));
     Ok(Elimination {
         acceleration: motion.coordinates,
         correction: projection.coordinates,
-        divisors: common.into_iter().chain(divisors).collect(),
+        divisors: fixed.chain(divisors).collect(),
         correction_rights: projection.rights,
         order,
         hints,
     })
+}
+
+impl Elimination {
+    /// Operations of one evaluation of q̈ and of what is checked, each division as some others.
+    fn work(&self, g: &mut Graph) -> usize {
+        let (certificate, _) = self.certificate(g);
+        let mut values = self.acceleration.clone();
+        values.push(certificate);
+        cost::work(g, &values)
+    }
 }
 
 /// The product of parameters that all entries of M have in front, and the equations with M, Q and c divided by it.

@@ -65,6 +65,7 @@ pub(crate) fn analyse(system: &mut System, model: &Model, dynamics: Dynamics) ->
             &regular.dynamics,
             &regular.weights,
             &names,
+            &system.defaults,
             &mut system.graph,
         )
         .map(|e| elimination::Straight::new(e, &held, &regular.met, system)),

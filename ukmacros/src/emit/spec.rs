@@ -138,7 +138,7 @@ fn solve(solve: &Solve, n: usize) -> TokenStream {
             } else {
                 "Massless"
             };
-            let (kind, a) = (format_ident!("{kind}"), pair.coefficient.to_string());
+            let (kind, a) = (format_ident!("{kind}"), pair.coefficient.value.to_string());
             let (i, row) = (number(pair.coordinate), number(pair.constraint - n));
             quote! { ukcore::Pivot::#kind(#i, #row, #a) }
         }

@@ -129,7 +129,7 @@ impl Uses {
 }
 
 /// The arena.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct Graph {
     nodes: Vec<Node>,
     uses: Vec<Uses>,

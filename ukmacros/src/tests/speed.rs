@@ -46,3 +46,19 @@ fn growth() {
         println!("{n:>8} {time:>10.2} {:>14.3}", 1e3 * time / n as f64);
     }
 }
+
+#[test]
+#[ignore = "a measurement: FILES=\"a.txt b.txt\" cargo test -p ukmacros -- --ignored work --nocapture"]
+fn work() {
+    let files = std::env::var("FILES").unwrap_or_default();
+    for path in files.split_whitespace() {
+        let source = std::fs::read_to_string(path).expect("a declaration");
+        let start = Instant::now();
+        let analysis = super::analysis(source.parse().expect("tokens"));
+        let time = start.elapsed().as_secs_f64();
+        let total = |o: crate::analysis::Operations| o.counts().iter().sum::<usize>();
+        let (q, c) = (analysis.costs.acceleration, analysis.costs.correction);
+        let solve = analysis.solve.map(|s| s.pivots.len());
+        println!("{path}: {solve:?} dynamics {} acceleration {} {:?} correction {} ({time:.2} s)", total(analysis.costs.dynamics), total(q), q.counts(), total(c));
+    }
+}

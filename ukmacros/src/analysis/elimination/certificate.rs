@@ -184,7 +184,7 @@ impl Elimination {
 
     /// 1 where every pivot is safe, 0 where one is not, as a chain of selections, and its links with the pivots they check: what depends on
     /// parameters only first, then in the order of the elimination, so that no pivot has to be kept for it.
-    fn certificate(&self, g: &mut Graph) -> (Id, Vec<(usize, Id)>) {
+    pub(super) fn certificate(&self, g: &mut Graph) -> (Id, Vec<(usize, Id)>) {
         let (zero, tiny) = (g.zero(), g.constant(f64::MIN_POSITIVE));
         let largest = g.constant(f64::MAX);
         let divisors = || self.divisors.iter().map(|(divisor, _)| divisor);

@@ -37,14 +37,59 @@ struct Deferred {
 pub(super) struct Entry {
     gram: Vec<(f64, Id)>,
     schur: Vec<(f64, Id)>,
+    /// What the entry could be, where terms of its gram are themselves what is left of larger ones: of a diagonal the sum of these, of a
+    /// coefficient of a constraint the sum of their squares.
+    size: Option<Vec<(f64, Id)>>,
 }
 
 impl Entry {
     pub(super) fn of(id: Id) -> Self {
         Entry {
             gram: vec![(1.0, id)],
-            schur: Vec::new(),
+            ..Entry::default()
         }
+    }
+
+    /// Takes terms off a diagonal that could be `size`.
+    fn take_off_sized(&mut self, terms: &[Id], size: Id) {
+        if self.size.is_some() || terms != [size] {
+            let gram = &self.gram;
+            let sizes = self.size.get_or_insert_with(|| gram.clone());
+            sizes.push((-1.0, size));
+        }
+        self.gram.extend(terms.iter().map(|term| (-1.0, *term)));
+    }
+
+    /// What a diagonal could be: what it started from.
+    fn reference(&self, g: &mut Graph) -> Id {
+        match &self.size {
+            Some(size) => g.factored_sum(size),
+            None => self.values(g).0,
+        }
+    }
+
+    /// What the square of a coefficient could be.
+    fn square(&self, g: &mut Graph) -> Id {
+        match &self.size {
+            Some(size) => g.factored_sum(size),
+            None => {
+                let (_, value) = self.values(g);
+                g.square(value)
+            }
+        }
+    }
+
+    /// Takes `term` off a coefficient, where the square of that could be `square`.
+    fn substitute(&mut self, term: Id, square: Id, g: &mut Graph) {
+        let before = self.square(g);
+        self.gram.push((-1.0, term));
+        let size = vec![(1.0, before), (1.0, square)];
+        let (_, value) = self.values(g);
+        let (value, sum) = (g.square(value), g.factored_sum(&size));
+        let ((c, value), (least, sum)) = (g.unscaled(value), g.unscaled(sum));
+        // What is added up without cancelling is as large as it could be.
+        let plain = value == sum && c >= least;
+        self.size = (!plain).then_some(size);
     }
 
     /// Takes `term` off: off what stood before if it `reduces`, else as a part of what the entry is made up of.
@@ -145,8 +190,11 @@ impl Matrix {
         }
         let mut turn = vec![0; size];
         for (at, step) in order.iter().enumerate() {
-            if let Pivoting::Single(k) = *step {
-                turn[k] = at;
+            match *step {
+                Pivoting::Single(k) => turn[k] = at,
+                Pivoting::Pair(pair) => {
+                    (turn[pair.coordinate], turn[pair.constraint]) = (at, at);
+                }
             }
         }
         Matrix {
@@ -170,12 +218,34 @@ impl Matrix {
         if g.is_zero(term) {
             return;
         }
-        let entry = self.entries.entry((a.max(b), a.min(b))).or_default();
-        entry.take_off(term, reduces);
+        self.entry_mut(a, b).take_off(term, reduces);
+        self.link(a, b);
+    }
+
+    /// The entry at (a, b), zero where there is none.
+    fn entry(&self, a: usize, b: usize) -> Entry {
+        let entry = self.entries.get(&(a.max(b), a.min(b)));
+        entry.cloned().unwrap_or_default()
+    }
+
+    fn entry_mut(&mut self, a: usize, b: usize) -> &mut Entry {
+        self.entries.entry((a.max(b), a.min(b))).or_default()
+    }
+
+    /// Enters `a` and `b` as each other's neighbours.
+    fn link(&mut self, a: usize, b: usize) {
         if a != b {
             self.rows[a].insert(b);
             self.rows[b].insert(a);
         }
+    }
+
+    /// Those entries of `k` with `others` that are not zero.
+    fn row(&self, others: &BTreeSet<usize>, k: usize, g: &mut Graph) -> Vec<(usize, Id)> {
+        let values = others.iter().map(|a| (*a, self.value(*a, k, g)));
+        let values: Vec<(usize, Id)> = values.collect();
+        let zero = |(_, id): &(usize, Id)| !g.is_zero(*id);
+        values.into_iter().filter(zero).collect()
     }
 
     /// Neighbours of `k`, which leaves the matrix.
@@ -191,7 +261,8 @@ impl Matrix {
     /// and the number, if it is not 1. In a chain of constraints (each coupled to the next alone) divisions would wait for each other;
     /// written as N' = d N − p² D over D' = N the pivots need none, and all reciprocals are independent.
     fn pivot(&self, k: usize, g: &mut Graph) -> Option<(Id, Id, Option<Id>)> {
-        let (reference, diagonal) = self.entries.get(&(k, k))?.values(g);
+        let entry = self.entries.get(&(k, k))?;
+        let (reference, (_, diagonal)) = (entry.reference(g), entry.values(g));
         let sign = self.sign(k);
         let (reference, diagonal) = (g.scale(sign, reference), g.scale(sign, diagonal));
         let (numerator, reference, denominator) = match self.deferred[k] {
@@ -218,7 +289,7 @@ impl Matrix {
         k >= self.n && a >= self.n && room && !another()
     }
 
-    /// Takes one step of the elimination; with a 1 × 1 pivot, what it divides by.
+    /// Takes one step of the elimination; and what it divides by, if that may vanish.
     pub(super) fn step(
         &mut self,
         step: Pivoting,
@@ -227,7 +298,19 @@ impl Matrix {
         hints: &mut Vec<(Id, String)>,
     ) -> Result<(Factor, Option<Divisor>), String> {
         Ok(match step {
-            Pivoting::Pair(pair) => (Factor::Double(self.eliminate_pair(pair, g)), None),
+            Pivoting::Pair(pair) => {
+                let double = self.eliminate_pair(pair, names, g)?;
+                let divisor = (!pair.coefficient.number).then(|| {
+                    let square = g.square(double.coefficient);
+                    Divisor {
+                        name: names[pair.constraint].clone(),
+                        position: pair.constraint,
+                        value: square,
+                        reference: square,
+                    }
+                });
+                (Factor::Double(double), divisor)
+            }
             Pivoting::Single(k) => {
                 let (single, divisor) = self.eliminate(k, names, g, hints)?;
                 (Factor::Single(single), Some(divisor))
@@ -259,14 +342,14 @@ impl Matrix {
         let value = g.div(numerator, denominator.unwrap_or(one));
         let value = g.scale(self.sign(k), value);
         let neighbours = self.take(k);
-        let neighbours_values = neighbours.iter().map(|a| (*a, self.value(*a, k, g)));
+        let neighbours_values: Vec<(usize, Id)> = self.row(&neighbours, k, g);
         let mut single = Single {
             at: k,
             sign: self.sign(k),
             numerator,
             denominator,
             shared: constraint || neighbours.range(..self.n).next().is_some(),
-            row: neighbours_values.collect(),
+            row: neighbours_values,
             factors: Vec::new(),
             defers: false,
         };
@@ -303,49 +386,84 @@ impl Matrix {
             for (b, entry) in &single.row[..=p] {
                 let term = g.mul(*factor, *entry);
                 // What a coordinate adds to constraints makes up G; all else is taken off a diagonal that stood before.
-                self.take_off(*a, *b, term, constraint || *a < self.n, g);
+                let adds = !constraint && *a >= self.n;
+                if adds && a == b {
+                    let square = self.entry(*a, k).square(g);
+                    let size = g.div(square, value);
+                    let size = if g.square(*entry) == square { term } else { size };
+                    self.entry_mut(*a, *a).take_off_sized(&[term], size);
+                } else {
+                    self.take_off(*a, *b, term, !adds, g);
+                }
             }
         }
         Ok((single, divisor))
     }
 
     /// Eliminates a coordinate with a constraint: P⁻¹ = [0 1/a; 1/a −μ/a²].
-    fn eliminate_pair(&mut self, pair: Pair, g: &mut Graph) -> Double {
-        let Pair {
-            coordinate: j,
-            constraint: c,
-            ..
-        } = pair;
+    fn eliminate_pair(
+        &mut self,
+        pair: Pair,
+        names: &[String],
+        g: &mut Graph,
+    ) -> Result<Double, String> {
+        let (j, c) = (pair.coordinate, pair.constraint);
         let (a, mu) = (self.value(j, c, g), self.value(j, j, g));
+        if g.is_zero(a) || !g.uses(a).constant() {
+            let (name, of) = (&names[j], &names[c]);
+            return Err(format!("the coefficient of `{name}` in `{of}` vanishes"));
+        }
+        let largest = match self.entries.get(&(j, j)) {
+            Some(entry) => entry.reference(g),
+            None => mu,
+        };
         let mut of_j = self.take(j);
         of_j.remove(&c);
         let of_c = self.take(c);
-        let mut values = |of: &BTreeSet<usize>, k: usize| -> BTreeMap<usize, Id> {
-            of.iter().map(|r| (*r, self.value(*r, k, g))).collect()
-        };
-        let (row_j, row_c) = (values(&of_j, j), values(&of_c, c));
+        let (row_j, row_c) = (self.row(&of_j, j, g), self.row(&of_c, c, g));
         let zero = g.zero();
-        let entry = |row: &BTreeMap<usize, Id>, r: &usize| row.get(r).copied().unwrap_or(zero);
-        let touched: Vec<(usize, Id, Id)> = of_j
-            .union(&of_c)
-            .map(|r| (*r, entry(&row_j, r), entry(&row_c, r)))
+        let entry = |row: &[(usize, Id)], r: usize| {
+            row.binary_search_by_key(&r, |(at, _)| *at)
+                .map_or(zero, |at| row[at].1)
+        };
+        let both: BTreeSet<usize> = row_j.iter().chain(&row_c).map(|(r, _)| *r).collect();
+        let touched: Vec<(usize, Id, Id)> = both
+            .iter()
+            .map(|r| (*r, entry(&row_j, *r), entry(&row_c, *r)))
             .collect();
         for (p, (r, rj, rc)) in touched.iter().enumerate() {
             for (s, sj, sc) in &touched[..=p] {
-                for term in products((*rj, *rc), (*sj, *sc), a, mu, g) {
-                    self.take_off(*r, *s, term, false, g);
+                let terms = products((*rj, *rc), (*sj, *sc), a, mu, g);
+                let terms: Vec<Id> = terms.into_iter().filter(|id| !g.is_zero(*id)).collect();
+                if terms.is_empty() {
+                    continue;
+                }
+                if r == s {
+                    // Without the terms of inertia shared with the coordinate: they may cancel the others, and are not larger.
+                    let square = self.entry(c, *r).square(g);
+                    let size = g.product(&[(square, 1), (largest, 1), (a, -2)]);
+                    let size = g.neg(size);
+                    self.entry_mut(*r, *r).take_off_sized(&terms, size);
+                } else if *s < self.n && *r >= self.n {
+                    let (f, o) = (self.entry(*r, j).square(g), self.entry(c, *s).square(g));
+                    let square = g.product(&[(f, 1), (o, 1), (a, -2)]);
+                    self.link(*r, *s);
+                    let entry = self.entry_mut(*r, *s);
+                    terms.iter().for_each(|term| entry.substitute(*term, square, g));
+                } else {
+                    terms.iter().for_each(|term| self.take_off(*r, *s, *term, false, g));
                 }
             }
         }
         // q̈_j follows from the constraint's row alone.
         let factors = row_c.iter().map(|(r, id)| (*r, g.div(*id, a)));
-        Double {
+        Ok(Double {
             factors: factors.collect(),
             pair,
             inertia: mu,
             coefficient: a,
             touched,
-        }
+        })
     }
 }
 

@@ -2,8 +2,6 @@
 
 use super::pattern::Pattern;
 use super::{Pair, Pivoting};
-use crate::analysis::dynamics::Dynamics;
-use crate::expr::Graph;
 use std::collections::BTreeSet;
 
 /// Programs larger than this are not worth their compile time: the solve is then left to the runtime.
@@ -17,93 +15,70 @@ pub(super) struct Order {
     pub(super) fill: Vec<(usize, usize)>,
 }
 
+impl Order {
+    /// Number of coordinates that are taken together with constraints.
+    pub(super) fn pairs(&self) -> usize {
+        let pair = |pivot: &&Pivoting| matches!(pivot, Pivoting::Pair(_));
+        self.pivots.iter().filter(pair).count()
+    }
+}
+
+/// Which coordinates are taken together with constraints.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Taste {
+    /// Those without inertia, and those that a constraint prescribes alone; for the other constraints A M⁻¹ Aᵀ is eliminated.
+    Multipliers,
+    /// All whose coefficient in a constraint is fixed, so that what a constraint gives outright is not solved for. Bodies pinned to each
+    /// other are taken leaf by leaf, each with its pins, which is the recursion over articulated bodies.
+    Substitution,
+}
+
+impl Taste {
+    pub(super) const ALL: [Taste; 2] = [Taste::Multipliers, Taste::Substitution];
+
+    fn takes(self, pair: &Pair) -> bool {
+        self == Taste::Substitution || !pair.massive || pair.alone
+    }
+}
+
 /// The pivots in their order; or why there is none.
-pub(super) fn order(d: &Dynamics, names: &[String], g: &Graph) -> Result<Order, String> {
-    let mut pattern = Pattern::new(d);
-    let mut pivots = pairs(&mut pattern, d, g);
+pub(super) fn order(taste: Taste, mut pattern: Pattern, names: &[String]) -> Result<Order, String> {
+    let mut ready = BTreeSet::new();
+    let all: BTreeSet<usize> = pattern.left().collect();
+    ready.extend(keys(&all, taste, &pattern));
+    let (mut pivots, mut entries) = (Vec::new(), 0);
+    while let Some((_, at, partner)) = ready.first().copied() {
+        let pair = partner.and_then(|constraint| pattern.pair(at, constraint));
+        let around = around(at, partner, &pattern);
+        for before in keys(&around, taste, &pattern) {
+            ready.remove(&before);
+        }
+        let (pivot, neighbours) = match pair {
+            Some(pair) => (Pivoting::Pair(pair), pattern.eliminate_pair(pair)),
+            None => (Pivoting::Single(at), pattern.eliminate(at)),
+        };
+        ready.extend(keys(&around, taste, &pattern));
+        pivots.push(pivot);
+        entries += neighbours.len().pow(2);
+        if entries > MAX_ENTRIES {
+            return Err(format!(
+                "its elimination would compute more than {MAX_ENTRIES} entries (at `{}`)",
+                names[at]
+            ));
+        }
+    }
     if let Some(j) = pattern.coordinates().find(|j| !pattern.has_inertia(*j)) {
         return Err(format!(
             "`{}` has no mass, and no constraint in which its coefficient is a number",
             names[j]
         ));
     }
-    pivots.extend(singles(&mut pattern, names)?);
-    Ok(Order {
-        pivots,
-        fill: pattern.into_fill(),
-    })
-}
-
-/// Eliminates the coordinates that have no inertia or that a constraint prescribes alone, each time the first that there is.
-fn pairs(pattern: &mut Pattern, d: &Dynamics, g: &Graph) -> Vec<Pivoting> {
-    let mut pivots = Vec::new();
-    let mut open: BTreeSet<usize> = pattern.coordinates().collect();
-    while let Some(coordinate) = open.pop_first() {
-        let Some(pair) = partner(coordinate, pattern, d, g) else {
-            continue;
-        };
-        let neighbours = pattern.eliminate_pair(pair);
-        // What shared a constraint with it may now be prescribed alone.
-        for constraint in neighbours.range(d.force.len()..) {
-            open.extend(pattern.coordinates_in(*constraint));
-        }
-        open.remove(&coordinate);
-        pivots.push(Pivoting::Pair(pair));
-    }
-    pivots
-}
-
-/// The constraint of fewest neighbours that `coordinate` can be eliminated with: its coefficient there is a number and, if it has
-/// inertia, it is alone in it. A substitution that is not trivial gives its neighbours new entries, so that later coefficients are no
-/// longer those of A: only untouched rows and columns are taken.
-fn partner(coordinate: usize, pattern: &Pattern, d: &Dynamics, g: &Graph) -> Option<Pair> {
-    let massive = pattern.has_inertia(coordinate);
-    let fits = |c: &usize| {
-        let alone = pattern.neighbours(*c) == 1;
-        pattern.is_untouched(*c) && pattern.is_untouched(coordinate) && (alone || !massive)
-    };
-    let pairs = pattern.constraints_on(coordinate).filter(fits);
-    let pairs = pairs.filter_map(|constraint| {
-        let entry = d.jacobian.get(&(constraint - d.force.len(), coordinate))?;
-        let coefficient = g.as_const(*entry).filter(|a| *a != 0.0)?;
-        Some(Pair {
-            coordinate,
-            constraint,
-            coefficient,
-            massive,
-        })
-    });
-    pairs.min_by_key(|pair| pattern.neighbours(pair.constraint))
-}
-
-/// Eliminates all that is left, each time what comes first by [`key`].
-fn singles(pattern: &mut Pattern, names: &[String]) -> Result<Vec<Pivoting>, String> {
-    let keys = |pattern: &Pattern, of: &mut dyn Iterator<Item = usize>| -> Vec<_> {
-        of.filter(|k| pattern.is_definite(*k))
-            .map(|k| key(k, pattern))
-            .collect()
-    };
-    let mut pivots = Vec::new();
-    let mut entries = 0;
-    let mut ready: BTreeSet<Key> = keys(pattern, &mut pattern.left()).into_iter().collect();
-    while let Some((.., k)) = ready.pop_first() {
-        for before in keys(pattern, &mut pattern.near(k)) {
-            ready.remove(&before);
-        }
-        let neighbours = pattern.eliminate(k);
-        ready.extend(keys(pattern, &mut neighbours.iter().copied()));
-        pivots.push(Pivoting::Single(k));
-        entries += neighbours.len().pow(2);
-        if entries > MAX_ENTRIES {
-            return Err(format!(
-                "its elimination would compute more than {MAX_ENTRIES} entries (at `{}`)",
-                names[k]
-            ));
-        }
-    }
     let left: Vec<&str> = pattern.left().map(|k| names[k].as_str()).collect();
     match left.is_empty() {
-        true => Ok(pivots),
+        true => Ok(Order {
+            pivots,
+            fill: pattern.into_fill(),
+        }),
         false => Err(format!(
             "no definite pivot is left among {}",
             left.join(", ")
@@ -111,13 +86,62 @@ fn singles(pattern: &mut Pattern, names: &[String]) -> Result<Vec<Pivoting>, Str
     }
 }
 
-/// What is compared: whether it shares inertia, its number of neighbours, whether no elimination coupled it, what it waits for, its
-/// position.
-type Key = (bool, usize, bool, usize, usize);
+/// What is compared, and what it is of: a coordinate or constraint alone, or a coordinate with a constraint.
+type Key = ([usize; 5], usize, Option<usize>);
 
-/// Coordinates that share no inertia come first: the constraints on them must wait for them in any case. Then what has the fewest
-/// neighbours; among equals what was coupled by an elimination, so that a chain is taken link by link; then what waits least.
-fn key(k: usize, pattern: &Pattern) -> Key {
-    let (shares, coupled) = (!pattern.shares_no_inertia(k), pattern.was_coupled(k));
-    (shares, pattern.neighbours(k), !coupled, pattern.depth(k), k)
+/// What the keys that an elimination changes belong to: its neighbours, and what shares a constraint with them.
+fn around(at: usize, partner: Option<usize>, pattern: &Pattern) -> BTreeSet<usize> {
+    let taken = [Some(at), partner].into_iter().flatten();
+    let near: BTreeSet<usize> = taken
+        .flat_map(|k| pattern.near(k).chain([k]))
+        .collect();
+    let constraints = near.iter().filter(|k| !pattern.is_coordinate(**k));
+    let sharing = constraints.flat_map(|c| pattern.coordinates_in(*c));
+    near.iter().copied().chain(sharing).collect()
+}
+
+/// The keys of what can be eliminated, alone or in pairs with others, among `of`.
+fn keys(of: &BTreeSet<usize>, taste: Taste, pattern: &Pattern) -> Vec<Key> {
+    let mut keys = Vec::new();
+    for k in of.iter().copied().filter(|k| pattern.is_left(*k)) {
+        let mut pairs: Vec<Pair> = match pattern.is_coordinate(k) {
+            true => pattern.constraints_on(k).filter_map(|c| pattern.pair(k, c)).collect(),
+            false => pattern.coordinates_in(k).filter_map(|i| pattern.pair(i, k)).collect(),
+        };
+        pairs.retain(|pair| taste.takes(pair));
+        keys.extend(pairs.iter().map(|pair| pair_key(pair, taste, pattern)));
+        // A coordinate that is eliminated alone takes the fixed pivots of its constraints with it.
+        let kept = taste == Taste::Substitution
+            && pattern.is_coordinate(k)
+            && pattern.constraints_on(k).any(|c| pattern.has_pair(c));
+        if pattern.is_definite(k) && !kept {
+            keys.push(single_key(k, taste, pattern));
+        }
+    }
+    keys
+}
+
+/// By the number of entries that the pair changes.
+fn pair_key(pair: &Pair, taste: Taste, pattern: &Pattern) -> Key {
+    let Pair { coordinate, constraint, massive, .. } = *pair;
+    let (a, b) = (pattern.neighbours(coordinate) - 1, pattern.neighbours(constraint) - 1);
+    let rank = match taste {
+        // All before what is eliminated alone.
+        Taste::Multipliers => [0, coordinate, b, 0, 0],
+        Taste::Substitution => [a * b + usize::from(massive) * b * (b + 1) / 2, 0, 0, 0, 0],
+    };
+    (rank, coordinate, Some(constraint))
+}
+
+/// Multipliers: coordinates that share no inertia come first, since the constraints on them must wait for them in any case. Then what has
+/// the fewest neighbours; among equals what was coupled by an elimination, so that a chain is taken link by link; then what waits least.
+fn single_key(k: usize, taste: Taste, pattern: &Pattern) -> Key {
+    let size = pattern.neighbours(k);
+    let first = match taste {
+        Taste::Multipliers => [1, usize::from(!pattern.shares_no_inertia(k)), size],
+        Taste::Substitution => [size * (size + 1) / 2, 1, 0],
+    };
+    let [a, b, c] = first;
+    let rank = [a, b, c, usize::from(!pattern.was_coupled(k)), pattern.depth(k)];
+    (rank, k, None)
 }

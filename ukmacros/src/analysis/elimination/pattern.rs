@@ -1,10 +1,15 @@
 //! The non-zeros of K = [M Aᵀ; A 0] while it is eliminated: the one simulation that order, fill and sizes are read off.
 
-use super::Pair;
+use super::{Coefficient, Pair};
 use crate::analysis::dynamics::Dynamics;
-use std::collections::BTreeSet;
+use crate::expr::{Graph, Id, Point, eval};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A coefficient that is smaller than this share of another in its row is no pivot: it would magnify the rest.
+const SMALL: f64 = 1.0 / 64.0;
 
 /// What is left of K. Positions: coordinate i is i, constraint i is n + i.
+#[derive(Clone)]
 pub(super) struct Pattern {
     n: usize,
     left: BTreeSet<usize>,
@@ -14,8 +19,8 @@ pub(super) struct Pattern {
     inertia: Vec<bool>,
     /// Of each constraint, its coordinates that are left: not those that share inertia with eliminated ones.
     own: Vec<BTreeSet<usize>>,
-    /// Whether entries of the row are no longer those of K.
-    touched: Vec<bool>,
+    /// Entries (constraint, coordinate) that are the same at all states.
+    fixed: BTreeMap<(usize, usize), Coefficient>,
     /// Whether a neighbour was eliminated alone.
     coupled: Vec<bool>,
     /// Longest chain of divisions that a row waits for.
@@ -24,7 +29,8 @@ pub(super) struct Pattern {
 }
 
 impl Pattern {
-    pub(super) fn new(d: &Dynamics) -> Self {
+    /// The pattern of `d`, with the values that its fixed coefficients have for the parameters `defaults`.
+    pub(super) fn new(d: &Dynamics, defaults: &[f64], g: &Graph) -> Self {
         let n = d.force.len();
         let size = n + d.rhs.len();
         let mut pattern = Pattern {
@@ -33,7 +39,7 @@ impl Pattern {
             near: vec![BTreeSet::new(); size],
             inertia: (0..n).map(|i| d.mass.contains_key(&(i, i))).collect(),
             own: vec![BTreeSet::new(); size],
-            touched: vec![false; size],
+            fixed: BTreeMap::new(),
             coupled: vec![false; size],
             depth: vec![0; size],
             fill: BTreeSet::new(),
@@ -45,6 +51,18 @@ impl Pattern {
             pattern.join(n + row, *column);
             pattern.own[n + row].insert(*column);
         }
+        let fixed = d.jacobian.iter().filter(|(_, a)| g.uses(**a).constant());
+        let (places, ids): (Vec<_>, Vec<Id>) = fixed.map(|(at, a)| (*at, *a)).unzip();
+        let point = Point {
+            params: defaults,
+            ..Point::NOWHERE
+        };
+        let values = eval(g, &ids, &point);
+        for (((row, i), id), value) in places.into_iter().zip(&ids).zip(values) {
+            let number = g.as_const(*id).is_some();
+            let coefficient = Coefficient { value, number };
+            pattern.fixed.insert((n + row, i), coefficient);
+        }
         pattern.fill.clear();
         pattern
     }
@@ -52,6 +70,16 @@ impl Pattern {
     /// What is left, in ascending order.
     pub(super) fn left(&self) -> impl Iterator<Item = usize> {
         self.left.iter().copied()
+    }
+
+    pub(super) fn is_left(&self, k: usize) -> bool {
+        self.left.contains(&k)
+    }
+
+    /// Whether a coordinate can be taken together with `constraint`.
+    pub(super) fn has_pair(&self, constraint: usize) -> bool {
+        self.coordinates_in(constraint)
+            .any(|i| self.pair(i, constraint).is_some())
     }
 
     /// The neighbours of `k` that are left.
@@ -64,6 +92,11 @@ impl Pattern {
         self.near[k].len()
     }
 
+    /// Whether `k` is a coordinate.
+    pub(super) fn is_coordinate(&self, k: usize) -> bool {
+        k < self.n
+    }
+
     pub(super) fn has_inertia(&self, coordinate: usize) -> bool {
         self.inertia[coordinate]
     }
@@ -71,11 +104,6 @@ impl Pattern {
     /// The coordinates that are left.
     pub(super) fn coordinates(&self) -> impl Iterator<Item = usize> {
         self.left.range(..self.n).copied()
-    }
-
-    /// Whether the entries of `k` are still those of K.
-    pub(super) fn is_untouched(&self, k: usize) -> bool {
-        !self.touched[k]
     }
 
     /// The constraints on `coordinate` that are left.
@@ -88,10 +116,31 @@ impl Pattern {
         self.near[constraint].range(..self.n).copied()
     }
 
+    /// The pivot of `coordinate` with `constraint`, if it is one at any state: its coefficient there is fixed, not zero and not much smaller
+    /// than another fixed one, and the constraint has no entry on the diagonal, as it gets where one of its coordinates is eliminated alone.
+    pub(super) fn pair(&self, coordinate: usize, constraint: usize) -> Option<Pair> {
+        let coefficient = *self.fixed.get(&(constraint, coordinate))?;
+        let row = self.fixed.range((constraint, 0)..(constraint + 1, 0));
+        let largest = row.fold(0.0, |s: f64, (_, c)| s.max(c.value.abs()));
+        let free = !self.coupled[constraint];
+        let size = coefficient.value.abs();
+        let fits = free && size > 0.0 && size.is_finite() && size >= SMALL * largest;
+        fits.then(|| Pair {
+            coordinate,
+            constraint,
+            coefficient,
+            massive: self.inertia[coordinate],
+            alone: self.near[constraint].len() == 1,
+        })
+    }
+
     /// Whether the pivot of `k` is definite where A has full rank: with all its coordinates gone, what is left of a constraint is, though
     /// it may be coupled to others that share inertia.
     pub(super) fn is_definite(&self, k: usize) -> bool {
-        k < self.n || self.own[k].is_empty()
+        match self.is_coordinate(k) {
+            true => self.inertia[k],
+            false => self.own[k].is_empty(),
+        }
     }
 
     /// Whether `k` is a coordinate that is coupled to constraints alone.
@@ -132,27 +181,52 @@ impl Pattern {
     }
 
     /// Eliminates a coordinate with a constraint. That couples the neighbours of one with those of the other and, if the coordinate has
-    /// inertia, those of the constraint among themselves. Returns the neighbours of the coordinate.
+    /// inertia, those of the constraint among themselves. Returns the neighbours of both.
     pub(super) fn eliminate_pair(&mut self, pair: Pair) -> BTreeSet<usize> {
         let mut of_coordinate = self.take(pair.coordinate);
         of_coordinate.remove(&pair.constraint);
         let of_constraint = self.take(pair.constraint);
-        let inertia = pair.massive.then_some(&of_constraint);
-        for of in [Some(&of_coordinate), inertia].into_iter().flatten() {
-            for (a, b) in of
-                .iter()
-                .flat_map(|a| of_constraint.iter().map(|b| (*a, *b)))
-            {
-                self.join(a, b);
-                (self.touched[a], self.touched[b]) = (true, true);
-                match (a.min(b), a.max(b)) {
-                    (i, j) if i == j && i < self.n => self.inertia[i] = true,
-                    (i, c) if i < self.n && c >= self.n => drop(self.own[c].insert(i)),
-                    _ => {}
+        for a in &of_coordinate {
+            for b in &of_constraint {
+                match self.is_coordinate(*a) {
+                    true if a == b => self.inertia[*a] = true,
+                    true => self.join(*a, *b),
+                    false => self.substitute(pair, *a, *b),
                 }
             }
         }
-        of_coordinate
+        if pair.massive {
+            for a in &of_constraint {
+                self.inertia[*a] = true;
+                of_constraint.range(..a).for_each(|b| self.join(*a, *b));
+            }
+        }
+        of_coordinate.union(&of_constraint).copied().collect()
+    }
+
+    /// What the coordinate of `pair`, substituted, adds to the coefficient of `coordinate` in another `constraint`.
+    fn substitute(&mut self, pair: Pair, constraint: usize, coordinate: usize) {
+        let at = (constraint, coordinate);
+        let before = match self.near[constraint].contains(&coordinate) {
+            true => self.fixed.get(&at).copied(),
+            false => Some(Coefficient::ZERO),
+        };
+        let factor = self.fixed.get(&(constraint, pair.coordinate));
+        let other = self.fixed.get(&(pair.constraint, coordinate));
+        let after = before.zip(factor.zip(other));
+        let after = after.and_then(|(before, (f, o))| before.less(*f, *o, pair.coefficient));
+        self.join(constraint, coordinate);
+        self.own[constraint].insert(coordinate);
+        match after {
+            Some(c) if c.number && c.value == 0.0 => {
+                self.near[constraint].remove(&coordinate);
+                self.near[coordinate].remove(&constraint);
+                self.own[constraint].remove(&coordinate);
+                self.fixed.remove(&at);
+            }
+            Some(c) => drop(self.fixed.insert(at, c)),
+            None => drop(self.fixed.remove(&at)),
+        }
     }
 
     /// Eliminates `k` alone, which couples its neighbours. Returns them.
@@ -163,7 +237,10 @@ impl Pattern {
         for a in &neighbours {
             self.coupled[*a] = true;
             self.depth[*a] = self.depth[*a].max(later);
-            neighbours.range(..a).for_each(|b| self.join(*a, *b));
+            neighbours.range(..a).for_each(|b| {
+                self.join(*a, *b);
+                self.fixed.remove(&(*a, *b));
+            });
         }
         neighbours
     }
