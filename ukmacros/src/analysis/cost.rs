@@ -42,6 +42,14 @@ impl Operations {
     }
 }
 
+impl Operations {
+    /// All of them, each as some multiplications.
+    pub(crate) fn work(self) -> usize {
+        let quick = self.additions + self.multiplications + self.selections;
+        quick + 4 * (self.divisions + self.square_roots) + 12 * self.transcendentals
+    }
+}
+
 /// Operations of one call of each function, and of what they replace.
 pub(crate) struct Costs {
     pub(crate) dynamics: Operations,
@@ -120,21 +128,9 @@ pub(crate) fn count(g: &Graph, needed: &HashSet<Id>, reciprocals: &HashSet<Id>) 
 }
 
 /// Operations of computing `values`.
-fn cost(g: &Graph, values: &[Id]) -> Operations {
+pub(super) fn cost(g: &Graph, values: &[Id]) -> Operations {
     let program = schedule(g, values, &HashMap::new(), Sequence::Roots);
     count(g, &program.needed, &program.reciprocals)
-}
-
-/// What computing `values` takes at each state, in multiplications: what depends on parameters alone is computed once.
-pub(super) fn work(g: &Graph, values: &[Id]) -> usize {
-    let program = schedule(g, values, &HashMap::new(), Sequence::Roots);
-    let mut needed = program.needed;
-    needed.retain(|id| !g.uses(*id).constant());
-    let mut reciprocals = program.reciprocals;
-    reciprocals.retain(|id| !g.uses(*id).constant());
-    let n = count(g, &needed, &reciprocals);
-    let slow = n.divisions + n.square_roots;
-    n.additions + n.multiplications + n.selections + 4 * slow + 12 * n.transcendentals
 }
 
 /// Operations of solving a dense symmetric system of `size` equations by LDLᵀ without pivoting, one reciprocal a pivot.

@@ -1,6 +1,8 @@
 //! M, Q, A, b from what was declared.
 
-use crate::expr::{Derivative, Gradient, Graph, Id, Kind, Symbol, System};
+use super::cost::cost;
+use super::lift::{Lift, lift};
+use crate::expr::{Derivative, Gradient, Graph, Id, Kind, Sweep, Symbol, System};
 use std::collections::BTreeMap;
 
 /// The equations of motion as nodes. Notation as in Zhao, Zhen & Chen 2013.
@@ -24,6 +26,8 @@ pub(crate) struct Dynamics {
     pub(crate) kinetic: Id,
     /// V, 0 where none is declared.
     pub(crate) potential: Id,
+    /// T in the velocities it is written in, if it is.
+    pub(crate) lift: Option<Lift>,
 }
 
 impl Dynamics {
@@ -47,7 +51,8 @@ impl Dynamics {
             .chain(&mut self.phi)
             .chain(&mut self.rate);
         let energies = [&mut self.kinetic, &mut self.potential];
-        (matrices.chain(vectors).chain(constraints), energies)
+        let lift = self.lift.iter_mut().flat_map(Lift::values_mut);
+        (matrices.chain(vectors).chain(constraints).chain(lift), energies)
     }
 }
 
@@ -59,21 +64,21 @@ pub(crate) fn derive(system: &mut System, n: usize) -> Dynamics {
     for (i, f) in &system.force {
         force[*i] = *f;
     }
-    let mut mass = BTreeMap::new();
+    let potential = system.potential.unwrap_or(zero);
+    let slopes = slopes(potential, n, g);
+    for (f, slope) in force.iter_mut().zip(slopes) {
+        *f = subtract(*f, slope, g);
+    }
+    let (mut mass, mut lifted) = (BTreeMap::new(), None);
     let kinetic;
     if let Some((t, _)) = system.kinetic {
         kinetic = t;
-        lagrange(t, &mut mass, &mut force, g);
+        lifted = lift(t, &force, g);
+        equations(t, lifted.as_ref(), &mut mass, &mut force, g);
     } else {
         mass = system.mass.iter().map(|(at, (m, _))| (*at, *m)).collect();
         mass.retain(|_, m| !g.is_zero(*m));
         kinetic = half_square(&mass, g);
-    }
-    let potential = system.potential.unwrap_or(zero);
-    let gradient = Gradient::of(potential, g);
-    for (i, f) in force.iter_mut().enumerate() {
-        let slope = gradient.along(Symbol::Coord(i), g);
-        *f = subtract(*f, slope, g);
     }
     let mut nonideal = vec![zero; n];
     for (i, c) in system.nonideal.iter().flatten() {
@@ -121,7 +126,57 @@ pub(crate) fn derive(system: &mut System, n: usize) -> Dynamics {
         rate,
         kinetic,
         potential,
+        lift: lifted,
     }
+}
+
+/// Above so many coordinates only ways whose cost grows in proportion to the declaration are tried.
+const MANY: usize = 8;
+
+/// ∂V/∂q: by one sweep from V down, or coordinate by coordinate, whichever costs less.
+fn slopes(potential: Id, n: usize, g: &mut Graph) -> Vec<Id> {
+    let zero = g.zero();
+    let mut sweep = Sweep::of(potential, g);
+    let swept: Vec<Id> = (0..n).map(|i| sweep.along(Symbol::Coord(i)).unwrap_or(zero)).collect();
+    if n > MANY {
+        return swept;
+    }
+    let gradient = Gradient::of(potential, g);
+    let direct: Vec<Id> = (0..n).map(|i| gradient.along(Symbol::Coord(i), g)).collect();
+    if cost(g, &swept).work() < cost(g, &direct).work() { swept } else { direct }
+}
+
+/// M and what T adds to Q: from the velocities that T is written in, or as Lagrange's equations in q̇, whichever costs less.
+fn equations(
+    t: Id,
+    lift: Option<&Lift>,
+    mass: &mut BTreeMap<(usize, usize), Id>,
+    force: &mut Vec<Id>,
+    g: &mut Graph,
+) {
+    let n = force.len();
+    let lifted = lift.map(|lift| {
+        let own = lift.generalised(n, g);
+        let force = force.iter().zip(own).map(|(f, own)| add(*f, own, g));
+        let force: Vec<Id> = force.collect();
+        (lift.mass(g), force)
+    });
+    let work = |(mass, force): &(BTreeMap<(usize, usize), Id>, Vec<Id>), g: &Graph| {
+        let all: Vec<Id> = mass.values().chain(force).copied().collect();
+        cost(g, &all).work()
+    };
+    let taken = match lifted {
+        Some(lifted) if n > MANY => lifted,
+        lifted => {
+            let mut direct = (BTreeMap::new(), force.clone());
+            lagrange(t, &mut direct.0, &mut direct.1, g);
+            match lifted {
+                Some(lifted) if work(&lifted, g) < work(&direct, g) => lifted,
+                _ => direct,
+            }
+        }
+    };
+    (*mass, *force) = taken;
 }
 
 /// Lagrange's equations d/dt(∂T/∂q̇) − ∂T/∂q = Q: M = ∂²T/∂q̇², and the rest of the left side goes into Q.
@@ -148,6 +203,13 @@ fn lagrange(t: Id, mass: &mut BTreeMap<(usize, usize), Id>, force: &mut [Id], g:
         terms.extend(g.open(1.0, slope));
         *force = g.sum(&terms);
     }
+}
+
+/// a + b as one sum.
+fn add(a: Id, b: Id, g: &mut Graph) -> Id {
+    let mut terms = g.open(1.0, a);
+    terms.extend(g.open(1.0, b));
+    g.sum(&terms)
 }
 
 /// a − b as one sum.

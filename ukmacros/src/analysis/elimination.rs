@@ -21,11 +21,11 @@ mod solution;
 
 pub(crate) use certificate::{SAFE_SHARE, Solve, Straight};
 
-use super::cost;
 use super::dynamics::Dynamics;
 use crate::expr::{Graph, Id, Symbol, is_power_of_two};
 use matrix::{Factor, Matrix};
-use order::{Order, Taste, order};
+pub(crate) use order::Order;
+use order::{Taste, order};
 use pattern::Pattern;
 use solution::Forward;
 
@@ -52,6 +52,10 @@ pub(crate) struct Elimination {
     /// Right-hand sides of the pivots in the solution for the correction.
     correction_rights: Vec<Id>,
     order: Order,
+    /// Where each coordinate and constraint of the system stands in the mechanism: not velocities and their definitions.
+    place: Vec<Option<usize>>,
+    /// Names of the velocities.
+    velocities: Vec<String>,
     /// Names of pivots, factors and multipliers.
     hints: Vec<(Id, String)>,
 }
@@ -104,42 +108,62 @@ impl Coefficient {
     }
 }
 
-/// Eliminates in the order that costs least; or says why the structure does not allow it. To M of `d` were added Σ μ aᵀa of rows a of A, to
-/// Q the Σ μ aᵀb; `weights` are the (row, coordinate, μ a_i), by which a correction has the like of its residuals. `defaults` are those of
-/// the parameters.
-pub(crate) fn eliminate(
-    d: &Dynamics,
-    weights: &[(usize, usize, Id)],
-    names: &[String],
-    defaults: &[f64],
-    g: &mut Graph,
-) -> Result<Elimination, String> {
-    let pattern = Pattern::new(d, defaults, g);
-    let orders = Taste::ALL.map(|taste| order(taste, pattern.clone(), names));
-    let [first, second] = orders;
-    let (first, second) = match (first, second) {
-        (Ok(first), Ok(second)) if first.pairs() < second.pairs() => (first, second),
-        (Ok(one), _) | (Err(_), Ok(one)) => return in_order(one, d, weights, names, g),
-        (Err(refusal), Err(_)) => return Err(refusal),
-    };
-    let mut other = g.clone();
-    let one = in_order(first, d, weights, names, g)?;
-    let two = in_order(second, d, weights, names, &mut other)?;
-    if two.work(&mut other) < one.work(g) {
-        *g = other;
-        return Ok(two);
-    }
-    Ok(one)
+/// A system that is eliminated.
+pub(crate) struct Task<'a> {
+    /// The equations. Coordinates and constraints after those of the mechanism are velocities and their definitions: see
+    /// [`super::lift`].
+    pub(crate) dynamics: &'a Dynamics,
+    /// To M were added Σ μ aᵀa of rows a of A, to Q the Σ μ aᵀb: these are the (row, coordinate, μ a_i), by which a correction has the like
+    /// of its residuals.
+    pub(crate) weights: &'a [(usize, usize, Id)],
+    /// Of coordinates and constraints.
+    pub(crate) names: &'a [String],
+    /// How many of the coordinates and of the constraints are the mechanism's.
+    pub(crate) own: (usize, usize),
 }
 
-/// Eliminates in the given order.
-fn in_order(
+/// The orders that a system may be eliminated in; or why there is none. `defaults` are those of the parameters.
+pub(crate) fn orders(task: &Task<'_>, defaults: &[f64], g: &Graph) -> Result<Vec<Order>, String> {
+    let pattern = Pattern::new(task.dynamics, task.own, defaults, g);
+    let lifted = task.names.len() > task.own.0 + task.own.1;
+    let mut orders: Vec<(Taste, Order)> = Vec::new();
+    let mut refusal = None;
+    for taste in Taste::ALL {
+        if lifted && taste == Taste::Multipliers {
+            continue;
+        }
+        match order(taste, pattern.clone(), task.names) {
+            Ok(found) => {
+                // Without a further pair multipliers are better solved for.
+                let same = |(taste, known): &(Taste, Order)| match taste {
+                    Taste::Multipliers => known.pairs() == found.pairs(),
+                    _ => known.pivots == found.pivots,
+                };
+                if !orders.iter().any(same) {
+                    orders.push((taste, found));
+                }
+            }
+            Err(text) => drop(refusal.get_or_insert(text)),
+        }
+    }
+    match refusal {
+        Some(refusal) if orders.is_empty() => Err(refusal),
+        _ => Ok(orders.into_iter().map(|(_, order)| order).collect()),
+    }
+}
+
+/// Eliminates in the given order; or says why the structure does not allow it.
+pub(crate) fn eliminate(
+    task: &Task<'_>,
     order: Order,
-    d: &Dynamics,
-    weights: &[(usize, usize, Id)],
-    names: &[String],
     g: &mut Graph,
 ) -> Result<Elimination, String> {
+    let Task {
+        dynamics: d,
+        weights,
+        names,
+        own,
+    } = *task;
     // A factor that all of M shares, as the one mass of all parts, only scales the multipliers: it is taken out of M and Q.
     let (common_factor, d) = &without_common_factor(d, g);
     let common = (*common_factor != g.one()).then(|| {
@@ -179,9 +203,11 @@ fn in_order(
         }
         factors.push(factor);
     }
-    let motion = motion.solution(&factors, names, g, &mut hints)?;
-    let residuals = (0..d.rhs.len()).map(|i| g.symbol(Symbol::Residual(i)));
-    let residuals: Vec<Id> = residuals.collect();
+    let mut motion = motion.solution(&factors, names, g, &mut hints)?;
+    motion.coordinates.truncate(own.0);
+    let residuals = (0..own.1).map(|i| g.symbol(Symbol::Residual(i)));
+    let mut residuals: Vec<Id> = residuals.collect();
+    residuals.resize(d.rhs.len(), g.zero());
     let mut pull = vec![g.zero(); force.len()];
     for (row, i, weight) in weights {
         let weight = g.div(*weight, *common_factor);
@@ -191,7 +217,8 @@ fn in_order(
     let residuals = scaled(-1.0, &residuals, g);
     let mut projection = Forward::new(&pull, &residuals);
     factors.iter().for_each(|factor| projection.step(factor, g));
-    let projection = projection.solution(&factors, names, g, &mut hints)?;
+    let mut projection = projection.solution(&factors, names, g, &mut hints)?;
+    projection.coordinates.truncate(own.0);
     let rights = motion.rights.into_iter().map(Some);
     let divisors = divisors.into_iter().zip(rights);
     let fixed = fixed.into_iter().map(|divisor| (divisor, None));
@@ -201,18 +228,17 @@ fn in_order(
         divisors: fixed.chain(divisors).collect(),
         correction_rights: projection.rights,
         order,
+        place: place(d, own),
+        velocities: names[own.0..d.force.len()].to_vec(),
         hints,
     })
 }
 
-impl Elimination {
-    /// Operations of one evaluation of q̈ and of what is checked, each division as some others.
-    fn work(&self, g: &mut Graph) -> usize {
-        let (certificate, _) = self.certificate(g);
-        let mut values = self.acceleration.clone();
-        values.push(certificate);
-        cost::work(g, &values)
-    }
+/// Where each coordinate and constraint of `d` stands among those of the mechanism.
+fn place(d: &Dynamics, (n, m): (usize, usize)) -> Vec<Option<usize>> {
+    let coordinates = (0..d.force.len()).map(|i| (i < n).then_some(i));
+    let constraints = (0..d.rhs.len()).map(|row| (row < m).then_some(n + row));
+    coordinates.chain(constraints).collect()
 }
 
 /// The product of parameters that all entries of M have in front, and the equations with M, Q and c divided by it.

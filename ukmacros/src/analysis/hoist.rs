@@ -34,6 +34,7 @@ pub(crate) fn hoist(
     switches: &[Switch],
 ) -> Hoisted {
     let mut dynamics = dynamics.clone();
+    dynamics.lift = None;
     let mut straight = straight.clone();
     let mut outputs: Vec<Id> = system.outputs.iter().map(|o| o.value).collect();
     let mut switches: Vec<Id> = switches.iter().map(|s| s.function).collect();
@@ -202,6 +203,7 @@ pub(crate) fn verify(
     let g = &system.graph;
     let roots = |dynamics: &Dynamics, straight: &Result<Straight, String>| -> Vec<Id> {
         let (mut dynamics, mut straight) = (dynamics.clone(), straight.clone());
+        dynamics.lift = None;
         let mut ids: Vec<Id> = dynamics.values_mut().map(|id| *id).collect();
         if let Ok(straight) = &mut straight {
             ids.extend(straight.values_mut().map(|id| *id));

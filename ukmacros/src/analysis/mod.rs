@@ -1,12 +1,14 @@
 //! From equations of a mechanism to what is emitted: derivatives, structure, checks, the solve, programs and their costs.
 
 mod check;
+mod choice;
 mod constants;
 mod cost;
 mod dynamics;
 mod elimination;
 mod functions;
 mod hoist;
+mod lift;
 mod probe;
 mod regular;
 mod schedule;
@@ -23,7 +25,7 @@ pub(crate) use cost::{Costs, Operations};
 pub(crate) use dynamics::{Dynamics, derive};
 pub(crate) use elimination::{Pivoting, SAFE_SHARE, Solve};
 #[cfg(test)]
-pub(crate) use elimination::{Straight, eliminate};
+pub(crate) use elimination::{Straight, Task, eliminate, orders};
 pub(crate) use functions::{Function, Place, Role, Slice};
 pub(crate) use schedule::{Program, Step};
 pub(crate) use structure::Structure;
@@ -31,6 +33,7 @@ pub(crate) use switches::Switch;
 pub(crate) use verify::verify;
 
 use crate::expr::{Id, System};
+use choice::{Chosen, choose};
 use crate::model::Model;
 
 /// What is known about a mechanism, and the programs that compute it.
@@ -59,29 +62,16 @@ pub(crate) fn analyse(system: &mut System, model: &Model, dynamics: Dynamics) ->
     let structure = structure::structure(system, &dynamics);
     let (held, switches) = switches::hold(system, &dynamics, &names);
     let regular = regular::regular(system, &held);
-    let straight = match regular.refusal(&names) {
-        Some(refusal) => Err(refusal),
-        None => elimination::eliminate(
-            &regular.dynamics,
-            &regular.weights,
-            &names,
-            &system.defaults,
-            &mut system.graph,
-        )
-        .map(|e| elimination::Straight::new(e, &held, &regular.met, system)),
-    };
-    let solve = straight.as_ref().map(|straight| Solve {
-        regular: regular.rows,
-        ..straight.told()
-    });
-    let solve = solve.map_err(String::clone);
-    let hoisted = hoist::hoist(system, &held, &straight, &switches);
+    let Chosen {
+        solve,
+        straight,
+        hoisted,
+        functions,
+        costs,
+    } = choose(system, &held, &regular, &switches, &names);
     let defect = cfg!(debug_assertions)
         .then(|| hoist::verify(system, &held, &straight, &hoisted))
         .flatten();
-    let functions = functions::functions(system, &hoisted);
-    let straight = straight.as_ref().ok();
-    let costs = cost::costs(&functions, names.len(), straight, &system.graph);
     Analysis {
         dynamics,
         structure,

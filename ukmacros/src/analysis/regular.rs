@@ -34,6 +34,10 @@ const LARGE: usize = 48;
 pub(crate) struct Regular {
     /// With M and Q of the blocks that are made regular.
     pub(crate) dynamics: Dynamics,
+    /// What was added to M.
+    pub(crate) added: BTreeMap<(usize, usize), Id>,
+    /// What was added to Q.
+    pub(crate) pulled: BTreeMap<usize, Id>,
     /// (row, coordinate, μ a_i): what was added, per unit of b, to Q.
     pub(crate) weights: Vec<(usize, usize, Id)>,
     /// The constraints that make M regular.
@@ -51,6 +55,8 @@ pub(crate) struct Regular {
 pub(crate) fn regular(system: &mut System, d: &Dynamics) -> Regular {
     let mut found = Regular {
         dynamics: d.clone(),
+        added: BTreeMap::new(),
+        pulled: BTreeMap::new(),
         weights: Vec::new(),
         rows: Vec::new(),
         met: Vec::new(),
@@ -106,13 +112,15 @@ impl Regular {
             for (j, b) in &entries[..=k] {
                 let term = g.mul(weighed, *b);
                 let at = ((*i).max(*j), (*i).min(*j));
-                let before = self.dynamics.mass.get(&at).copied();
-                let before = before.unwrap_or_else(|| g.zero());
-                let sum = g.factored_sum(&[(1.0, before), (1.0, term)]);
-                self.dynamics.mass.insert(at, sum);
+                for matrix in [&mut self.dynamics.mass, &mut self.added] {
+                    let before = matrix.get(&at).copied().unwrap_or_else(|| g.zero());
+                    matrix.insert(at, g.factored_sum(&[(1.0, before), (1.0, term)]));
+                }
             }
             let term = g.mul(weighed, d.rhs[row]);
             self.dynamics.force[*i] = g.add(self.dynamics.force[*i], term);
+            let before = self.pulled.get(i).copied().unwrap_or_else(|| g.zero());
+            self.pulled.insert(*i, g.add(before, term));
             self.weights.push((row, *i, weighed));
         }
         self.rows.push(row);

@@ -90,6 +90,97 @@ impl Gradient {
     }
 }
 
+/// Partial derivatives of a value by all that it depends on, in one sweep from the value down: for a few times the cost of the value.
+pub(crate) struct Sweep(BTreeMap<Symbol, Id>);
+
+impl Sweep {
+    /// The derivatives of `id` by coordinates and velocities.
+    pub(crate) fn of(id: Id, g: &mut Graph) -> Self {
+        let mut sweep = Sweep(BTreeMap::new());
+        // What each node adds to the value, per unit.
+        let mut slopes: Map<Id, Vec<(f64, Id)>> = Map::default();
+        let one = g.one();
+        slopes.insert(id, vec![(1.0, one)]);
+        for id in g.reachable(&[id]).into_iter().rev() {
+            let moving = |id: Id, g: &Graph| g.uses(id).coord || g.uses(id).velocity;
+            let Some(terms) = slopes.remove(&id).filter(|_| moving(id, g)) else {
+                continue;
+            };
+            let slope = g.sum(&terms);
+            if let Node::Symbol(symbol) = *g.node(id) {
+                sweep.0.insert(symbol, slope);
+                continue;
+            }
+            for (operand, local) in locals(id, g) {
+                if moving(operand, g) {
+                    let (k, term) = match local {
+                        Local::Number(k) => (k, slope),
+                        Local::Value(k, value) => (k, g.mul(slope, value)),
+                    };
+                    slopes.entry(operand).or_default().push((k, term));
+                }
+            }
+        }
+        sweep
+    }
+
+    /// ∂/∂symbol, if it is not zero.
+    pub(crate) fn along(&mut self, symbol: Symbol) -> Option<Id> {
+        self.0.get(&symbol).copied()
+    }
+}
+
+/// The derivative of a node by an operand: a number, or a number of times a value.
+enum Local {
+    Number(f64),
+    Value(f64, Id),
+}
+
+/// The derivatives of a node by its operands.
+fn locals(id: Id, g: &mut Graph) -> Vec<(Id, Local)> {
+    match g.node(id).clone() {
+        Node::Const(_) | Node::Symbol(_) => Vec::new(),
+        Node::Sum(_, terms) => {
+            let terms = terms.into_iter();
+            terms.map(|(k, term)| (term, Local::Number(k.get()))).collect()
+        }
+        Node::Scale(k, inner) => vec![(inner, Local::Number(k.get()))],
+        Node::Held(inner) => vec![(inner, Local::Number(1.0))],
+        Node::Product(factors) => {
+            let without = |k: usize| {
+                let mut rest = factors.clone();
+                rest[k].1 -= 1;
+                rest
+            };
+            let locals = factors.iter().enumerate().map(|(k, (base, exponent))| {
+                let rest = g.product(&without(k));
+                (*base, Local::Value(f64::from(*exponent), rest))
+            });
+            locals.collect()
+        }
+        Node::Call(func, args) => {
+            let (one, zero) = (g.one(), g.zero());
+            match (&func.row().form, &args[..]) {
+                (Form::One { slope, .. }, [u]) => {
+                    let slope = slope(g, *u, id);
+                    vec![(*u, Local::Value(1.0, slope))]
+                }
+                (Form::Two { derivative, .. }, [u, w]) => {
+                    let by_u = derivative(g, (*u, one), (*w, zero), id);
+                    let by_w = derivative(g, (*u, zero), (*w, one), id);
+                    vec![(*u, Local::Value(1.0, by_u)), (*w, Local::Value(1.0, by_w))]
+                }
+                _ => Vec::new(),
+            }
+        }
+        Node::Select([a, b, then, otherwise]) => {
+            let (one, zero) = (g.one(), g.zero());
+            let (first, second) = (g.select(a, b, one, zero), g.select(a, b, zero, one));
+            vec![(then, Local::Value(1.0, first)), (otherwise, Local::Value(1.0, second))]
+        }
+    }
+}
+
 #[derive(Clone, Copy)]
 enum Seed {
     /// ∂/∂symbol.

@@ -10,7 +10,7 @@ mod jet;
 mod lower;
 mod rest;
 
-pub(crate) use diff::{Derivative, Gradient};
+pub(crate) use diff::{Derivative, Gradient, Sweep};
 pub(crate) use display::Printer;
 pub(crate) use eval::{Point, eval, eval_shaken};
 pub(crate) use fold::is_power_of_two;

@@ -1,7 +1,7 @@
 //! The straight-line solve of random mechanisms against dense elimination with pivoting.
 
 use super::system;
-use crate::analysis::{Dynamics, Straight, derive, eliminate};
+use crate::analysis::{Dynamics, Straight, Task, derive, eliminate, orders};
 use crate::expr::{Point, System, eval};
 use std::fmt::Write as _;
 
@@ -154,16 +154,19 @@ fn straight_lines_solve_the_saddle_point_system() {
         let dynamics = derive(&mut system, n);
         let m = dynamics.rhs.len();
         let names: Vec<String> = (0..n + m).map(|i| format!("u{i}")).collect();
-        let Ok(elimination) = eliminate(
-            &dynamics,
-            &[],
-            &names,
-            &system.defaults,
-            &mut system.graph,
-        ) else {
+        let task = Task {
+            dynamics: &dynamics,
+            weights: &[],
+            names: &names,
+            own: (n, m),
+        };
+        let Ok(orders) = orders(&task, &system.defaults, &system.graph) else {
             without += 1;
             continue;
         };
+        for order in orders {
+        let elimination = eliminate(&task, order, &mut system.graph);
+        let elimination = elimination.unwrap_or_else(|e| panic!("{e}\n{source}"));
         let straight = Straight::new(elimination, &dynamics, &[], &mut system);
         for _ in 0..3 {
             let mut draw = |len: usize| (0..len).map(|_| random.unit()).collect::<Vec<f64>>();
@@ -202,6 +205,7 @@ fn straight_lines_solve_the_saddle_point_system() {
                     "case {case}, value {i}: {a} is not {b}\n{source}"
                 );
             }
+        }
         }
     }
     assert!(

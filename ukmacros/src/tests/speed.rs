@@ -62,3 +62,12 @@ fn work() {
         println!("{path}: {solve:?} dynamics {} acceleration {} {:?} correction {} ({time:.2} s)", total(analysis.costs.dynamics), total(q), q.counts(), total(c));
     }
 }
+
+#[test]
+#[ignore = "a look: FILE=a.txt cargo test -p ukmacros -- --ignored look --nocapture"]
+fn look() {
+    let path = std::env::var("FILE").expect("a file");
+    let source = std::fs::read_to_string(path).expect("a declaration");
+    let (code, _) = crate::expand(source.parse().expect("tokens"));
+    println!("{}", super::golden::formatted(code));
+}

@@ -18,7 +18,7 @@
 //! itself, whose condition is the root of G's, and keeps twice the digits. What depends on parameters only also has to be finite: an
 //! infinite mass would vanish by its reciprocal.
 
-use super::{Elimination, Pivoting};
+use super::{Elimination, Pair, Pivoting};
 use crate::analysis::dynamics::Dynamics;
 use crate::expr::{Func, Graph, Id, Node, System};
 use std::collections::{BTreeSet, HashSet};
@@ -66,6 +66,8 @@ pub(crate) struct Solve {
     pub(crate) fill: Vec<(usize, usize)>,
     /// What the certificate compares, as in [`Straight`].
     pub(crate) checks: Vec<(usize, bool)>,
+    /// Names of the velocities that the kinetic energy is written in, where they are unknowns.
+    pub(crate) velocities: Vec<String>,
     /// Constraints that make M regular.
     pub(crate) regular: Vec<usize>,
     /// Constraints whose row of A q̈ = b is checked.
@@ -75,11 +77,25 @@ pub(crate) struct Solve {
 impl Straight {
     /// What there is to tell of it.
     pub(crate) fn told(&self) -> Solve {
-        let order = &self.elimination.order;
+        let Elimination { order, place, .. } = &self.elimination;
+        let own = |k: usize| place.get(k).copied().flatten();
+        let pivots = order.pivots.iter().filter_map(|pivot| match *pivot {
+            Pivoting::Single(k) => own(k).map(Pivoting::Single),
+            Pivoting::Pair(pair) => Some(Pivoting::Pair(Pair {
+                coordinate: own(pair.coordinate)?,
+                constraint: own(pair.constraint)?,
+                ..pair
+            })),
+        });
+        let fill = order.fill.iter();
+        let fill = fill.filter_map(|(a, b)| Some((own(*a)?, own(*b)?)));
+        let checks = self.checks.iter();
+        let checks = checks.filter_map(|(k, share)| Some((own(*k)?, *share)));
         Solve {
-            pivots: order.pivots.clone(),
-            fill: order.fill.clone(),
-            checks: self.checks.clone(),
+            pivots: pivots.collect(),
+            fill: fill.collect(),
+            checks: checks.collect(),
+            velocities: self.elimination.velocities.clone(),
             regular: Vec::new(),
             met: self.met.clone(),
         }
@@ -184,7 +200,7 @@ impl Elimination {
 
     /// 1 where every pivot is safe, 0 where one is not, as a chain of selections, and its links with the pivots they check: what depends on
     /// parameters only first, then in the order of the elimination, so that no pivot has to be kept for it.
-    pub(super) fn certificate(&self, g: &mut Graph) -> (Id, Vec<(usize, Id)>) {
+    fn certificate(&self, g: &mut Graph) -> (Id, Vec<(usize, Id)>) {
         let (zero, tiny) = (g.zero(), g.constant(f64::MIN_POSITIVE));
         let largest = g.constant(f64::MAX);
         let divisors = || self.divisors.iter().map(|(divisor, _)| divisor);

@@ -60,6 +60,11 @@ impl Entry {
         self.gram.extend(terms.iter().map(|term| (-1.0, *term)));
     }
 
+    /// The value as an open sum, to be part of others.
+    pub(super) fn open(&self, g: &mut Graph) -> Id {
+        g.factored_sum(&[&self.gram[..], &self.schur].concat())
+    }
+
     /// What a diagonal could be: what it started from.
     fn reference(&self, g: &mut Graph) -> Id {
         match &self.size {
@@ -73,7 +78,7 @@ impl Entry {
         match &self.size {
             Some(size) => g.factored_sum(size),
             None => {
-                let (_, value) = self.values(g);
+                let value = self.open(g);
                 g.square(value)
             }
         }
@@ -84,7 +89,7 @@ impl Entry {
         let before = self.square(g);
         self.gram.push((-1.0, term));
         let size = vec![(1.0, before), (1.0, square)];
-        let (_, value) = self.values(g);
+        let value = self.open(g);
         let (value, sum) = (g.square(value), g.factored_sum(&size));
         let ((c, value), (least, sum)) = (g.unscaled(value), g.unscaled(sum));
         // What is added up without cancelling is as large as it could be.
@@ -150,10 +155,26 @@ pub(super) struct Double {
     pub(super) inertia: Id,
     /// a.
     pub(super) coefficient: Id,
-    /// Of each neighbour its entries with the coordinate and with the constraint.
-    pub(super) touched: Vec<(usize, Id, Id)>,
-    /// The constraint's other entries, divided by a.
-    pub(super) factors: Vec<(usize, Id)>,
+    pub(super) touched: Vec<Touched>,
+}
+
+/// A neighbour of the coordinate j or of the constraint c of a 2 × 2 pivot.
+pub(super) struct Touched {
+    pub(super) at: usize,
+    /// K_rj.
+    pub(super) with: Id,
+    /// K_rc/a: by how much of it q̈_j is less.
+    pub(super) factor: Id,
+    /// K_rj − μ K_rc/a.
+    left: Id,
+}
+
+impl Double {
+    /// q̈_j follows from the constraint's row alone: its other entries, divided by a.
+    pub(super) fn factors(&self, g: &Graph) -> Vec<(usize, Id)> {
+        let factors = self.touched.iter().map(|t| (t.at, t.factor));
+        factors.filter(|(_, id)| !g.is_zero(*id)).collect()
+    }
 }
 
 /// Why there is no pivot at `k`.
@@ -240,9 +261,17 @@ impl Matrix {
         }
     }
 
-    /// Those entries of `k` with `others` that are not zero.
-    fn row(&self, others: &BTreeSet<usize>, k: usize, g: &mut Graph) -> Vec<(usize, Id)> {
-        let values = others.iter().map(|a| (*a, self.value(*a, k, g)));
+    /// Those entries of `k` with `others` that are not zero, as `value` gives them.
+    fn row(
+        &self,
+        others: &BTreeSet<usize>,
+        k: usize,
+        value: fn(&Entry, &mut Graph) -> Id,
+        g: &mut Graph,
+    ) -> Vec<(usize, Id)> {
+        let values = others
+            .iter()
+            .map(|a| (*a, value(&self.entry(*a, k), g)));
         let values: Vec<(usize, Id)> = values.collect();
         let zero = |(_, id): &(usize, Id)| !g.is_zero(*id);
         values.into_iter().filter(zero).collect()
@@ -342,7 +371,7 @@ impl Matrix {
         let value = g.div(numerator, denominator.unwrap_or(one));
         let value = g.scale(self.sign(k), value);
         let neighbours = self.take(k);
-        let neighbours_values: Vec<(usize, Id)> = self.row(&neighbours, k, g);
+        let neighbours_values: Vec<(usize, Id)> = self.row(&neighbours, k, |entry, g| entry.values(g).1, g);
         let mut single = Single {
             at: k,
             sign: self.sign(k),
@@ -390,7 +419,8 @@ impl Matrix {
                 if adds && a == b {
                     let square = self.entry(*a, k).square(g);
                     let size = g.div(square, value);
-                    let size = if g.square(*entry) == square { term } else { size };
+                    let plain = self.entry(*a, k).size.is_none();
+                    let size = if plain { term } else { size };
                     self.entry_mut(*a, *a).take_off_sized(&[term], size);
                 } else {
                     self.take_off(*a, *b, term, !adds, g);
@@ -400,7 +430,7 @@ impl Matrix {
         Ok((single, divisor))
     }
 
-    /// Eliminates a coordinate with a constraint: P⁻¹ = [0 1/a; 1/a −μ/a²].
+    /// Eliminates a coordinate with a constraint, whose pivot P = [μ a; a 0] has P⁻¹ = [0 1/a; 1/a −μ/a²].
     fn eliminate_pair(
         &mut self,
         pair: Pair,
@@ -408,7 +438,7 @@ impl Matrix {
         g: &mut Graph,
     ) -> Result<Double, String> {
         let (j, c) = (pair.coordinate, pair.constraint);
-        let (a, mu) = (self.value(j, c, g), self.value(j, j, g));
+        let (a, mu) = (self.entry(j, c).open(g), self.entry(j, j).open(g));
         if g.is_zero(a) || !g.uses(a).constant() {
             let (name, of) = (&names[j], &names[c]);
             return Err(format!("the coefficient of `{name}` in `{of}` vanishes"));
@@ -420,63 +450,68 @@ impl Matrix {
         let mut of_j = self.take(j);
         of_j.remove(&c);
         let of_c = self.take(c);
-        let (row_j, row_c) = (self.row(&of_j, j, g), self.row(&of_c, c, g));
+        let row_j = self.row(&of_j, j, Entry::open, g);
+        let row_c = self.row(&of_c, c, Entry::open, g);
         let zero = g.zero();
         let entry = |row: &[(usize, Id)], r: usize| {
             row.binary_search_by_key(&r, |(at, _)| *at)
                 .map_or(zero, |at| row[at].1)
         };
         let both: BTreeSet<usize> = row_j.iter().chain(&row_c).map(|(r, _)| *r).collect();
-        let touched: Vec<(usize, Id, Id)> = both
-            .iter()
-            .map(|r| (*r, entry(&row_j, *r), entry(&row_c, *r)))
-            .collect();
-        for (p, (r, rj, rc)) in touched.iter().enumerate() {
-            for (s, sj, sc) in &touched[..=p] {
-                let terms = products((*rj, *rc), (*sj, *sc), a, mu, g);
-                let terms: Vec<Id> = terms.into_iter().filter(|id| !g.is_zero(*id)).collect();
-                if terms.is_empty() {
-                    continue;
-                }
-                if r == s {
-                    // Without the terms of inertia shared with the coordinate: they may cancel the others, and are not larger.
-                    let square = self.entry(c, *r).square(g);
-                    let size = g.product(&[(square, 1), (largest, 1), (a, -2)]);
-                    let size = g.neg(size);
-                    self.entry_mut(*r, *r).take_off_sized(&terms, size);
-                } else if *s < self.n && *r >= self.n {
-                    let (f, o) = (self.entry(*r, j).square(g), self.entry(c, *s).square(g));
-                    let square = g.product(&[(f, 1), (o, 1), (a, -2)]);
-                    self.link(*r, *s);
-                    let entry = self.entry_mut(*r, *s);
-                    terms.iter().for_each(|term| entry.substitute(*term, square, g));
-                } else {
-                    terms.iter().for_each(|term| self.take_off(*r, *s, *term, false, g));
-                }
+        let touched = both.into_iter().map(|at| {
+            let (with, factor) = (entry(&row_j, at), g.div(entry(&row_c, at), a));
+            let moved = g.mul(mu, factor);
+            let left = subtract(with, moved, g);
+            Touched { at, with, factor, left }
+        });
+        let touched: Vec<Touched> = touched.collect();
+        for (p, r) in touched.iter().enumerate() {
+            for s in &touched[..=p] {
+                self.substitute(pair, r, s, largest, g);
             }
         }
-        // q̈_j follows from the constraint's row alone.
-        let factors = row_c.iter().map(|(r, id)| (*r, g.div(*id, a)));
         Ok(Double {
-            factors: factors.collect(),
             pair,
             inertia: mu,
             coefficient: a,
             touched,
         })
     }
+
+    /// What the substitution of a coordinate leaves of the entry of `r` and `s`, of which r is not before s.
+    fn substitute(&mut self, pair: Pair, r: &Touched, s: &Touched, largest: Id, g: &mut Graph) {
+        // Either form is the same; the second has one term if s shares no inertia with the coordinate.
+        let (one, other) = match g.is_zero(r.with) {
+            true => (s, r),
+            false => (r, s),
+        };
+        let terms = [g.mul(other.factor, one.left), g.mul(one.factor, other.with)];
+        let terms: Vec<Id> = terms.into_iter().filter(|id| !g.is_zero(*id)).collect();
+        if terms.is_empty() {
+            return;
+        }
+        let (j, c) = (pair.coordinate, pair.constraint);
+        let (a, b) = (r.at, s.at);
+        let coefficient = self.entry(j, c).open(g);
+        if a == b {
+            // Without the inertia shared with the coordinate: it may cancel the rest, and is not larger.
+            let square = self.entry(c, a).square(g);
+            let size = g.product(&[(square, 1), (largest, 1), (coefficient, -2)]);
+            let size = g.neg(size);
+            self.entry_mut(a, a).take_off_sized(&terms, size);
+        } else if b < self.n && a >= self.n {
+            let (f, o) = (self.entry(a, j).square(g), self.entry(c, b).square(g));
+            let square = g.product(&[(f, 1), (o, 1), (coefficient, -2)]);
+            self.link(a, b);
+            let entry = self.entry_mut(a, b);
+            terms.iter().for_each(|term| entry.substitute(*term, square, g));
+        } else {
+            terms.iter().for_each(|term| self.take_off(a, b, *term, false, g));
+        }
+    }
 }
 
-/// The terms of [u w] P⁻¹ [x; y] for P = [μ a; a 0].
-pub(super) fn products(
-    (u, w): (Id, Id),
-    (x, y): (Id, Id),
-    a: Id,
-    mu: Id,
-    g: &mut Graph,
-) -> [Id; 3] {
-    let first = g.product(&[(u, 1), (y, 1), (a, -1)]);
-    let second = g.product(&[(w, 1), (x, 1), (a, -1)]);
-    let third = g.product(&[(w, 1), (y, 1), (mu, 1), (a, -2)]);
-    [first, second, g.neg(third)]
+/// a − b.
+fn subtract(a: Id, b: Id, g: &mut Graph) -> Id {
+    g.factored_sum(&[(1.0, a), (-1.0, b)])
 }

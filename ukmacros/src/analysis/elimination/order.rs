@@ -9,35 +9,47 @@ const MAX_ENTRIES: usize = 20_000;
 
 /// An order of elimination, and what it does to the pattern of K.
 #[derive(Clone)]
-pub(super) struct Order {
+pub(crate) struct Order {
     pub(super) pivots: Vec<Pivoting>,
     /// Positions (row > column) that are zero in K and filled.
     pub(super) fill: Vec<(usize, usize)>,
 }
 
 impl Order {
-    /// Number of coordinates that are taken together with constraints.
-    pub(super) fn pairs(&self) -> usize {
-        let pair = |pivot: &&Pivoting| matches!(pivot, Pivoting::Pair(_));
-        self.pivots.iter().filter(pair).count()
+    pub(crate) fn text(&self, names: &[String]) -> String {
+        self.pivots.iter().map(|p| match p { Pivoting::Single(k) => names[*k].clone(), Pivoting::Pair(p) => format!("({} {})", names[p.coordinate], names[p.constraint]) }).collect::<Vec<_>>().join(" ")
+    }
+
+    /// Coordinates that are taken together with constraints, and these.
+    pub(super) fn pairs(&self) -> BTreeSet<(usize, usize)> {
+        let pairs = self.pivots.iter().filter_map(|pivot| match pivot {
+            Pivoting::Pair(pair) => Some((pair.coordinate, pair.constraint)),
+            Pivoting::Single(_) => None,
+        });
+        pairs.collect()
     }
 }
 
-/// Which coordinates are taken together with constraints.
+/// Which coordinates are taken together with constraints, and when.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Taste {
     /// Those without inertia, and those that a constraint prescribes alone; for the other constraints A M⁻¹ Aᵀ is eliminated.
     Multipliers,
-    /// All whose coefficient in a constraint is fixed, so that what a constraint gives outright is not solved for. Bodies pinned to each
-    /// other are taken leaf by leaf, each with its pins, which is the recursion over articulated bodies.
-    Substitution,
+    /// All whose coefficient in a constraint is fixed, those that no other constraint contains first: bodies pinned to each other are taken
+    /// leaf by leaf, each with its pins, which is the recursion over articulated bodies.
+    Leaves,
+    /// The same with what changes the fewest entries first, as from the ground on.
+    Roots,
+    /// The same with what was declared last first: of velocities that are given by each other the last, and each joint once it can be.
+    Last,
 }
 
 impl Taste {
-    pub(super) const ALL: [Taste; 2] = [Taste::Multipliers, Taste::Substitution];
+    pub(super) const ALL: [Taste; 4] =
+        [Taste::Multipliers, Taste::Leaves, Taste::Roots, Taste::Last];
 
     fn takes(self, pair: &Pair) -> bool {
-        self == Taste::Substitution || !pair.massive || pair.alone
+        self != Taste::Multipliers || !pair.massive || pair.alone
     }
 }
 
@@ -95,8 +107,7 @@ fn around(at: usize, partner: Option<usize>, pattern: &Pattern) -> BTreeSet<usiz
     let near: BTreeSet<usize> = taken
         .flat_map(|k| pattern.near(k).chain([k]))
         .collect();
-    let constraints = near.iter().filter(|k| !pattern.is_coordinate(**k));
-    let sharing = constraints.flat_map(|c| pattern.coordinates_in(*c));
+    let sharing = near.iter().flat_map(|k| pattern.near(*k));
     near.iter().copied().chain(sharing).collect()
 }
 
@@ -111,7 +122,7 @@ fn keys(of: &BTreeSet<usize>, taste: Taste, pattern: &Pattern) -> Vec<Key> {
         pairs.retain(|pair| taste.takes(pair));
         keys.extend(pairs.iter().map(|pair| pair_key(pair, taste, pattern)));
         // A coordinate that is eliminated alone takes the fixed pivots of its constraints with it.
-        let kept = taste == Taste::Substitution
+        let kept = taste != Taste::Multipliers
             && pattern.is_coordinate(k)
             && pattern.constraints_on(k).any(|c| pattern.has_pair(c));
         if pattern.is_definite(k) && !kept {
@@ -121,14 +132,23 @@ fn keys(of: &BTreeSet<usize>, taste: Taste, pattern: &Pattern) -> Vec<Key> {
     keys
 }
 
-/// By the number of entries that the pair changes.
 fn pair_key(pair: &Pair, taste: Taste, pattern: &Pattern) -> Key {
-    let Pair { coordinate, constraint, massive, .. } = *pair;
-    let (a, b) = (pattern.neighbours(coordinate) - 1, pattern.neighbours(constraint) - 1);
+    let (coordinate, constraint) = (pair.coordinate, pair.constraint);
+    let near = |k| pattern.neighbours(k) - 1;
+    let (a, b) = (near(coordinate), near(constraint));
+    let changed = a * b + usize::from(pair.massive) * b * (b + 1) / 2;
     let rank = match taste {
         // All before what is eliminated alone.
         Taste::Multipliers => [0, coordinate, b, 0, 0],
-        Taste::Substitution => [a * b + usize::from(massive) * b * (b + 1) / 2, 0, 0, 0, 0],
+        Taste::Leaves => {
+            let others = pattern.constraints_on(coordinate).count() - 1;
+            [others, pattern.filled_by_pair(pair), changed, 0, 0]
+        }
+        Taste::Roots => [changed, 0, 0, 0, 0],
+        Taste::Last => {
+            let others = pattern.constraints_on(coordinate).count() - 1;
+            [others, usize::MAX - coordinate, 0, 0, 0]
+        }
     };
     (rank, coordinate, Some(constraint))
 }
@@ -137,11 +157,14 @@ fn pair_key(pair: &Pair, taste: Taste, pattern: &Pattern) -> Key {
 /// the fewest neighbours; among equals what was coupled by an elimination, so that a chain is taken link by link; then what waits least.
 fn single_key(k: usize, taste: Taste, pattern: &Pattern) -> Key {
     let size = pattern.neighbours(k);
-    let first = match taste {
+    let changed = size * (size + 1) / 2;
+    let [a, b, c] = match taste {
         Taste::Multipliers => [1, usize::from(!pattern.shares_no_inertia(k)), size],
-        Taste::Substitution => [size * (size + 1) / 2, 1, 0],
+        Taste::Leaves => [0, pattern.filled_by(k), changed],
+        Taste::Roots => [changed, 1, 0],
+        Taste::Last => [0, 0, changed],
     };
-    let [a, b, c] = first;
-    let rank = [a, b, c, usize::from(!pattern.was_coupled(k)), pattern.depth(k)];
+    let waits = pattern.depth(k);
+    let rank = [a, b, c, usize::from(!pattern.was_coupled(k)), waits];
     (rank, k, None)
 }

@@ -26,11 +26,18 @@ pub(super) struct Pattern {
     /// Longest chain of divisions that a row waits for.
     depth: Vec<usize>,
     fill: BTreeSet<(usize, usize)>,
+    /// How many of the coordinates and of the constraints are the mechanism's.
+    declared: (usize, usize),
 }
 
 impl Pattern {
     /// The pattern of `d`, with the values that its fixed coefficients have for the parameters `defaults`.
-    pub(super) fn new(d: &Dynamics, defaults: &[f64], g: &Graph) -> Self {
+    pub(super) fn new(
+        d: &Dynamics,
+        declared: (usize, usize),
+        defaults: &[f64],
+        g: &Graph,
+    ) -> Self {
         let n = d.force.len();
         let size = n + d.rhs.len();
         let mut pattern = Pattern {
@@ -43,6 +50,7 @@ impl Pattern {
             coupled: vec![false; size],
             depth: vec![0; size],
             fill: BTreeSet::new(),
+            declared,
         };
         for (i, j) in d.mass.keys() {
             pattern.join(*i, *j);
@@ -122,7 +130,10 @@ impl Pattern {
         let coefficient = *self.fixed.get(&(constraint, coordinate))?;
         let row = self.fixed.range((constraint, 0)..(constraint + 1, 0));
         let largest = row.fold(0.0, |s: f64, (_, c)| s.max(c.value.abs()));
-        let free = !self.coupled[constraint];
+        // A velocity is defined by its definition.
+        let (n, m) = self.declared;
+        let defined = (constraint - self.n).checked_sub(m).map(|k| n + k);
+        let free = !self.coupled[constraint] && defined.is_none_or(|own| own == coordinate);
         let size = coefficient.value.abs();
         let fits = free && size > 0.0 && size.is_finite() && size >= SMALL * largest;
         fits.then(|| Pair {
@@ -154,6 +165,25 @@ impl Pattern {
 
     pub(super) fn depth(&self, k: usize) -> usize {
         self.depth[k]
+    }
+
+    /// Entries that eliminating `k` alone fills in.
+    pub(super) fn filled_by(&self, k: usize) -> usize {
+        let near = &self.near[k];
+        let missing = |a: &usize| near.range(..a).filter(|b| !self.near[*a].contains(b)).count();
+        near.iter().map(missing).sum()
+    }
+
+    /// Entries that eliminating `pair` fills in.
+    pub(super) fn filled_by_pair(&self, pair: &Pair) -> usize {
+        let (j, c) = (pair.coordinate, pair.constraint);
+        let near = &self.near[c];
+        let apart = |a: usize, b: usize| a != b && !self.near[a].contains(&b);
+        let others = self.near[j].iter().filter(|a| **a != c);
+        let crossed = others.map(|a| near.iter().filter(|b| **b != j && apart(*a, **b)).count());
+        let within = |a: &usize| near.range(..a).filter(|b| **b != j && apart(*a, **b)).count();
+        let inertia = near.iter().filter(|a| **a != j && pair.massive).map(within);
+        crossed.sum::<usize>() + inertia.sum::<usize>()
     }
 
     /// What was filled in, row > column.

@@ -1,6 +1,6 @@
 //! Solutions of an eliminated system.
 
-use super::matrix::{Double, Entry, Factor, Single, products};
+use super::matrix::{Double, Entry, Factor, Single};
 use crate::expr::{Graph, Id};
 
 /// A solution of K x = r.
@@ -86,22 +86,20 @@ impl Forward {
 
     /// q̈ of a coordinate that was eliminated with a constraint, as far as the right-hand side determines it.
     fn double(&mut self, double: &Double, g: &mut Graph) -> Id {
-        let Double {
-            pair,
-            inertia,
-            coefficient,
-            ..
-        } = *double;
-        let right = (
-            self.value(pair.coordinate, g),
-            self.value(pair.constraint, g),
+        let pair = double.pair;
+        let (own, given) = (
+            self.entries[pair.coordinate].open(g),
+            self.entries[pair.constraint].open(g),
         );
-        for (r, rj, rc) in &double.touched {
-            for term in products((*rj, *rc), right, coefficient, inertia, g) {
-                self.take_off(*r, term, false, g);
+        let solved = g.div(given, double.coefficient);
+        let moved = g.mul(double.inertia, solved);
+        let left = g.factored_sum(&[(1.0, own), (-1.0, moved)]);
+        for touched in &double.touched {
+            for term in [g.mul(touched.factor, left), g.mul(touched.with, solved)] {
+                self.take_off(touched.at, term, false, g);
             }
         }
-        g.div(right.1, coefficient)
+        solved
     }
 
     /// Back substitution, once all `factors` are taken; `names` are those of coordinates and constraints.
@@ -121,11 +119,11 @@ impl Forward {
         let mut solution: Vec<Option<Id>> = vec![None; self.entries.len()];
         for (factor, right) in factors.iter().zip(self.solved).rev() {
             let (unknown, row) = match factor {
-                Factor::Single(single) => (single.at, &single.factors),
-                Factor::Double(double) => (double.pair.coordinate, &double.factors),
+                Factor::Single(single) => (single.at, single.factors.clone()),
+                Factor::Double(double) => (double.pair.coordinate, double.factors(g)),
             };
             let mut terms = vec![(1.0, right)];
-            for (other, factor) in row {
+            for (other, factor) in &row {
                 // A multiplier that no coordinate left needs (of a 2 × 2 pivot) is not computed.
                 let Some(x) = solution[*other] else {
                     return Err(format!(
