@@ -133,7 +133,7 @@ fn distance<M: Mechanism>(dense: &Dense) -> f64 {
     let solve = &M::SPEC.structure.solve;
     let prescribed = |wanted: (Option<usize>, Option<usize>)| {
         solve.pivots.iter().any(|p| match *p {
-            Pivot::Prescribed(i, row, _) => wanted.0 == Some(i) || wanted.1 == Some(row),
+            Pivot::Prescribed(i, row) => wanted.0 == Some(i) || wanted.1 == Some(row),
             _ => false,
         })
     };

@@ -45,7 +45,9 @@ fn fill_is_what_elimination_fills() {
             let mut left: Vec<usize> = (0..n + m).collect();
             for pivot in s.solve.pivots {
                 let taken = match *pivot {
-                    Pivot::Prescribed(i, row, _) | Pivot::Massless(i, row, _) => vec![i, n + row],
+                    Pivot::Prescribed(i, row)
+                    | Pivot::Massless(i, row)
+                    | Pivot::Substituted(i, row) => vec![i, n + row],
                     Pivot::Coordinate(i) => vec![i],
                     Pivot::Constraint(row) => vec![n + row],
                 };

@@ -81,7 +81,9 @@ impl Plan {
             return (0..n + self.spec.m()).collect();
         }
         let positions = pivots.iter().flat_map(|pivot| match *pivot {
-            Pivot::Prescribed(i, row, _) | Pivot::Massless(i, row, _) => vec![i, n + row],
+            Pivot::Prescribed(i, row) | Pivot::Massless(i, row) | Pivot::Substituted(i, row) => {
+                vec![i, n + row]
+            }
             Pivot::Coordinate(i) => vec![i],
             Pivot::Constraint(row) => vec![n + row],
         });
@@ -175,38 +177,45 @@ impl Plan {
             );
             paragraph(f, &text)?;
         }
+        if !solve.velocities.is_empty() {
+            let text = format!(
+                "M is not expanded: the kinetic energy is written in the {} velocities {}, which are unknowns too, each eliminated with its \
+                 definition, the last first. Between them:",
+                solve.velocities.len(),
+                shortened(solve.velocities)
+            );
+            paragraph(f, &text)?;
+        }
+        let pair = |f: &mut Formatter<'_>, i: usize, c: usize, why: &str| {
+            let text = format!(
+                "{} with {}: {why}, its coefficient being the same at any state",
+                coord(i),
+                row(c)
+            );
+            item(f, &text)
+        };
         let mut rest = solve.pivots;
         while let Some(first) = rest.first() {
             let alike = |p: &Pivot| std::mem::discriminant(p) == std::mem::discriminant(first);
             let count = match first {
-                Pivot::Prescribed(..) | Pivot::Massless(..) => 1,
+                Pivot::Prescribed(..) | Pivot::Massless(..) | Pivot::Substituted(..) => 1,
                 _ => rest.iter().position(|p| !alike(p)).unwrap_or(rest.len()),
             };
             let (run, others) = rest.split_at(count);
             rest = others;
             match *first {
-                Pivot::Prescribed(i, c, a) => item(
-                    f,
-                    &format!(
-                        "{} with {}: the constraint prescribes it alone, with coefficient {a}",
-                        coord(i),
-                        row(c)
-                    ),
-                )?,
-                Pivot::Massless(i, c, a) => item(
-                    f,
-                    &format!(
-                        "{} with {}: it has no mass, and its coefficient in the constraint is {a} at any state",
-                        coord(i),
-                        row(c)
-                    ),
-                )?,
+                Pivot::Prescribed(i, c) => pair(f, i, c, "the constraint prescribes it alone")?,
+                Pivot::Massless(i, c) => {
+                    pair(f, i, c, "it has no mass, and the constraint gives it")?
+                }
+                Pivot::Substituted(i, c) => pair(f, i, c, "the constraint gives it by others")?,
                 Pivot::Coordinate(_) | Pivot::Constraint(_) => {
                     let names = run.iter().map(|p| match *p {
                         Pivot::Constraint(c) => row(c),
                         Pivot::Coordinate(i)
-                        | Pivot::Prescribed(i, ..)
-                        | Pivot::Massless(i, ..) => coord(i),
+                        | Pivot::Prescribed(i, _)
+                        | Pivot::Massless(i, _)
+                        | Pivot::Substituted(i, _) => coord(i),
                     });
                     let names: Vec<&str> = names.collect();
                     let kind = match first {
@@ -455,6 +464,14 @@ fn widest<'a>(names: impl Iterator<Item = &'a str>) -> usize {
 
 fn item(f: &mut Formatter<'_>, text: &str) -> fmt::Result {
     wrapped(f, text, "  - ", "    ")
+}
+
+/// The names, of many the first and the last.
+fn shortened(names: &[&str]) -> String {
+    match names {
+        [first, second, .., last] if names.len() > 8 => format!("{first} {second} … {last}"),
+        names => names.join(" "),
+    }
 }
 
 fn paragraph(f: &mut Formatter<'_>, text: &str) -> fmt::Result {

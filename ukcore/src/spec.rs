@@ -137,16 +137,21 @@ pub struct Solve {
     /// Constraints whose rows of A q̈ = b are checked after the solution, since they act on a coordinate whose inertia may vanish at some
     /// states.
     pub met: &'static [usize],
+    /// Names of the velocities, linear in q̇, that the kinetic energy is written in, where M is not expanded: the solve has them as unknowns, and
+    /// eliminates each with its definition.
+    pub velocities: &'static [&'static str],
 }
 
 /// One pivot of the elimination.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pivot {
     /// A coordinate with inertia that one constraint prescribes alone, taken together with it: safe at any state, since its
-    /// coefficient in the constraint is this number.
-    Prescribed(usize, usize, &'static str),
-    /// A coordinate without inertia, taken together with a constraint in which its coefficient is this number.
-    Massless(usize, usize, &'static str),
+    /// coefficient in the constraint is a number, or depends on parameters alone.
+    Prescribed(usize, usize),
+    /// A coordinate without inertia, taken together with a constraint in which its coefficient is such a one.
+    Massless(usize, usize),
+    /// A coordinate with inertia, taken together with a constraint that gives it by other coordinates, as its coefficient there is such a one.
+    Substituted(usize, usize),
     /// A coordinate with inertia.
     Coordinate(usize),
     /// A constraint all of whose coordinates are eliminated.
@@ -246,6 +251,7 @@ impl Solve {
             least_share: 0.0,
             regular: &[],
             met: &[],
+            velocities: &[],
         }
     }
 }

@@ -145,7 +145,7 @@ const _: () = {
                 solve: ukcore::Solve {
                     refusal: "",
                     pivots: &[
-                        ukcore::Pivot::Massless(0, 0, "90"),
+                        ukcore::Pivot::Massless(0, 0),
                         ukcore::Pivot::Coordinate(1),
                     ],
                     fill: &[],
@@ -153,6 +153,7 @@ const _: () = {
                     least_share: 0.0009765625,
                     regular: &[],
                     met: &[],
+                    velocities: &[],
                 },
                 mass_pattern: &[(1, 1)],
                 jacobian_pattern: &[(0, 0), (0, 1)],

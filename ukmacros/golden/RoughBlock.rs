@@ -54,7 +54,7 @@
 /// # How it is computed
 ///
 /// By straight-line code: [M Aᵀ; A 0] is eliminated at compile time, which fills in 0 of its entries.
-/// Coordinate `x` is not solved for, since `plane` prescribes it alone.
+/// Coordinate `x` is not solved for, since `plane` gives it by the others.
 ///
 /// | operations | add | multiply | divide | root | function | select |
 /// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
@@ -206,7 +206,7 @@ const _: () = {
                 solve: ukcore::Solve {
                     refusal: "",
                     pivots: &[
-                        ukcore::Pivot::Prescribed(0, 0, "0.49999999999999994"),
+                        ukcore::Pivot::Substituted(0, 0),
                         ukcore::Pivot::Coordinate(1),
                     ],
                     fill: &[],
@@ -218,6 +218,7 @@ const _: () = {
                     least_share: 0.0009765625,
                     regular: &[],
                     met: &[],
+                    velocities: &[],
                 },
                 mass_pattern: &[(0, 0), (1, 1)],
                 jacobian_pattern: &[(0, 0), (0, 1)],

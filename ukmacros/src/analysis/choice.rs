@@ -20,6 +20,9 @@ pub(super) struct Chosen {
     pub(super) costs: Costs,
 }
 
+/// Orders that change so many times the entries of another are not tried.
+const WORSE: usize = 2;
+
 /// One way to solve: a system, and the order of its elimination.
 struct Way {
     /// With the velocities that the kinetic energy is written in as further coordinates.
@@ -63,7 +66,12 @@ pub(super) fn choose(
             continue;
         };
         match orders(task, &system.defaults, &system.graph) {
-            Ok(orders) => ways.extend(orders.into_iter().map(|order| Way { lifted, order })),
+            Ok(mut orders) => {
+                let least = orders.iter().map(|order| order.changes).min();
+                let bound = WORSE * least.unwrap_or(0);
+                orders.retain(|order| order.changes <= bound);
+                ways.extend(orders.into_iter().map(|order| Way { lifted, order }));
+            }
             Err(text) => drop(refusal.get_or_insert(text)),
         }
     }
@@ -85,6 +93,7 @@ pub(super) fn choose(
             let c = |ids: &[Id]| super::cost::cost(&system.graph, ids).work();
             let all: Vec<Id> = held.mass.values().copied().collect();
             eprintln!("way force {} mass {}", c(&held.force), c(&all));
+            eprintln!("way {}", way.order.changes);
             eprintln!("{}", way.order.text(task.names));
         }
         let straight = match eliminate(task, way.order, &mut system.graph) {
@@ -96,7 +105,11 @@ pub(super) fn choose(
         };
         let chosen = emitted(system, held, Ok(straight), regular, switches, names);
         if std::env::var("WORK").is_ok() {
-            eprintln!("way {:?} {}", chosen.solve.as_ref().map(|s| s.velocities.len()), work(&chosen));
+            eprintln!(
+                "way {:?} {}",
+                chosen.solve.as_ref().map(|s| s.velocities.len()),
+                work(&chosen)
+            );
         }
         let better = |(known, _): &(Chosen, Base)| work(&chosen) < work(known);
         if best.as_ref().is_none_or(better) {
@@ -124,7 +137,9 @@ pub(super) fn choose(
 fn work(chosen: &Chosen) -> usize {
     let functions = chosen.functions.iter();
     let mut acceleration = functions.filter(|f| f.role == Role::Acceleration);
-    acceleration.next().map_or(usize::MAX, |f| f.operations.work())
+    acceleration
+        .next()
+        .map_or(usize::MAX, |f| f.operations.work())
 }
 
 /// The equations with the velocities that the kinetic energy is written in, and all names, if it is written so.
@@ -144,7 +159,10 @@ fn lifted(
         None => format!("velocity_{k}"),
     });
     let velocities: Vec<String> = velocities.collect();
-    Some((dynamics, [coordinates, &velocities, constraints, &velocities].concat()))
+    Some((
+        dynamics,
+        [coordinates, &velocities, constraints, &velocities].concat(),
+    ))
 }
 
 /// What is emitted with the given solve.
@@ -163,7 +181,12 @@ fn emitted(
     let solve = solve.map_err(String::clone);
     let hoisted = hoist(system, held, &straight, switches);
     let functions = functions(system, &hoisted);
-    let costs = costs(&functions, names.len(), straight.as_ref().ok(), &system.graph);
+    let costs = costs(
+        &functions,
+        names.len(),
+        straight.as_ref().ok(),
+        &system.graph,
+    );
     Chosen {
         solve,
         straight,

@@ -52,7 +52,10 @@ impl Dynamics {
             .chain(&mut self.rate);
         let energies = [&mut self.kinetic, &mut self.potential];
         let lift = self.lift.iter_mut().flat_map(Lift::values_mut);
-        (matrices.chain(vectors).chain(constraints).chain(lift), energies)
+        (
+            matrices.chain(vectors).chain(constraints).chain(lift),
+            energies,
+        )
     }
 }
 
@@ -65,20 +68,31 @@ pub(crate) fn derive(system: &mut System, n: usize) -> Dynamics {
         force[*i] = *f;
     }
     let potential = system.potential.unwrap_or(zero);
-    let slopes = slopes(potential, n, g);
-    for (f, slope) in force.iter_mut().zip(slopes) {
-        *f = subtract(*f, slope, g);
-    }
-    let (mut mass, mut lifted) = (BTreeMap::new(), None);
-    let kinetic;
-    if let Some((t, _)) = system.kinetic {
-        kinetic = t;
-        lifted = lift(t, &force, g);
-        equations(t, lifted.as_ref(), &mut mass, &mut force, g);
-    } else {
-        mass = system.mass.iter().map(|(at, (m, _))| (*at, *m)).collect();
-        mass.retain(|_, m| !g.is_zero(*m));
-        kinetic = half_square(&mass, g);
+    let declared = system.mass.iter().map(|(at, (m, _))| (*at, *m));
+    let mut mass: BTreeMap<(usize, usize), Id> = declared.collect();
+    mass.retain(|_, m| !g.is_zero(*m));
+    let mut lifted = None;
+    let kinetic = match system.kinetic {
+        Some((t, _)) => t,
+        None => half_square(&mass, g),
+    };
+    match system.kinetic {
+        Some((t, _)) => {
+            lifted = lift(t, g);
+            // Of large systems the direct form is not even looked at: it grows as the third power.
+            let direct = (lifted.is_none() || n <= MANY).then(|| lagrange(t, &force, g));
+            let slopes = slopes(potential, n, g);
+            let direct = direct.map(|(mass, force)| (mass, less(&force, &slopes, g)));
+            let own = lifted.as_mut().map(|lift| {
+                lift.applied = less(&force, &slopes, g);
+                (lift.mass(g), lift.generalised(n, g))
+            });
+            (mass, force) = cheaper(own, direct, g);
+        }
+        None => {
+            let slopes = slopes(potential, n, g);
+            force = less(&force, &slopes, g);
+        }
     }
     let mut nonideal = vec![zero; n];
     for (i, c) in system.nonideal.iter().flatten() {
@@ -133,57 +147,51 @@ pub(crate) fn derive(system: &mut System, n: usize) -> Dynamics {
 /// Above so many coordinates only ways whose cost grows in proportion to the declaration are tried.
 const MANY: usize = 8;
 
+/// Entry by entry a − b.
+fn less(a: &[Id], b: &[Id], g: &mut Graph) -> Vec<Id> {
+    let pairs = a.iter().zip(b);
+    pairs.map(|(a, b)| subtract(*a, *b, g)).collect()
+}
+
 /// ∂V/∂q: by one sweep from V down, or coordinate by coordinate, whichever costs less.
 fn slopes(potential: Id, n: usize, g: &mut Graph) -> Vec<Id> {
     let zero = g.zero();
-    let mut sweep = Sweep::of(potential, g);
-    let swept: Vec<Id> = (0..n).map(|i| sweep.along(Symbol::Coord(i)).unwrap_or(zero)).collect();
-    if n > MANY {
-        return swept;
+    let direct = (n <= MANY).then(|| {
+        let gradient = Gradient::of(potential, g);
+        let direct = (0..n).map(|i| gradient.along(Symbol::Coord(i), g));
+        direct.collect::<Vec<Id>>()
+    });
+    let sweep = Sweep::of(potential, g);
+    let swept = (0..n).map(|i| sweep.along(Symbol::Coord(i)).unwrap_or(zero));
+    let swept: Vec<Id> = swept.collect();
+    match direct {
+        Some(direct) if cost(g, &direct).work() <= cost(g, &swept).work() => direct,
+        _ => swept,
     }
-    let gradient = Gradient::of(potential, g);
-    let direct: Vec<Id> = (0..n).map(|i| gradient.along(Symbol::Coord(i), g)).collect();
-    if cost(g, &swept).work() < cost(g, &direct).work() { swept } else { direct }
 }
 
-/// M and what T adds to Q: from the velocities that T is written in, or as Lagrange's equations in q̇, whichever costs less.
-fn equations(
-    t: Id,
-    lift: Option<&Lift>,
-    mass: &mut BTreeMap<(usize, usize), Id>,
-    force: &mut Vec<Id>,
-    g: &mut Graph,
-) {
-    let n = force.len();
-    let lifted = lift.map(|lift| {
-        let own = lift.generalised(n, g);
-        let force = force.iter().zip(own).map(|(f, own)| add(*f, own, g));
-        let force: Vec<Id> = force.collect();
-        (lift.mass(g), force)
-    });
-    let work = |(mass, force): &(BTreeMap<(usize, usize), Id>, Vec<Id>), g: &Graph| {
+/// M and Q.
+type Equations = (BTreeMap<(usize, usize), Id>, Vec<Id>);
+
+/// That form of M and Q which costs less; the second where both cost the same.
+fn cheaper(one: Option<Equations>, other: Option<Equations>, g: &Graph) -> Equations {
+    let work = |(mass, force): &Equations| {
         let all: Vec<Id> = mass.values().chain(force).copied().collect();
         cost(g, &all).work()
     };
-    let taken = match lifted {
-        Some(lifted) if n > MANY => lifted,
-        lifted => {
-            let mut direct = (BTreeMap::new(), force.clone());
-            lagrange(t, &mut direct.0, &mut direct.1, g);
-            match lifted {
-                Some(lifted) if work(&lifted, g) < work(&direct, g) => lifted,
-                _ => direct,
-            }
-        }
-    };
-    (*mass, *force) = taken;
+    match (one, other) {
+        (Some(one), Some(other)) if work(&one) < work(&other) => one,
+        (_, Some(other)) => other,
+        (one, None) => one.unwrap_or_default(),
+    }
 }
 
-/// Lagrange's equations d/dt(∂T/∂q̇) − ∂T/∂q = Q: M = ∂²T/∂q̇², and the rest of the left side goes into Q.
-fn lagrange(t: Id, mass: &mut BTreeMap<(usize, usize), Id>, force: &mut [Id], g: &mut Graph) {
+/// Lagrange's equations d/dt(∂T/∂q̇) − ∂T/∂q = Q for the declared Q: M = ∂²T/∂q̇², and the rest of the left side goes into Q.
+fn lagrange(t: Id, declared: &[Id], g: &mut Graph) -> Equations {
+    let (mut mass, mut forces) = (BTreeMap::new(), Vec::with_capacity(declared.len()));
     let mut total = Derivative::total();
     let energy = Gradient::of(t, g);
-    for (i, force) in force.iter_mut().enumerate() {
+    for (i, force) in declared.iter().enumerate() {
         let momentum = energy.along(Symbol::Velocity(i), g);
         let inertia = Gradient::of(momentum, g);
         for symbol in inertia.symbols() {
@@ -201,15 +209,9 @@ fn lagrange(t: Id, mass: &mut BTreeMap<(usize, usize), Id>, force: &mut [Id], g:
         let mut terms = g.open(1.0, *force);
         terms.extend(g.open(-1.0, transport));
         terms.extend(g.open(1.0, slope));
-        *force = g.sum(&terms);
+        forces.push(g.sum(&terms));
     }
-}
-
-/// a + b as one sum.
-fn add(a: Id, b: Id, g: &mut Graph) -> Id {
-    let mut terms = g.open(1.0, a);
-    terms.extend(g.open(1.0, b));
-    g.sum(&terms)
+    (mass, forces)
 }
 
 /// a − b as one sum.

@@ -36,12 +36,12 @@ pub(crate) struct Lift {
     /// The generalised forces on the unknowns: what T contributes to the right-hand side of M q̈ = Q, before it is carried over to q̇.
     force: BTreeMap<Unknown, Id>,
     /// Q without that, per coordinate.
-    applied: Vec<Id>,
+    pub(super) applied: Vec<Id>,
 }
 
-/// The kinetic energy in the velocities it is written in, where all other forces are `applied`; nothing if it is written in q̇ alone, or is
-/// no sum of products of such velocities.
-pub(super) fn lift(kinetic: Id, applied: &[Id], g: &mut Graph) -> Option<Lift> {
+/// The kinetic energy in the velocities it is written in, without other forces; nothing if it is written in q̇ alone, or is no sum of
+/// products of such velocities.
+pub(super) fn lift(kinetic: Id, g: &mut Graph) -> Option<Lift> {
     let degrees = degrees(kinetic, g);
     let degree = |id: Id| degrees.get(&id).copied().unwrap_or(0);
     if degree(kinetic) != 2 {
@@ -102,7 +102,7 @@ pub(super) fn lift(kinetic: Id, applied: &[Id], g: &mut Graph) -> Option<Lift> {
         definitions,
         inertia,
         force: BTreeMap::new(),
-        applied: applied.to_vec(),
+        applied: Vec::new(),
     };
     lift.force = lift.forces(g);
     Some(lift)
@@ -169,7 +169,10 @@ fn definition(id: Id, g: &mut Graph) -> Option<BTreeMap<Unknown, Id>> {
     let mut definition: BTreeMap<Unknown, Vec<(f64, Id)>> = BTreeMap::new();
     for (k, term) in terms {
         let (factor, unknown) = unknown(term, g)?;
-        definition.entry(unknown).or_default().push((k.get(), factor));
+        definition
+            .entry(unknown)
+            .or_default()
+            .push((k.get(), factor));
     }
     Some(summed(definition, g))
 }
@@ -254,7 +257,12 @@ impl Lift {
     fn forces(&self, g: &mut Graph) -> BTreeMap<Unknown, Id> {
         let mut total = Derivative::total();
         let mut values = BTreeMap::new();
-        let mut unknowns: Vec<Unknown> = self.definitions.values().flat_map(|d| d.keys()).copied().collect();
+        let mut unknowns: Vec<Unknown> = self
+            .definitions
+            .values()
+            .flat_map(|d| d.keys())
+            .copied()
+            .collect();
         unknowns.extend(self.inertia.keys().flat_map(|(a, b)| [*a, *b]));
         for unknown in unknowns {
             values.insert(unknown, unknown.value(g));
@@ -305,10 +313,15 @@ impl Lift {
         summed(changes.forces, g)
     }
 
-    /// What T contributes to Q, per coordinate.
+    /// Q, per coordinate.
     pub(super) fn generalised(&self, n: usize, g: &mut Graph) -> Vec<Id> {
         let forces = self.force.iter().map(|(of, f)| (*of, vec![(1.0, *f)]));
-        let carried = self.carried(forces.collect(), g);
+        let mut forces: Terms = forces.collect();
+        for (i, applied) in self.applied.iter().enumerate() {
+            let terms = forces.entry(Unknown::Coordinate(i)).or_default();
+            terms.extend(g.open(1.0, *applied));
+        }
+        let carried = self.carried(forces, g);
         let zero = g.zero();
         let at = |i| carried.get(&Unknown::Coordinate(i)).copied();
         (0..n).map(|i| at(i).unwrap_or(zero)).collect()
@@ -320,7 +333,11 @@ impl Lift {
         let add = |rows: &mut BTreeMap<Unknown, Terms>, a: Unknown, b: Unknown, term: Id| {
             // At the later one.
             let (a, b) = (a.max(b), a.min(b));
-            rows.entry(a).or_default().entry(b).or_default().push((1.0, term));
+            rows.entry(a)
+                .or_default()
+                .entry(b)
+                .or_default()
+                .push((1.0, term));
         };
         for ((a, b), inertia) in &self.inertia {
             add(&mut rows, *a, *b, *inertia);
@@ -405,7 +422,9 @@ impl Lift {
         for (k, definition) in self.definitions.values().enumerate() {
             extended.jacobian.insert((m + k, n + k), minus);
             let entries = definition.iter();
-            extended.jacobian.extend(entries.map(|(of, a)| ((m + k, place(of)), *a)));
+            extended
+                .jacobian
+                .extend(entries.map(|(of, a)| ((m + k, place(of)), *a)));
         }
         extended
     }

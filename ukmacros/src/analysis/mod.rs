@@ -23,7 +23,7 @@ pub(crate) use constants::ASSOCIATED;
 pub(crate) use constants::{Constant, ConstantValue, Positions, constants};
 pub(crate) use cost::{Costs, Operations};
 pub(crate) use dynamics::{Dynamics, derive};
-pub(crate) use elimination::{Pivoting, SAFE_SHARE, Solve};
+pub(crate) use elimination::{Pair, Pivoting, SAFE_SHARE, Solve};
 #[cfg(test)]
 pub(crate) use elimination::{Straight, Task, eliminate, orders};
 pub(crate) use functions::{Function, Place, Role, Slice};
@@ -33,8 +33,8 @@ pub(crate) use switches::Switch;
 pub(crate) use verify::verify;
 
 use crate::expr::{Id, System};
-use choice::{Chosen, choose};
 use crate::model::Model;
+use choice::{Chosen, choose};
 
 /// What is known about a mechanism, and the programs that compute it.
 pub(crate) struct Analysis {

@@ -117,15 +117,23 @@ fn computed(analysis: &Analysis, system: &System, model: &Model) -> String {
                     pair.coordinate,
                     pair.constraint - model.coord_elements.len(),
                 );
-                let why = match pair.massive {
-                    true => "prescribes it alone",
-                    false => "replaces the inertia it lacks",
+                let why = match (pair.massive, pair.alone) {
+                    (false, _) => "replaces the inertia it lacks",
+                    (true, true) => "prescribes it alone",
+                    (true, false) => "gives it by the others",
                 };
                 let _ = writeln!(
                     out,
                     "Coordinate `{}` is not solved for, since `{}` {why}.",
                     coord(i),
                     constraint(row)
+                );
+            }
+            if !solve.velocities.is_empty() {
+                let _ = writeln!(
+                    out,
+                    "M is not expanded: {} velocities that the kinetic energy is written in are eliminated with it.",
+                    solve.velocities.len()
                 );
             }
             rows.extend([

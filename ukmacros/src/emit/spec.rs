@@ -3,7 +3,7 @@
 use super::body::float;
 use super::listing::Listing;
 use crate::analysis::Switch;
-use crate::analysis::{Analysis, Costs, Operations, Pivoting, SAFE_SHARE, Solve, Structure};
+use crate::analysis::{Analysis, Costs, Operations, Pair, Pivoting, SAFE_SHARE, Solve, Structure};
 use crate::expr::{Kind, System};
 use crate::model::Model;
 use crate::parse::Declaration;
@@ -133,14 +133,14 @@ fn solve(solve: &Solve, n: usize) -> TokenStream {
             quote! { ukcore::Pivot::#kind(#place) }
         }
         Pivoting::Pair(pair) => {
-            let kind = if pair.massive {
-                "Prescribed"
-            } else {
-                "Massless"
+            let kind = match pair {
+                Pair { massive: false, .. } => "Massless",
+                Pair { alone: true, .. } => "Prescribed",
+                _ => "Substituted",
             };
-            let (kind, a) = (format_ident!("{kind}"), pair.coefficient.value.to_string());
+            let kind = format_ident!("{kind}");
             let (i, row) = (number(pair.coordinate), number(pair.constraint - n));
-            quote! { ukcore::Pivot::#kind(#i, #row, #a) }
+            quote! { ukcore::Pivot::#kind(#i, #row) }
         }
     });
     let fill = solve.fill.iter().map(|(i, j)| pair(*i, *j));
@@ -154,6 +154,7 @@ fn solve(solve: &Solve, n: usize) -> TokenStream {
     let least_share = float(SAFE_SHARE);
     let regular = solve.regular.iter().map(|row| number(*row));
     let met = solve.met.iter().map(|row| number(*row));
+    let velocities = &solve.velocities;
     quote! {
         ukcore::Solve {
             refusal: "",
@@ -163,6 +164,7 @@ fn solve(solve: &Solve, n: usize) -> TokenStream {
             least_share: #least_share,
             regular: &[#(#regular),*],
             met: &[#(#met),*],
+            velocities: &[#(#velocities),*],
         }
     }
 }

@@ -125,7 +125,7 @@ impl Sweep {
     }
 
     /// ∂/∂symbol, if it is not zero.
-    pub(crate) fn along(&mut self, symbol: Symbol) -> Option<Id> {
+    pub(crate) fn along(&self, symbol: Symbol) -> Option<Id> {
         self.0.get(&symbol).copied()
     }
 }
@@ -142,7 +142,9 @@ fn locals(id: Id, g: &mut Graph) -> Vec<(Id, Local)> {
         Node::Const(_) | Node::Symbol(_) => Vec::new(),
         Node::Sum(_, terms) => {
             let terms = terms.into_iter();
-            terms.map(|(k, term)| (term, Local::Number(k.get()))).collect()
+            terms
+                .map(|(k, term)| (term, Local::Number(k.get())))
+                .collect()
         }
         Node::Scale(k, inner) => vec![(inner, Local::Number(k.get()))],
         Node::Held(inner) => vec![(inner, Local::Number(1.0))],
@@ -176,7 +178,10 @@ fn locals(id: Id, g: &mut Graph) -> Vec<(Id, Local)> {
         Node::Select([a, b, then, otherwise]) => {
             let (one, zero) = (g.one(), g.zero());
             let (first, second) = (g.select(a, b, one, zero), g.select(a, b, zero, one));
-            vec![(then, Local::Value(1.0, first)), (otherwise, Local::Value(1.0, second))]
+            vec![
+                (then, Local::Value(1.0, first)),
+                (otherwise, Local::Value(1.0, second)),
+            ]
         }
     }
 }

@@ -165,47 +165,47 @@ fn straight_lines_solve_the_saddle_point_system() {
             continue;
         };
         for order in orders {
-        let elimination = eliminate(&task, order, &mut system.graph);
-        let elimination = elimination.unwrap_or_else(|e| panic!("{e}\n{source}"));
-        let straight = Straight::new(elimination, &dynamics, &[], &mut system);
-        for _ in 0..3 {
-            let mut draw = |len: usize| (0..len).map(|_| random.unit()).collect::<Vec<f64>>();
-            let (q, v, residual) = (draw(n), draw(n), draw(m));
-            let point = Point {
-                params: &system.defaults,
-                q: &q,
-                v: &v,
-                t: 0.4,
-                residual: &residual,
-                prepared: &[],
-            };
-            let (k, right) = saddle(&system, &dynamics, &point);
-            let mut projection = vec![0.0; n];
-            projection.extend(residual.iter().map(|r| -r));
-            let both = (solve(k.clone(), right), solve(k, projection));
-            let (Some(motion), Some(projection)) = both else {
-                continue;
-            };
-            let ids = [straight.certificate]
-                .into_iter()
-                .chain(straight.elimination.acceleration.iter().copied())
-                .chain(straight.elimination.correction.iter().copied());
-            let found = eval(&system.graph, &ids.collect::<Vec<_>>(), &point);
-            if found[0] == 0.0 {
-                refused += 1;
-                continue;
+            let elimination = eliminate(&task, order, &mut system.graph);
+            let elimination = elimination.unwrap_or_else(|e| panic!("{e}\n{source}"));
+            let straight = Straight::new(elimination, &dynamics, &[], &mut system);
+            for _ in 0..3 {
+                let mut draw = |len: usize| (0..len).map(|_| random.unit()).collect::<Vec<f64>>();
+                let (q, v, residual) = (draw(n), draw(n), draw(m));
+                let point = Point {
+                    params: &system.defaults,
+                    q: &q,
+                    v: &v,
+                    t: 0.4,
+                    residual: &residual,
+                    prepared: &[],
+                };
+                let (k, right) = saddle(&system, &dynamics, &point);
+                let mut projection = vec![0.0; n];
+                projection.extend(residual.iter().map(|r| -r));
+                let both = (solve(k.clone(), right), solve(k, projection));
+                let (Some(motion), Some(projection)) = both else {
+                    continue;
+                };
+                let ids = [straight.certificate]
+                    .into_iter()
+                    .chain(straight.elimination.acceleration.iter().copied())
+                    .chain(straight.elimination.correction.iter().copied());
+                let found = eval(&system.graph, &ids.collect::<Vec<_>>(), &point);
+                if found[0] == 0.0 {
+                    refused += 1;
+                    continue;
+                }
+                solved += 1;
+                let expected = motion[..n].iter().chain(&projection[..n]);
+                let size = expected.clone().fold(1.0, |s: f64, x| s.max(x.abs()));
+                for (i, (a, b)) in found[1..].iter().zip(expected).enumerate() {
+                    // 1/1024 of a diagonal may be left of each pivot.
+                    assert!(
+                        (a - b).abs() <= 1e-8 * size,
+                        "case {case}, value {i}: {a} is not {b}\n{source}"
+                    );
+                }
             }
-            solved += 1;
-            let expected = motion[..n].iter().chain(&projection[..n]);
-            let size = expected.clone().fold(1.0, |s: f64, x| s.max(x.abs()));
-            for (i, (a, b)) in found[1..].iter().zip(expected).enumerate() {
-                // 1/1024 of a diagonal may be left of each pivot.
-                assert!(
-                    (a - b).abs() <= 1e-8 * size,
-                    "case {case}, value {i}: {a} is not {b}\n{source}"
-                );
-            }
-        }
         }
     }
     assert!(

@@ -59,7 +59,13 @@ fn work() {
         let total = |o: crate::analysis::Operations| o.counts().iter().sum::<usize>();
         let (q, c) = (analysis.costs.acceleration, analysis.costs.correction);
         let solve = analysis.solve.map(|s| s.pivots.len());
-        println!("{path}: {solve:?} dynamics {} acceleration {} {:?} correction {} ({time:.2} s)", total(analysis.costs.dynamics), total(q), q.counts(), total(c));
+        println!(
+            "{path}: {solve:?} dynamics {} acceleration {} {:?} correction {} ({time:.2} s)",
+            total(analysis.costs.dynamics),
+            total(q),
+            q.counts(),
+            total(c)
+        );
     }
 }
 

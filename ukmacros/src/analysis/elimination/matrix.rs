@@ -228,13 +228,6 @@ impl Matrix {
         }
     }
 
-    fn value(&self, a: usize, b: usize, g: &mut Graph) -> Id {
-        match self.entries.get(&(a.max(b), a.min(b))) {
-            Some(entry) => entry.values(g).1,
-            None => g.zero(),
-        }
-    }
-
     fn take_off(&mut self, a: usize, b: usize, term: Id, reduces: bool, g: &Graph) {
         if g.is_zero(term) {
             return;
@@ -269,9 +262,7 @@ impl Matrix {
         value: fn(&Entry, &mut Graph) -> Id,
         g: &mut Graph,
     ) -> Vec<(usize, Id)> {
-        let values = others
-            .iter()
-            .map(|a| (*a, value(&self.entry(*a, k), g)));
+        let values = others.iter().map(|a| (*a, value(&self.entry(*a, k), g)));
         let values: Vec<(usize, Id)> = values.collect();
         let zero = |(_, id): &(usize, Id)| !g.is_zero(*id);
         values.into_iter().filter(zero).collect()
@@ -371,7 +362,8 @@ impl Matrix {
         let value = g.div(numerator, denominator.unwrap_or(one));
         let value = g.scale(self.sign(k), value);
         let neighbours = self.take(k);
-        let neighbours_values: Vec<(usize, Id)> = self.row(&neighbours, k, |entry, g| entry.values(g).1, g);
+        let neighbours_values: Vec<(usize, Id)> =
+            self.row(&neighbours, k, |entry, g| entry.values(g).1, g);
         let mut single = Single {
             at: k,
             sign: self.sign(k),
@@ -462,7 +454,12 @@ impl Matrix {
             let (with, factor) = (entry(&row_j, at), g.div(entry(&row_c, at), a));
             let moved = g.mul(mu, factor);
             let left = subtract(with, moved, g);
-            Touched { at, with, factor, left }
+            Touched {
+                at,
+                with,
+                factor,
+                left,
+            }
         });
         let touched: Vec<Touched> = touched.collect();
         for (p, r) in touched.iter().enumerate() {
@@ -504,9 +501,13 @@ impl Matrix {
             let square = g.product(&[(f, 1), (o, 1), (coefficient, -2)]);
             self.link(a, b);
             let entry = self.entry_mut(a, b);
-            terms.iter().for_each(|term| entry.substitute(*term, square, g));
+            terms
+                .iter()
+                .for_each(|term| entry.substitute(*term, square, g));
         } else {
-            terms.iter().for_each(|term| self.take_off(a, b, *term, false, g));
+            terms
+                .iter()
+                .for_each(|term| self.take_off(a, b, *term, false, g));
         }
     }
 }

@@ -13,11 +13,20 @@ pub(crate) struct Order {
     pub(super) pivots: Vec<Pivoting>,
     /// Positions (row > column) that are zero in K and filled.
     pub(super) fill: Vec<(usize, usize)>,
+    /// How many entries its steps change.
+    pub(crate) changes: usize,
 }
 
 impl Order {
     pub(crate) fn text(&self, names: &[String]) -> String {
-        self.pivots.iter().map(|p| match p { Pivoting::Single(k) => names[*k].clone(), Pivoting::Pair(p) => format!("({} {})", names[p.coordinate], names[p.constraint]) }).collect::<Vec<_>>().join(" ")
+        self.pivots
+            .iter()
+            .map(|p| match p {
+                Pivoting::Single(k) => names[*k].clone(),
+                Pivoting::Pair(p) => format!("({} {})", names[p.coordinate], names[p.constraint]),
+            })
+            .collect::<Vec<_>>()
+            .join(" ")
     }
 
     /// Coordinates that are taken together with constraints, and these.
@@ -58,13 +67,17 @@ pub(super) fn order(taste: Taste, mut pattern: Pattern, names: &[String]) -> Res
     let mut ready = BTreeSet::new();
     let all: BTreeSet<usize> = pattern.left().collect();
     ready.extend(keys(&all, taste, &pattern));
-    let (mut pivots, mut entries) = (Vec::new(), 0);
+    let (mut pivots, mut entries, mut changes) = (Vec::new(), 0, 0);
     while let Some((_, at, partner)) = ready.first().copied() {
         let pair = partner.and_then(|constraint| pattern.pair(at, constraint));
         let around = around(at, partner, &pattern);
         for before in keys(&around, taste, &pattern) {
             ready.remove(&before);
         }
+        changes += match &pair {
+            Some(pair) => changed_by_pair(pair, &pattern),
+            None => changed_by(at, &pattern),
+        };
         let (pivot, neighbours) = match pair {
             Some(pair) => (Pivoting::Pair(pair), pattern.eliminate_pair(pair)),
             None => (Pivoting::Single(at), pattern.eliminate(at)),
@@ -90,6 +103,7 @@ pub(super) fn order(taste: Taste, mut pattern: Pattern, names: &[String]) -> Res
         true => Ok(Order {
             pivots,
             fill: pattern.into_fill(),
+            changes,
         }),
         false => Err(format!(
             "no definite pivot is left among {}",
@@ -104,9 +118,7 @@ type Key = ([usize; 5], usize, Option<usize>);
 /// What the keys that an elimination changes belong to: its neighbours, and what shares a constraint with them.
 fn around(at: usize, partner: Option<usize>, pattern: &Pattern) -> BTreeSet<usize> {
     let taken = [Some(at), partner].into_iter().flatten();
-    let near: BTreeSet<usize> = taken
-        .flat_map(|k| pattern.near(k).chain([k]))
-        .collect();
+    let near: BTreeSet<usize> = taken.flat_map(|k| pattern.near(k).chain([k])).collect();
     let sharing = near.iter().flat_map(|k| pattern.near(*k));
     near.iter().copied().chain(sharing).collect()
 }
@@ -116,8 +128,14 @@ fn keys(of: &BTreeSet<usize>, taste: Taste, pattern: &Pattern) -> Vec<Key> {
     let mut keys = Vec::new();
     for k in of.iter().copied().filter(|k| pattern.is_left(*k)) {
         let mut pairs: Vec<Pair> = match pattern.is_coordinate(k) {
-            true => pattern.constraints_on(k).filter_map(|c| pattern.pair(k, c)).collect(),
-            false => pattern.coordinates_in(k).filter_map(|i| pattern.pair(i, k)).collect(),
+            true => pattern
+                .constraints_on(k)
+                .filter_map(|c| pattern.pair(k, c))
+                .collect(),
+            false => pattern
+                .coordinates_in(k)
+                .filter_map(|i| pattern.pair(i, k))
+                .collect(),
         };
         pairs.retain(|pair| taste.takes(pair));
         keys.extend(pairs.iter().map(|pair| pair_key(pair, taste, pattern)));
@@ -132,14 +150,25 @@ fn keys(of: &BTreeSet<usize>, taste: Taste, pattern: &Pattern) -> Vec<Key> {
     keys
 }
 
+/// How many entries eliminating `k` alone changes.
+fn changed_by(k: usize, pattern: &Pattern) -> usize {
+    let size = pattern.neighbours(k);
+    size * (size + 1) / 2
+}
+
+/// How many entries eliminating the pair changes.
+fn changed_by_pair(pair: &Pair, pattern: &Pattern) -> usize {
+    let near = |k| pattern.neighbours(k) - 1;
+    let (a, b) = (near(pair.coordinate), near(pair.constraint));
+    a * b + usize::from(pair.massive) * b * (b + 1) / 2
+}
+
 fn pair_key(pair: &Pair, taste: Taste, pattern: &Pattern) -> Key {
     let (coordinate, constraint) = (pair.coordinate, pair.constraint);
-    let near = |k| pattern.neighbours(k) - 1;
-    let (a, b) = (near(coordinate), near(constraint));
-    let changed = a * b + usize::from(pair.massive) * b * (b + 1) / 2;
+    let changed = changed_by_pair(pair, pattern);
     let rank = match taste {
         // All before what is eliminated alone.
-        Taste::Multipliers => [0, coordinate, b, 0, 0],
+        Taste::Multipliers => [0, coordinate, pattern.neighbours(constraint), 0, 0],
         Taste::Leaves => {
             let others = pattern.constraints_on(coordinate).count() - 1;
             [others, pattern.filled_by_pair(pair), changed, 0, 0]
@@ -156,8 +185,7 @@ fn pair_key(pair: &Pair, taste: Taste, pattern: &Pattern) -> Key {
 /// Multipliers: coordinates that share no inertia come first, since the constraints on them must wait for them in any case. Then what has
 /// the fewest neighbours; among equals what was coupled by an elimination, so that a chain is taken link by link; then what waits least.
 fn single_key(k: usize, taste: Taste, pattern: &Pattern) -> Key {
-    let size = pattern.neighbours(k);
-    let changed = size * (size + 1) / 2;
+    let (size, changed) = (pattern.neighbours(k), changed_by(k, pattern));
     let [a, b, c] = match taste {
         Taste::Multipliers => [1, usize::from(!pattern.shares_no_inertia(k)), size],
         Taste::Leaves => [0, pattern.filled_by(k), changed],

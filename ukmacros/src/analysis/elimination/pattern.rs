@@ -32,12 +32,7 @@ pub(super) struct Pattern {
 
 impl Pattern {
     /// The pattern of `d`, with the values that its fixed coefficients have for the parameters `defaults`.
-    pub(super) fn new(
-        d: &Dynamics,
-        declared: (usize, usize),
-        defaults: &[f64],
-        g: &Graph,
-    ) -> Self {
+    pub(super) fn new(d: &Dynamics, declared: (usize, usize), defaults: &[f64], g: &Graph) -> Self {
         let n = d.force.len();
         let size = n + d.rhs.len();
         let mut pattern = Pattern {
@@ -170,7 +165,11 @@ impl Pattern {
     /// Entries that eliminating `k` alone fills in.
     pub(super) fn filled_by(&self, k: usize) -> usize {
         let near = &self.near[k];
-        let missing = |a: &usize| near.range(..a).filter(|b| !self.near[*a].contains(b)).count();
+        let missing = |a: &usize| {
+            near.range(..a)
+                .filter(|b| !self.near[*a].contains(b))
+                .count()
+        };
         near.iter().map(missing).sum()
     }
 
@@ -181,7 +180,11 @@ impl Pattern {
         let apart = |a: usize, b: usize| a != b && !self.near[a].contains(&b);
         let others = self.near[j].iter().filter(|a| **a != c);
         let crossed = others.map(|a| near.iter().filter(|b| **b != j && apart(*a, **b)).count());
-        let within = |a: &usize| near.range(..a).filter(|b| **b != j && apart(*a, **b)).count();
+        let within = |a: &usize| {
+            near.range(..a)
+                .filter(|b| **b != j && apart(*a, **b))
+                .count()
+        };
         let inertia = near.iter().filter(|a| **a != j && pair.massive).map(within);
         crossed.sum::<usize>() + inertia.sum::<usize>()
     }
