@@ -28,6 +28,7 @@ pub(crate) use order::Order;
 use order::{Taste, order};
 use pattern::Pattern;
 use solution::Forward;
+use std::collections::BTreeSet;
 
 /// A 1 × 1 pivot d and the diagonal G it started from, both times a positive number: rank is lost where d/G falls to rounding.
 #[derive(Clone)]
@@ -38,6 +39,18 @@ pub(crate) struct Divisor {
     position: usize,
     value: Id,
     reference: Id,
+}
+
+impl Divisor {
+    /// What has to be positive.
+    fn positive(position: usize, value: Id, names: &[String]) -> Self {
+        Divisor {
+            name: names[position].clone(),
+            position,
+            value,
+            reference: value,
+        }
+    }
 }
 
 /// The straight-line solve.
@@ -168,12 +181,7 @@ pub(crate) fn eliminate(
     let (common_factor, d) = &without_common_factor(d, g);
     let common = (*common_factor != g.one()).then(|| {
         let position = d.mass.keys().next().map_or(0, |(i, _)| *i);
-        Divisor {
-            name: names[position].clone(),
-            position,
-            value: *common_factor,
-            reference: *common_factor,
-        }
+        Divisor::positive(position, *common_factor, names)
     });
     let forces = d.force.iter().zip(&d.nonideal);
     let force: Vec<Id> = forces.map(|(q, c)| g.add(*q, *c)).collect();
@@ -203,6 +211,18 @@ pub(crate) fn eliminate(
         }
         factors.push(factor);
     }
+    // Inertia that is no pivot by itself.
+    let pivots: BTreeSet<usize> = divisors
+        .iter()
+        .filter(|d: &&Divisor| g.uses(d.value).constant())
+        .map(|d| d.position)
+        .collect();
+    let inertia = d
+        .mass
+        .iter()
+        .filter(|((i, j), _)| i == j && !pivots.contains(i));
+    let inertia = inertia.filter(|(_, m)| g.uses(**m).constant() && g.as_const(**m).is_none());
+    fixed.extend(inertia.map(|((i, _), m)| Divisor::positive(*i, *m, names)));
     let mut motion = motion.solution(&factors, names, g, &mut hints)?;
     motion.coordinates.truncate(own.0);
     let residuals = (0..own.1).map(|i| g.symbol(Symbol::Residual(i)));

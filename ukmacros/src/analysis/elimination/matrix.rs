@@ -322,12 +322,7 @@ impl Matrix {
                 let double = self.eliminate_pair(pair, names, g)?;
                 let divisor = (!pair.coefficient.number).then(|| {
                     let square = g.square(double.coefficient);
-                    Divisor {
-                        name: names[pair.constraint].clone(),
-                        position: pair.constraint,
-                        value: square,
-                        reference: square,
-                    }
+                    Divisor::positive(pair.constraint, square, names)
                 });
                 (Factor::Double(double), divisor)
             }
@@ -439,6 +434,9 @@ impl Matrix {
             Some(entry) => entry.reference(g),
             None => mu,
         };
+        if pair.massive {
+            self.weigh(pair, mu, g);
+        }
         let mut of_j = self.take(j);
         of_j.remove(&c);
         let of_c = self.take(c);
@@ -473,6 +471,18 @@ impl Matrix {
             coefficient: a,
             touched,
         })
+    }
+
+    /// Constraints remember that the coordinate of `pair`, of inertia `mu`, was theirs: where what gives it cannot move it, as a crank at its
+    /// dead centre, all that is left of a constraint vanishes, and would else be compared with itself.
+    fn weigh(&mut self, pair: Pair, mu: Id, g: &mut Graph) {
+        let constraints = self.rows[pair.coordinate].range(self.n..).copied();
+        let others: Vec<usize> = constraints.filter(|r| *r != pair.constraint).collect();
+        for r in others {
+            let square = self.entry(r, pair.coordinate).square(g);
+            let size = g.div(square, mu);
+            self.entry_mut(r, r).take_off_sized(&[], size);
+        }
     }
 
     /// What the substitution of a coordinate leaves of the entry of `r` and `s`, of which r is not before s.
