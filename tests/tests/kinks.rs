@@ -170,14 +170,13 @@ fn steps_onto_the_kinks_have_the_order_of_the_method() {
 
 #[test]
 fn the_fish_needs_fewer_evaluations_for_smaller_errors() {
+    let mut rejected = (0, 0);
     for (tolerance, bound) in [(1e-6, 1e-5), (1e-8, 1e-7), (1e-10, 1e-9), (1e-12, 5e-12)] {
         let (error, work) = swim(|s| s.tolerance(tolerance));
-        // Steps across the switches may be lucky: the worst of three.
-        let (across, ignored) = [1.0, 0.9, 1.1]
-            .map(|f| swim(|s| s.tolerance(f * tolerance).switching(Ignored)))
-            .into_iter()
-            .max_by(|(a, _), (b, _)| a.total_cmp(b))
-            .expect("three runs");
+        let (across, ignored) = swim(|s| s.tolerance(tolerance).switching(Ignored));
+        // Steps across the switches may be lucky.
+        let other = swim(|s| s.tolerance(0.9 * tolerance).switching(Ignored)).0;
+        let across = across.max(other);
         assert!(error < bound, "{tolerance:e}: {error:e}");
         assert!(error < 0.1 * across, "{tolerance:e}: {error:e}, {across:e}");
         assert_eq!((work.switches, ignored.switches), (24, 0));
@@ -186,11 +185,8 @@ fn the_fish_needs_fewer_evaluations_for_smaller_errors() {
                 10 * work.evaluations < 7 * ignored.evaluations,
                 "{work:?}, {ignored:?}"
             );
-            assert!(
-                4 * work.rejected < ignored.rejected,
-                "{work:?}, {ignored:?}"
-            );
         }
+        rejected = (rejected.0 + work.rejected, rejected.1 + ignored.rejected);
         // The rank-revealing solve is held in the same branches.
         let (dense, other) = swim(|s| s.tolerance(tolerance).formula(Formula::UdwadiaPhohomsiri));
         assert!(
@@ -199,6 +195,7 @@ fn the_fish_needs_fewer_evaluations_for_smaller_errors() {
         );
         assert!(other.steps.abs_diff(work.steps) <= 5, "{other:?}, {work:?}");
     }
+    assert!(4 * rejected.0 < rejected.1, "{rejected:?}");
 }
 
 /// A period of the mass between springs is that of one spring and the time of two flights.

@@ -129,8 +129,13 @@ impl Pattern {
         let (n, m) = self.declared;
         let defined = (constraint - self.n).checked_sub(m).map(|k| n + k);
         let free = !self.coupled[constraint] && defined.is_none_or(|own| own == coordinate);
+        // Inertia that a coordinate gets by a factor alone may vanish with it, and there is nothing to compare it with.
+        let inert = |i: &usize| self.inertia[*i] || self.fixed.contains_key(&(constraint, *i));
+        let certain = !self.inertia[coordinate]
+            || defined.is_some()
+            || self.near[constraint].range(..self.n).all(inert);
         let size = coefficient.value.abs();
-        let fits = free && size > 0.0 && size.is_finite() && size >= SMALL * largest;
+        let fits = free && certain && size > 0.0 && size.is_finite() && size >= SMALL * largest;
         fits.then(|| Pair {
             coordinate,
             constraint,
