@@ -1,12 +1,15 @@
 //! The constrained solve as part of the graph: [M Aᵀ; A 0] [q̈; −λ] = [Q; b] eliminated symbolically, in an order chosen here.
 //!
-//! Pivots, in this order of preference:
-//! 1. A massless coordinate, or one that a constraint prescribes alone, together with a constraint in which its coefficient is a
-//!    number: the 2 × 2 pivot [μ a; a 0] with a ≠ 0 is safe whatever the state.
+//! Pivots:
+//! 1. A coordinate together with a constraint in which its coefficient is a number or depends on parameters alone, also after steps before:
+//!    the 2 × 2 pivot [μ a; a 0] with a ≠ 0 is safe whatever the state. What is left is the system in the other coordinates, M' = Zᵀ M Z. Bodies
+//!    pinned to each other are eliminated so, each with its pins, and velocities that T is written in with their definitions
+//!    ([`super::lift`]).
 //! 2. Coordinates with inertia, and constraints all of whose coordinates are eliminated: 1 × 1 pivots that are definite where A has full
-//!    rank, since what is eliminated is then a saddle-point matrix of its own. Coordinates that share no inertia with others come first;
-//!    then what has the fewest neighbours (least fill); among equals what waits for the
-//!    shortest chain of divisions, so that a chain of links is taken from both ends at once.
+//!    rank, since what is eliminated is then a saddle-point matrix of its own.
+//!
+//! Which pairs are taken, and when, is a matter of [`order::Taste`]; several orders are eliminated, and the cheapest is taken
+//! ([`super::choice`]).
 //!
 //! Every 1 × 1 pivot is checked at run time: see [`certificate`].
 //!

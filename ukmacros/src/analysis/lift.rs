@@ -382,7 +382,7 @@ impl Lift {
 
     /// The equations `d` with the y as further coordinates, and their definitions as further constraints; `mass` was added to M and `force`
     /// to Q.
-    pub(super) fn extended(
+    pub(crate) fn extended(
         &self,
         d: &Dynamics,
         mass: &BTreeMap<(usize, usize), Id>,
