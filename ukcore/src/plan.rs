@@ -186,6 +186,17 @@ impl Plan {
             );
             paragraph(f, &text)?;
         }
+        let mut hubs = solve.copies;
+        while let Some(hub) = hubs.first() {
+            let of = hubs.iter().take_while(|i| *i == hub).count();
+            hubs = &hubs[of..];
+            let text = format!(
+                "{} is written {} times, once for each of the parts that share it, tied one to the next.",
+                coord(*hub),
+                of + 1
+            );
+            paragraph(f, &text)?;
+        }
         let pair = |f: &mut Formatter<'_>, i: usize, c: usize, why: &str| {
             let text = format!(
                 "{} with {}: {why}, its coefficient being the same at any state",

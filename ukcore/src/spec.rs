@@ -140,6 +140,9 @@ pub struct Solve {
     /// Names of the velocities, linear in q̇, that the kinetic energy is written in, where M is not expanded: the solve has them as unknowns, and
     /// eliminates each with its definition.
     pub velocities: &'static [&'static str],
+    /// Coordinates that many otherwise separate parts share, each once for every part but one: the solve has a copy of the coordinate for each
+    /// of these, tied to the one before, with its share of the inertia.
+    pub copies: &'static [usize],
 }
 
 /// One pivot of the elimination.
@@ -252,6 +255,7 @@ impl Solve {
             regular: &[],
             met: &[],
             velocities: &[],
+            copies: &[],
         }
     }
 }

@@ -177,6 +177,7 @@ const _: () = {
                     regular: &[],
                     met: &[],
                     velocities: &[],
+                    copies: &[],
                 },
                 mass_pattern: &[(0, 0), (1, 1), (2, 2)],
                 jacobian_pattern: &[(0, 0), (0, 1)],

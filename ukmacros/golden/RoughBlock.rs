@@ -219,6 +219,7 @@ const _: () = {
                     regular: &[],
                     met: &[],
                     velocities: &[],
+                    copies: &[],
                 },
                 mass_pattern: &[(0, 0), (1, 1)],
                 jacobian_pattern: &[(0, 0), (0, 1)],

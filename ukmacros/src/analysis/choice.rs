@@ -2,9 +2,10 @@
 
 use super::cost::{Costs, costs};
 use super::dynamics::Dynamics;
-use super::elimination::{Order, Solve, Straight, Task, eliminate, orders};
+use super::elimination::{Further, Solve, Straight, Task, eliminate, orders};
 use super::functions::{Function, Role, functions};
 use super::hoist::{Hoisted, hoist};
+use super::hub::{Divided, divided};
 use super::regular::Regular;
 use super::switches::Switch;
 use crate::expr::{Graph, Id, System};
@@ -23,17 +24,39 @@ pub(super) struct Chosen {
 /// Orders that change so many times the entries of another are not tried.
 const WORSE: usize = 2;
 
-/// One way to solve: a system, and the order of its elimination.
-struct Way {
-    /// With the velocities that the kinetic energy is written in as further coordinates.
-    lifted: bool,
-    order: Order,
+/// A system whose solution has the accelerations in it.
+struct Variant {
+    dynamics: Dynamics,
+    names: Vec<String>,
+    further: Further,
+    /// The hubs whose copies it has.
+    copies: Vec<usize>,
 }
 
-/// What each way begins with.
-struct Base {
+/// What each way to solve begins with, or ends with.
+struct Nodes {
     graph: Graph,
     hints: HashMap<Id, String>,
+}
+
+impl Nodes {
+    fn taken(system: &mut System) -> Self {
+        Nodes {
+            graph: std::mem::take(&mut system.graph),
+            hints: std::mem::take(&mut system.inner_hints),
+        }
+    }
+
+    fn give(self, system: &mut System) {
+        (system.graph, system.inner_hints) = (self.graph, self.hints);
+    }
+
+    fn copy(system: &System) -> Self {
+        Nodes {
+            graph: system.graph.clone(),
+            hints: system.inner_hints.clone(),
+        }
+    }
 }
 
 /// Takes the way whose accelerations cost least; `held` are the equations, with `regular` made of them, `names` those of coordinates and
@@ -45,92 +68,70 @@ pub(super) fn choose(
     switches: &[Switch],
     names: &[String],
 ) -> Chosen {
-    let lifted = lifted(system, held, regular, names);
     let own = (held.force.len(), held.rhs.len());
-    let plain = Task {
-        dynamics: &regular.dynamics,
-        weights: &regular.weights,
-        names,
-        own,
-    };
-    let further = lifted.as_ref().map(|(dynamics, names)| Task {
-        dynamics,
-        weights: &regular.weights,
-        names,
-        own,
-    });
-    let mut ways = Vec::new();
     let mut refusal = regular.refusal(names);
-    for (lifted, task) in [(false, Some(&plain)), (true, further.as_ref())] {
-        let Some(task) = task.filter(|_| regular.refusal(names).is_none()) else {
-            continue;
-        };
+    let variants = match refusal {
+        Some(_) => Vec::new(),
+        None => variants(system, held, regular, names),
+    };
+    let tasks = variants.iter().map(|variant| Task {
+        dynamics: &variant.dynamics,
+        weights: &regular.weights,
+        names: &variant.names,
+        own,
+        further: variant.further,
+    });
+    let tasks: Vec<Task<'_>> = tasks.collect();
+    let mut ways = Vec::new();
+    for (at, task) in tasks.iter().enumerate() {
         match orders(task, &system.defaults, &system.graph) {
-            Ok(mut orders) => {
+            Ok(orders) => {
                 let least = orders.iter().map(|order| order.changes).min();
                 let bound = WORSE * least.unwrap_or(0);
-                orders.retain(|order| order.changes <= bound);
-                ways.extend(orders.into_iter().map(|order| Way { lifted, order }));
+                let orders = orders.into_iter().filter(|order| order.changes <= bound);
+                ways.extend(orders.map(|order| (at, order)));
             }
             Err(text) => drop(refusal.get_or_insert(text)),
         }
     }
-    let base = (ways.len() > 1).then(|| Base {
-        graph: system.graph.clone(),
-        hints: system.inner_hints.clone(),
-    });
-    let mut best: Option<(Chosen, Base)> = None;
-    for way in ways {
+    let base = (ways.len() > 1).then(|| Nodes::copy(system));
+    let mut best: Option<(Chosen, Nodes)> = None;
+    for (at, order) in ways {
         if let Some(base) = &base {
-            system.graph = base.graph.clone();
-            system.inner_hints = base.hints.clone();
+            let Nodes { graph, hints } = base;
+            (system.graph, system.inner_hints) = (graph.clone(), hints.clone());
         }
-        let task = match (way.lifted, &further) {
-            (true, Some(task)) => task,
-            _ => &plain,
-        };
-        if std::env::var("WORK").is_ok() {
-            let c = |ids: &[Id]| super::cost::cost(&system.graph, ids).work();
-            let all: Vec<Id> = held.mass.values().copied().collect();
-            eprintln!("way force {} mass {}", c(&held.force), c(&all));
-            eprintln!("way {}", way.order.changes);
-            eprintln!("{}", way.order.text(task.names));
-        }
-        let straight = match eliminate(task, way.order, &mut system.graph) {
+        let straight = match eliminate(&tasks[at], order, &mut system.graph) {
             Ok(elimination) => Straight::new(elimination, held, &regular.met, system),
             Err(text) => {
                 refusal.get_or_insert(text);
                 continue;
             }
         };
-        let chosen = emitted(system, held, Ok(straight), regular, switches, names);
-        if std::env::var("WORK").is_ok() {
-            eprintln!(
-                "way {:?} {}",
-                chosen.solve.as_ref().map(|s| s.velocities.len()),
-                work(&chosen)
-            );
-        }
-        let better = |(known, _): &(Chosen, Base)| work(&chosen) < work(known);
-        if best.as_ref().is_none_or(better) {
-            let graph = std::mem::take(&mut system.graph);
-            let hints = std::mem::take(&mut system.inner_hints);
-            best = Some((chosen, Base { graph, hints }));
-        }
-    }
-    match best {
-        Some((chosen, taken)) => {
-            (system.graph, system.inner_hints) = (taken.graph, taken.hints);
-            chosen
-        }
-        None => {
-            if let Some(base) = base {
-                (system.graph, system.inner_hints) = (base.graph, base.hints);
+        let mut chosen = emitted(system, held, Ok(straight), switches, names);
+        if let Ok(solve) = &mut chosen.solve {
+            let variant = &variants[at];
+            solve.regular.clone_from(&regular.rows);
+            solve.copies.clone_from(&variant.copies);
+            if variant.further == Further::Velocities {
+                let further = own.0..variant.dynamics.force.len();
+                solve.velocities = variant.names[further].to_vec();
             }
-            let refusal = refusal.unwrap_or_default();
-            emitted(system, held, Err(refusal), regular, switches, names)
+        }
+        let better = |(known, _): &(Chosen, Nodes)| work(&chosen) < work(known);
+        if best.as_ref().is_none_or(better) {
+            best = Some((chosen, Nodes::taken(system)));
         }
     }
+    if let Some((chosen, nodes)) = best {
+        nodes.give(system);
+        return chosen;
+    }
+    if let Some(base) = base {
+        base.give(system);
+    }
+    let refusal = refusal.unwrap_or_default();
+    emitted(system, held, Err(refusal), switches, names)
 }
 
 /// Operations of one evaluation.
@@ -142,27 +143,49 @@ fn work(chosen: &Chosen) -> usize {
         .map_or(usize::MAX, |f| f.operations.work())
 }
 
-/// The equations with the velocities that the kinetic energy is written in, and all names, if it is written so.
-fn lifted(
+/// The systems that are worth a try: the equations themselves, with the velocities that the kinetic energy is written in, with copies of hubs.
+fn variants(
     system: &mut System,
     held: &Dynamics,
     regular: &Regular,
     names: &[String],
-) -> Option<(Dynamics, Vec<String>)> {
-    let lift = held.lift.as_ref()?;
-    let (mass, force) = (&regular.added, &regular.pulled);
-    let dynamics = lift.extended(&regular.dynamics, mass, force, &mut system.graph);
+) -> Vec<Variant> {
+    let g = &mut system.graph;
+    let mut variants = vec![Variant {
+        dynamics: regular.dynamics.clone(),
+        names: names.to_vec(),
+        further: Further::Nothing,
+        copies: Vec::new(),
+    }];
     let (coordinates, constraints) = names.split_at(held.force.len());
-    let velocities = lift.velocities().enumerate();
-    let velocities = velocities.map(|(k, id)| match system.hints.get(&id) {
-        Some(name) => name.clone(),
-        None => format!("velocity_{k}"),
-    });
-    let velocities: Vec<String> = velocities.collect();
-    Some((
-        dynamics,
-        [coordinates, &velocities, constraints, &velocities].concat(),
-    ))
+    let with = |more: &[String]| [coordinates, more, constraints, more].concat();
+    if let Some(lift) = &held.lift {
+        let dynamics = lift.extended(&regular.dynamics, &regular.added, &regular.pulled, g);
+        let velocities = lift.velocities().enumerate();
+        let velocities = velocities.map(|(k, id)| match system.hints.get(&id) {
+            Some(name) => name.clone(),
+            None => format!("velocity_{k}"),
+        });
+        let velocities: Vec<String> = velocities.collect();
+        variants.push(Variant {
+            dynamics,
+            names: with(&velocities),
+            further: Further::Velocities,
+            copies: Vec::new(),
+        });
+    }
+    if let Some(Divided { dynamics, copies }) = divided(&regular.dynamics, g) {
+        let more = copies.iter().enumerate();
+        let more = more.map(|(k, hub)| format!("{}_{k}", names[*hub]));
+        let more: Vec<String> = more.collect();
+        variants.push(Variant {
+            dynamics,
+            names: with(&more),
+            further: Further::Copies,
+            copies,
+        });
+    }
+    variants
 }
 
 /// What is emitted with the given solve.
@@ -170,14 +193,10 @@ fn emitted(
     system: &mut System,
     held: &Dynamics,
     straight: Result<Straight, String>,
-    regular: &Regular,
     switches: &[Switch],
     names: &[String],
 ) -> Chosen {
-    let solve = straight.as_ref().map(|straight| Solve {
-        regular: regular.rows.clone(),
-        ..straight.told()
-    });
+    let solve = straight.as_ref().map(Straight::told);
     let solve = solve.map_err(String::clone);
     let hoisted = hoist(system, held, &straight, switches);
     let functions = functions(system, &hoisted);

@@ -70,8 +70,6 @@ pub(crate) struct Elimination {
     order: Order,
     /// Where each coordinate and constraint of the system stands in the mechanism: not velocities and their definitions.
     place: Vec<Option<usize>>,
-    /// Names of the velocities.
-    velocities: Vec<String>,
     /// Names of pivots, factors and multipliers.
     hints: Vec<(Id, String)>,
 }
@@ -126,8 +124,7 @@ impl Coefficient {
 
 /// A system that is eliminated.
 pub(crate) struct Task<'a> {
-    /// The equations. Coordinates and constraints after those of the mechanism are velocities and their definitions: see
-    /// [`super::lift`].
+    /// The equations.
     pub(crate) dynamics: &'a Dynamics,
     /// To M were added Σ μ aᵀa of rows a of A, to Q the Σ μ aᵀb: these are the (row, coordinate, μ a_i), by which a correction has the like
     /// of its residuals.
@@ -136,16 +133,33 @@ pub(crate) struct Task<'a> {
     pub(crate) names: &'a [String],
     /// How many of the coordinates and of the constraints are the mechanism's.
     pub(crate) own: (usize, usize),
+    /// What the others are.
+    pub(crate) further: Further,
+}
+
+/// What a system has beyond the coordinates and constraints of the mechanism.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Further {
+    Nothing,
+    /// Velocities that the kinetic energy is written in, with their definitions: see [`super::lift`].
+    Velocities,
+    /// Copies of coordinates, tied to each other: see [`super::hub`].
+    Copies,
 }
 
 /// The orders that a system may be eliminated in; or why there is none. `defaults` are those of the parameters.
 pub(crate) fn orders(task: &Task<'_>, defaults: &[f64], g: &Graph) -> Result<Vec<Order>, String> {
     let pattern = Pattern::new(task.dynamics, task.own, defaults, g);
-    let lifted = task.names.len() > task.own.0 + task.own.1;
     let mut orders: Vec<(Taste, Order)> = Vec::new();
     let mut refusal = None;
     for taste in Taste::ALL {
-        if lifted && taste == Taste::Multipliers {
+        // Definitions are substituted, ties are not: that would make one coordinate of them again.
+        let suits = match task.further {
+            Further::Nothing => true,
+            Further::Velocities => taste != Taste::Multipliers,
+            Further::Copies => taste == Taste::Multipliers,
+        };
+        if !suits {
             continue;
         }
         match order(taste, pattern.clone(), task.names) {
@@ -179,6 +193,7 @@ pub(crate) fn eliminate(
         weights,
         names,
         own,
+        ..
     } = *task;
     // A factor that all of M shares, as the one mass of all parts, only scales the multipliers: it is taken out of M and Q.
     let (common_factor, d) = &without_common_factor(d, g);
@@ -252,7 +267,6 @@ pub(crate) fn eliminate(
         correction_rights: projection.rights,
         order,
         place: place(d, own),
-        velocities: names[own.0..d.force.len()].to_vec(),
         hints,
     })
 }

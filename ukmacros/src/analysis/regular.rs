@@ -14,6 +14,7 @@
 //! at run time: see [`Regular::met`].
 
 use super::dynamics::Dynamics;
+use super::groups::Groups;
 use super::probe::{Probe, Random};
 use crate::expr::{Graph, Id, Node, Symbol, System, eval};
 use std::collections::{BTreeMap, BTreeSet};
@@ -146,22 +147,14 @@ fn entries(row: usize, d: &Dynamics) -> impl Iterator<Item = (usize, Id)> {
 /// The blocks of M that may be singular without being zero, and that constraints act on.
 fn blocks(d: &Dynamics, g: &Graph) -> Vec<Block> {
     let n = d.force.len();
-    let mut label: Vec<usize> = (0..n).collect();
-    fn root(label: &mut [usize], mut i: usize) -> usize {
-        while label[i] != i {
-            label[i] = label[label[i]];
-            i = label[i];
-        }
-        i
-    }
+    let mut groups = Groups::new(n);
     for (i, j) in d.mass.keys() {
-        let (a, b) = (root(&mut label, *i), root(&mut label, *j));
-        label[a.max(b)] = a.min(b);
+        groups.join(*i, *j);
     }
     let mut blocks: BTreeMap<usize, Block> = BTreeMap::new();
     let mut roots = Vec::with_capacity(n);
     for i in 0..n {
-        let at = root(&mut label, i);
+        let at = groups.of(i);
         roots.push(at);
         let block = blocks.entry(at).or_insert_with(|| Block {
             coordinates: Vec::new(),

@@ -155,6 +155,7 @@ fn solve(solve: &Solve, n: usize) -> TokenStream {
     let regular = solve.regular.iter().map(|row| number(*row));
     let met = solve.met.iter().map(|row| number(*row));
     let velocities = &solve.velocities;
+    let copies = solve.copies.iter().map(|i| number(*i));
     quote! {
         ukcore::Solve {
             refusal: "",
@@ -165,6 +166,7 @@ fn solve(solve: &Solve, n: usize) -> TokenStream {
             regular: &[#(#regular),*],
             met: &[#(#met),*],
             velocities: &[#(#velocities),*],
+            copies: &[#(#copies),*],
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The straight-line solve of random mechanisms against dense elimination with pivoting.
 
 use super::system;
-use crate::analysis::{Dynamics, Straight, Task, derive, eliminate, orders};
+use crate::analysis::{Dynamics, Further, Straight, Task, derive, eliminate, orders};
 use crate::expr::{Point, System, eval};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -228,6 +228,10 @@ impl Tally {
                 weights: &[],
                 names: &names,
                 own,
+                further: match size == own.0 + own.1 {
+                    true => Further::Nothing,
+                    false => Further::Velocities,
+                },
             };
             for order in orders(&task, &system.defaults, &system.graph).unwrap_or_default() {
                 let elimination = eliminate(&task, order, &mut system.graph);

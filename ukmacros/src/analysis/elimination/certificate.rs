@@ -81,6 +81,8 @@ pub(crate) struct Solve {
     pub(crate) checks: Vec<(usize, bool)>,
     /// Names of the velocities that the kinetic energy is written in, where they are unknowns.
     pub(crate) velocities: Vec<String>,
+    /// Coordinates that are written once for each part they are shared by, each as often as it has copies.
+    pub(crate) copies: Vec<usize>,
     /// Constraints that make M regular.
     pub(crate) regular: Vec<usize>,
     /// Constraints whose row of A q̈ = b is checked.
@@ -108,7 +110,8 @@ impl Straight {
             pivots: pivots.collect(),
             fill: fill.collect(),
             checks: checks.collect(),
-            velocities: self.elimination.velocities.clone(),
+            velocities: Vec::new(),
+            copies: Vec::new(),
             regular: Vec::new(),
             met: self.met.clone(),
         }

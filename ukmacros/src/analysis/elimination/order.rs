@@ -18,17 +18,6 @@ pub(crate) struct Order {
 }
 
 impl Order {
-    pub(crate) fn text(&self, names: &[String]) -> String {
-        self.pivots
-            .iter()
-            .map(|p| match p {
-                Pivoting::Single(k) => names[*k].clone(),
-                Pivoting::Pair(p) => format!("({} {})", names[p.coordinate], names[p.constraint]),
-            })
-            .collect::<Vec<_>>()
-            .join(" ")
-    }
-
     /// Coordinates that are taken together with constraints, and these.
     pub(super) fn pairs(&self) -> BTreeSet<(usize, usize)> {
         let pairs = self.pivots.iter().filter_map(|pivot| match pivot {
