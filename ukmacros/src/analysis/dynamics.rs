@@ -78,7 +78,11 @@ pub(crate) fn derive(system: &mut System, n: usize) -> Dynamics {
     };
     match system.kinetic {
         Some((t, _)) => {
-            lifted = lift(t, g);
+            let mut with = g.clone();
+            lifted = lift(t, &mut with);
+            if lifted.is_some() {
+                *g = with;
+            }
             // Of large systems the direct form is not even looked at: it grows as the third power.
             let direct = (lifted.is_none() || n <= MANY).then(|| lagrange(t, &force, g));
             let slopes = slopes(potential, n, g);
@@ -156,18 +160,25 @@ fn less(a: &[Id], b: &[Id], g: &mut Graph) -> Vec<Id> {
 /// ∂V/∂q: by one sweep from V down, or coordinate by coordinate, whichever costs less.
 fn slopes(potential: Id, n: usize, g: &mut Graph) -> Vec<Id> {
     let zero = g.zero();
-    let direct = (n <= MANY).then(|| {
-        let gradient = Gradient::of(potential, g);
-        let direct = (0..n).map(|i| gradient.along(Symbol::Coord(i), g));
-        direct.collect::<Vec<Id>>()
-    });
-    let sweep = Sweep::of(potential, g);
-    let swept = (0..n).map(|i| sweep.along(Symbol::Coord(i)).unwrap_or(zero));
-    let swept: Vec<Id> = swept.collect();
-    match direct {
-        Some(direct) if cost(g, &direct).work() <= cost(g, &swept).work() => direct,
-        _ => swept,
+    let swept = |g: &mut Graph| -> Vec<Id> {
+        let sweep = Sweep::of(potential, g);
+        let slopes = (0..n).map(|i| sweep.along(Symbol::Coord(i)));
+        slopes.map(|slope| slope.unwrap_or(zero)).collect()
+    };
+    if n > MANY {
+        return swept(g);
     }
+    // What is not taken leaves no trace: the order of nodes is that of terms.
+    let mut other = g.clone();
+    let swept = swept(&mut other);
+    let gradient = Gradient::of(potential, g);
+    let direct = (0..n).map(|i| gradient.along(Symbol::Coord(i), g));
+    let direct: Vec<Id> = direct.collect();
+    if cost(&other, &swept).work() < cost(g, &direct).work() {
+        *g = other;
+        return swept;
+    }
+    direct
 }
 
 /// M and Q.

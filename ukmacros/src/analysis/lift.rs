@@ -15,6 +15,7 @@
 
 use super::dynamics::Dynamics;
 use crate::expr::{Derivative, Graph, Id, Node, Symbol};
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// An unknown of the lifted system.
@@ -88,10 +89,9 @@ pub(super) fn lift(kinetic: Id, g: &mut Graph) -> Option<Lift> {
         let Unknown::Velocity(id) = next else {
             continue;
         };
-        if !definitions.contains_key(&id) {
-            let definition = definition(id, g)?;
+        if let Entry::Vacant(entry) = definitions.entry(id) {
+            let definition = entry.insert(definition(id, g)?);
             open.extend(definition.keys());
-            definitions.insert(id, definition);
         }
     }
     let inertia = summed(inertia, g);

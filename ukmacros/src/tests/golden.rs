@@ -50,7 +50,7 @@ fn expansion(tokens: &TokenStream) -> TokenStream {
 }
 
 /// The code, formatted, without `CODE`, which is the text of its functions.
-pub(super) fn formatted(code: TokenStream) -> String {
+fn formatted(code: TokenStream) -> String {
     let text = prettyplease::unparse(&syn::parse2(code).expect("emitted code is Rust"));
     let (before, rest) = text.split_once("    const CODE:").unwrap_or((&text, ""));
     let rest = rest.split_once("    ];\n").map_or("", |(_, rest)| rest);

@@ -47,8 +47,9 @@ fn growth() {
     }
 }
 
+/// Operations of declarations in files, and how long their analysis takes.
 #[test]
-#[ignore = "a measurement: FILES=\"a.txt b.txt\" cargo test -p ukmacros -- --ignored work --nocapture"]
+#[ignore = "a measurement: FILES='a.txt b.txt' cargo test -p ukmacros -- --ignored work --nocapture"]
 fn work() {
     let files = std::env::var("FILES").unwrap_or_default();
     for path in files.split_whitespace() {
@@ -56,24 +57,14 @@ fn work() {
         let start = Instant::now();
         let analysis = super::analysis(source.parse().expect("tokens"));
         let time = start.elapsed().as_secs_f64();
-        let total = |o: crate::analysis::Operations| o.counts().iter().sum::<usize>();
-        let (q, c) = (analysis.costs.acceleration, analysis.costs.correction);
-        let solve = analysis.solve.map(|s| s.pivots.len());
-        println!(
-            "{path}: {solve:?} dynamics {} acceleration {} {:?} correction {} ({time:.2} s)",
-            total(analysis.costs.dynamics),
-            total(q),
-            q.counts(),
-            total(c)
-        );
+        let costs = analysis.costs;
+        for (what, of) in [
+            ("dynamics", costs.dynamics),
+            ("acceleration", costs.acceleration),
+            ("correction", costs.correction),
+        ] {
+            println!("{path}: {what} {:?}", of.counts());
+        }
+        println!("{path}: {time:.2} s, {:?}", analysis.solve.err());
     }
-}
-
-#[test]
-#[ignore = "a look: FILE=a.txt cargo test -p ukmacros -- --ignored look --nocapture"]
-fn look() {
-    let path = std::env::var("FILE").expect("a file");
-    let source = std::fs::read_to_string(path).expect("a declaration");
-    let (code, _) = crate::expand(source.parse().expect("tokens"));
-    println!("{}", super::golden::formatted(code));
 }
