@@ -226,7 +226,7 @@ impl Plan {
             return Ok(());
         }
         writeln!(f, "\nCertificate")?;
-        if solve.checks.is_empty() && solve.met.is_empty() {
+        if solve.checks.is_empty() && solve.met.is_empty() && solve.redundant.is_empty() {
             return item(f, "nothing is checked: no pivot can vanish");
         }
         let names = |wanted: fn(&Check) -> Option<usize>| {
@@ -258,6 +258,14 @@ impl Plan {
             let text = format!(
                 "met by q̈ to rounding, since they act on inertia that may vanish: the rows of {}",
                 names.join(" ")
+            );
+            item(f, &text)?;
+        }
+        for row in solve.redundant {
+            let text = format!(
+                "`{}` is dropped where it follows from the others: where nothing but rounding, or drift off the constraints, is left of its pivot \
+                 and of its right-hand side; elsewhere its pivot is checked as the others",
+                self.spec.constraints[*row].name
             );
             item(f, &text)?;
         }

@@ -137,6 +137,9 @@ pub struct Solve {
     /// Constraints whose rows of A q̈ = b are checked after the solution, since they act on a coordinate whose inertia may vanish at some
     /// states.
     pub met: &'static [usize],
+    /// Constraints that follow from those eliminated before them wherever all are met, with parameters at their defaults: their rows are
+    /// left out, with the multiplier 0, at states where they do. Elsewhere they count as all others.
+    pub redundant: &'static [usize],
 }
 
 /// One pivot of the elimination.
@@ -246,6 +249,7 @@ impl Solve {
             least_share: 0.0,
             regular: &[],
             met: &[],
+            redundant: &[],
         }
     }
 }

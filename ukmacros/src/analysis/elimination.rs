@@ -14,18 +14,23 @@
 //! order; [`solution`] solves for a right-hand side.
 
 mod certificate;
+mod dropping;
 mod matrix;
 mod order;
 mod pattern;
 mod solution;
 
 pub(crate) use certificate::{SAFE_SHARE, Solve, Straight};
+pub(crate) use dropping::{DRIFTED, ROUNDED};
 
 use super::dynamics::Dynamics;
+use super::redundant::redundant;
 use crate::expr::{Graph, Id, Symbol, is_power_of_two};
+use dropping::Dropping;
 use matrix::Matrix;
 use order::{Order, order};
 use solution::Forward;
+use std::collections::BTreeSet;
 
 /// A 1 × 1 pivot d and the diagonal G it started from, both times a positive number: rank is lost where d/G falls to rounding.
 #[derive(Clone)]
@@ -36,6 +41,8 @@ pub(crate) struct Divisor {
     position: usize,
     value: Id,
     reference: Id,
+    /// Whether its row may be left out.
+    droppable: bool,
 }
 
 /// The straight-line solve.
@@ -49,6 +56,8 @@ pub(crate) struct Elimination {
     divisors: Vec<(Divisor, Option<Id>)>,
     /// Right-hand sides of the pivots in the solution for the correction.
     correction_rights: Vec<Id>,
+    /// What is checked of the rows that may be left out.
+    droppings: Vec<Dropping>,
     order: Order,
     /// Names of pivots, factors and multipliers.
     hints: Vec<(Id, String)>,
@@ -78,9 +87,11 @@ pub(crate) fn eliminate(
     d: &Dynamics,
     weights: &[(usize, usize, Id)],
     names: &[String],
+    defaults: &[f64],
     g: &mut Graph,
 ) -> Result<Elimination, String> {
     let order = order(d, names, g)?;
+    let droppable = droppable(d, &order, defaults, g);
     // A factor that all of M shares, as the one mass of all parts, only scales the multipliers: it is taken out of M and Q.
     let (common_factor, d) = &without_common_factor(d, g);
     let common = (*common_factor != g.one()).then(|| {
@@ -90,6 +101,7 @@ pub(crate) fn eliminate(
             position,
             value: *common_factor,
             reference: *common_factor,
+            droppable: false,
         };
         (divisor, None)
     });
@@ -107,7 +119,7 @@ pub(crate) fn eliminate(
     };
     let rhs = scaled(1.0, &d.rhs, g);
     let mut hints = Vec::new();
-    let mut matrix = Matrix::new(d, &jacobian, &order.pivots, g);
+    let mut matrix = Matrix::new(d, &jacobian, &order.pivots, droppable, g);
     let mut motion = Forward::new(&force, &rhs);
     let (mut factors, mut divisors) = (Vec::new(), Vec::new());
     for step in &order.pivots {
@@ -116,6 +128,7 @@ pub(crate) fn eliminate(
         factors.push(factor);
         divisors.extend(divisor);
     }
+    let droppings = motion.droppings(&factors, g);
     let motion = motion.solution(&factors, names, g, &mut hints)?;
     let residuals = (0..d.rhs.len()).map(|i| g.symbol(Symbol::Residual(i)));
     let residuals: Vec<Id> = residuals.collect();
@@ -136,9 +149,25 @@ pub(crate) fn eliminate(
         correction: projection.coordinates,
         divisors: common.into_iter().chain(divisors).collect(),
         correction_rights: projection.rights,
+        droppings,
         order,
         hints,
     })
+}
+
+/// The positions of constraints that are eliminated alone, and follow from those before them where all are met.
+fn droppable(d: &Dynamics, order: &Order, defaults: &[f64], g: &Graph) -> BTreeSet<usize> {
+    let n = d.force.len();
+    let rows = order.pivots.iter().filter_map(|pivot| match *pivot {
+        Pivoting::Single(k) => k.checked_sub(n),
+        Pivoting::Pair(pair) => Some(pair.constraint - n),
+    });
+    let found = redundant(d, &rows.collect::<Vec<_>>(), defaults, g);
+    let alone = |pivot: &Pivoting| match *pivot {
+        Pivoting::Single(k) if k >= n && found.contains(&(k - n)) => Some(k),
+        _ => None,
+    };
+    order.pivots.iter().filter_map(alone).collect()
 }
 
 /// The product of parameters that all entries of M have in front, and the equations with M, Q and c divided by it.

@@ -8,6 +8,7 @@ mod elimination;
 mod functions;
 mod hoist;
 mod probe;
+mod redundant;
 mod regular;
 mod schedule;
 mod sparsity;
@@ -65,6 +66,7 @@ pub(crate) fn analyse(system: &mut System, model: &Model, dynamics: Dynamics) ->
             &regular.dynamics,
             &regular.weights,
             &names,
+            &system.defaults,
             &mut system.graph,
         )
         .map(|e| elimination::Straight::new(e, &held, &regular.met, system)),

@@ -154,6 +154,7 @@ fn solve(solve: &Solve, n: usize) -> TokenStream {
     let least_share = float(SAFE_SHARE);
     let regular = solve.regular.iter().map(|row| number(*row));
     let met = solve.met.iter().map(|row| number(*row));
+    let redundant = solve.droppable.iter().map(|row| number(*row));
     quote! {
         ukcore::Solve {
             refusal: "",
@@ -163,6 +164,7 @@ fn solve(solve: &Solve, n: usize) -> TokenStream {
             least_share: #least_share,
             regular: &[#(#regular),*],
             met: &[#(#met),*],
+            redundant: &[#(#redundant),*],
         }
     }
 }

@@ -12,7 +12,7 @@ mod rest;
 
 pub(crate) use diff::{Derivative, Gradient};
 pub(crate) use display::Printer;
-pub(crate) use eval::{Point, eval, eval_shaken};
+pub(crate) use eval::{Point, Sweep, eval, eval_shaken};
 pub(crate) use fold::is_power_of_two;
 pub(crate) use functions::{Cost, Func};
 pub(crate) use graph::{Graph, Id, Node, Num, Symbol};

@@ -1,8 +1,9 @@
 //! K with symbolic entries, eliminated in a given order.
 
+use super::dropping::reciprocal;
 use super::{Divisor, Pair, Pivoting};
 use crate::analysis::dynamics::Dynamics;
-use crate::expr::{Graph, Id};
+use crate::expr::{Func, Graph, Id};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Longest chain of pivots whose divisions are put off. Their numerators are products of as many pivots, and must stay in the range of
@@ -21,6 +22,8 @@ pub(super) struct Matrix {
     depth: Vec<usize>,
     /// When each is eliminated alone.
     turn: Vec<usize>,
+    /// Constraints that may be left out.
+    droppable: BTreeSet<usize>,
 }
 
 /// An update d − p²/(N/D) of a diagonal that is not yet divided by N.
@@ -56,6 +59,14 @@ impl Entry {
         list.push((-1.0, term));
     }
 
+    /// Σ |term|.
+    pub(super) fn size(&self, g: &mut Graph) -> Id {
+        let terms = self.gram.iter().chain(&self.schur);
+        let sizes = terms.map(|(c, id)| (c.abs(), g.call1(Func::Abs, *id)));
+        let sizes: Vec<(f64, Id)> = sizes.collect();
+        g.sum(&sizes)
+    }
+
     /// The value before and after the terms of constraints.
     pub(super) fn values(&self, g: &mut Graph) -> (Id, Id) {
         let gram = g.factored_sum(&self.gram);
@@ -87,6 +98,10 @@ pub(super) struct Single {
     pub(super) numerator: Id,
     /// Where the division of the one before was put off; else the pivot is `numerator`.
     pub(super) denominator: Option<Id>,
+    /// The diagonal that the pivot started from.
+    pub(super) reference: Id,
+    /// Of a row that may be left out, what stands for one over the pivot.
+    pub(super) reciprocal: Option<Id>,
     /// What is divided by the pivot is computed once. For a coordinate that shares no inertia, products are left open, so that terms of
     /// different coordinates can be collected.
     pub(super) shared: bool,
@@ -111,15 +126,9 @@ pub(super) struct Double {
     pub(super) factors: Vec<(usize, Id)>,
 }
 
-/// Why there is no pivot at `k`.
-fn vanished(k: usize, n: usize, names: &[String]) -> String {
-    let name = &names[k];
-    match k < n {
-        true => format!("nothing is left of the inertia of `{name}`, whatever the state"),
-        false => format!(
-            "`{name}` is implied by the constraints eliminated before it, whatever the state"
-        ),
-    }
+/// Why there is no pivot of a coordinate.
+fn vanished(name: &str) -> String {
+    format!("nothing is left of the inertia of `{name}`, whatever the state")
 }
 
 impl Matrix {
@@ -128,6 +137,7 @@ impl Matrix {
         d: &Dynamics,
         jacobian: &BTreeMap<(usize, usize), Id>,
         order: &[Pivoting],
+        droppable: BTreeSet<usize>,
         g: &Graph,
     ) -> Self {
         let n = d.force.len();
@@ -156,6 +166,7 @@ impl Matrix {
             deferred: vec![None; size],
             depth: vec![0; size],
             turn,
+            droppable,
         }
     }
 
@@ -215,7 +226,8 @@ impl Matrix {
     fn defers(&self, k: usize, a: usize) -> bool {
         let another = || self.rows[a].iter().any(|b| self.turn[*b] < self.turn[a]);
         let room = self.deferred[a].is_none() && self.depth[k] < CHAIN;
-        k >= self.n && a >= self.n && room && !another()
+        let counts = !self.droppable.contains(&k) && !self.droppable.contains(&a);
+        k >= self.n && a >= self.n && room && counts && !another()
     }
 
     /// Takes one step of the elimination; with a 1 × 1 pivot, what it divides by.
@@ -243,10 +255,16 @@ impl Matrix {
         g: &mut Graph,
         hints: &mut Vec<(Id, String)>,
     ) -> Result<(Single, Divisor), String> {
-        let pivot = self.pivot(k, g);
-        let (numerator, reference, denominator) =
-            pivot.ok_or_else(|| vanished(k, self.n, names))?;
         let constraint = k >= self.n;
+        let pivot = self.pivot(k, g);
+        if pivot.is_none() && constraint {
+            // Whatever the state.
+            self.droppable.insert(k);
+        }
+        let droppable = self.droppable.contains(&k);
+        let zero = g.zero();
+        let pivot = pivot.or(droppable.then_some((zero, zero, None)));
+        let (numerator, reference, denominator) = pivot.ok_or_else(|| vanished(&names[k]))?;
         hints.push((numerator, format!("pivot_{}", names[k])));
         hints.push((reference, format!("diagonal_{}", names[k])));
         let divisor = Divisor {
@@ -254,10 +272,19 @@ impl Matrix {
             position: k,
             value: numerator,
             reference,
+            droppable,
         };
         let one = g.one();
-        let value = g.div(numerator, denominator.unwrap_or(one));
-        let value = g.scale(self.sign(k), value);
+        // Of a row that may be left out no division is put off.
+        let reciprocal = droppable.then(|| reciprocal(numerator, reference, g));
+        let inverse = match reciprocal {
+            Some(inverse) => inverse,
+            None => {
+                let value = g.div(numerator, denominator.unwrap_or(one));
+                g.pow(value, -1)
+            }
+        };
+        let inverse = g.scale(self.sign(k), inverse);
         let neighbours = self.take(k);
         let neighbours_values = neighbours.iter().map(|a| (*a, self.value(*a, k, g)));
         let mut single = Single {
@@ -265,6 +292,8 @@ impl Matrix {
             sign: self.sign(k),
             numerator,
             denominator,
+            reference,
+            reciprocal,
             shared: constraint || neighbours.range(..self.n).next().is_some(),
             row: neighbours_values.collect(),
             factors: Vec::new(),
@@ -283,7 +312,7 @@ impl Matrix {
                 pivot: numerator,
                 square: g.product(&[(off, 2), (denominator.unwrap_or(one), 1)]),
             });
-            single.factors = vec![(a, g.div(off, value))];
+            single.factors = vec![(a, g.mul(off, inverse))];
             single.defers = true;
             return Ok((single, divisor));
         }
@@ -292,7 +321,7 @@ impl Matrix {
             entries.for_each(|(_, entry)| *entry = g.hold_whole(*entry));
         }
         for (a, entry) in &single.row {
-            let mut factor = g.div(*entry, value);
+            let mut factor = g.mul(*entry, inverse);
             if single.shared {
                 factor = g.hold_whole(factor);
                 hints.push((factor, format!("{}_by_{}", names[*a], names[k])));

@@ -1,5 +1,6 @@
 //! Solutions of an eliminated system.
 
+use super::dropping::{Dropping, droppings};
 use super::matrix::{Double, Entry, Factor, Single, products};
 use crate::expr::{Graph, Id};
 
@@ -21,6 +22,8 @@ pub(super) struct Forward {
     rights: Vec<Id>,
     /// What each step leaves of its unknown.
     solved: Vec<Id>,
+    /// Sizes of the terms in right-hand sides of rows that may be left out.
+    terms: Vec<(usize, Id)>,
 }
 
 impl Forward {
@@ -33,6 +36,7 @@ impl Forward {
             entries,
             rights: Vec::new(),
             solved: Vec::new(),
+            terms: Vec::new(),
         }
     }
 
@@ -64,7 +68,14 @@ impl Forward {
             right = g.factored_sum(&[(1.0, whole), (1.0, before)]);
         }
         self.rights.push(right);
-        let solved = g.div(right, single.numerator);
+        let solved = match single.reciprocal {
+            Some(reciprocal) => {
+                let terms = self.entries[single.at].size(g);
+                self.terms.push((single.at, terms));
+                g.mul(right, reciprocal)
+            }
+            None => g.div(right, single.numerator),
+        };
         let solved = g.scale(single.sign, solved);
         if let (true, [(a, off)]) = (single.defers, &single.row[..]) {
             self.deferred[*a] = Some(g.mul(*off, right));
@@ -102,6 +113,11 @@ impl Forward {
             }
         }
         g.div(right.1, coefficient)
+    }
+
+    /// What there is to check of the rows that may be left out, once all `factors` are taken.
+    pub(super) fn droppings(&self, factors: &[Factor], g: &mut Graph) -> Vec<Dropping> {
+        droppings(factors, &self.rights, &self.solved, &self.terms, g)
     }
 
     /// Back substitution, once all `factors` are taken; `names` are those of coordinates and constraints.

@@ -1,0 +1,142 @@
+//! Rows that follow from those before them where the constraints are met: left out where they do.
+//!
+//! Let row k, in the metric of M and of length √G, keep √d beside the span of the rows eliminated before it, and let R be what it asks for
+//! beyond what they do: R = b_k − a_k q̈⁰ with q̈⁰ the accelerations without it. With it they would be q̈⁰ + (R/d) M⁻¹ rᵀ, where r, |r|² = d,
+//! is what a_k keeps: a change of R/√d in the mass metric. Without it, its multiplier is 0, and what is left of A q̈ = b is R.
+//!
+//! - Where the row follows from the others d and R are zero, and both accelerations are the same. Computed, d/G is a few ε over the least
+//!   share that was accepted: [`NOTHING`] is above. R is compared with what the accelerations themselves are, N = |M⁻¹Q| + |q̈⁰ − M⁻¹Q| in
+//!   the mass metric over the rows that k depends on; both squares come from the elimination, Σ right²/pivot. R ≤ [`MET`] √G N is what
+//!   any row that counts is met to, and R/√d is then bounded where d tells anything; where d is too small to tell, whoever asks has
+//!   the rank decided once by the dense solve: see [`ROUNDED`].
+//! - At a distance δ from the constraints redundant rows keep √d of order δ, and R is of order δ: both are what drift lends. (For φ_k = Σ μ_j
+//!   φ_j, as holds near states that are regular in the other rows, the row keeps Σ φ_j ∇μ_j, and R is Σ 2 μ̇_j φ̇_j + μ̈_j φ_j.) Accelerations
+//!   without the row go on smoothly there; that its constraint is met is for the projection to show, which checks the rows left out as
+//!   all others: see [`DRIFTED`]. Both are bounded by what drift is ever granted, √[`SAFE_SHARE`], above which the row counts.
+//!
+//! Rows that are eliminated before have a certificate as ever. So a singular position, where the rank is less than on the constraints
+//! around, shows in one of them: those left out take no part in it.
+
+use super::certificate::{MET, SAFE_SHARE};
+use super::matrix::Factor;
+use crate::expr::{Func, Graph, Id};
+use std::collections::BTreeSet;
+
+/// A share d/G of a row that is nothing but rounding: (n + m) ε/[`SAFE_SHARE`] for some sixty rows and coordinates.
+const NOTHING: f64 = 1.5e-11;
+/// What a certificate is at most where a row was left out whose pivot and right-hand side are nothing but rounding.
+pub(crate) const ROUNDED: f64 = 0.75;
+/// What it is at most where drift may lend them to it.
+pub(crate) const DRIFTED: f64 = 0.25;
+
+/// A row that may be left out, and the state of its elimination.
+#[derive(Clone)]
+pub(super) struct Dropping {
+    /// Its position.
+    pub(super) at: usize,
+    /// d, but for a row whose pivot is zero whatever the state.
+    pivot: Option<Id>,
+    /// G.
+    reference: Id,
+    /// R.
+    right: Id,
+    /// (√G N)².
+    size: Id,
+}
+
+/// 1/`pivot`, or 0 where that is so small a share of `reference` that its row may be left out.
+pub(super) fn reciprocal(pivot: Id, reference: Id, g: &mut Graph) -> Id {
+    let zero = g.zero();
+    if g.is_zero(pivot) {
+        return zero;
+    }
+    let least = g.scale(SAFE_SHARE, reference);
+    let inverse = g.pow(pivot, -1);
+    g.select(least, pivot, inverse, zero)
+}
+
+/// The least that the pivot of a row that may be left out has to be.
+pub(super) fn least(reference: Id, g: &mut Graph) -> Id {
+    g.scale(-NOTHING, reference)
+}
+
+/// What there is to check of the rows that may be left out, once a right-hand side is eliminated: `rights` of the steps with 1 × 1 pivots
+/// among `factors`, and what they left, `solved`, of all steps. `terms` are the sizes of the terms of R, where nothing else is known.
+pub(super) fn droppings(
+    factors: &[Factor],
+    rights: &[Id],
+    solved: &[Id],
+    terms: &[(usize, Id)],
+    g: &mut Graph,
+) -> Vec<Dropping> {
+    let mut found: Vec<(Dropping, Id)> = Vec::new();
+    let singles = factors.iter().zip(solved).filter_map(|(factor, solved)| {
+        let Factor::Single(single) = factor else {
+            return None;
+        };
+        Some((single, *solved))
+    });
+    let singles: Vec<_> = singles.zip(rights).collect();
+    for (k, ((single, _), right)) in singles.iter().enumerate() {
+        if single.reciprocal.is_none() {
+            continue;
+        }
+        // Σ right²/pivot of all that was taken off it, directly or not.
+        let mut below = BTreeSet::from([single.at]);
+        let mut sum = Vec::new();
+        for ((other, solved), right) in singles[..k].iter().rev() {
+            if !other.row.iter().any(|(a, _)| below.contains(a)) {
+                continue;
+            }
+            below.insert(other.at);
+            if other.reciprocal.is_none() {
+                let mut factors = vec![(*solved, 1), (**right, 1)];
+                factors.extend(other.denominator.map(|d| (d, -1)));
+                let square = g.product(&factors);
+                sum.push((other.sign, square));
+            }
+        }
+        let squares = g.sum(&sum);
+        let size = match terms.iter().find(|(at, _)| *at == single.at) {
+            Some((_, terms)) if g.is_zero(single.numerator) => g.square(*terms),
+            _ => g.mul(single.reference, squares),
+        };
+        let pivot = (!g.is_zero(single.numerator)).then_some(single.numerator);
+        let dropping = Dropping {
+            at: single.at,
+            pivot,
+            reference: single.reference,
+            right: **right,
+            size,
+        };
+        found.push((dropping, squares));
+    }
+    found.into_iter().map(|(dropping, _)| dropping).collect()
+}
+
+impl Dropping {
+    /// `safe`, or what is left of it where the row is left out.
+    pub(super) fn allows(&self, safe: Id, g: &mut Graph) -> Id {
+        let zero = g.zero();
+        if self.pivot.is_none() && g.is_zero(self.right) {
+            // 0 q̈ = 0, whatever the state.
+            return safe;
+        }
+        let square = g.square(self.right);
+        let [rounded, drifted] = [ROUNDED, DRIFTED].map(|most| {
+            let most = g.constant(most);
+            g.call2(Func::Min, safe, most)
+        });
+        let bounded = g.scale(SAFE_SHARE, self.size);
+        let drifted = g.select(square, bounded, drifted, zero);
+        let met = g.scale(MET * MET, self.size);
+        let dropped = g.select(square, met, rounded, drifted);
+        let Some(pivot) = self.pivot else {
+            return dropped;
+        };
+        let nothing = g.scale(NOTHING, self.reference);
+        let dropped = g.select(pivot, nothing, dropped, drifted);
+        let counts = g.scale(SAFE_SHARE, self.reference);
+        g.select(counts, pivot, safe, dropped)
+    }
+}
