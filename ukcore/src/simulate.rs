@@ -289,8 +289,12 @@ impl Simulation {
             }
             _ => (self.switching == Switching::Located && has_switches, None),
         };
+        let mut solver = Solver::new(&self.mechanism, recorder.trajectory.options);
+        if recorder.trajectory.projected {
+            solver.project();
+        }
         let mut run = Run {
-            solver: Solver::new(&self.mechanism, recorder.trajectory.options),
+            solver,
             located: located.then(|| self.mechanism.dual()),
             slopes: None,
             energy,

@@ -21,7 +21,6 @@ mod pattern;
 mod solution;
 
 pub(crate) use certificate::{SAFE_SHARE, Solve, Straight};
-pub(crate) use dropping::{DRIFTED, ROUNDED};
 
 use super::dynamics::Dynamics;
 use super::redundant::redundant;

@@ -23,8 +23,10 @@ const DAMPING: f64 = 1e-10;
 /// States begun from, and evaluations for each.
 const GUESSES: usize = 8;
 const STEPS: usize = 60;
-/// States on the constraints that have to agree.
-const AGREE: usize = 2;
+/// States on the constraints that are looked at where no row is redundant at the first ones, and where one is: they may lie in different
+/// components of the manifold, with other rows.
+const FEW: usize = 2;
+const MANY: usize = 4;
 /// Nodes evaluated and entries computed at most: some ten milliseconds without optimisation.
 const WORK: usize = 600_000;
 
@@ -43,24 +45,23 @@ pub(super) fn redundant(
         left: WORK,
     };
     let mut random = Random::new(3);
-    let mut found: Option<BTreeSet<usize>> = None;
-    let mut agreed = 0;
+    let mut found = BTreeSet::new();
+    let mut states = 0;
     for _ in 0..GUESSES {
         let probe = Probe::signed(defaults, n, &mut random);
-        let Some(here) = search.at(probe, g) else {
+        let before = search.left;
+        let here = search.at(probe, g);
+        if std::env::var("UKDBG").is_ok() { eprintln!("redundant: nodes {} work {} -> {here:?}", search.position.sweep.len(), before - search.left); }
+        let Some(here) = here else {
             continue;
         };
-        let here = match found {
-            None => here,
-            Some(before) => before.intersection(&here).copied().collect(),
-        };
-        agreed += 1;
-        if here.is_empty() || agreed == AGREE {
-            return here;
+        found.extend(here);
+        states += 1;
+        if states == if found.is_empty() { FEW } else { MANY } {
+            break;
         }
-        found = Some(here);
     }
-    BTreeSet::new()
+    found
 }
 
 /// The constraints of one level as equations for q, or for q̇.
@@ -140,6 +141,7 @@ impl Search<'_> {
         for _ in 0..STEPS {
             let x = if position { &mut probe.q } else { &mut probe.v };
             let scale = x.iter().fold(1.0_f64, |s, x| s.max(x.abs()));
+            if std::env::var("UKDBG").is_ok_and(|x| x == "2") { eprintln!("   {position} {:e} {damping:e}", here.size.sqrt()); }
             if here.size.sqrt() <= MET * scale {
                 return Some(here);
             }

@@ -47,8 +47,8 @@ pub(crate) struct Straight {
     pub(crate) elimination: Elimination,
     /// 1 where every pivot is safe, 0 where one is not.
     pub(crate) certificate: Id,
-    /// The same, and whether q̈ meets the rows in `met`, for the acceleration: less than 1 where rows were left out, as [`super::ROUNDED`]
-    /// and [`super::DRIFTED`] have it.
+    /// The same, and whether q̈ meets the rows in `met`, for the acceleration: less than 1 where rows were left out, as
+    /// [`super::dropping`] has it.
     pub(crate) met_too: Id,
     /// Constraints whose row of A q̈ = b is checked.
     pub(crate) met: Vec<usize>,

@@ -8,26 +8,26 @@
 //!   share that was accepted: [`NOTHING`] is above. R is compared with what the accelerations themselves are, N = |M⁻¹Q| + |q̈⁰ − M⁻¹Q| in
 //!   the mass metric over the rows that k depends on; both squares come from the elimination, Σ right²/pivot. R ≤ [`MET`] √G N is what
 //!   any row that counts is met to, and R/√d is then bounded where d tells anything; where d is too small to tell, whoever asks has
-//!   the rank decided once by the dense solve: see [`ROUNDED`].
+//!   the rank decided once by the dense solve.
 //! - At a distance δ from the constraints redundant rows keep √d of order δ, and R is of order δ: both are what drift lends. (For φ_k = Σ μ_j
 //!   φ_j, as holds near states that are regular in the other rows, the row keeps Σ φ_j ∇μ_j, and R is Σ 2 μ̇_j φ̇_j + μ̈_j φ_j.) Accelerations
 //!   without the row go on smoothly there; that its constraint is met is for the projection to show, which checks the rows left out as
-//!   all others: see [`DRIFTED`]. Both are bounded by what drift is ever granted, √[`SAFE_SHARE`], above which the row counts.
+//!   all others; the certificate says so, by [`DRIFTED`]. Both are bounded by what drift is ever granted, √[`SAFE_SHARE`], above which the row counts.
 //!
 //! Rows that are eliminated before have a certificate as ever. So a singular position, where the rank is less than on the constraints
 //! around, shows in one of them: those left out take no part in it.
 
 use super::certificate::{MET, SAFE_SHARE};
 use super::matrix::Factor;
-use crate::expr::{Func, Graph, Id};
+use crate::expr::{Graph, Id};
 use std::collections::BTreeSet;
 
 /// A share d/G of a row that is nothing but rounding: (n + m) ε/[`SAFE_SHARE`] for some sixty rows and coordinates.
 const NOTHING: f64 = 1.5e-11;
-/// What a certificate is at most where a row was left out whose pivot and right-hand side are nothing but rounding.
-pub(crate) const ROUNDED: f64 = 0.75;
-/// What it is at most where drift may lend them to it.
-pub(crate) const DRIFTED: f64 = 0.25;
+/// What a certificate loses for each row that was left out, so that it tells how many there are; exact for some hundreds.
+const DROPPED: f64 = 1.0 / 1024.0;
+/// What it loses where that is more than rounding of one of them.
+const DRIFTED: f64 = 0.5;
 
 /// A row that may be left out, and the state of its elimination.
 #[derive(Clone)]
@@ -123,10 +123,10 @@ impl Dropping {
             return safe;
         }
         let square = g.square(self.right);
-        let [rounded, drifted] = [ROUNDED, DRIFTED].map(|most| {
-            let most = g.constant(most);
-            g.call2(Func::Min, safe, most)
-        });
+        let [dropped, drift, half] = [DROPPED, DRIFTED, 0.5].map(|x| g.constant(x));
+        let rounded = g.sub(safe, dropped);
+        let drifted = g.sub(rounded, drift);
+        let drifted = g.select(safe, half, rounded, drifted);
         let bounded = g.scale(SAFE_SHARE, self.size);
         let drifted = g.select(square, bounded, drifted, zero);
         let met = g.scale(MET * MET, self.size);
