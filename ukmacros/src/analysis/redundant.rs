@@ -18,6 +18,8 @@ const MET: f64 = 1e-12;
 /// What a row of length 1 keeps beside others that imply it, a thousand times [`MET`]; what it keeps where it is independent.
 const NOTHING: f64 = 1e-9;
 const SOMETHING: f64 = 1e-3;
+/// A row takes part in another one with more than this share of it.
+const SHARE: f64 = 1e-6;
 /// Least damping: G of redundant rows keeps a pivot.
 const DAMPING: f64 = 1e-10;
 /// States begun from, and evaluations for each.
@@ -30,7 +32,8 @@ const MANY: usize = 4;
 /// Nodes evaluated and entries computed at most: some ten milliseconds without optimisation.
 const WORK: usize = 600_000;
 
-/// The constraints, among those in `order`, that follow from the ones before.
+/// The constraints that follow from others, with these others: which of them is the one too many may change along a motion. They are
+/// gone through in `order`.
 pub(super) fn redundant(
     d: &Dynamics,
     order: &[usize],
@@ -163,24 +166,28 @@ impl Search<'_> {
         None
     }
 
-    /// The rows that keep nothing beside those before them.
+    /// The rows that keep nothing beside those before them, with those they are made up of.
     fn dependent(&mut self, place: &Place) -> Option<BTreeSet<usize>> {
+        // Rows, and behind them what they are made up of.
         let mut basis: Vec<Vec<f64>> = Vec::new();
         let mut dependent = BTreeSet::new();
         let n = place.rows.iter().flatten().map(|(i, _)| i + 1).max()?;
         for row in self.order {
-            let mut rest = vec![0.0; n];
+            let mut rest = vec![0.0; n + place.rows.len()];
             place.rows[*row].iter().for_each(|(i, a)| rest[*i] = *a);
-            self.left = self.left.checked_sub(basis.len() * n)?;
+            rest[n + row] = 1.0;
+            self.left = self.left.checked_sub(basis.len() * rest.len())?;
             // Twice, for rounding.
             for other in basis.iter().chain(&basis) {
-                let share: f64 = other.iter().zip(&rest).map(|(x, y)| x * y).sum();
+                let pairs = other[..n].iter().zip(&rest);
+                let share: f64 = pairs.map(|(x, y)| x * y).sum();
                 let pairs = rest.iter_mut().zip(other);
                 pairs.for_each(|(x, y)| *x -= share * y);
             }
-            let length = rest.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let length = rest[..n].iter().map(|x| x * x).sum::<f64>().sqrt();
             if length <= NOTHING {
-                dependent.insert(*row);
+                let shares = rest[n..].iter().enumerate();
+                dependent.extend(shares.filter(|(_, x)| x.abs() > SHARE).map(|(c, _)| c));
             } else if length >= SOMETHING {
                 rest.iter_mut().for_each(|x| *x /= length);
                 basis.push(rest);

@@ -20,10 +20,12 @@
 use super::certificate::{MET, SAFE_SHARE};
 use super::matrix::Factor;
 use crate::expr::{Graph, Id};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A share d/G of a row that is nothing but rounding: (n + m) ε/[`SAFE_SHARE`] for some sixty rows and coordinates.
 const NOTHING: f64 = 1.5e-11;
+/// What drift may lend R, as a share of √G N, squared.
+const GRANTED: f64 = 1.0 / 16.0;
 /// What a certificate loses for each row that was left out, so that it tells how many there are; exact for some hundreds.
 const DROPPED: f64 = 1.0 / 1024.0;
 /// What it loses where that is more than rounding of one of them.
@@ -61,57 +63,73 @@ pub(super) fn least(reference: Id, g: &mut Graph) -> Id {
 }
 
 /// What there is to check of the rows that may be left out, once a right-hand side is eliminated: `rights` of the steps with 1 × 1 pivots
-/// among `factors`, and what they left, `solved`, of all steps. `terms` are the sizes of the terms of R, where nothing else is known.
+/// among `factors`, and what they left, `solved`, of all steps.
 pub(super) fn droppings(
     factors: &[Factor],
     rights: &[Id],
     solved: &[Id],
-    terms: &[(usize, Id)],
     g: &mut Graph,
 ) -> Vec<Dropping> {
-    let mut found: Vec<(Dropping, Id)> = Vec::new();
     let singles = factors.iter().zip(solved).filter_map(|(factor, solved)| {
         let Factor::Single(single) = factor else {
             return None;
         };
         Some((single, *solved))
     });
-    let singles: Vec<_> = singles.zip(rights).collect();
-    for (k, ((single, _), right)) in singles.iter().enumerate() {
-        if single.reciprocal.is_none() {
-            continue;
-        }
-        // Σ right²/pivot of all that was taken off it, directly or not.
-        let mut below = BTreeSet::from([single.at]);
-        let mut sum = Vec::new();
-        for ((other, solved), right) in singles[..k].iter().rev() {
-            if !other.row.iter().any(|(a, _)| below.contains(a)) {
-                continue;
-            }
-            below.insert(other.at);
-            if other.reciprocal.is_none() {
-                let mut factors = vec![(*solved, 1), (**right, 1)];
-                factors.extend(other.denominator.map(|d| (d, -1)));
-                let square = g.product(&factors);
-                sum.push((other.sign, square));
-            }
-        }
-        let squares = g.sum(&sum);
-        let size = match terms.iter().find(|(at, _)| *at == single.at) {
-            Some((_, terms)) if g.is_zero(single.numerator) => g.square(*terms),
-            _ => g.mul(single.reference, squares),
-        };
-        let pivot = (!g.is_zero(single.numerator)).then_some(single.numerator);
-        let dropping = Dropping {
-            at: single.at,
-            pivot,
-            reference: single.reference,
-            right: **right,
-            size,
-        };
-        found.push((dropping, squares));
+    let singles: Vec<_> = singles.zip(rights.iter().copied()).collect();
+    if singles.iter().all(|((single, _), _)| single.reciprocal.is_none()) {
+        return Vec::new();
     }
-    found.into_iter().map(|(dropping, _)| dropping).collect()
+    // Σ right²/pivot over what is coupled.
+    let parts = parts(factors);
+    let mut squares: BTreeMap<usize, Vec<(f64, Id)>> = BTreeMap::new();
+    for ((single, solved), right) in &singles {
+        let mut product = vec![(*solved, 1), (*right, 1)];
+        product.extend(single.denominator.map(|d| (d, -1)));
+        let square = g.product(&product);
+        let part = squares.entry(parts[&single.at]).or_default();
+        part.push((single.sign, square));
+    }
+    let squares: BTreeMap<usize, Id> = squares
+        .into_iter()
+        .map(|(part, squares)| (part, g.sum(&squares)))
+        .collect();
+    let dropped = singles.iter().filter(|((s, _), _)| s.reciprocal.is_some());
+    dropped
+        .map(|((single, _), right)| Dropping {
+            at: single.at,
+            pivot: (!g.is_zero(single.numerator)).then_some(single.numerator),
+            reference: single.reference,
+            right: *right,
+            size: g.mul(single.reference, squares[&parts[&single.at]]),
+        })
+        .collect()
+}
+
+/// Of each position the part of the mechanism it is in: parts are not coupled.
+fn parts(factors: &[Factor]) -> BTreeMap<usize, usize> {
+    let mut part = BTreeMap::new();
+    // Backwards, so that what a step touches is known.
+    for factor in factors.iter().rev() {
+        let (own, touched): (Vec<usize>, Vec<usize>) = match factor {
+            Factor::Single(single) => (
+                vec![single.at],
+                single.row.iter().map(|(a, _)| *a).collect(),
+            ),
+            Factor::Double(double) => (
+                vec![double.pair.coordinate, double.pair.constraint],
+                double.touched.iter().map(|(a, ..)| *a).collect(),
+            ),
+        };
+        let first = touched.first().and_then(|a| part.get(a)).copied();
+        let first = first.unwrap_or(own[0]);
+        let joined: BTreeSet<usize> = touched.iter().filter_map(|a| part.get(a)).copied().collect();
+        if joined.len() > 1 {
+            part.values_mut().filter(|p| joined.contains(p)).for_each(|p| *p = first);
+        }
+        part.extend(own.iter().map(|k| (*k, first)));
+    }
+    part
 }
 
 impl Dropping {
@@ -127,7 +145,7 @@ impl Dropping {
         let rounded = g.sub(safe, dropped);
         let drifted = g.sub(rounded, drift);
         let drifted = g.select(safe, half, rounded, drifted);
-        let bounded = g.scale(SAFE_SHARE, self.size);
+        let bounded = g.scale(GRANTED, self.size);
         let drifted = g.select(square, bounded, drifted, zero);
         let met = g.scale(MET * MET, self.size);
         let dropped = g.select(square, met, rounded, drifted);

@@ -3,7 +3,7 @@
 use super::dropping::reciprocal;
 use super::{Divisor, Pair, Pivoting};
 use crate::analysis::dynamics::Dynamics;
-use crate::expr::{Func, Graph, Id};
+use crate::expr::{Graph, Id};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Longest chain of pivots whose divisions are put off. Their numerators are products of as many pivots, and must stay in the range of
@@ -24,6 +24,8 @@ pub(super) struct Matrix {
     turn: Vec<usize>,
     /// Constraints that may be left out.
     droppable: BTreeSet<usize>,
+    /// Of each row of A its entries a with M_ii, where there is inertia.
+    inert: BTreeMap<usize, Vec<(Id, Id)>>,
 }
 
 /// An update d − p²/(N/D) of a diagonal that is not yet divided by N.
@@ -57,14 +59,6 @@ impl Entry {
             false => &mut self.gram,
         };
         list.push((-1.0, term));
-    }
-
-    /// Σ |term|.
-    pub(super) fn size(&self, g: &mut Graph) -> Id {
-        let terms = self.gram.iter().chain(&self.schur);
-        let sizes = terms.map(|(c, id)| (c.abs(), g.call1(Func::Abs, *id)));
-        let sizes: Vec<(f64, Id)> = sizes.collect();
-        g.sum(&sizes)
     }
 
     /// The value before and after the terms of constraints.
@@ -126,9 +120,15 @@ pub(super) struct Double {
     pub(super) factors: Vec<(usize, Id)>,
 }
 
-/// Why there is no pivot of a coordinate.
-fn vanished(name: &str) -> String {
-    format!("nothing is left of the inertia of `{name}`, whatever the state")
+/// Why there is no pivot at `k`.
+fn vanished(k: usize, n: usize, names: &[String]) -> String {
+    let name = &names[k];
+    match k < n {
+        true => format!("nothing is left of the inertia of `{name}`, whatever the state"),
+        false => format!(
+            "`{name}` is implied by the constraints eliminated before it, whatever the state"
+        ),
+    }
 }
 
 impl Matrix {
@@ -142,6 +142,12 @@ impl Matrix {
     ) -> Self {
         let n = d.force.len();
         let size = n + d.rhs.len();
+        let mut inert: BTreeMap<usize, Vec<(Id, Id)>> = BTreeMap::new();
+        for ((row, i), a) in jacobian {
+            if let Some(m) = d.mass.get(&(*i, *i)) {
+                inert.entry(n + row).or_default().push((*a, *m));
+            }
+        }
         let jacobian = jacobian.iter();
         let below = jacobian.map(|((row, column), a)| ((n + row, *column), *a));
         let declared = d.mass.iter().map(|(at, m)| (*at, *m)).chain(below);
@@ -167,6 +173,7 @@ impl Matrix {
             depth: vec![0; size],
             turn,
             droppable,
+            inert,
         }
     }
 
@@ -256,15 +263,17 @@ impl Matrix {
         hints: &mut Vec<(Id, String)>,
     ) -> Result<(Single, Divisor), String> {
         let constraint = k >= self.n;
-        let pivot = self.pivot(k, g);
-        if pivot.is_none() && constraint {
-            // Whatever the state.
-            self.droppable.insert(k);
-        }
-        let droppable = self.droppable.contains(&k);
         let zero = g.zero();
-        let pivot = pivot.or(droppable.then_some((zero, zero, None)));
-        let (numerator, reference, denominator) = pivot.ok_or_else(|| vanished(&names[k]))?;
+        let pivot = self.pivot(k, g).or_else(|| {
+            // Whatever the state; in place of the diagonal Σ a²/M_ii.
+            let squares = self.inert.get(&k)?.iter();
+            let squares = squares.map(|(a, m)| (1.0, g.product(&[(*a, 2), (*m, -1)])));
+            let squares: Vec<(f64, Id)> = squares.collect();
+            self.droppable.insert(k);
+            Some((zero, g.sum(&squares), None))
+        });
+        let droppable = self.droppable.contains(&k);
+        let (numerator, reference, denominator) = pivot.ok_or_else(|| vanished(k, self.n, names))?;
         hints.push((numerator, format!("pivot_{}", names[k])));
         hints.push((reference, format!("diagonal_{}", names[k])));
         let divisor = Divisor {

@@ -22,8 +22,6 @@ pub(super) struct Forward {
     rights: Vec<Id>,
     /// What each step leaves of its unknown.
     solved: Vec<Id>,
-    /// Sizes of the terms in right-hand sides of rows that may be left out.
-    terms: Vec<(usize, Id)>,
 }
 
 impl Forward {
@@ -36,7 +34,6 @@ impl Forward {
             entries,
             rights: Vec::new(),
             solved: Vec::new(),
-            terms: Vec::new(),
         }
     }
 
@@ -69,11 +66,7 @@ impl Forward {
         }
         self.rights.push(right);
         let solved = match single.reciprocal {
-            Some(reciprocal) => {
-                let terms = self.entries[single.at].size(g);
-                self.terms.push((single.at, terms));
-                g.mul(right, reciprocal)
-            }
+            Some(reciprocal) => g.mul(right, reciprocal),
             None => g.div(right, single.numerator),
         };
         let solved = g.scale(single.sign, solved);
@@ -117,7 +110,7 @@ impl Forward {
 
     /// What there is to check of the rows that may be left out, once all `factors` are taken.
     pub(super) fn droppings(&self, factors: &[Factor], g: &mut Graph) -> Vec<Dropping> {
-        droppings(factors, &self.rights, &self.solved, &self.terms, g)
+        droppings(factors, &self.rights, &self.solved, g)
     }
 
     /// Back substitution, once all `factors` are taken; `names` are those of coordinates and constraints.
