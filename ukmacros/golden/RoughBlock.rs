@@ -204,6 +204,7 @@ const _: () = {
                     least_share: 0.0009765625,
                     regular: &[],
                     met: &[],
+                    redundant: &[],
                 },
                 mass_pattern: &[(0, 0), (1, 1)],
                 jacobian_pattern: &[(0, 0), (0, 1)],

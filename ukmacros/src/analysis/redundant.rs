@@ -52,10 +52,7 @@ pub(super) fn redundant(
     let mut states = 0;
     for _ in 0..GUESSES {
         let probe = Probe::signed(defaults, n, &mut random);
-        let before = search.left;
-        let here = search.at(probe, g);
-        if std::env::var("UKDBG").is_ok() { eprintln!("redundant: nodes {} work {} -> {here:?}", search.position.sweep.len(), before - search.left); }
-        let Some(here) = here else {
+        let Some(here) = search.at(probe, g) else {
             continue;
         };
         found.extend(here);
@@ -144,7 +141,6 @@ impl Search<'_> {
         for _ in 0..STEPS {
             let x = if position { &mut probe.q } else { &mut probe.v };
             let scale = x.iter().fold(1.0_f64, |s, x| s.max(x.abs()));
-            if std::env::var("UKDBG").is_ok_and(|x| x == "2") { eprintln!("   {position} {:e} {damping:e}", here.size.sqrt()); }
             if here.size.sqrt() <= MET * scale {
                 return Some(here);
             }
@@ -205,14 +201,18 @@ impl Place {
         let m = self.rows.len();
         let mut columns: Vec<Vec<(usize, f64)>> = vec![Vec::new(); n];
         for (row, entries) in self.rows.iter().enumerate() {
-            entries.iter().for_each(|(i, a)| columns[*i].push((row, *a)));
+            entries
+                .iter()
+                .for_each(|(i, a)| columns[*i].push((row, *a)));
         }
         let mut work = n + m;
         // A Aᵀ, row by row, lower triangle.
         let mut gram = vec![0.0; m * m];
         for column in &columns {
             for (p, (row, a)) in column.iter().enumerate() {
-                column[..=p].iter().for_each(|(other, b)| gram[row * m + other] += a * b);
+                column[..=p]
+                    .iter()
+                    .for_each(|(other, b)| gram[row * m + other] += a * b);
             }
             work += column.len() * column.len();
         }
@@ -225,7 +225,9 @@ impl Place {
             let near: Vec<usize> = (k + 1..m).filter(|a| gram[a * m + k] != 0.0).collect();
             for (p, a) in near.iter().enumerate() {
                 let factor = gram[a * m + k] / pivot;
-                near[..=p].iter().for_each(|b| gram[a * m + b] -= factor * gram[b * m + k]);
+                near[..=p]
+                    .iter()
+                    .for_each(|b| gram[a * m + b] -= factor * gram[b * m + k]);
                 y[*a] -= factor * y[k];
             }
             work += near.len() * near.len() + m / 4;

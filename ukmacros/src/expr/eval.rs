@@ -66,7 +66,12 @@ impl Sweep {
         self.shaken(g, point, &mut |x| x)
     }
 
-    fn shaken(&mut self, g: &Graph, point: &Point<'_>, shake: &mut dyn FnMut(f64) -> f64) -> Vec<f64> {
+    fn shaken(
+        &mut self,
+        g: &Graph,
+        point: &Point<'_>,
+        shake: &mut dyn FnMut(f64) -> f64,
+    ) -> Vec<f64> {
         for id in &self.order {
             self.values[id.index()] = shake(value(g.node(*id), &self.values, point));
         }

@@ -154,7 +154,9 @@ fn straight_lines_solve_the_saddle_point_system() {
         let dynamics = derive(&mut system, n);
         let m = dynamics.rhs.len();
         let names: Vec<String> = (0..n + m).map(|i| format!("u{i}")).collect();
-        let Ok(elimination) = eliminate(&dynamics, &[], &names, &system.defaults, &mut system.graph) else {
+        let Ok(elimination) =
+            eliminate(&dynamics, &[], &names, &system.defaults, &mut system.graph)
+        else {
             without += 1;
             continue;
         };

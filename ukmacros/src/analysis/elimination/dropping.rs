@@ -77,7 +77,10 @@ pub(super) fn droppings(
         Some((single, *solved))
     });
     let singles: Vec<_> = singles.zip(rights.iter().copied()).collect();
-    if singles.iter().all(|((single, _), _)| single.reciprocal.is_none()) {
+    if singles
+        .iter()
+        .all(|((single, _), _)| single.reciprocal.is_none())
+    {
         return Vec::new();
     }
     // Σ right²/pivot over what is coupled.
@@ -123,9 +126,15 @@ fn parts(factors: &[Factor]) -> BTreeMap<usize, usize> {
         };
         let first = touched.first().and_then(|a| part.get(a)).copied();
         let first = first.unwrap_or(own[0]);
-        let joined: BTreeSet<usize> = touched.iter().filter_map(|a| part.get(a)).copied().collect();
+        let joined: BTreeSet<usize> = touched
+            .iter()
+            .filter_map(|a| part.get(a))
+            .copied()
+            .collect();
         if joined.len() > 1 {
-            part.values_mut().filter(|p| joined.contains(p)).for_each(|p| *p = first);
+            part.values_mut()
+                .filter(|p| joined.contains(p))
+                .for_each(|p| *p = first);
         }
         part.extend(own.iter().map(|k| (*k, first)));
     }

@@ -273,7 +273,8 @@ impl Matrix {
             Some((zero, g.sum(&squares), None))
         });
         let droppable = self.droppable.contains(&k);
-        let (numerator, reference, denominator) = pivot.ok_or_else(|| vanished(k, self.n, names))?;
+        let (numerator, reference, denominator) =
+            pivot.ok_or_else(|| vanished(k, self.n, names))?;
         hints.push((numerator, format!("pivot_{}", names[k])));
         hints.push((reference, format!("diagonal_{}", names[k])));
         let divisor = Divisor {
