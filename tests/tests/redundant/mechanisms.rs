@@ -130,3 +130,33 @@ ukcore::multibody! {
         }
     }
 }
+
+impl SpatialFourBar {
+    /// At rest with the crank at an angle.
+    pub fn at(&self, crank: f64) -> State {
+        let Self {
+            l1, l2, l3, base, ..
+        } = *self;
+        let p = [l1 * crank.cos(), l1 * crank.sin()];
+        let (dx, dy) = (base - p[0], -p[1]);
+        let far = dx.hypot(dy);
+        let coupler = dy.atan2(dx) + ((l2 * l2 + far * far - l3 * l3) / (2.0 * l2 * far)).acos();
+        let end = [p[0] + l2 * coupler.cos(), p[1] + l2 * coupler.sin()];
+        let rocker = end[1].atan2(end[0] - base);
+        let bodies = [
+            (0.5 * p[0], 0.5 * p[1], crank),
+            (0.5 * (p[0] + end[0]), 0.5 * (p[1] + end[1]), coupler),
+            (0.5 * (base + end[0]), 0.5 * end[1], rocker),
+        ];
+        let mut q = vec![0.0; 21];
+        for (i, (x, y, angle)) in bodies.into_iter().enumerate() {
+            let (s, c) = (0.5 * angle).sin_cos();
+            (q[i], q[3 + i], q[9 + i], q[18 + i]) = (x, y, c, s);
+        }
+        State {
+            t: 0.0,
+            q,
+            v: vec![0.0; 21],
+        }
+    }
+}

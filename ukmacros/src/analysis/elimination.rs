@@ -25,7 +25,7 @@ pub(crate) use certificate::{SAFE_SHARE, Solve, Straight};
 use super::dynamics::Dynamics;
 use super::redundant::redundant;
 use crate::expr::{Graph, Id, Symbol, is_power_of_two};
-use dropping::Dropping;
+use dropping::{Dropping, droppings};
 use matrix::Matrix;
 use order::{Order, order};
 use solution::Forward;
@@ -127,8 +127,8 @@ pub(crate) fn eliminate(
         factors.push(factor);
         divisors.extend(divisor);
     }
-    let droppings = motion.droppings(&factors, g);
     let motion = motion.solution(&factors, names, g, &mut hints)?;
+    let droppings = droppings(&factors, &motion, d, [&force, &rhs], g);
     let residuals = (0..d.rhs.len()).map(|i| g.symbol(Symbol::Residual(i)));
     let residuals: Vec<Id> = residuals.collect();
     let mut pull = vec![g.zero(); force.len()];

@@ -5,26 +5,30 @@
 //! is what a_k keeps: a change of R/√d in the mass metric. Without it, its multiplier is 0, and what is left of A q̈ = b is R.
 //!
 //! - Where the row follows from the others d and R are zero, and both accelerations are the same. Computed, d/G is a few ε over the least
-//!   share that was accepted: [`NOTHING`] is above. R is compared with what the accelerations themselves are, N = |M⁻¹Q| + |q̈⁰ − M⁻¹Q| in
-//!   the mass metric over the rows that k depends on; both squares come from the elimination, Σ right²/pivot. R ≤ [`MET`] √G N is what
-//!   any row that counts is met to, and R/√d is then bounded where d tells anything; where d is too small to tell, whoever asks has
-//!   the rank decided once by the dense solve.
+//!   share that was accepted: [`NOTHING`] is above. R is compared with what accelerations are, N² = Σ M_ii q̈_i² + Q_i²/M_ii over all
+//!   coordinates that are coupled to the row, and with its b: R ≤ [`MET`] √(G N² + b²) is what any row that counts is met to. R/√d is then
+//!   bounded where d tells anything; where d is too small to tell, whoever asks has the rank decided once by the dense solve.
 //! - At a distance δ from the constraints redundant rows keep √d of order δ, and R is of order δ: both are what drift lends. (For φ_k = Σ μ_j
 //!   φ_j, as holds near states that are regular in the other rows, the row keeps Σ φ_j ∇μ_j, and R is Σ 2 μ̇_j φ̇_j + μ̈_j φ_j.) Accelerations
 //!   without the row go on smoothly there; that its constraint is met is for the projection to show, which checks the rows left out as
-//!   all others; the certificate says so, by [`DRIFTED`]. Both are bounded by what drift is ever granted, √[`SAFE_SHARE`], above which the row counts.
+//!   all others; the certificate says so, by [`DRIFTED`]. What drift is granted is bounded: d/G by [`SAFE_SHARE`], above which the row
+//!   counts, and R by [`GRANTED`].
 //!
-//! Rows that are eliminated before have a certificate as ever. So a singular position, where the rank is less than on the constraints
-//! around, shows in one of them: those left out take no part in it.
+//! Of rows that imply each other any may be the one too many, and which of them keeps least may change along a motion (the crank of an
+//! elliptic trammel is needed nowhere, but alone it has dead centres): so each of them may be left out. How many are left out is what
+//! counts, and the certificate tells it: as long as they are as many as follow from the others, all that is kept is independent, to
+//! [`SAFE_SHARE`], and has as many rows as the rank. At a singular position they are more.
 
 use super::certificate::{MET, SAFE_SHARE};
 use super::matrix::Factor;
+use super::solution::Solution;
+use crate::analysis::dynamics::Dynamics;
 use crate::expr::{Graph, Id};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A share d/G of a row that is nothing but rounding: (n + m) ε/[`SAFE_SHARE`] for some sixty rows and coordinates.
 const NOTHING: f64 = 1.5e-11;
-/// What drift may lend R, as a share of √G N, squared.
+/// What drift may lend R, as a share of √(G N² + b²), squared.
 const GRANTED: f64 = 1.0 / 16.0;
 /// What a certificate loses for each row that was left out, so that it tells how many there are; exact for some hundreds.
 const DROPPED: f64 = 1.0 / 1024.0;
@@ -42,7 +46,7 @@ pub(super) struct Dropping {
     reference: Id,
     /// R.
     right: Id,
-    /// (√G N)².
+    /// G N² + b².
     size: Id,
 }
 
@@ -62,51 +66,50 @@ pub(super) fn least(reference: Id, g: &mut Graph) -> Id {
     g.scale(-NOTHING, reference)
 }
 
-/// What there is to check of the rows that may be left out, once a right-hand side is eliminated: `rights` of the steps with 1 × 1 pivots
-/// among `factors`, and what they left, `solved`, of all steps.
+/// What there is to check of the rows that may be left out, where `motion` solves the equations of `d` with the right-hand sides `force`
+/// and `rhs`.
 pub(super) fn droppings(
     factors: &[Factor],
-    rights: &[Id],
-    solved: &[Id],
+    motion: &Solution,
+    d: &Dynamics,
+    [force, rhs]: [&[Id]; 2],
     g: &mut Graph,
 ) -> Vec<Dropping> {
-    let singles = factors.iter().zip(solved).filter_map(|(factor, solved)| {
-        let Factor::Single(single) = factor else {
-            return None;
-        };
-        Some((single, *solved))
+    let n = force.len();
+    let singles = factors.iter().filter_map(|factor| match factor {
+        Factor::Single(single) => Some(single),
+        Factor::Double(_) => None,
     });
-    let singles: Vec<_> = singles.zip(rights.iter().copied()).collect();
-    if singles
-        .iter()
-        .all(|((single, _), _)| single.reciprocal.is_none())
-    {
+    let dropped = singles.zip(&motion.rights);
+    let dropped: Vec<_> = dropped.filter(|(s, _)| s.reciprocal.is_some()).collect();
+    if dropped.is_empty() {
         return Vec::new();
     }
-    // Σ right²/pivot over what is coupled.
+    // N² of each part.
     let parts = parts(factors);
     let mut squares: BTreeMap<usize, Vec<(f64, Id)>> = BTreeMap::new();
-    for ((single, solved), right) in &singles {
-        let mut product = vec![(*solved, 1), (*right, 1)];
-        product.extend(single.denominator.map(|d| (d, -1)));
-        let square = g.product(&product);
-        let part = squares.entry(parts[&single.at]).or_default();
-        part.push((single.sign, square));
+    for (i, (x, q)) in motion.coordinates.iter().zip(force).enumerate() {
+        if let Some(m) = d.mass.get(&(i, i)) {
+            let done = g.product(&[(*x, 2), (*m, 1)]);
+            let free = g.product(&[(*q, 2), (*m, -1)]);
+            let part = squares.entry(parts[&i]).or_default();
+            part.extend([(1.0, done), (1.0, free)]);
+        }
     }
-    let squares: BTreeMap<usize, Id> = squares
-        .into_iter()
-        .map(|(part, squares)| (part, g.sum(&squares)))
-        .collect();
-    let dropped = singles.iter().filter(|((s, _), _)| s.reciprocal.is_some());
-    dropped
-        .map(|((single, _), right)| Dropping {
+    let dropped = dropped.into_iter().map(|(single, right)| {
+        let squares = squares.get(&parts[&single.at]);
+        let square = g.sum(squares.map_or(&[], |squares| squares));
+        let own = g.square(rhs[single.at - n]);
+        let size = g.mul(single.reference, square);
+        Dropping {
             at: single.at,
             pivot: (!g.is_zero(single.numerator)).then_some(single.numerator),
             reference: single.reference,
             right: *right,
-            size: g.mul(single.reference, squares[&parts[&single.at]]),
-        })
-        .collect()
+            size: g.add(size, own),
+        }
+    });
+    dropped.collect()
 }
 
 /// Of each position the part of the mechanism it is in: parts are not coupled.

@@ -3,7 +3,7 @@
 use super::dropping::reciprocal;
 use super::{Divisor, Pair, Pivoting};
 use crate::analysis::dynamics::Dynamics;
-use crate::expr::{Graph, Id};
+use crate::expr::{Func, Graph, Id};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Longest chain of pivots whose divisions are put off. Their numerators are products of as many pivots, and must stay in the range of
@@ -26,6 +26,8 @@ pub(super) struct Matrix {
     droppable: BTreeSet<usize>,
     /// Of each row of A its entries a with M_ii, where there is inertia.
     inert: BTreeMap<usize, Vec<(Id, Id)>>,
+    /// Rows with a coordinate that was eliminated with a constraint.
+    substituted: BTreeSet<usize>,
 }
 
 /// An update d − p²/(N/D) of a diagonal that is not yet divided by N.
@@ -174,6 +176,7 @@ impl Matrix {
             turn,
             droppable,
             inert,
+            substituted: BTreeSet::new(),
         }
     }
 
@@ -237,6 +240,14 @@ impl Matrix {
         k >= self.n && a >= self.n && room && counts && !another()
     }
 
+    /// Σ a²/M_ii of a row of A, if there is inertia at any of its coordinates.
+    fn length(&self, k: usize, g: &mut Graph) -> Option<Id> {
+        let squares = self.inert.get(&k)?.iter();
+        let squares = squares.map(|(a, m)| (1.0, g.product(&[(*a, 2), (*m, -1)])));
+        let squares: Vec<(f64, Id)> = squares.collect();
+        Some(g.sum(&squares))
+    }
+
     /// Takes one step of the elimination; with a 1 × 1 pivot, what it divides by.
     pub(super) fn step(
         &mut self,
@@ -265,16 +276,21 @@ impl Matrix {
         let constraint = k >= self.n;
         let zero = g.zero();
         let pivot = self.pivot(k, g).or_else(|| {
-            // Whatever the state; in place of the diagonal Σ a²/M_ii.
-            let squares = self.inert.get(&k)?.iter();
-            let squares = squares.map(|(a, m)| (1.0, g.product(&[(*a, 2), (*m, -1)])));
-            let squares: Vec<(f64, Id)> = squares.collect();
+            // Whatever the state.
+            let length = self.length(k, g)?;
             self.droppable.insert(k);
-            Some((zero, g.sum(&squares), None))
+            Some((zero, length, None))
         });
         let droppable = self.droppable.contains(&k);
-        let (numerator, reference, denominator) =
+        let (numerator, mut reference, denominator) =
             pivot.ok_or_else(|| vanished(k, self.n, names))?;
+        if droppable
+            && self.substituted.contains(&k)
+            && let Some(length) = self.length(k, g)
+        {
+            // What was substituted into the row may have taken all of it away but for rounding.
+            reference = g.call2(Func::Max, reference, length);
+        }
         hints.push((numerator, format!("pivot_{}", names[k])));
         hints.push((reference, format!("diagonal_{}", names[k])));
         let divisor = Divisor {
@@ -369,6 +385,7 @@ impl Matrix {
             .union(&of_c)
             .map(|r| (*r, entry(&row_j, r), entry(&row_c, r)))
             .collect();
+        self.substituted.extend(touched.iter().map(|(r, ..)| *r));
         for (p, (r, rj, rc)) in touched.iter().enumerate() {
             for (s, sj, sc) in &touched[..=p] {
                 for term in products((*rj, *rc), (*sj, *sc), a, mu, g) {

@@ -1,6 +1,5 @@
 //! Solutions of an eliminated system.
 
-use super::dropping::{Dropping, droppings};
 use super::matrix::{Double, Entry, Factor, Single, products};
 use crate::expr::{Graph, Id};
 
@@ -106,11 +105,6 @@ impl Forward {
             }
         }
         g.div(right.1, coefficient)
-    }
-
-    /// What there is to check of the rows that may be left out, once all `factors` are taken.
-    pub(super) fn droppings(&self, factors: &[Factor], g: &mut Graph) -> Vec<Dropping> {
-        droppings(factors, &self.rights, &self.solved, g)
     }
 
     /// Back substitution, once all `factors` are taken; `names` are those of coordinates and constraints.
