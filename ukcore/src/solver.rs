@@ -369,6 +369,11 @@ impl Solver {
         self.dropping.project();
     }
 
+    /// A step was projected, or could not be.
+    pub(crate) fn judge(&mut self, met: bool) {
+        self.dropping.judge(met);
+    }
+
     /// The certificates of the emitted elimination with which it may be used in place of a solution.
     pub(crate) fn accepted(&self) -> Accepted {
         self.dropping.accepted

@@ -13,6 +13,9 @@ const WHOLE: f64 = 1.0;
 const DROPPED: f64 = 1.0 / 1024.0;
 const DRIFTED: f64 = 0.5;
 
+/// Projections that have to succeed after one that failed.
+const DOUBT: usize = 8;
+
 /// The certificates of accelerations that may be used: of an elimination that left out no row, or as many as do follow from the others, of
 /// which rounding alone is left, or what drift may lend them.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,6 +36,8 @@ impl Accepted {
 pub(super) struct Dropping {
     /// Whether states are projected onto the constraints after each step.
     projected: bool,
+    /// How many more projections have to succeed before drift explains anything.
+    doubt: usize,
     /// How many rows follow from the others with the parameters of now.
     rows: Option<usize>,
     /// The certificate of the elimination last tried.
@@ -44,6 +49,7 @@ impl Dropping {
     pub(super) fn new() -> Self {
         Dropping {
             projected: false,
+            doubt: 0,
             rows: None,
             certificate: 0.0,
             accepted: Accepted::WHOLE,
@@ -53,6 +59,27 @@ impl Dropping {
     /// From here on states are projected after each step.
     pub(super) fn project(&mut self) {
         self.projected = true;
+    }
+
+    /// A step was projected, or could not be: then constraints may have come to contradict each other, which solutions of all rows tell
+    /// better for a while.
+    pub(super) fn judge(&mut self, met: bool) {
+        self.doubt = if met {
+            self.doubt.saturating_sub(1)
+        } else {
+            DOUBT
+        };
+        if let (0 | DOUBT, Some(rows)) = (self.doubt, self.rows) {
+            self.accept(rows);
+        }
+    }
+
+    /// Accepts that `rows` rows are left out.
+    fn accept(&mut self, rows: usize) {
+        let lost = rows as f64 * DROPPED;
+        let trusted = self.projected && self.doubt == 0;
+        let drifted = if trusted { DRIFTED } else { WHOLE };
+        self.accepted = Accepted([WHOLE, WHOLE - lost, drifted - lost]);
     }
 
     /// Parameters have changed.
@@ -72,9 +99,8 @@ impl Dropping {
         let lost = rows as f64 * DROPPED;
         let confirms = rows > 0 && self.certificate == WHOLE - lost;
         if confirms {
-            let drifted = if self.projected { DRIFTED } else { WHOLE };
             self.rows = Some(rows);
-            self.accepted = Accepted([WHOLE, WHOLE - lost, drifted - lost]);
+            self.accept(rows);
         }
         confirms
     }
