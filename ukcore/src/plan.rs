@@ -261,11 +261,15 @@ impl Plan {
             );
             item(f, &text)?;
         }
-        for row in solve.redundant {
+        if !solve.redundant.is_empty() {
+            let names = solve.redundant.iter();
+            let names: Vec<String> = names
+                .map(|row| format!("`{}`", self.spec.constraints[*row].name))
+                .collect();
             let text = format!(
-                "`{}` is dropped where it follows from the others: where nothing but rounding, or drift off the constraints, is left of its pivot \
-                 and of its right-hand side; elsewhere its pivot is checked as the others",
-                self.spec.constraints[*row].name
+                "{} follow from each other, or from all, where the constraints are met: as many as do at a state are dropped there, those of whose \
+                 pivot and right-hand side nothing is left but rounding, or drift off the constraints",
+                names.join(" ")
             );
             item(f, &text)?;
         }

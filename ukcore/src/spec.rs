@@ -137,8 +137,8 @@ pub struct Solve {
     /// Constraints whose rows of A q̈ = b are checked after the solution, since they act on a coordinate whose inertia may vanish at some
     /// states.
     pub met: &'static [usize],
-    /// Constraints that follow from those eliminated before them wherever all are met, with parameters at their defaults: their rows are
-    /// left out, with the multiplier 0, at states where they do. Elsewhere they count as all others.
+    /// Constraints that imply each other where all are met, with parameters at their defaults. Of their rows as many as follow from the others
+    /// at a state are left out there, with the multiplier 0; which of them, the state decides.
     pub redundant: &'static [usize],
 }
 

@@ -8,7 +8,8 @@
 //!    then what has the fewest neighbours (least fill); among equals what waits for the
 //!    shortest chain of divisions, so that a chain of links is taken from both ends at once.
 //!
-//! Every 1 × 1 pivot is checked at run time: see [`certificate`].
+//! Every 1 × 1 pivot is checked at run time: see [`certificate`]; rows that imply each other, and may be left out, in a way of their own: see
+//! [`dropping`].
 //!
 //! In steps: [`order`] chooses the pivots on the [`pattern`] of K, which also tells what is filled in; [`matrix`] eliminates K in that
 //! order; [`solution`] solves for a right-hand side.
@@ -154,7 +155,7 @@ pub(crate) fn eliminate(
     })
 }
 
-/// The positions of constraints that are eliminated alone, and follow from those before them where all are met.
+/// The positions of constraints that are eliminated alone and may be left out.
 fn droppable(d: &Dynamics, order: &Order, defaults: &[f64], g: &Graph) -> BTreeSet<usize> {
     let n = d.force.len();
     let rows = order.pivots.iter().filter_map(|pivot| match *pivot {

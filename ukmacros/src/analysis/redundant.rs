@@ -2,11 +2,12 @@
 //!
 //! From random states the constraints are approached by Levenberg's and Marquardt's method with a damping of the order of what is left
 //! of them squared. That converges quadratically where constraints imply each other, too (Yamashita & Fukushima 2001), and slowly to
-//! positions that are singular alone. At two states so found, the rows of A are gone through in the order of the elimination; what keeps
-//! nothing beside the rows before it, at both, is redundant. A row that keeps a little tells of a singular position nearby, and such a state
-//! tells nothing.
+//! positions that are singular alone. At some states so found, the rows of A are gone through in the order of the elimination: one that
+//! keeps nothing beside those before it is redundant, with all that take part in what it is made up of. A row that keeps a little tells
+//! of a singular position nearby, and such a state tells nothing.
 //!
-//! What is found is where to look at run time, for parameters at their defaults; whether a row is left out is decided there, state by state.
+//! What is found is where to look at run time: how many rows are left out, and which, is decided there, state by state. So a row found
+//! too many costs some operations; where one is missed, or the search does not arrive, the dense solve takes over as ever.
 
 use super::dynamics::Dynamics;
 use super::probe::{Probe, Random};

@@ -1,4 +1,4 @@
-//! Rows that follow from those before them where the constraints are met: left out where they do.
+//! Rows that may follow from those before them: left out at states where they do.
 //!
 //! Let row k, in the metric of M and of length √G, keep √d beside the span of the rows eliminated before it, and let R be what it asks for
 //! beyond what they do: R = b_k − a_k q̈⁰ with q̈⁰ the accelerations without it. With it they would be q̈⁰ + (R/d) M⁻¹ rᵀ, where r, |r|² = d,
