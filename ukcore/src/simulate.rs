@@ -290,8 +290,9 @@ impl Simulation {
             _ => (self.switching == Switching::Located && has_switches, None),
         };
         let mut solver = Solver::new(&self.mechanism, recorder.trajectory.options);
-        if recorder.trajectory.projected {
-            solver.project();
+        match recorder.trajectory.projected {
+            true => solver.project(),
+            false => solver.drift(),
         }
         let mut run = Run {
             solver,

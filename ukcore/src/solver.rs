@@ -369,6 +369,11 @@ impl Solver {
         self.dropping.project();
     }
 
+    /// From here on states drift off the constraints.
+    pub(crate) fn drift(&mut self) {
+        self.dropping.keep();
+    }
+
     /// A step was projected, or could not be.
     pub(crate) fn judge(&mut self, met: bool) {
         self.dropping.judge(met);

@@ -36,6 +36,8 @@ impl Accepted {
 pub(super) struct Dropping {
     /// Whether states are projected onto the constraints after each step.
     projected: bool,
+    /// Whether all rows are to count, whatever is known.
+    whole: bool,
     /// How many more projections have to succeed before drift explains anything.
     doubt: usize,
     /// How many rows follow from the others with the parameters of now.
@@ -49,6 +51,7 @@ impl Dropping {
     pub(super) fn new() -> Self {
         Dropping {
             projected: false,
+            whole: false,
             doubt: 0,
             rows: None,
             certificate: 0.0,
@@ -59,6 +62,12 @@ impl Dropping {
     /// From here on states are projected after each step.
     pub(super) fn project(&mut self) {
         self.projected = true;
+    }
+
+    /// From here on states drift off the constraints, and nothing shows whether those left out are met.
+    pub(super) fn keep(&mut self) {
+        self.forget();
+        self.whole = true;
     }
 
     /// A step was projected, or could not be: then constraints may have come to contradict each other, which solutions of all rows tell
@@ -97,7 +106,7 @@ impl Dropping {
     pub(super) fn confirm(&mut self, rank: usize, m: usize) -> bool {
         let rows = m - rank;
         let lost = rows as f64 * DROPPED;
-        let confirms = rows > 0 && self.certificate == WHOLE - lost;
+        let confirms = !self.whole && rows > 0 && self.certificate == WHOLE - lost;
         if confirms {
             self.rows = Some(rows);
             self.accept(rows);
