@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 use ukcore::mechanism::Terms;
-use ukcore::{Mechanism, State};
+use ukcore::{Mechanism, Prepared, State};
 
 /// Moore-Penrose inverse by singular values; those below `tolerance` times the largest count as zero.
 #[must_use]
@@ -95,7 +95,13 @@ impl Dense {
     /// Evaluates `mechanism` at `state`.
     #[must_use]
     pub fn of<M: Mechanism>(mechanism: &M, state: &State) -> Self {
-        let (n, m) = (M::SPEC.n(), M::SPEC.m());
+        Dense::of_prepared(&mechanism.prepared(), state)
+    }
+
+    /// The same of a mechanism whose type does not matter.
+    #[must_use]
+    pub fn of_prepared(mechanism: &Prepared, state: &State) -> Self {
+        let (n, m) = (mechanism.spec().n(), mechanism.spec().m());
         let mut dense = Dense {
             mass: DMatrix::zeros(n, n),
             force: DVector::zeros(n),
@@ -110,9 +116,7 @@ impl Dense {
             jacobian: dense.jacobian.as_mut_slice(),
             rhs: dense.rhs.as_mut_slice(),
         };
-        mechanism
-            .prepared()
-            .dynamics(state.t, &state.q, &state.v, &mut terms);
+        mechanism.dynamics(state.t, &state.q, &state.v, &mut terms);
         dense
     }
 

@@ -23,6 +23,7 @@ mod passing;
 mod plan;
 mod projection;
 mod rattle;
+mod redundant;
 mod redundant_loop;
 mod registry;
 mod rows_in_time;

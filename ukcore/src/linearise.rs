@@ -17,7 +17,7 @@ use crate::error::Error;
 use crate::mechanism::{Dynamics, Evaluated, Prepared};
 use crate::scalar::{Dual, Scalar};
 use crate::scan::all_finite;
-use crate::solver::{Baumgarte, Solver, SolverOptions};
+use crate::solver::{Accepted, Baumgarte, Solver, SolverOptions};
 use crate::spec::Spec;
 
 /// q̈ and its derivatives at a state. Matrices are column-major: a column for each direction, a row for each coordinate.
@@ -145,7 +145,7 @@ impl Slopes {
         self.sweep.mech.hold_as(solver.mechanism());
         let spec = solver.mechanism().spec();
         let straight = spec.structure.straight_line && solver.baumgarte().is_none();
-        if straight && self.straight_line((t, q, v), acceleration, columns) {
+        if straight && self.straight_line(solver.accepted(), (t, q, v), acceleration, columns) {
             return Ok(());
         }
         let implicit = self.implicit.get_or_insert_with(|| Implicit::new(spec));
@@ -154,9 +154,10 @@ impl Slopes {
         Ok(())
     }
 
-    /// By differentiating the emitted elimination; `false` where it is not safe.
+    /// By differentiating the emitted elimination; `false` where its certificate is not `accepted`.
     fn straight_line(
         &mut self,
+        accepted: Accepted,
         (t, q, v): (f64, &[f64], &[f64]),
         acceleration: &mut [f64],
         columns: &mut [f64],
@@ -168,7 +169,7 @@ impl Slopes {
             let Sweep { mech, t, q, v, .. } = &self.sweep;
             let safe = mech.acceleration(*t, q, v, out);
             let finite = out.iter().all(|x| x.re.is_finite());
-            if !(finite && safe.re > 0.5) {
+            if !(finite && accepted.has(safe.re)) {
                 return false;
             }
             column.iter_mut().zip(&*out).for_each(|(d, x)| *d = x.eps);

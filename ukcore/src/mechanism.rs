@@ -63,6 +63,10 @@ pub trait Mechanism: Clone + Default + Into<Prepared> + Send + Sync + 'static {
     /// q̈ at (t, q, q̇) by straight-line elimination of [M Aᵀ; A 0], and its certificate: 1 where each pivot d of the elimination keeps a
     /// safe share d/G of the diagonal G it started from, 0 where M or A is singular or nearly so, and q̈ is not to be used. Exists if
     /// [`Structure::straight_line`](crate::spec::Structure::straight_line); else the certificate is 0.
+    ///
+    /// Where rows of [`Solve::redundant`](crate::spec::Solve::redundant) were left out it is 1 − k/1024 for k rows of which nothing but
+    /// rounding is left, and 1/2 − k/1024 where what is left may come from a distance to the constraints, which it does not know: then q̈ is
+    /// to be used only if their constraints are seen to be met otherwise, as by projection. [`Solver`](crate::Solver) keeps to that.
     fn acceleration<S: Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], out: &mut [S]) -> S {
         let _ = (prepared, t, q, v, out);
         S::from_f64(0.0)

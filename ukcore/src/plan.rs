@@ -246,7 +246,7 @@ impl Plan {
             return Ok(());
         }
         writeln!(f, "\nCertificate")?;
-        if solve.checks.is_empty() && solve.met.is_empty() {
+        if solve.checks.is_empty() && solve.met.is_empty() && solve.redundant.is_empty() {
             return item(f, "nothing is checked: no pivot can vanish");
         }
         let names = |wanted: fn(&Check) -> Option<usize>| {
@@ -277,6 +277,18 @@ impl Plan {
             let names: Vec<&str> = names.collect();
             let text = format!(
                 "met by q̈ to rounding, since they act on inertia that may vanish: the rows of {}",
+                names.join(" ")
+            );
+            item(f, &text)?;
+        }
+        if !solve.redundant.is_empty() {
+            let names = solve.redundant.iter();
+            let names: Vec<String> = names
+                .map(|row| format!("`{}`", self.spec.constraints[*row].name))
+                .collect();
+            let text = format!(
+                "{} follow from each other, or from all, where the constraints are met: as many as do at a state are dropped there, those of whose \
+                 pivot and right-hand side nothing is left but rounding, or drift off the constraints",
                 names.join(" ")
             );
             item(f, &text)?;

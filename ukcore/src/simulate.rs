@@ -289,8 +289,13 @@ impl Simulation {
             }
             _ => (self.switching == Switching::Located && has_switches, None),
         };
+        let mut solver = Solver::new(&self.mechanism, recorder.trajectory.options);
+        match recorder.trajectory.projected {
+            true => solver.project(),
+            false => solver.drift(),
+        }
         let mut run = Run {
-            solver: Solver::new(&self.mechanism, recorder.trajectory.options),
+            solver,
             located: located.then(|| self.mechanism.dual()),
             slopes: None,
             energy,

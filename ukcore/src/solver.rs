@@ -29,11 +29,14 @@ use crate::scan::all_finite;
 use crate::spec::Spec;
 
 mod agreement;
+mod dropping;
 mod rank;
 mod refine;
 mod settings;
 
 use agreement::Drift;
+pub(crate) use dropping::Accepted;
+use dropping::Dropping;
 pub(crate) use rank::leading;
 pub use settings::{Baumgarte, Formula, Solution, SolverOptions, SolverWork};
 
@@ -85,6 +88,7 @@ pub struct Solver {
     /// What drift and rounding are granted of each row.
     granted: Vec<f64>,
     known: refine::Known,
+    dropping: Dropping,
 }
 
 /// Rank and formula of the evaluation in hand.
@@ -133,6 +137,7 @@ impl Solver {
             saddle,
             drift: Drift::new(n, m),
             known: refine::Known::new(n, m),
+            dropping: Dropping::new(),
             noise: Noise::new(&mechanism),
             carried: vec![0.0; m],
             granted: vec![0.0; m],
@@ -192,10 +197,12 @@ impl Solver {
         if let Some(first) = out.first_mut() {
             *first = f64::NAN;
         }
-        let good = self.mechanism.acceleration(t, q, v, out) > 0.5 && all_finite(out);
+        let certificate = self.mechanism.acceleration(t, q, v, out);
+        self.dropping.certificate = certificate;
+        let good = self.dropping.accepted.has(certificate) && all_finite(out);
         if good {
             self.work.evaluations += 1;
-            self.full = self.m;
+            self.full = self.dropping.rank(self.m).unwrap_or(self.m);
         }
         good
     }
@@ -216,10 +223,12 @@ impl Solver {
             self.full = self.m;
             return Ok(());
         }
-        // Once for a solution, whatever else is left on the way.
-        let fallbacks = self.work.fallbacks + 1;
+        // Once for a solution, whatever else is left on the way; not for one that confirms what the straight line found.
+        let fallbacks = self.work.fallbacks;
         let result = self.rank_revealing(t, q, v, out);
-        self.work.fallbacks = fallbacks;
+        let rank = self.dense.cod.rank();
+        let confirmed = result.is_ok() && self.dropping.confirm(rank, self.m);
+        self.work.fallbacks = fallbacks + usize::from(!confirmed);
         result
     }
 
@@ -351,7 +360,28 @@ impl Solver {
     /// The mechanism, to set parameters or to hold switches; what follows is solved with them.
     pub fn mechanism_mut(&mut self) -> &mut Prepared {
         self.known.valid = false;
+        self.dropping.forget();
         &mut self.mechanism
+    }
+
+    /// From here on each step of a run ends with a projection, which tells whether constraints are met that are left out within it.
+    pub(crate) fn project(&mut self) {
+        self.dropping.project();
+    }
+
+    /// From here on states drift off the constraints.
+    pub(crate) fn drift(&mut self) {
+        self.dropping.keep();
+    }
+
+    /// A step was projected, or could not be.
+    pub(crate) fn judge(&mut self, met: bool) {
+        self.dropping.judge(met);
+    }
+
+    /// The certificates of the emitted elimination with which it may be used in place of a solution.
+    pub(crate) fn accepted(&self) -> Accepted {
+        self.dropping.accepted
     }
 
     /// What has been done so far.

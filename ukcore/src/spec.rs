@@ -143,6 +143,9 @@ pub struct Solve {
     /// Coordinates that many otherwise separate parts share, each once for every part but one: the solve has a copy of the coordinate for each
     /// of these, tied to the one before, with its share of the inertia.
     pub copies: &'static [usize],
+    /// Constraints that imply each other where all are met, with parameters at their defaults. Of their rows as many as follow from the others
+    /// at a state are left out there, with the multiplier 0; which of them, the state decides.
+    pub redundant: &'static [usize],
 }
 
 /// One pivot of the elimination.
@@ -256,6 +259,7 @@ impl Solve {
             met: &[],
             velocities: &[],
             copies: &[],
+            redundant: &[],
         }
     }
 }

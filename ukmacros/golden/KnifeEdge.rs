@@ -178,6 +178,7 @@ const _: () = {
                     met: &[],
                     velocities: &[],
                     copies: &[],
+                    redundant: &[],
                 },
                 mass_pattern: &[(0, 0), (1, 1), (2, 2)],
                 jacobian_pattern: &[(0, 0), (0, 1)],

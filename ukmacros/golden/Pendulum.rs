@@ -162,6 +162,7 @@ const _: () = {
                     met: &[],
                     velocities: &[],
                     copies: &[],
+                    redundant: &[],
                 },
                 mass_pattern: &[(0, 0), (1, 1)],
                 jacobian_pattern: &[(0, 0), (0, 1)],

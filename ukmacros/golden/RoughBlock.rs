@@ -220,6 +220,7 @@ const _: () = {
                     met: &[],
                     velocities: &[],
                     copies: &[],
+                    redundant: &[],
                 },
                 mass_pattern: &[(0, 0), (1, 1)],
                 jacobian_pattern: &[(0, 0), (0, 1)],

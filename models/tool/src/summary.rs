@@ -159,12 +159,21 @@ impl Summary<'_> {
                 "Most evaluations fell back from the straight line to the rank-revealing solve: {}",
                 self.doubt()
             )?;
+        } else if !self.trajectory.spec().structure.solve.redundant.is_empty() {
+            let names = self.implied();
+            if !names.is_empty() {
+                let names = names.join(", ");
+                writeln!(
+                    out,
+                    "Dropped from the straight line, as the other constraints imply them: {names}"
+                )?;
+            }
         }
         Ok(())
     }
 
-    /// Why the straight line was left, as far as the last state tells.
-    fn doubt(&self) -> String {
+    /// Constraints that the others imply at the last state.
+    fn implied(&self) -> Vec<String> {
         let mechanism = self.trajectory.mechanism();
         let solution = self.trajectory.last().and_then(|last| {
             Solver::new(mechanism.clone(), SolverOptions::default())
@@ -173,10 +182,15 @@ impl Summary<'_> {
         });
         let constraints = self.trajectory.spec().constraints;
         let redundant = solution.map_or(Vec::new(), |s| s.redundant);
-        let names: Vec<String> = redundant
-            .iter()
+        let names = redundant.iter();
+        names
             .map(|i| format!("`{}`", constraints[*i].name))
-            .collect();
+            .collect()
+    }
+
+    /// Why the straight line was left, as far as the last state tells.
+    fn doubt(&self) -> String {
+        let names = self.implied();
         match names.is_empty() {
             false => format!("the other constraints imply {}", names.join(", ")),
             true => "its pivots lose their digits, as constraints nearly imply each other or masses are many orders apart".to_owned(),

@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::mechanism::{Mechanism, Prepared};
 use crate::scalar::Scalar;
 use crate::scan::sum;
-use crate::solver::{Solver, SolverOptions, SolverWork};
+use crate::solver::{Accepted, Solver, SolverOptions, SolverWork};
 
 /// Solves for q̈ of several mechanisms at once, one in each lane.
 ///
@@ -19,6 +19,10 @@ pub struct LaneSolver<L: Scalar> {
     own: Vec<Option<Box<Own>>>,
     errors: Vec<Option<Error>>,
     evaluations: Vec<usize>,
+    /// Certificates with which a lane's acceleration may be used, which its own solver knows once it was needed.
+    accepted: Vec<Accepted>,
+    /// Whether states are projected after each step.
+    projected: bool,
 }
 
 #[derive(Debug, Clone)]
@@ -48,7 +52,16 @@ impl<L: Lanes> LaneSolver<L> {
             own: (0..L::WIDTH).map(|_| None).collect(),
             errors: vec![None; L::WIDTH],
             evaluations: vec![0; L::WIDTH],
+            accepted: vec![Accepted::WHOLE; L::WIDTH],
+            projected: false,
         }
+    }
+
+    /// From here on each step ends with a projection, as for a solver of one lane.
+    #[cfg(feature = "ensemble")]
+    pub(crate) fn project(mut self) -> Self {
+        self.projected = true;
+        self
     }
 
     /// Puts `mechanism`, with its parameters, into lane `lane`, below [`Lanes::WIDTH`], and begins to count its work anew.
@@ -70,6 +83,7 @@ impl<L: Lanes> LaneSolver<L> {
         let count = self.prepared.parameters().len();
         self.prepared.set_parameters((0..count).map(parameter));
         self.own[lane] = None;
+        self.accepted[lane] = Accepted::WHOLE;
         self.errors[lane] = None;
         self.evaluations[lane] = 0;
     }
@@ -103,7 +117,7 @@ impl<L: Lanes> LaneSolver<L> {
         let mut all = true;
         for lane in (0..L::WIDTH).filter(|&k| wanted(k)) {
             self.errors[lane] = None;
-            if safe.lane(lane) > 0.5 {
+            if self.accepted[lane].has(safe.lane(lane)) {
                 self.evaluations[lane] += 1;
             } else {
                 all &= self.alone(lane, t, q, v, out);
@@ -117,8 +131,12 @@ impl<L: Lanes> LaneSolver<L> {
     fn alone(&mut self, lane: usize, t: L, q: &[L], v: &[L], out: &mut [L]) -> bool {
         let mechanism = &self.mechanisms[lane];
         let own = self.own[lane].get_or_insert_with(|| {
+            let mut solver = Solver::new(mechanism, SolverOptions::default());
+            if self.projected {
+                solver.project();
+            }
             Box::new(Own {
-                solver: Solver::new(mechanism, SolverOptions::default()),
+                solver,
                 state: std::array::from_fn(|_| vec![0.0; mechanism.spec().n()]),
             })
         });
@@ -127,6 +145,7 @@ impl<L: Lanes> LaneSolver<L> {
             own.iter_mut().zip(all).for_each(|(x, y)| *x = y.lane(lane));
         }
         let result = own.solver.acceleration(t.lane(lane), own_q, own_v, own_out);
+        self.accepted[lane] = own.solver.accepted();
         if let Err(error) = result {
             own_out.fill(f64::NAN);
             self.errors[lane] = Some(error);

@@ -64,11 +64,15 @@ impl<L: Lanes> Acceptance<L> {
     /// 1 in the lanes where every residual is at rounding level, 0 in the others.
     pub(super) fn strict(&self, residual: &[L]) -> L {
         let mut met = L::from_f64(1.0);
-        for (r, terms) in residual.iter().zip(&self.terms) {
-            let bound = L::from_f64(ROUNDING) * *terms;
-            met = L::select_le(r.abs(), bound, met, L::from_f64(0.0));
+        for (c, r) in residual.iter().enumerate() {
+            met = L::select_le(r.abs(), self.bound(c), met, L::from_f64(0.0));
         }
         met
+    }
+
+    /// The largest residual of constraint `c` at rounding level.
+    pub(super) fn bound(&self, c: usize) -> L {
+        L::from_f64(ROUNDING) * self.terms[c]
     }
 }
 

@@ -154,7 +154,22 @@ impl<L: Lanes> Newton<L> {
             (previous, before) = (change, newton.off);
             (met, go - stalled)
         });
-        (good, stalled, count)
+        let met = self.meets_redundant(at, x, good);
+        (met, stalled + (good - met), count)
+    }
+
+    /// The lanes of `good` where the constraints that an elimination may leave out are met too: no step tells of them.
+    fn meets_redundant(&mut self, at: &At<'_, L>, x: &[L], good: L) -> L {
+        let rows = at.mech.spec().structure.solve.redundant;
+        let mut rows = rows.iter().filter(|row| **row < at.rows()).peekable();
+        if rows.peek().is_none() || !any(good) {
+            return good;
+        }
+        self.weigh(at, x);
+        rows.fold(good, |met, row| {
+            let (residual, bound) = (self.residual[*row], self.acceptance.bound(*row));
+            le(residual.abs(), bound, met)
+        })
     }
 
     /// By the emitted elimination.

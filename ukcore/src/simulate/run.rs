@@ -115,7 +115,9 @@ impl Problem for Run<'_> {
         if !self.recorder.trajectory.projected {
             return Ok(());
         }
-        self.recorder.project(t, q, v)
+        let result = self.recorder.project(t, q, v);
+        self.solver.judge(result.is_ok());
+        result
     }
 
     fn project_along(

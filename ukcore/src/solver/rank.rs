@@ -29,9 +29,11 @@ impl Solver {
             tolerance = tolerance.min(RANK_CEILING);
             rank = leading(self.dense.cod.pivots(), tolerance);
         }
-        self.full = self.full.max(rank);
-        let weakest = match rank.checked_sub(1) {
-            Some(last) if rank == self.full => self.dense.cod.pivots()[last],
+        // Off the constraints rows may seem to count that do not.
+        let known = self.dropping.rank(self.m);
+        self.full = known.unwrap_or(self.full.max(rank));
+        let weakest = match rank.min(self.full).checked_sub(1) {
+            Some(last) if last + 1 == self.full => self.dense.cod.pivots()[last],
             Some(_) => 0.0,
             None => 1.0,
         };

@@ -6,10 +6,11 @@ use super::elimination::{Further, Solve, Straight, Task, eliminate, orders};
 use super::functions::{Function, Role, functions};
 use super::hoist::{Hoisted, hoist};
 use super::hub::{Divided, divided};
+use super::redundant::redundant;
 use super::regular::Regular;
 use super::switches::Switch;
 use crate::expr::{Graph, Id, System};
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 /// The equations as they are emitted.
 pub(super) struct Chosen {
@@ -74,12 +75,18 @@ pub(super) fn choose(
         Some(_) => Vec::new(),
         None => variants(system, held, regular, names),
     };
+    let rows: Vec<usize> = (0..own.1).collect();
+    let redundant = match refusal {
+        Some(_) => BTreeSet::new(),
+        None => redundant(&regular.dynamics, &rows, &system.defaults, &system.graph),
+    };
     let tasks = variants.iter().map(|variant| Task {
         dynamics: &variant.dynamics,
         weights: &regular.weights,
         names: &variant.names,
         own,
         further: variant.further,
+        redundant: &redundant,
     });
     let tasks: Vec<Task<'_>> = tasks.collect();
     let mut ways = Vec::new();

@@ -2,7 +2,7 @@
 
 use super::cost::cost;
 use super::lift::{Lift, lift};
-use crate::expr::{Derivative, Gradient, Graph, Id, Kind, Sweep, Symbol, System};
+use crate::expr::{Adjoint, Derivative, Gradient, Graph, Id, Kind, Symbol, System};
 use std::collections::BTreeMap;
 
 /// The equations of motion as nodes. Notation as in Zhao, Zhen & Chen 2013.
@@ -161,8 +161,8 @@ fn less(a: &[Id], b: &[Id], g: &mut Graph) -> Vec<Id> {
 fn slopes(potential: Id, n: usize, g: &mut Graph) -> Vec<Id> {
     let zero = g.zero();
     let swept = |g: &mut Graph| -> Vec<Id> {
-        let sweep = Sweep::of(potential, g);
-        let slopes = (0..n).map(|i| sweep.along(Symbol::Coord(i)));
+        let adjoint = Adjoint::of(potential, g);
+        let slopes = (0..n).map(|i| adjoint.along(Symbol::Coord(i)));
         slopes.map(|slope| slope.unwrap_or(zero)).collect()
     };
     if n > MANY {

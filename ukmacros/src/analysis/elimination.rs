@@ -11,12 +11,14 @@
 //! Which pairs are taken, and when, is a matter of [`order::Taste`]; several orders are eliminated, and the cheapest is taken
 //! ([`super::choice`]).
 //!
-//! Every 1 × 1 pivot is checked at run time: see [`certificate`].
+//! Every 1 × 1 pivot is checked at run time: see [`certificate`]; rows that imply each other, and may be left out, in a way of their own: see
+//! [`dropping`].
 //!
 //! In steps: [`order`] chooses the pivots on the [`pattern`] of K, which also tells what is filled in; [`matrix`] eliminates K in that
 //! order; [`solution`] solves for a right-hand side.
 
 mod certificate;
+mod dropping;
 mod matrix;
 mod order;
 mod pattern;
@@ -26,6 +28,7 @@ pub(crate) use certificate::{SAFE_SHARE, Solve, Straight};
 
 use super::dynamics::Dynamics;
 use crate::expr::{Graph, Id, Symbol, is_power_of_two};
+use dropping::{Dropping, droppings};
 use matrix::{Factor, Matrix};
 pub(crate) use order::Order;
 use order::{Taste, order};
@@ -42,6 +45,8 @@ pub(crate) struct Divisor {
     position: usize,
     value: Id,
     reference: Id,
+    /// Whether its row may be left out.
+    droppable: bool,
 }
 
 impl Divisor {
@@ -52,6 +57,7 @@ impl Divisor {
             position,
             value,
             reference: value,
+            droppable: false,
         }
     }
 }
@@ -67,6 +73,8 @@ pub(crate) struct Elimination {
     divisors: Vec<(Divisor, Option<Id>)>,
     /// Right-hand sides of the pivots in the solution for the correction.
     correction_rights: Vec<Id>,
+    /// What is checked of the rows that may be left out.
+    droppings: Vec<Dropping>,
     order: Order,
     /// Where each coordinate and constraint of the system stands in the mechanism: not velocities and their definitions.
     place: Vec<Option<usize>>,
@@ -135,6 +143,8 @@ pub(crate) struct Task<'a> {
     pub(crate) own: (usize, usize),
     /// What the others are.
     pub(crate) further: Further,
+    /// The constraints that may follow from others.
+    pub(crate) redundant: &'a BTreeSet<usize>,
 }
 
 /// What a system has beyond the coordinates and constraints of the mechanism.
@@ -195,6 +205,7 @@ pub(crate) fn eliminate(
         own,
         ..
     } = *task;
+    let droppable = order.alone(d.force.len(), task.redundant);
     // A factor that all of M shares, as the one mass of all parts, only scales the multipliers: it is taken out of M and Q.
     let (common_factor, d) = &without_common_factor(d, g);
     let common = (*common_factor != g.one()).then(|| {
@@ -215,7 +226,7 @@ pub(crate) fn eliminate(
     };
     let rhs = scaled(1.0, &d.rhs, g);
     let mut hints = Vec::new();
-    let mut matrix = Matrix::new(d, &jacobian, &order.pivots, g);
+    let mut matrix = Matrix::new(d, &jacobian, &order.pivots, droppable, g);
     let mut motion = Forward::new(&force, &rhs);
     let (mut factors, mut divisors) = (Vec::new(), Vec::new());
     // What depends on parameters alone.
@@ -242,6 +253,7 @@ pub(crate) fn eliminate(
     let inertia = inertia.filter(|(_, m)| g.uses(**m).constant() && g.as_const(**m).is_none());
     fixed.extend(inertia.map(|((i, _), m)| Divisor::positive(*i, *m, names)));
     let mut motion = motion.solution(&factors, names, g, &mut hints)?;
+    let droppings = droppings(&factors, &motion, d, [&force, &rhs], g);
     motion.coordinates.truncate(own.0);
     let residuals = (0..own.1).map(|i| g.symbol(Symbol::Residual(i)));
     let mut residuals: Vec<Id> = residuals.collect();
@@ -265,6 +277,7 @@ pub(crate) fn eliminate(
         correction: projection.coordinates,
         divisors: fixed.chain(divisors).collect(),
         correction_rights: projection.rights,
+        droppings,
         order,
         place: place(d, own),
         hints,

@@ -12,6 +12,7 @@ mod hoist;
 mod hub;
 mod lift;
 mod probe;
+mod redundant;
 mod regular;
 mod schedule;
 mod sparsity;

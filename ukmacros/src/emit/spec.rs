@@ -156,6 +156,7 @@ fn solve(solve: &Solve, n: usize) -> TokenStream {
     let met = solve.met.iter().map(|row| number(*row));
     let velocities = &solve.velocities;
     let copies = solve.copies.iter().map(|i| number(*i));
+    let redundant = solve.droppable.iter().map(|row| number(*row));
     quote! {
         ukcore::Solve {
             refusal: "",
@@ -167,6 +168,7 @@ fn solve(solve: &Solve, n: usize) -> TokenStream {
             met: &[#(#met),*],
             velocities: &[#(#velocities),*],
             copies: &[#(#copies),*],
+            redundant: &[#(#redundant),*],
         }
     }
 }

@@ -91,12 +91,12 @@ impl Gradient {
 }
 
 /// Partial derivatives of a value by all that it depends on, in one sweep from the value down: for a few times the cost of the value.
-pub(crate) struct Sweep(BTreeMap<Symbol, Id>);
+pub(crate) struct Adjoint(BTreeMap<Symbol, Id>);
 
-impl Sweep {
+impl Adjoint {
     /// The derivatives of `id` by coordinates and velocities.
     pub(crate) fn of(id: Id, g: &mut Graph) -> Self {
-        let mut sweep = Sweep(BTreeMap::new());
+        let mut adjoint = Adjoint(BTreeMap::new());
         // What each node adds to the value, per unit.
         let mut slopes: Map<Id, Vec<(f64, Id)>> = Map::default();
         let one = g.one();
@@ -108,7 +108,7 @@ impl Sweep {
             };
             let slope = g.sum(&terms);
             if let Node::Symbol(symbol) = *g.node(id) {
-                sweep.0.insert(symbol, slope);
+                adjoint.0.insert(symbol, slope);
                 continue;
             }
             for (operand, local) in locals(id, g) {
@@ -121,7 +121,7 @@ impl Sweep {
                 }
             }
         }
-        sweep
+        adjoint
     }
 
     /// ∂/∂symbol, if it is not zero.

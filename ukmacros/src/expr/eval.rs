@@ -36,12 +36,47 @@ pub(crate) fn eval_shaken(
     point: &Point<'_>,
     shake: &mut dyn FnMut(f64) -> f64,
 ) -> Vec<f64> {
-    let top = roots.iter().map(|r| r.index() + 1).max().unwrap_or(0);
-    let mut values = vec![0.0; top];
-    for id in g.reachable(roots) {
-        values[id.index()] = shake(value(g.node(id), &values, point));
+    Sweep::new(g, roots).shaken(g, point, shake)
+}
+
+/// An evaluation that is done at many points.
+pub(crate) struct Sweep {
+    roots: Vec<Id>,
+    order: Vec<Id>,
+    values: Vec<f64>,
+}
+
+impl Sweep {
+    pub(crate) fn new(g: &Graph, roots: &[Id]) -> Self {
+        let top = roots.iter().map(|r| r.index() + 1).max().unwrap_or(0);
+        Sweep {
+            roots: roots.to_vec(),
+            order: g.reachable(roots),
+            values: vec![0.0; top],
+        }
     }
-    roots.iter().map(|r| values[r.index()]).collect()
+
+    /// Number of nodes.
+    pub(crate) fn len(&self) -> usize {
+        self.order.len()
+    }
+
+    /// Values of the roots.
+    pub(crate) fn at(&mut self, g: &Graph, point: &Point<'_>) -> Vec<f64> {
+        self.shaken(g, point, &mut |x| x)
+    }
+
+    fn shaken(
+        &mut self,
+        g: &Graph,
+        point: &Point<'_>,
+        shake: &mut dyn FnMut(f64) -> f64,
+    ) -> Vec<f64> {
+        for id in &self.order {
+            self.values[id.index()] = shake(value(g.node(*id), &self.values, point));
+        }
+        self.roots.iter().map(|r| self.values[r.index()]).collect()
+    }
 }
 
 fn value(node: &Node, values: &[f64], point: &Point<'_>) -> f64 {

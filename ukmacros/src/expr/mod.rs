@@ -10,9 +10,9 @@ mod jet;
 mod lower;
 mod rest;
 
-pub(crate) use diff::{Derivative, Gradient, Sweep};
+pub(crate) use diff::{Adjoint, Derivative, Gradient};
 pub(crate) use display::Printer;
-pub(crate) use eval::{Point, eval, eval_shaken};
+pub(crate) use eval::{Point, Sweep, eval, eval_shaken};
 pub(crate) use fold::is_power_of_two;
 pub(crate) use functions::{Cost, Func};
 pub(crate) use graph::{Graph, Id, Node, Num, Symbol};

@@ -3,7 +3,7 @@
 use super::system;
 use crate::analysis::{Dynamics, Further, Straight, Task, derive, eliminate, orders};
 use crate::expr::{Point, System, eval};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
 /// SplitMix64.
@@ -232,6 +232,7 @@ impl Tally {
                     true => Further::Nothing,
                     false => Further::Velocities,
                 },
+                redundant: &BTreeSet::new(),
             };
             for order in orders(&task, &system.defaults, &system.graph).unwrap_or_default() {
                 let elimination = eliminate(&task, order, &mut system.graph);

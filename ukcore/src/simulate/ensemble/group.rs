@@ -117,7 +117,7 @@ impl<'a> Group<'a> {
             stepper: Stepper::dop853(zeros.clone(), tolerance),
             newton: Newton::new(spec),
             members: Members {
-                solver: LaneSolver::with(ensemble.lanes.clone(), mechanism.clone()),
+                solver: LaneSolver::with(ensemble.lanes.clone(), mechanism.clone()).project(),
                 lanes: (0..Wide::WIDTH).map(|_| None).collect(),
                 alive: vec![false; Wide::WIDTH],
                 t0: Wide::from_f64(0.0),

@@ -31,6 +31,7 @@
 //! itself, whose condition is the root of G's, and keeps twice the digits. What depends on parameters only also has to be finite: an
 //! infinite mass would vanish by its reciprocal.
 
+use super::dropping::least;
 use super::{Elimination, Pair, Pivoting};
 use crate::analysis::dynamics::Dynamics;
 use crate::expr::{Func, Graph, Id, Node, System};
@@ -41,7 +42,7 @@ use std::collections::{BTreeSet, HashSet};
 pub(crate) const SAFE_SHARE: f64 = 1.0 / 1024.0;
 
 /// What may be left of A q̈ = b, as a share of its terms, where it is checked: the least that [`SAFE_SHARE`] can promise, for ten rows.
-const MET: f64 = 2e-12;
+pub(super) const MET: f64 = 2e-12;
 
 /// A program with more pivots leaves early, after each [`STRETCH`] of them, if the certificate does not hold. That is seldom; what it is
 /// for is the compiler of the emitted code: it packs scalars of one stretch without branches into vectors, and in long stretches finds
@@ -59,10 +60,13 @@ pub(crate) struct Straight {
     pub(crate) elimination: Elimination,
     /// 1 where every pivot is safe, 0 where one is not.
     pub(crate) certificate: Id,
-    /// The same, and whether q̈ meets the rows in `met`: 1 or 0.
+    /// The same, and whether q̈ meets the rows in `met`, for the acceleration: less than 1 where rows were left out, as
+    /// [`super::dropping`] has it.
     pub(crate) met_too: Id,
     /// Constraints whose row of A q̈ = b is checked.
     pub(crate) met: Vec<usize>,
+    /// Constraints that may be left out.
+    pub(crate) droppable: Vec<usize>,
     /// What is computed first, in this order: pivots, their right-hand sides, links of the certificate.
     pub(crate) stages: Vec<Id>,
     /// Links of the certificate after which the code leaves if it does not hold.
@@ -87,6 +91,8 @@ pub(crate) struct Solve {
     pub(crate) regular: Vec<usize>,
     /// Constraints whose row of A q̈ = b is checked.
     pub(crate) met: Vec<usize>,
+    /// Constraints that may be left out.
+    pub(crate) droppable: Vec<usize>,
 }
 
 impl Straight {
@@ -114,6 +120,7 @@ impl Straight {
             copies: Vec::new(),
             regular: Vec::new(),
             met: self.met.clone(),
+            droppable: self.droppable.clone(),
         }
     }
 
@@ -137,6 +144,14 @@ impl Straight {
     ) -> Self {
         let g = &mut system.graph;
         let (certificate, chain) = elimination.certificate(g);
+        let n = d.force.len();
+        let places = elimination
+            .droppings
+            .iter()
+            .map(|k| elimination.place[k.at]);
+        let droppable: Vec<usize> = places.flatten().map(|at| at - n).collect();
+        let met = met.iter().copied().filter(|row| !droppable.contains(row));
+        let met: Vec<usize> = met.collect();
         let mut met_too = certificate;
         for (k, row) in met.iter().enumerate() {
             met_too = elimination.meets(*row, d, met_too, g);
@@ -145,6 +160,9 @@ impl Straight {
                 let name = format!("met_{}", k / NESTED);
                 system.inner_hints.insert(met_too, name);
             }
+        }
+        for dropping in &elimination.droppings {
+            met_too = dropping.allows(met_too, g);
         }
         let mut stages = Vec::new();
         let mut links = vec![Vec::new(); elimination.divisors.len()];
@@ -166,6 +184,7 @@ impl Straight {
             }
         };
         let checked = chain.iter().map(|(of, _)| &elimination.divisors[*of].0);
+        let checked = checked.filter(|d| !d.droppable);
         let checked = checked.map(|d| (d.position, d.value != d.reference));
         let checks = checked.collect();
         for (of, link) in chain {
@@ -189,7 +208,8 @@ impl Straight {
             elimination,
             certificate,
             met_too,
-            met: met.to_vec(),
+            met,
+            droppable,
             stages,
             exits,
             checks,
@@ -228,14 +248,19 @@ impl Elimination {
         let mut known = HashSet::new();
         for (k, divisor) in divisors().enumerate() {
             let (value, reference) = (divisor.value, divisor.reference);
-            let (value, least) = if value == reference {
+            let (value, least) = if divisor.droppable {
+                (value, least(reference, g))
+            } else if value == reference {
                 // Nothing was taken off the diagonal: it has to be positive.
                 (sign_of(value, &positive, g), tiny)
             } else {
                 let (value, reference) = reduced(value, reference, &positive, g);
                 (value, g.scale(SAFE_SHARE, reference))
             };
-            let holds = g.as_const(value).is_some_and(|x| x > 0.0) && least == tiny;
+            let holds = match g.as_const(value) {
+                Some(x) => divisor.droppable || x > 0.0 && least == tiny,
+                None => false,
+            };
             if !holds && known.insert((value, least)) {
                 conditions.push((k, value, least));
             }

@@ -1,5 +1,6 @@
 //! K with symbolic entries, eliminated in a given order.
 
+use super::dropping::reciprocal;
 use super::{Divisor, Pair, Pivoting};
 use crate::analysis::dynamics::Dynamics;
 use crate::expr::{Graph, Id};
@@ -21,6 +22,8 @@ pub(super) struct Matrix {
     depth: Vec<usize>,
     /// When each is eliminated alone.
     turn: Vec<usize>,
+    /// Constraints that may be left out.
+    droppable: BTreeSet<usize>,
 }
 
 /// An update d − p²/(N/D) of a diagonal that is not yet divided by N.
@@ -137,6 +140,10 @@ pub(super) struct Single {
     pub(super) numerator: Id,
     /// Where the division of the one before was put off; else the pivot is `numerator`.
     pub(super) denominator: Option<Id>,
+    /// The diagonal that the pivot started from.
+    pub(super) reference: Id,
+    /// Of a row that may be left out, what stands for one over the pivot.
+    pub(super) reciprocal: Option<Id>,
     /// What is divided by the pivot is computed once. For a coordinate that shares no inertia, products are left open, so that terms of
     /// different coordinates can be collected.
     pub(super) shared: bool,
@@ -194,6 +201,7 @@ impl Matrix {
         d: &Dynamics,
         jacobian: &BTreeMap<(usize, usize), Id>,
         order: &[Pivoting],
+        droppable: BTreeSet<usize>,
         g: &Graph,
     ) -> Self {
         let n = d.force.len();
@@ -225,6 +233,7 @@ impl Matrix {
             deferred: vec![None; size],
             depth: vec![0; size],
             turn,
+            droppable,
         }
     }
 
@@ -306,7 +315,8 @@ impl Matrix {
     fn defers(&self, k: usize, a: usize) -> bool {
         let another = || self.rows[a].iter().any(|b| self.turn[*b] < self.turn[a]);
         let room = self.deferred[a].is_none() && self.depth[k] < CHAIN;
-        k >= self.n && a >= self.n && room && !another()
+        let counts = !self.droppable.contains(&k) && !self.droppable.contains(&a);
+        k >= self.n && a >= self.n && room && counts && !another()
     }
 
     /// Takes one step of the elimination; and what it divides by, if that may vanish.
@@ -341,10 +351,21 @@ impl Matrix {
         g: &mut Graph,
         hints: &mut Vec<(Id, String)>,
     ) -> Result<(Single, Divisor), String> {
-        let pivot = self.pivot(k, g);
+        let constraint = k >= self.n;
+        let zero = g.zero();
+        let pivot = self.pivot(k, g).or_else(|| {
+            // Whatever the state.
+            let reference = self.entries.get(&(k, k))?.reference(g);
+            let reference = g.scale(self.sign(k), reference);
+            let redundant = constraint && !g.is_zero(reference);
+            redundant.then(|| {
+                self.droppable.insert(k);
+                (zero, reference, None)
+            })
+        });
+        let droppable = self.droppable.contains(&k);
         let (numerator, reference, denominator) =
             pivot.ok_or_else(|| vanished(k, self.n, names))?;
-        let constraint = k >= self.n;
         hints.push((numerator, format!("pivot_{}", names[k])));
         hints.push((reference, format!("diagonal_{}", names[k])));
         let divisor = Divisor {
@@ -352,10 +373,19 @@ impl Matrix {
             position: k,
             value: numerator,
             reference,
+            droppable,
         };
         let one = g.one();
-        let value = g.div(numerator, denominator.unwrap_or(one));
-        let value = g.scale(self.sign(k), value);
+        // Of a row that may be left out no division is put off.
+        let reciprocal = droppable.then(|| reciprocal(numerator, reference, g));
+        let inverse = match reciprocal {
+            Some(inverse) => inverse,
+            None => {
+                let value = g.div(numerator, denominator.unwrap_or(one));
+                g.pow(value, -1)
+            }
+        };
+        let inverse = g.scale(self.sign(k), inverse);
         let neighbours = self.take(k);
         let neighbours_values: Vec<(usize, Id)> =
             self.row(&neighbours, k, |entry, g| entry.values(g).1, g);
@@ -364,6 +394,8 @@ impl Matrix {
             sign: self.sign(k),
             numerator,
             denominator,
+            reference,
+            reciprocal,
             shared: constraint || neighbours.range(..self.n).next().is_some(),
             row: neighbours_values,
             factors: Vec::new(),
@@ -382,7 +414,7 @@ impl Matrix {
                 pivot: numerator,
                 square: g.product(&[(off, 2), (denominator.unwrap_or(one), 1)]),
             });
-            single.factors = vec![(a, g.div(off, value))];
+            single.factors = vec![(a, g.mul(off, inverse))];
             single.defers = true;
             return Ok((single, divisor));
         }
@@ -391,7 +423,7 @@ impl Matrix {
             entries.for_each(|(_, entry)| *entry = g.hold_whole(*entry));
         }
         for (a, entry) in &single.row {
-            let mut factor = g.div(*entry, value);
+            let mut factor = g.mul(*entry, inverse);
             if single.shared {
                 factor = g.hold_whole(factor);
                 hints.push((factor, format!("{}_by_{}", names[*a], names[k])));
@@ -405,7 +437,7 @@ impl Matrix {
                 let adds = !constraint && *a >= self.n;
                 if adds && a == b {
                     let square = self.entry(*a, k).square(g);
-                    let size = g.div(square, value);
+                    let size = g.mul(square, inverse);
                     let plain = self.entry(*a, k).size.is_none();
                     let size = if plain { term } else { size };
                     self.entry_mut(*a, *a).take_off_sized(&[term], size);

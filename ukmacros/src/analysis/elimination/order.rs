@@ -18,6 +18,15 @@ pub(crate) struct Order {
 }
 
 impl Order {
+    /// The positions of those constraints in `rows` that are eliminated alone; coordinates are `n`.
+    pub(super) fn alone(&self, n: usize, rows: &BTreeSet<usize>) -> BTreeSet<usize> {
+        let alone = self.pivots.iter().filter_map(|pivot| match *pivot {
+            Pivoting::Single(k) if k >= n && rows.contains(&(k - n)) => Some(k),
+            _ => None,
+        });
+        alone.collect()
+    }
+
     /// Coordinates that are taken together with constraints, and these.
     pub(super) fn pairs(&self) -> BTreeSet<(usize, usize)> {
         let pairs = self.pivots.iter().filter_map(|pivot| match pivot {

@@ -64,7 +64,10 @@ impl Forward {
             right = g.factored_sum(&[(1.0, whole), (1.0, before)]);
         }
         self.rights.push(right);
-        let solved = g.div(right, single.numerator);
+        let solved = match single.reciprocal {
+            Some(reciprocal) => g.mul(right, reciprocal),
+            None => g.div(right, single.numerator),
+        };
         let solved = g.scale(single.sign, solved);
         if let (true, [(a, off)]) = (single.defers, &single.row[..]) {
             self.deferred[*a] = Some(g.mul(*off, right));
