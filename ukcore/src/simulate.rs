@@ -29,11 +29,13 @@ mod run;
 mod start;
 #[cfg(test)]
 mod tests;
+mod vanishing;
 
 use agenda::Sampling;
 use energy::EnergyWatch;
 use record::Sink;
 use run::{Progress, Run};
+use vanishing::RowWatch;
 
 /// How far a start may be off the constraints: projection may move a coordinate by this part of the largest one (a
 /// velocity likewise), plus the tolerance of the run.
@@ -299,6 +301,7 @@ impl Simulation {
             t_end,
             weakest: 1.0,
             nearest: None,
+            rows: RowWatch::default(),
         };
         let result = run.integrate(Sample::from(&start), self.method, &settings);
         let trajectory = run.finish();

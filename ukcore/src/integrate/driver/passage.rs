@@ -164,6 +164,7 @@ impl Driver<'_> {
         }
         let mut other = Driver::new(Method::Dop853, problem, t, &y, end.t, &settings);
         other.shown = Some(here);
+        (other.passage.ahead, other.passage.untried) = (Some(position), true);
         let (report, y) = other.travel();
         self.scheme.end_mut().copy_from_slice(&y);
         self.scheme.advance();
@@ -194,7 +195,9 @@ impl Driver<'_> {
         } = &mut self.equations;
         let here = Sample::of(course.now.t, self.scheme.start());
         let gap = self.gap;
-        let Some(found) = problem.singular((!made && gap.is_none()).then_some(here)) else {
+        let found = problem.singular((!made && gap.is_none()).then_some(here));
+        let end = Sample::of(trial.end.t, self.scheme.end());
+        let Some(found) = found.or_else(|| problem.vanishing(here, made.then_some(end))) else {
             let behind = |position: &mut Singular| course.ahead(position.t) <= 0.0;
             self.passage.ahead.take_if(behind);
             return Ok(());
