@@ -100,6 +100,20 @@ pub(super) fn find(
     None
 }
 
+/// Whether a row of A that is small at a state, beside its `size`, says something there that the others do not.
+pub(super) fn counts(mech: &Prepared, near: &State, row: usize, size: f64) -> bool {
+    let mut search = Search::new(mech, near);
+    search.dense.sizes[row] = size;
+    if search.factor(&near.v).is_none() {
+        return false;
+    }
+    let cod = &search.dense.cod;
+    let place = cod.order().iter().position(|c| *c == row);
+    let left = place.and_then(|place| cod.pivots().get(place));
+    let all = search.terms.rows().largest(row) / size;
+    left.is_some_and(|left| *left > RANK_CEILING * all)
+}
+
 impl<'a> Search<'a> {
     fn new(mech: &'a Prepared, near: &State) -> Self {
         let spec = mech.spec();

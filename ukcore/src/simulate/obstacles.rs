@@ -113,6 +113,9 @@ pub(super) fn vanishing(mech: &Prepared, found: Vanishing, old: Sample<'_>) -> O
         row, near, reached, ..
     } = &found;
     let spec = mech.spec();
+    if !crossing::counts(mech, near, *row, found.size) {
+        return None;
+    }
     if *row < spec.holonomic {
         if let Some(position) = crossing::find(mech, near, Some((*row, found.size))) {
             return Some(Singular {

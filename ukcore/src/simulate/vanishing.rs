@@ -28,11 +28,11 @@ const BEFORE: f64 = 0.01;
 /// A row that all but vanishes.
 pub(super) struct Vanishing {
     pub(super) row: usize,
-    /// Its largest entry where it was largest.
+    /// Its greatest length so far.
     pub(super) size: f64,
     /// A state of the motion near the place.
     pub(super) near: State,
-    /// When the row is least, and what it is then as a share of its size.
+    /// When the row is least, and what it is then as a share of what it is at both ends of the step.
     pub(super) t: f64,
     pub(super) least: f64,
     /// The least share of its size that it has at a state of the run.
@@ -42,11 +42,13 @@ pub(super) struct Vanishing {
 /// The rows of A along a run.
 #[derive(Default)]
 pub(super) struct RowWatch {
-    /// The largest entry of each so far.
+    /// The greatest length of each so far.
     sizes: Vec<f64>,
     /// A at the start of the step in hand or before it, and at the last state that was looked at.
     seen: Matrix,
     here: Matrix,
+    /// Products of the rows of both.
+    products: Vec<f64>,
     /// When to look again.
     due: f64,
 }
@@ -55,43 +57,62 @@ pub(super) struct RowWatch {
 struct Matrix {
     t: f64,
     entries: Vec<f64>,
+    /// Squares of the lengths of its rows.
+    squares: Vec<f64>,
 }
 
 impl Default for Matrix {
     fn default() -> Self {
-        let (t, entries) = (f64::NAN, Vec::new());
-        Matrix { t, entries }
+        Matrix {
+            t: f64::NAN,
+            entries: Vec::new(),
+            squares: Vec::new(),
+        }
     }
 }
 
 impl Matrix {
-    fn take(&mut self, mech: &Prepared, at: Sample<'_>) {
-        if self.t == at.t {
-            return;
+    /// Takes A at a state. Returns whether it was not known there.
+    fn take(&mut self, mech: &Prepared, at: Sample<'_>) -> bool {
+        let unknown = self.t != at.t;
+        if unknown {
+            self.t = at.t;
+            self.entries.resize(at.q.len() * mech.spec().m(), 0.0);
+            mech.jacobian(at.t, at.q, at.v, &mut self.entries);
         }
-        self.t = at.t;
-        self.entries.resize(at.q.len() * mech.spec().m(), 0.0);
-        mech.jacobian(at.t, at.q, at.v, &mut self.entries);
+        unknown
     }
-}
 
-/// The entries of A that are not zero for all states, in two places: row and values.
-fn entries<'a>(
-    mech: &Prepared,
-    [a, b]: [&'a Matrix; 2],
-) -> impl Iterator<Item = (usize, f64, f64)> + use<'a> {
-    let m = mech.spec().m();
-    let pattern = mech.spec().structure.jacobian_pattern.iter();
-    pattern.map(move |(c, i)| (*c, a.entries[i * m + c], b.entries[i * m + c]))
-}
-
-/// The largest entry of each row of A.
-fn largest(mech: &Prepared, matrix: &Matrix) -> Vec<f64> {
-    let mut largest = vec![0.0_f64; mech.spec().m()];
-    for (c, a, _) in entries(mech, [matrix; 2]) {
-        largest[c] = largest[c].max(a.abs());
+    /// Takes the lengths of its rows, and their products with those of `other`.
+    fn compare(&mut self, mech: &Prepared, other: Option<(&Matrix, &mut Vec<f64>)>) {
+        let m = mech.spec().m();
+        self.squares.clear();
+        self.squares.resize(m, 0.0);
+        let pattern = mech.spec().structure.jacobian_pattern.iter();
+        let Some((other, products)) = other else {
+            for (c, i) in pattern {
+                let a = self.entries[i * m + c];
+                self.squares[*c] += a * a;
+            }
+            return;
+        };
+        products.clear();
+        products.resize(m, 0.0);
+        for (c, i) in pattern {
+            let (a, b) = (self.entries[i * m + c], other.entries[i * m + c]);
+            self.squares[*c] += a * a;
+            products[*c] += a * b;
+        }
     }
-    largest
+
+    fn length(&self, c: usize) -> f64 {
+        self.squares[c].sqrt()
+    }
+
+    fn row(&self, c: usize) -> impl Iterator<Item = f64> {
+        let entries = self.entries.iter().skip(c);
+        entries.step_by(self.squares.len()).copied()
+    }
 }
 
 impl RowWatch {
@@ -102,45 +123,55 @@ impl RowWatch {
         old: Sample<'_>,
         new: Sample<'_>,
     ) -> Option<Vanishing> {
-        let first = self.seen.t.is_nan();
+        let first = self.sizes.is_empty();
         if mech.spec().m() == 0 || !first && (new.t - self.due) * (new.t - old.t) < 0.0 {
             return None;
         }
         if first {
-            self.seen.take(mech, old);
-            self.grow(mech);
+            self.look_back(mech, old);
+            self.sizes = self.seen.squares.iter().map(|x| x.sqrt()).collect();
         }
         self.here.take(mech, new);
-        let mut rows = self.reversed(mech);
-        if !rows.is_empty() {
-            self.seen.take(mech, old);
-            rows = self.reversed(mech);
+        self.compare(mech);
+        if self.reversed().next().is_some() && self.look_back(mech, old) {
+            self.compare(mech);
         }
-        let vanish = rows
-            .into_iter()
+        let vanish = self
+            .reversed()
             .filter_map(|c| self.least(mech, c, old, new));
         let first = vanish.min_by(|a, b| a.least.total_cmp(&b.least));
-        first.or_else(|| self.smallest(mech, &self.here, new))
+        first.or_else(|| self.smallest(&self.here, new))
     }
 
     /// The row that is all but zero where the motion stands, if one is.
     pub(super) fn small(&mut self, mech: &Prepared, here: Sample<'_>) -> Option<Vanishing> {
-        if self.sizes.is_empty() {
-            return None;
+        self.look_back(mech, here);
+        self.smallest(&self.seen, here)
+    }
+
+    /// Takes A at the start of the step in hand, if it is not known there.
+    fn look_back(&mut self, mech: &Prepared, old: Sample<'_>) -> bool {
+        let unknown = self.seen.take(mech, old);
+        if unknown {
+            self.seen.compare(mech, None);
         }
-        self.seen.take(mech, here);
-        self.smallest(mech, &self.seen, here)
+        unknown
+    }
+
+    fn compare(&mut self, mech: &Prepared) {
+        let other = (&self.seen, &mut self.products);
+        self.here.compare(mech, Some(other));
     }
 
     /// The row of `matrix`, which is A at `here`, that is all but zero, if one is.
-    fn smallest(&self, mech: &Prepared, matrix: &Matrix, here: Sample<'_>) -> Option<Vanishing> {
-        let largest = largest(mech, matrix);
-        let pairs = largest.iter().zip(&self.sizes).enumerate();
-        let shares = pairs.map(|(row, (x, size))| (row, x / size, *size));
-        let (row, least, size) = shares.min_by(|a, b| a.1.total_cmp(&b.1))?;
-        (least < SMALL).then(|| Vanishing {
+    fn smallest(&self, matrix: &Matrix, here: Sample<'_>) -> Option<Vanishing> {
+        let pairs = matrix.squares.iter().zip(&self.sizes);
+        let small = |(x, size): (&f64, &f64)| *x < (SMALL * size).powi(2);
+        let row = pairs.clone().position(small)?;
+        let least = matrix.length(row) / self.sizes[row];
+        Some(Vanishing {
             row,
-            size,
+            size: self.sizes[row],
             near: here.to_state(),
             t: here.t,
             least,
@@ -149,38 +180,31 @@ impl RowWatch {
     }
 
     /// The run has got to the time `t`.
-    pub(super) fn accept(&mut self, mech: &Prepared, t: f64) {
+    pub(super) fn accept(&mut self, t: f64) {
         if self.here.t != t || self.seen.t == t {
             return;
         }
-        let mut changes = vec![0.0_f64; mech.spec().m()];
-        for (c, a, b) in entries(mech, [&self.seen, &self.here]) {
-            changes[c] = changes[c].max((a - b).abs());
+        let pairs = self.seen.squares.iter().zip(&self.here.squares);
+        // The largest square of a change as a share of a row's.
+        let change = pairs
+            .zip(&self.products)
+            .fold(0.0, |most: f64, ((a, b), product)| {
+                let change = (a + b - 2.0 * product) / b;
+                if change > most { change } else { most }
+            });
+        let pairs = self.sizes.iter_mut().zip(&self.here.squares);
+        for (size, square) in pairs {
+            if *square > *size * *size {
+                *size = square.sqrt();
+            }
         }
-        let way = t - self.seen.t;
+        self.due = t + (t - self.seen.t) * (CHANGE / change.sqrt()).min(LONGEST);
         std::mem::swap(&mut self.seen, &mut self.here);
-        let largest = self.grow(mech);
-        let pairs = changes.iter().zip(&largest);
-        let change = pairs.fold(0.0, |most: f64, (change, x)| most.max(change / x));
-        self.due = t + way * (CHANGE / change).min(LONGEST);
-    }
-
-    /// The largest entry of each row seen, which may be its largest so far.
-    fn grow(&mut self, mech: &Prepared) -> Vec<f64> {
-        let largest = largest(mech, &self.seen);
-        self.sizes.resize(largest.len(), 0.0);
-        let pairs = self.sizes.iter_mut().zip(&largest);
-        pairs.for_each(|(size, x)| *size = size.max(*x));
-        largest
     }
 
     /// The rows that have turned by more than a right angle.
-    fn reversed(&self, mech: &Prepared) -> Vec<usize> {
-        let mut products = vec![0.0; mech.spec().m()];
-        for (c, a, b) in entries(mech, [&self.seen, &self.here]) {
-            products[c] += a * b;
-        }
-        (0..products.len()).filter(|c| products[*c] < 0.0).collect()
+    fn reversed(&self) -> impl Iterator<Item = usize> {
+        (0..self.products.len()).filter(|c| self.products[*c] < 0.0)
     }
 
     /// Where row `c`, reversed on the way from `old` to `new`, goes through zero, if it does not only turn.
@@ -191,31 +215,23 @@ impl RowWatch {
         old: Sample<'_>,
         new: Sample<'_>,
     ) -> Option<Vanishing> {
-        let m = mech.spec().m();
-        let row = |matrix: &Matrix| -> Vec<f64> {
-            matrix.entries.iter().skip(c).step_by(m).copied().collect()
-        };
-        let size = |row: &[f64]| row.iter().fold(0.0, |s: f64, x| s.max(x.abs()));
-        let (before, after) = (row(&self.seen), row(&self.here));
         let mut between = Matrix::default();
-        let mut along = |part: f64| {
-            let state = between_states(old, new, part);
-            between.take(mech, Sample::from(&state));
-            (state, row(&between))
-        };
         let turned = |part: f64| -> Result<f64, std::convert::Infallible> {
-            let (_, row) = along(part);
-            let pairs = row.iter().zip(before.iter().zip(&after));
+            between.take(mech, Sample::from(&between_states(old, new, part)));
+            between.squares.resize(self.sizes.len(), 0.0);
+            let pairs = between.row(c).zip(self.seen.row(c).zip(self.here.row(c)));
             Ok(pairs.map(|(x, (a, b))| x * (b - a)).sum())
         };
         let Ok(part) = locate(turned, 0.0, 1.0);
-        let (state, row) = along(part);
-        let ends = size(&before).min(size(&after));
-        let least = size(&row) / ends;
+        let state = between_states(old, new, part);
+        between.take(mech, Sample::from(&state));
+        between.compare(mech, None);
+        let ends = self.seen.length(c).min(self.here.length(c));
+        let least = between.length(c) / ends;
         (least < DIP).then(|| Vanishing {
             row: c,
             size: self.sizes[c],
-            near: along((part - BEFORE).max(0.0)).0,
+            near: between_states(old, new, (part - BEFORE).max(0.0)),
             t: state.t,
             least,
             reached: ends / self.sizes[c],
