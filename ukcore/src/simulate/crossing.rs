@@ -89,7 +89,8 @@ pub(super) fn find(
             Some(found) if there == rank => {
                 return Some(Singular {
                     significance,
-                    rate: significance / (found.t - near.t).abs(),
+                    // Where it turns it is no nearer than that.
+                    rate: significance / (found.t - near.t).hypot(found.gap.max(0.0)),
                     ..found
                 });
             }

@@ -149,6 +149,18 @@ impl RowWatch {
         self.smallest(&self.seen, here)
     }
 
+    /// The largest change of a row between both places, as a share of what it is at the last.
+    fn change(&self) -> f64 {
+        let pairs = self.seen.squares.iter().zip(&self.here.squares);
+        let largest = pairs
+            .zip(&self.products)
+            .fold(0.0, |most: f64, ((a, b), product)| {
+                let change = (a + b - 2.0 * product) / b;
+                if change > most { change } else { most }
+            });
+        largest.sqrt()
+    }
+
     /// Takes A at the start of the step in hand, if it is not known there.
     fn look_back(&mut self, mech: &Prepared, old: Sample<'_>) -> bool {
         let unknown = self.seen.take(mech, old);
@@ -184,21 +196,14 @@ impl RowWatch {
         if self.here.t != t || self.seen.t == t {
             return;
         }
-        let pairs = self.seen.squares.iter().zip(&self.here.squares);
-        // The largest square of a change as a share of a row's.
-        let change = pairs
-            .zip(&self.products)
-            .fold(0.0, |most: f64, ((a, b), product)| {
-                let change = (a + b - 2.0 * product) / b;
-                if change > most { change } else { most }
-            });
+        let change = self.change();
         let pairs = self.sizes.iter_mut().zip(&self.here.squares);
         for (size, square) in pairs {
             if *square > *size * *size {
                 *size = square.sqrt();
             }
         }
-        self.due = t + (t - self.seen.t) * (CHANGE / change.sqrt()).min(LONGEST);
+        self.due = t + (t - self.seen.t) * (CHANGE / change).min(LONGEST);
         std::mem::swap(&mut self.seen, &mut self.here);
     }
 

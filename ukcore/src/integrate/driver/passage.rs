@@ -147,6 +147,7 @@ impl Driver<'_> {
         settings.tolerance.relative *= finer;
         settings.tolerance.absolute *= finer;
         settings.first_step = None;
+        settings.max_steps = settings.max_steps.saturating_sub(course.attempts);
         // From far enough away: the last step may have gone just before the position.
         let here = (course.now.t, self.scheme.start().to_vec());
         let before = self
@@ -170,8 +171,13 @@ impl Driver<'_> {
         self.scheme.advance();
         let course = &mut self.equations.course;
         course.detour(end, &report);
+        self.landings += report.landings;
+        self.rounded += report.rounded;
         match report.outcome {
-            Outcome::Failed(trouble) => {
+            Outcome::Failed(mut trouble) => {
+                if let Error::TooManySteps { steps } = &mut trouble.error {
+                    *steps = self.settings.max_steps;
+                }
                 course.blame(Some(Box::new(trouble)));
                 Err(Error::too_small(0.0))
             }
