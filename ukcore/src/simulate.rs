@@ -57,7 +57,8 @@ pub const SMALLEST_TOLERANCE: f64 = 10.0 * f64::EPSILON;
 /// repeated with half its size.
 ///
 /// Where constraints come to imply the others and branches of the motion cross, it goes on in the branch it came on, its velocity without a
-/// jump; where rounding does not tell whether they do, the run ends before with [`Error::Singular`].
+/// jump; where rounding does not tell whether they do, or a constraint has no gradient and leaves more than one way to go on, the run ends
+/// before with [`Error::Singular`].
 ///
 /// Where abs, sign, min or max change their branch within a step, it is repeated up to there, unless [`switching`](Simulation::switching)
 /// says otherwise. A length that the equations divide by, as in v/|v|, is stepped across: a motion that passes straight through its zero
