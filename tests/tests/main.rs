@@ -31,3 +31,4 @@ mod stability;
 mod stiff;
 mod streaming;
 mod switches;
+mod vanishing;

@@ -80,6 +80,8 @@ pub(crate) struct Dense {
     pub(crate) cod: Decomposition,
     /// sᵢ = 1/‖row i of B‖, 0 for a row of zeros.
     pub(crate) row_scale: Vec<f64>,
+    /// What the largest entry of each row of A is measured by; 0 for a row that is measured by itself.
+    pub(crate) sizes: Vec<f64>,
     significance: Vec<f64>,
     /// N, n × (n − rank).
     basis: Vec<f64>,
@@ -113,6 +115,7 @@ impl Dense {
             metric: Metric::new(n, diagonal),
             cod: Decomposition::new(m, n),
             row_scale: vec![0.0; m],
+            sizes: vec![0.0; m],
             significance: vec![0.0; m],
             basis: vec![0.0; n * n],
             inertia: vec![0.0; n * n],
@@ -148,6 +151,12 @@ impl Dense {
         for (c, column) in columns.chunks_exact_mut(self.n).enumerate() {
             column.iter_mut().zip(a.row(c)).for_each(|(x, a)| *x = a);
             self.metric.divide(column);
+            let size = self.sizes[c];
+            if size > 0.0 {
+                column.iter_mut().for_each(|x| *x /= size);
+                (self.row_scale[c], self.significance[c]) = (size.recip(), 1.0);
+                continue;
+            }
             // In two steps, so that rows of any magnitude have a norm.
             let largest = largest(column);
             self.row_scale[c] = 0.0;

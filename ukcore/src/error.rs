@@ -102,12 +102,13 @@ pub enum Error {
         /// What is wrong and what is allowed.
         reason: String,
     },
-    /// These constraints come to be implied by the others: a singular position, where branches of the motion may meet. One that branches
-    /// cross in is passed, in the branch on which the motion came, without a jump of its velocity. This one cannot be: rounding does not
-    /// tell whether branches cross there or turn away from each other, or the run begins or ends too close to it.
+    /// These constraints come to be implied by the others, or have no gradient: a singular position, where branches of the motion may meet.
+    /// One that branches cross in is passed, in the branch on which the motion came, without a jump of its velocity. This one cannot be:
+    /// rounding does not tell whether branches cross there or turn away from each other, or the motion can go on in many ways, as from the
+    /// apex of a cone, or the run begins or ends too close to it.
     #[error(
-        "a singular position, where the others imply {}: rounding does not tell in which way the motion goes on; end the run before it, or change \
-         lengths such that the position is met exactly or missed by more",
+        "a singular position, where {} is implied by the others or has no gradient: nothing tells in which way the motion goes on; end the run \
+         before it, or change lengths or the start such that the position is met exactly or missed by more",
         quoted(constraints)
     )]
     Singular {

@@ -29,11 +29,13 @@ mod run;
 mod start;
 #[cfg(test)]
 mod tests;
+mod vanishing;
 
 use agenda::Sampling;
 use energy::EnergyWatch;
 use record::Sink;
 use run::{Progress, Run};
+use vanishing::RowWatch;
 
 /// How far a start may be off the constraints: projection may move a coordinate by this part of the largest one (a
 /// velocity likewise), plus the tolerance of the run.
@@ -55,7 +57,8 @@ pub const SMALLEST_TOLERANCE: f64 = 10.0 * f64::EPSILON;
 /// repeated with half its size.
 ///
 /// Where constraints come to imply the others and branches of the motion cross, it goes on in the branch it came on, its velocity without a
-/// jump; where rounding does not tell whether they do, the run ends before with [`Error::Singular`].
+/// jump; where rounding does not tell whether they do, or a constraint has no gradient and leaves more than one way to go on, the run ends
+/// before with [`Error::Singular`].
 ///
 /// Where abs, sign, min or max change their branch within a step, it is repeated up to there, unless [`switching`](Simulation::switching)
 /// says otherwise. A length that the equations divide by, as in v/|v|, is stepped across: a motion that passes straight through its zero
@@ -304,6 +307,7 @@ impl Simulation {
             t_end,
             weakest: 1.0,
             nearest: None,
+            rows: RowWatch::default(),
         };
         let result = run.integrate(Sample::from(&start), self.method, &settings);
         let trajectory = run.finish();

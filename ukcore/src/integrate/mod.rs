@@ -165,6 +165,12 @@ pub(crate) trait Problem {
         let _ = stands;
         None
     }
+    /// The singular position where a constraint loses its row of A by itself, within the step from `old` to `new`, or near `old` where
+    /// there was no step.
+    fn vanishing(&mut self, old: Sample<'_>, new: Option<Sample<'_>>) -> Option<Singular> {
+        let _ = (old, new);
+        None
+    }
     /// The next time at which an interpolant is wanted, if any; may change in [`Problem::step`].
     fn next_sample(&self) -> Option<f64>;
     /// Number of switches: functions g(t, q, q̇) at whose zeros q̈ may have kinks or jumps, onto which steps are to go.

@@ -12,7 +12,7 @@ use crate::integrate::Singular;
 use crate::mechanism::{Evaluated, Prepared};
 use crate::noise::Noise;
 use crate::pinv::{Decomposition, axpy, dot};
-use crate::scan::Size;
+use crate::scan::{Size, largest};
 use crate::solver::{RANK_CEILING, RANK_TOLERANCE, leading};
 
 /// Roundings of f up to which e counts as zero, and above which it does not.
@@ -31,6 +31,10 @@ const MOST: usize = 20;
 /// A Newton step longer than the first one by this factor leads elsewhere.
 const WIDEST: f64 = 2.0;
 
+/// Differences of A for the second derivatives of f are taken over this share of the coordinates; these are known to the share `BENT`.
+const DIFFERENCE: f64 = 1e-5;
+const BENT: f64 = 1e-3;
+
 /// A search for singular positions near a state, in buffers that are allocated where the first one is near.
 pub(super) struct Search<'a> {
     mech: &'a Prepared,
@@ -43,6 +47,10 @@ pub(super) struct Search<'a> {
     reach: f64,
     t: f64,
     q: Vec<f64>,
+    /// The time in which the motion goes as far as coordinates are large: they are known to ε of that.
+    scale: f64,
+    /// How many times as far as q* a row that vanishes there gets as large as it has been: coordinates are, or have been, as large as that.
+    ways: f64,
     /// u and W, in units of coordinates by time; time goes on along u alone.
     directions: Vec<Vec<f64>>,
     /// Multipliers of the rows that make up f, one column for each that is left out.
@@ -50,12 +58,23 @@ pub(super) struct Search<'a> {
 }
 
 /// The singular position that `near`, a state of a motion, is near; `None` if there is none or the motion does not lead there.
-pub(super) fn find(mech: &Prepared, near: &State) -> Option<Singular> {
+/// Where a row is known to vanish by itself, its size is compared with the given one.
+pub(super) fn find(
+    mech: &Prepared,
+    near: &State,
+    vanishing: Option<(usize, f64)>,
+) -> Option<Singular> {
     let mut search = Search::new(mech, near);
+    if let Some((row, size)) = vanishing {
+        search.dense.sizes[row] = size;
+    }
     search.factor(&near.v)?;
     let pivots = search.dense.cod.pivots();
     let counting = pivots.len();
     let significance = *pivots.last()?;
+    if vanishing.is_some() {
+        search.ways = significance.recip();
+    }
     let mut rank = leading(pivots, RANK_CEILING.max(TOGETHER * significance));
     for _ in 0..TRIES {
         if rank >= counting {
@@ -70,7 +89,8 @@ pub(super) fn find(mech: &Prepared, near: &State) -> Option<Singular> {
             Some(found) if there == rank => {
                 return Some(Singular {
                     significance,
-                    rate: significance / (found.t - near.t).abs(),
+                    // Where it turns it is no nearer than that.
+                    rate: significance / (found.t - near.t).hypot(found.gap.max(0.0)),
                     ..found
                 });
             }
@@ -79,6 +99,20 @@ pub(super) fn find(mech: &Prepared, near: &State) -> Option<Singular> {
         }
     }
     None
+}
+
+/// Whether a row of A that is small at a state, beside its `size`, says something there that the others do not.
+pub(super) fn counts(mech: &Prepared, near: &State, row: usize, size: f64) -> bool {
+    let mut search = Search::new(mech, near);
+    search.dense.sizes[row] = size;
+    if search.factor(&near.v).is_none() {
+        return false;
+    }
+    let cod = &search.dense.cod;
+    let place = cod.order().iter().position(|c| *c == row);
+    let left = place.and_then(|place| cod.pivots().get(place));
+    let all = search.terms.rows().largest(row) / size;
+    left.is_some_and(|left| *left > RANK_CEILING * all)
 }
 
 impl<'a> Search<'a> {
@@ -94,6 +128,8 @@ impl<'a> Search<'a> {
             reach: 0.0,
             t: near.t,
             q: near.q.clone(),
+            scale: 0.0,
+            ways: 0.0,
             directions: Vec::new(),
             shares: Vec::new(),
         }
@@ -191,6 +227,7 @@ impl<'a> Search<'a> {
         if !(speed > 0.0 && speed < f64::INFINITY) {
             return None;
         }
+        self.scale = largest(&self.q) / largest(&u);
         self.directions = vec![u];
         self.share();
         self.bar(count, speed)?;
@@ -234,7 +271,7 @@ impl<'a> Search<'a> {
             }
         }
         let matrix = matrix.to_vec();
-        let largest = matrix.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
+        let largest = largest(&matrix);
         if !(largest > 0.0 && largest < f64::INFINITY) {
             return None;
         }
@@ -247,6 +284,7 @@ impl<'a> Search<'a> {
         let size = dot(&step, &step).sqrt();
         if self.reach == 0.0 {
             self.reach = size;
+            self.scale = self.scale.max(self.ways * size);
         }
         if size.is_nan() || size > WIDEST * self.reach {
             return None;
@@ -262,7 +300,8 @@ impl<'a> Search<'a> {
         for shares in &self.shares {
             let e = dot(shares, &phi);
             let pairs = shares.iter().zip(&rounding);
-            let noise = f64::EPSILON * pairs.map(|(share, r)| (share * r).abs()).sum::<f64>();
+            let noise = f64::EPSILON * pairs.map(|(share, r)| (share * r).abs()).sum::<f64>()
+                + largest * (f64::EPSILON * self.scale).powi(2);
             last &= largest * size * size <= noise;
             agree &= left <= 1e-5 * largest * self.reach + (largest * noise).sqrt();
             if e.abs() > ZERO * noise {
@@ -280,6 +319,7 @@ impl<'a> Search<'a> {
         if !agree {
             return None;
         }
+        let doubt = doubt || open == 0.0 && self.is_isolated();
         let names = self.dense.cod.order()[self.dense.cod.rank()..].iter();
         let names = names.map(|c| self.mech.spec().constraints[*c].name.to_owned());
         Some(Some(Singular {
@@ -293,6 +333,65 @@ impl<'a> Search<'a> {
             rate: 0.0,
             constraints: names.collect(),
         }))
+    }
+
+    /// Whether motions beside this one do not come to such a position, as beside the apex of a cone: whether f bends in directions other
+    /// than those of u and W, and their second derivatives do not depend on these. Then the nearest motions on both sides of this one go
+    /// different ways.
+    fn is_isolated(&mut self) -> bool {
+        let (n, rank, k) = (self.q.len(), self.dense.cod.rank(), self.directions.len());
+        if n - rank <= k {
+            return false;
+        }
+        let mut basis = vec![0.0; n * (n - rank)];
+        self.dense.cod.null_space(&mut basis);
+        // A direction like no other, as fast as the motion.
+        let mut other = vec![0.0; n];
+        let mut part = 1.0;
+        for column in basis.chunks_exact(n) {
+            axpy(part, column, &mut other);
+            part = if part > 1.0 { part - 0.7 } else { part + 0.6 };
+        }
+        self.dense.metric.divide_transposed(&mut other);
+        let speed = largest(&self.directions[0]) / largest(&other);
+        other.iter_mut().for_each(|x| *x *= speed);
+        let shares = self.shares.clone();
+        shares.iter().any(|shares| {
+            let mut known: Vec<Vec<f64>> = Vec::new();
+            let mut size = 0.0_f64;
+            for i in 0..k {
+                let direction = self.directions[i].clone();
+                let mut bend = self.bend(shares, &direction, &basis);
+                size = size.max(dot(&bend, &bend).sqrt());
+                reject(&mut bend, &known);
+                let length = dot(&bend, &bend).sqrt();
+                if length > BENT * size {
+                    bend.iter_mut().for_each(|x| *x /= length);
+                    known.push(bend);
+                }
+            }
+            let mut bend = self.bend(shares, &other, &basis);
+            size = size.max(dot(&bend, &bend).sqrt());
+            reject(&mut bend, &known);
+            dot(&bend, &bend).sqrt() > BENT * size
+        })
+    }
+
+    /// The second derivatives of the f that `shares` make up, by `direction` and each vector of `basis`, by differences of A.
+    fn bend(&mut self, shares: &[f64], direction: &[f64], basis: &[f64]) -> Vec<f64> {
+        let n = direction.len();
+        let mut bend = vec![0.0; n];
+        for sign in [1.0, -1.0] {
+            let mut q = self.q.clone();
+            axpy(sign * DIFFERENCE * self.scale, direction, &mut q);
+            let jacobian = &mut self.terms.jacobian;
+            (self.mech).jacobian(self.t, &q, &self.directions[0], jacobian);
+            let columns = jacobian.chunks_exact(shares.len());
+            let pairs = bend.iter_mut().zip(columns);
+            pairs.for_each(|(x, column)| *x += sign * dot(column, shares));
+        }
+        self.dense.metric.divide(&mut bend);
+        basis.chunks_exact(n).map(|x| dot(x, &bend)).collect()
     }
 
     /// The second derivatives of all residuals by each pair of directions, from b = −q̇ᵀ ∂²φ q̇, which is quadratic in q̇.
@@ -328,5 +427,12 @@ impl<'a> Search<'a> {
             }
         }
         all
+    }
+}
+
+/// Takes off `x` its parts along orthonormal vectors.
+fn reject(x: &mut [f64], basis: &[Vec<f64>]) {
+    for direction in basis {
+        axpy(-dot(x, direction), direction, x);
     }
 }

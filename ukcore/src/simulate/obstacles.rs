@@ -1,10 +1,13 @@
 //! Where a motion does not get through: branches of the constraints that meet, jumps, accelerations out of all proportion.
 
+use super::crossing;
+use super::vanishing::Vanishing;
 use crate::assemble::State;
+use crate::dense::Rows;
 use crate::diagnose;
 use crate::error::Error;
 use crate::integrate::sample::Sample;
-use crate::integrate::{Step, Tolerance, Trouble};
+use crate::integrate::{Singular, Step, Tolerance, Trouble};
 use crate::manifold::Projector;
 use crate::mechanism::{Branch, Prepared};
 use crate::scan::largest;
@@ -12,6 +15,9 @@ use crate::solver::{RANK_CEILING, Solver, SolverOptions};
 
 /// Significance of a constraint, √ε, below which the state cannot tell on which side of a singular position it is.
 const SINGULAR: f64 = 1.5e-8;
+
+/// The share of its size below which a row that reverses its direction is taken to be zero there.
+const UNTOLD: f64 = 1e-5;
 
 /// Refuses a step that ends where constraints all but imply each other and that did not begin there.
 ///
@@ -99,6 +105,49 @@ pub(super) fn jump(solver: &mut Solver, at: Sample<'_>, t_old: f64) -> Option<Er
     let (q, v) = (&near_q, &near_v);
     let weakest = weakest_at(solver, Sample { t, q, v }).ok()?;
     (weakest <= RANK_CEILING).then(|| singular(solver, RANK_CEILING))
+}
+
+/// Where a motion from `old` meets the place where a row all but vanishes; `None` where that is of no concern.
+pub(super) fn vanishing(mech: &Prepared, found: Vanishing, old: Sample<'_>) -> Option<Singular> {
+    let Vanishing {
+        row, near, reached, ..
+    } = &found;
+    let spec = mech.spec();
+    if !crossing::counts(mech, near, *row, found.size) {
+        return None;
+    }
+    if *row < spec.holonomic {
+        if let Some(position) = crossing::find(mech, near, Some((*row, found.size))) {
+            return Some(Singular {
+                significance: *reached,
+                ..position
+            });
+        }
+    } else {
+        // A row that vanishes there whatever the velocity says nothing for a moment alone.
+        let mut jacobian = vec![0.0; near.q.len() * spec.m()];
+        mech.jacobian(near.t, &near.q, old.v, &mut jacobian);
+        let rows = Rows {
+            jacobian: &jacobian,
+            stride: spec.m(),
+            rows: spec.m(),
+        };
+        if rows.largest(*row) <= RANK_CEILING * found.size {
+            return None;
+        }
+    }
+    // Steps are too long yet to tell, or there is more than one way to go on.
+    let way = (found.t - old.t).abs();
+    (found.t != near.t).then(|| Singular {
+        t: found.t,
+        gap: match found.least < UNTOLD {
+            true => f64::NAN,
+            false => found.least * way,
+        },
+        significance: *reached,
+        rate: way.recip(),
+        constraints: vec![spec.constraints[*row].name.to_owned()],
+    })
 }
 
 /// The error of a run with this tolerance that ends with `trouble`; where its steps became too small, with the acceleration that has

@@ -6,6 +6,7 @@ use super::crossing;
 use super::energy::EnergyWatch;
 use super::obstacles;
 use super::record::Recorder;
+use super::vanishing::RowWatch;
 use crate::assemble::State;
 use crate::error::Error;
 use crate::integrate::sample::Sample;
@@ -35,6 +36,7 @@ pub(super) struct Run<'s> {
     pub(super) weakest: f64,
     /// Where it was found.
     pub(super) nearest: Option<State>,
+    pub(super) rows: RowWatch,
 }
 
 impl Run<'_> {
@@ -152,7 +154,16 @@ impl Problem for Run<'_> {
         self.weakest = self.solver.take_weakest();
         let nearest = self.nearest.take().filter(|_| self.weakest <= RANK_CEILING);
         let near = nearest.or_else(|| stands.map(Sample::to_state))?;
-        crossing::find(self.solver.mechanism(), &near)
+        crossing::find(self.solver.mechanism(), &near, None)
+    }
+
+    fn vanishing(&mut self, old: Sample<'_>, new: Option<Sample<'_>>) -> Option<Singular> {
+        let mechanism = self.solver.mechanism();
+        let found = match new {
+            Some(new) => self.rows.vanishing(mechanism, old, new),
+            None => self.rows.small(mechanism, old),
+        }?;
+        obstacles::vanishing(mechanism, found, old)
     }
 
     fn next_sample(&self) -> Option<f64> {
@@ -198,6 +209,7 @@ impl Problem for Run<'_> {
         }
         obstacles::check_branch(&mut self.solver, self.weakest, step)?;
         self.recorder.step(step)?;
+        self.rows.accept(step.new.t);
         let Some(end) = self.recorder.trajectory.last() else {
             return Ok(Next::Continue);
         };

@@ -147,6 +147,7 @@ impl Driver<'_> {
         settings.tolerance.relative *= finer;
         settings.tolerance.absolute *= finer;
         settings.first_step = None;
+        settings.max_steps = settings.max_steps.saturating_sub(course.attempts);
         // From far enough away: the last step may have gone just before the position.
         let here = (course.now.t, self.scheme.start().to_vec());
         let before = self
@@ -164,13 +165,19 @@ impl Driver<'_> {
         }
         let mut other = Driver::new(Method::Dop853, problem, t, &y, end.t, &settings);
         other.shown = Some(here);
+        (other.passage.ahead, other.passage.untried) = (Some(position), true);
         let (report, y) = other.travel();
         self.scheme.end_mut().copy_from_slice(&y);
         self.scheme.advance();
         let course = &mut self.equations.course;
         course.detour(end, &report);
+        self.landings += report.landings;
+        self.rounded += report.rounded;
         match report.outcome {
-            Outcome::Failed(trouble) => {
+            Outcome::Failed(mut trouble) => {
+                if let Error::TooManySteps { steps } = &mut trouble.error {
+                    *steps = self.settings.max_steps;
+                }
                 course.blame(Some(Box::new(trouble)));
                 Err(Error::too_small(0.0))
             }
@@ -194,7 +201,9 @@ impl Driver<'_> {
         } = &mut self.equations;
         let here = Sample::of(course.now.t, self.scheme.start());
         let gap = self.gap;
-        let Some(found) = problem.singular((!made && gap.is_none()).then_some(here)) else {
+        let found = problem.singular((!made && gap.is_none()).then_some(here));
+        let end = Sample::of(trial.end.t, self.scheme.end());
+        let Some(found) = found.or_else(|| problem.vanishing(here, made.then_some(end))) else {
             let behind = |position: &mut Singular| course.ahead(position.t) <= 0.0;
             self.passage.ahead.take_if(behind);
             return Ok(());

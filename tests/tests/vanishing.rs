@@ -1,0 +1,248 @@
+//! Rows of A that vanish by themselves, where a constraint has no gradient: in the node of a curve the motion goes straight on, beside it it
+//! turns with its own branch, and where it could go on in many ways the run ends with the constraint's name.
+
+use ukcore::simulate::Sample;
+use ukcore::{Error, Method, Prepared, Simulation, State, Trajectory};
+
+ukcore::multibody! {
+    /// A bead on Cassini's oval: a lemniscate for e = 0, two loops for e < 0, one for e > 0.
+    Oval {
+        params { e = 0.0 }
+        coords { x, y }
+        mass { x: 1.0, y: 1.0 }
+        holonomic { oval: sq(sq(x) + sq(y)) = sq(x) - sq(y) + e }
+    }
+}
+
+ukcore::multibody! {
+    /// The lines a + b = 2 π k and a − b = π (2 k + 1) in one row.
+    Sines {
+        params { g = 1.0 }
+        coords { a, b }
+        mass { a: 1.0, b: 1.0 }
+        potential { g * sin(a) }
+        holonomic { lines: sin(a) + sin(b) = 0.0 }
+    }
+}
+
+ukcore::multibody! {
+    /// A point on a cone, free of forces.
+    Cone { coords { x, y, z } mass { x: 1.0, y: 1.0, z: 1.0 } holonomic { cone: sq(x) + sq(y) = sq(z) } }
+}
+
+ukcore::multibody! {
+    /// Appell's constraint, nonlinear in velocities, with a force to the side.
+    Appell {
+        params { g = 10.0, f = 0.0 }
+        coords { x, y, z }
+        mass { x: 1.0, y: 1.0, z: 1.0 }
+        potential { g * z }
+        force { y: f }
+        nonholonomic { appell: sq(dot(x)) + sq(dot(y)) = sq(dot(z)) }
+    }
+}
+
+ukcore::multibody! {
+    /// A row that says nothing for the moment in which x is zero.
+    Moment { coords { x, y } mass { x: 1.0, y: 1.0 } force { y: 1.0 } nonholonomic { moment: x * dot(y) = 0.0 } }
+}
+
+const METHODS: [Method; 4] = [
+    Method::Dop853,
+    Method::Dopri5,
+    Method::Radau5,
+    Method::Rattle { step: 5e-3 },
+];
+
+fn simulation(
+    mechanism: impl Into<Prepared>,
+    q: &[f64],
+    v: &[f64],
+    method: Method,
+    tolerance: f64,
+) -> Simulation {
+    let (q, v) = (q.to_vec(), v.to_vec());
+    Simulation::new(mechanism)
+        .start(State { t: 0.0, q, v })
+        .method(method)
+        .tolerance(tolerance)
+        .max_steps(100_000)
+        .every(0.013)
+}
+
+fn worst(run: &Trajectory, off: impl Fn(Sample<'_>) -> f64) -> f64 {
+    let larger = |most: f64, x| if x <= most { most } else { x };
+    run.samples().map(off).fold(0.0, larger)
+}
+
+fn tolerances(method: Method) -> &'static [f64] {
+    match method {
+        Method::Rattle { .. } => &[1e-9],
+        _ => &[1e-4, 1e-7, 1e-9, 1e-11],
+    }
+}
+
+/// A bead without forces has gone once round the lemniscate, of length 2 ϖ = Γ(1/4)²/√(2π), when it is back. It goes up at both ends.
+#[test]
+fn a_bead_goes_straight_on_through_a_node() {
+    let length = 5.244_115_108_584_24;
+    for method in METHODS {
+        for &tolerance in tolerances(method) {
+            for speed in [2.1, 3.3, 4.7, 7.97] {
+                let place = format!("{method}, {tolerance:e}, {speed}");
+                let rattle = matches!(method, Method::Rattle { .. });
+                let bound = if rattle { 1e-4 } else { 3e3 * tolerance + 1e-7 };
+                for (rounds, side) in [(0.5, -1.0), (1.0, 1.0), (2.5, -1.0)] {
+                    let run = simulation(
+                        Oval::default(),
+                        &[1.0, 0.0],
+                        &[0.0, speed],
+                        method,
+                        tolerance,
+                    );
+                    let run = run.until(rounds * length / speed);
+                    let run = run.unwrap_or_else(|failure| panic!("{place}: {failure}"));
+                    let end = run.last().expect("an end");
+                    let off = [
+                        end.q[0] - side,
+                        end.q[1],
+                        end.v[0] / speed,
+                        end.v[1] / speed - 1.0,
+                    ];
+                    let off = off.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
+                    assert!(off < bound, "{place}, {rounds} rounds: {off:e}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn one_row_with_two_branches_is_passed_in_the_first() {
+    for method in METHODS {
+        for &tolerance in tolerances(method) {
+            for k in 0..8 {
+                let speed = 2.3 + 0.71 * f64::from(k);
+                let place = format!("{method}, {tolerance:e}, {speed}");
+                let run = simulation(
+                    Sines::default(),
+                    &[0.3, -0.3],
+                    &[speed, -speed],
+                    method,
+                    tolerance,
+                );
+                let run = run.until(8.0);
+                let run = run.unwrap_or_else(|failure| panic!("{place}: {failure}"));
+                let off = worst(&run, |s| (s.q[0] + s.q[1]).abs());
+                let drift = run.energy_drift();
+                assert!(
+                    off < 1e-8 && drift < 3e3 * tolerance + 1e-6,
+                    "{place}: {off:e}, {drift:e}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn beside_a_node_the_bead_turns_with_its_branch() {
+    for method in METHODS {
+        for &tolerance in tolerances(method) {
+            for e in [1e-3, 1e-6, 1e-9, 1e-12, -1e-3, -1e-6, -1e-9, -1e-12] {
+                let place = format!("{method}, {tolerance:e}, e = {e:e}");
+                let far = f64::sqrt(0.5 + f64::sqrt(0.25 + e));
+                let run = simulation(Oval { e }, &[far, 0.0], &[0.0, 3.0], method, tolerance);
+                let run = run.until(4.0);
+                let run = run.unwrap_or_else(|failure| panic!("{place}: {failure}"));
+                let samples: Vec<_> = run.samples().collect();
+                // One loop has x or y change its sign, not both at once; each of two its own side.
+                let jumps = samples.windows(2).filter(|pair| {
+                    let [old, new] = [pair[0].q, pair[1].q];
+                    match e > 0.0 {
+                        true => old[0] * new[0] < 0.0 && old[1] * new[1] < 0.0,
+                        false => new[0] < 0.0,
+                    }
+                });
+                assert_eq!(jumps.count(), 0, "{place}");
+            }
+        }
+    }
+}
+
+/// On the unrolled cone the motion is a straight line.
+#[test]
+fn beside_an_apex_the_motion_swings_round_and_in_it_the_cone_is_named() {
+    for method in METHODS {
+        for miss in [1e-1, 1e-2, 1e-3, 1e-5, 1e-7, 1e-9, 1e-11] {
+            let place = format!("{method}, {miss:e}");
+            let v = [-1.3, miss, 1.3];
+            let run = simulation(Cone::default(), &[1.0, 0.0, -1.0], &v, method, 1e-9);
+            let run = run.until(2.0);
+            let run = run.unwrap_or_else(|failure| panic!("{place}: {failure}"));
+            let square: f64 = v.iter().map(|v| v * v).sum();
+            let off = worst(&run, |s| {
+                let (far, t): (f64, f64) = (2.0_f64.sqrt() * -s.q[2], s.t);
+                let exact = (2.0 - 2.0 * 2.6 * t + square * t * t).max(0.0).sqrt();
+                (far - exact).abs()
+            });
+            assert!(off < 1e-6, "{place}: {off:e}");
+        }
+        for v in [[-0.78, -1.04, 1.3], [-1.2, -1.6, 2.0]] {
+            let run = simulation(Cone::default(), &[0.6, 0.8, -1.0], &v, method, 1e-9);
+            named(&run.until(2.0).expect_err("an apex"), "cone", 1.0 / v[2]);
+        }
+    }
+}
+
+/// `failure` is for the constraint called `name`, not after `t`.
+fn named(failure: &ukcore::Failure, name: &str, t: f64) {
+    let Error::At {
+        t: found, source, ..
+    } = &failure.error
+    else {
+        panic!("{failure}")
+    };
+    let Error::Singular { constraints } = &**source else {
+        panic!("{failure}")
+    };
+    assert_eq!(constraints, &[name], "{failure}");
+    let last = failure.trajectory.last().expect("it has begun").t;
+    assert!(*found <= t && last <= t, "{failure}");
+}
+
+/// Thrown up, a point under Appell's constraint is at rest for a moment, and may leave in any direction.
+#[test]
+fn a_constraint_that_rest_leaves_without_gradient_is_named() {
+    let methods = [Method::Dop853, Method::Dopri5, Method::Radau5];
+    for method in methods {
+        let run = |f: f64| {
+            let appell = Appell {
+                f,
+                ..Appell::default()
+            };
+            simulation(appell, &[0.0; 3], &[3.0, 4.0, 5.0], method, 1e-9).until(2.0)
+        };
+        // v = (5 − g t / 2) (0.6, 0.8, 1).
+        let failure = run(0.0).expect_err("rest");
+        named(&failure, "appell", 1.0);
+        let off = worst(&failure.trajectory, |s| (s.v[2] - 5.0 + 5.0 * s.t).abs());
+        assert!(off < 1e-7, "{method}: {off:e}");
+        // Pushed aside it is never at rest.
+        let swung = run(0.1).unwrap_or_else(|failure| panic!("{method}: {failure}"));
+        let rows = worst(&swung, |s| (s.v[0].hypot(s.v[1]) - s.v[2].abs()).abs());
+        assert!(
+            rows < 1e-9 && swung.samples().all(|s| s.v[2] != 0.0),
+            "{method}: {rows:e}"
+        );
+    }
+}
+
+#[test]
+fn a_row_that_vanishes_with_its_factor_is_passed() {
+    for method in [Method::Dop853, Method::Dopri5, Method::Radau5] {
+        let run = simulation(Moment::default(), &[-1.0, 0.0], &[1.0, 0.0], method, 1e-9).until(2.5);
+        let run = run.unwrap_or_else(|failure| panic!("{method}: {failure}"));
+        let off = worst(&run, |s| (s.q[0] - s.t + 1.0).abs().max(s.q[1].abs()));
+        assert!(off < 1e-8, "{method}: {off:e}");
+    }
+}

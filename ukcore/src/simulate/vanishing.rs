@@ -1,0 +1,267 @@
+//! Rows of A that vanish by themselves on the way of a motion, as in the node of a figure of eight or at the apex of a cone.
+//!
+//! Such a row says nothing there of the motion, and its direction is reversed behind the place: along a smooth motion it goes through zero.
+//! So it shows between two states of the motion, however far stages are from the place, while rows that turn without vanishing are told
+//! from it by their length on the way. Rows are looked at before any of them can have changed by half of itself; that is at each step only
+//! where steps are long.
+
+use crate::assemble::State;
+use crate::integrate::sample::Sample;
+use crate::mechanism::Prepared;
+use crate::zero::locate;
+
+/// Rows are looked at again before they have changed by this share of themselves, going on as they did, and after this many times the time
+/// since they were looked at last.
+const CHANGE: f64 = 0.5;
+const LONGEST: f64 = 16.0;
+
+/// A row that keeps this share of its length on the way from one state to the other has turned, and not vanished.
+const DIP: f64 = 0.25;
+
+/// A row that is this share of what it has been is near to vanishing.
+const SMALL: f64 = 1.0 / 32.0;
+
+/// How far before the place where a row is least a search for the singular position begins, as a share of the step: there it has a
+/// direction.
+const BEFORE: f64 = 0.01;
+
+/// A row that all but vanishes.
+pub(super) struct Vanishing {
+    pub(super) row: usize,
+    /// Its greatest length so far.
+    pub(super) size: f64,
+    /// A state of the motion near the place.
+    pub(super) near: State,
+    /// When the row is least, and what it is then as a share of what it is at both ends of the step.
+    pub(super) t: f64,
+    pub(super) least: f64,
+    /// The least share of its size that it has at a state of the run.
+    pub(super) reached: f64,
+}
+
+/// The rows of A along a run.
+#[derive(Default)]
+pub(super) struct RowWatch {
+    /// The greatest length of each so far.
+    sizes: Vec<f64>,
+    /// A at the start of the step in hand or before it, and at the last state that was looked at.
+    seen: Matrix,
+    here: Matrix,
+    /// Products of the rows of both.
+    products: Vec<f64>,
+    /// When to look again.
+    due: f64,
+}
+
+/// A at a time; there is none at NaN.
+struct Matrix {
+    t: f64,
+    entries: Vec<f64>,
+    /// Squares of the lengths of its rows.
+    squares: Vec<f64>,
+}
+
+impl Default for Matrix {
+    fn default() -> Self {
+        Matrix {
+            t: f64::NAN,
+            entries: Vec::new(),
+            squares: Vec::new(),
+        }
+    }
+}
+
+impl Matrix {
+    /// Takes A at a state. Returns whether it was not known there.
+    fn take(&mut self, mech: &Prepared, at: Sample<'_>) -> bool {
+        let unknown = self.t != at.t;
+        if unknown {
+            self.t = at.t;
+            self.entries.resize(at.q.len() * mech.spec().m(), 0.0);
+            mech.jacobian(at.t, at.q, at.v, &mut self.entries);
+        }
+        unknown
+    }
+
+    /// Takes the lengths of its rows, and their products with those of `other`.
+    fn compare(&mut self, mech: &Prepared, other: Option<(&Matrix, &mut Vec<f64>)>) {
+        let m = mech.spec().m();
+        self.squares.clear();
+        self.squares.resize(m, 0.0);
+        let pattern = mech.spec().structure.jacobian_pattern.iter();
+        let Some((other, products)) = other else {
+            for (c, i) in pattern {
+                let a = self.entries[i * m + c];
+                self.squares[*c] += a * a;
+            }
+            return;
+        };
+        products.clear();
+        products.resize(m, 0.0);
+        for (c, i) in pattern {
+            let (a, b) = (self.entries[i * m + c], other.entries[i * m + c]);
+            self.squares[*c] += a * a;
+            products[*c] += a * b;
+        }
+    }
+
+    fn length(&self, c: usize) -> f64 {
+        self.squares[c].sqrt()
+    }
+
+    fn row(&self, c: usize) -> impl Iterator<Item = f64> {
+        let entries = self.entries.iter().skip(c);
+        entries.step_by(self.squares.len()).copied()
+    }
+}
+
+impl RowWatch {
+    /// The row that vanishes on the step from `old` to `new`, or is all but zero at its end, if one does or is.
+    pub(super) fn vanishing(
+        &mut self,
+        mech: &Prepared,
+        old: Sample<'_>,
+        new: Sample<'_>,
+    ) -> Option<Vanishing> {
+        let first = self.sizes.is_empty();
+        if mech.spec().m() == 0 || !first && (new.t - self.due) * (new.t - old.t) < 0.0 {
+            return None;
+        }
+        if first {
+            self.look_back(mech, old);
+            self.sizes = self.seen.squares.iter().map(|x| x.sqrt()).collect();
+        }
+        self.here.take(mech, new);
+        self.compare(mech);
+        if self.reversed().next().is_some() && self.look_back(mech, old) {
+            self.compare(mech);
+        }
+        let vanish = self
+            .reversed()
+            .filter_map(|c| self.least(mech, c, old, new));
+        let first = vanish.min_by(|a, b| a.least.total_cmp(&b.least));
+        first.or_else(|| self.smallest(&self.here, new))
+    }
+
+    /// The row that is all but zero where the motion stands, if one is.
+    pub(super) fn small(&mut self, mech: &Prepared, here: Sample<'_>) -> Option<Vanishing> {
+        self.look_back(mech, here);
+        self.smallest(&self.seen, here)
+    }
+
+    /// The largest change of a row between both places, as a share of what it is at the last.
+    fn change(&self) -> f64 {
+        let pairs = self.seen.squares.iter().zip(&self.here.squares);
+        let largest = pairs
+            .zip(&self.products)
+            .fold(0.0, |most: f64, ((a, b), product)| {
+                let change = (a + b - 2.0 * product) / b;
+                if change > most { change } else { most }
+            });
+        largest.sqrt()
+    }
+
+    /// Takes A at the start of the step in hand, if it is not known there.
+    fn look_back(&mut self, mech: &Prepared, old: Sample<'_>) -> bool {
+        let unknown = self.seen.take(mech, old);
+        if unknown {
+            self.seen.compare(mech, None);
+        }
+        unknown
+    }
+
+    fn compare(&mut self, mech: &Prepared) {
+        let other = (&self.seen, &mut self.products);
+        self.here.compare(mech, Some(other));
+    }
+
+    /// The row of `matrix`, which is A at `here`, that is all but zero, if one is.
+    fn smallest(&self, matrix: &Matrix, here: Sample<'_>) -> Option<Vanishing> {
+        let pairs = matrix.squares.iter().zip(&self.sizes);
+        let small = |(x, size): (&f64, &f64)| *x < (SMALL * size).powi(2);
+        let row = pairs.clone().position(small)?;
+        let least = matrix.length(row) / self.sizes[row];
+        Some(Vanishing {
+            row,
+            size: self.sizes[row],
+            near: here.to_state(),
+            t: here.t,
+            least,
+            reached: least,
+        })
+    }
+
+    /// The run has got to the time `t`.
+    pub(super) fn accept(&mut self, t: f64) {
+        if self.here.t != t || self.seen.t == t {
+            return;
+        }
+        let change = self.change();
+        let pairs = self.sizes.iter_mut().zip(&self.here.squares);
+        for (size, square) in pairs {
+            if *square > *size * *size {
+                *size = square.sqrt();
+            }
+        }
+        self.due = t + (t - self.seen.t) * (CHANGE / change).min(LONGEST);
+        std::mem::swap(&mut self.seen, &mut self.here);
+    }
+
+    /// The rows that have turned by more than a right angle.
+    fn reversed(&self) -> impl Iterator<Item = usize> {
+        (0..self.products.len()).filter(|c| self.products[*c] < 0.0)
+    }
+
+    /// Where row `c`, reversed on the way from `old` to `new`, goes through zero, if it does not only turn.
+    fn least(
+        &self,
+        mech: &Prepared,
+        c: usize,
+        old: Sample<'_>,
+        new: Sample<'_>,
+    ) -> Option<Vanishing> {
+        let mut between = Matrix::default();
+        let turned = |part: f64| -> Result<f64, std::convert::Infallible> {
+            between.take(mech, Sample::from(&between_states(old, new, part)));
+            between.squares.resize(self.sizes.len(), 0.0);
+            let pairs = between.row(c).zip(self.seen.row(c).zip(self.here.row(c)));
+            Ok(pairs.map(|(x, (a, b))| x * (b - a)).sum())
+        };
+        let Ok(part) = locate(turned, 0.0, 1.0);
+        let state = between_states(old, new, part);
+        between.take(mech, Sample::from(&state));
+        between.compare(mech, None);
+        let ends = self.seen.length(c).min(self.here.length(c));
+        let least = between.length(c) / ends;
+        (least < DIP).then(|| Vanishing {
+            row: c,
+            size: self.sizes[c],
+            near: between_states(old, new, (part - BEFORE).max(0.0)),
+            t: state.t,
+            least,
+            reached: ends / self.sizes[c],
+        })
+    }
+}
+
+/// The state at a part of the step from `old` to `new`, on the cubics through both.
+fn between_states(old: Sample<'_>, new: Sample<'_>, part: f64) -> State {
+    let h = new.t - old.t;
+    let rest = 1.0 - part;
+    let mut state = State {
+        t: old.t + part * h,
+        q: Vec::with_capacity(old.q.len()),
+        v: Vec::with_capacity(old.q.len()),
+    };
+    for i in 0..old.q.len() {
+        let (v0, v1, change) = (old.v[i], new.v[i], new.q[i] - old.q[i]);
+        // The chord, and what the velocities at both ends add to it.
+        let (a, b) = (v0 * h - change, change - v1 * h);
+        let (bend, slope) = (a * rest + b * part, change / h);
+        state.q.push(old.q[i] + part * change + part * rest * bend);
+        state
+            .v
+            .push(slope + ((1.0 - 2.0 * part) * bend + part * rest * (b - a)) / h);
+    }
+    state
+}
