@@ -173,7 +173,8 @@ impl<'m> Lowering<'m> {
                 "the time derivative of a velocity is an acceleration, which is what is solved for; no section may use it",
             );
         }
-        if ids.iter().all(|id| self.graph.uses(*id).constant()) {
+        // What is unknown stands as zero, and is reported.
+        if ids.iter().all(|id| self.graph.uses(*id).constant()) && self.unknown.is_empty() {
             return self.error(u.loc, "this does not change with time; `dot` takes a coordinate or an expression of coordinates and `t`");
         }
         let mut total = Derivative::total();

@@ -88,7 +88,7 @@ fn turn(g: &mut Graph, a: &Value) -> Option<[Id; 3]> {
     let Value::Scalar(a) = *a else {
         return None;
     };
-    let (s, c) = (g.call1(Func::Sin, a), g.call1(Func::Cos, a));
+    let (c, s) = (g.call1(Func::Cos, a), g.call1(Func::Sin, a));
     Some([s, c, g.neg(s)])
 }
 
