@@ -30,3 +30,4 @@ mod stability;
 mod stiff;
 mod streaming;
 mod switches;
+mod vectors;
