@@ -29,6 +29,20 @@ fn check_force(short: &str, long: &str) {
 }
 
 #[test]
+fn the_documentation_lists_the_vocabulary() {
+    let text = include_str!("../lib.rs");
+    let (_, section) = text
+        .split_once("# Vectors and matrices")
+        .expect("a section");
+    let (section, _) = section.split_once("# Functions").expect("its end");
+    for operation in crate::expr::vocabulary() {
+        let shown = section.contains(&format!("| `{operation}("))
+            || section.contains(&format!(", `{operation}("));
+        assert!(shown, "`{operation}`");
+    }
+}
+
+#[test]
 fn operations_are_their_components() {
     check_force("inner([x, y, z], [y, k, t])", "x * y + y * k + z * t");
     check_force(

@@ -9,6 +9,8 @@ mod value;
 mod vectors;
 
 pub(crate) use system::{Constraint, ConstraintRef, Kind, OutputValue, System};
+#[cfg(test)]
+pub(crate) use vectors::vocabulary;
 
 use super::graph::{Graph, Id};
 use crate::diag::{Diagnostics, Loc};

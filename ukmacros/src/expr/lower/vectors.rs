@@ -53,6 +53,12 @@ operations! {
     };
 }
 
+/// The names of all operations.
+#[cfg(test)]
+pub(crate) fn vocabulary() -> impl Iterator<Item = &'static str> {
+    OPERATIONS.iter().map(|operation| operation.name)
+}
+
 /// Σ uᵢ vᵢ.
 fn inner(g: &mut Graph, u: &Value, v: &Value) -> Option<Id> {
     let vectors = u.shape().len() == 1 && u.shape() == v.shape();
