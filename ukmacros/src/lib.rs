@@ -84,7 +84,7 @@ use proc_macro2::TokenStream;
 ///
 /// | expression | meaning |
 /// | --- | --- |
-/// | `u + v`, `u - v`, `-v` | by components, of one shape |
+/// | `u + v`, `u - v`, `-v` | by components, of one shape; the number 0, as a sum over nothing is, fits any |
 /// | `k * v`, `v * k`, `v / k` | with a number |
 /// | `m * v`, `m * n` | of a matrix with a vector, or with a matrix |
 /// | `dot(v)` | the total time derivative, by components |

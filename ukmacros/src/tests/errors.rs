@@ -269,8 +269,8 @@ cases! {
     product_of_vectors: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { c: «[x, y] * [x, y]» = 0.0 }" => "the product of two vectors is not defined";
     division_by_a_vector: "coords { x } mass { x: 1.0 } force { x: 1.0 / «[x, x]» }" => "cannot divide by a vector";
     component_out_of_range: "coords { x, y } let p = [x, y]; mass { x: 1.0, y: 1.0 } force { x: p[«2»] }" => "index 2 is out of range: `p` has 2 components";
-    component_of_an_expression_out_of_range: "coords { x, y } mass { x: 1.0, y: 1.0 } force { x: (2.0 * [x, y])[«2»] }" => "index 2 is out of range: `this` has 2 components";
-    component_of_a_number: "coords { x, y } mass { x: 1.0, y: 1.0 } force { x: inner([x, y], [y, x])[«0»] }" => "`this` is a number; write it without an index";
+    component_of_an_expression_out_of_range: "coords { x, y } mass { x: 1.0, y: 1.0 } force { x: (2.0 * [x, y])[«2»] }" => "index 2 is out of range: this has 2 components";
+    component_of_a_number: "coords { x, y } mass { x: 1.0, y: 1.0 } force { x: inner([x, y], [y, x])[«0»] }" => "this is a number; write it without an index";
     index_too_many: "coords { x, y } let p = [x, y]; mass { x: 1.0, y: 1.0 } force { x: p[0][«1»] }" => "`p` is a vector of 2; it takes no index beyond 1";
     inner_of_different_lengths: "coords { x, y } mass { x: 1.0, y: 1.0 } force { x: «inner([x, y], [1.0, 2.0, x])» }" => "`inner` takes two vectors of one length, found a vector of 2 and a vector of 3";
     inner_of_matrices: "coords { x } let a = [[x]]; mass { x: 1.0 } force { x: «inner(a, a)» }" => "found a matrix of 1×1 and a matrix of 1×1";
@@ -314,6 +314,7 @@ cases! {
     index_function_out_of_range: "const N: usize = 3; coords { x[N] } let next = |i| i + 1; mass { x: 1.0 } force { for i in 0..N { x[«next(i)»]: 1.0 } }" => "index 3 is out of range";
     argument_hides_a_constant: "const N: usize = 2; coords { x[N] } let f = |N| x[«N»]; mass { x: 1.0 } force { x[0]: f(1.5) }" => "`N` is not an integer constant or loop variable";
     // One mistake, one message.
+    number_beside_a_vector_and_zero: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { c: 0.0 + [x, y] + «t» = [1.0, 0.0] }" => "expected a vector of 2, found a number";
     unknown_function_in_calls_and_methods: "coords { x } mass { x: 1.0 } force { x: «foo»(x) + foo(x) * foo(2.0 * x), x: foo(foo(x)) } output { a = foo(x), b = x.foo() }" => "unknown function `foo`";
     number_called_many_times: "params { k = 1.0 } coords { x } mass { x: 1.0 } force { x: «k»(x) + k(2.0 * x) }" => "`k` is not a function";
     signum_many_times: "coords { x } mass { x: 1.0 } force { x: «signum»(x) + signum(2.0 * x) }" => "write `sign`, which is 0 at 0";
@@ -344,6 +345,7 @@ cases! {
     massless_and_unconstrained: "coords { x, «y» } mass { x: 1.0 } force { y: 1.0 }" => "coordinate `y` has neither mass nor constraint";
     massless_outnumber_constraints: "coords { x, y, «z» } mass { x: 1.0 } holonomic { c: x + y + z = 0.0 }" => "rank [M | Aᵀ] is below 3";
     // One mistake, one message.
+    number_beside_a_vector: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { c: 0.0 + [x, y] + «t» = [1.0, 0.0] }" => "expected a vector of 2, found a number";
     coordinates_alike_but_for_case: "coords { x, «X» } mass { x: 1.0, X: 1.0 } force { X: x }" => "coordinate `X` and coordinate `x` would both become the constant `X`; rename one";
     coordinate_named_as_a_function: "coords { «sin», x } mass { sin: 1.0, x: 1.0 } force { x: sin }" => "`sin` is reserved";
     coordinate_named_as_a_parameter: "params { m = 1.0 } coords { «m», x } mass { x: m } force { m: 1.0 }" => "`m` is declared twice";

@@ -147,7 +147,7 @@ fn functions_that_multiply_are_bounded() {
 
 #[test]
 fn long_vectors_and_deep_matrices_are_taken() {
-    let n = 2000;
+    let n = 600;
     let vector = format!("[{}]", repeated("# * x, ", n));
     accepted(&forced(&format!(
         "inner({vector}, {vector}) + norm({vector})"

@@ -119,6 +119,15 @@ fn families_are_vectors() {
         "coords { for i in 0..2 { for k in 0..2 { p[i][k] } a[i] } } mass { p: 1.0, a: 2.0 } \
          holonomic { for i in 0..2 { c[i]: [p[i][0], p[i][1]] = [cos(a[i]) - sin(a[i]) * 0.5, sin(a[i]) + cos(a[i]) * 0.5] } }",
     );
+    // Sums of vectors, those over nothing included.
+    check(
+        "const N: usize = 3; coords { a[N], p[2] } mass { a: 1.0, p: 1.0 } let arm = |a| [cos(a), sin(a)]; \
+         let { for i in 0..N { c[i] = sum(0..i, |j| arm(a[j])) + 0.5 * arm(a[i]) } } \
+         force { p: sum(0..0, |j| arm(a[j])) } potential { 9.81 * (c[0][1] + c[2][1]) } holonomic { tip: p = sum(0..N, |i| arm(a[i])), shut: 0 = c[1] }",
+        "const N: usize = 3; coords { a[N], p[2] } mass { a: 1.0, p: 1.0 } let arm = |a| [cos(a), sin(a)]; \
+         let { c[0] = 0.5 * arm(a[0]), c[1] = arm(a[0]) + 0.5 * arm(a[1]), c[2] = (arm(a[0]) + arm(a[1])) + 0.5 * arm(a[2]) } \
+         potential { 9.81 * (c[0][1] + c[2][1]) } holonomic { tip: p - (arm(a[0]) + arm(a[1]) + arm(a[2])) = 0, shut: -c[1] = 0 }",
+    );
     // Families of values, and matrices of equations.
     check(
         "coords { q[4] } let { for i in 0..2 { for j in 0..2 { m[i][j] = q[2 * i + j] } } } mass { q: 1.0 } \

@@ -265,8 +265,13 @@ impl<'m> Lowering<'m> {
         vec![((row.max(column), row.min(column)), value)]
     }
 
-    /// The numbers of `value`, if it has this `shape`; reports it, if not.
+    /// The numbers of `value`, if it has this `shape`, or is 0; reports it, if not.
     fn fitting(&mut self, value: &Value, shape: &[usize], e: &Expr) -> Vec<Id> {
+        if let Value::Scalar(id) = value
+            && self.graph.is_zero(*id)
+        {
+            return vec![*id; shape.iter().product()];
+        }
         if !value.is_error() && value.shape() != shape {
             let (expected, found) = (describe(shape), describe(value.shape()));
             self.diag
@@ -289,7 +294,9 @@ impl<'m> Lowering<'m> {
             let Some((positions, shape)) = coordinates else {
                 return;
             };
-            if let (Value::Scalar(_), [_, ..]) = (&value, shape) {
+            if let (Value::Scalar(id), [_, ..]) = (&value, shape)
+                && !self.graph.is_zero(*id)
+            {
                 let message = self.choose_a_member(&entry.key, shape);
                 self.diag.error(entry.key.loc, message);
                 return;

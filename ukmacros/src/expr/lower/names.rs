@@ -13,10 +13,11 @@ impl<'m> Lowering<'m> {
     /// What `name` stands for; of a family or vector the member or part that `indices` choose.
     pub(super) fn name(&mut self, name: &Ident, indices: &[Expr], env: &Env<'m>) -> Value {
         let text = name.to_string();
+        let shown = format!("`{text}`");
         let argument = env.args.iter().rev().find(|(n, _)| *n == text);
         if let Some((_, value)) = argument {
             let value = value.clone();
-            return self.part(value, &text, indices, env);
+            return self.part(value, &shown, indices, env);
         }
         if let Some(i) = env.scope.lookup(&text) {
             #[allow(
@@ -24,14 +25,14 @@ impl<'m> Lowering<'m> {
                 reason = "an integer in a formula is a number"
             )]
             let value = Value::Scalar(self.graph.constant(i as f64));
-            return self.part(value, &text, indices, env);
+            return self.part(value, &shown, indices, env);
         }
         let value = match text.as_str() {
             "t" => self.allowed(Symbol::Time, name.span(), env),
             "PI" => Value::Scalar(self.graph.constant(std::f64::consts::PI)),
             _ => return self.declared(name, indices, env),
         };
-        self.part(value, &text, indices, env)
+        self.part(value, &shown, indices, env)
     }
 
     /// What is declared under `name`, or its part.
@@ -45,7 +46,7 @@ impl<'m> Lowering<'m> {
                 self.members(name, indices, &self.model.coords[*f], Symbol::Coord, env)
             }
             Some(Name::Float(i)) => match self.floats.get(*i) {
-                Some(id) => self.part(Value::Scalar(*id), &text, indices, env),
+                Some(id) => self.part(Value::Scalar(*id), &format!("`{text}`"), indices, env),
                 None => self.error(
                     name.span(),
                     format!("`{text}` is declared further down; move its declaration up"),
@@ -54,7 +55,7 @@ impl<'m> Lowering<'m> {
             Some(Name::Integer) | None => match self.lets.get(&text) {
                 Some(Binding::Value(value)) => {
                     let value = value.clone();
-                    let part = self.part(value, &text, indices, env);
+                    let part = self.part(value, &format!("`{text}`"), indices, env);
                     self.allowed_value(part, name.span().into(), env)
                 }
                 Some(Binding::Family(_)) => {
@@ -84,9 +85,9 @@ impl<'m> Lowering<'m> {
         let shape = value.shape();
         if let Some(surplus) = indices.get(shape.len()) {
             let message = match shape.len() {
-                0 => format!("`{name}` is a number; write it without an index"),
+                0 => format!("{name} is a number; write it without an index"),
                 n => format!(
-                    "`{name}` is {}; it takes no index beyond {n}",
+                    "{name} is {}; it takes no index beyond {n}",
                     describe(shape)
                 ),
             };
@@ -98,8 +99,8 @@ impl<'m> Lowering<'m> {
         value.block(&chosen).unwrap_or_else(|wrong| {
             let (index, size) = (chosen[wrong], shape[wrong]);
             let what = match shape.len() {
-                1 => format!("`{name}` has {size} components"),
-                _ => format!("`{name}` is {}", describe(shape)),
+                1 => format!("{name} has {size} components"),
+                _ => format!("{name} is {}", describe(shape)),
             };
             let message = format!("index {index} is out of range: {what}");
             self.error(indices[wrong].loc, message)
@@ -120,13 +121,13 @@ impl<'m> Lowering<'m> {
         let own = members.keys().next().map_or(0, Vec::len);
         if chosen.len() >= own {
             let (chosen, rest) = (&chosen[..own], &indices[own..]);
-            let shown = indexed(&text, chosen);
+            let shown = format!("`{}`", indexed(&text, chosen));
             return match members.get(chosen).cloned() {
                 Some(value) => self.part(value, &shown, rest, env),
                 None if broken() => Value::Error,
                 None => self.error(
                     indices[own - 1].loc,
-                    format!("`{shown}` is not declared (yet)"),
+                    format!("{shown} is not declared (yet)"),
                 ),
             };
         }

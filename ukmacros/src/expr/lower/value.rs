@@ -4,7 +4,7 @@ use super::array::{Value, describe};
 use super::{Env, Lowering, Place};
 use crate::diag::{Diagnostics, Loc};
 use crate::expr::eval::{Point, eval};
-use crate::expr::graph::{Id, Node, Uses};
+use crate::expr::graph::{Graph, Id, Node, Uses};
 use crate::parse::{BinaryOp, Expr, ExprKind};
 
 /// Deeper evaluation is refused, since it recurses: expressions within functions within functions.
@@ -258,30 +258,33 @@ impl<'m> Lowering<'m> {
         }
     }
 
-    /// Sum of numbers, or of arrays of one shape. `open` joins the sums inside arrays to one (the sides of an equation).
+    /// Sum of numbers, or of arrays of one shape; the number 0, as a sum over nothing is, fits all. `open` joins the sums inside arrays to one
+    /// (the sides of an equation).
     pub(super) fn total(&mut self, terms: &[(f64, Value, Loc)], open: bool) -> Value {
-        let Some((_, first, _)) = terms.first() else {
+        if terms.iter().any(|(_, value, _)| value.is_error()) {
+            return Value::Error;
+        }
+        let zero = |value: &Value, g: &Graph| matches!(value, Value::Scalar(id) if g.is_zero(*id));
+        let values = || terms.iter().map(|(_, value, _)| value);
+        let Some(first) = values().find(|v| !zero(v, &self.graph)).or(values().next()) else {
             return Value::Scalar(self.graph.zero());
         };
         let expected = first.shape();
+        let open = open && !expected.is_empty();
         // Terms of each component.
         let mut sums: Vec<Vec<(f64, Id)>> = vec![Vec::new(); first.entries().len()];
         for (sign, value, loc) in terms {
-            match value {
-                Value::Error => return Value::Error,
-                // `v = 0` compares each component with 0.
-                Value::Scalar(id) if open && !expected.is_empty() && self.graph.is_zero(*id) => {}
-                _ if value.shape() != expected => {
-                    let (expected, found) = (describe(expected), describe(value.shape()));
-                    return self.error(*loc, format!("expected {expected}, found {found}"));
+            if value.shape() != expected {
+                if zero(value, &self.graph) {
+                    continue;
                 }
-                _ => {
-                    for (sum, id) in sums.iter_mut().zip(value.entries()) {
-                        match open && !expected.is_empty() {
-                            true => sum.extend(self.graph.open(*sign, *id)),
-                            false => sum.push((*sign, *id)),
-                        }
-                    }
+                let (expected, found) = (describe(expected), describe(value.shape()));
+                return self.error(*loc, format!("expected {expected}, found {found}"));
+            }
+            for (sum, id) in sums.iter_mut().zip(value.entries()) {
+                match open {
+                    true => sum.extend(self.graph.open(*sign, *id)),
+                    false => sum.push((*sign, *id)),
                 }
             }
         }
