@@ -286,6 +286,17 @@ fn families_of_several_indices_are_arrays_of_arrays() {
         (spec.coords[5], spec.outputs[8].name),
         ("p[1][2]", "front[2]")
     );
+    for (name, range) in [
+        ("p", 0..6),
+        ("p[1]", 3..6),
+        ("p[1][2]", 5..6),
+        ("s", 12..13),
+    ] {
+        let found = spec.coordinate_indices(name).expect("it is there");
+        assert_eq!(found, range.collect::<Vec<_>>(), "{name}");
+    }
+    assert_eq!(spec.parameter_indices("r[1]"), Ok(vec![5, 6, 7]));
+    assert!(spec.coordinate_indices("p[2]").is_err());
     let last = &spec.params[13];
     assert_eq!((last.name, last.default), ("tensor[1][2]", 0.3));
 }

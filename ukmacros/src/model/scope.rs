@@ -12,7 +12,7 @@ pub(super) const MAX_MEMBERS: i64 = 5_000;
 /// Repetitions of all loops, those in loops included.
 const MAX_REPETITIONS: i64 = 20 * MAX_MEMBERS;
 /// Applications of all functions, those in functions included.
-const MAX_APPLICATIONS: u32 = 500_000;
+const MAX_APPLICATIONS: u32 = 200_000;
 /// Deeper evaluation of functions of integers is refused, since it recurses.
 const MAX_DEPTH: usize = 300;
 
