@@ -132,6 +132,27 @@ fn functions_that_multiply_are_bounded() {
         assert_eq!(errors.len(), 1, "{messages:?}");
         assert!(messages[0].contains("times in all"), "{messages:?}");
     }
+    // Each is two of the one before: 2^60 numbers. A product of 16 million terms.
+    let doubled: String = (1..60).fold("let a0 = [x, x]; ".to_owned(), |text, k| {
+        text + &format!("let a{k} = [a{}, a{}]; ", k - 1, k - 1)
+    });
+    let listed = "let { for i in 0..30 { for j in 0..2000 { b[i][j] = [x, x] } } }";
+    for (lets, force) in [
+        (doubled.as_str(), "norm(a59)"),
+        (listed, "norm(b[1][0]) * b[0][7][1] + sq(b)"),
+        ("", "(transpose([p]) * [p])[0][0]"),
+    ] {
+        let source = format!(
+            "pub T {{ coords {{ x, p[4000] }} {lets} mass {{ x: 1.0, p: 1.0 }} force {{ x: {force} }} }}"
+        );
+        let (_, errors) = expand(&source);
+        let messages: Vec<_> = errors.iter().map(|e| &e.message).collect();
+        assert_eq!(errors.len(), 1, "{messages:?}");
+        assert!(
+            messages[0].contains("terms; up to 100000 compile"),
+            "{messages:?}"
+        );
+    }
     // Deep chains of index functions are refused, not followed until the stack ends.
     let chain: String = (1..3000).fold("let f0 = |u| u; ".to_owned(), |text, k| {
         text + &format!("let f{k} = |u| (((f{}(u)))); ", k - 1)

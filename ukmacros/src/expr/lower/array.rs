@@ -4,6 +4,9 @@ use crate::expr::graph::{Graph, Id};
 use crate::model::block;
 use std::rc::Rc;
 
+/// Longer arrays are refused, and products of more terms: lists within lists grow fast.
+pub(super) const MAX_ENTRIES: usize = 100_000;
+
 #[derive(Clone)]
 pub(super) enum Value {
     Scalar(Id),
@@ -73,6 +76,21 @@ impl Value {
         Ok(Value::new(shape, self.entries()[range].to_vec()))
     }
 
+    /// How many numbers `parts` have in all.
+    pub(super) fn count<'a>(parts: impl IntoIterator<Item = &'a Value>) -> usize {
+        parts.into_iter().map(|part| part.entries().len()).sum()
+    }
+
+    /// How many terms its product with `other` has, if their shapes allow one.
+    pub(super) fn terms(&self, other: &Value) -> Option<usize> {
+        match (self.shape(), other.shape()) {
+            ([_, inner], [height] | [height, _]) if inner == height => {
+                Some(self.entries().len() * (other.entries().len() / height))
+            }
+            _ => None,
+        }
+    }
+
     /// Parts of one shape as one array; else the position of the first that differs from those before. What is in error counts as zero, so
     /// that names that depend on the shape stay what they were meant to be.
     pub(super) fn stack(parts: &[Value], zero: Id) -> Result<Self, usize> {
@@ -94,15 +112,14 @@ impl Value {
         Ok(Value::new(&stacked, entries))
     }
 
-    /// The product of a matrix with a matrix or a vector, if their shapes allow it.
-    pub(super) fn times(&self, other: &Value, g: &mut Graph) -> Option<Value> {
-        let ([rows, inner], [height, rest @ ..]) = (self.shape(), other.shape()) else {
-            return None;
+    /// The product of a matrix with a matrix or a vector, where [`Value::terms`] has an answer.
+    pub(super) fn times(&self, other: &Value, g: &mut Graph) -> Value {
+        let [rows, inner] = self.shape() else {
+            return Value::Error;
         };
-        if inner != height || rest.len() > 1 {
-            return None;
-        }
-        let columns: usize = rest.iter().product();
+        let mut shape = other.shape().to_vec();
+        shape[0] = *rows;
+        let columns = other.entries().len() / inner;
         let mut entries = Vec::with_capacity(rows * columns);
         for row in self.entries().chunks(*inner) {
             for column in 0..columns {
@@ -110,9 +127,7 @@ impl Value {
                 entries.push(sum_of_products(row.iter().zip(column), g));
             }
         }
-        let mut shape = vec![*rows];
-        shape.extend_from_slice(rest);
-        Some(Value::new(&shape, entries))
+        Value::new(&shape, entries)
     }
 }
 

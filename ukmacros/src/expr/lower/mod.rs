@@ -84,6 +84,7 @@ pub(crate) fn lower(decl: &Declaration, model: &Model, diag: &Diagnostics) -> Sy
         active: Vec::new(),
         depth: 0,
         outermost: None,
+        oversized: false,
         known_params: 0,
         hints: HashMap::new(),
         unknown: HashSet::new(),
@@ -113,6 +114,8 @@ struct Lowering<'m> {
     depth: usize,
     /// The application that all active ones are within.
     outermost: Option<Loc>,
+    /// An array that is too long was reported.
+    oversized: bool,
     /// Parameters whose default is known: those a default may use.
     known_params: usize,
     hints: HashMap<Id, String>,

@@ -1,6 +1,6 @@
 //! Names, members, and what may stand where.
 
-use super::array::{Value, describe};
+use super::array::{MAX_ENTRIES, Value, describe};
 use super::{Binding, Env, Lowering, Place};
 use crate::diag::{Loc, suggest};
 use crate::expr::graph::{Id, Symbol};
@@ -133,6 +133,10 @@ impl<'m> Lowering<'m> {
         }
         if broken() {
             return Value::Error;
+        }
+        let entries = Value::count(below(members, &chosen).map(|(_, value)| value));
+        if entries > MAX_ENTRIES {
+            return self.too_long("array", entries, name.span().into());
         }
         let whole = together(members, &chosen, own, self.graph.zero());
         let shown = indexed(&text, &chosen);
@@ -339,6 +343,15 @@ fn range_of(name: &Ident, shape: &[usize]) -> String {
     format!("`{first}` to `{}`", indexed(name, &last))
 }
 
+/// The members whose indices begin with `chosen`.
+fn below<'a>(
+    members: &'a BTreeMap<Vec<i64>, Value>,
+    chosen: &'a [i64],
+) -> impl Iterator<Item = (&'a Vec<i64>, &'a Value)> {
+    let from = members.range(chosen.to_vec()..);
+    from.take_while(move |(indices, _)| indices.starts_with(chosen))
+}
+
 /// The members that begin with `chosen` as an array, if their indices, `own` each, are 0, 1, 2, … and their shapes are one.
 fn together(
     members: &BTreeMap<Vec<i64>, Value>,
@@ -346,11 +359,8 @@ fn together(
     own: usize,
     zero: Id,
 ) -> Option<Value> {
-    let from = members.range(chosen.to_vec()..);
-    let (indices, parts): (Vec<&Vec<i64>>, Vec<Value>) = from
-        .take_while(|(indices, _)| indices.starts_with(chosen))
-        .map(|(indices, value)| (indices, value.clone()))
-        .unzip();
+    let found = below(members, chosen).map(|(indices, value)| (indices, value.clone()));
+    let (indices, parts): (Vec<&Vec<i64>>, Vec<Value>) = found.unzip();
     let mut shape = Vec::new();
     for d in chosen.len()..own {
         let least = indices.iter().map(|i| i[d]).min()?;

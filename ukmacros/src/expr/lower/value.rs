@@ -1,6 +1,6 @@
 //! Arithmetic: expressions to values.
 
-use super::array::{Value, describe};
+use super::array::{MAX_ENTRIES, Value, describe};
 use super::{Env, Lowering, Place};
 use crate::diag::{Diagnostics, Loc};
 use crate::expr::eval::{Point, eval};
@@ -33,6 +33,15 @@ impl<'m> Lowering<'m> {
 
     pub(super) fn error(&mut self, loc: impl Into<Loc>, message: impl Into<String>) -> Value {
         self.diag.error(loc, message);
+        Value::Error
+    }
+
+    /// Reports an array, or a product, of so many numbers or terms, once for all that is made of it.
+    pub(super) fn too_long(&mut self, what: &str, count: usize, loc: Loc) -> Value {
+        if !std::mem::replace(&mut self.oversized, true) {
+            let message = format!("{what} of {count} terms; up to {MAX_ENTRIES} compile");
+            self.error(loc, message);
+        }
         Value::Error
     }
 
@@ -82,6 +91,13 @@ impl<'m> Lowering<'m> {
                 }
                 let parts = components.iter().map(|c| self.value(c, env));
                 let parts: Vec<Value> = parts.collect();
+                let entries = Value::count(&parts);
+                if entries > MAX_ENTRIES {
+                    return self.too_long("array", entries, e.loc);
+                }
+                if self.oversized && parts.iter().any(Value::is_error) {
+                    return Value::Error;
+                }
                 Value::stack(&parts, self.graph.zero()).unwrap_or_else(|odd| {
                     let sound = parts.iter().find(|part| !part.is_error());
                     let expected = describe(sound.map_or(&[], Value::shape));
@@ -159,15 +175,17 @@ impl<'m> Lowering<'m> {
                 }
                 value @ Value::Array(_) => match &array {
                     None => array = Some(value),
-                    Some(left) => {
-                        let product = left.times(&value, &mut self.graph);
-                        failed |= product.is_none();
-                        if product.is_none() {
+                    Some(left) => match left.terms(&value) {
+                        Some(terms) if terms <= MAX_ENTRIES => {
+                            array = Some(left.times(&value, &mut self.graph));
+                        }
+                        Some(terms) => return self.too_long("product", terms, loc),
+                        None => {
                             let message = no_product(left.shape(), value.shape());
                             self.error(loc, message);
+                            return Value::Error;
                         }
-                        array = product;
-                    }
+                    },
                 },
                 Value::Scalar(id) if divides && self.graph.is_zero(id) => {
                     self.error(operand.loc, "division by zero");
