@@ -35,6 +35,7 @@ pub(crate) fn resolve(
         index_functions: index_functions(decl),
         repetitions: Cell::new(0),
         applications: Cell::new(0),
+        too_many: Cell::new(None),
         reserved: functions.chain(RESERVED).collect(),
     };
     for constant in std::mem::take(&mut decl.consts) {

@@ -105,17 +105,20 @@ impl<'m> Scope<'m> {
         depth(e, &own, &self.model.index_functions).is_some()
     }
 
-    /// Counts the application of a function; reports the one that is too many, and returns false from there on.
+    /// Counts the application of a function; reports the one that is too many wherever one more follows, and returns false.
     pub(crate) fn applies(&self, e: &Expr, diag: &Diagnostics) -> bool {
         let count = self.model.applications.get().saturating_add(1);
         self.model.applications.set(count);
-        if count == MAX_APPLICATIONS {
-            let message = format!(
-                "with this, functions are applied {MAX_APPLICATIONS} times in all, which would keep the compiler busy; name parts of the result with `let`"
-            );
-            diag.error(e.loc, message);
+        if count < MAX_APPLICATIONS {
+            return true;
         }
-        count < MAX_APPLICATIONS
+        let place = self.model.too_many.get().unwrap_or(e.loc);
+        self.model.too_many.set(Some(place));
+        let message = format!(
+            "with this, functions are applied {MAX_APPLICATIONS} times in all, which would keep the compiler busy; name parts of the result with `let`"
+        );
+        diag.error(place, message);
+        false
     }
 
     /// An integer known at compile time.
@@ -171,27 +174,7 @@ impl<'m> Scope<'m> {
                 }
                 Some(result)
             }
-            ExprKind::Call(name, args) => {
-                let Some(function) = self.model.index_functions.get(&name.to_string()) else {
-                    diag.error(
-                        e.loc,
-                        format!("`{name}` gives no integer known at compile time; a function in an index is declared by `let`, of integers, its arguments and functions declared before it"),
-                    );
-                    return None;
-                };
-                let (expected, found) = (function.args.len(), args.len());
-                if expected != found {
-                    diag.error(name.span(), arity(name, expected, found));
-                    return None;
-                }
-                if !self.applies(e, diag) {
-                    return None;
-                }
-                let values = args.iter().map(|a| self.integer(a, diag).map(Some));
-                let values: Vec<Option<i64>> = values.collect::<Option<_>>()?;
-                let variables = function.args.iter().cloned().zip(values).collect();
-                Scope::with(self.model, variables).integer(&function.body, diag)
-            }
+            ExprKind::Call(name, args) => self.applied(e, name, args, diag),
             ExprKind::Error => None,
             _ => {
                 diag.error(
@@ -201,6 +184,29 @@ impl<'m> Scope<'m> {
                 None
             }
         }
+    }
+
+    /// An integer that a function gives.
+    fn applied(&self, e: &Expr, name: &Ident, args: &[Expr], diag: &Diagnostics) -> Option<i64> {
+        let Some(function) = self.model.index_functions.get(&name.to_string()) else {
+            diag.error(
+                e.loc,
+                format!("`{name}` gives no integer known at compile time; a function in an index is declared by `let`, of integers, its arguments and functions declared before it"),
+            );
+            return None;
+        };
+        let (expected, found) = (function.args.len(), args.len());
+        if expected != found {
+            diag.error(name.span(), arity(name, expected, found));
+            return None;
+        }
+        if !self.applies(e, diag) {
+            return None;
+        }
+        let values = args.iter().map(|a| self.integer(a, diag).map(Some));
+        let values: Vec<Option<i64>> = values.collect::<Option<_>>()?;
+        let variables = function.args.iter().cloned().zip(values).collect();
+        Scope::with(self.model, variables).integer(&function.body, diag)
     }
 
     /// The integers of a range.

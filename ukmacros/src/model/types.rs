@@ -27,6 +27,8 @@ pub(crate) struct Model {
     pub(crate) repetitions: Cell<i64>,
     /// How often functions were applied in all.
     pub(crate) applications: Cell<u32>,
+    /// The first application that was one too many.
+    pub(crate) too_many: Cell<Option<Loc>>,
     /// Names with a fixed meaning.
     pub(crate) reserved: HashSet<&'static str>,
 }

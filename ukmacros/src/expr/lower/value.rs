@@ -173,20 +173,14 @@ impl<'m> Lowering<'m> {
                     self.error(operand.loc, format!("cannot divide by {found}"));
                     failed = true;
                 }
-                value @ Value::Array(_) => match &array {
-                    None => array = Some(value),
-                    Some(left) => match left.terms(&value) {
-                        Some(terms) if terms <= MAX_ENTRIES => {
-                            array = Some(left.times(&value, &mut self.graph));
-                        }
-                        Some(terms) => return self.too_long("product", terms, loc),
-                        None => {
-                            let message = no_product(left.shape(), value.shape());
-                            self.error(loc, message);
-                            return Value::Error;
-                        }
-                    },
-                },
+                value @ Value::Array(_) => {
+                    let product = match &array {
+                        None => value,
+                        Some(left) => self.times(left, &value, loc),
+                    };
+                    failed |= product.is_error();
+                    array = Some(product);
+                }
                 Value::Scalar(id) if divides && self.graph.is_zero(id) => {
                     self.error(operand.loc, "division by zero");
                     failed = true;
@@ -219,6 +213,17 @@ impl<'m> Lowering<'m> {
             factors.pop();
             product
         })
+    }
+
+    /// The product of two arrays, if there is one.
+    fn times(&mut self, left: &Value, right: &Value, loc: Loc) -> Value {
+        match left.terms(right) {
+            // What is in error has no shape.
+            _ if left.is_error() => Value::Error,
+            Some(terms) if terms <= MAX_ENTRIES => left.times(right, &mut self.graph),
+            Some(terms) => self.too_long("product", terms, loc),
+            None => self.error(loc, no_product(left.shape(), right.shape())),
+        }
     }
 
     /// `value`, unless it is a number that is infinite or not a number. (Constants and defaults are checked as a whole.)
