@@ -281,8 +281,8 @@ impl<'m> Lowering<'m> {
         }
     }
 
-    /// Sum of numbers, or of arrays of one shape; the number 0, as a sum over nothing is, fits all. `open` joins the sums inside arrays to one
-    /// (the sides of an equation).
+    /// Sum of numbers, or of arrays of one shape; the number 0, as a sum over nothing is, fits all. `open` joins the sums inside arrays to
+    /// one (the sides of an equation).
     pub(super) fn total(&mut self, terms: &[(f64, Value, Loc)], open: bool) -> Value {
         if terms.iter().any(|(_, value, _)| value.is_error()) {
             return Value::Error;
