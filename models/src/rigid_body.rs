@@ -23,30 +23,25 @@ ukcore::multibody! {
             /// Vector part of the quaternion
             e1, e2, e3,
         }
-        let w1 = 2.0 * (-e1 * dot(e0) + e0 * dot(e1) + e3 * dot(e2) - e2 * dot(e3));
-        let w2 = 2.0 * (-e2 * dot(e0) - e3 * dot(e1) + e0 * dot(e2) + e1 * dot(e3));
-        let w3 = 2.0 * (-e3 * dot(e0) + e2 * dot(e1) - e1 * dot(e2) + e0 * dot(e3));
-        kinetic { 0.5 * i1 * sq(w1), 0.5 * i2 * sq(w2), 0.5 * i3 * sq(w3) }
-        holonomic { unit: sq(e0) + sq(e1) + sq(e2) + sq(e3) = 1.0 }
+        let im = [e1, e2, e3];
+        let w = 2.0 * (e0 * dot(im) - dot(e0) * im - cross(im, dot(im)));
+        let momentum = [i1 * w[0], i2 * w[1], i3 * w[2]];
+        let in_space = momentum + 2.0 * e0 * cross(im, momentum) + 2.0 * cross(im, cross(im, momentum));
+        kinetic { 0.5 * inner(w, momentum) }
+        holonomic { unit: sq(e0) + sq(im) = 1.0 }
         output {
             /// Angular velocity about the body's axis 1, rad/s
-            spin1 = w1,
+            spin1 = w[0],
             /// Angular velocity about the body's axis 2, rad/s
-            spin2 = w2,
+            spin2 = w[1],
             /// Angular velocity about the body's axis 3, rad/s
-            spin3 = w3,
+            spin3 = w[2],
             /// Angular momentum along the space axis x, kg m^2/s
-            momentum_x = (1.0 - 2.0 * (sq(e2) + sq(e3))) * i1 * w1
-                + 2.0 * (e1 * e2 - e0 * e3) * i2 * w2
-                + 2.0 * (e1 * e3 + e0 * e2) * i3 * w3,
+            momentum_x = in_space[0],
             /// Angular momentum along the space axis y, kg m^2/s
-            momentum_y = 2.0 * (e1 * e2 + e0 * e3) * i1 * w1
-                + (1.0 - 2.0 * (sq(e1) + sq(e3))) * i2 * w2
-                + 2.0 * (e2 * e3 - e0 * e1) * i3 * w3,
+            momentum_y = in_space[1],
             /// Angular momentum along the space axis z, kg m^2/s
-            momentum_z = 2.0 * (e1 * e3 - e0 * e2) * i1 * w1
-                + 2.0 * (e2 * e3 + e0 * e1) * i2 * w2
-                + (1.0 - 2.0 * (sq(e1) + sq(e2))) * i3 * w3,
+            momentum_z = in_space[2],
         }
     }
 }

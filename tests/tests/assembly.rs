@@ -31,7 +31,7 @@ ukcore::multibody! {
         coords { x, y, z, e0, e1, e2, e3 }
         mass { x: m, y: m, z: m, e0: 0.1 * m * sq(l), e1: 0.1 * m * sq(l), e2: 0.1 * m * sq(l), e3: 0.1 * m * sq(l) }
         holonomic {
-            unit: sq(e0) + sq(e1) + sq(e2) + sq(e3) = 1
+            unit: sq([e0, e1, e2, e3]) = 1
             axis: [2 * (e1 * e2 - e0 * e3), 2 * (e2 * e3 + e0 * e1)] = [0, 0]
             arm: [x, y, z] = l * [1 - 2 * (sq(e2) + sq(e3)), 2 * (e1 * e2 + e0 * e3), 2 * (e1 * e3 - e0 * e2)]
             drive: 2 * (e1 * e3 - e0 * e2) = sin(turn + w * t)

@@ -66,8 +66,8 @@ ukcore::multibody! {
         params { mu = 0.3, k = 5.0 }
         coords { x, y, z }
         mass { x: 1.0, y: 2.0, z: 3.0 }
-        potential { 0.5 * k * (sq(x) + sq(y) + sq(z)) }
-        let speed = sqrt(sq(dot(x)) + sq(dot(y)) + sq(dot(z)));
+        potential { 0.5 * k * sq([x, y, z]) }
+        let speed = norm(dot([x, y, z]));
         holonomic { plane: x + y + z = 1.0 }
         nonideal { x: -mu * dot(x) / speed, y: -mu * dot(y) / speed, z: -mu * dot(z) / speed }
     }

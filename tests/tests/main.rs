@@ -32,3 +32,4 @@ mod stiff;
 mod streaming;
 mod switches;
 mod vanishing;
+mod vectors;

@@ -13,12 +13,11 @@ ukcore::multibody! {
         params { i1 = 1.0, i2 = 2.0, i3 = 3.0, torque = 0.3, g = 2.0 }
         coords { a, b, c, d }
         let im = [b, c, d];
-        let cross = |u, v| [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
         let om = 2 * (a * dot(im) - dot(a) * im - cross(im, dot(im)));
         kinetic { 0.5 * i1 * sq(om[0]), 0.5 * i2 * sq(om[1]), 0.5 * i3 * sq(om[2]) }
         potential { g * (b * c + a * d) }
         force { b: torque * a - 0.1 * dot(b), a: -torque * b }
-        holonomic { unit: sq(a) + sq(b) + sq(c) + sq(d) = 1 }
+        holonomic { unit: sq([a, b, c, d]) = 1 }
     }
 }
 
@@ -28,18 +27,16 @@ ukcore::multibody! {
         params { i1 = 1.0, i2 = 2.0, i3 = 3.0, m = 1.5, l = 0.3, g = 9.81 }
         coords { x, y, z, a, b, c, d }
         let im = [b, c, d];
-        let inner = |u, v| u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-        let cross = |u, v| [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
         let turned = |v| v + 2 * a * cross(im, v) + 2 * cross(im, cross(im, v));
         let om = 2 * (a * dot(im) - dot(a) * im - cross(im, dot(im)));
         kinetic {
             0.5 * i1 * sq(om[0]), 0.5 * i2 * sq(om[1]), 0.5 * i3 * sq(om[2])
-            0.5 * m * inner(dot([x, y, z]), dot([x, y, z]))
+            0.5 * m * sq(dot([x, y, z]))
         }
         potential { m * g * z }
         holonomic {
             pin: [x, y, z] = turned([0, 0, -l])
-            unit: sq(a) + sq(b) + sq(c) + sq(d) = 1
+            unit: sq([a, b, c, d]) = 1
         }
     }
 }
@@ -50,15 +47,13 @@ ukcore::multibody! {
         params { m1 = 1.0, m2 = 2.0, m3 = 3.0, g = 2.0 }
         coords { a, b, c, d }
         let im = [b, c, d];
-        let inner = |u, v| u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-        let cross = |u, v| [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
         let turned = |v| v + 2 * a * cross(im, v) + 2 * cross(im, cross(im, v));
         let p1 = turned([1, 0, 0]);
         let p2 = turned([0, 1, 0]);
         let p3 = turned([0, 0, 1]);
-        kinetic { m1 * inner(dot(p1), dot(p1)), m2 * inner(dot(p2), dot(p2)), m3 * inner(dot(p3), dot(p3)) }
+        kinetic { m1 * sq(dot(p1)), m2 * sq(dot(p2)), m3 * sq(dot(p3)) }
         potential { g * p3[0] }
-        holonomic { norm: sq(a) + sq(b) + sq(c) + sq(d) = 1 }
+        holonomic { norm: sq([a, b, c, d]) = 1 }
     }
 }
 
@@ -68,14 +63,12 @@ ukcore::multibody! {
         params { m1 = 0.5, m2 = 1.0, j = 1.0, rate = 0.5 }
         coords { a, b, c, d }
         let im = [b, c, d];
-        let inner = |u, v| u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-        let cross = |u, v| [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
         let turned = |v| v + 2 * a * cross(im, v) + 2 * cross(im, cross(im, v));
         let om = 2 * (a * dot(im) - dot(a) * im - cross(im, dot(im)));
         let p1 = turned([1, 0, 0]);
         let p2 = turned([0, 1, 0]);
-        kinetic { 0.5 * j * inner(om, om), m1 * inner(dot(p1), dot(p1)), m2 * inner(dot(p2), dot(p2)) }
-        holonomic { norm: sq(a) + sq(b) + sq(c) + sq(d) = 1, turn: p1[1] = rate * t }
+        kinetic { 0.5 * j * sq(om), m1 * sq(dot(p1)), m2 * sq(dot(p2)) }
+        holonomic { norm: sq([a, b, c, d]) = 1, turn: p1[1] = rate * t }
     }
 }
 
@@ -85,15 +78,13 @@ ukcore::multibody! {
         params { m1 = 0.5, m2 = 1.0, j = 1.0, g = 3.0 }
         coords { a, b, c, d }
         let im = [b, c, d];
-        let inner = |u, v| u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-        let cross = |u, v| [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
         let turned = |v| v + 2 * a * cross(im, v) + 2 * cross(im, cross(im, v));
         let om = 2 * (a * dot(im) - dot(a) * im - cross(im, dot(im)));
         let p1 = turned([1, 0, 0]);
         let p2 = turned([0, 1, 0]);
-        kinetic { 0.5 * j * inner(om, om), m1 * inner(dot(p1), dot(p1)), m2 * inner(dot(p2), dot(p2)) }
+        kinetic { 0.5 * j * sq(om), m1 * sq(dot(p1)), m2 * sq(dot(p2)) }
         potential { g * p2[0] }
-        holonomic { norm: sq(a) + sq(b) + sq(c) + sq(d) = 1 }
+        holonomic { norm: sq([a, b, c, d]) = 1 }
     }
 }
 
@@ -104,13 +95,11 @@ ukcore::multibody! {
         coords { e, f, g, h }
         let a = 0.6 * e + 0.64 * f + 0.48 * h;
         let im = [0.8 * e - 0.48 * f - 0.36 * h, g, 0.6 * f - 0.8 * h];
-        let inner = |u, v| u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-        let cross = |u, v| [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
         let turned = |v| v + 2 * a * cross(im, v) + 2 * cross(im, cross(im, v));
         let p1 = turned([1, 0, 0]);
         let p2 = turned([0, 1, 0]);
-        kinetic { m1 * inner(dot(p1), dot(p1)), m2 * inner(dot(p2), dot(p2)) }
-        holonomic { norm: sq(e) + sq(f) + sq(g) + sq(h) = 1 }
+        kinetic { m1 * sq(dot(p1)), m2 * sq(dot(p2)) }
+        holonomic { norm: sq([e, f, g, h]) = 1 }
     }
 }
 

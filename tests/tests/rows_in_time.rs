@@ -7,6 +7,7 @@ macro_rules! driven {
     ($($(#[$doc:meta])* $name:ident($($coordinate:ident),+) { $($sections:tt)+ })+) => {
         $(ukcore::multibody! {
             $(#[$doc])*
+            #[allow(dead_code)]
             $name {
                 params { a = 1.0, w = 1.0, k = 1.0 }
                 coords { $($coordinate),+ }

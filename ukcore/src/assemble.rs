@@ -109,12 +109,7 @@ pub fn assemble(
     let spec = mech.spec();
     let mut held = Vec::new();
     for name in hold {
-        let member = |c: &str| c.split_once('[').is_some_and(|(family, _)| family == *name);
-        let before = held.len();
-        held.extend((0..spec.n()).filter(|&j| member(spec.coords[j])));
-        if held.len() == before {
-            held.push(spec.coordinate_index(name)?);
-        }
+        held.extend(spec.coordinate_indices(name)?);
     }
     held.sort_unstable();
     held.dedup();

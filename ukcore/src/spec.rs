@@ -376,18 +376,24 @@ impl Spec {
         find("parameter", name, self.params.iter().map(|p| p.name))
     }
 
-    /// Indices of the parameters that `name` means: that parameter, or all members of the family with this bare name.
+    /// Indices of the parameters that `name` means: that parameter, or all members of a family with this bare name, `k`, or of its row,
+    /// `r[1]`.
     ///
     /// # Errors
     /// [`Error::UnknownName`] with the nearest name.
     pub fn parameter_indices(&self, name: &str) -> Result<Vec<usize>, Error> {
-        let family = |p: &ParamSpec| p.name.split_once('[').is_some_and(|(f, _)| f == name);
-        let members = self.params.iter().enumerate().filter(|(_, p)| family(p));
-        let members: Vec<usize> = members.map(|(i, _)| i).collect();
-        if members.is_empty() {
-            return Ok(vec![self.parameter_index(name)?]);
-        }
-        Ok(members)
+        members(name, self.params.iter().map(|p| p.name))
+            .map_or_else(|| Ok(vec![self.parameter_index(name)?]), Ok)
+    }
+
+    /// Indices of the coordinates that `name` means: that coordinate, or all members of a family with this bare name, `p`, or of its row,
+    /// `p[1]`.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name.
+    pub fn coordinate_indices(&self, name: &str) -> Result<Vec<usize>, Error> {
+        members(name, self.coords.iter().copied())
+            .map_or_else(|| Ok(vec![self.coordinate_index(name)?]), Ok)
     }
 
     /// Index of the coordinate called `name`.
@@ -413,6 +419,17 @@ impl Spec {
     pub fn constraint_index(&self, name: &str) -> Result<usize, Error> {
         find("constraint", name, self.constraints.iter().map(|c| c.name))
     }
+}
+
+/// Positions of those of `names` that are `name` with indices behind it, if there are any.
+fn members<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<Vec<usize>> {
+    let member = |n: &str| {
+        n.strip_prefix(name)
+            .is_some_and(|rest| rest.starts_with('['))
+    };
+    let members = names.enumerate().filter(|(_, n)| member(n));
+    let members: Vec<usize> = members.map(|(i, _)| i).collect();
+    (!members.is_empty()).then_some(members)
 }
 
 fn find<'a>(

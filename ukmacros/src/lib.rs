@@ -44,27 +44,27 @@ use proc_macro2::TokenStream;
 ///
 /// All are optional but `coords`, and one of `mass`, `kinetic` or `holonomic`. Entries are separated by commas, which may be left out
 /// where the next entry starts with a name. `for i in a..b { … }` repeats entries in every section, and may be nested. Families and loops
-/// have at most 5000 members.
+/// have at most 5000 members. A family may have several indices: `p[N][3]`; the last runs fastest.
 ///
 /// | section | entries | meaning |
 /// | --- | --- | --- |
 /// | `const N: usize = 17;` | | an integer (or `f64`) known at compile time |
-/// | `params` | `m = 1.0`, `k[N] = 2.0` | parameters with defaults; public `f64` fields (arrays for families), changeable at run time |
-/// | `coords` | `x[N]`, `th` | coordinates q: scalars and families; inside a `for`, `x[i]` declares one member |
+/// | `params` | `m = 1.0`, `k[N] = 2.0`, `r[2][3] = [[1, 0, 0], [0, 1, 0]]` | parameters with defaults, a family's one for all members or one for each; public `f64` fields (arrays for families), changeable at run time |
+/// | `coords` | `x[N]`, `p[N][3]`, `th` | coordinates q: scalars and families; inside a `for`, `x[i]` declares one member |
 /// | `let` | `let d = x - y;`, `let f = \|u, v\| u * v;`, `let { for i in 0..N { d[i] = … } }` | names for values, functions, families of values |
-/// | `mass` | `x: m`, `(x, y): m12` | entries of M(q, t), taken literally as in eq. 1; entries for one place add up |
+/// | `mass` | `x: m`, `p: m`, `(x, y): m12` | entries of M(q, t), taken literally as in eq. 1; entries for one place add up; a family has one mass for all members, or a vector of them |
 /// | `kinetic` | `0.5 * m * sq(dot(x))` | instead of `mass`: terms of T(q, q̇, t); M = ∂²T/∂q̇² and the velocity terms of Lagrange's equations are derived |
-/// | `force` | `x: -c * dot(x)` | generalised forces Q; entries for one coordinate add up |
+/// | `force` | `x: -c * dot(x)`, `p[i]: -c * dot(p[i])` | generalised forces Q; entries for one coordinate add up; a vector of coordinates takes a vector |
 /// | `potential` | `m * g * y` | terms of V(q, t); −∂V/∂q goes into Q |
 /// | `holonomic` | `rod: sq(x) + sq(y) = sq(l)`, `joint: [a, b] = [c, d]` | φ(q, t) = 0 (eq. 3); a vector equation gives one constraint for each component; redundant equations are welcome, but the same one under two names is taken for a slip, an error |
 /// | `nonholonomic` | `blade: dot(x) * sin(th) = dot(y) * cos(th)` | φ(q, q̇, t) = 0 (eq. 4), linear in q̇ or not |
-/// | `nonideal` | `x: -mu * n * sign(dot(x))` | the force c of eq. 8, which may do work in virtual displacements |
+/// | `nonideal` | `x: -mu * n * sign(dot(x))` | the force c of eq. 8, which may do work in virtual displacements; entries as of `force` |
 /// | `output` | `fall = y[0]` | quantities to report, of q, q̇, t |
 ///
 /// # Expressions
 ///
-/// Rust's grammar. Numbers, `PI`, the time `t`, names, members `x[i + 1]`, `+ - * /`, vectors `[a, b]` (sum, difference, product and
-/// quotient with a number), `dot(q)` for a velocity (of an expression of q and t: its total time derivative), `sum(0..N, |i| …)`, and in
+/// Rust's grammar. Numbers, `PI`, the time `t`, names, members `x[i + 1]`, `+ - * /`, `dot(q)` for a velocity (of an expression of q and
+/// t: its total time derivative), `sum(0..N, |i| …)`, and in
 /// function or method form: `sqrt sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh exp ln abs sign atan2 min max hypot powf`,
 /// `sq`, `recip` and `powi`. A power is `x.powi(2)` (exponents from −64 to 64) or `sq(x)`, never `x ^ 2`. Parentheses around a sum are
 /// kept in the emitted arithmetic. Sums and products may be as long as they like, but are nested at most 100 deep.
@@ -75,13 +75,76 @@ use proc_macro2::TokenStream;
 /// sqrt at 0, asin, acos and atanh at ±1, acosh at 1, ln and negative powers at 0, atan2 and hypot at (0, 0) have no finite derivative:
 /// evaluating there is reported as an error at run time.
 ///
+/// # Vectors and matrices
+///
+/// `[a, b]` is a vector, `[[a, b], [c, d]]` a matrix by rows. The name of a family is the vector, or matrix, of its members where it stands
+/// without an index, and `p[i]` is the row i of `p[N][3]`. `v[0]` is a component of any vector: of a name, of a function's result, of an
+/// expression in parentheses; `m[1][2]` an entry of a matrix. What is written with vectors is short for the same in components, and costs
+/// what that costs: products with constant zeros and ones vanish, and an equation of vectors is one constraint for each component.
+///
+/// | expression | meaning |
+/// | --- | --- |
+/// | `u + v`, `u - v`, `-v` | by components, of one shape; the number 0, as a sum over nothing is, fits any |
+/// | `k * v`, `v * k`, `v / k` | with a number |
+/// | `m * v`, `m * n` | of a matrix with a vector, or with a matrix |
+/// | `dot(v)` | the total time derivative, by components |
+/// | `sq(v)` | vᵀv, as `sq` of a number is its square |
+/// | `inner(u, v)` | uᵀv |
+/// | `norm(v)`, `normalise(v)` | √(vᵀv), and v/√(vᵀv), which is not defined where v = 0 |
+/// | `cross(u, v)` | u × v of vectors of 3; of vectors of 2 the number u₀v₁ − u₁v₀ |
+/// | `rotx(a)`, `roty(a)`, `rotz(a)` | the 3×3 matrices that turn vectors by the angle a (right-handed) about a coordinate axis |
+/// | `rot(a)` | the 2×2 matrix that turns vectors by the angle a, from x towards y |
+/// | `transpose(m)` | mᵀ |
+///
+/// All of them have a method form, too: `u.cross(v)`. Their names are not reserved: a coordinate or constraint may be called `norm`, and a
+/// function declared as `let inner = …` takes the place of this one.
+///
+/// # Functions
+///
+/// `let f = |u, v| …;` names a function. Its arguments and its result are numbers, vectors or matrices of any shape, and stand for their
+/// values: `f` applied to vectors of 2 and of 3 is two functions. Arguments hide whatever has their names outside, as those of `sum` do.
+/// A function sees what is declared, not the loop variables around its use. It may apply other functions, but not itself.
+///
+/// An argument that is an integer may serve as an index: with `let apart = |i, j| norm(p[i] - p[j]);`, `apart(0, i + 1)` is a distance. A
+/// function made of integers alone, its arguments, constants and functions like it declared before it, is an integer itself, and stands
+/// in indices, ranges and exponents: with `let next = |i| (i + 1) - N * ((i + 1) / N);`, `x[next(i)]` is the neighbour in a ring.
+///
+/// ```
+/// use ukcore::{Simulation, State, assemble};
+///
+/// ukcore::multibody! {
+///     /// A brick that hangs from a spherical joint in a corner: place of its centre, unit quaternion (a, im) from body to space.
+///     pub Brick {
+///         params { m = 2.0, inertia[3] = [0.05, 0.04, 0.02], corner[3] = [0.1, 0.2, 0.3], g = 9.81 }
+///         coords { p[3], a, im[3] }
+///         let turned = |v| v + 2 * a * cross(im, v) + 2 * cross(im, cross(im, v));
+///         let omega = 2 * (a * dot(im) - dot(a) * im - cross(im, dot(im)));   // in axes of the body
+///         let diagonal = |d| [[d[0], 0, 0], [0, d[1], 0], [0, 0, d[2]]];
+///         kinetic { 0.5 * m * sq(dot(p)), 0.5 * inner(omega, diagonal(inertia) * omega) }
+///         potential { m * g * p[2] }
+///         holonomic { unit: sq(a) + sq(im) = 1, joint: p + turned(corner) = 0 }
+///         output { spin = norm(omega) }
+///     }
+/// }
+/// let guess = State { t: 0.0, q: vec![0.1, 0.0, -0.3, 1.0, 0.0, 0.0, 0.0], v: vec![0.0; 7] };
+/// let start = assemble(Brick::default(), guess, &[])?;
+/// let run = Simulation::new(Brick::default()).tolerance(1e-10).start(start).until(1.0)?;
+/// assert!(run.energy_drift() < 1e-9);
+/// assert_eq!((Brick::IM, Brick::JOINT), ([4, 5, 6], [1, 2, 3]));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # What is emitted
 ///
 /// For `pub T { … }`: `struct T` with its parameters as public fields, `Default`, `Clone`, `Debug`, `PartialEq`; `T::N` for constant `N`;
-/// index constants `T::X` for coordinate `x` (`[usize; N]` for families; θ stays `T::θ`, which Θ looks like), `T::ROD` for the row of
-/// constraint `rod`, `T::OUT_FALL` for output `fall`. Families of constraints and outputs have theirs if their indices are 0, 1, 2, … and
-/// their members are numbers, or vectors of one length; the names of all stand in `T::SPEC`. Two names that would become one constant are
-/// an error. Further, `impl ukcore::Mechanism for T`.
+/// index constants `T::X` for coordinate `x` (`[usize; N]` for families, `[[usize; 3]; N]` for `p[N][3]`; θ stays `T::θ`, which Θ looks
+/// like), `T::ROD` for the row of constraint `rod`, `T::OUT_FALL` for output `fall`. Families of constraints and outputs have theirs if
+/// their indices are 0, 1, 2, … and their members are numbers, or vectors of one length; the names of all stand in `T::SPEC`. Two names
+/// that would become one constant are an error. Further, `impl ukcore::Mechanism for T`.
+///
+/// A parameter, or what is declared by `let`, that no expression names is reported by the lint `dead_code` in the compiler's own words, as
+/// a field that is never read, a constant or function that is never used; but not where its name begins with `_`. `#[allow(dead_code)]`
+/// before the type's name silences it.
 ///
 /// What is emitted names the crate `::ukcore`. Where it has another name, or is reached through another crate, the declaration says so
 /// before the type: `#[ukcore(crate = my::path::to::ukcore)]`.
@@ -89,7 +152,7 @@ use proc_macro2::TokenStream;
 /// # Grammar
 ///
 /// ```text
-/// declaration = docs, ["#[ukcore(crate = path)]"], [vis], NAME, "{", { section }, "}" ;
+/// declaration = docs, ["#[ukcore(crate = path)]"], {"#[allow(lints)]"}, [vis], NAME, "{", { section }, "}" ;
 /// section     = "const", NAME, ":", ("usize" | "f64"), "=", expr, ";"
 ///             | "let", NAME, "=", (expr | function), ";"
 ///             | "let", block(key, "=", (expr | function))
@@ -101,7 +164,7 @@ use proc_macro2::TokenStream;
 ///             | ("holonomic" | "nonholonomic"), block(key, ":", expr, "=", expr)
 ///             | "output", block(docs, key, "=", expr) ;
 /// block(e)    = "{", { (e | "for", NAME, "in", expr, "..", expr, "{", { e }, "}"), ["," | ";"] }, "}" ;
-/// key         = NAME, ["[", expr, "]"] ;
+/// key         = NAME, { "[", expr, "]" } ;
 /// function    = "|", NAME, { ",", NAME }, "|", expr ;
 /// ```
 ///

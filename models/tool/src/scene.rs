@@ -148,7 +148,7 @@ impl Start {
                 &mut state.q
             };
             let value = quantity.in_unit(None).map_err(Failure::Usage)?;
-            for index in coordinates(spec, velocity.unwrap_or(name))? {
+            for index in spec.coordinate_indices(velocity.unwrap_or(name))? {
                 values[index] = value;
             }
         }
@@ -161,17 +161,6 @@ impl Start {
             other => other.into(),
         })
     }
-}
-
-/// The coordinate called `name`, or all members of the family of this bare name.
-fn coordinates(spec: &Spec, name: &str) -> Result<Vec<usize>, Error> {
-    let members =
-        (0..spec.n()).filter(|&i| spec.coords[i].contains('[') && family(spec.coords[i]) == name);
-    let members: Vec<usize> = members.collect();
-    if members.is_empty() {
-        return Ok(vec![spec.coordinate_index(name)?]);
-    }
-    Ok(members)
 }
 
 /// Doc comment of a parameter, or of a family named without index.

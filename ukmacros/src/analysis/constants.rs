@@ -31,7 +31,7 @@ pub(crate) enum ConstantValue {
     Position(Positions),
 }
 
-/// A position, those of a family in the order of its indices, or those of a family of vectors.
+/// A position, or those of a family in the order of its indices: arrays of arrays where it has several, or its members are vectors.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Positions {
     One(usize),
@@ -53,11 +53,7 @@ pub(crate) fn constants(model: &Model, system: &System, diag: &Diagnostics) -> V
         register.declared(&constant.name, &constant.docs, ConstantValue::Float(*value));
     }
     for family in &model.coords {
-        let positions = family.members.iter().map(|i| Positions::One(*i)).collect();
-        let positions = match (family.indexed, family.members.first()) {
-            (false, Some(i)) => Positions::One(*i),
-            _ => Positions::Many(positions),
-        };
+        let positions = nested(&family.shape, &family.members);
         register.positions(
             "",
             "coordinate",
@@ -140,11 +136,22 @@ impl Register<'_> {
     }
 }
 
+/// The positions of a family of this shape.
+fn nested(shape: &[usize], members: &[usize]) -> Positions {
+    match shape {
+        [] => Positions::One(members[0]),
+        [size, rest @ ..] => {
+            let rows = members.chunks(members.len() / size);
+            Positions::Many(rows.map(|row| nested(rest, row)).collect())
+        }
+    }
+}
+
 /// Positions of constraints or outputs by base, in order of appearance. Left out are families that no array can stand for: those
 /// whose indices are not 0, 1, 2, … or whose vectors differ in length.
 fn grouped<'a>(items: impl Iterator<Item = &'a ConstraintRef>) -> Vec<(&'a Ident, Positions)> {
-    /// Of a family: index and component of each position.
-    type Members = Vec<(Option<i64>, Option<usize>, usize)>;
+    /// Of a family: indices of each member, those of components included, and its position.
+    type Members = Vec<(Vec<i64>, usize)>;
     let mut families: Vec<(&Ident, Members)> = Vec::new();
     let mut places: HashMap<&Ident, usize> = HashMap::new();
     for (position, item) in items.enumerate() {
@@ -152,34 +159,46 @@ fn grouped<'a>(items: impl Iterator<Item = &'a ConstraintRef>) -> Vec<(&'a Ident
         if at == families.len() {
             families.push((&item.base, Vec::new()));
         }
-        families[at].1.push((item.index, item.component, position));
+        let components = item
+            .components
+            .iter()
+            .filter_map(|c| i64::try_from(*c).ok());
+        let indices = item.indices.iter().copied().chain(components);
+        families[at].1.push((indices.collect(), position));
     }
     let arranged = families.into_iter().filter_map(|(base, mut members)| {
         members.sort_unstable();
-        let mut groups: Vec<(Option<i64>, Positions)> = Vec::new();
-        for (index, component, position) in members {
-            let one = Positions::One(position);
-            match (groups.last_mut(), component) {
-                (Some((last, Positions::Many(vector))), Some(_)) if *last == index => {
-                    vector.push(one)
-                }
-                (_, Some(_)) => groups.push((index, Positions::Many(vec![one]))),
-                (_, None) => groups.push((index, one)),
-            }
-        }
-        if groups[0].0.is_none() {
-            return groups.pop().map(|(_, positions)| (base, positions));
-        }
-        let shape = |p: &Positions| match p {
-            Positions::One(_) => None,
-            Positions::Many(vector) => Some(vector.len()),
-        };
-        let alike = groups.windows(2).all(|w| shape(&w[0].1) == shape(&w[1].1));
-        let counted = (0_i64..)
-            .zip(&groups)
-            .all(|(k, (index, _))| *index == Some(k));
-        let positions = groups.into_iter().map(|(_, positions)| positions).collect();
-        (alike && counted).then_some((base, Positions::Many(positions)))
+        Some((base, arranged(&members, 0)?))
     });
     arranged.collect()
+}
+
+/// Members in order of their indices as arrays of arrays, from index number `depth` on, if there is one for each place.
+fn arranged(members: &[(Vec<i64>, usize)], depth: usize) -> Option<Positions> {
+    if let [(indices, position)] = members
+        && indices.len() == depth
+    {
+        return Some(Positions::One(*position));
+    }
+    let rows = members.chunk_by(|(a, _), (b, _)| a.get(depth) == b.get(depth));
+    let rows = (0..).zip(rows).map(|(k, row)| {
+        let counted = row[0].0.get(depth) == Some(&k);
+        counted.then(|| arranged(row, depth + 1)).flatten()
+    });
+    let rows = rows.collect::<Option<Vec<Positions>>>()?;
+    let alike = rows.windows(2).all(|w| w[0].shape() == w[1].shape());
+    alike.then_some(Positions::Many(rows))
+}
+
+impl Positions {
+    /// How many members each level of arrays has.
+    fn shape(&self) -> Vec<usize> {
+        match self {
+            Positions::One(_) => Vec::new(),
+            Positions::Many(rows) => {
+                let inner = rows.first().map_or(Vec::new(), Positions::shape);
+                std::iter::once(rows.len()).chain(inner).collect()
+            }
+        }
+    }
 }

@@ -24,7 +24,7 @@ pub(super) fn item(
     defaults: &[f64],
     extra: &str,
 ) -> TokenStream {
-    let (vis, name) = (&decl.vis, &decl.name);
+    let (vis, name, lints) = (&decl.vis, &decl.name, &decl.lints);
     let own = if decl.docs.is_empty() {
         format!("Mechanism `{name}`.")
     } else {
@@ -43,19 +43,15 @@ pub(super) fn item(
         let docs = doc(&text);
         let number = |i: &usize| float(defaults.get(*i).copied().unwrap_or(f64::NAN));
         let numbers: Vec<TokenStream> = family.members.iter().map(number).collect();
-        if family.indexed {
-            let len = Literal::usize_unsuffixed(family.members.len());
-            fields.extend(quote! { #docs pub #field: [f64; #len], });
-            values.extend(quote! { #field: [#(#numbers),*], });
-        } else {
-            fields.extend(quote! { #docs pub #field: f64, });
-            values.extend(quote! { #field: #(#numbers)*, });
-        }
+        let (ty, value) = nested(&family.shape, numbers);
+        fields.extend(quote! { #docs pub #field: #ty, });
+        values.extend(quote! { #field: #value, });
     }
     quote! {
         #docs
         #[derive(Clone, Debug, PartialEq)]
         #[allow(non_snake_case, clippy::approx_constant)]
+        #lints
         #vis struct #name { #fields }
 
         #[automatically_derived]
@@ -66,6 +62,18 @@ pub(super) fn item(
             }
         }
     }
+}
+
+/// The type of a family of this shape, and its value: arrays of arrays of `numbers`.
+fn nested(shape: &[usize], mut numbers: Vec<TokenStream>) -> (TokenStream, TokenStream) {
+    let mut ty = quote! { f64 };
+    for size in shape.iter().rev() {
+        let rows = numbers.chunks(*size).map(|row| quote! { [#(#row),*] });
+        numbers = rows.collect();
+        let size = Literal::usize_unsuffixed(*size);
+        ty = quote! { [#ty; #size] };
+    }
+    (ty, quote! { #(#numbers)* })
 }
 
 /// The associated constants.
@@ -119,13 +127,9 @@ pub(super) fn parameters(model: &Model) -> TokenStream {
         .iter()
         .map(|element| {
             let field = &model.params[element.family].name;
-            match element.index {
-                None => quote! { self.#field },
-                Some(k) => {
-                    let k = Literal::usize_unsuffixed(k);
-                    quote! { self.#field[#k] }
-                }
-            }
+            let indices = element.indices.iter();
+            let indices = indices.map(|k| Literal::usize_unsuffixed(*k));
+            quote! { self.#field #([#indices])* }
         })
         .collect();
     let numbers: Vec<Literal> = (0..places.len()).map(Literal::usize_unsuffixed).collect();

@@ -8,6 +8,7 @@ mod item;
 mod listing;
 mod names;
 mod spec;
+mod unused;
 
 pub(crate) use fallback::fallback;
 
@@ -34,7 +35,8 @@ pub(crate) fn emit(
     let parameters = item::parameters(model);
     let functions = functions::functions(system, model, analysis);
     let implementation = implementation(decl, &quote! { #spec #parameters #functions });
-    quote! { #item #constants #implementation }
+    let unused = unused::unused(decl);
+    quote! { #item #constants #implementation #unused }
 }
 
 /// `impl Mechanism` with these `members`, where `ukcore` is known by that name, whatever it is called in the user's crate.

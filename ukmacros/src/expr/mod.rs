@@ -17,4 +17,6 @@ pub(crate) use fold::is_power_of_two;
 pub(crate) use functions::{Cost, Func};
 pub(crate) use graph::{Graph, Id, Node, Num, Symbol};
 pub(crate) use jet::Jet;
+#[cfg(test)]
+pub(crate) use lower::vocabulary;
 pub(crate) use lower::{ConstraintRef, Kind, System, lower};

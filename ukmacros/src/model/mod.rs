@@ -1,7 +1,11 @@
 //! Syntax tree to names: constants, parameters, coordinates, and what loops run over.
 
 mod resolve;
+mod scope;
 mod types;
+mod unused;
 
-pub(crate) use resolve::{Scope, resolve};
-pub(crate) use types::{Family, Model, Name};
+pub(crate) use resolve::resolve;
+pub(crate) use scope::{Scope, arity};
+pub(crate) use types::{Family, Model, Name, Preset, block, every, indexed};
+pub(crate) use unused::{Unused, unused};

@@ -5,6 +5,8 @@ use crate::parse::{Const, Expr};
 use proc_macro2::Ident;
 use std::cell::Cell;
 use std::collections::{BTreeMap, HashMap, HashSet};
+use std::ops::Range;
+use std::rc::Rc;
 
 /// Names of a declaration, resolved.
 pub(crate) struct Model {
@@ -19,8 +21,14 @@ pub(crate) struct Model {
     pub(crate) coord_elements: Vec<Element>,
     /// What each name stands for.
     pub(crate) names: HashMap<String, Name>,
+    /// Functions of integers, which indices may use.
+    pub(crate) index_functions: HashMap<String, IndexFunction>,
     /// How often loops were repeated in all.
     pub(crate) repetitions: Cell<i64>,
+    /// How often functions were applied in all.
+    pub(crate) applications: Cell<u32>,
+    /// The first application that was one too many.
+    pub(crate) too_many: Cell<Option<Loc>>,
     /// Names with a fixed meaning.
     pub(crate) reserved: HashSet<&'static str>,
 }
@@ -35,6 +43,14 @@ pub(crate) struct Integer {
     pub(crate) value: Option<i64>,
 }
 
+/// `let next = |i| i + 1;`: made of its arguments, integers, and functions like it that are declared before.
+pub(crate) struct IndexFunction {
+    pub(crate) args: Vec<String>,
+    pub(crate) body: Expr,
+    /// How deeply its evaluation nests.
+    pub(crate) depth: usize,
+}
+
 /// What a name stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Name {
@@ -47,14 +63,45 @@ pub(crate) enum Name {
     Coord(usize),
 }
 
-/// A scalar, or a family `x[0]`, `x[1]`, ….
+/// A scalar `m`, or a family `x[0]`, `x[1]`, …, `p[0][0]`, `p[0][1]`, ….
 pub(crate) struct Family {
     pub(crate) name: Ident,
     pub(crate) docs: Vec<String>,
-    /// Whether it is indexed.
-    pub(crate) indexed: bool,
-    /// Positions of its members in the list of elements, by index.
+    /// How many values each index takes; empty for a scalar.
+    pub(crate) shape: Vec<usize>,
+    /// Positions of its members in the list of elements, the last index running fastest.
     pub(crate) members: Vec<usize>,
+}
+
+/// The places of those members, in an array of this `shape` whose last index runs fastest, that begin with `indices`; the position of the
+/// index that is out of range, if one is.
+pub(crate) fn block(shape: &[usize], indices: &[i64]) -> Result<Range<usize>, usize> {
+    let mut start = 0;
+    for (d, (index, size)) in indices.iter().zip(shape).enumerate() {
+        let index = usize::try_from(*index).ok().filter(|i| i < size).ok_or(d)?;
+        start = start * size + index;
+    }
+    let size: usize = shape[indices.len()..].iter().product();
+    Ok(start * size..(start + 1) * size)
+}
+
+/// All indices of an array of this `shape`, the last running fastest; of a number one, of no length.
+pub(crate) fn every(shape: &[usize]) -> impl Iterator<Item = Vec<usize>> + use<> {
+    let shape = shape.to_vec();
+    let count: usize = shape.iter().product();
+    (0..count).map(move |mut place| {
+        let mut indices = vec![0; shape.len()];
+        for (index, size) in indices.iter_mut().zip(&shape).rev() {
+            (*index, place) = (place % size, place / size);
+        }
+        indices
+    })
+}
+
+/// `name[1][2]`.
+pub(crate) fn indexed<T: std::fmt::Display>(name: impl std::fmt::Display, indices: &[T]) -> String {
+    let indices = indices.iter().map(|i| format!("[{i}]"));
+    name.to_string() + &indices.collect::<String>()
 }
 
 /// A parameter or coordinate.
@@ -62,8 +109,21 @@ pub(crate) struct Element {
     /// As written: `x[3]`, `th1`.
     pub(crate) name: String,
     pub(crate) family: usize,
-    /// Index within the family, if it is one.
-    pub(crate) index: Option<usize>,
-    /// A parameter's default with the loop variables it was declared under.
-    pub(crate) default: Option<(Expr, Vec<(String, i64)>)>,
+    /// Indices within the family, none for a scalar.
+    pub(crate) indices: Vec<usize>,
+    /// A parameter's default, one for all that are declared together.
+    pub(crate) default: Option<Rc<Preset>>,
 }
+
+/// A default as declared.
+pub(crate) struct Preset {
+    pub(crate) value: Expr,
+    /// The loop variables that it was declared under.
+    pub(crate) variables: Vec<Variable>,
+    /// Of what it is declared for.
+    pub(crate) shape: Vec<usize>,
+}
+
+/// A loop variable, or an argument of a function: its name and its value, if that is an integer. One that is not hides what is declared
+/// under its name.
+pub(crate) type Variable = (String, Option<i64>);

@@ -16,7 +16,8 @@ pub(crate) enum ExprKind {
     Int(i64),
     Float(f64),
     Name(Ident),
-    Index(Ident, Box<Expr>),
+    /// `x[i]`, `p[i][j]`, `(u + v)[0]`: what is indexed, and its indices.
+    Index(Box<Expr>, Vec<Expr>),
     Neg(Box<Expr>),
     /// Operands joined by operators of one precedence, from left to right: flat, since sums may have thousands of terms.
     Chain(Box<Expr>, Vec<(BinaryOp, Expr)>),
@@ -225,16 +226,15 @@ fn simple(e: syn::Expr, loc: Loc, diag: &Diagnostics) -> ExprKind {
             ),
             _ => refuse(loc, "`!` has no meaning in an equation"),
         },
-        syn::Expr::Index(i) => match &*i.expr {
-            syn::Expr::Path(p) => match name_of(p) {
-                Ok(name) => ExprKind::Index(name, boxed(*i.index)),
-                Err(message) => refuse(loc, &message),
-            },
-            other => refuse(
-                location(other),
-                "only a named family can be indexed, such as `x[i]`",
-            ),
-        },
+        syn::Expr::Index(i) => {
+            let (mut base, mut indices) = (*i.expr, vec![Expr::convert(*i.index, diag)]);
+            while let syn::Expr::Index(inner) = base {
+                indices.push(Expr::convert(*inner.index, diag));
+                base = *inner.expr;
+            }
+            indices.reverse();
+            ExprKind::Index(boxed(base), indices)
+        }
         syn::Expr::Call(c) => match &*c.func {
             syn::Expr::Path(p) => match name_of(p) {
                 Ok(name) if name == "sum" => sum(c, loc, diag),

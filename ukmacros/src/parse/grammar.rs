@@ -35,13 +35,18 @@ pub(crate) fn parse(mut tokens: TokenStream, diag: &Diagnostics) -> Option<Decla
 }
 
 fn declaration(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Declaration> {
-    let Attributes { docs, runtime } = attributes(input, diag)?;
+    let Attributes {
+        docs,
+        runtime,
+        lints,
+    } = attributes(input, diag)?;
     let vis: syn::Visibility = input.parse()?;
     let _: Option<Token![struct]> = input.parse()?;
     let name: Ident = input.parse()?;
     let mut out = Declaration {
         docs,
         runtime,
+        lints,
         vis: vis.to_token_stream(),
         name,
         consts: Vec::new(),
@@ -154,11 +159,13 @@ struct Attributes {
     docs: Vec<String>,
     /// The path in `#[ukcore(crate = path)]`.
     runtime: Option<TokenStream>,
+    /// `#[allow(…)]`, as written.
+    lints: TokenStream,
 }
 
-/// Doc comments, and before a declaration the path of the crate `ukcore`.
+/// Doc comments, and before a declaration the path of the crate `ukcore` and the lints allowed.
 fn attributes(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Attributes> {
-    let (mut docs, mut runtime) = (Vec::new(), None);
+    let (mut docs, mut runtime, mut lints) = (Vec::new(), None, TokenStream::new());
     for attribute in input.call(syn::Attribute::parse_outer)? {
         match &attribute.meta {
             syn::Meta::NameValue(syn::MetaNameValue {
@@ -186,18 +193,33 @@ fn attributes(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Attribu
                     ),
                 }
             }
+            syn::Meta::List(list) if list.path.is_ident("allow") => {
+                attribute.to_tokens(&mut lints);
+            }
             other => diag.error(Loc::of(other), "only doc comments are allowed here"),
         }
     }
-    Ok(Attributes { docs, runtime })
+    Ok(Attributes {
+        docs,
+        runtime,
+        lints,
+    })
 }
 
 /// The text of doc comments; other attributes are refused.
 fn docs(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Vec<String>> {
     let place = input.span();
-    let Attributes { docs, runtime } = attributes(input, diag)?;
-    if runtime.is_some() {
-        let message = "`#[ukcore(crate = …)]` stands before the whole declaration";
+    let Attributes {
+        docs,
+        runtime,
+        lints,
+    } = attributes(input, diag)?;
+    let misplaced = [
+        (runtime.is_some(), "#[ukcore(crate = …)]"),
+        (!lints.is_empty(), "#[allow(…)]"),
+    ];
+    for (_, attribute) in misplaced.into_iter().filter(|(found, _)| *found) {
+        let message = format!("`{attribute}` stands before the whole declaration");
         diag.error(place, message);
     }
     Ok(docs)
@@ -236,18 +258,20 @@ fn expression(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Expr> {
 
 fn key(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Key> {
     let name: Ident = input.parse()?;
-    let mut index = None;
+    let mut indices = Vec::new();
     let mut loc: Loc = name.span().into();
-    if input.peek(syn::token::Bracket) {
+    while input.peek(syn::token::Bracket) {
         let inner;
         let bracket = bracketed!(inner in input);
         loc.end = bracket.span.close();
-        index = Some(expression(&inner, diag)?);
+        indices.push(expression(&inner, diag)?);
         if !inner.is_empty() {
-            return Err(inner.error("a family has one index, such as `x[i]`"));
+            let error = inner.error("each index has its own brackets, such as `x[i][j]`");
+            let _: TokenStream = inner.parse()?;
+            return Err(error);
         }
     }
-    Ok(Key { name, index, loc })
+    Ok(Key { name, indices, loc })
 }
 
 type EntryParser<T> = fn(ParseStream<'_>, &Diagnostics) -> syn::Result<T>;

@@ -9,6 +9,8 @@ pub(crate) struct Declaration {
     pub(crate) docs: Vec<String>,
     /// Path of the crate `ukcore`, where `#[ukcore(crate = path)]` says it.
     pub(crate) runtime: Option<TokenStream>,
+    /// `#[allow(…)]` of what the declaration becomes, as written.
+    pub(crate) lints: TokenStream,
     /// Visibility, as written.
     pub(crate) vis: TokenStream,
     pub(crate) name: Ident,
@@ -44,7 +46,7 @@ pub(crate) enum Block<T> {
 
 impl<T> Block<T> {
     /// Visits every entry once, those in loops included.
-    pub(crate) fn each(&self, visit: &mut dyn FnMut(&T)) {
+    pub(crate) fn each<'a>(&'a self, visit: &mut dyn FnMut(&'a T)) {
         match self {
             Block::One(entry) => visit(entry),
             Block::For { body, .. } => body.iter().for_each(|block| block.each(visit)),
@@ -61,11 +63,11 @@ pub(crate) struct Const {
     pub(crate) value: Expr,
 }
 
-/// A name with an optional index: `x`, `x[i + 1]`.
+/// A name with its indices: `x`, `x[i + 1]`, `p[i][2]`.
 pub(crate) struct Key {
     pub(crate) name: Ident,
-    pub(crate) index: Option<Expr>,
-    /// From the name to the closing bracket.
+    pub(crate) indices: Vec<Expr>,
+    /// From the name to the last closing bracket.
     pub(crate) loc: Loc,
 }
 

@@ -7,4 +7,6 @@ mod nesting;
 
 pub(crate) use expr::{BinaryOp, Expr, ExprKind, Range};
 pub(crate) use grammar::parse;
-pub(crate) use item::{Block, Const, Declaration, Entry, Equation, Function, Key, LetValue};
+pub(crate) use item::{
+    Block, Const, Declaration, Entry, Equation, Function, Key, Let, LetValue, MassEntry,
+};

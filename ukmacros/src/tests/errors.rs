@@ -225,7 +225,8 @@ cases! {
     parameter_without_default: "params { «m» } coords { x } mass { x: 1.0 }" => "parameter `m` needs a default";
     unknown_section: "coords { x } mass { x: 1.0 } «forces» { x: 1.0 }" => "unknown section `forces`; did you mean `force`?";
     repeated_section: "coords { x } «coords» { y } mass { x: 1.0, y: 1.0 }" => "section `coords` appears twice";
-    attribute: "coords { #[«allow(dead_code)»] x } mass { x: 1.0 }" => "only doc comments are allowed here";
+    attribute: "coords { #[«inline»] x } mass { x: 1.0 }" => "only doc comments are allowed here";
+    lint_of_an_entry: "coords { «#»[allow(dead_code)] x } mass { x: 1.0 }" => "`#[allow(…)]` stands before the whole declaration";
     crate_without_path: "#[«ukcore(runtime)»] coords { x } mass { x: 1.0 }" => "this attribute is written `#[ukcore(crate = my::path::to::ukcore)]`";
     crate_of_an_entry: "coords { «#»[ukcore(crate = a)] x } mass { x: 1.0 }" => "stands before the whole declaration";
     open_range: "coords { x[3] } mass { for i in «0..» { x[i]: 1.0 } }" => "a range needs both ends";
@@ -268,7 +269,57 @@ cases! {
     product_of_vectors: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { c: «[x, y] * [x, y]» = 0.0 }" => "the product of two vectors is not defined";
     division_by_a_vector: "coords { x } mass { x: 1.0 } force { x: 1.0 / «[x, x]» }" => "cannot divide by a vector";
     component_out_of_range: "coords { x, y } let p = [x, y]; mass { x: 1.0, y: 1.0 } force { x: p[«2»] }" => "index 2 is out of range: `p` has 2 components";
-    indexing_an_expression: "coords { x, y } mass { x: 1.0, y: 1.0 } force { x: «[x, y]»[0] }" => "only a named family can be indexed";
+    component_of_an_expression_out_of_range: "coords { x, y } mass { x: 1.0, y: 1.0 } force { x: (2.0 * [x, y])[«2»] }" => "index 2 is out of range: this has 2 components";
+    component_of_a_number: "coords { x, y } mass { x: 1.0, y: 1.0 } force { x: inner([x, y], [y, x])[«0»] }" => "this is a number; write it without an index";
+    index_too_many: "coords { x, y } let p = [x, y]; mass { x: 1.0, y: 1.0 } force { x: p[0][«1»] }" => "`p` is a vector of 2; it takes no index beyond 1";
+    inner_of_different_lengths: "coords { x, y } mass { x: 1.0, y: 1.0 } force { x: «inner([x, y], [1.0, 2.0, x])» }" => "`inner` takes two vectors of one length, found a vector of 2 and a vector of 3";
+    inner_of_matrices: "coords { x } let a = [[x]]; mass { x: 1.0 } force { x: «inner(a, a)» }" => "found a matrix of 1×1 and a matrix of 1×1";
+    cross_of_a_number: "coords { x, y } mass { x: 1.0, y: 1.0 } force { x: «cross([x, y], 2.0)» }" => "`cross` takes two vectors of 3, or two of 2, found a vector of 2 and a number";
+    norm_of_a_number: "coords { x } mass { x: 1.0 } force { x: «norm(x)» }" => "`norm` takes a vector, found a number";
+    square_of_a_matrix: "coords { x } mass { x: 1.0 } force { x: «sq(rot(x))» }" => "`sq` takes a number or a vector, found a matrix of 2×2";
+    rotation_by_a_vector: "coords { x, y } mass { x: 1.0, y: 1.0 } force { x: («rotz([x, y])» * [x, y, y])[0] }" => "`rotz` takes a number, found a vector of 2";
+    transpose_of_a_vector: "coords { x, y } mass { x: 1.0, y: 1.0 } force { x: «transpose([x, y])»[0] }" => "`transpose` takes a matrix, found a vector of 2";
+    arguments_of_cross: "coords { x, y } mass { x: 1.0, y: 1.0 } force { x: «cross»([x, y]) }" => "`cross` takes 2 arguments, found 1";
+    product_of_shapes: "coords { x, y } mass { x: 1.0, y: 1.0 } force { x: («rotx(x) * [x, y]»)[0] }" => "a matrix of 3×3 times a vector of 2 is not defined";
+    vector_times_matrix: "coords { x, y } mass { x: 1.0, y: 1.0 } force { x: («2.0 * [x, y] * rot(x)»)[0] }" => "a vector of 2 times a matrix of 2×2 is not defined; write `transpose(m) * v`";
+    matrix_plus_vector: "coords { x, y } mass { x: 1.0, y: 1.0 } force { x: (rot(x) + «[x, y]»)[0][0] }" => "expected a matrix of 2×2, found a vector of 2";
+    division_by_a_matrix: "coords { x } mass { x: 1.0 } force { x: 1.0 / «rot(x)» }" => "cannot divide by a matrix of 2×2";
+    rows_of_different_length: "coords { x, y } let m = [[x, y], «[x]»]; mass { x: 1.0, y: 1.0 } force { x: m[0][0] }" => "expected a vector of 2 as before it, found a vector of 1";
+    sine_of_a_vector: "coords { p[2] } mass { p: 1.0 } force { p[0]: sin(«p») }" => "expected a number, found a vector of 2";
+    vector_in_the_kinetic_energy: "coords { p[2] } kinetic { «dot(p)» }" => "expected a number, found a vector of 2";
+    force_of_another_length: "coords { p[2][3] } mass { p: 1.0 } force { p[1]: «[1.0, 2.0]» }" => "expected a vector of 3, found a vector of 2";
+    masses_of_another_length: "coords { p[2] } mass { p: «[1.0, 2.0, 3.0]» }" => "expected a vector of 2, found a vector of 3";
+    number_as_a_vector_of_force: "coords { p[2][3] } mass { p: 1.0 } force { «p[1]»: 1.0 }" => "choose a member, `p[0][0]` to `p[1][2]`, or give a vector of 3";
+    family_in_a_pair: "coords { p[2], x } mass { p: 1.0, x: 1.0, (x, «p»): 1.0 }" => "`p` is a family; choose a member";
+    second_index_out_of_range: "coords { p[2][3] } mass { p: 1.0 } force { p[1][«3»]: 1.0 }" => "index 3 is out of range: `p` has 6 members, `p[0][0]` to `p[1][2]`";
+    too_many_indices: "coords { p[2][3] } mass { p: 1.0 } force { p[0][0][«0»]: 1.0 }" => "members of `p` are numbers: they take 2 indices";
+    two_indices_in_one: "coords { p[2«,» 3] } mass { p: 1.0 }" => "each index has its own brackets, such as `x[i][j]`";
+    rows_of_a_family_of_different_length: "coords { for i in 0..2 { for k in 0..2 - i { «p»[i][k] } } } mass { p: 1.0 }" => "rows of a family have one length";
+    members_of_a_row_out_of_order: "coords { for i in 0..2 { for k in 0..2 { «p[k][i]» } } y } mass { y: 1.0 }" => "must be declared in order from `p[0][0]`";
+    family_too_large_in_all: "coords { p[100][«100»] } mass { p: 1.0 }" => "up to 5000 compile";
+    default_of_another_length: "params { k[3] = «[1.0, 2.0]» } coords { x } mass { x: k[0] }" => "expected a number or a vector of 3, found a vector of 2";
+    default_of_a_scalar: "params { k = «[1.0, 2.0]» } coords { x } mass { x: k }" => "expected a number, found a vector of 2";
+    defaults_not_finite: "params { k[3] = «ln(-1.0)» } coords { x } mass { x: k[0] }" => "default of `k[0]` is not a finite number";
+    family_of_values_with_a_gap: "coords { x } let { d[0] = x, d[2] = x } mass { x: 1.0 } force { x: norm(«d») }" => "`d` is no vector: its members are not of one shape with indices 0, 1, 2, …";
+    family_of_values_of_two_shapes: "coords { x } let { d[0] = x, d[1] = [x, x] } mass { x: 1.0 } force { x: norm(«d») }" => "`d` is no vector";
+    family_of_values_not_whole: "coords { x[3] } let { for i in 0..3 { d[i] = x[i], e[i] = norm(«d») } } mass { x: e[0] }" => "whose members are still being declared";
+    values_with_one_and_two_indices: "coords { x } let { d[0] = x, «d[0][0]» = x } mass { x: d[0] }" => "`d` is declared with different numbers of indices";
+    matrix_named_as_its_member: "coords { p[2] } mass { p: 1.0 } holonomic { c: [p, p] = 0.0  «c[0][0]»: p[0] = 1.0 }" => "constraint `c` is declared both with and without an index";
+    // Index functions.
+    function_of_no_integer: "coords { x[3] } let f = |i| 1.5 * i; mass { x: 1.0 } force { x[«f(2)»]: 1.0 }" => "`f` gives no integer known at compile time";
+    index_function_of_a_number: "params { k = 1.0 } coords { x[3] } let f = |i| i + 1; mass { x: k } force { x[f(«k»)]: 1.0 }" => "`k` is not an integer constant";
+    index_function_declared_below: "coords { x[3] } let f = |i| g(i); let g = |i| i; mass { x: 1.0 } force { x[«f(2)»]: 1.0 }" => "functions declared before it";
+    index_function_of_itself: "coords { x[3] } let f = |i| f(i); mass { x: 1.0 } force { x[«f(2)»]: 1.0 }" => "`f` gives no integer";
+    arguments_of_an_index_function: "coords { x[3] } let f = |i, j| i + j; mass { x: 1.0 } force { x[«f»(2)]: 1.0 }" => "`f` takes 2 arguments, found 1";
+    index_function_out_of_range: "const N: usize = 3; coords { x[N] } let next = |i| i + 1; mass { x: 1.0 } force { for i in 0..N { x[«next(i)»]: 1.0 } }" => "index 3 is out of range";
+    argument_hides_a_constant: "const N: usize = 2; coords { x[N] } let f = |N| x[«N»]; mass { x: 1.0 } force { x[0]: f(1.5) }" => "`N` is not an integer constant or loop variable";
+    // One mistake, one message.
+    number_beside_a_vector_and_zero: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { c: 0.0 + [x, y] + «t» = [1.0, 0.0] }" => "expected a vector of 2, found a number";
+    unknown_function_in_calls_and_methods: "coords { x } mass { x: 1.0 } force { x: «foo»(x) + foo(x) * foo(2.0 * x), x: foo(foo(x)) } output { a = foo(x), b = x.foo() }" => "unknown function `foo`";
+    number_called_many_times: "params { k = 1.0 } coords { x } mass { x: 1.0 } force { x: «k»(x) + k(2.0 * x) }" => "`k` is not a function";
+    signum_many_times: "coords { x } mass { x: 1.0 } force { x: «signum»(x) + signum(2.0 * x) }" => "write `sign`, which is 0 at 0";
+    unknown_coordinate_many_times: "coords { x } mass { x: 1.0, «z»: 1.0 } force { z: 1.0 } nonideal { z: 2.0 }" => "`z` is not a coordinate";
+    unknown_vector_many_times: "coords { p[3] } mass { p: 1.0 } force { p: cross(«w», p) + 2.0 * w } holonomic { c: [p[0], w] = [1.0, 2.0] }" => "unknown name `w`";
     // What may stand where.
     velocity_in_a_holonomic_constraint: "coords { x } mass { x: 1.0 } holonomic { c: «dot(x)» = 0.0 }" => "move the constraint under `nonholonomic`";
     velocity_by_a_let: "coords { x } let u = dot(x); mass { x: 1.0 } holonomic { c: x + «u» = 0.0 }" => "move the constraint under `nonholonomic`";
@@ -294,6 +345,7 @@ cases! {
     massless_and_unconstrained: "coords { x, «y» } mass { x: 1.0 } force { y: 1.0 }" => "coordinate `y` has neither mass nor constraint";
     massless_outnumber_constraints: "coords { x, y, «z» } mass { x: 1.0 } holonomic { c: x + y + z = 0.0 }" => "rank [M | Aᵀ] is below 3";
     // One mistake, one message.
+    number_beside_a_vector: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { c: 0.0 + [x, y] + «t» = [1.0, 0.0] }" => "expected a vector of 2, found a number";
     coordinates_alike_but_for_case: "coords { x, «X» } mass { x: 1.0, X: 1.0 } force { X: x }" => "coordinate `X` and coordinate `x` would both become the constant `X`; rename one";
     coordinate_named_as_a_function: "coords { «sin», x } mass { sin: 1.0, x: 1.0 } force { x: sin }" => "`sin` is reserved";
     coordinate_named_as_a_parameter: "params { m = 1.0 } coords { «m», x } mass { x: m } force { m: 1.0 }" => "`m` is declared twice";
@@ -327,7 +379,6 @@ cases! {
     coordinate_named_residual: "coords { «residual» } mass { residual: 1.0 }" => "`residual` is a column of every run";
     vector_output_as_a_family: "coords { x[2] } mass { x[0]: 1.0, x[1]: 1.0 } output { «x» = [1.0 * t, t] }" => "`x[0]` is a coordinate and in the output anyway";
     // Arguments.
-    sum_variable_named_as_an_argument: "coords { x[3] } let f = |i| sum(0..3, |«i»| i * x[i]); mass { for i in 0..3 { x[i]: 1.0 } } force { x[0]: f(x[1]) }" => "`i` is already an argument";
     argument_twice: "coords { x } let f = |u, «u»| u; mass { x: 1.0 } force { x: f(x, 1.0) }" => "argument `u` is declared twice";
     // Numbers.
     exponent_too_large: "coords { x } mass { x: 1.0 } force { x: x.powi(«2147483647») }" => "`powi` takes exponents from -64 to 64; use `powf`";

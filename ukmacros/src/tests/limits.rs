@@ -116,6 +116,75 @@ fn functions_within_functions_are_bounded() {
     assert!(messages[0].contains("too deeply"), "{messages:?}");
 }
 
+#[test]
+fn functions_that_multiply_are_bounded() {
+    // Each applies the one before twice: 2^60 applications.
+    let doubled: String = (1..60).fold("let f0 = |u| u + 1; ".to_owned(), |text, k| {
+        let j = k - 1;
+        text + &format!("let f{k} = |u| f{j}(u) - f{j}(u); ")
+    });
+    for force in ["f59(x)", "x.powi(f59(1))"] {
+        let source = format!(
+            "pub T {{ coords {{ x }} {doubled} mass {{ x: 1.0 }} force {{ x: {force} }} }}"
+        );
+        let (_, errors) = expand(&source);
+        let messages: Vec<_> = errors.iter().map(|e| &e.message).collect();
+        assert_eq!(errors.len(), 1, "{messages:?}");
+        assert!(messages[0].contains("times in all"), "{messages:?}");
+    }
+    // Each is two of the one before: 2^60 numbers. A product of 16 million terms.
+    let doubled: String = (1..60).fold("let a0 = [x, x]; ".to_owned(), |text, k| {
+        text + &format!("let a{k} = [a{}, a{}]; ", k - 1, k - 1)
+    });
+    let listed = "let { for i in 0..30 { for j in 0..2000 { b[i][j] = [x, x] } } }";
+    for (lets, force) in [
+        (doubled.as_str(), "norm(a59)"),
+        (listed, "norm(b[1][0]) * b[0][7][1] + sq(b)"),
+        ("", "(transpose([p]) * [p])[0][0]"),
+    ] {
+        let source = format!(
+            "pub T {{ coords {{ x, p[4000] }} {lets} mass {{ x: 1.0, p: 1.0 }} force {{ x: {force} }} }}"
+        );
+        let (_, errors) = expand(&source);
+        let messages: Vec<_> = errors.iter().map(|e| &e.message).collect();
+        assert_eq!(errors.len(), 1, "{messages:?}");
+        assert!(
+            messages[0].contains("terms; up to 100000 compile"),
+            "{messages:?}"
+        );
+    }
+    // Deep chains of index functions are refused, not followed until the stack ends.
+    let chain: String = (1..3000).fold("let f0 = |u| u; ".to_owned(), |text, k| {
+        text + &format!("let f{k} = |u| (((f{}(u)))); ", k - 1)
+    });
+    let source = |index: usize| {
+        format!("pub T {{ coords {{ x[1] }} {chain} mass {{ x[f{index}(0)]: 1.0 }} }}")
+    };
+    accepted(&source(50));
+    let (_, errors) = expand(&source(2999));
+    assert_eq!(errors.len(), 1);
+    assert!(errors[0].message.contains("gives no integer"));
+}
+
+#[test]
+fn long_vectors_and_deep_matrices_are_taken() {
+    let n = 600;
+    let vector = format!("[{}]", repeated("# * x, ", n));
+    accepted(&forced(&format!(
+        "inner({vector}, {vector}) + norm({vector})"
+    )));
+    accepted(&format!(
+        "pub T {{ const N: usize = {n}; params {{ m[N] = [{}] }} coords {{ x[N], p[N][2] }} mass {{ x: m, p: 1.0 }} \
+         force {{ x: -m[0] * x }} potential {{ for i in 0..N {{ sq(p[i]) + 0.5 * m[i] * sq(x[i]) }} }} }}",
+        repeated("#.5, ", n)
+    ));
+    let deep = format!("{}x{}{}", "[".repeat(45), "]".repeat(45), "[0]".repeat(45));
+    accepted(&forced(&deep));
+    let (_, errors) = expand(&forced(&format!("x{}", "[0]".repeat(20_000))));
+    assert_eq!(errors.len(), 1);
+    assert!(errors[0].message.contains("nested too deeply"));
+}
+
 /// Nodes of the graph with all derivatives.
 fn nodes(source: &str) -> usize {
     let (mut system, model) = system(source);

@@ -10,6 +10,7 @@ mod limits;
 mod random;
 mod regular;
 mod speed;
+mod vectors;
 mod verify;
 
 use crate::analysis::Analysis;

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
 /// Pieces that declarations are made of, and some that they are not.
-const PIECES: [&str; 58] = [
+const PIECES: [&str; 84] = [
     "pub",
     "T",
     "{",
@@ -64,6 +64,32 @@ const PIECES: [&str; 58] = [
     "\"s\"",
     "'a'",
     "i64::MAX",
+    "p[N][2]",
+    "p",
+    "p[1]",
+    "[0]",
+    "[x, y]",
+    "[[x, y], [1.0, m]]",
+    "inner(",
+    "cross(",
+    "norm(p)",
+    "normalise",
+    ".transpose()",
+    "rot(x)",
+    "rotx(t)",
+    "rotz",
+    "sq(p)",
+    "dot(p)",
+    "next(0)",
+    "|i, j|",
+    "let next = |i| i + 1;",
+    "let { for i in 0..N { d[i][0] = x } }",
+    "d",
+    "for j in 0..2",
+    "p: 1.0",
+    "c[0][1]: p = d",
+    "k[2][2] = [[1.0, 2.0], [3.0, 4.0]]",
+    "#[allow(dead_code)]",
 ];
 
 /// A declaration that works, to be damaged.
@@ -71,6 +97,13 @@ const WHOLE: &str = "pub T { const N: usize = 3; params { m = 1.0, k[N] = 2.0 } 
     mass { for i in 0..N { x[i]: m } y: m } force { y: f(dot(y)) } potential { sum(0..N, |i| 0.5 * k[i] * sq(x[i])) } \
     holonomic { for i in 0..N - 1 { c[i]: sq(x[i + 1] - x[i]) = sin(t) } d: [x[0], y] = [y * 2.0, x[1]] } \
     nonholonomic { e: dot(x[0]) = y * dot(y) } nonideal { y: -dot(y) } output { o = hypot(x[0], y) } }";
+
+/// One of vectors, to be damaged.
+const VECTORS: &str = "pub T { const N: usize = 2; params { m[N] = [1.0, 2.0], r[N][3] = 0.5 } coords { p[N][3], a[N], s } \
+    let next = |i| (i + 1) - N * ((i + 1) / N); let at = |i, v| p[i] + rotz(a[i]) * v; let { for i in 0..N { d[i] = at(i, r[next(i)]) } } \
+    kinetic { for i in 0..N { 0.5 * m[i] * sq(dot(p[i])) } 0.5 * sq(dot(a)) + 0.5 * sq(dot(s)) } force { p[1]: cross(d[0], dot(p[0])), a: [t, s] } \
+    holonomic { pin: d[0] = d[1] + [s, 0, t]; for i in 0..N { c[i][0]: norm(p[i]) = inner(transpose(rot(s))[0], a) } } \
+    nonideal { p[0]: -normalise(dot(p[0])) } output { o = d, e = (rot(t) * a)[1] } }";
 
 fn survives(source: &str) {
     if let Ok(tokens) = source.parse::<proc_macro2::TokenStream>() {
@@ -80,9 +113,11 @@ fn survives(source: &str) {
 }
 
 #[test]
-fn the_whole_declaration_compiles() {
-    let (_, errors) = expand(WHOLE);
-    assert!(errors.is_empty(), "{errors:?}");
+fn the_whole_declarations_compile() {
+    for source in [WHOLE, VECTORS] {
+        let (_, errors) = expand(source);
+        assert!(errors.is_empty(), "{errors:?}");
+    }
 }
 
 /// So many cases, the same at each run.
@@ -105,15 +140,18 @@ proptest! {
         survives(&format!("pub T {{ {} }}", text.join(" ")));
         survives(&format!("pub T {{ coords {{ x, y }} mass {{ x: 1.0, y: 1.0 }} holonomic {{ {} }} }}", text.join(" ")));
         survives(&format!("pub T {{ coords {{ x, y }} force {{ x: {} }} }}", text.join(" ")));
+        survives(&format!("pub T {{ const N: usize = 2; params {{ m = 1.0 }} coords {{ x, y, p[N][2] }} let next = |i| i + 1; force {{ p[0]: {} }} }}", text.join(" ")));
     }
 
     #[test]
-    fn damaged_declarations(at in 0usize..700, length in 0usize..12, piece in 0usize..PIECES.len()) {
-        let characters: Vec<char> = WHOLE.chars().collect();
-        let at = at.min(characters.len());
-        let end = (at + length).min(characters.len());
-        let damaged: String = characters[..at].iter().chain(PIECES[piece].chars().collect::<Vec<_>>().iter()).chain(&characters[end..]).collect();
-        survives(&damaged);
+    fn damaged_declarations(at in 0usize..760, length in 0usize..12, piece in 0usize..PIECES.len()) {
+        for whole in [WHOLE, VECTORS] {
+            let characters: Vec<char> = whole.chars().collect();
+            let at = at.min(characters.len());
+            let end = (at + length).min(characters.len());
+            let (before, after): (String, String) = (characters[..at].iter().collect(), characters[end..].iter().collect());
+            survives(&format!("{before}{}{after}", PIECES[piece]));
+        }
     }
 
     #[test]

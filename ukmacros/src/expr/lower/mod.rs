@@ -1,18 +1,24 @@
 //! Model to graph: loops unrolled, functions applied, vectors taken apart. This file walks the sections.
 
+mod array;
+mod calls;
+mod lets;
 mod names;
 mod system;
 mod value;
+mod vectors;
 
 pub(crate) use system::{Constraint, ConstraintRef, Kind, OutputValue, System};
+#[cfg(test)]
+pub(crate) use vectors::vocabulary;
 
-use super::eval::{Point, eval};
 use super::graph::{Graph, Id};
-use crate::diag::{Diagnostics, Loc, suggest};
-use crate::model::{Model, Name, Scope};
-use crate::parse::{Block, Declaration, Equation, Expr, Function, Key, LetValue};
-use proc_macro2::Ident;
+use crate::diag::{Diagnostics, Loc};
+use crate::model::{Model, Scope, every};
+use crate::parse::{Block, Declaration, Entry, Equation, Expr, Function, MassEntry};
+use array::{Value, describe};
 use std::collections::{BTreeMap, HashMap, HashSet};
+use std::rc::Rc;
 
 /// Where an expression stands, which decides what it may use.
 #[derive(Clone, Copy, PartialEq)]
@@ -30,18 +36,11 @@ enum Place {
     Output,
 }
 
-#[derive(Clone)]
-enum Value {
-    Scalar(Id),
-    Vector(Vec<Id>),
-    /// Something already reported: fits everywhere.
-    Error,
-}
-
 enum Binding {
     Value(Value),
-    Family(BTreeMap<i64, Value>),
-    Function(Function),
+    /// By indices, as many for each member.
+    Family(BTreeMap<Vec<i64>, Value>),
+    Function(Rc<Function>),
 }
 
 /// Names of constraints or outputs declared so far.
@@ -56,7 +55,7 @@ impl Names {
     /// Enters a name; the reason if it is taken. `what` it names and whether it is `looped` go into the reason.
     fn enter(&mut self, what: &str, item: &ConstraintRef, looped: bool) -> Result<(), String> {
         let (base, text) = (item.base.to_string(), item.text());
-        let indexed = item.index.is_some();
+        let indexed = !item.indices.is_empty();
         if *self.indexed.entry(base.clone()).or_insert(indexed) != indexed {
             return Err(format!(
                 "{what} `{base}` is declared both with and without an index; rename one"
@@ -81,9 +80,11 @@ pub(crate) fn lower(decl: &Declaration, model: &Model, diag: &Diagnostics) -> Sy
         graph: Graph::default(),
         floats: Vec::new(),
         lets: HashMap::new(),
+        unfinished: HashSet::new(),
         active: Vec::new(),
         depth: 0,
         outermost: None,
+        oversized: false,
         known_params: 0,
         hints: HashMap::new(),
         unknown: HashSet::new(),
@@ -105,12 +106,16 @@ struct Lowering<'m> {
     graph: Graph,
     floats: Vec<Id>,
     lets: HashMap<String, Binding>,
+    /// Families of values to which the current block of `let` may still add.
+    unfinished: HashSet<String>,
     /// Functions being applied, against recursion.
     active: Vec<String>,
     /// Nesting of the expression being lowered.
     depth: usize,
     /// The application that all active ones are within.
     outermost: Option<Loc>,
+    /// An array that is too long was reported.
+    oversized: bool,
     /// Parameters whose default is known: those a default may use.
     known_params: usize,
     hints: HashMap<Id, String>,
@@ -145,36 +150,7 @@ impl<'m> Lowering<'m> {
         let defaults = self.defaults();
         self.lower_lets(decl, &top);
 
-        let mut mass: BTreeMap<(usize, usize), (Vec<Id>, Loc)> = BTreeMap::new();
-        if let Some(section) = &decl.mass {
-            top.unroll(&section.blocks, self.diag, &mut |entry, scope| {
-                let row = self.coordinate(&entry.key, scope);
-                let column = entry.other.as_ref().map(|k| (self.coordinate(k, scope), k));
-                let value = self.scalar(&entry.value, &Env::new(scope, Place::Mass));
-                let (Some(row), column) = (row, column) else {
-                    return;
-                };
-                let column = match column {
-                    None => row,
-                    Some((None, _)) => return,
-                    Some((Some(c), k)) if c == row => {
-                        self.diag.error(
-                            k.loc,
-                            format!("a diagonal entry of M is written `{}: …`", k.name),
-                        );
-                        return;
-                    }
-                    Some((Some(c), _)) => c,
-                };
-                let place = (row.max(column), row.min(column));
-                let entries = mass.entry(place).or_insert((Vec::new(), entry.key.loc));
-                entries.0.push(value);
-            });
-        }
-        let mass = mass.into_iter();
-        let mass = mass
-            .map(|(at, (values, loc))| (at, (self.total_of(&values), loc)))
-            .collect();
+        let mass = self.mass(decl, &top);
         if let (Some(_), Some(kinetic)) = (&decl.mass, &decl.kinetic) {
             self.diag.error(
                 kinetic.keyword.span(),
@@ -221,149 +197,6 @@ impl<'m> Lowering<'m> {
         }
     }
 
-    /// Values of the `f64` constants.
-    fn constants(&mut self, top: &Scope<'m>) -> Vec<f64> {
-        let mut values = Vec::new();
-        for constant in &self.model.floats {
-            let env = Env::new(top, Place::Const);
-            let (id, value) = self.evaluated(&constant.value, &env, &[], || {
-                format!("constant `{}`", constant.name)
-            });
-            self.floats.push(id);
-            values.push(value);
-        }
-        values
-    }
-
-    /// An expression of constants and of parameters with these values, and its own value; an error about `what` it is if that is not
-    /// finite.
-    fn evaluated(
-        &mut self,
-        expr: &Expr,
-        env: &Env<'m>,
-        params: &[f64],
-        what: impl Fn() -> String,
-    ) -> (Id, f64) {
-        let before = self.diag.len();
-        let id = self.scalar(expr, env);
-        let point = Point {
-            params,
-            ..Point::NOWHERE
-        };
-        let value = eval(&self.graph, &[id], &point)[0];
-        if !value.is_finite() && self.diag.len() == before {
-            let message = format!("{} is not a finite number", what());
-            self.diag.error(expr.loc, message);
-        }
-        (id, value)
-    }
-
-    fn defaults(&mut self) -> Vec<f64> {
-        let mut defaults = Vec::new();
-        for element in &self.model.param_elements {
-            let mut value = f64::NAN;
-            if let Some((expr, variables)) = &element.default {
-                let scope = Scope::with(self.model, variables.clone());
-                let env = Env::new(&scope, Place::Default);
-                let what = || format!("default of `{}`", element.name);
-                (_, value) = self.evaluated(expr, &env, &defaults, what);
-            }
-            defaults.push(value);
-            self.known_params = defaults.len();
-        }
-        defaults
-    }
-
-    fn lower_lets(&mut self, decl: &Declaration, top: &Scope<'m>) {
-        top.unroll(&decl.lets, self.diag, &mut |binding, scope| {
-            let key = &binding.key;
-            let name = key.name.to_string();
-            let Ok(index) = self.index(key, scope) else {
-                return;
-            };
-            let again = match (self.lets.get(&name), index) {
-                (None, _) => false,
-                (Some(Binding::Family(members)), Some(i)) => members.contains_key(&i),
-                (Some(_), _) => true,
-            };
-            if let LetValue::Function(f) = &binding.value {
-                let again = |k: &usize| f.args[..*k].contains(&f.args[*k]);
-                if let Some(k) = (0..f.args.len()).find(again) {
-                    let arg = &f.args[k];
-                    self.diag.error(
-                        arg.span(),
-                        format!("argument `{arg}` is declared twice; names must be unique"),
-                    );
-                }
-            }
-            let taken = match self.model.free(&key.name) {
-                Err(reason) => Some(reason),
-                Ok(()) if again => {
-                    Some(format!("`{name}` is declared twice; names must be unique"))
-                }
-                Ok(()) => None,
-            };
-            if let Some(reason) = taken {
-                self.diag.error(key.loc, reason);
-                return;
-            }
-            let bound = match (&binding.value, index) {
-                (LetValue::Function(f), None) => Binding::Function(Function {
-                    args: f.args.clone(),
-                    body: f.body.clone(),
-                }),
-                (LetValue::Function(f), Some(_)) => {
-                    self.diag.error(
-                        f.body.loc,
-                        "a function cannot be indexed; pass the index as an argument",
-                    );
-                    return;
-                }
-                (LetValue::Value(e), index) => {
-                    let value = self.value(e, &Env::new(scope, Place::Let));
-                    self.hint(&name, index, &value);
-                    match index {
-                        None => Binding::Value(value),
-                        Some(i) => {
-                            if let Some(Binding::Family(members)) = self.lets.get_mut(&name) {
-                                members.insert(i, value);
-                                return;
-                            }
-                            Binding::Family(BTreeMap::from([(i, value)]))
-                        }
-                    }
-                }
-            };
-            self.lets.insert(name, bound);
-        });
-    }
-
-    /// Remembers the modeller's name of a value, for emitted code and printed equations.
-    fn hint(&mut self, name: &str, index: Option<i64>, value: &Value) {
-        let name = index.map_or(name.to_owned(), |i| format!("{name}[{i}]"));
-        let mut enter = |id: Id, name: String| {
-            let (c, inner) = self.graph.unscaled(id);
-            // The graph keeps coefficients apart: a name must not pass to a value without its coefficient.
-            let (id, name) = match c {
-                1.0 => (id, name),
-                -1.0 => (inner, format!("neg_{name}")),
-                _ => return,
-            };
-            if !self.graph.operands(id).is_empty() {
-                self.hints.entry(id).or_insert(name);
-            }
-        };
-        match value {
-            Value::Scalar(id) => enter(*id, name),
-            Value::Vector(ids) => {
-                for (c, id) in ids.iter().enumerate() {
-                    enter(*id, format!("{name}[{c}]"));
-                }
-            }
-            Value::Error => {}
-        }
-    }
-
     /// What several entries for one place add up to.
     fn total_of(&mut self, values: &[Id]) -> Id {
         let [first, rest @ ..] = values else {
@@ -386,18 +219,96 @@ impl<'m> Lowering<'m> {
         self.graph.sum(&terms)
     }
 
+    /// The lower triangle of M.
+    fn mass(&mut self, decl: &Declaration, top: &Scope<'m>) -> BTreeMap<(usize, usize), (Id, Loc)> {
+        let mut mass: BTreeMap<(usize, usize), (Vec<Id>, Loc)> = BTreeMap::new();
+        if let Some(section) = &decl.mass {
+            top.unroll(&section.blocks, self.diag, &mut |entry, scope| {
+                for (place, value) in self.mass_entry(entry, scope) {
+                    let entries = mass.entry(place).or_insert((Vec::new(), entry.key.loc));
+                    entries.0.push(value);
+                }
+            });
+        }
+        let mass = mass.into_iter();
+        mass.map(|(at, (values, loc))| (at, (self.total_of(&values), loc)))
+            .collect()
+    }
+
+    /// Places in M with what is added there.
+    fn mass_entry(&mut self, entry: &MassEntry, scope: &Scope<'m>) -> Vec<((usize, usize), Id)> {
+        let env = Env::new(scope, Place::Mass);
+        let Some(other) = &entry.other else {
+            let coordinates = self.coordinates(&entry.key, scope);
+            let value = self.value(&entry.value, &env);
+            let Some((positions, shape)) = coordinates else {
+                return Vec::new();
+            };
+            // One number is the mass of all members.
+            let values = match value {
+                Value::Scalar(id) => vec![id; positions.len()],
+                _ => self.fitting(&value, shape, &entry.value),
+            };
+            let places = positions.iter().map(|i| (*i, *i));
+            return places.zip(values).collect();
+        };
+        let (row, column) = (
+            self.coordinate(&entry.key, scope),
+            self.coordinate(other, scope),
+        );
+        let value = self.scalar(&entry.value, &env);
+        let (Some(row), Some(column)) = (row, column) else {
+            return Vec::new();
+        };
+        if row == column {
+            let message = format!("a diagonal entry of M is written `{}: …`", other.name);
+            self.diag.error(other.loc, message);
+            return Vec::new();
+        }
+        vec![((row.max(column), row.min(column)), value)]
+    }
+
+    /// The numbers of `value`, if it has this `shape`, or is 0; reports it, if not.
+    fn fitting(&mut self, value: &Value, shape: &[usize], e: &Expr) -> Vec<Id> {
+        if let Value::Scalar(id) = value
+            && self.graph.is_zero(*id)
+        {
+            return vec![*id; shape.iter().product()];
+        }
+        if !value.is_error() && value.shape() != shape {
+            let (expected, found) = (describe(shape), describe(value.shape()));
+            self.diag
+                .error(e.loc, format!("expected {expected}, found {found}"));
+            return Vec::new();
+        }
+        value.entries().to_vec()
+    }
+
     fn entries(
         &mut self,
-        blocks: &[Block<crate::parse::Entry>],
+        blocks: &[Block<Entry>],
         top: &Scope<'m>,
         place: Place,
     ) -> BTreeMap<usize, Id> {
         let mut out: BTreeMap<usize, Vec<Id>> = BTreeMap::new();
         top.unroll(blocks, self.diag, &mut |entry, scope| {
-            let coordinate = self.coordinate(&entry.key, scope);
-            let value = self.scalar(&entry.value, &Env::new(scope, place));
-            if let Some(i) = coordinate {
-                out.entry(i).or_default().push(value);
+            let coordinates = self.coordinates(&entry.key, scope);
+            let value = self.value(&entry.value, &Env::new(scope, place));
+            let Some((positions, shape)) = coordinates else {
+                return;
+            };
+            if let (Value::Scalar(id), [_, ..]) = (&value, shape)
+                && !self.graph.is_zero(*id)
+            {
+                let message = self.choose_a_member(&entry.key, shape);
+                self.diag.error(entry.key.loc, message);
+                return;
+            }
+            for (i, id) in positions
+                .iter()
+                .zip(self.fitting(&value, shape, &entry.value))
+            {
+                out.entry(*i).or_default().push(id);
             }
         });
         let out = out.into_iter();
@@ -413,13 +324,13 @@ impl<'m> Lowering<'m> {
         out: &mut Vec<Constraint>,
     ) {
         let key = &equation.key;
-        let Ok(index) = self.index(key, scope) else {
+        let Some(indices) = self.indices(&key.indices, scope) else {
             return;
         };
         let mut item = ConstraintRef {
             base: key.name.clone(),
-            index,
-            component: None,
+            indices,
+            components: Vec::new(),
         };
         let reason = match self.model.free(&key.name) {
             Err(reason) => Some(reason),
@@ -444,8 +355,8 @@ impl<'m> Lowering<'m> {
         self.chain(&equation.lhs, 1.0, &env, &mut terms);
         self.chain(&equation.rhs, -1.0, &env, &mut terms);
         let total = self.total(&terms, true);
-        for (component, phi) in self.components(total) {
-            item.component = component;
+        for (components, phi) in self.components(&total) {
+            item.components = components;
             out.push(Constraint {
                 item: item.clone(),
                 kind,
@@ -455,14 +366,14 @@ impl<'m> Lowering<'m> {
         }
     }
 
-    /// The numbers that a value consists of, with their positions in a vector. The name of a faulty one stays declared, as zero: what uses
-    /// it gives no second message.
-    fn components(&mut self, value: Value) -> Vec<(Option<usize>, Id)> {
-        match value {
-            Value::Scalar(id) => vec![(None, id)],
-            Value::Vector(ids) => (0..).map(Some).zip(ids).collect(),
-            Value::Error => vec![(None, self.graph.zero())],
-        }
+    /// The numbers that a value consists of, with their indices in it. The name of a faulty one stays declared, as zero: what uses it gives
+    /// no second message.
+    fn components(&mut self, value: &Value) -> Vec<(Vec<usize>, Id)> {
+        let numbers = match value {
+            Value::Error => vec![self.graph.zero()],
+            _ => value.entries().to_vec(),
+        };
+        every(value.shape()).zip(numbers).collect()
     }
 
     fn outputs(&mut self, decl: &Declaration, top: &Scope<'m>) -> Vec<OutputValue> {
@@ -470,13 +381,13 @@ impl<'m> Lowering<'m> {
         let mut names = Names::default();
         top.unroll(&decl.outputs, self.diag, &mut |output, scope| {
             let key = &output.key;
-            let Ok(index) = self.index(key, scope) else {
+            let Some(indices) = self.indices(&key.indices, scope) else {
                 return;
             };
             let mut item = ConstraintRef {
                 base: key.name.clone(),
-                index,
-                component: None,
+                indices,
+                components: Vec::new(),
             };
             let looped = !scope.variables.is_empty();
             let free = self.model.column(&key.name);
@@ -485,8 +396,8 @@ impl<'m> Lowering<'m> {
                 return;
             }
             let value = self.value(&output.value, &Env::new(scope, Place::Output));
-            for (component, value) in self.components(value) {
-                item.component = component;
+            for (components, value) in self.components(&value) {
+                item.components = components;
                 let text = item.text();
                 let coordinates = &self.model.coord_elements;
                 if coordinates.iter().any(|c| c.name == text) {
@@ -506,83 +417,5 @@ impl<'m> Lowering<'m> {
             }
         });
         out
-    }
-
-    /// The index of `key`, if it has one.
-    fn index(&self, key: &Key, scope: &Scope<'m>) -> Result<Option<i64>, ()> {
-        let index = key.index.as_ref().map(|i| self.integer(i, scope).ok_or(()));
-        index.transpose()
-    }
-
-    /// Position in q of the coordinate that `key` names.
-    fn coordinate(&mut self, key: &Key, scope: &Scope<'m>) -> Option<usize> {
-        let name = key.name.to_string();
-        let Some(Name::Coord(family)) = self.model.names.get(&name) else {
-            let coords = self
-                .model
-                .coords
-                .iter()
-                .map(|f| f.name.to_string())
-                .collect::<Vec<_>>();
-            let remedy = match coords.len() {
-                0..=8 => format!("coordinates are `{}`", coords.join("`, `")),
-                _ => "declare it under `coords`".to_owned(),
-            };
-            let end = suggest(&name, coords.iter().map(String::as_str), &remedy);
-            self.diag.error(
-                key.name.span(),
-                format!("`{name}` is not a coordinate{end}"),
-            );
-            return None;
-        };
-        self.member(
-            &key.name,
-            key.index.as_ref(),
-            &self.model.coords[*family],
-            scope,
-        )
-    }
-
-    /// Element of a family (or the scalar itself).
-    fn member(
-        &self,
-        name: &Ident,
-        index: Option<&Expr>,
-        family: &crate::model::Family,
-        scope: &Scope<'m>,
-    ) -> Option<usize> {
-        match (family.indexed, index) {
-            (false, None) => family.members.first().copied(),
-            (false, Some(i)) => {
-                self.diag.error(
-                    i.loc,
-                    format!("`{name}` is not a family; write it without an index"),
-                );
-                None
-            }
-            (true, None) => {
-                let last = family.members.len() - 1;
-                self.diag.error(
-                    name.span(),
-                    format!(
-                        "`{name}` is a family; choose a member, `{name}[0]` to `{name}[{last}]`"
-                    ),
-                );
-                None
-            }
-            (true, Some(e)) => {
-                let i = self.integer(e, scope)?;
-                let found = usize::try_from(i).ok().and_then(|i| family.members.get(i));
-                if found.is_none() {
-                    let len = family.members.len();
-                    self.diag.error(e.loc, format!("index {i} is out of range: `{name}` has {len} members, `{name}[0]` to `{name}[{}]`", len - 1));
-                }
-                found.copied()
-            }
-        }
-    }
-
-    fn integer(&self, e: &Expr, scope: &Scope<'m>) -> Option<i64> {
-        scope.integer(e, self.diag)
     }
 }

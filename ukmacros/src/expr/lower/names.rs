@@ -1,40 +1,52 @@
-//! Names, calls, and what may stand where.
+//! Names, members, and what may stand where.
 
-use super::value::is_integer;
-use super::{Binding, Env, Lowering, Place, Value};
+use super::array::{MAX_ENTRIES, Value, describe};
+use super::{Binding, Env, Lowering, Place};
 use crate::diag::{Loc, suggest};
-use crate::expr::diff::Derivative;
-use crate::expr::functions::Func;
 use crate::expr::graph::{Id, Symbol};
-use crate::model::{Name, Scope};
-use crate::parse::Expr;
+use crate::model::{Family, Name, Scope, block, indexed};
+use crate::parse::{Expr, Key};
 use proc_macro2::Ident;
-
-/// Largest exponent of `powi`.
-const MAX_POWER: i32 = 64;
+use std::collections::BTreeMap;
 
 impl<'m> Lowering<'m> {
-    pub(super) fn name(&mut self, name: &Ident, env: &Env<'m>) -> Value {
+    /// What `name` stands for; of a family or vector the member or part that `indices` choose.
+    pub(super) fn name(&mut self, name: &Ident, indices: &[Expr], env: &Env<'m>) -> Value {
         let text = name.to_string();
-        if let Some((_, value)) = env.args.iter().rev().find(|(n, _)| *n == text) {
-            return value.clone();
+        let shown = format!("`{text}`");
+        let argument = env.args.iter().rev().find(|(n, _)| *n == text);
+        if let Some((_, value)) = argument {
+            let value = value.clone();
+            return self.part(value, &shown, indices, env);
         }
         if let Some(i) = env.scope.lookup(&text) {
             #[allow(
                 clippy::cast_precision_loss,
                 reason = "an integer in a formula is a number"
             )]
-            return Value::Scalar(self.graph.constant(i as f64));
+            let value = Value::Scalar(self.graph.constant(i as f64));
+            return self.part(value, &shown, indices, env);
         }
-        match text.as_str() {
-            "t" => return self.allowed(Symbol::Time, name.span(), env),
-            "PI" => return Value::Scalar(self.graph.constant(std::f64::consts::PI)),
-            _ => {}
-        }
+        let value = match text.as_str() {
+            "t" => self.allowed(Symbol::Time, name.span(), env),
+            "PI" => Value::Scalar(self.graph.constant(std::f64::consts::PI)),
+            _ => return self.declared(name, indices, env),
+        };
+        self.part(value, &shown, indices, env)
+    }
+
+    /// What is declared under `name`, or its part.
+    fn declared(&mut self, name: &Ident, indices: &[Expr], env: &Env<'m>) -> Value {
+        let text = name.to_string();
         match self.model.names.get(&text) {
-            Some(Name::Param(_) | Name::Coord(_)) => self.element(name, None, env),
+            Some(Name::Param(f)) => {
+                self.members(name, indices, &self.model.params[*f], Symbol::Param, env)
+            }
+            Some(Name::Coord(f)) => {
+                self.members(name, indices, &self.model.coords[*f], Symbol::Coord, env)
+            }
             Some(Name::Float(i)) => match self.floats.get(*i) {
-                Some(id) => Value::Scalar(*id),
+                Some(id) => self.part(Value::Scalar(*id), &format!("`{text}`"), indices, env),
                 None => self.error(
                     name.span(),
                     format!("`{text}` is declared further down; move its declaration up"),
@@ -43,18 +55,101 @@ impl<'m> Lowering<'m> {
             Some(Name::Integer) | None => match self.lets.get(&text) {
                 Some(Binding::Value(value)) => {
                     let value = value.clone();
-                    self.allowed_value(value, name.span().into(), env)
+                    let part = self.part(value, &format!("`{text}`"), indices, env);
+                    self.allowed_value(part, name.span().into(), env)
                 }
-                Some(Binding::Family(_)) => self.error(
-                    name.span(),
-                    format!("`{text}` is a family; index it: `{text}[i]`"),
-                ),
+                Some(Binding::Family(_)) => {
+                    let part = self.of_family(name, indices, env);
+                    self.allowed_value(part, name.span().into(), env)
+                }
                 Some(Binding::Function(_)) => self.error(
                     name.span(),
                     format!("`{text}` is a function; call it: `{text}(…)`"),
                 ),
                 None => self.unknown(name, env),
             },
+        }
+    }
+
+    /// The part of `value`, called `name`, that `indices` choose.
+    pub(super) fn part(
+        &mut self,
+        value: Value,
+        name: &str,
+        indices: &[Expr],
+        env: &Env<'m>,
+    ) -> Value {
+        if indices.is_empty() || value.is_error() {
+            return value;
+        }
+        let shape = value.shape();
+        if let Some(surplus) = indices.get(shape.len()) {
+            let message = match shape.len() {
+                0 => format!("{name} is a number; write it without an index"),
+                n => format!(
+                    "{name} is {}; it takes no index beyond {n}",
+                    describe(shape)
+                ),
+            };
+            return self.error(surplus.loc, message);
+        }
+        let Some(chosen) = self.indices(indices, &env.scope) else {
+            return Value::Error;
+        };
+        value.block(&chosen).unwrap_or_else(|wrong| {
+            let (index, size) = (chosen[wrong], shape[wrong]);
+            let what = match shape.len() {
+                1 => format!("{name} has {size} components"),
+                _ => format!("{name} is {}", describe(shape)),
+            };
+            let message = format!("index {index} is out of range: {what}");
+            self.error(indices[wrong].loc, message)
+        })
+    }
+
+    /// Members of a family of values declared by `let`.
+    fn of_family(&mut self, name: &Ident, indices: &[Expr], env: &Env<'m>) -> Value {
+        let text = name.to_string();
+        let Some(chosen) = self.indices(indices, &env.scope) else {
+            return Value::Error;
+        };
+        let Some(Binding::Family(members)) = self.lets.get(&text) else {
+            return Value::Error;
+        };
+        // The loop that declares it ended at an error.
+        let broken = || members.values().any(Value::is_error);
+        let own = members.keys().next().map_or(0, Vec::len);
+        if chosen.len() >= own {
+            let (chosen, rest) = (&chosen[..own], &indices[own..]);
+            let shown = format!("`{}`", indexed(&text, chosen));
+            return match members.get(chosen).cloned() {
+                Some(value) => self.part(value, &shown, rest, env),
+                None if broken() => Value::Error,
+                None => self.error(
+                    indices[own - 1].loc,
+                    format!("{shown} is not declared (yet)"),
+                ),
+            };
+        }
+        if broken() {
+            return Value::Error;
+        }
+        let entries = Value::count(below(members, &chosen).map(|(_, value)| value));
+        if entries > MAX_ENTRIES {
+            return self.too_long("array", entries, name.span().into());
+        }
+        let whole = together(members, &chosen, own, self.graph.zero());
+        let shown = indexed(&text, &chosen);
+        match whole {
+            _ if self.unfinished.contains(&text) => self.error(
+                name.span(),
+                format!("`{shown}` is a family whose members are still being declared; index it: `{text}[i]`"),
+            ),
+            Some(value) => value,
+            None => self.error(
+                name.span(),
+                format!("`{shown}` is no vector: its members are not of one shape with indices 0, 1, 2, …; index it: `{text}[i]`"),
+            ),
         }
     }
 
@@ -87,246 +182,117 @@ impl<'m> Lowering<'m> {
         self.error(name.span(), format!("unknown name `{text}`{end}"))
     }
 
-    /// A parameter or coordinate.
-    fn element(&mut self, name: &Ident, index: Option<&Expr>, env: &Env<'m>) -> Value {
-        let (model, names) = (self.model, &self.model.names);
-        let (family, symbol): (_, fn(usize) -> Symbol) = match names.get(&name.to_string()) {
-            Some(Name::Param(family)) => (&model.params[*family], Symbol::Param),
-            Some(Name::Coord(family)) => (&model.coords[*family], Symbol::Coord),
-            _ => return Value::Error,
-        };
-        match self.member(name, index, family, &env.scope) {
-            Some(i) => self.allowed(symbol(i), name.span(), env),
-            None => Value::Error,
-        }
-    }
-
-    pub(super) fn indexed(&mut self, name: &Ident, index: &Expr, env: &Env<'m>) -> Value {
-        let text = name.to_string();
-        let zero = Value::Error;
-        let argument = env.args.iter().rev().find(|(n, _)| *n == text);
-        let argument = argument.map(|(_, v)| v.clone());
-        let vector = argument.or_else(|| match self.lets.get(&text) {
-            Some(Binding::Value(value)) => Some(value.clone()),
-            _ => None,
-        });
-        if let Some(value) = vector {
-            let components = match &value {
-                Value::Vector(components) => components,
-                Value::Error => return zero,
-                Value::Scalar(_) => {
-                    return self.error(
-                        index.loc,
-                        format!("`{text}` is a number; write it without an index"),
-                    );
-                }
-            };
-            let Some(i) = self.integer(index, &env.scope) else {
-                return zero;
-            };
-            return match usize::try_from(i).ok().and_then(|i| components.get(i)) {
-                Some(id) => self.allowed_value(Value::Scalar(*id), name.span().into(), env),
-                None => self.error(
-                    index.loc,
-                    format!(
-                        "index {i} is out of range: `{text}` has {} components",
-                        components.len()
-                    ),
-                ),
-            };
-        }
-        match self.model.names.get(&text) {
-            Some(Name::Param(_) | Name::Coord(_)) => self.element(name, Some(index), env),
-            Some(_) => self.error(name.span(), format!("`{text}` is not a family")),
-            None => match self.lets.get(&text) {
-                Some(Binding::Family(members)) => {
-                    let Some(i) = self.integer(index, &env.scope) else {
-                        return zero;
-                    };
-                    match members.get(&i).cloned() {
-                        Some(value) => self.allowed_value(value, name.span().into(), env),
-                        // The loop that declares it ended at an error.
-                        None if members.values().any(|v| matches!(v, Value::Error)) => zero,
-                        None => {
-                            self.error(index.loc, format!("`{text}[{i}]` is not declared (yet)"))
-                        }
-                    }
-                }
-                Some(_) => self.error(
-                    name.span(),
-                    format!("`{text}` is a function; call it: `{text}(…)`"),
-                ),
-                None => self.unknown(name, env),
-            },
-        }
-    }
-
-    pub(super) fn call(&mut self, e: &Expr, name: &Ident, args: &[Expr], env: &Env<'m>) -> Value {
-        let text = name.to_string();
-        if matches!(self.lets.get(&text), Some(Binding::Function(_))) {
-            return self.apply(e, name, args, env);
-        }
-        match text.as_str() {
-            "dot" => return self.dot(e, name, args, env),
-            "ddot" => {
-                return self.error(
-                    name.span(),
-                    "accelerations are what is solved for; no section may use them",
-                );
-            }
-            "powi" => {
-                let [base, exponent] = args else {
-                    return self.arity(name, 2, args.len());
-                };
-                let base = self.number(base, env);
-                let (Some(base), Some(n)) = (base, self.integer(exponent, &env.scope)) else {
-                    return Value::Error;
-                };
-                return match i32::try_from(n) {
-                    Ok(n) if (-MAX_POWER..=MAX_POWER).contains(&n) => {
-                        Value::Scalar(self.graph.pow(base, n))
-                    }
-                    _ => self.error(
-                        exponent.loc,
-                        format!(
-                            "`powi` takes exponents from -{MAX_POWER} to {MAX_POWER}; use `powf`"
-                        ),
-                    ),
-                };
-            }
-            "sq" | "recip" => {
-                let [u] = args else {
-                    return self.arity(name, 1, args.len());
-                };
-                let Some(u) = self.number(u, env) else {
-                    return Value::Error;
-                };
-                let exponent = if text == "sq" { 2 } else { -1 };
-                return Value::Scalar(self.graph.pow(u, exponent));
-            }
-            "signum" => {
-                return self.error(
-                    name.span(),
-                    "`signum(0.0)` is 1 in Rust; write `sign`, which is 0 at 0",
-                );
-            }
-            _ => {}
-        }
-        let Some(func) = Func::all().find(|f| f.row().name == text) else {
-            return self.unknown_function(name, env);
-        };
-        if args.len() != func.arity() {
-            return self.arity(name, func.arity(), args.len());
-        }
-        let ids: Vec<Option<Id>> = args.iter().map(|a| self.number(a, env)).collect();
-        match ids[..] {
-            [Some(u), Some(w)] => Value::Scalar(self.graph.call2(func, u, w)),
-            [Some(u)] => Value::Scalar(self.graph.call1(func, u)),
-            _ => Value::Error,
-        }
-    }
-
-    fn arity(&mut self, name: &Ident, expected: usize, found: usize) -> Value {
-        let s = if expected == 1 { "" } else { "s" };
-        self.error(
-            name.span(),
-            format!("`{name}` takes {expected} argument{s}, found {found}"),
-        )
-    }
-
-    fn unknown_function(&mut self, name: &Ident, env: &Env<'m>) -> Value {
-        let text = name.to_string();
-        let known = self.model.names.contains_key(&text) || self.lets.contains_key(&text);
-        if known || env.args.iter().any(|(n, _)| *n == text) {
-            return self.error(
-                name.span(),
-                format!("`{text}` is not a function; write `*` for a product, `,` between entries"),
-            );
-        }
-        if !self.unknown.insert(text.clone()) {
+    /// Members of a family of parameters or coordinates, or the scalar itself.
+    fn members(
+        &mut self,
+        name: &Ident,
+        indices: &[Expr],
+        family: &'m Family,
+        symbol: fn(usize) -> Symbol,
+        env: &Env<'m>,
+    ) -> Value {
+        let Some((positions, shape)) = self.member(name, indices, family, &env.scope) else {
             return Value::Error;
+        };
+        let mut entries = Vec::with_capacity(positions.len());
+        for position in positions {
+            match self.allowed(symbol(*position), name.span(), env) {
+                Value::Scalar(id) => entries.push(id),
+                _ => return Value::Error,
+            }
         }
-        let mut names: Vec<&str> = Func::all().map(|f| f.row().name).collect();
-        names.extend(["sq", "powi", "recip", "dot", "sum"]);
-        let list = names.join(", ");
-        let lets = self.lets.iter();
-        let functions = lets.filter(|(_, b)| matches!(b, Binding::Function(_)));
-        names.extend(functions.map(|(n, _)| n.as_str()));
-        let remedy = format!("functions are {list}, and those declared by `let f = |u| …;`");
-        let end = suggest(&text, names, &remedy);
-        self.error(name.span(), format!("unknown function `{text}`{end}"))
+        Value::new(shape, entries)
     }
 
-    /// Applies a function declared by `let`.
-    fn apply(&mut self, e: &Expr, name: &Ident, args: &[Expr], env: &Env<'m>) -> Value {
-        let text = name.to_string();
-        let Some(Binding::Function(function)) = self.lets.get(&text) else {
-            return self.unknown_function(name, env);
-        };
-        let (parameters, body) = (function.args.clone(), function.body.clone());
-        if args.len() != parameters.len() {
-            return self.arity(name, parameters.len(), args.len());
+    /// Positions of the members of a family that `indices` choose, and the shape of what they make up.
+    fn member(
+        &mut self,
+        name: &Ident,
+        indices: &[Expr],
+        family: &'m Family,
+        scope: &Scope<'m>,
+    ) -> Option<(&'m [usize], &'m [usize])> {
+        let shape = &family.shape;
+        if let Some(surplus) = indices.get(shape.len()) {
+            let message = match shape.len() {
+                0 => format!("`{name}` is not a family; write it without an index"),
+                1 => format!("members of `{name}` are numbers: they take one index"),
+                n => format!("members of `{name}` are numbers: they take {n} indices"),
+            };
+            self.diag.error(surplus.loc, message);
+            return None;
         }
-        if self.active.contains(&text) {
-            return self.error(
-                name.span(),
-                format!("`{text}` calls itself; functions cannot be recursive"),
-            );
+        let chosen = self.indices(indices, scope)?;
+        match block(shape, &chosen) {
+            Ok(range) => Some((&family.members[range], &shape[chosen.len()..])),
+            Err(wrong) => {
+                let (count, members) = (family.members.len(), range_of(name, shape));
+                let message = format!(
+                    "index {} is out of range: `{name}` has {count} members, {members}",
+                    chosen[wrong]
+                );
+                self.diag.error(indices[wrong].loc, message);
+                None
+            }
         }
-        let values: Vec<Value> = args.iter().map(|a| self.value(a, env)).collect();
-        if values.iter().any(|v| matches!(v, Value::Error)) {
-            return Value::Error;
-        }
-        // An integer argument may serve as an index inside the function.
-        let pairs = parameters.iter().zip(args);
-        let pairs = pairs.filter(|(_, a)| is_integer(a, &env.scope));
-        let integers =
-            pairs.filter_map(|(p, a)| Some((p.to_string(), self.integer(a, &env.scope)?)));
-        let integers = integers.collect();
-        let arguments = parameters.iter().map(Ident::to_string);
-        let inner = Env {
-            scope: Scope::with(self.model, integers),
-            args: arguments.zip(values).collect(),
-            place: Place::Let,
-        };
-        if self.active.is_empty() {
-            self.outermost = Some(e.loc);
-        }
-        self.active.push(text);
-        let value = self.value(&body, &inner);
-        self.active.pop();
-        self.allowed_value(value, e.loc, env)
     }
 
-    /// `dot(u)`: q̇ of a coordinate, the total time derivative of an expression of q and t.
-    fn dot(&mut self, e: &Expr, name: &Ident, args: &[Expr], env: &Env<'m>) -> Value {
-        let [u] = args else {
-            return self.arity(name, 1, args.len());
-        };
-        // The argument may use coordinates even where a velocity may not stand; the velocity itself is checked below.
-        let value = self.value(u, env);
-        let ids = match &value {
-            Value::Scalar(id) => vec![*id],
-            Value::Vector(ids) => ids.clone(),
-            Value::Error => return Value::Error,
-        };
-        if ids.iter().any(|id| self.graph.uses(*id).velocity) {
-            return self.error(
-                e.loc,
-                "the time derivative of a velocity is an acceleration, which is what is solved for; no section may use it",
+    /// Positions in q of the coordinates that `key` names, and the shape of what they make up.
+    pub(super) fn coordinates(
+        &mut self,
+        key: &Key,
+        scope: &Scope<'m>,
+    ) -> Option<(&'m [usize], &'m [usize])> {
+        let name = key.name.to_string();
+        let Some(Name::Coord(family)) = self.model.names.get(&name) else {
+            // Once for all its uses.
+            if !self.unknown.insert(name.clone()) {
+                return None;
+            }
+            let coords = self.model.coords.iter().map(|f| f.name.to_string());
+            let coords: Vec<String> = coords.collect();
+            let remedy = match coords.len() {
+                0..=8 => format!("coordinates are `{}`", coords.join("`, `")),
+                _ => "declare it under `coords`".to_owned(),
+            };
+            let end = suggest(&name, coords.iter().map(String::as_str), &remedy);
+            self.diag.error(
+                key.name.span(),
+                format!("`{name}` is not a coordinate{end}"),
             );
-        }
-        if ids.iter().all(|id| self.graph.uses(*id).constant()) {
-            return self.error(u.loc, "this does not change with time; `dot` takes a coordinate or an expression of coordinates and `t`");
-        }
-        let mut total = Derivative::total();
-        let dots = ids.iter().map(|id| total.of(*id, &mut self.graph));
-        let dots: Vec<Id> = dots.collect();
-        let value = match value {
-            Value::Vector(_) => Value::Vector(dots),
-            _ => Value::Scalar(dots[0]),
+            return None;
         };
-        self.allowed_value(value, e.loc, env)
+        let family = &self.model.coords[*family];
+        self.member(&key.name, &key.indices, family, scope)
+    }
+
+    /// Position in q of the coordinate that `key` names.
+    pub(super) fn coordinate(&mut self, key: &Key, scope: &Scope<'m>) -> Option<usize> {
+        match self.coordinates(key, scope)? {
+            ([position], []) => Some(*position),
+            (_, shape) => {
+                let message = self.choose_a_member(key, shape);
+                self.diag.error(key.loc, message);
+                None
+            }
+        }
+    }
+
+    /// The message about a family that stands where a number is needed; `shape` is what is left of it.
+    pub(super) fn choose_a_member(&self, key: &Key, shape: &[usize]) -> String {
+        let name = &key.name;
+        let members = match self.model.names.get(&name.to_string()) {
+            Some(Name::Coord(f)) => range_of(name, &self.model.coords[*f].shape),
+            _ => String::new(),
+        };
+        let whole = describe(shape);
+        format!("`{name}` is a family; choose a member, {members}, or give {whole}")
+    }
+
+    /// Integers, if all are.
+    pub(super) fn indices(&self, indices: &[Expr], scope: &Scope<'m>) -> Option<Vec<i64>> {
+        let indices = indices.iter().map(|i| scope.integer(i, self.diag));
+        indices.collect()
     }
 
     fn allowed(&mut self, symbol: Symbol, span: proc_macro2::Span, env: &Env<'m>) -> Value {
@@ -341,13 +307,8 @@ impl<'m> Lowering<'m> {
     }
 
     /// Checks that what `value` depends on may stand in this section.
-    fn allowed_value(&mut self, value: Value, loc: Loc, env: &Env<'m>) -> Value {
-        let ids = match &value {
-            Value::Scalar(id) => std::slice::from_ref(id),
-            Value::Vector(ids) => ids.as_slice(),
-            Value::Error => return Value::Error,
-        };
-        for id in ids {
+    pub(super) fn allowed_value(&mut self, value: Value, loc: Loc, env: &Env<'m>) -> Value {
+        for id in value.entries() {
             let uses = self.graph.uses(*id);
             let refusal = match env.place {
                 Place::Const if uses.param || !uses.constant() => Some(
@@ -373,4 +334,45 @@ impl<'m> Lowering<'m> {
         }
         value
     }
+}
+
+/// `x[0]` to `x[2]`: the members of a family of this shape.
+fn range_of(name: &Ident, shape: &[usize]) -> String {
+    let last: Vec<usize> = shape.iter().map(|size| size - 1).collect();
+    let first = indexed(name, &vec![0; shape.len()]);
+    format!("`{first}` to `{}`", indexed(name, &last))
+}
+
+/// The members whose indices begin with `chosen`.
+fn below<'a>(
+    members: &'a BTreeMap<Vec<i64>, Value>,
+    chosen: &'a [i64],
+) -> impl Iterator<Item = (&'a Vec<i64>, &'a Value)> {
+    let from = members.range(chosen.to_vec()..);
+    from.take_while(move |(indices, _)| indices.starts_with(chosen))
+}
+
+/// The members that begin with `chosen` as an array, if their indices, `own` each, are 0, 1, 2, … and their shapes are one.
+fn together(
+    members: &BTreeMap<Vec<i64>, Value>,
+    chosen: &[i64],
+    own: usize,
+    zero: Id,
+) -> Option<Value> {
+    let found = below(members, chosen).map(|(indices, value)| (indices, value.clone()));
+    let (indices, parts): (Vec<&Vec<i64>>, Vec<Value>) = found.unzip();
+    let mut shape = Vec::new();
+    for d in chosen.len()..own {
+        let least = indices.iter().map(|i| i[d]).min()?;
+        let most = indices.iter().map(|i| i[d]).max()?;
+        shape.push(usize::try_from(most).ok().filter(|_| least == 0)? + 1);
+    }
+    // As many as there are places: each has one.
+    let full = shape
+        .iter()
+        .try_fold(1, |n: usize, size| n.checked_mul(*size))
+        == Some(parts.len());
+    let stacked = Value::stack(&parts, zero).ok().filter(|_| full)?;
+    shape.extend_from_slice(&stacked.shape()[1..]);
+    Some(Value::new(&shape, stacked.entries().to_vec()))
 }

@@ -2,6 +2,7 @@
 
 use crate::diag::Loc;
 use crate::expr::graph::{Graph, Id};
+use crate::model::indexed;
 use proc_macro2::Ident;
 use std::collections::{BTreeMap, HashMap};
 
@@ -67,25 +68,18 @@ pub(crate) struct Constraint {
     pub(crate) loc: Loc,
 }
 
-/// Name of a constraint or output: family, index, component of a vector equation.
+/// Name of a constraint or output: family, its indices, indices of the component of a vector equation.
 #[derive(Clone)]
 pub(crate) struct ConstraintRef {
     pub(crate) base: Ident,
-    pub(crate) index: Option<i64>,
-    pub(crate) component: Option<usize>,
+    pub(crate) indices: Vec<i64>,
+    pub(crate) components: Vec<usize>,
 }
 
 impl ConstraintRef {
     /// As shown: `link[3]`, `joint[0]`, `joint[2][1]`.
     pub(crate) fn text(&self) -> String {
-        let mut text = self.base.to_string();
-        if let Some(i) = self.index {
-            text += &format!("[{i}]");
-        }
-        if let Some(c) = self.component {
-            text += &format!("[{c}]");
-        }
-        text
+        indexed(indexed(&self.base, &self.indices), &self.components)
     }
 }
 

@@ -1,10 +1,10 @@
 //! Arithmetic: expressions to values.
 
-use super::{Env, Lowering, Place, Value};
+use super::array::{MAX_ENTRIES, Value, describe};
+use super::{Env, Lowering, Place};
 use crate::diag::{Diagnostics, Loc};
 use crate::expr::eval::{Point, eval};
-use crate::expr::graph::{Id, Node, Uses};
-use crate::model::Scope;
+use crate::expr::graph::{Graph, Id, Node, Uses};
 use crate::parse::{BinaryOp, Expr, ExprKind};
 
 /// Deeper evaluation is refused, since it recurses: expressions within functions within functions.
@@ -18,13 +18,13 @@ impl<'m> Lowering<'m> {
 
     /// A number, unless it is in error.
     pub(super) fn number(&mut self, e: &Expr, env: &Env<'m>) -> Option<Id> {
-        match self.value(e, env) {
+        let value = self.value(e, env);
+        match value {
             Value::Scalar(id) => Some(id),
-            Value::Vector(v) => {
-                self.diag.error(
-                    e.loc,
-                    format!("expected a number, found a vector of {}", v.len()),
-                );
+            Value::Array(_) => {
+                let found = describe(value.shape());
+                self.diag
+                    .error(e.loc, format!("expected a number, found {found}"));
                 None
             }
             Value::Error => None,
@@ -33,6 +33,15 @@ impl<'m> Lowering<'m> {
 
     pub(super) fn error(&mut self, loc: impl Into<Loc>, message: impl Into<String>) -> Value {
         self.diag.error(loc, message);
+        Value::Error
+    }
+
+    /// Reports an array, or a product, of so many numbers or terms, once for all that is made of it.
+    pub(super) fn too_long(&mut self, what: &str, count: usize, loc: Loc) -> Value {
+        if !std::mem::replace(&mut self.oversized, true) {
+            let message = format!("{what} of {count} terms; up to {MAX_ENTRIES} compile");
+            self.error(loc, message);
+        }
         Value::Error
     }
 
@@ -59,8 +68,14 @@ impl<'m> Lowering<'m> {
             ExprKind::Int(n) => Value::Scalar(self.graph.constant(*n as f64)),
             ExprKind::Float(x) => Value::Scalar(self.graph.constant(*x)),
             ExprKind::Group(inner) => self.value(inner, env),
-            ExprKind::Name(name) => self.name(name, env),
-            ExprKind::Index(name, index) => self.indexed(name, index, env),
+            ExprKind::Name(name) => self.name(name, &[], env),
+            ExprKind::Index(base, indices) => match &base.kind {
+                ExprKind::Name(name) => self.name(name, indices, env),
+                _ => {
+                    let value = self.value(base, env);
+                    self.part(value, "this", indices, env)
+                }
+            },
             ExprKind::Chain(first, rest) if rest.iter().all(|(op, _)| !op.adds()) => {
                 self.product(first, rest, env)
             }
@@ -71,23 +86,27 @@ impl<'m> Lowering<'m> {
                 self.finite(value, e.loc, env)
             }
             ExprKind::Vector(components) => {
-                let components = components.iter().map(|c| self.scalar(c, env));
-                let components: Vec<Id> = components.collect();
                 if components.is_empty() {
                     return self.error(e.loc, "a vector needs at least one component");
                 }
-                Value::Vector(components)
-            }
-            ExprKind::Sum { var, range, body } => {
-                if env.args.iter().any(|(n, _)| var == n) {
-                    return self.error(
-                        var.span(),
-                        format!("`{var}` is already an argument; choose another name"),
-                    );
+                let parts = components.iter().map(|c| self.value(c, env));
+                let parts: Vec<Value> = parts.collect();
+                let entries = Value::count(&parts);
+                if entries > MAX_ENTRIES {
+                    return self.too_long("array", entries, e.loc);
                 }
-                if !env.scope.loop_variable(var, self.diag) {
+                if self.oversized && parts.iter().any(Value::is_error) {
                     return Value::Error;
                 }
+                Value::stack(&parts, self.graph.zero()).unwrap_or_else(|odd| {
+                    let sound = parts.iter().find(|part| !part.is_error());
+                    let expected = describe(sound.map_or(&[], Value::shape));
+                    let found = describe(parts[odd].shape());
+                    let message = format!("expected {expected} as before it, found {found}");
+                    self.error(components[odd].loc, message)
+                })
+            }
+            ExprKind::Sum { var, range, body } => {
                 let Some(range) = env.scope.range(range, self.diag) else {
                     return Value::Error;
                 };
@@ -96,6 +115,7 @@ impl<'m> Lowering<'m> {
                 for i in range {
                     let mut inner = env.clone();
                     inner.scope = env.scope.bind(var, i);
+                    inner.args.retain(|(name, _)| var != name);
                     self.chain(body, 1.0, &inner, &mut terms);
                     if self.diag.len() > before {
                         break;
@@ -115,18 +135,18 @@ impl<'m> Lowering<'m> {
     fn product(&mut self, first: &Expr, rest: &[(BinaryOp, Expr)], env: &Env<'m>) -> Value {
         let quiet = Diagnostics::default();
         let integer = |e: &Expr| {
-            let by_form = is_integer(e, &env.scope);
+            let by_form = env.scope.is_integer(e);
             by_form.then(|| env.scope.integer(e, &quiet)).flatten()
         };
-        // What stands so far: as an integer, if it is one; a vector's components, if there is one; factors.
+        // What stands so far: as an integer, if it is one; an array, if there is one; factors.
         let mut whole = integer(first);
-        let mut vector: Option<Vec<Id>> = None;
+        let mut array: Option<Value> = None;
         let mut factors: Vec<(Id, i32)> = Vec::with_capacity(rest.len() + 1);
         let mut failed = false;
         match self.value(first, env) {
             Value::Scalar(id) => factors.push((id, 1)),
-            Value::Vector(components) => vector = Some(components),
             Value::Error => failed = true,
+            value => array = Some(value),
         }
         for (op, operand) in rest {
             let loc = first.loc.to(operand.loc);
@@ -148,18 +168,19 @@ impl<'m> Lowering<'m> {
             };
             match self.value(operand, env) {
                 Value::Error => failed = true,
-                Value::Vector(_) if divides => {
-                    self.error(operand.loc, "cannot divide by a vector");
+                value @ Value::Array(_) if divides => {
+                    let found = describe(value.shape());
+                    self.error(operand.loc, format!("cannot divide by {found}"));
                     failed = true;
                 }
-                Value::Vector(_) if vector.is_some() => {
-                    self.error(
-                        loc,
-                        "the product of two vectors is not defined; write out the components",
-                    );
-                    failed = true;
+                value @ Value::Array(_) => {
+                    let product = match &array {
+                        None => value,
+                        Some(left) => self.times(left, &value, loc),
+                    };
+                    failed |= product.is_error();
+                    array = Some(product);
                 }
-                Value::Vector(components) => vector = Some(components),
                 Value::Scalar(id) if divides && self.graph.is_zero(id) => {
                     self.error(operand.loc, "division by zero");
                     failed = true;
@@ -183,16 +204,26 @@ impl<'m> Lowering<'m> {
         if failed {
             return Value::Error;
         }
-        let Some(components) = vector else {
+        let Some(array) = array else {
             return Value::Scalar(self.graph.product(&factors));
         };
-        let products = components.into_iter().map(|c| {
+        array.map(|c| {
             factors.push((c, 1));
             let product = self.graph.product(&factors);
             factors.pop();
             product
-        });
-        Value::Vector(products.collect())
+        })
+    }
+
+    /// The product of two arrays, if there is one.
+    fn times(&mut self, left: &Value, right: &Value, loc: Loc) -> Value {
+        match left.terms(right) {
+            // What is in error has no shape.
+            _ if left.is_error() => Value::Error,
+            Some(terms) if terms <= MAX_ENTRIES => left.times(right, &mut self.graph),
+            Some(terms) => self.too_long("product", terms, loc),
+            None => self.error(loc, no_product(left.shape(), right.shape())),
+        }
     }
 
     /// `value`, unless it is a number that is infinite or not a number. (Constants and defaults are checked as a whole.)
@@ -239,66 +270,64 @@ impl<'m> Lowering<'m> {
             ExprKind::Neg(inner) => self.chain(inner, -sign, env, out),
             _ => {
                 let value = self.value(e, env);
-                out.push((sign, value, e.loc));
+                match value {
+                    Value::Scalar(sum) if self.adds_up(e) => {
+                        let terms = self.graph.open(sign, sum).into_iter();
+                        out.extend(terms.map(|(c, id)| (c, Value::Scalar(id), e.loc)));
+                    }
+                    _ => out.push((sign, value, e.loc)),
+                }
             }
         }
     }
 
-    /// Sum of scalars, or of vectors of one length. `open` joins the sums inside vectors to one (the sides of an equation).
+    /// Sum of numbers, or of arrays of one shape; the number 0, as a sum over nothing is, fits all. `open` joins the sums inside arrays to
+    /// one (the sides of an equation).
     pub(super) fn total(&mut self, terms: &[(f64, Value, Loc)], open: bool) -> Value {
-        let expected = match terms.first() {
-            None => return Value::Scalar(self.graph.zero()),
-            Some((_, Value::Vector(v), _)) => Some(v.len()),
-            Some(_) => None,
+        if terms.iter().any(|(_, value, _)| value.is_error()) {
+            return Value::Error;
+        }
+        let zero = |value: &Value, g: &Graph| matches!(value, Value::Scalar(id) if g.is_zero(*id));
+        let values = || terms.iter().map(|(_, value, _)| value);
+        let Some(first) = values().find(|v| !zero(v, &self.graph)).or(values().next()) else {
+            return Value::Scalar(self.graph.zero());
         };
-        let describe =
-            |l: Option<usize>| l.map_or("a number".to_owned(), |n| format!("a vector of {n}"));
+        let expected = first.shape();
+        let open = open && !expected.is_empty();
         // Terms of each component.
-        let mut sums: Vec<Vec<(f64, Id)>> = vec![Vec::new(); expected.unwrap_or(1)];
+        let mut sums: Vec<Vec<(f64, Id)>> = vec![Vec::new(); first.entries().len()];
         for (sign, value, loc) in terms {
-            let found = match value {
-                Value::Error => return Value::Error,
-                Value::Scalar(id) if expected.is_none() => {
-                    sums[0].push((*sign, *id));
+            if value.shape() != expected {
+                if zero(value, &self.graph) {
                     continue;
                 }
-                Value::Vector(ids) if expected == Some(ids.len()) => {
-                    for (sum, id) in sums.iter_mut().zip(ids) {
-                        if open {
-                            sum.extend(self.graph.open(*sign, *id));
-                        } else {
-                            sum.push((*sign, *id));
-                        }
-                    }
-                    continue;
+                let (expected, found) = (describe(expected), describe(value.shape()));
+                return self.error(*loc, format!("expected {expected}, found {found}"));
+            }
+            for (sum, id) in sums.iter_mut().zip(value.entries()) {
+                match open {
+                    true => sum.extend(self.graph.open(*sign, *id)),
+                    false => sum.push((*sign, *id)),
                 }
-                // `v = 0` compares each component with 0.
-                Value::Scalar(id) if open && self.graph.is_zero(*id) => continue,
-                Value::Scalar(_) => None,
-                Value::Vector(ids) => Some(ids.len()),
-            };
-            return self.error(
-                *loc,
-                format!("expected {}, found {}", describe(expected), describe(found)),
-            );
+            }
         }
-        let sums: Vec<Id> = sums.iter().map(|terms| self.graph.sum(terms)).collect();
-        match expected {
-            None => Value::Scalar(sums[0]),
-            Some(_) => Value::Vector(sums),
-        }
+        let sums = sums.iter().map(|terms| self.graph.sum(terms));
+        Value::new(expected, sums.collect())
     }
 }
 
-/// Whether `e` is an integer by its form (so that `/` would be integer division in Rust).
-pub(super) fn is_integer(e: &Expr, scope: &Scope<'_>) -> bool {
-    match &e.kind {
-        ExprKind::Int(_) => true,
-        ExprKind::Name(n) => scope.lookup(&n.to_string()).is_some(),
-        ExprKind::Neg(a) | ExprKind::Group(a) => is_integer(a, scope),
-        ExprKind::Chain(first, rest) => {
-            is_integer(first, scope) && rest.iter().all(|(_, e)| is_integer(e, scope))
+/// Why arrays of these shapes have no product.
+fn no_product(left: &[usize], right: &[usize]) -> String {
+    let (a, b) = (describe(left), describe(right));
+    match (left, right) {
+        ([_], [_]) => format!(
+            "the product of two vectors is not defined ({a} and {b}); write `inner(u, v)` or `cross(u, v)`"
+        ),
+        ([_], [_, _]) => {
+            format!("{a} times {b} is not defined; write `transpose(m) * v`")
         }
-        _ => false,
+        _ => format!(
+            "{a} times {b} is not defined; a matrix has as many columns as what it multiplies has rows"
+        ),
     }
 }

@@ -1,0 +1,184 @@
+//! Functions: those of the table, of vectors, and of the declaration.
+
+use super::array::Value;
+use super::vectors::OPERATIONS;
+use super::{Binding, Env, Lowering, Place};
+use crate::diag::suggest;
+use crate::expr::diff::Derivative;
+use crate::expr::functions::Func;
+use crate::expr::graph::Id;
+use crate::model::{Scope, arity};
+use crate::parse::Expr;
+use proc_macro2::Ident;
+
+/// Largest exponent of `powi`.
+const MAX_POWER: i32 = 64;
+
+impl<'m> Lowering<'m> {
+    pub(super) fn call(&mut self, e: &Expr, name: &Ident, args: &[Expr], env: &Env<'m>) -> Value {
+        let text = name.to_string();
+        if matches!(self.lets.get(&text), Some(Binding::Function(_))) {
+            return self.apply(e, name, args, env);
+        }
+        match text.as_str() {
+            "dot" => return self.dot(e, name, args, env),
+            "ddot" => {
+                let message = "accelerations are what is solved for; no section may use them";
+                return self.error_once(name, message);
+            }
+            "powi" => {
+                let [base, exponent] = args else {
+                    return self.arity(name, 2, args.len());
+                };
+                let base = self.number(base, env);
+                let (Some(base), Some(n)) = (base, env.scope.integer(exponent, self.diag)) else {
+                    return Value::Error;
+                };
+                return match i32::try_from(n) {
+                    Ok(n) if (-MAX_POWER..=MAX_POWER).contains(&n) => {
+                        Value::Scalar(self.graph.pow(base, n))
+                    }
+                    _ => self.error(
+                        exponent.loc,
+                        format!(
+                            "`powi` takes exponents from -{MAX_POWER} to {MAX_POWER}; use `powf`"
+                        ),
+                    ),
+                };
+            }
+            "recip" => {
+                let [u] = args else {
+                    return self.arity(name, 1, args.len());
+                };
+                let Some(u) = self.number(u, env) else {
+                    return Value::Error;
+                };
+                return Value::Scalar(self.graph.pow(u, -1));
+            }
+            "signum" => {
+                let message = "`signum(0.0)` is 1 in Rust; write `sign`, which is 0 at 0";
+                return self.error_once(name, message);
+            }
+            _ => {}
+        }
+        if let Some(operation) = OPERATIONS.iter().find(|o| text == o.name) {
+            return self.operate(operation, e, name, args, env);
+        }
+        let Some(func) = Func::all().find(|f| f.row().name == text) else {
+            return self.unknown_function(name, env);
+        };
+        if args.len() != func.arity() {
+            return self.arity(name, func.arity(), args.len());
+        }
+        let ids: Vec<Option<Id>> = args.iter().map(|a| self.number(a, env)).collect();
+        match ids[..] {
+            [Some(u), Some(w)] => Value::Scalar(self.graph.call2(func, u, w)),
+            [Some(u)] => Value::Scalar(self.graph.call1(func, u)),
+            _ => Value::Error,
+        }
+    }
+
+    pub(super) fn arity(&mut self, name: &Ident, expected: usize, found: usize) -> Value {
+        self.error(name.span(), arity(name, expected, found))
+    }
+
+    /// Reports what is wrong with calling `name`, once for all its calls.
+    fn error_once(&mut self, name: &Ident, message: impl Into<String>) -> Value {
+        match self.unknown.insert(name.to_string()) {
+            true => self.error(name.span(), message),
+            false => Value::Error,
+        }
+    }
+
+    fn unknown_function(&mut self, name: &Ident, env: &Env<'m>) -> Value {
+        let text = name.to_string();
+        let known = self.model.names.contains_key(&text) || self.lets.contains_key(&text);
+        if known || env.args.iter().any(|(n, _)| *n == text) {
+            let message =
+                format!("`{text}` is not a function; write `*` for a product, `,` between entries");
+            return self.error_once(name, message);
+        }
+        let mut names: Vec<&str> = Func::all().map(|f| f.row().name).collect();
+        names.extend(["powi", "recip", "dot", "sum"]);
+        names.extend(OPERATIONS.iter().map(|o| o.name));
+        let list = names.join(", ");
+        let lets = self.lets.iter();
+        let functions = lets.filter(|(_, b)| matches!(b, Binding::Function(_)));
+        names.extend(functions.map(|(n, _)| n.as_str()));
+        let remedy = format!("functions are {list}, and those declared by `let f = |u| …;`");
+        let end = suggest(&text, names, &remedy);
+        self.error_once(name, format!("unknown function `{text}`{end}"))
+    }
+
+    /// Applies a function declared by `let`.
+    fn apply(&mut self, e: &Expr, name: &Ident, args: &[Expr], env: &Env<'m>) -> Value {
+        let text = name.to_string();
+        let Some(Binding::Function(function)) = self.lets.get(&text) else {
+            return self.unknown_function(name, env);
+        };
+        let function = function.clone();
+        if args.len() != function.args.len() {
+            return self.arity(name, function.args.len(), args.len());
+        }
+        if self.active.contains(&text) {
+            return self.error(
+                name.span(),
+                format!("`{text}` calls itself; functions cannot be recursive"),
+            );
+        }
+        if !env.scope.applies(e, self.diag) {
+            return Value::Error;
+        }
+        let values: Vec<Value> = args.iter().map(|a| self.value(a, env)).collect();
+        if values.iter().any(Value::is_error) {
+            return Value::Error;
+        }
+        // An integer argument may serve as an index inside the function; another hides a constant of its name.
+        let names = || function.args.iter().map(Ident::to_string);
+        let integers = names().zip(args).map(|(parameter, a)| {
+            let integer = env.scope.is_integer(a);
+            (
+                parameter,
+                integer.then(|| env.scope.integer(a, self.diag)).flatten(),
+            )
+        });
+        let inner = Env {
+            scope: Scope::with(self.model, integers.collect()),
+            args: names().zip(values).collect(),
+            place: Place::Let,
+        };
+        if self.active.is_empty() {
+            self.outermost = Some(e.loc);
+        }
+        self.active.push(text);
+        let value = self.value(&function.body, &inner);
+        self.active.pop();
+        self.allowed_value(value, e.loc, env)
+    }
+
+    /// `dot(u)`: q̇ of a coordinate, the total time derivative of an expression of q and t.
+    fn dot(&mut self, e: &Expr, name: &Ident, args: &[Expr], env: &Env<'m>) -> Value {
+        let [u] = args else {
+            return self.arity(name, 1, args.len());
+        };
+        // The argument may use coordinates even where a velocity may not stand; the velocity itself is checked below.
+        let value = self.value(u, env);
+        if value.is_error() {
+            return Value::Error;
+        }
+        let ids = value.entries();
+        if ids.iter().any(|id| self.graph.uses(*id).velocity) {
+            return self.error(
+                e.loc,
+                "the time derivative of a velocity is an acceleration, which is what is solved for; no section may use it",
+            );
+        }
+        // What is unknown stands as zero, and is reported.
+        if ids.iter().all(|id| self.graph.uses(*id).constant()) && self.unknown.is_empty() {
+            return self.error(u.loc, "this does not change with time; `dot` takes a coordinate or an expression of coordinates and `t`");
+        }
+        let mut total = Derivative::total();
+        let value = value.map(|id| total.of(id, &mut self.graph));
+        self.allowed_value(value, e.loc, env)
+    }
+}

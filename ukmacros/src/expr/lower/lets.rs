@@ -1,0 +1,188 @@
+//! What is declared by `const`, `params` and `let`.
+
+use super::array::{Value, describe};
+use super::{Binding, Env, Lowering, Place};
+use crate::diag::Loc;
+use crate::expr::eval::{Point, eval};
+use crate::expr::graph::Id;
+use crate::model::{Preset, Scope, every, indexed};
+use crate::parse::{Declaration, Function, Let, LetValue};
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+impl<'m> Lowering<'m> {
+    /// Values of the `f64` constants.
+    pub(super) fn constants(&mut self, top: &Scope<'m>) -> Vec<f64> {
+        let mut values = Vec::new();
+        for constant in &self.model.floats {
+            let before = self.diag.len();
+            let id = self.scalar(&constant.value, &Env::new(top, Place::Const));
+            let value = eval(&self.graph, &[id], &Point::NOWHERE)[0];
+            if self.diag.len() == before {
+                let what = format!("constant `{}`", constant.name);
+                self.finite_number(&what, value, constant.value.loc);
+            }
+            self.floats.push(id);
+            values.push(value);
+        }
+        values
+    }
+
+    /// Reports `what` if its `value` is not finite.
+    fn finite_number(&self, what: &str, value: f64, loc: Loc) {
+        if !value.is_finite() {
+            self.diag
+                .error(loc, format!("{what} is not a finite number"));
+        }
+    }
+
+    /// Values of the parameters' defaults.
+    pub(super) fn defaults(&mut self) -> Vec<f64> {
+        let mut defaults: Vec<f64> = Vec::new();
+        // The default that the one before had, and the numbers of it that are left.
+        let mut shared: Option<(&Rc<Preset>, std::vec::IntoIter<f64>)> = None;
+        for element in &self.model.param_elements {
+            self.known_params = defaults.len();
+            let Some(preset) = &element.default else {
+                defaults.push(f64::NAN);
+                continue;
+            };
+            let same = shared.take().filter(|(last, _)| Rc::ptr_eq(last, preset));
+            let mut rest = match same {
+                Some((_, rest)) => rest,
+                None => self.preset(preset, &element.name, &defaults).into_iter(),
+            };
+            defaults.push(rest.next().unwrap_or(f64::NAN));
+            shared = Some((preset, rest));
+        }
+        self.known_params = defaults.len();
+        defaults
+    }
+
+    /// The numbers that a default gives to all that is declared with it, of which the first is `name`. `known` are those before.
+    fn preset(&mut self, preset: &Preset, name: &str, known: &[f64]) -> Vec<f64> {
+        let count = preset.shape.iter().product();
+        let (scope, loc) = (
+            Scope::with(self.model, preset.variables.clone()),
+            preset.value.loc,
+        );
+        let value = self.value(&preset.value, &Env::new(&scope, Place::Default));
+        let ids: Vec<Id> = match &value {
+            Value::Scalar(id) => vec![*id; count],
+            Value::Array(_) if value.shape() == preset.shape => value.entries().to_vec(),
+            Value::Array(_) => {
+                let mut expected = describe(&[]);
+                if !preset.shape.is_empty() {
+                    expected += &format!(" or {}", describe(&preset.shape));
+                }
+                let found = describe(value.shape());
+                self.diag
+                    .error(loc, format!("expected {expected}, found {found}"));
+                Vec::new()
+            }
+            Value::Error => Vec::new(),
+        };
+        let point = Point {
+            params: known,
+            ..Point::NOWHERE
+        };
+        let numbers = eval(&self.graph, &ids, &point);
+        if let Some(wrong) = numbers.iter().find(|x| !x.is_finite()) {
+            self.finite_number(&format!("default of `{name}`"), *wrong, loc);
+        }
+        numbers
+    }
+
+    pub(super) fn lower_lets(&mut self, decl: &Declaration, top: &Scope<'m>) {
+        for block in &decl.lets {
+            let block = std::slice::from_ref(block);
+            top.unroll(block, self.diag, &mut |binding, scope| {
+                self.binding(binding, scope);
+            });
+            self.unfinished.clear();
+        }
+    }
+
+    fn binding(&mut self, binding: &Let, scope: &Scope<'m>) {
+        let key = &binding.key;
+        let name = key.name.to_string();
+        let Some(indices) = self.indices(&key.indices, scope) else {
+            return;
+        };
+        let again = match self.lets.get(&name) {
+            None => false,
+            Some(Binding::Family(members)) if !indices.is_empty() => members.contains_key(&indices),
+            Some(_) => true,
+        };
+        let length = match self.lets.get(&name) {
+            Some(Binding::Family(members)) => members.keys().next().map(Vec::len),
+            _ => None,
+        };
+        if let LetValue::Function(f) = &binding.value {
+            let again = |k: &usize| f.args[..*k].contains(&f.args[*k]);
+            if let Some(k) = (0..f.args.len()).find(again) {
+                let arg = &f.args[k];
+                self.diag.error(
+                    arg.span(),
+                    format!("argument `{arg}` is declared twice; names must be unique"),
+                );
+            }
+        }
+        let taken = match self.model.free(&key.name) {
+            Err(reason) => Some(reason),
+            Ok(()) if again => Some(format!("`{name}` is declared twice; names must be unique")),
+            Ok(()) if length.is_some_and(|n| n != indices.len()) => Some(format!(
+                "`{name}` is declared with different numbers of indices; rename one"
+            )),
+            Ok(()) => None,
+        };
+        if let Some(reason) = taken {
+            self.diag.error(key.loc, reason);
+            return;
+        }
+        match &binding.value {
+            LetValue::Function(f) if indices.is_empty() => {
+                let (args, body) = (f.args.clone(), f.body.clone());
+                let function = Binding::Function(Rc::new(Function { args, body }));
+                self.lets.insert(name, function);
+            }
+            LetValue::Function(f) => self.diag.error(
+                f.body.loc,
+                "a function cannot be indexed; pass the index as an argument",
+            ),
+            LetValue::Value(e) => {
+                let value = self.value(e, &Env::new(scope, Place::Let));
+                let shown = indexed(&name, &indices);
+                self.hint(&shown, &value);
+                if indices.is_empty() {
+                    self.lets.insert(name, Binding::Value(value));
+                    return;
+                }
+                self.unfinished.insert(name.clone());
+                let family = Binding::Family(BTreeMap::new());
+                if let Binding::Family(members) = self.lets.entry(name).or_insert(family) {
+                    members.insert(indices, value);
+                }
+            }
+        }
+    }
+
+    /// Remembers the modeller's name of a value, for emitted code and printed equations.
+    fn hint(&mut self, name: &str, value: &Value) {
+        let mut enter = |id: Id, name: String| {
+            let (c, inner) = self.graph.unscaled(id);
+            // The graph keeps coefficients apart: a name must not pass to a value without its coefficient.
+            let (id, name) = match c {
+                1.0 => (id, name),
+                -1.0 => (inner, format!("neg_{name}")),
+                _ => return,
+            };
+            if !self.graph.operands(id).is_empty() {
+                self.hints.entry(id).or_insert(name);
+            }
+        };
+        for (id, indices) in value.entries().iter().zip(every(value.shape())) {
+            enter(*id, indexed(name, &indices));
+        }
+    }
+}

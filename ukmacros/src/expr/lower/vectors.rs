@@ -1,0 +1,142 @@
+//! The vocabulary of vectors and matrices: short for what could be written in components, which is what becomes of it.
+
+use super::array::{Value, describe, sum_of_products};
+use super::{Binding, Env, Lowering};
+use crate::expr::functions::Func;
+use crate::expr::graph::{Graph, Id};
+use crate::parse::{Expr, ExprKind};
+use proc_macro2::Ident;
+
+/// A function of vectors or matrices. A declaration may give its name another meaning by `let`.
+pub(super) struct Operation {
+    pub(super) name: &'static str,
+    arity: usize,
+    /// What it takes, in words.
+    takes: &'static str,
+    /// Its value, if the shapes of its arguments are right.
+    value: fn(&mut Graph, &[Value]) -> Option<Value>,
+}
+
+macro_rules! operations {
+    ($($name:literal($arity:literal, $takes:literal): $value:expr;)*) => {
+        pub(super) static OPERATIONS: &[Operation] =
+            &[$(Operation { name: $name, arity: $arity, takes: $takes, value: $value }),*];
+    };
+}
+
+operations! {
+    "sq"(1, "a number or a vector"): |g, v| match v[0].shape() {
+        [] => Some(v[0].map(|id| g.square(id))),
+        _ => inner(g, &v[0], &v[0]).map(Value::Scalar),
+    };
+    "inner"(2, "two vectors of one length"): |g, v| inner(g, &v[0], &v[1]).map(Value::Scalar);
+    "cross"(2, "two vectors of 3, or two of 2"): |g, v| cross(g, &v[0], &v[1]);
+    "norm"(1, "a vector"): |g, v| norm(g, &v[0]).map(Value::Scalar);
+    "normalise"(1, "a vector"): |g, v| {
+        let length = norm(g, &v[0])?;
+        Some(v[0].map(|id| g.div(id, length)))
+    };
+    "rot"(1, "a number"): |g, v| {
+        let [s, c, minus] = turn(g, &v[0])?;
+        Some(Value::new(&[2, 2], vec![c, minus, s, c]))
+    };
+    "rotx"(1, "a number"): |g, v| about(g, &v[0], 0);
+    "roty"(1, "a number"): |g, v| about(g, &v[0], 1);
+    "rotz"(1, "a number"): |g, v| about(g, &v[0], 2);
+    "transpose"(1, "a matrix"): |_, v| {
+        let [rows, columns] = v[0].shape() else {
+            return None;
+        };
+        let places = (0..*columns).flat_map(|j| (0..*rows).map(move |i| i * columns + j));
+        let entries = places.map(|place| v[0].entries()[place]).collect();
+        Some(Value::new(&[*columns, *rows], entries))
+    };
+}
+
+/// The names of all operations.
+#[cfg(test)]
+pub(crate) fn vocabulary() -> impl Iterator<Item = &'static str> {
+    OPERATIONS.iter().map(|operation| operation.name)
+}
+
+/// Σ uᵢ vᵢ.
+fn inner(g: &mut Graph, u: &Value, v: &Value) -> Option<Id> {
+    let vectors = u.shape().len() == 1 && u.shape() == v.shape();
+    let pairs = u.entries().iter().zip(v.entries());
+    vectors.then(|| sum_of_products(pairs, g))
+}
+
+/// √(Σ vᵢ²); of a single component its magnitude.
+fn norm(g: &mut Graph, v: &Value) -> Option<Id> {
+    let squared = inner(g, v, v)?;
+    Some(match v.entries() {
+        [id] => g.call1(Func::Abs, *id),
+        _ => g.call1(Func::Sqrt, squared),
+    })
+}
+
+/// u × v in space; its one component in the plane.
+fn cross(g: &mut Graph, u: &Value, v: &Value) -> Option<Value> {
+    let mut minor = |i: usize, j: usize| {
+        let (u, v) = (u.entries(), v.entries());
+        let (plus, minus) = (g.mul(u[i], v[j]), g.mul(u[j], v[i]));
+        g.sub(plus, minus)
+    };
+    match (u.shape(), v.shape()) {
+        ([2], [2]) => Some(Value::Scalar(minor(0, 1))),
+        ([3], [3]) => Some(Value::vector(vec![minor(1, 2), minor(2, 0), minor(0, 1)])),
+        _ => None,
+    }
+}
+
+/// sin a, cos a and −sin a.
+fn turn(g: &mut Graph, a: &Value) -> Option<[Id; 3]> {
+    let Value::Scalar(a) = *a else {
+        return None;
+    };
+    let (c, s) = (g.call1(Func::Cos, a), g.call1(Func::Sin, a));
+    Some([s, c, g.neg(s)])
+}
+
+/// The matrix that turns vectors by the angle `a` about the coordinate axis `axis`.
+fn about(g: &mut Graph, a: &Value, axis: usize) -> Option<Value> {
+    let [s, c, minus] = turn(g, a)?;
+    let mut entries = vec![g.zero(); 9];
+    let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+    entries[4 * axis] = g.one();
+    for (row, column, id) in [(j, j, c), (j, k, minus), (k, j, s), (k, k, c)] {
+        entries[3 * row + column] = id;
+    }
+    Some(Value::new(&[3, 3], entries))
+}
+
+impl<'m> Lowering<'m> {
+    /// The value of `operation` at `args`.
+    pub(super) fn operate(
+        &mut self,
+        operation: &'static Operation,
+        e: &Expr,
+        name: &Ident,
+        args: &[Expr],
+        env: &Env<'m>,
+    ) -> Value {
+        if args.len() != operation.arity {
+            return self.arity(name, operation.arity, args.len());
+        }
+        let values: Vec<Value> = args.iter().map(|a| self.value(a, env)).collect();
+        if values.iter().any(Value::is_error) {
+            return Value::Error;
+        }
+        (operation.value)(&mut self.graph, &values).unwrap_or_else(|| {
+            let found: Vec<String> = values.iter().map(|v| describe(v.shape())).collect();
+            let (takes, found) = (operation.takes, found.join(" and "));
+            self.error(e.loc, format!("`{name}` takes {takes}, found {found}"))
+        })
+    }
+
+    /// Whether `e` is short for a sum written without parentheses: its terms are added one by one to what stands beside it.
+    pub(super) fn adds_up(&self, e: &Expr) -> bool {
+        matches!(&e.kind, ExprKind::Call(name, _) if name == "sq"
+            || name == "inner" && !matches!(self.lets.get("inner"), Some(Binding::Function(_))))
+    }
+}

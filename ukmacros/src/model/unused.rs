@@ -1,0 +1,155 @@
+//! What is declared under `params` or by `let`, and named nowhere.
+
+use crate::parse::{Block, Declaration, Expr, ExprKind, Key, Let, LetValue};
+use proc_macro2::Ident;
+use std::collections::HashSet;
+
+/// Names that no expression uses, those apart that begin with `_`.
+#[derive(Default)]
+pub(crate) struct Unused<'d> {
+    pub(crate) params: Vec<&'d Ident>,
+    /// Values declared by `let`.
+    pub(crate) values: Vec<&'d Ident>,
+    /// Functions declared by `let`.
+    pub(crate) functions: Vec<&'d Ident>,
+}
+
+/// The names that are declared and not used.
+pub(crate) fn unused(decl: &Declaration) -> Unused<'_> {
+    let used = used(decl);
+    let mut seen = HashSet::new();
+    let mut idle = |name: &Ident| {
+        let text = name.to_string();
+        !used.contains(&text) && !text.starts_with('_') && seen.insert(text)
+    };
+    let mut out = Unused::default();
+    for block in &decl.params {
+        block.each(&mut |param| out.params.extend(Some(&param.key.name).filter(|n| idle(n))));
+    }
+    for block in &decl.lets {
+        block.each(&mut |binding| {
+            let list = match binding.value {
+                LetValue::Value(_) => &mut out.values,
+                LetValue::Function(_) => &mut out.functions,
+            };
+            list.extend(Some(&binding.key.name).filter(|n| idle(n)));
+        });
+    }
+    out
+}
+
+/// All names that expressions use.
+fn used(decl: &Declaration) -> HashSet<String> {
+    let mut found = Names::default();
+    for constant in &decl.consts {
+        found.expr(&constant.value);
+    }
+    found.blocks(&decl.params, |param| {
+        (vec![&param.key], vec![&param.default])
+    });
+    found.blocks(&decl.coords, |coord| (vec![&coord.key], Vec::new()));
+    found.lets(&decl.lets);
+    if let Some(section) = &decl.mass {
+        found.blocks(&section.blocks, |m| {
+            (
+                std::iter::once(&m.key).chain(&m.other).collect(),
+                vec![&m.value],
+            )
+        });
+    }
+    for section in decl.kinetic.iter().chain(&decl.potential) {
+        found.blocks(&section.blocks, |term| (Vec::new(), vec![term]));
+    }
+    let nonideal = decl.nonideal.iter().map(|section| &section.blocks);
+    for blocks in std::iter::once(&decl.force).chain(nonideal) {
+        found.blocks(blocks, |entry| (vec![&entry.key], vec![&entry.value]));
+    }
+    for blocks in [&decl.holonomic, &decl.nonholonomic] {
+        found.blocks(blocks, |c| (vec![&c.key], vec![&c.lhs, &c.rhs]));
+    }
+    found.blocks(&decl.outputs, |output| {
+        (vec![&output.key], vec![&output.value])
+    });
+    found.used
+}
+
+#[derive(Default)]
+struct Names {
+    used: HashSet<String>,
+    /// Arguments of the functions around, which hide what has their names.
+    hidden: Vec<String>,
+}
+
+impl Names {
+    fn blocks<'d, T>(
+        &mut self,
+        blocks: &'d [Block<T>],
+        parts: impl Fn(&'d T) -> (Vec<&'d Key>, Vec<&'d Expr>) + Copy,
+    ) {
+        for block in blocks {
+            match block {
+                Block::One(entry) => {
+                    let (keys, values) = parts(entry);
+                    let indices = keys.into_iter().flat_map(|key| &key.indices);
+                    indices.chain(values).for_each(|e| self.expr(e));
+                }
+                Block::For { range, body, .. } => {
+                    self.expr(&range.from);
+                    self.expr(&range.to);
+                    self.blocks(body, parts);
+                }
+            }
+        }
+    }
+
+    fn lets(&mut self, lets: &[Block<Let>]) {
+        self.blocks(lets, |binding| {
+            let value = match &binding.value {
+                LetValue::Value(value) => vec![value],
+                LetValue::Function(_) => Vec::new(),
+            };
+            (vec![&binding.key], value)
+        });
+        let mut function = |binding: &Let| {
+            if let LetValue::Function(function) = &binding.value {
+                self.hidden = function.args.iter().map(Ident::to_string).collect();
+                self.expr(&function.body);
+                self.hidden.clear();
+            }
+        };
+        lets.iter().for_each(|block| block.each(&mut function));
+    }
+
+    fn expr(&mut self, e: &Expr) {
+        match &e.kind {
+            ExprKind::Int(_) | ExprKind::Float(_) | ExprKind::Error => {}
+            ExprKind::Name(name) => {
+                let text = name.to_string();
+                if !self.hidden.contains(&text) {
+                    self.used.insert(text);
+                }
+            }
+            ExprKind::Index(base, indices) => {
+                self.expr(base);
+                indices.iter().for_each(|i| self.expr(i));
+            }
+            ExprKind::Neg(inner) | ExprKind::Group(inner) => self.expr(inner),
+            ExprKind::Chain(first, rest) => {
+                self.expr(first);
+                rest.iter().for_each(|(_, operand)| self.expr(operand));
+            }
+            ExprKind::Call(name, args) => {
+                self.used.insert(name.to_string());
+                args.iter().for_each(|a| self.expr(a));
+            }
+            ExprKind::Vector(components) => components.iter().for_each(|c| self.expr(c)),
+            ExprKind::Sum { var, range, body } => {
+                self.expr(&range.from);
+                self.expr(&range.to);
+                self.hidden.push(var.to_string());
+                self.expr(body);
+                self.hidden.pop();
+            }
+        }
+    }
+}
