@@ -62,11 +62,23 @@ impl Taste {
 
 /// The pivots in their order; or why there is none.
 pub(super) fn order(taste: Taste, mut pattern: Pattern, names: &[String]) -> Result<Order, String> {
-    let mut ready = BTreeSet::new();
-    let all: BTreeSet<usize> = pattern.left().collect();
-    ready.extend(keys(&all, taste, &pattern));
+    let mut ready: BTreeSet<Key> = BTreeSet::new();
     let (mut pivots, mut entries, mut changes) = (Vec::new(), 0, 0);
-    while let Some((_, at, partner)) = ready.first().copied() {
+    loop {
+        if ready.is_empty() {
+            // At first; and where what was held back has been let go by an elimination farther off.
+            let left: BTreeSet<usize> = pattern.left().collect();
+            ready.extend(keys(&left, taste, &pattern));
+        }
+        let Some(key) = ready.pop_first() else {
+            break;
+        };
+        let (_, at, partner) = key;
+        let now = keys(&BTreeSet::from([at]), taste, &pattern);
+        if !now.contains(&key) {
+            ready.extend(now);
+            continue;
+        }
         let pair = partner.and_then(|constraint| pattern.pair(at, constraint));
         let around = around(at, partner, &pattern);
         for before in keys(&around, taste, &pattern) {
