@@ -1,5 +1,6 @@
 //! What the compiler decided about a mechanism, for people to read: `Mechanism::plan`.
 
+use std::collections::BTreeSet;
 use std::fmt::{self, Display, Formatter, Write};
 
 use crate::spec::{Check, Operations, Pivot, Spec};
@@ -197,45 +198,34 @@ impl Plan {
             );
             paragraph(f, &text)?;
         }
-        let pair = |f: &mut Formatter<'_>, i: usize, c: usize, why: &str| {
-            let text = format!(
-                "{} with {}: {why}, its coefficient being the same at any state",
-                coord(i),
-                row(c)
-            );
-            item(f, &text)
-        };
         let mut rest = solve.pivots;
         while let Some(first) = rest.first() {
             let alike = |p: &Pivot| std::mem::discriminant(p) == std::mem::discriminant(first);
-            let count = match first {
-                Pivot::Prescribed(..) | Pivot::Massless(..) | Pivot::Substituted(..) => 1,
-                _ => rest.iter().position(|p| !alike(p)).unwrap_or(rest.len()),
-            };
+            let count = rest.iter().position(|p| !alike(p)).unwrap_or(rest.len());
             let (run, others) = rest.split_at(count);
             rest = others;
-            match *first {
-                Pivot::Prescribed(i, c) => pair(f, i, c, "the constraint prescribes it alone")?,
-                Pivot::Massless(i, c) => {
-                    pair(f, i, c, "it has no mass, and the constraint gives it")?
+            let names = run.iter().map(|p| match *p {
+                Pivot::Constraint(c) => row(c).to_owned(),
+                Pivot::Coordinate(i) => coord(i).to_owned(),
+                Pivot::Prescribed(i, c) | Pivot::Massless(i, c) | Pivot::Substituted(i, c) => {
+                    format!("{} with {}", coord(i), row(c))
                 }
-                Pivot::Substituted(i, c) => pair(f, i, c, "the constraint gives it by others")?,
-                Pivot::Coordinate(_) | Pivot::Constraint(_) => {
-                    let names = run.iter().map(|p| match *p {
-                        Pivot::Constraint(c) => row(c),
-                        Pivot::Coordinate(i)
-                        | Pivot::Prescribed(i, _)
-                        | Pivot::Massless(i, _)
-                        | Pivot::Substituted(i, _) => coord(i),
-                    });
-                    let names: Vec<&str> = names.collect();
-                    let kind = match first {
-                        Pivot::Constraint(_) => "constraints whose coordinates are gone",
-                        _ => "coordinates with inertia",
-                    };
-                    item(f, &format!("{kind}: {}", names.join(" ")))?;
+            });
+            let kind = match first {
+                Pivot::Prescribed(..) => "prescribed by one constraint alone",
+                Pivot::Massless(..) => "without mass, given by a constraint",
+                Pivot::Substituted(..) => {
+                    "given by other coordinates, their factor in the constraint being the same at any state"
                 }
-            }
+                Pivot::Coordinate(_) => "coordinates with inertia",
+                Pivot::Constraint(_) => "constraints whose coordinates are gone",
+            };
+            let separator = match first {
+                Pivot::Coordinate(_) | Pivot::Constraint(_) => " ",
+                _ => ", ",
+            };
+            let names: Vec<String> = names.collect();
+            item(f, &format!("{kind}: {}", names.join(separator)))?;
         }
         Ok(())
     }
@@ -251,7 +241,9 @@ impl Plan {
         }
         let names = |wanted: fn(&Check) -> Option<usize>| {
             let names = solve.checks.iter().filter_map(wanted);
-            let names: Vec<&str> = names.map(|k| self.spec.name_at(k)).collect();
+            let mut names: Vec<&str> = names.map(|k| self.spec.name_at(k)).collect();
+            let mut known = BTreeSet::new();
+            names.retain(|name| known.insert(*name));
             names.join(" ")
         };
         let positive = names(|check| match *check {
@@ -263,7 +255,7 @@ impl Plan {
             Check::Positive(_) => None,
         });
         if !positive.is_empty() {
-            item(f, &format!("positive: the pivots of {positive}"))?;
+            item(f, &format!("positive: the inertia or pivots of {positive}"))?;
         }
         if !shares.is_empty() {
             let text = format!(
