@@ -308,7 +308,7 @@ fn explain_shows_the_plan() {
         "Hoisted: computed once for a set of parameters",
         "straight line, as emitted",
         "K = [M Aᵀ; A 0], in the order of its elimination",
-        "      th2 \\#····",
+        "      th2 \\#···#",
     ] {
         assert!(fish.contains(part), "{part} in {fish}");
     }
