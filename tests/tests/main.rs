@@ -1,6 +1,7 @@
 //! All tests of this crate as one program: what they share is compiled and linked once.
 
 mod allocation;
+mod arms;
 mod assembly;
 mod certificate;
 mod closed_forms;
