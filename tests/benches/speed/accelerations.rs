@@ -8,9 +8,7 @@ use ukcore::{Mechanism, Simulation, Solver, SolverOptions, State};
 use crate::chain::{self, Chain};
 use crate::dense::Dense;
 use crate::harness::{Contender, Group};
-use crate::mechanisms::{
-    Angles12, Arm6, Arm12, Arm24, Bodies12, CrankAndRod, FourBars40, LongChain,
-};
+use crate::mechanisms::{Angles12, Arm6, Arm12, Bodies12, CrankAndRod, FourBars40, LongChain};
 use crate::recursive::{self, Arm, Planar};
 use crate::{fish, four_bars};
 
@@ -92,9 +90,8 @@ impl<'a> Accelerations<'a> {
 
     /// Says behind the figures of the last contender what the straight line of `M` costs.
     fn count<M: Mechanism>(&mut self) {
-        let c = M::SPEC.structure.costs.acceleration;
-        let arithmetic = c.additions + c.multiplications + c.divisions;
-        let counted = arithmetic + c.square_roots + c.transcendentals + c.selections;
+        let counts = M::SPEC.structure.costs.acceleration.counts();
+        let counted: usize = counts.iter().sum();
         let last = self.contenders.last_mut().expect("a contender");
         last.remark = format!("{counted} operations");
     }
@@ -265,7 +262,8 @@ pub(crate) fn arms() -> Vec<serde_json::Value> {
     vec![
         arm::<_, 6>("acceleration/arm6", Arm6::default()),
         arm::<_, 12>("acceleration/arm12", Arm12::default()),
-        arm::<_, 24>("acceleration/arm24", Arm24::default()),
+        #[cfg(feature = "large")]
+        arm::<_, 24>("acceleration/arm24", crate::mechanisms::Arm24::default()),
     ]
 }
 

@@ -4,6 +4,7 @@ use ukcore::State;
 
 tests::arm!(Arm6, 6);
 tests::arm!(Arm12, 12);
+#[cfg(feature = "large")]
 tests::arm!(Arm24, 24);
 tests::planar_chain!(Bodies12, Angles12, 12);
 tests::crank_and_rod!(CrankAndRod);

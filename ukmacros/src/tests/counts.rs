@@ -58,19 +58,24 @@ fn slider_crank_costs_as_bodies_what_it_costs_in_angles() {
 }
 
 #[test]
-fn legs_on_one_shaft() {
-    let cost = operations(declaration(
-        "legs",
-        "",
-        &[
-            ("$name", "Legs"),
-            ("$n", "12"),
-            ("$coords", "th"),
-            ("$mass", "th: jc"),
-            ("$force", "th: torque - drag * dot(th)"),
-            ("$shaft", ""),
-            ("$angle", "th"),
-        ],
-    ));
-    assert!(cost <= 6500, "{cost}");
+fn legs_on_one_shaft_cost_what_legs_with_angles_of_their_own_cost() {
+    let cost = |coords, force, shaft, angle| {
+        let common = [("$name", "Legs"), ("$n", "12"), ("$mass", "th: jc")];
+        let own = [
+            ("$coords", coords),
+            ("$force", force),
+            ("$shaft", shaft),
+            ("$angle", angle),
+        ];
+        operations(declaration("legs", "", &[&common[..], &own].concat()))
+    };
+    let one = cost("th", "th: torque - drag * dot(th)", "", "th");
+    let link = "for n in 1..LEGS { shaft[n]: th[n] = th[n - 1] }";
+    let own = cost(
+        "th[LEGS]",
+        "th[0]: torque - drag * dot(th[0])",
+        link,
+        "th[n]",
+    );
+    assert!(one <= 6500 && one <= own, "{one}, {own}");
 }
