@@ -1,6 +1,7 @@
 //! All tests of this crate as one program: what they share is compiled and linked once.
 
 mod allocation;
+
 mod assembly;
 mod certificate;
 mod closed_forms;
@@ -16,6 +17,7 @@ mod lanes;
 mod language;
 mod layers;
 mod linearise;
+mod machines;
 mod orientations;
 mod paper_fish;
 mod paper_uchain;

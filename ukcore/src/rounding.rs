@@ -52,6 +52,7 @@ impl Rounded {
     }
 
     /// f(self) by the derivative of f.
+    #[inline(never)]
     fn unary(self, f: fn(Dual) -> Dual) -> Self {
         let y = f(Dual::new(self.value, 1.0));
         Rounded::result(y.re, carried(y.eps, self.error))
@@ -77,30 +78,35 @@ fn carried(slope: f64, error: f64) -> f64 {
 
 impl Add for Rounded {
     type Output = Self;
+    #[inline(never)]
     fn add(self, o: Self) -> Self {
         Rounded::result(self.value + o.value, self.error + o.error)
     }
 }
 impl Sub for Rounded {
     type Output = Self;
+    #[inline(never)]
     fn sub(self, o: Self) -> Self {
         Rounded::result(self.value - o.value, self.error + o.error)
     }
 }
 impl Mul for Rounded {
     type Output = Self;
+    #[inline(never)]
     fn mul(self, o: Self) -> Self {
         self.binary(o, |a, b| a * b)
     }
 }
 impl Div for Rounded {
     type Output = Self;
+    #[inline(never)]
     fn div(self, o: Self) -> Self {
         self.binary(o, |a, b| a / b)
     }
 }
 impl Neg for Rounded {
     type Output = Self;
+    #[inline(never)]
     fn neg(self) -> Self {
         Rounded {
             value: -self.value,
@@ -118,6 +124,7 @@ impl Scalar for Rounded {
     fn from_f64(x: f64) -> Self {
         Rounded::exact(x)
     }
+    #[inline(never)]
     fn select_le(a: Self, b: Self, then: Self, otherwise: Self) -> Self {
         if a.value <= b.value { then } else { otherwise }
     }

@@ -2,13 +2,14 @@
 
 use std::hint::black_box;
 
-use models::{FishRobot, Model, UChain};
+use models::{FishRobot, Model, RigidBody, SliderCrank, UChain};
 use ukcore::{Mechanism, Simulation, Solver, SolverOptions, State};
 
 use crate::chain::{self, Chain};
 use crate::dense::Dense;
 use crate::harness::{Contender, Group};
-use crate::mechanisms::{FourBars40, LongChain};
+use crate::mechanisms::{Angles12, Arm6, Arm12, Bodies12, CrankAndRod, FourBars40, LongChain};
+use crate::recursive::{self, Arm, Planar};
 use crate::{fish, four_bars};
 
 /// States a pass goes through.
@@ -72,6 +73,29 @@ impl<'a> Accelerations<'a> {
         });
     }
 
+    /// The same in other coordinates, at `states` of its own that are those of the others.
+    fn add_other<M: Mechanism>(&mut self, name: &str, mechanism: &M, states: Vec<State>) {
+        let mech = mechanism.prepared();
+        let mut out = vec![0.0; states[0].q.len()];
+        let mut turn = 0;
+        self.measure(name, false, move |_| {
+            let s = &states[turn];
+            turn = (turn + 1) % states.len();
+            let safe = mech.acceleration(s.t, &s.q, &s.v, &mut out);
+            assert!(safe > 0.5, "the certificate holds");
+            black_box(&mut out);
+        });
+        self.count::<M>();
+    }
+
+    /// Says behind the figures of the last contender what the straight line of `M` costs.
+    fn count<M: Mechanism>(&mut self) {
+        let counts = M::SPEC.structure.costs.acceleration.counts();
+        let counted: usize = counts.iter().sum();
+        let last = self.contenders.last_mut().expect("a contender");
+        last.remark = format!("{counted} operations");
+    }
+
     /// What every mechanism has: ours, with and without the solver, its terms alone, and dense elimination.
     fn add_ours<M: Mechanism>(&mut self, mechanism: &M) {
         let mech = mechanism.prepared();
@@ -80,6 +104,7 @@ impl<'a> Accelerations<'a> {
                 let safe = mech.acceleration(s.t, &s.q, &s.v, out);
                 assert!(safe > 0.5, "the certificate holds");
             });
+            self.count::<M>();
         }
         let mut solver = Solver::new(mechanism, SolverOptions::default());
         self.add("Solver::acceleration", false, move |s, out| {
@@ -207,4 +232,104 @@ pub(crate) fn fourbars40() -> serde_json::Value {
     });
     all.add_ours(&mech);
     all.group("acceleration/fourbars40", &[]).run()
+}
+
+/// An arm of N hinges from one posture, beside the articulated-body recursion.
+fn arm<M: Mechanism, const N: usize>(name: &'static str, mechanism: M) -> serde_json::Value {
+    let q: Vec<f64> = (0..N).map(|i| -0.5 + 0.2 * (i % 6) as f64).collect();
+    let states: Vec<State> = (0..STATES)
+        .map(|k| State {
+            t: 0.0,
+            q: q.iter().map(|x| x + 0.05 * k as f64).collect(),
+            v: q.clone(),
+        })
+        .collect();
+    let mut all = Accelerations::new(&states);
+    let by_hand = black_box(Arm {
+        m: 1.0,
+        l: 0.5,
+        inertia: [0.01, 0.03, 0.03],
+        g: 9.81,
+    });
+    all.add("by hand, articulated bodies", true, move |s, out| {
+        by_hand.acceleration::<N>(&s.q, &s.v, out);
+    });
+    all.add_ours(&mechanism);
+    all.group(name, &[]).run()
+}
+
+pub(crate) fn arms() -> Vec<serde_json::Value> {
+    vec![
+        arm::<_, 6>("acceleration/arm6", Arm6::default()),
+        arm::<_, 12>("acceleration/arm12", Arm12::default()),
+        #[cfg(feature = "large")]
+        arm::<_, 24>("acceleration/arm24", crate::mechanisms::Arm24::default()),
+    ]
+}
+
+pub(crate) fn bodies12() -> serde_json::Value {
+    const N: usize = 12;
+    let (mech, angles) = (black_box(Bodies12::default()), Angles12::default());
+    let in_angles: Vec<State> = (0..STATES)
+        .map(|k| State {
+            t: 0.0,
+            q: (0..N).map(|i| 0.1 * i as f64 - 0.05 * k as f64).collect(),
+            v: (0..N).map(|i| 0.3 - 0.1 * i as f64).collect(),
+        })
+        .collect();
+    let states: Vec<State> = in_angles.iter().map(|s| mech.placed(s)).collect();
+    let mut all = Accelerations::new(&states);
+    let by_hand = black_box(Planar {
+        m: mech.m,
+        l: mech.l,
+        j: mech.j,
+        g: mech.g,
+    });
+    all.add("by hand, rod after rod", true, move |s, out| {
+        by_hand.acceleration::<N>(&s.q[2 * N..], &s.v[2 * N..], out);
+    });
+    all.add_other(
+        "Prepared::acceleration in angles alone",
+        &angles,
+        in_angles.clone(),
+    );
+    all.add_ours(&mech);
+    all.group("acceleration/bodies12", &[]).run()
+}
+
+pub(crate) fn slider_crank() -> serde_json::Value {
+    let mech = black_box(SliderCrank::default());
+    let start = mech.default_start().expect("the default start exists");
+    let states = states(mech.clone(), start, 1.0);
+    let in_angles = states.iter().map(|s| {
+        let chosen = |x: &[f64]| [2, 5, 0, 1, 3, 4, 6].map(|i| x[i]).to_vec();
+        State {
+            t: s.t,
+            q: chosen(&s.q),
+            v: chosen(&s.v),
+        }
+    });
+    let in_angles = in_angles.collect();
+    let mut all = Accelerations::new(&states);
+    let own = mech.clone();
+    all.add("by hand, one degree of freedom", true, move |s, out| {
+        recursive::slider_crank(&own, &s.q, &s.v, out);
+    });
+    let name = "Prepared::acceleration in two angles";
+    all.add_other(name, &CrankAndRod::default(), in_angles);
+    all.add_ours(&mech);
+    all.group("acceleration/slider_crank", &[]).run()
+}
+
+pub(crate) fn rigid_body() -> serde_json::Value {
+    let mech = black_box(RigidBody::default());
+    let start = mech.default_start().expect("the default start exists");
+    let states = states(mech.clone(), start, RigidBody::duration());
+    let mut all = Accelerations::new(&states);
+    let own = mech.clone();
+    all.add("by hand, Euler's equations", true, move |s, out| {
+        recursive::rigid_body(&own, &s.q, &s.v, out);
+    });
+    all.add_ours(&mech);
+    all.group("acceleration/rigid_body", &[]).run()
 }

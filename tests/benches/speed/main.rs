@@ -15,6 +15,7 @@ mod fish;
 mod four_bars;
 mod harness;
 mod mechanisms;
+mod recursive;
 mod runs;
 
 use std::path::Path;
@@ -24,12 +25,20 @@ use serde_json::Value;
 type Measure = fn() -> Vec<Value>;
 
 /// Groups by the beginning of their names.
-const GROUPS: [(&str, Measure); 7] = [
+const GROUPS: [(&str, Measure); 11] = [
     ("acceleration/uchain17", || vec![accelerations::uchain17()]),
     ("acceleration/uchain65", || vec![accelerations::uchain65()]),
     ("acceleration/fish", || vec![accelerations::fish()]),
     ("acceleration/fourbars40", || {
         vec![accelerations::fourbars40()]
+    }),
+    ("acceleration/arm", accelerations::arms),
+    ("acceleration/bodies12", || vec![accelerations::bodies12()]),
+    ("acceleration/slider_crank", || {
+        vec![accelerations::slider_crank()]
+    }),
+    ("acceleration/rigid_body", || {
+        vec![accelerations::rigid_body()]
     }),
     ("lanes/uchain17", || vec![runs::lanes()]),
     ("run/uchain17", runs::uchain17),

@@ -2,6 +2,13 @@
 
 use ukcore::State;
 
+tests::arm!(Arm6, 6);
+tests::arm!(Arm12, 12);
+#[cfg(feature = "large")]
+tests::arm!(Arm24, 24);
+tests::planar_chain!(Bodies12, Angles12, 12);
+tests::crank_and_rod!(CrankAndRod);
+
 ukcore::multibody! {
     /// The U-chain with 65 links.
     pub(crate) LongChain {
@@ -75,5 +82,29 @@ impl FourBars40 {
             (q[x], v[x]) = (i as f64 * self.l, 1.0);
         }
         State { t: 0.0, q, v }
+    }
+}
+
+impl Bodies12 {
+    /// The places of the rods at a state in angles.
+    pub(crate) fn placed(&self, angles: &State) -> State {
+        let n = angles.q.len();
+        let mut state = State {
+            t: angles.t,
+            q: vec![0.0; 2 * n],
+            v: vec![0.0; 2 * n],
+        };
+        let (mut place, mut velocity) = ([0.0; 2], [0.0; 2]);
+        for i in 0..n {
+            let ((s, c), w) = (angles.q[i].sin_cos(), angles.v[i]);
+            for (k, (e, across)) in [(c, -s), (s, c)].into_iter().enumerate() {
+                let (half, rate) = (0.5 * self.l * e, 0.5 * self.l * w * across);
+                (state.q[2 * i + k], state.v[2 * i + k]) = (place[k] + half, velocity[k] + rate);
+                (place[k], velocity[k]) = (place[k] + 2.0 * half, velocity[k] + 2.0 * rate);
+            }
+        }
+        state.q.extend(&angles.q);
+        state.v.extend(&angles.v);
+        state
     }
 }

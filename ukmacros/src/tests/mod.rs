@@ -1,6 +1,7 @@
 //! Tests of the compiler from inside: a procedural macro's crate exports nothing else.
 
 mod constants;
+mod counts;
 mod derivatives;
 mod elimination;
 mod errors;

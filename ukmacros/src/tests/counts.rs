@@ -1,0 +1,81 @@
+//! What accelerations of some mechanisms cost, in operations: how that grows with their size, and with the coordinates they are declared in.
+
+use super::analysis;
+use proc_macro2::TokenStream;
+
+/// The declaration in the branch of the macro `name` of `tests/src/machines.rs` that has `mark`, with `values` in place of its arguments.
+fn declaration(name: &str, mark: &str, values: &[(&str, &str)]) -> TokenStream {
+    let text = include_str!("../../../tests/src/machines.rs");
+    let (_, text) = text
+        .split_once(&format!("macro_rules! {name} {{"))
+        .expect("a macro");
+    let (text, _) = text.split_once("\n}\n").expect("its end");
+    let mut branches = text.split("ukcore::multibody! {").skip(1);
+    let found = branches.find(|branch| branch.contains(mark));
+    let branch = found.expect("a declaration with the mark");
+    let (branch, _) = branch.split_once("\n        }\n").expect("its end");
+    let filled = values.iter().fold(branch.to_owned(), |text, (from, to)| {
+        text.replace(&format!("$({from})*"), to).replace(from, to)
+    });
+    filled.parse().expect("tokens")
+}
+
+/// Operations of q̈ by straight line.
+fn operations(tokens: TokenStream) -> usize {
+    let analysis = analysis(tokens);
+    assert!(analysis.solve.is_ok(), "a straight line");
+    analysis.costs.acceleration.counts().iter().sum()
+}
+
+#[test]
+fn arms_cost_what_they_have_hinges() {
+    let [six, twelve, all] = ["6", "12", "24"]
+        .map(|n| operations(declaration("arm", "", &[("$name", "Arm"), ("$n", n)])));
+    assert!(10 * twelve <= 36 * six, "{six}, {twelve}, {all}");
+    assert!(10 * all <= 26 * twelve, "{six}, {twelve}, {all}");
+}
+
+#[test]
+fn planar_chains_cost_as_bodies_what_they_cost_in_angles() {
+    let cost = |name, n| {
+        operations(declaration(
+            "planar_chain",
+            name,
+            &[(name, "Chain"), ("$n", n)],
+        ))
+    };
+    let [bodies, angles] = ["$bodies", "$angles"].map(|name| cost(name, "12"));
+    assert!(10 * bodies <= 13 * angles, "{bodies}, {angles}");
+    let twice = cost("$bodies", "24");
+    assert!(10 * twice <= 21 * bodies, "{bodies}, {twice}");
+}
+
+#[test]
+fn slider_crank_costs_as_bodies_what_it_costs_in_angles() {
+    let bodies = operations(super::golden::declarations()["SliderCrank"].clone());
+    let angles = operations(declaration("crank_and_rod", "", &[("$name", "Crank")]));
+    assert!(10 * bodies <= 13 * angles, "{bodies}, {angles}");
+}
+
+#[test]
+fn legs_on_one_shaft_cost_what_legs_with_angles_of_their_own_cost() {
+    let cost = |coords, force, shaft, angle| {
+        let common = [("$name", "Legs"), ("$n", "12"), ("$mass", "th: jc")];
+        let own = [
+            ("$coords", coords),
+            ("$force", force),
+            ("$shaft", shaft),
+            ("$angle", angle),
+        ];
+        operations(declaration("legs", "", &[&common[..], &own].concat()))
+    };
+    let one = cost("th", "th: torque - drag * dot(th)", "", "th");
+    let link = "for n in 1..LEGS { shaft[n]: th[n] = th[n - 1] }";
+    let own = cost(
+        "th[LEGS]",
+        "th[0]: torque - drag * dot(th[0])",
+        link,
+        "th[n]",
+    );
+    assert!(one <= 6500 && one <= own, "{one}, {own}");
+}
