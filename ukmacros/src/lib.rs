@@ -95,6 +95,8 @@ use proc_macro2::TokenStream;
 /// | `rotx(a)`, `roty(a)`, `rotz(a)` | the 3×3 matrices that turn vectors by the angle a (right-handed) about a coordinate axis |
 /// | `rot(a)` | the 2×2 matrix that turns vectors by the angle a, from x towards y |
 /// | `transpose(m)` | mᵀ |
+/// | `normal(v)` | the unit vector of the plane at a right angle to v, to its left |
+/// | `normals(v)` | two unit vectors of space at right angles to v and to each other, right-handed with v as the third |
 ///
 /// All of them have a method form, too: `u.cross(v)`. Their names are not reserved: a coordinate or constraint may be called `norm`, and a
 /// function declared as `let inner = …` takes the place of this one.

@@ -74,12 +74,17 @@ pub(crate) struct ConstraintRef {
     pub(crate) base: Ident,
     pub(crate) indices: Vec<i64>,
     pub(crate) components: Vec<usize>,
+    /// The body whose orientation is kept normal by it, as written.
+    pub(crate) unit_of: Option<String>,
 }
 
 impl ConstraintRef {
-    /// As shown: `link[3]`, `joint[0]`, `joint[2][1]`.
+    /// As shown: `link[3]`, `joint[0]`, `joint[2][1]`, `platform.unit`.
     pub(crate) fn text(&self) -> String {
-        indexed(indexed(&self.base, &self.indices), &self.components)
+        match &self.unit_of {
+            Some(body) => format!("{body}.unit"),
+            None => indexed(indexed(&self.base, &self.indices), &self.components),
+        }
     }
 }
 
