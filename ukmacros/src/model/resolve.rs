@@ -78,10 +78,11 @@ pub(crate) fn resolve(
     members(&decl.coords, Kind::Coord, &mut model, diag, |coord| {
         (&coord.key, &coord.docs, None)
     });
+    let before = diag.len();
     members(&decl.bodies, Kind::Body, &mut model, diag, |body| {
         (&body.key, &body.docs, None)
     });
-    bodies(decl, &mut model, diag);
+    bodies(decl, &mut model, diag, before);
     if model.coord_elements.is_empty() && diag.is_empty() {
         diag.error(
             decl.name.span(),
@@ -271,13 +272,15 @@ fn add(found: Found, kind: Kind, model: &mut Model, diag: &Diagnostics) {
     });
 }
 
-/// Gives each body its coordinates, those of one after those of another.
-fn bodies(decl: &Declaration, model: &mut Model, diag: &Diagnostics) {
+/// Gives each body its coordinates, those of one after those of another. There were `before` errors before bodies were read.
+fn bodies(decl: &Declaration, model: &mut Model, diag: &Diagnostics, before: usize) {
     let mut kinds: HashMap<String, bool> = HashMap::new();
     for block in &decl.bodies {
         block.each(&mut |body| {
             let name = &body.key.name;
-            if *kinds.entry(name.to_string()).or_insert(body.spatial) != body.spatial {
+            if *kinds.entry(name.to_string()).or_insert(body.spatial) != body.spatial
+                && diag.len() == before
+            {
                 let message = format!("`{name}` is declared planar and spatial; rename one");
                 diag.error(name.span(), message);
             }

@@ -163,7 +163,7 @@ fn unmark(marked: &str) -> (String, Vec<(LineColumn, LineColumn)>) {
 
 /// Expects exactly the errors that `marked` marks, in order, each with its message.
 #[track_caller]
-fn check(marked: &str, messages: &[&str]) {
+pub(super) fn check(marked: &str, messages: &[&str]) {
     let (source, spans) = unmark(&format!("pub T {{ {marked} }}"));
     let found = errors(&source);
     let shown: Vec<_> = found.iter().map(|f| f.message.as_str()).collect();

@@ -167,7 +167,7 @@ impl<'m> Lowering<'m> {
                 }
             };
             for position in chosen {
-                found[position] = Some(Declared {
+                found[position].get_or_insert_with(|| Declared {
                     body: body.clone(),
                     variables: scope.variables.clone(),
                     frame: None,
@@ -186,6 +186,16 @@ impl<'m> Lowering<'m> {
         env: &Env<'m>,
     ) -> Value {
         let bodies = &self.model.bodies[family];
+        if let Some(surplus) = indices.get(bodies.shape.len()) {
+            let message = match bodies.shape.len() {
+                0 => format!("`{name}` is one body; write it without an index"),
+                n => format!(
+                    "bodies of `{name}` take {n} ind{}",
+                    if n == 1 { "ex" } else { "ices" }
+                ),
+            };
+            return self.error(surplus.loc, message);
+        }
         let Some((positions, shape)) = self.member(name, indices, bodies, &env.scope) else {
             return Value::Error;
         };

@@ -52,7 +52,8 @@ impl<'m> Lowering<'m> {
                 });
             let coordinates: Vec<usize> = symbols.collect();
             let mass = self.mass_of(&body, &variables, defaults);
-            if body.spatial {
+            let spatial = frame.dimension() == Some(3);
+            if spatial {
                 out.spatial = out.spatial.or(Some(loc));
                 self.needs(&body);
                 let place = coordinates[..3].iter();
@@ -67,7 +68,7 @@ impl<'m> Lowering<'m> {
                 out.diagonal.extend(masses.map(|(i, m)| (*i, m, loc)));
             }
             if let Some((gravity, e)) = &gravity {
-                let dimension = if body.spatial { 3 } else { 2 };
+                let dimension = if spatial { 3 } else { 2 };
                 if gravity.entries().len() < dimension {
                     let message = format!(
                         "expected {}, found {}: `{frame}` is spatial",

@@ -259,10 +259,16 @@ impl<'m> Lowering<'m> {
             if !self.unknown.insert(name.clone()) {
                 return None;
             }
-            let coords = self.model.coords.iter().map(|f| f.name.to_string());
-            let coords: Vec<String> = coords.collect();
+            let of_bodies = self
+                .model
+                .body_kinds
+                .first()
+                .map_or(usize::MAX, |k| k.first);
+            let coords = self.model.coords.iter().take(of_bodies);
+            let coords: Vec<String> = coords.map(|f| f.name.to_string()).collect();
             let remedy = match coords.len() {
-                0..=8 => format!("coordinates are `{}`", coords.join("`, `")),
+                0 => "those of bodies are written `link.x`".to_owned(),
+                1..=8 => format!("coordinates are `{}`", coords.join("`, `")),
                 _ => "declare it under `coords`".to_owned(),
             };
             let end = suggest(&name, coords.iter().map(String::as_str), &remedy);

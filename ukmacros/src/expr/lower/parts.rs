@@ -4,7 +4,7 @@
 
 use super::array::{Value, describe};
 use super::{Env, Lowering, Place};
-use crate::diag::suggest;
+use crate::diag::{Loc, suggest};
 use crate::expr::diff::Gradient;
 use crate::expr::graph::{Id, Symbol};
 use crate::model::Scope;
@@ -172,7 +172,7 @@ fn acting() -> String {
 impl<'m> Lowering<'m> {
     /// The rows of a joint.
     pub(super) fn joint(&mut self, e: &Expr, name: &Ident, args: &[Expr], env: &Env<'m>) -> Value {
-        let Some((part, inner)) = self.part_of(e, name, args, env) else {
+        let Some((part, inner)) = self.part_of(name, args, env) else {
             return Value::Error;
         };
         let Meaning::Rows(texts) = part.meaning else {
@@ -182,7 +182,7 @@ impl<'m> Lowering<'m> {
         let mut rows: Vec<Id> = Vec::new();
         let mut shaped = false;
         for text in texts {
-            let value = self.written(text, &inner);
+            let value = self.written(text, e.loc, &inner);
             shaped |= !value.shape().is_empty();
             rows.extend_from_slice(value.entries());
         }
@@ -223,7 +223,7 @@ impl<'m> Lowering<'m> {
             );
             return;
         }
-        let Some((part, inner)) = self.part_of(e, name, args, env) else {
+        let Some((part, inner)) = self.part_of(name, args, env) else {
             return;
         };
         match part.meaning {
@@ -233,7 +233,7 @@ impl<'m> Lowering<'m> {
                 self.error(name.span(), message);
             }
             Meaning::Energy(text) => {
-                let value = self.written(text, &inner);
+                let value = self.written(text, e.loc, &inner);
                 let velocity = value
                     .entries()
                     .iter()
@@ -246,8 +246,13 @@ impl<'m> Lowering<'m> {
                     .extend(value.entries().iter().map(|id| (1.0, *id)));
             }
             Meaning::Push(velocity, force) => {
-                let (velocity, force) =
-                    (self.written(velocity, &inner), self.written(force, &inner));
+                let (velocity, force) = (
+                    self.written(velocity, e.loc, &inner),
+                    self.written(force, e.loc, &inner),
+                );
+                if force.is_error() || velocity.is_error() {
+                    return;
+                }
                 if force.shape() != velocity.shape() {
                     let (expected, found) = (describe(velocity.shape()), describe(force.shape()));
                     let last = args.last().map_or(e.loc, |a| a.loc);
@@ -273,21 +278,25 @@ impl<'m> Lowering<'m> {
         }
     }
 
-    /// The value of a text of the table.
-    fn written(&mut self, text: &str, env: &Env<'m>) -> Value {
+    /// The value of a text of the table; what is wrong with it is wrong with what stands at `loc`.
+    fn written(&mut self, text: &str, loc: Loc, env: &Env<'m>) -> Value {
         let e = own(text);
+        let before = self.diag.len();
         self.written = true;
         let mut terms = Vec::new();
         self.chain(&e, 1.0, env, &mut terms);
         let value = self.total(&terms, true);
         self.written = false;
-        value
+        self.diag.relocate(before, loc);
+        match self.diag.len() == before {
+            true => value,
+            false => Value::Error,
+        }
     }
 
     /// The part that is meant, and its arguments by their names.
     fn part_of(
         &mut self,
-        e: &Expr,
         name: &Ident,
         args: &[Expr],
         env: &Env<'m>,
@@ -297,12 +306,19 @@ impl<'m> Lowering<'m> {
             return None;
         }
         let named = || PARTS.iter().filter(|part| name == part.name);
-        // Where it is used is told by the first that lives somewhere.
-        let dimension = values.iter().find_map(|value| match value {
-            Value::Body(body) => body.dimension(),
-            Value::Point(point) => point.body.dimension().or(Some(point.place.entries().len())),
+        // Where it is used is told by its bodies, or else by points of the ground.
+        let frames = || {
+            values.iter().filter_map(|value| match value {
+                Value::Body(body) => body.dimension(),
+                Value::Point(point) => point.body.dimension(),
+                _ => None,
+            })
+        };
+        let of_ground = values.iter().find_map(|value| match value {
+            Value::Point(point) => Some(point.place.entries().len()),
             _ => None,
         });
+        let dimension = frames().next().or(of_ground);
         let home = match dimension {
             Some(3) => Home::Space,
             _ => Home::Plane,
@@ -352,11 +368,10 @@ impl<'m> Lowering<'m> {
                         _ => self.numbers(value.clone(), args[k].loc),
                     }
                 }
-                None => self.written(default, &inner),
+                None => self.written(default, name.span().into(), &inner),
             };
             inner.args.push(((*arg).to_owned(), value));
         }
-        let _ = e;
         sound.then_some((part, inner))
     }
 
