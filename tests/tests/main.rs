@@ -11,6 +11,7 @@ mod failures;
 mod fallback;
 mod formulas;
 mod invariants;
+mod joints;
 mod kinks;
 mod lanes;
 mod language;

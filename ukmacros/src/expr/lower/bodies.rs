@@ -341,9 +341,14 @@ impl<'m> Lowering<'m> {
             ExprKind::Name(base) if !self.is_known(base, env) => None,
             _ => Some(self.argument(base, env)),
         };
+        // The ground is a plane, or a space, where a point of it is given.
+        let mut in_space = false;
         let frame = match value {
             Some(Value::Body(frame)) => frame,
-            Some(Value::Point(point)) => point.body.clone(),
+            Some(Value::Point(point)) => {
+                in_space = point.place.shape() == [3];
+                point.body.clone()
+            }
             Some(Value::Error) => return Value::Error,
             _ => {
                 let message = "no fields here; a parameter or coordinate is written by its name alone, such as `m`";
@@ -353,6 +358,7 @@ impl<'m> Lowering<'m> {
         let text = name.to_string();
         let Some(moving) = &frame.moving else {
             return match text.as_str() {
+                "omega" if in_space => Value::vector(vec![self.graph.zero(); 3]),
                 "angle" | "omega" => Value::Scalar(self.graph.zero()),
                 _ => self.error(
                     name.span(),
