@@ -636,3 +636,66 @@ fn power_of_forces_is_the_rate_of_the_energy() {
         check::<Shoved>(&random_state(&mut random, 2));
     }
 }
+
+ukcore::multibody! {
+    /// A body whose inertia its parameters decide.
+    pub Weighed {
+        params { m = 1.0, principal[3] = [1.0, 1.2, 1.4], tensor[3][3] = [[2.0, 0.1, 0.2], [0.1, 3.0, 0.3], [0.2, 0.3, 4.0]] }
+        bodies { spatial first { mass: m, inertia: principal } spatial second { mass: m, inertia: tensor } }
+    }
+}
+
+#[test]
+fn inertia_of_no_rigid_body_is_refused_by_name() {
+    let check = |change: &dyn Fn(&mut Weighed), message: &str| {
+        let mut mechanism = Weighed::default();
+        change(&mut mechanism);
+        let mut state = State {
+            t: 0.0,
+            q: vec![0.0; 14],
+            v: vec![0.0; 14],
+        };
+        (state.q[3], state.q[10]) = (1.0, 1.0);
+        let solved =
+            Solver::new(mechanism.clone(), SolverOptions::default()).solve(0.0, &state.q, &state.v);
+        let run = Simulation::new(mechanism.clone())
+            .start(state.clone())
+            .until(0.1);
+        let errors = [
+            solved.map(drop).map_err(|e| e.to_string()),
+            assemble(mechanism, state, &[])
+                .map(drop)
+                .map_err(|e| e.to_string()),
+            run.map(drop).map_err(|e| e.to_string()),
+        ];
+        for found in errors {
+            match found {
+                Ok(()) => assert_eq!(message, ""),
+                Err(found) => assert!(!message.is_empty() && found.contains(message), "{found}"),
+            }
+        }
+    };
+    check(&|_| (), "");
+    // A flat body.
+    check(&|w| w.principal = [1.0, 2.0, 3.0], "");
+    check(
+        &|w| w.principal = [1.0, 2.0, 3.1],
+        "`inertia` of `first` is that of no rigid body",
+    );
+    check(
+        &|w| w.principal[1] = -1.0,
+        "`inertia` of `first` is that of no rigid body",
+    );
+    check(
+        &|w| w.tensor[0][1] = 0.2,
+        "`inertia` of `second` must be a symmetric matrix",
+    );
+    check(
+        &|w| (w.tensor[0][1], w.tensor[1][0]) = (2.6, 2.6),
+        "`inertia` of `second` is that of no rigid body",
+    );
+    check(
+        &|w| w.m = 0.0,
+        "`mass` of `first` is 0; it must be positive",
+    );
+}

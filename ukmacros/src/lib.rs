@@ -153,7 +153,7 @@ use proc_macro2::TokenStream;
 /// With the centre of mass as its place, the mass matrix of planar bodies is diagonal and constant, and points depend on it with coefficients
 /// 1. A spatial body brings the constraint `top.unit`, e₀² + e₁² + e₂² + e₃² = 1, and its kinetic energy makes M that of `kinetic`; a guess of
 /// a start needs an orientation, e₀ = 1 say. Constants of the type are `T::ARM_X`, `T::ARM_ANGLE`, `T::TOP_E0`, `T::TOP_UNIT`, arrays for
-/// families of bodies. Inertias that no rigid body has by the defaults of the parameters are an error.
+/// families of bodies. An inertia that no rigid body has is an error: of the declaration by the defaults of the parameters, else of the run.
 ///
 /// In expressions all vectors are in axes of the ground. `p` and `d` are vectors in the frame of the body:
 ///

@@ -24,7 +24,7 @@ pub(crate) use dynamics::{Dynamics, derive};
 pub(crate) use elimination::{Pivoting, SAFE_SHARE, Solve};
 #[cfg(test)]
 pub(crate) use elimination::{Straight, eliminate};
-pub(crate) use functions::{Function, Place, Role, Slice};
+pub(crate) use functions::{Function, Place, Role, Slice, of_parameters};
 pub(crate) use schedule::{Program, Step};
 pub(crate) use structure::Structure;
 pub(crate) use switches::Switch;

@@ -21,6 +21,8 @@ pub(super) struct OfBodies {
     pub(super) spatial: Option<Loc>,
     pub(super) potential: Vec<(f64, Id)>,
     pub(super) units: Vec<Constraint>,
+    /// [`System::inertias`](super::System::inertias).
+    pub(super) inertias: Vec<(String, Vec<Id>)>,
 }
 
 impl<'m> Lowering<'m> {
@@ -59,7 +61,10 @@ impl<'m> Lowering<'m> {
                 let place = coordinates[..3].iter();
                 out.diagonal.extend(place.map(|i| (*i, mass, loc)));
                 let spin = self.spin(&frame);
-                self.turning(&body, &variables, &spin, defaults, &mut out.turning);
+                let inertia = self.turning(&body, &variables, &spin, defaults, &mut out.turning);
+                let given = inertia.map(|rows| [vec![mass], rows].concat());
+                out.inertias
+                    .extend(given.map(|given| (frame.to_string(), given)));
                 let unit = self.unit(position, &body.key.name, frame.coordinates(), loc);
                 out.units.push(unit);
             } else {
@@ -188,7 +193,7 @@ impl<'m> Lowering<'m> {
         numbers[0]
     }
 
-    /// ½ ωᵀJω as a sum of squares: with J = L D Lᵀ it is ½ Σ dₖ (Lᵀω)ₖ².
+    /// Adds ½ ωᵀJω as a sum of squares: with J = L D Lᵀ it is ½ Σ dₖ (Lᵀω)ₖ². Returns J by rows.
     fn turning(
         &mut self,
         body: &Body,
@@ -196,10 +201,8 @@ impl<'m> Lowering<'m> {
         spin: &Value,
         defaults: &[f64],
         out: &mut Vec<(f64, Id)>,
-    ) {
-        let Some(e) = &body.inertia else {
-            return;
-        };
+    ) -> Option<Vec<Id>> {
+        let e = body.inertia.as_ref()?;
         let value = self.part_of_body(e, variables);
         let j = value.entries();
         let zero = self.graph.zero();
@@ -208,11 +211,11 @@ impl<'m> Lowering<'m> {
             [3] => [[j[0], zero, zero], [zero, j[1], zero], [zero, zero, j[2]]],
             [6] => [[j[0], zero, zero], [j[3], j[1], zero], [j[4], j[5], j[2]]],
             [3, 3] => [[j[0], zero, zero], [j[3], j[4], zero], [j[6], j[7], j[8]]],
-            _ if value.is_error() => return,
+            _ if value.is_error() => return None,
             shape => {
                 let found = describe(shape);
                 self.error(e.loc, format!("the inertia of a spatial body is `[xx, yy, zz]`, `[xx, yy, zz, xy, xz, yz]` or a matrix of 3×3, found {found}"));
-                return;
+                return None;
             }
         };
         let upper = match value.shape() {
@@ -225,7 +228,7 @@ impl<'m> Lowering<'m> {
             && let Err(reason) = possible(&numbers)
         {
             self.error(e.loc, reason);
-            return;
+            return None;
         }
         let mut l = lower;
         let mut d = [zero; 3];
@@ -254,6 +257,9 @@ impl<'m> Lowering<'m> {
             let square = self.graph.square(rate);
             out.push((0.5, self.graph.mul(d[k], square)));
         }
+        let [xy, xz, yz] = upper;
+        let [[xx, ..], [yx, yy, _], [zx, zy, zz]] = lower;
+        Some(vec![xx, xy, xz, yx, yy, yz, zx, zy, zz])
     }
 
     /// The row that keeps the quaternion of the body at `position` a unit.

@@ -212,6 +212,7 @@ impl<'m> Lowering<'m> {
             force,
             potential,
             nonideal,
+            inertias: of_bodies.inertias,
             constraints,
             outputs,
             hints: std::mem::take(&mut self.hints),

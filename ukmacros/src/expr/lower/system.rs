@@ -21,6 +21,8 @@ pub(crate) struct System {
     pub(crate) potential: Option<Id>,
     /// The paper's c, by coordinate.
     pub(crate) nonideal: Option<BTreeMap<usize, Id>>,
+    /// Of each spatial body its name, its mass, and its inertia by rows.
+    pub(crate) inertias: Vec<(String, Vec<Id>)>,
     /// Holonomic ones first.
     pub(crate) constraints: Vec<Constraint>,
     pub(crate) outputs: Vec<OutputValue>,
