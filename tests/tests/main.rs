@@ -2,6 +2,7 @@
 
 mod allocation;
 mod assembly;
+mod bodies;
 mod certificate;
 mod closed_forms;
 mod derivatives;
@@ -17,6 +18,7 @@ mod lanes;
 mod language;
 mod layers;
 mod linearise;
+mod mechanisms;
 mod orientations;
 mod paper_fish;
 mod paper_uchain;

@@ -397,7 +397,9 @@ impl<'m> Lowering<'m> {
             return Value::Scalar(self.graph.zero());
         };
         let spin = moving.omega(true, &mut self.graph);
-        self.hint(&format!("{frame}.spin"), &spin);
+        // The graph keeps the factor 2 apart.
+        let halves = spin.map(|id| self.graph.unscaled(id).1);
+        self.hint(&format!("{frame}.half_spin"), &halves);
         spin
     }
 }
