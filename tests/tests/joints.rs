@@ -1,4 +1,4 @@
-//! Joints between bodies: rows against rotations of another making, degrees of freedom by hand, reactions by Newton and Euler, power and energy.
+//! Joints between bodies: rows against rotations of another making, degrees of freedom by hand, reactions by Newton and Euler.
 
 use nalgebra::{Matrix3, Quaternion, Rotation2, UnitQuaternion, Vector2, Vector3};
 use tests::{Random, assert_all_close, assert_close};

@@ -42,8 +42,8 @@ use proc_macro2::TokenStream;
 ///
 /// # Sections
 ///
-/// All are optional but `coords` or `bodies`, and, without bodies, one of `mass`, `kinetic` or `holonomic`. Entries are separated by commas, which may be left out
-/// where the next entry starts with a name. `for i in a..b { … }` repeats entries in every section, and may be nested. Families and loops
+/// All are optional but `coords` or `bodies`, and, without bodies, one of `mass`, `kinetic` or `holonomic`. Entries are separated by commas,
+/// which may be left out where the next entry starts with a name. `for i in a..b { … }` repeats entries in every section, and may be nested. Families and loops
 /// have at most 5000 members. A family may have several indices: `p[N][3]`; the last runs fastest.
 ///
 /// | section | entries | meaning |
@@ -142,18 +142,19 @@ use proc_macro2::TokenStream;
 ///
 /// # Bodies
 ///
-/// A rigid body has a frame, in which its points and directions are given. `centre` is its centre of mass in that frame, the origin where it
-/// is left out. Its coordinates are the place of its **centre of mass** in axes of the ground, and its orientation:
+/// A rigid body has a frame, in which its points and directions are given. `centre` is its centre of mass in that frame, the origin if left
+/// out. Its coordinates are the place of its **centre of mass** in axes of the ground, and its orientation:
 ///
 /// | body | coordinates | mass and inertia |
 /// | --- | --- | --- |
 /// | `planar arm { mass: m, inertia: j, centre: [a, b] }` | `arm.x`, `arm.y`, `arm.angle` from x towards y | about the centre of mass; where one is left out it is 0, and constraints decide |
 /// | `spatial top { mass: m, inertia: [i, j, k], centre: [a, b, c] }` | `top.x`, `top.y`, `top.z`, and the Euler parameters `top.e0`, `top.e1`, `top.e2`, `top.e3`: the unit quaternion that turns its axes from those of the ground, (1, 0, 0, 0) where they agree | about the centre of mass, in axes of the body: principal moments, or `[xx, yy, zz, xy, xz, yz]` or the matrix of 3×3, with the signs of the inertia tensor (xy = −∫ x y dm) |
 ///
-/// With the centre of mass as its place, the mass matrix of planar bodies is diagonal and constant, and points depend on it with coefficients
-/// 1. A spatial body brings the constraint `top.unit`, e₀² + e₁² + e₂² + e₃² = 1, and its kinetic energy makes M that of `kinetic`; a guess of
-/// a start needs an orientation, e₀ = 1 say. Constants of the type are `T::ARM_X`, `T::ARM_ANGLE`, `T::TOP_E0`, `T::TOP_UNIT`, arrays for
-/// families of bodies. An inertia that no rigid body has is an error: of the declaration by the defaults of the parameters, else of the run.
+/// With the centre of mass as its place, the mass matrix of planar bodies is diagonal and constant, and points depend on that place with
+/// unit coefficients. A spatial body brings the constraint `top.unit`, e₀² + e₁² + e₂² + e₃² = 1, and its kinetic energy makes M that of
+/// `kinetic`; a guess of a start needs an orientation, e₀ = 1 say. Constants of the type are `T::ARM_X`, `T::ARM_ANGLE`, `T::TOP_E0`,
+/// `T::TOP_UNIT`, arrays for families of bodies. An inertia that no rigid body has is an error: of the declaration by the defaults of the
+/// parameters, else of the run.
 ///
 /// In expressions all vectors are in axes of the ground. `p` and `d` are vectors in the frame of the body:
 ///
@@ -171,9 +172,9 @@ use proc_macro2::TokenStream;
 /// # Joints
 ///
 /// A joint is short for rows: `knee: pin(p, q)` is `knee: q - p = 0`, and gives `knee[0]` and `knee[1]`. What stands in this table is what
-/// differentiation sees and what `explain` shows. `p` and `q` are points as `thigh.at([l, 0])` gives them, and know their body; directions are
-/// given in the frame of the body of `p`, and are the same numbers in that of `q` unless told otherwise; they need not be unit vectors, nor
-/// are they zero. **Multipliers act on the second body**: λ pushes the body of `q` in the direction in which the row grows, and that of `p`
+/// differentiation sees and what `explain` shows. `p` and `q` are points as `thigh.at([l, 0])` gives them, and know their body. Directions
+/// are given in the frame of the body of `p`, and are the same numbers in that of `q` unless told otherwise; they need not be unit vectors,
+/// nor are they zero. **Multipliers act on the second body**: λ pushes the body of `q` in the direction in which the row grows, and that of `p`
 /// against it. Of a row that is a distance, λ is the force; of `rod` it is half the force over the length.
 ///
 /// | planar joint | rows |

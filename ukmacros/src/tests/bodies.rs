@@ -1,4 +1,4 @@
-//! Bodies: joints are the equations that their documentation shows, bodies cost what coordinates written by hand cost, and mistakes are told.
+//! Bodies: joints are the equations that their documentation shows, bodies cost what coordinates by hand cost, and mistakes are told.
 
 use super::errors::check as check_errors;
 use super::vectors::check;
