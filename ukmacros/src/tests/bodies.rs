@@ -180,6 +180,46 @@ fn bodies_cost_what_coordinates_by_hand_cost() {
 }
 
 #[test]
+fn bodies_have_names_arguments_and_indices() {
+    let head = "params { l = 2.0 } bodies { for i in 0..2 { for j in 0..2 { planar leg[i][j] { mass: 1 + i, inertia: 1 + j } } } planar a { \
+        mass: 1, inertia: 1 } }";
+    let same =
+        |short: &str, long: &str| check(&format!("{head} {short}"), &format!("{head} {long}"));
+    let long = "holonomic { c: leg[1][0].at([l, 0]) - a.at([0, 0]) = 0 }";
+    same(
+        "let tip = |i, j| leg[i][j].at([l, 0]); holonomic { c: pin(a.at([0, 0]), tip(1, 0)) }",
+        long,
+    );
+    same(
+        "let at = |i, j| leg[i][j].at([l, 0]); holonomic { c: pin(a.at([0, 0]), at(1, 0)) }",
+        long,
+    );
+    same(
+        "let own = leg[1][0]; holonomic { c: pin(a.at([0, 0]), own.at([l, 0])) }",
+        long,
+    );
+    same(
+        "let { for i in 0..2 { own[i] = leg[i][0] } } holonomic { c: pin(a.at([0, 0]), own[1].at([l, 0])) }",
+        long,
+    );
+    same(
+        "let hook = |body| pin(a.at([0, 0]), body.at([l, 0])); holonomic { c: hook(leg[1][0]) }",
+        long,
+    );
+    // Parts mean what they say, whatever functions are called.
+    check_rows(
+        &format!("{head} let inner = |u, v| 7 * t; let normal = |v| v; let b = leg[1][0];"),
+        "slot(a.at([0, 0]), b.at([l, 0]), [1, 0])",
+        "cross(a.along([1, 0]), b.at([l, 0]) - a.at([0, 0]))",
+    );
+    let tip = "let _tip = (leg[1][0]).at([l, 0]);";
+    same(
+        &format!("{tip} force {{ a.x: _tip.x * _tip.angle }}"),
+        &format!("{tip} force {{ a.x: leg[1][0].x * leg[1][0].angle }}"),
+    );
+}
+
+#[test]
 fn operations_are_linear_in_bodies() {
     let count = |n: usize| {
         let [dynamics, acceleration, _] = operations(&format!(
@@ -254,6 +294,10 @@ cases! {
     body_without_braces: "bodies { planar «a» } coords { x } mass { x: 1.0 }" => "a body needs what it consists of";
     part_of_a_body: "bodies { planar a { «mas»: 1, inertia: 1 } }" => "a body has no `mas`; did you mean `mass`?";
     part_twice: "bodies { planar a { mass: 1, «mass»: 2, inertia: 1 } }" => "`mass` is given twice";
+    bodies_in_a_vector: "bodies { planar a[2] { mass: 1, inertia: 1 } } let { for i in 0..2 { b[i] = a[i] } } force { a[0].x: «b» }" => "`b` is no vector";
+    body_in_a_sum: "bodies { planar a { mass: 1, inertia: 1 } } force { a.x: 1 + 2 * «a» }" => "`a` is a body";
+    body_as_a_number: "bodies { planar a { mass: 1, inertia: 1 } } force { a.x: sin(«a») }" => "`a` is a body";
+    bodies_in_brackets: "bodies { planar a { mass: 1, inertia: 1 } } force { a.x: norm([«a», «a»]) }" => "`a` is a body", "`a` is a body";
     body_as_a_value: "bodies { planar a { mass: 1, inertia: 1 } } force { a.x: «a» }" => "`a` is a body; choose a point of it";
     body_as_a_point: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: pin(ground.at([0, 0]), «a») }" => "`q` of `pin(p, q)` is a point of a body, such as `link.at([0, 0])` or `ground.at([0, 0])`, found the body `a`";
     vector_as_a_point: "bodies { planar a { mass: 1, inertia: 1 } } holonomic { c: pin(«[0, 0]», a.at([0, 0])) }" => "found a vector of 2";

@@ -19,7 +19,12 @@ impl<'m> Lowering<'m> {
     pub(super) fn call(&mut self, e: &Expr, name: &Ident, args: &[Expr], env: &Env<'m>) -> Value {
         let text = name.to_string();
         if self.is_function(&text) {
-            return self.apply(e, name, args, env);
+            // Bodies keep what is theirs, whatever functions are called.
+            let own = ["at", "along"].contains(&text.as_str());
+            return match args.first().filter(|_| own).map(|a| self.argument(a, env)) {
+                Some(Value::Body(_) | Value::Point(_)) => self.of_body(e, name, args, env),
+                _ => self.apply(e, name, args, env),
+            };
         }
         match text.as_str() {
             "dot" => return self.dot(e, name, args, env),
