@@ -1,8 +1,8 @@
 //! All tests of this crate as one program: what they share is compiled and linked once.
 
 mod allocation;
-
 mod assembly;
+mod bodies;
 mod certificate;
 mod closed_forms;
 mod derivatives;
@@ -12,12 +12,14 @@ mod failures;
 mod fallback;
 mod formulas;
 mod invariants;
+mod joints;
 mod kinks;
 mod lanes;
 mod language;
 mod layers;
 mod linearise;
 mod machines;
+mod mechanisms;
 mod orientations;
 mod paper_fish;
 mod paper_uchain;

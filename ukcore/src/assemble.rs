@@ -106,6 +106,7 @@ pub fn assemble(
 ) -> Result<State, Error> {
     let mech: Prepared = mechanism.into();
     guess.check(&mech)?;
+    diagnose::inertias(&mech)?;
     let spec = mech.spec();
     let mut held = Vec::new();
     for name in hold {

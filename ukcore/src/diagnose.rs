@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use nalgebra::Matrix3;
+
 use crate::error::Error;
 use crate::mechanism::{Evaluated, Prepared};
 use crate::scan::largest;
@@ -99,7 +101,46 @@ pub(crate) fn bad_input(mech: &Prepared, t: f64, q: &[f64], v: &[f64]) -> Option
     if !what.is_empty() {
         return Some(Error::NonFinite { what });
     }
-    subnormal(mech).err()
+    subnormal(mech).and_then(|()| inertias(mech)).err()
+}
+
+/// Refuses parameters that give a body what no rigid body has: its principal moments of inertia are positive, and none of them is greater
+/// than the sum of the other two.
+pub(crate) fn inertias(mech: &Prepared) -> Result<(), Error> {
+    let mut result = Ok(());
+    mech.inertias(&mut |body, numbers| {
+        if result.is_ok() {
+            result = possible(body, numbers[0], &Matrix3::from_row_slice(&numbers[1..]));
+        }
+    });
+    result
+}
+
+/// Whether a rigid body can have this mass and this inertia about its centre of mass.
+fn possible(body: &str, mass: f64, inertia: &Matrix3<f64>) -> Result<(), Error> {
+    let refuse = |what, reason: String| Err(Error::InvalidSetting { what, reason });
+    let mut moments: [f64; 3] = inertia.symmetric_eigenvalues().into();
+    moments.sort_by(f64::total_cmp);
+    let [least, middle, most] = moments;
+    // A flat body's moments add up but for rounding.
+    let slack = 1e-9 * most.abs();
+    if mass <= 0.0 {
+        return refuse(
+            "mass",
+            format!("of `{body}` is {mass}; it must be positive"),
+        );
+    }
+    if (inertia - inertia.transpose()).amax() > slack {
+        return refuse("inertia", format!("of `{body}` must be a symmetric matrix"));
+    }
+    if least <= 0.0 || most > least + middle + slack {
+        let moments = format!("{least}, {middle} and {most}");
+        let reason = format!(
+            "of `{body}` is that of no rigid body: of its principal moments {moments} all must be positive, and none above the sum of the others"
+        );
+        return refuse("inertia", reason);
+    }
+    Ok(())
 }
 
 /// Refuses a parameter so small that an `f64` holds it with fewer digits: what is computed from it is wrong without any other sign.

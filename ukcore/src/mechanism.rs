@@ -55,6 +55,12 @@ pub trait Mechanism: Clone + Default + Into<Prepared> + Send + Sync + 'static {
     /// The declared outputs.
     fn outputs<S: Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], outputs: &mut [S]);
 
+    /// Calls `each` with the name of each spatial body and, by the parameters (order of `SPEC.params`), ten numbers: its mass, and its
+    /// inertia about the centre of mass by rows.
+    fn inertias(given: &[f64], each: &mut dyn FnMut(&'static str, &[f64])) {
+        let _ = (given, each);
+    }
+
     /// The functions at whose zeros abs, sign, min or max change their branch, `SPEC.switches`, as they are: held branches do not count.
     fn switching<S: Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], switching: &mut [S]) {
         let _ = (prepared, t, q, v, switching);

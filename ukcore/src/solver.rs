@@ -252,6 +252,7 @@ impl Solver {
     /// # Errors
     /// What [`Solver::acceleration`] reports.
     pub fn solve(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<Solution, Error> {
+        diagnose::inertias(&self.mechanism)?;
         let n = self.n;
         let mut ideal = vec![0.0; n];
         let decided = self.decide(t, q, v)?;

@@ -85,6 +85,13 @@ impl Diagnostics {
         }
     }
 
+    /// Moves the errors from number `from` on to `loc`, of which the first is left: the others follow from it.
+    pub(crate) fn relocate(&self, from: usize, loc: Loc) {
+        let mut found = self.found.borrow_mut();
+        found.truncate(from + 1);
+        found.iter_mut().skip(from).for_each(|d| d.loc = loc);
+    }
+
     pub(crate) fn is_empty(&self) -> bool {
         self.found.borrow().is_empty()
     }

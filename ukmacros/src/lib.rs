@@ -42,8 +42,8 @@ use proc_macro2::TokenStream;
 ///
 /// # Sections
 ///
-/// All are optional but `coords`, and one of `mass`, `kinetic` or `holonomic`. Entries are separated by commas, which may be left out
-/// where the next entry starts with a name. `for i in a..b { … }` repeats entries in every section, and may be nested. Families and loops
+/// All are optional but `coords` or `bodies`, and, without bodies, one of `mass`, `kinetic` or `holonomic`. Entries are separated by commas,
+/// which may be left out where the next entry starts with a name. `for i in a..b { … }` repeats entries in every section, and may be nested. Families and loops
 /// have at most 5000 members. A family may have several indices: `p[N][3]`; the last runs fastest.
 ///
 /// | section | entries | meaning |
@@ -51,12 +51,16 @@ use proc_macro2::TokenStream;
 /// | `const N: usize = 17;` | | an integer (or `f64`) known at compile time |
 /// | `params` | `m = 1.0`, `k[N] = 2.0`, `r[2][3] = [[1, 0, 0], [0, 1, 0]]` | parameters with defaults, a family's one for all members or one for each; public `f64` fields (arrays for families), changeable at run time |
 /// | `coords` | `x[N]`, `p[N][3]`, `th` | coordinates q: scalars and families; inside a `for`, `x[i]` declares one member |
+/// | `bodies` | `planar link[i] { mass: m, inertia: j, centre: [a, 0] }` | [bodies](#bodies), which have coordinates, kinetic energy and weight |
+/// | `gravity` | `[0, -g]` | the acceleration of free fall of all bodies, a vector of the plane or of space |
 /// | `let` | `let d = x - y;`, `let f = \|u, v\| u * v;`, `let { for i in 0..N { d[i] = … } }` | names for values, functions, families of values |
 /// | `mass` | `x: m`, `p: m`, `(x, y): m12` | entries of M(q, t), taken literally as in eq. 1; entries for one place add up; a family has one mass for all members, or a vector of them |
 /// | `kinetic` | `0.5 * m * sq(dot(x))` | instead of `mass`: terms of T(q, q̇, t); M = ∂²T/∂q̇² and the velocity terms of Lagrange's equations are derived |
 /// | `force` | `x: -c * dot(x)`, `p[i]: -c * dot(p[i])` | generalised forces Q; entries for one coordinate add up; a vector of coordinates takes a vector |
+/// | `forces` | `spring(p, q, k, l)` | what [acts on bodies](#what-acts-on-bodies) |
+/// | `dissipation` | `0.5 * c * sq(dot(x))` | terms of Rayleigh's R(q, q̇, t); −∂R/∂q̇ goes into Q |
 /// | `potential` | `m * g * y` | terms of V(q, t); −∂V/∂q goes into Q |
-/// | `holonomic` | `rod: sq(x) + sq(y) = sq(l)`, `joint: [a, b] = [c, d]` | φ(q, t) = 0 (eq. 3); a vector equation gives one constraint for each component; redundant equations are welcome, but the same one under two names is taken for a slip, an error |
+/// | `holonomic` | `rod: sq(x) + sq(y) = sq(l)`, `joint: [a, b] = [c, d]`, `knee: pin(p, q)` | φ(q, t) = 0 (eq. 3); a vector equation gives one constraint for each component; redundant equations are welcome, but the same one under two names is taken for a slip, an error |
 /// | `nonholonomic` | `blade: dot(x) * sin(th) = dot(y) * cos(th)` | φ(q, q̇, t) = 0 (eq. 4), linear in q̇ or not |
 /// | `nonideal` | `x: -mu * n * sign(dot(x))` | the force c of eq. 8, which may do work in virtual displacements; entries as of `force` |
 /// | `output` | `fall = y[0]` | quantities to report, of q, q̇, t |
@@ -95,6 +99,8 @@ use proc_macro2::TokenStream;
 /// | `rotx(a)`, `roty(a)`, `rotz(a)` | the 3×3 matrices that turn vectors by the angle a (right-handed) about a coordinate axis |
 /// | `rot(a)` | the 2×2 matrix that turns vectors by the angle a, from x towards y |
 /// | `transpose(m)` | mᵀ |
+/// | `normal(v)` | the unit vector of the plane at a right angle to v, to its left |
+/// | `normals(v)` | two unit vectors of space at right angles to v and to each other, right-handed with v as the third |
 ///
 /// All of them have a method form, too: `u.cross(v)`. Their names are not reserved: a coordinate or constraint may be called `norm`, and a
 /// function declared as `let inner = …` takes the place of this one.
@@ -134,6 +140,117 @@ use proc_macro2::TokenStream;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
+/// # Bodies
+///
+/// A rigid body has a frame, in which its points and directions are given. `centre` is its centre of mass in that frame, the origin if left
+/// out. Its coordinates are the place of its **centre of mass** in axes of the ground, and its orientation:
+///
+/// | body | coordinates | mass and inertia |
+/// | --- | --- | --- |
+/// | `planar arm { mass: m, inertia: j, centre: [a, b] }` | `arm.x`, `arm.y`, `arm.angle` from x towards y | about the centre of mass; where one is left out it is 0, and constraints decide |
+/// | `spatial top { mass: m, inertia: [i, j, k], centre: [a, b, c] }` | `top.x`, `top.y`, `top.z`, and the Euler parameters `top.e0`, `top.e1`, `top.e2`, `top.e3`: the unit quaternion that turns its axes from those of the ground, (1, 0, 0, 0) where they agree | about the centre of mass, in axes of the body: principal moments, or `[xx, yy, zz, xy, xz, yz]` or the matrix of 3×3, with the signs of the inertia tensor (xy = −∫ x y dm) |
+///
+/// With the centre of mass as its place, the mass matrix of planar bodies is diagonal and constant, and points depend on that place with
+/// unit coefficients. A spatial body brings the constraint `top.unit`, e₀² + e₁² + e₂² + e₃² = 1, and its kinetic energy makes M that of
+/// `kinetic`; a guess of a start needs an orientation, e₀ = 1 say. Constants of the type are `T::ARM_X`, `T::ARM_ANGLE`, `T::TOP_E0`,
+/// `T::TOP_UNIT`, arrays for families of bodies. An inertia that no rigid body has is an error: of the declaration by the defaults of the
+/// parameters, else of the run.
+///
+/// In expressions all vectors are in axes of the ground. `p` and `d` are vectors in the frame of the body:
+///
+/// | expression | meaning |
+/// | --- | --- |
+/// | `arm.at(p)` | the point p of the body, a vector; `dot(arm.at(p))` is its velocity |
+/// | `arm.along(d)` | the direction d of the body, a vector |
+/// | `arm.centre` | the centre of mass, a vector |
+/// | `arm.angle`, `arm.x`, … | a coordinate; in `mass`, `force` and `nonideal` entries are given to it as `arm.angle: -c * arm.omega` |
+/// | `arm.omega` | the angular velocity: a number in the plane, a vector in space |
+/// | `top.spin` | the angular velocity in axes of the spatial body |
+/// | `arm.axes` | the matrix that turns vectors from the body's axes to those of the ground |
+/// | `ground.at(p)`, `ground.along(d)` | p and d themselves, as of a body that does not move; its `angle` and `omega` are 0 |
+///
+/// # Joints
+///
+/// A joint is short for rows: `knee: pin(p, q)` is `knee: q - p = 0`, and gives `knee[0]` and `knee[1]`. What stands in this table is what
+/// differentiation sees and what `explain` shows. `p` and `q` are points as `thigh.at([l, 0])` gives them, and know their body. Directions
+/// are given in the frame of the body of `p`, and are the same numbers in that of `q` unless told otherwise; they need not be unit vectors,
+/// nor are they zero. **Multipliers act on the second body**: λ pushes the body of `q` in the direction in which the row grows, and that of `p`
+/// against it. Of a row that is a distance, λ is the force; of `rod` it is half the force over the length.
+///
+/// | planar joint | rows |
+/// | --- | --- |
+/// | `pin(p, q)` | `q - p` |
+/// | `weld(p, q, [angle])` | `q - p`, `q.angle - p.angle - angle`, the angle 0 if left out |
+/// | `slider(p, q, d, [angle])` | `inner(p.along(normal(d)), q - p)`, `q.angle - p.angle - angle`: q slides on the line through p along d, without turning |
+/// | `slot(p, q, d)` | `inner(p.along(normal(d)), q - p)`: q slides on that line, and may turn |
+/// | `wheel(p, q, d, r)` | `inner(p.along(normal(d)), q - p) - r`, `inner(p.along(normalise(d)), q - p) + r * (q.angle - p.angle)`: a wheel of radius r about q rolls on that line, to its left |
+/// | `rack(p, q, d, r)` | the second row of `wheel`: a pinion about q on a rack along d |
+/// | `gear(a, b, r, s)` | `r * a.angle + s * b.angle`: bodies of radii r and s roll on each other outside; with s < 0 one inside the other |
+/// | `turn(a, b)` | `b.angle - a.angle`; a motor is `motor: turn(a, b) = w * t` |
+/// | `rod(p, q, l)` | `sq(q - p) - sq(l)`, in space, too |
+///
+/// With `n = normals(u)` and `u`, `w` of unit length:
+///
+/// | spatial joint | rows |
+/// | --- | --- |
+/// | `ball(p, q)` | `q - p` |
+/// | `hinge(p, q, u, [w])` | `q - p`, `inner(p.along(n[k]), q.along(w))` for k = 0, 1: both turn about u, which is w in the second body |
+/// | `universal(p, q, u, w)` | `q - p`, `inner(p.along(u), q.along(w))`: u of the first body is at a right angle to w of the second |
+/// | `cylinder(p, q, u, [w])` | `inner(p.along(n[k]), q - p)`, `inner(p.along(n[k]), q.along(w))`: q slides along u and turns about it |
+/// | `slider(p, q, u, [turn])` | `inner(p.along(n[k]), q - p)`, and the last three rows of `weld` |
+/// | `weld(p, q, [turn])` | `q - p`; `inner(p.along(x), q.along(y))`, likewise of y and z, of z and x: `turn` is the matrix that turns axes of the second body to those of the first, the identity if left out |
+/// | `drive(a, b, u, angle)` | `inner(a.along(cos(angle) * n[0] + sin(angle) * n[1]), b.along(n[1]))`: a motor for a hinge about u, at any number of turns |
+/// | `screw(p, q, u, lead)` | under `nonholonomic`, beside `cylinder`: the velocity along u is lead/2π times that of turning |
+/// | `disc(q, u, r)` | `q[2] - r * sqrt(1 - sq(q.along(u)[2]))`: a disc of radius r about q with axis u touches the plane z = 0 |
+/// | `rolls(q, u, r)` | under `nonholonomic`, beside `disc`: the point of the disc that touches has no velocity along x and y |
+///
+/// Rows of directions at right angles are met, too, where a body is turned over; the nearest state to the guess decides. A function of the
+/// declaration may be a joint, too: with `let hook = |p, q| pin(p, q + [0, h]);`, `c: hook(p, q)` is one.
+///
+/// # What acts on bodies
+///
+/// | entry of `forces` | meaning |
+/// | --- | --- |
+/// | `spring(p, q, k, l)` | the potential ½ k (‖q − p‖ − l)² |
+/// | `turning_spring(a, b, k, angle)` | of planar bodies ½ k (b.angle − a.angle − angle)² |
+/// | `damper(p, q, c)` | the force c d‖q − p‖/dt that pulls p and q together |
+/// | `turning_damper(a, b, c)` | the moment −c (b.omega − a.omega) on b, and the opposite one on a |
+/// | `force(p, F)` | the force F at the point p, a vector in axes of the ground |
+/// | `force(p, q, F)` | the force F, a number, that pushes p and q apart |
+/// | `torque(b, M)` | the moment M on b: a number in the plane, a vector in axes of the ground in space |
+/// | `torque(a, b, M)` | the moment M on b, and the opposite one on a |
+///
+/// A force or moment F on what has the velocity v goes into Q as (∂v/∂q̇)ᵀ F.
+///
+/// ```
+/// use ukcore::{Simulation, State, assemble};
+///
+/// ukcore::multibody! {
+///     /// A four-bar linkage with a turning spring between coupler and rocker.
+///     pub FourBar {
+///         params { l[3] = [0.5, 2.0, 1.5], m = 1.0, span = 2.0, k = 3.0, g = 9.81 }
+///         bodies { for i in 0..3 { planar bar[i] { mass: m, inertia: m * sq(l[i]) / 12.0, centre: [l[i] / 2.0, 0] } } }
+///         gravity { [0, -g] }
+///         holonomic {
+///             o: pin(ground.at([0, 0]), bar[0].at([0, 0]))
+///             p: pin(bar[0].at([l[0], 0]), bar[1].at([0, 0]))
+///             q: pin(bar[1].at([l[1], 0]), bar[2].at([l[2], 0]))
+///             r: pin(ground.at([span, 0]), bar[2].at([0, 0]))
+///         }
+///         forces { turning_spring(bar[1], bar[2], k, 1.0) }
+///         output { tip = bar[1].at([1.0, 0.3]), crank = bar[0].angle }
+///     }
+/// }
+/// let mut guess = State { t: 0.0, q: vec![0.0; 9], v: vec![0.0; 9] };
+/// for (bar, angle) in FourBar::BAR_ANGLE.into_iter().zip([1.0, 0.3, 1.4]) {
+///     guess.q[bar] = angle;
+/// }
+/// let start = assemble(FourBar::default(), guess, &["bar[0].angle"])?;
+/// let run = Simulation::new(FourBar::default()).start(start).tolerance(1e-10).until(1.0)?;
+/// assert!(run.energy_drift() < 1e-8);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # What is emitted
 ///
 /// For `pub T { … }`: `struct T` with its parameters as public fields, `Default`, `Clone`, `Debug`, `PartialEq`; `T::N` for constant `N`;
@@ -158,13 +275,15 @@ use proc_macro2::TokenStream;
 ///             | "let", block(key, "=", (expr | function))
 ///             | "params", block(docs, key, "=", expr)
 ///             | "coords", block(docs, key)
-///             | "mass", block((key | "(", key, ",", key, ")"), ":", expr)
-///             | ("kinetic" | "potential"), block(expr)
-///             | ("force" | "nonideal"), block(key, ":", expr)
-///             | ("holonomic" | "nonholonomic"), block(key, ":", expr, "=", expr)
+///             | "bodies", block(docs, ("planar" | "spatial"), key, "{", { ("mass" | "inertia" | "centre"), ":", expr, [","] }, "}")
+///             | "mass", block((place | "(", place, ",", place, ")"), ":", expr)
+///             | ("gravity" | "kinetic" | "potential" | "dissipation" | "forces"), block(expr)
+///             | ("force" | "nonideal"), block(place, ":", expr)
+///             | ("holonomic" | "nonholonomic"), block(key, ":", expr, ["=", expr])
 ///             | "output", block(docs, key, "=", expr) ;
 /// block(e)    = "{", { (e | "for", NAME, "in", expr, "..", expr, "{", { e }, "}"), ["," | ";"] }, "}" ;
 /// key         = NAME, { "[", expr, "]" } ;
+/// place       = key, [".", NAME] ;
 /// function    = "|", NAME, { ",", NAME }, "|", expr ;
 /// ```
 ///

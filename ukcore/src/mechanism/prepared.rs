@@ -65,6 +65,8 @@ pub trait Face: Send + Sync + 'static {
     fn spec(&self) -> &'static Spec;
     /// The identity of the mechanism's type.
     fn id(&self) -> TypeId;
+    /// [`Mechanism::inertias`].
+    fn inertias(&self, given: &[f64], each: &mut dyn FnMut(&'static str, &[f64]));
     /// In numbers that carry a derivative.
     fn dual(&self) -> &'static dyn Dynamics<Dual>;
     /// In numbers that add up their rounding.
@@ -80,6 +82,9 @@ impl<M: Mechanism> Face for Of<M> {
     }
     fn id(&self) -> TypeId {
         TypeId::of::<M>()
+    }
+    fn inertias(&self, given: &[f64], each: &mut dyn FnMut(&'static str, &[f64])) {
+        M::inertias(given, each);
     }
     fn dual(&self) -> &'static dyn Dynamics<Dual> {
         &Of::<M>(PhantomData)
@@ -318,6 +323,11 @@ impl<S: Scalar, C: ?Sized + Emitted<S>> Prepared<S, C> {
 }
 
 impl Prepared {
+    /// Calls `each` with the name of each spatial body, its mass and its inertia by rows; see [`Mechanism::inertias`].
+    pub(crate) fn inertias(&self, each: &mut dyn FnMut(&'static str, &[f64])) {
+        self.code.face().inertias(&self.given, each);
+    }
+
     /// What the compiler decided about this mechanism, with reasons, costs and the sparsity of its equations: print it.
     #[must_use]
     pub fn plan(&self) -> Plan {

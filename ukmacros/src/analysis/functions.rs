@@ -117,6 +117,16 @@ pub(crate) fn functions(system: &System, hoisted: &Hoisted) -> Vec<Function> {
     functions
 }
 
+/// The values `roots`, which depend on parameters only, as a function like that which prepares others.
+pub(crate) fn of_parameters(system: &System, roots: &[Id]) -> Function {
+    let builder = Builder {
+        system,
+        hints: system.all_hints(),
+    };
+    let slices = vec![(Slice::Prepared, roots.len())];
+    builder.function(Role::Prepare, slices, elements(Slice::Prepared, roots))
+}
+
 struct Builder<'a> {
     system: &'a System,
     hints: HashMap<Id, String>,

@@ -3,8 +3,8 @@
 use super::body::{Writing, body};
 use super::item::doc;
 use super::names::Slots;
-use crate::analysis::{Analysis, Function, Role, Slice};
-use crate::expr::System;
+use crate::analysis::{Analysis, Function, Role, Slice, of_parameters};
+use crate::expr::{Id, System};
 use crate::model::Model;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -29,10 +29,42 @@ pub(super) fn functions(system: &System, model: &Model, analysis: &Analysis) -> 
         });
         functions.extend(quote! { #counts #signature { #statements } });
     }
+    let inertias = inertias(system, model, analysis);
     quote! {
         const CODE: &'static [(&'static str, &'static str)] = &[#texts];
         #functions
+        #inertias
     }
+}
+
+/// The masses and inertias of spatial bodies, if there are any.
+fn inertias(system: &System, model: &Model, analysis: &Analysis) -> Option<TokenStream> {
+    let (names, ids): (Vec<&String>, Vec<&Vec<Id>>) = system
+        .inertias
+        .iter()
+        .map(|(name, ids)| (name, ids))
+        .unzip();
+    let function = of_parameters(
+        system,
+        &ids.into_iter().flatten().copied().collect::<Vec<Id>>(),
+    );
+    let count = Literal::usize_unsuffixed(function.roots.len());
+    let (signature, statements) = (
+        signature(function.role),
+        statements(&function, system, model, analysis),
+    );
+    (!names.is_empty()).then(|| {
+        quote! {
+            fn inertias(given: &[f64], each: &mut dyn ::core::ops::FnMut(&'static str, &[f64])) {
+                #signature { #statements }
+                let mut numbers = [0.0; #count];
+                prepare(given, &mut numbers);
+                for (name, numbers) in [#(#names),*].into_iter().zip(numbers.chunks(10)) {
+                    each(name, numbers);
+                }
+            }
+        }
+    })
 }
 
 /// `fn name<S: ukcore::Scalar>(…) -> …`.

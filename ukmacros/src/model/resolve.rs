@@ -1,7 +1,7 @@
 //! Integer constants, families, loops; duplicates and reserved names.
 
 use super::scope::{MAX_MEMBERS, Scope, index_functions};
-use super::types::{Element, Family, Integer, Model, Name, Preset, every, indexed};
+use super::types::{BodyKind, Element, Family, Integer, Model, Name, Preset, every, indexed};
 use crate::diag::{Diagnostics, Loc};
 use crate::parse::{Block, Declaration, Expr, Key};
 use proc_macro2::Ident;
@@ -29,6 +29,9 @@ pub(crate) fn resolve(
         floats: Vec::new(),
         params: Vec::new(),
         coords: Vec::new(),
+        bodies: Vec::new(),
+        body_kinds: Vec::new(),
+        body_elements: Vec::new(),
         param_elements: Vec::new(),
         coord_elements: Vec::new(),
         names: HashMap::new(),
@@ -75,6 +78,11 @@ pub(crate) fn resolve(
     members(&decl.coords, Kind::Coord, &mut model, diag, |coord| {
         (&coord.key, &coord.docs, None)
     });
+    let before = diag.len();
+    members(&decl.bodies, Kind::Body, &mut model, diag, |body| {
+        (&body.key, &body.docs, None)
+    });
+    bodies(decl, &mut model, diag, before);
     if model.coord_elements.is_empty() && diag.is_empty() {
         diag.error(
             decl.name.span(),
@@ -91,6 +99,7 @@ pub(crate) fn resolve(
 enum Kind {
     Param,
     Coord,
+    Body,
 }
 
 /// A member found while unrolling.
@@ -140,10 +149,7 @@ fn members<T>(
         });
         found.into_iter().for_each(|f| add(f, kind, model, diag));
     }
-    let (families, elements) = match kind {
-        Kind::Param => (&mut model.params, &model.param_elements),
-        Kind::Coord => (&mut model.coords, &model.coord_elements),
-    };
+    let (families, elements) = model.lists(kind);
     for family in families {
         let places: usize = family.shape.iter().product();
         if let Some(last) = family
@@ -212,13 +218,12 @@ impl Family {
 fn add(found: Found, kind: Kind, model: &mut Model, diag: &Diagnostics) {
     let text = found.name.to_string();
     let known = match (model.names.get(&text), kind) {
-        (Some(Name::Param(f)), Kind::Param) | (Some(Name::Coord(f)), Kind::Coord) => Some(*f),
+        (Some(Name::Param(f)), Kind::Param)
+        | (Some(Name::Coord(f)), Kind::Coord)
+        | (Some(Name::Body(f)), Kind::Body) => Some(*f),
         _ => None,
     };
-    let (families, elements) = match kind {
-        Kind::Param => (&mut model.params, &mut model.param_elements),
-        Kind::Coord => (&mut model.coords, &mut model.coord_elements),
-    };
+    let (families, elements) = model.lists(kind);
     let count = families.len();
     let existing = known.filter(|f| {
         let last = families[*f].members.last().map(|at| &elements[*at].indices);
@@ -237,6 +242,7 @@ fn add(found: Found, kind: Kind, model: &mut Model, diag: &Diagnostics) {
         let meaning = match kind {
             Kind::Param => Name::Param(family),
             Kind::Coord => Name::Coord(family),
+            Kind::Body => Name::Body(family),
         };
         if kind == Kind::Coord
             && let Err(reason) = model.column(&found.name)
@@ -248,10 +254,7 @@ fn add(found: Found, kind: Kind, model: &mut Model, diag: &Diagnostics) {
             return;
         }
     }
-    let (families, elements) = match kind {
-        Kind::Param => (&mut model.params, &mut model.param_elements),
-        Kind::Coord => (&mut model.coords, &mut model.coord_elements),
-    };
+    let (families, elements) = model.lists(kind);
     if existing.is_none() {
         families.push(Family {
             name: found.name,
@@ -269,6 +272,51 @@ fn add(found: Found, kind: Kind, model: &mut Model, diag: &Diagnostics) {
     });
 }
 
+/// Gives each body its coordinates, those of one after those of another. There were `before` errors before bodies were read.
+fn bodies(decl: &Declaration, model: &mut Model, diag: &Diagnostics, before: usize) {
+    let mut kinds: HashMap<String, bool> = HashMap::new();
+    for block in &decl.bodies {
+        block.each(&mut |body| {
+            let name = &body.key.name;
+            if *kinds.entry(name.to_string()).or_insert(body.spatial) != body.spatial
+                && diag.len() == before
+            {
+                let message = format!("`{name}` is declared planar and spatial; rename one");
+                diag.error(name.span(), message);
+            }
+        });
+    }
+    for family in &model.bodies {
+        let kind = BodyKind {
+            spatial: kinds[&family.name.to_string()],
+            first: model.coords.len(),
+        };
+        for name in kind.coordinates() {
+            let own = format!("{}_{name}", family.name);
+            model.coords.push(Family {
+                name: Ident::new(&own, family.name.span()),
+                docs: family.docs.clone(),
+                shape: family.shape.clone(),
+                members: Vec::new(),
+            });
+        }
+        for member in &family.members {
+            let body = &model.body_elements[*member];
+            for (name, family) in kind.coordinates().iter().zip(kind.first..) {
+                let position = model.coord_elements.len();
+                model.coords[family].members.push(position);
+                model.coord_elements.push(Element {
+                    name: format!("{}.{name}", body.name),
+                    family,
+                    indices: body.indices.clone(),
+                    default: None,
+                });
+            }
+        }
+        model.body_kinds.push(kind);
+    }
+}
+
 /// Enters a name; reports and returns false if it is taken.
 fn declare(name: &Ident, meaning: Name, model: &mut Model, diag: &Diagnostics) -> bool {
     if let Err(message) = model.free(name) {
@@ -280,6 +328,15 @@ fn declare(name: &Ident, meaning: Name, model: &mut Model, diag: &Diagnostics) -
 }
 
 impl Model {
+    /// Families of this kind, and their members.
+    fn lists(&mut self, kind: Kind) -> (&mut Vec<Family>, &mut Vec<Element>) {
+        match kind {
+            Kind::Param => (&mut self.params, &mut self.param_elements),
+            Kind::Coord => (&mut self.coords, &mut self.coord_elements),
+            Kind::Body => (&mut self.bodies, &mut self.body_elements),
+        }
+    }
+
     /// Whether `name` may still be declared; the reason if not.
     pub(crate) fn free(&self, name: &Ident) -> Result<(), String> {
         let text = self.unreserved(name)?;

@@ -15,8 +15,13 @@ pub(crate) struct Model {
     pub(crate) floats: Vec<Const>,
     pub(crate) params: Vec<Family>,
     pub(crate) coords: Vec<Family>,
+    pub(crate) bodies: Vec<Family>,
+    /// What each of `bodies` is.
+    pub(crate) body_kinds: Vec<BodyKind>,
     /// Members of `params`, in order.
     pub(crate) param_elements: Vec<Element>,
+    /// Members of `bodies`.
+    pub(crate) body_elements: Vec<Element>,
     /// Members of `coords`: the order of q.
     pub(crate) coord_elements: Vec<Element>,
     /// What each name stands for.
@@ -61,6 +66,8 @@ pub(crate) enum Name {
     Param(usize),
     /// Index into [`Model::coords`].
     Coord(usize),
+    /// Index into [`Model::bodies`].
+    Body(usize),
 }
 
 /// A scalar `m`, or a family `x[0]`, `x[1]`, …, `p[0][0]`, `p[0][1]`, ….
@@ -71,6 +78,24 @@ pub(crate) struct Family {
     pub(crate) shape: Vec<usize>,
     /// Positions of its members in the list of elements, the last index running fastest.
     pub(crate) members: Vec<usize>,
+}
+
+/// What bodies of one name are.
+#[derive(Clone, Copy)]
+pub(crate) struct BodyKind {
+    pub(crate) spatial: bool,
+    /// Place in [`Model::coords`] of the first of their coordinates, which are families of their own.
+    pub(crate) first: usize,
+}
+
+impl BodyKind {
+    /// The names of a body's coordinates: place of the centre of mass, then orientation.
+    pub(crate) fn coordinates(self) -> &'static [&'static str] {
+        match self.spatial {
+            true => &["x", "y", "z", "e0", "e1", "e2", "e3"],
+            false => &["x", "y", "angle"],
+        }
+    }
 }
 
 /// The places of those members, in an array of this `shape` whose last index runs fastest, that begin with `indices`; the position of the
@@ -113,6 +138,14 @@ pub(crate) struct Element {
     pub(crate) indices: Vec<usize>,
     /// A parameter's default, one for all that are declared together.
     pub(crate) default: Option<Rc<Preset>>,
+}
+
+impl Element {
+    /// Its place in a family of this `shape`.
+    pub(crate) fn place(&self, shape: &[usize]) -> usize {
+        let indices = self.indices.iter().zip(shape);
+        indices.fold(0, |place, (index, size)| place * size + index)
+    }
 }
 
 /// A default as declared.

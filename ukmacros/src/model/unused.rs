@@ -48,6 +48,10 @@ fn used(decl: &Declaration) -> HashSet<String> {
         (vec![&param.key], vec![&param.default])
     });
     found.blocks(&decl.coords, |coord| (vec![&coord.key], Vec::new()));
+    found.blocks(&decl.bodies, |body| {
+        let parts = body.mass.iter().chain(&body.inertia).chain(&body.centre);
+        (vec![&body.key], parts.collect())
+    });
     found.lets(&decl.lets);
     if let Some(section) = &decl.mass {
         found.blocks(&section.blocks, |m| {
@@ -57,15 +61,22 @@ fn used(decl: &Declaration) -> HashSet<String> {
             )
         });
     }
-    for section in decl.kinetic.iter().chain(&decl.potential) {
-        found.blocks(&section.blocks, |term| (Vec::new(), vec![term]));
+    let energies = decl.kinetic.iter().chain(&decl.potential);
+    let sections = energies.chain(&decl.gravity).chain(&decl.dissipation);
+    for blocks in sections.map(|s| &s.blocks).chain([&decl.forces]) {
+        found.blocks(blocks, |term| (Vec::new(), vec![term]));
     }
     let nonideal = decl.nonideal.iter().map(|section| &section.blocks);
     for blocks in std::iter::once(&decl.force).chain(nonideal) {
         found.blocks(blocks, |entry| (vec![&entry.key], vec![&entry.value]));
     }
     for blocks in [&decl.holonomic, &decl.nonholonomic] {
-        found.blocks(blocks, |c| (vec![&c.key], vec![&c.lhs, &c.rhs]));
+        found.blocks(blocks, |c| {
+            (
+                vec![&c.key],
+                std::iter::once(&c.lhs).chain(&c.rhs).collect(),
+            )
+        });
     }
     found.blocks(&decl.outputs, |output| {
         (vec![&output.key], vec![&output.value])
@@ -133,7 +144,9 @@ impl Names {
                 self.expr(base);
                 indices.iter().for_each(|i| self.expr(i));
             }
-            ExprKind::Neg(inner) | ExprKind::Group(inner) => self.expr(inner),
+            ExprKind::Neg(inner) | ExprKind::Group(inner) | ExprKind::Field(inner, _) => {
+                self.expr(inner);
+            }
             ExprKind::Chain(first, rest) => {
                 self.expr(first);
                 rest.iter().for_each(|(_, operand)| self.expr(operand));

@@ -18,6 +18,8 @@ pub(crate) enum ExprKind {
     Name(Ident),
     /// `x[i]`, `p[i][j]`, `(u + v)[0]`: what is indexed, and its indices.
     Index(Box<Expr>, Vec<Expr>),
+    /// `link[i].angle`: what belongs to a body.
+    Field(Box<Expr>, Ident),
     Neg(Box<Expr>),
     /// Operands joined by operators of one precedence, from left to right: flat, since sums may have thousands of terms.
     Chain(Box<Expr>, Vec<(BinaryOp, Expr)>),
@@ -98,6 +100,15 @@ impl Expr {
             loc,
             kind: ExprKind::Error,
         }
+    }
+}
+
+/// An expression of this compiler's own, whose every token stands where the macro is called.
+pub(crate) fn own(text: &str) -> Expr {
+    let diag = Diagnostics::default();
+    match syn::parse_str(text) {
+        Ok(e) => Expr::convert(e, &diag),
+        Err(e) => Expr::error(e.span().into()),
     }
 }
 
@@ -267,10 +278,13 @@ fn simple(e: syn::Expr, loc: Loc, diag: &Diagnostics) -> ExprKind {
             a.eq_token.span.into(),
             "an equation has one `=`: `lhs = rhs`",
         ),
-        syn::Expr::Field(f) => refuse(
-            Loc::of(&f.member),
-            "no fields here; a parameter or coordinate is written by its name alone, such as `m`",
-        ),
+        syn::Expr::Field(f) => match f.member {
+            syn::Member::Named(name) => ExprKind::Field(boxed(*f.base), name),
+            syn::Member::Unnamed(index) => refuse(
+                index.span.into(),
+                "a component is written with brackets: `v[0]`",
+            ),
+        },
         syn::Expr::Closure(_) => refuse(
             loc,
             "a function must be named first: `let f = |u| …;`, then `f(x)`",

@@ -5,8 +5,8 @@
 
 use super::expr::{Expr, Range, location};
 use super::item::{
-    Block, Const, Coord, Declaration, Entry, Equation, Function, Key, Let, LetValue, MassEntry,
-    Output, Param, Section,
+    Block, Body, Const, Coord, Declaration, Entry, Equation, Function, Key, Let, LetValue,
+    MassEntry, Output, Param, Section,
 };
 use super::nesting;
 use crate::diag::{Diagnostics, Loc, suggest};
@@ -15,8 +15,7 @@ use quote::ToTokens as _;
 use syn::parse::ParseStream;
 use syn::{Token, braced, bracketed, parenthesized};
 
-const SECTIONS: &str =
-    "const params coords let mass kinetic force potential holonomic nonholonomic nonideal output";
+const SECTIONS: &str = "const params coords bodies gravity let mass kinetic force forces potential dissipation holonomic nonholonomic nonideal output";
 
 /// Parses a declaration; `None` if not even its name could be read.
 pub(crate) fn parse(mut tokens: TokenStream, diag: &Diagnostics) -> Option<Declaration> {
@@ -52,10 +51,14 @@ fn declaration(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Declar
         consts: Vec::new(),
         params: Vec::new(),
         coords: Vec::new(),
+        bodies: Vec::new(),
+        gravity: None,
         lets: Vec::new(),
         mass: None,
         kinetic: None,
         force: Vec::new(),
+        forces: Vec::new(),
+        dissipation: None,
         potential: None,
         holonomic: Vec::new(),
         nonholonomic: Vec::new(),
@@ -117,10 +120,14 @@ fn section(
     match name.as_str() {
         "params" => blocks(input, &mut out.params, diag, param_entry),
         "coords" => blocks(input, &mut out.coords, diag, coord_entry),
+        "bodies" => blocks(input, &mut out.bodies, diag, body),
+        "gravity" => present(input, keyword, &mut out.gravity, diag, term),
         "mass" => present(input, keyword, &mut out.mass, diag, mass_entry),
         "kinetic" => present(input, keyword, &mut out.kinetic, diag, term),
         "potential" => present(input, keyword, &mut out.potential, diag, term),
         "force" => blocks(input, &mut out.force, diag, entry),
+        "forces" => blocks(input, &mut out.forces, diag, acting),
+        "dissipation" => present(input, keyword, &mut out.dissipation, diag, term),
         "nonideal" => present(input, keyword, &mut out.nonideal, diag, entry),
         "holonomic" => blocks(input, &mut out.holonomic, diag, equation),
         "nonholonomic" => blocks(input, &mut out.nonholonomic, diag, equation),
@@ -271,7 +278,24 @@ fn key(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Key> {
             return Err(error);
         }
     }
-    Ok(Key { name, indices, loc })
+    Ok(Key {
+        name,
+        indices,
+        field: None,
+        loc,
+    })
+}
+
+/// The name of coordinates: a key, or `link[i].angle` of a body.
+fn coordinates(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Key> {
+    let mut key = key(input, diag)?;
+    if input.peek(Token![.]) {
+        let _: Token![.] = input.parse()?;
+        let field: Ident = input.parse()?;
+        key.loc.end = field.span();
+        key.field = Some(field);
+    }
+    Ok(key)
 }
 
 type EntryParser<T> = fn(ParseStream<'_>, &Diagnostics) -> syn::Result<T>;
@@ -366,6 +390,57 @@ fn coord_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Coord>
     Ok(Coord { docs, key })
 }
 
+/// `planar link[i] { mass: m, inertia: j, centre: [a, b] }`.
+fn body(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Body> {
+    let docs = docs(input, diag)?;
+    let kind: Ident = input.parse()?;
+    if kind != "planar" && kind != "spatial" {
+        let message = format!(
+            "a body is `planar` or `spatial`, not `{kind}`: `planar link {{ mass: m, inertia: j }}`"
+        );
+        return Err(syn::Error::new(kind.span(), message));
+    }
+    let key = key(input, diag)?;
+    if !input.peek(syn::token::Brace) {
+        let message = format!(
+            "a body needs what it consists of: `{kind} {} {{ mass: m, inertia: j }}`",
+            key.name
+        );
+        return Err(syn::Error::new(key.name.span(), message));
+    }
+    let parts;
+    braced!(parts in input);
+    let mut out = Body {
+        docs,
+        spatial: kind == "spatial",
+        key,
+        mass: None,
+        inertia: None,
+        centre: None,
+    };
+    while !parts.is_empty() {
+        let name: Ident = parts.parse()?;
+        let _: Token![:] = parts.parse()?;
+        let value = expression(&parts, diag)?;
+        let _: Option<Token![,]> = parts.parse()?;
+        let known = ["mass", "inertia", "centre"];
+        let place = match name.to_string().as_str() {
+            "mass" => &mut out.mass,
+            "inertia" => &mut out.inertia,
+            "centre" => &mut out.centre,
+            text => {
+                let end = suggest(text, known, "it has `mass`, `inertia` and `centre`");
+                diag.error(name.span(), format!("a body has no `{text}`{end}"));
+                continue;
+            }
+        };
+        if place.replace(value).is_some() {
+            diag.error(name.span(), format!("`{name}` is given twice; remove one"));
+        }
+    }
+    Ok(out)
+}
+
 fn let_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Let> {
     let key = key(input, diag)?;
     let _: Token![=] = input.parse()?;
@@ -398,16 +473,16 @@ fn mass_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<MassEnt
     let (first, other) = if input.peek(syn::token::Paren) {
         let pair;
         parenthesized!(pair in input);
-        let first = key(&pair, diag)?;
+        let first = coordinates(&pair, diag)?;
         let _: Token![,] = pair.parse()?;
-        let second = key(&pair, diag)?;
+        let second = coordinates(&pair, diag)?;
         let _: Option<Token![,]> = pair.parse()?;
         if !pair.is_empty() {
             return Err(pair.error("an entry of M belongs to one or two coordinates"));
         }
         (first, Some(second))
     } else {
-        (key(input, diag)?, None)
+        (coordinates(input, diag)?, None)
     };
     let _: Token![:] = input.parse()?;
     let value = expression(input, diag)?;
@@ -422,8 +497,18 @@ fn term(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Expr> {
     expression(input, diag)
 }
 
+/// `spring(p, q, k, l)`.
+fn acting(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Expr> {
+    let e = expression(input, diag)?;
+    if input.peek(Token![:]) {
+        let message = "the force on a coordinate goes under `force`; here stands what acts on bodies, such as `spring(p, q, k, l)`";
+        return Err(input.error(message));
+    }
+    Ok(e)
+}
+
 fn entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Entry> {
-    let key = key(input, diag)?;
+    let key = coordinates(input, diag)?;
     let _: Token![:] = input.parse()?;
     let value = expression(input, diag)?;
     Ok(Entry { key, value })
@@ -442,19 +527,24 @@ fn equation(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Equation>
     }
     let _: Token![:] = input.parse()?;
     let e: syn::Expr = input.parse()?;
-    let syn::Expr::Assign(assign) = e else {
-        let loc = location(&e);
-        diag.error(loc, "a constraint is an equation: `lhs = rhs`");
-        return Ok(Equation {
-            key,
-            lhs: Expr::error(loc),
-            rhs: Expr::error(loc),
-        });
+    let (lhs, rhs) = match e {
+        syn::Expr::Assign(assign) => (*assign.left, Some(*assign.right)),
+        // A joint, perhaps.
+        syn::Expr::Call(_) | syn::Expr::MethodCall(_) => (e, None),
+        e => {
+            let loc = location(&e);
+            diag.error(loc, "a constraint is an equation: `lhs = rhs`");
+            return Ok(Equation {
+                key,
+                lhs: Expr::error(loc),
+                rhs: None,
+            });
+        }
     };
     Ok(Equation {
         key,
-        lhs: Expr::convert(*assign.left, diag),
-        rhs: Expr::convert(*assign.right, diag),
+        lhs: Expr::convert(lhs, diag),
+        rhs: rhs.map(|rhs| Expr::convert(rhs, diag)),
     })
 }
 

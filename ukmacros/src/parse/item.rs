@@ -17,10 +17,14 @@ pub(crate) struct Declaration {
     pub(crate) consts: Vec<Const>,
     pub(crate) params: Vec<Block<Param>>,
     pub(crate) coords: Vec<Block<Coord>>,
+    pub(crate) bodies: Vec<Block<Body>>,
+    pub(crate) gravity: Option<Section<Expr>>,
     pub(crate) lets: Vec<Block<Let>>,
     pub(crate) mass: Option<Section<MassEntry>>,
     pub(crate) kinetic: Option<Section<Expr>>,
     pub(crate) force: Vec<Block<Entry>>,
+    pub(crate) forces: Vec<Block<Expr>>,
+    pub(crate) dissipation: Option<Section<Expr>>,
     pub(crate) potential: Option<Section<Expr>>,
     pub(crate) holonomic: Vec<Block<Equation>>,
     pub(crate) nonholonomic: Vec<Block<Equation>>,
@@ -63,11 +67,14 @@ pub(crate) struct Const {
     pub(crate) value: Expr,
 }
 
-/// A name with its indices: `x`, `x[i + 1]`, `p[i][2]`.
+/// A name with its indices: `x`, `x[i + 1]`, `p[i][2]`; of a coordinate of a body its name, too: `link[i].angle`.
+#[derive(Clone)]
 pub(crate) struct Key {
     pub(crate) name: Ident,
     pub(crate) indices: Vec<Expr>,
-    /// From the name to the last closing bracket.
+    /// What follows a dot.
+    pub(crate) field: Option<Ident>,
+    /// From the name to the last token.
     pub(crate) loc: Loc,
 }
 
@@ -82,6 +89,18 @@ pub(crate) struct Param {
 pub(crate) struct Coord {
     pub(crate) docs: Vec<String>,
     pub(crate) key: Key,
+}
+
+/// `planar link[i] { mass: m, inertia: j, centre: [a, b] }`.
+#[derive(Clone)]
+pub(crate) struct Body {
+    pub(crate) docs: Vec<String>,
+    /// `spatial`, or else `planar`.
+    pub(crate) spatial: bool,
+    pub(crate) key: Key,
+    pub(crate) mass: Option<Expr>,
+    pub(crate) inertia: Option<Expr>,
+    pub(crate) centre: Option<Expr>,
 }
 
 /// `let thrust = …;`
@@ -114,11 +133,12 @@ pub(crate) struct Entry {
     pub(crate) value: Expr,
 }
 
-/// `name: lhs = rhs`.
+/// `name: lhs = rhs`, or `name: joint(…)`.
 pub(crate) struct Equation {
     pub(crate) key: Key,
     pub(crate) lhs: Expr,
-    pub(crate) rhs: Expr,
+    /// Of a joint, 0 if it is left out.
+    pub(crate) rhs: Option<Expr>,
 }
 
 /// `fall = y[0]`.

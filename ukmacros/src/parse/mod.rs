@@ -5,8 +5,8 @@ mod grammar;
 mod item;
 mod nesting;
 
-pub(crate) use expr::{BinaryOp, Expr, ExprKind, Range};
+pub(crate) use expr::{BinaryOp, Expr, ExprKind, Range, own};
 pub(crate) use grammar::parse;
 pub(crate) use item::{
-    Block, Const, Declaration, Entry, Equation, Function, Key, Let, LetValue, MassEntry,
+    Block, Body, Const, Declaration, Entry, Equation, Function, Key, Let, LetValue, MassEntry,
 };

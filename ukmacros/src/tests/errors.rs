@@ -163,7 +163,7 @@ fn unmark(marked: &str) -> (String, Vec<(LineColumn, LineColumn)>) {
 
 /// Expects exactly the errors that `marked` marks, in order, each with its message.
 #[track_caller]
-fn check(marked: &str, messages: &[&str]) {
+pub(super) fn check(marked: &str, messages: &[&str]) {
     let (source, spans) = unmark(&format!("pub T {{ {marked} }}"));
     let found = errors(&source);
     let shown: Vec<_> = found.iter().map(|f| f.message.as_str()).collect();
@@ -223,7 +223,7 @@ cases! {
     cast: "const N: usize = 2; coords { x } mass { x: N as «f32» }" => "only `as f64` is allowed";
     tuple: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { c: «(x, y)» = [0.0, 0.0] }" => "a vector is written `[a, b]`";
     parameter_without_default: "params { «m» } coords { x } mass { x: 1.0 }" => "parameter `m` needs a default";
-    unknown_section: "coords { x } mass { x: 1.0 } «forces» { x: 1.0 }" => "unknown section `forces`; did you mean `force`?";
+    unknown_section: "coords { x } mass { x: 1.0 } «forced» { x: 1.0 }" => "unknown section `forced`; did you mean `force`?";
     repeated_section: "coords { x } «coords» { y } mass { x: 1.0, y: 1.0 }" => "section `coords` appears twice";
     attribute: "coords { #[«inline»] x } mass { x: 1.0 }" => "only doc comments are allowed here";
     lint_of_an_entry: "coords { «#»[allow(dead_code)] x } mass { x: 1.0 }" => "`#[allow(…)]` stands before the whole declaration";

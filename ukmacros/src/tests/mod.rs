@@ -1,5 +1,6 @@
 //! Tests of the compiler from inside: a procedural macro's crate exports nothing else.
 
+mod bodies;
 mod constants;
 mod counts;
 mod derivatives;

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
 /// Pieces that declarations are made of, and some that they are not.
-const PIECES: [&str; 84] = [
+const PIECES: [&str; 103] = [
     "pub",
     "T",
     "{",
@@ -90,6 +90,25 @@ const PIECES: [&str; 84] = [
     "c[0][1]: p = d",
     "k[2][2] = [[1.0, 2.0], [3.0, 4.0]]",
     "#[allow(dead_code)]",
+    "bodies { planar b { mass: m, inertia: 1.0 } }",
+    "bodies { for i in 0..N { planar c[i] { mass: m } } }",
+    "spatial s { mass: 1, inertia: [1, 1, 1], centre: [0, m, 0] }",
+    "gravity { [0, -9.81] }",
+    "forces",
+    "dissipation { sq(b.omega) }",
+    "b",
+    "b.at([1, 0])",
+    "b.along(",
+    "ground.at([0, 0])",
+    "ground",
+    ".angle",
+    ".omega",
+    "b.x: 1.0",
+    "pin(",
+    "c: pin(b.at([1, 0]), ground.at([x, 0]))",
+    "hinge(s.at([0, 0, 0]), ground.at([0, 0, 0]), [1, 0, m])",
+    "spring(b.at([0, 0]), ground.at([0, 1]), 1, 1)",
+    "torque(b, 1)",
 ];
 
 /// A declaration that works, to be damaged.
@@ -105,6 +124,13 @@ const VECTORS: &str = "pub T { const N: usize = 2; params { m[N] = [1.0, 2.0], r
     holonomic { pin: d[0] = d[1] + [s, 0, t]; for i in 0..N { c[i][0]: norm(p[i]) = inner(transpose(rot(s))[0], a) } } \
     nonideal { p[0]: -normalise(dot(p[0])) } output { o = d, e = (rot(t) * a)[1] } }";
 
+/// One of bodies, to be damaged.
+const BODIES: &str = "pub T { const N: usize = 2; params { m[N] = [1.0, 2.0], l = 0.5, g = 9.81 } bodies { for i in 0..N { planar link[i] { \
+    mass: m[i], inertia: 0.1, centre: [l / 2, 0] } } spatial top { mass: 1, inertia: [1, 1, 1.5] } } gravity { [0, -g, 0] } \
+    holonomic { o: pin(ground.at([0, 0]), link[0].at([0, 0])); for i in 0..N - 1 { knee[i]: pin(link[i].at([l, 0]), link[i + 1].at([0, 0])) } \
+    foot: hinge(ground.at([0, 0, 0]), top.at([0, l, 0]), [0, 1, 0]) motor: turn(ground, link[0]) = sin(t) } forces { spring(link[1].at([l, 0]), \
+    ground.at([1, 0]), 2, 1) torque(top, [0, t, 0]) } dissipation { sq(link[1].omega) } output { tip = dot(link[1].at([l, 0])), s = top.spin } }";
+
 fn survives(source: &str) {
     if let Ok(tokens) = source.parse::<proc_macro2::TokenStream>() {
         let (code, _) = crate::expand(tokens);
@@ -114,7 +140,7 @@ fn survives(source: &str) {
 
 #[test]
 fn the_whole_declarations_compile() {
-    for source in [WHOLE, VECTORS] {
+    for source in [WHOLE, VECTORS, BODIES] {
         let (_, errors) = expand(source);
         assert!(errors.is_empty(), "{errors:?}");
     }
@@ -140,12 +166,14 @@ proptest! {
         survives(&format!("pub T {{ {} }}", text.join(" ")));
         survives(&format!("pub T {{ coords {{ x, y }} mass {{ x: 1.0, y: 1.0 }} holonomic {{ {} }} }}", text.join(" ")));
         survives(&format!("pub T {{ coords {{ x, y }} force {{ x: {} }} }}", text.join(" ")));
+        survives(&format!("pub T {{ params {{ m = 1.0 }} coords {{ x }} mass {{ x: m }} bodies {{ planar b {{ mass: m, inertia: 1 }} spatial s {{ mass: m, \
+            inertia: [1, 1, 1] }} }} forces {{ {} }} }}", text.join(" ")));
         survives(&format!("pub T {{ const N: usize = 2; params {{ m = 1.0 }} coords {{ x, y, p[N][2] }} let next = |i| i + 1; force {{ p[0]: {} }} }}", text.join(" ")));
     }
 
     #[test]
-    fn damaged_declarations(at in 0usize..760, length in 0usize..12, piece in 0usize..PIECES.len()) {
-        for whole in [WHOLE, VECTORS] {
+    fn damaged_declarations(at in 0usize..900, length in 0usize..12, piece in 0usize..PIECES.len()) {
+        for whole in [WHOLE, VECTORS, BODIES] {
             let characters: Vec<char> = whole.chars().collect();
             let at = at.min(characters.len());
             let end = (at + length).min(characters.len());

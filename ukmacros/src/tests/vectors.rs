@@ -5,7 +5,7 @@ use proc_macro2::{LineColumn, TokenStream, TokenTree};
 
 /// The code of a declaration without errors.
 #[track_caller]
-fn code(source: &str) -> String {
+pub(super) fn code(source: &str) -> String {
     let (code, errors) = expand(&format!("pub T {{ {source} }}"));
     assert!(errors.is_empty(), "{source}: {errors:?}");
     code.to_string()
@@ -13,7 +13,7 @@ fn code(source: &str) -> String {
 
 /// Expects `short` and `long` to be one program: the same equations, operations and names.
 #[track_caller]
-fn check(short: &str, long: &str) {
+pub(super) fn check(short: &str, long: &str) {
     assert!(code(short) == code(long), "{short}\nis not\n{long}");
 }
 

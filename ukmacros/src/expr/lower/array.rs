@@ -4,6 +4,8 @@ use crate::expr::graph::{Graph, Id};
 use crate::model::block;
 use std::rc::Rc;
 
+use super::bodies::{Frame, Point};
+
 /// Longer arrays are refused, and products of more terms: lists within lists grow fast.
 pub(super) const MAX_ENTRIES: usize = 100_000;
 
@@ -11,6 +13,10 @@ pub(super) const MAX_ENTRIES: usize = 100_000;
 pub(super) enum Value {
     Scalar(Id),
     Array(Rc<Array>),
+    /// A body, which only its methods and functions take.
+    Body(Rc<Frame>),
+    /// A point of a body: its place, which knows to what it belongs.
+    Point(Rc<Point>),
     /// Something already reported: fits everywhere.
     Error,
 }
@@ -41,7 +47,8 @@ impl Value {
     pub(super) fn shape(&self) -> &[usize] {
         match self {
             Value::Array(array) => &array.shape,
-            Value::Scalar(_) | Value::Error => &[],
+            Value::Point(point) => point.place.shape(),
+            Value::Scalar(_) | Value::Body(_) | Value::Error => &[],
         }
     }
 
@@ -50,7 +57,8 @@ impl Value {
         match self {
             Value::Scalar(id) => std::slice::from_ref(id),
             Value::Array(array) => &array.entries,
-            Value::Error => &[],
+            Value::Point(point) => point.place.entries(),
+            Value::Body(_) | Value::Error => &[],
         }
     }
 
@@ -96,7 +104,9 @@ impl Value {
     pub(super) fn stack(parts: &[Value], zero: Id) -> Result<Self, usize> {
         let sound = parts.iter().find(|part| !part.is_error());
         let shape = sound.map_or(&[][..], Value::shape);
-        let differs = |part: &Value| !part.is_error() && part.shape() != shape;
+        let differs = |part: &Value| {
+            matches!(part, Value::Body(_)) || !part.is_error() && part.shape() != shape
+        };
         if let Some(odd) = parts.iter().position(differs) {
             return Err(odd);
         }

@@ -1,6 +1,7 @@
 //! Functions: those of the table, of vectors, and of the declaration.
 
 use super::array::Value;
+use super::parts::PARTS;
 use super::vectors::OPERATIONS;
 use super::{Binding, Env, Lowering, Place};
 use crate::diag::suggest;
@@ -17,11 +18,17 @@ const MAX_POWER: i32 = 64;
 impl<'m> Lowering<'m> {
     pub(super) fn call(&mut self, e: &Expr, name: &Ident, args: &[Expr], env: &Env<'m>) -> Value {
         let text = name.to_string();
-        if matches!(self.lets.get(&text), Some(Binding::Function(_))) {
-            return self.apply(e, name, args, env);
+        if self.is_function(&text) {
+            // Bodies keep what is theirs, whatever functions are called.
+            let own = ["at", "along"].contains(&text.as_str());
+            return match args.first().filter(|_| own).map(|a| self.argument(a, env)) {
+                Some(Value::Body(_) | Value::Point(_)) => self.of_body(e, name, args, env),
+                _ => self.apply(e, name, args, env),
+            };
         }
         match text.as_str() {
             "dot" => return self.dot(e, name, args, env),
+            "at" | "along" => return self.of_body(e, name, args, env),
             "ddot" => {
                 let message = "accelerations are what is solved for; no section may use them";
                 return self.error_once(name, message);
@@ -64,6 +71,9 @@ impl<'m> Lowering<'m> {
         if let Some(operation) = OPERATIONS.iter().find(|o| text == o.name) {
             return self.operate(operation, e, name, args, env);
         }
+        if PARTS.iter().any(|part| text == part.name) {
+            return self.joint(e, name, args, env);
+        }
         let Some(func) = Func::all().find(|f| f.row().name == text) else {
             return self.unknown_function(name, env);
         };
@@ -76,6 +86,11 @@ impl<'m> Lowering<'m> {
             [Some(u)] => Value::Scalar(self.graph.call1(func, u)),
             _ => Value::Error,
         }
+    }
+
+    /// Whether `let` declares a function of this name, where it is the modeller who calls.
+    pub(super) fn is_function(&self, name: &str) -> bool {
+        !self.written && matches!(self.lets.get(name), Some(Binding::Function(_)))
     }
 
     pub(super) fn arity(&mut self, name: &Ident, expected: usize, found: usize) -> Value {
@@ -102,6 +117,7 @@ impl<'m> Lowering<'m> {
         names.extend(["powi", "recip", "dot", "sum"]);
         names.extend(OPERATIONS.iter().map(|o| o.name));
         let list = names.join(", ");
+        names.extend(PARTS.iter().map(|part| part.name));
         let lets = self.lets.iter();
         let functions = lets.filter(|(_, b)| matches!(b, Binding::Function(_)));
         names.extend(functions.map(|(n, _)| n.as_str()));
@@ -129,7 +145,7 @@ impl<'m> Lowering<'m> {
         if !env.scope.applies(e, self.diag) {
             return Value::Error;
         }
-        let values: Vec<Value> = args.iter().map(|a| self.value(a, env)).collect();
+        let values: Vec<Value> = args.iter().map(|a| self.argument(a, env)).collect();
         if values.iter().any(Value::is_error) {
             return Value::Error;
         }
@@ -151,7 +167,7 @@ impl<'m> Lowering<'m> {
             self.outermost = Some(e.loc);
         }
         self.active.push(text);
-        let value = self.value(&function.body, &inner);
+        let value = self.argument(&function.body, &inner);
         self.active.pop();
         self.allowed_value(value, e.loc, env)
     }

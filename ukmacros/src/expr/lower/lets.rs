@@ -69,8 +69,9 @@ impl<'m> Lowering<'m> {
         let value = self.value(&preset.value, &Env::new(&scope, Place::Default));
         let ids: Vec<Id> = match &value {
             Value::Scalar(id) => vec![*id; count],
-            Value::Array(_) if value.shape() == preset.shape => value.entries().to_vec(),
-            Value::Array(_) => {
+            Value::Error => Vec::new(),
+            _ if value.shape() == preset.shape => value.entries().to_vec(),
+            _ => {
                 let mut expected = describe(&[]);
                 if !preset.shape.is_empty() {
                     expected += &format!(" or {}", describe(&preset.shape));
@@ -80,7 +81,6 @@ impl<'m> Lowering<'m> {
                     .error(loc, format!("expected {expected}, found {found}"));
                 Vec::new()
             }
-            Value::Error => Vec::new(),
         };
         let point = Point {
             params: known,
@@ -151,7 +151,7 @@ impl<'m> Lowering<'m> {
                 "a function cannot be indexed; pass the index as an argument",
             ),
             LetValue::Value(e) => {
-                let value = self.value(e, &Env::new(scope, Place::Let));
+                let value = self.argument(e, &Env::new(scope, Place::Let));
                 let shown = indexed(&name, &indices);
                 self.hint(&shown, &value);
                 if indices.is_empty() {
@@ -168,7 +168,7 @@ impl<'m> Lowering<'m> {
     }
 
     /// Remembers the modeller's name of a value, for emitted code and printed equations.
-    fn hint(&mut self, name: &str, value: &Value) {
+    pub(super) fn hint(&mut self, name: &str, value: &Value) {
         let mut enter = |id: Id, name: String| {
             let (c, inner) = self.graph.unscaled(id);
             // The graph keeps coefficients apart: a name must not pass to a value without its coefficient.

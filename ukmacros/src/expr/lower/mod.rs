@@ -1,9 +1,12 @@
 //! Model to graph: loops unrolled, functions applied, vectors taken apart. This file walks the sections.
 
 mod array;
+mod bodies;
 mod calls;
+mod inertia;
 mod lets;
 mod names;
+mod parts;
 mod system;
 mod value;
 mod vectors;
@@ -12,11 +15,14 @@ pub(crate) use system::{Constraint, ConstraintRef, Kind, OutputValue, System};
 #[cfg(test)]
 pub(crate) use vectors::vocabulary;
 
-use super::graph::{Graph, Id};
+use super::graph::{Graph, Id, Symbol};
 use crate::diag::{Diagnostics, Loc};
 use crate::model::{Model, Scope, every};
-use crate::parse::{Block, Declaration, Entry, Equation, Expr, Function, MassEntry};
+use crate::parse::{Block, Declaration, Entry, Equation, Expr, ExprKind, Function, MassEntry};
 use array::{Value, describe};
+use bodies::Declared;
+use inertia::OfBodies;
+use parts::{Acting, PARTS};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::Rc;
 
@@ -26,6 +32,8 @@ enum Place {
     Const,
     Default,
     Let,
+    Body,
+    Gravity,
     Mass,
     Kinetic,
     Force,
@@ -81,6 +89,8 @@ pub(crate) fn lower(decl: &Declaration, model: &Model, diag: &Diagnostics) -> Sy
         floats: Vec::new(),
         lets: HashMap::new(),
         unfinished: HashSet::new(),
+        bodies: Vec::new(),
+        written: false,
         active: Vec::new(),
         depth: 0,
         outermost: None,
@@ -108,6 +118,10 @@ struct Lowering<'m> {
     lets: HashMap<String, Binding>,
     /// Families of values to which the current block of `let` may still add.
     unfinished: HashSet<String>,
+    /// By their place in [`Model::body_elements`]; nothing for those in error.
+    bodies: Vec<Option<Declared>>,
+    /// A text of this compiler's own is being lowered, in which functions have the meaning that they have here.
+    written: bool,
     /// Functions being applied, against recursion.
     active: Vec<String>,
     /// Nesting of the expression being lowered.
@@ -148,29 +162,37 @@ impl<'m> Lowering<'m> {
         let top = Scope::new(self.model);
         let constants = self.constants(&top);
         let defaults = self.defaults();
+        self.declare_bodies(decl, &top);
         self.lower_lets(decl, &top);
 
-        let mass = self.mass(decl, &top);
+        let of_bodies = self.of_bodies(decl, &top, &defaults);
+        let mut mass = self.mass(decl, &top);
         if let (Some(_), Some(kinetic)) = (&decl.mass, &decl.kinetic) {
             self.diag.error(
                 kinetic.keyword.span(),
                 "`mass` and `kinetic` exclude each other: M follows from T; move the masses into `kinetic`",
             );
         }
-        let kinetic = decl.kinetic.as_ref().map(|section| {
-            let sum = self.terms_of(&section.blocks, &top, Place::Kinetic);
-            (sum, section.keyword.span().into())
-        });
-        let potential = decl
-            .potential
-            .as_ref()
-            .map(|section| self.terms_of(&section.blocks, &top, Place::Potential));
-        let force = self.entries(&decl.force, &top, Place::Force);
+        let kinetic = self.kinetic(decl, &top, &of_bodies, &mut mass);
+        let acting = self.acting(decl, &top);
+        let mut terms = of_bodies.potential;
+        terms.extend(&acting.potential);
+        if let Some(section) = &decl.potential {
+            terms.extend(self.terms_of(&section.blocks, &top, Place::Potential));
+        }
+        let potential =
+            (decl.potential.is_some() || !terms.is_empty()).then(|| self.graph.sum(&terms));
+        let mut force = self.entries(&decl.force, &top, Place::Force);
+        for (i, values) in acting.force {
+            let before = force.get(&i).copied().into_iter();
+            let values: Vec<Id> = before.chain(values).collect();
+            force.insert(i, self.total_of(&values));
+        }
         let nonideal = decl
             .nonideal
             .as_ref()
             .map(|s| self.entries(&s.blocks, &top, Place::Nonideal));
-        let mut constraints = Vec::new();
+        let mut constraints = of_bodies.units;
         let mut names = Names::default();
         for (blocks, kind) in [
             (&decl.holonomic, Kind::Holonomic),
@@ -190,6 +212,7 @@ impl<'m> Lowering<'m> {
             force,
             potential,
             nonideal,
+            inertias: of_bodies.inertias,
             constraints,
             outputs,
             hints: std::mem::take(&mut self.hints),
@@ -210,13 +233,67 @@ impl<'m> Lowering<'m> {
         self.graph.sum(&terms)
     }
 
-    /// Sum of the terms of `kinetic` or `potential`.
-    fn terms_of(&mut self, blocks: &[Block<Expr>], top: &Scope<'m>, place: Place) -> Id {
+    /// Terms of `kinetic`, `potential` or `dissipation`.
+    fn terms_of(
+        &mut self,
+        blocks: &[Block<Expr>],
+        top: &Scope<'m>,
+        place: Place,
+    ) -> Vec<(f64, Id)> {
         let mut terms = Vec::new();
         top.unroll(blocks, self.diag, &mut |e, scope| {
             terms.push((1.0, self.scalar(e, &Env::new(scope, place))));
         });
-        self.graph.sum(&terms)
+        terms
+    }
+
+    /// T, where it is declared or M depends on q. Else bodies add their masses to `mass`.
+    fn kinetic(
+        &mut self,
+        decl: &Declaration,
+        top: &Scope<'m>,
+        of_bodies: &OfBodies,
+        mass: &mut BTreeMap<(usize, usize), (Id, Loc)>,
+    ) -> Option<(Id, Loc)> {
+        for (i, own, loc) in &of_bodies.diagonal {
+            let entry = mass.get(&(*i, *i)).map(|(m, _)| *m);
+            let values: Vec<Id> = entry.into_iter().chain([*own]).collect();
+            let total = self.total_of(&values);
+            mass.entry((*i, *i)).or_insert((total, *loc)).0 = total;
+        }
+        let section = decl.kinetic.as_ref();
+        let loc = section.map(|s| s.keyword.span().into());
+        let loc = loc.or(of_bodies.spatial)?;
+        let mut terms = of_bodies.turning.clone();
+        for ((i, j), (m, declared)) in std::mem::take(mass) {
+            let uses = self.graph.uses(m);
+            if uses.coord || uses.time {
+                let message = "beside spatial bodies a mass that changes goes under `kinetic`, as its part of the kinetic energy";
+                self.diag.error(declared, message);
+            }
+            let v = [i, j].map(|k| self.graph.symbol(Symbol::Velocity(k)));
+            let term = self.graph.product(&[(m, 1), (v[0], 1), (v[1], 1)]);
+            terms.push((if i == j { 0.5 } else { 1.0 }, term));
+        }
+        if let Some(section) = section {
+            terms.extend(self.terms_of(&section.blocks, top, Place::Kinetic));
+        }
+        Some((self.graph.sum(&terms), loc))
+    }
+
+    /// What `forces` and `dissipation` act with.
+    fn acting(&mut self, decl: &Declaration, top: &Scope<'m>) -> Acting {
+        let mut out = Acting::default();
+        top.unroll(&decl.forces, self.diag, &mut |e, scope| {
+            self.acts(e, &Env::new(scope, Place::Force), &mut out);
+        });
+        if let Some(section) = &decl.dissipation {
+            for (_, id) in self.terms_of(&section.blocks, top, Place::Force) {
+                let minus = self.graph.constant(-1.0);
+                self.push(id, minus, &mut out);
+            }
+        }
+        out
     }
 
     /// The lower triangle of M.
@@ -331,6 +408,7 @@ impl<'m> Lowering<'m> {
             base: key.name.clone(),
             indices,
             components: Vec::new(),
+            unit_of: None,
         };
         let reason = match self.model.free(&key.name) {
             Err(reason) => Some(reason),
@@ -353,7 +431,13 @@ impl<'m> Lowering<'m> {
         let env = Env::new(scope, place);
         let mut terms = Vec::new();
         self.chain(&equation.lhs, 1.0, &env, &mut terms);
-        self.chain(&equation.rhs, -1.0, &env, &mut terms);
+        match &equation.rhs {
+            Some(rhs) => self.chain(rhs, -1.0, &env, &mut terms),
+            None if self.is_joint(&equation.lhs) => {}
+            None => self
+                .diag
+                .error(equation.lhs.loc, "a constraint is an equation: `lhs = rhs`"),
+        }
         let total = self.total(&terms, true);
         for (components, phi) in self.components(&total) {
             item.components = components;
@@ -364,6 +448,15 @@ impl<'m> Lowering<'m> {
                 loc: key.loc,
             });
         }
+    }
+
+    /// Whether `e` applies a joint, or a function of the declaration, which may be one.
+    fn is_joint(&self, e: &Expr) -> bool {
+        let ExprKind::Call(name, _) = &e.kind else {
+            return matches!(e.kind, ExprKind::Error);
+        };
+        let joint = PARTS.iter().any(|part| name == part.name);
+        joint || self.is_function(&name.to_string())
     }
 
     /// The numbers that a value consists of, with their indices in it. The name of a faulty one stays declared, as zero: what uses it gives
@@ -388,6 +481,7 @@ impl<'m> Lowering<'m> {
                 base: key.name.clone(),
                 indices,
                 components: Vec::new(),
+                unit_of: None,
             };
             let looped = !scope.variables.is_empty();
             let free = self.model.column(&key.name);

@@ -39,6 +39,7 @@ impl<'m> Lowering<'m> {
     fn declared(&mut self, name: &Ident, indices: &[Expr], env: &Env<'m>) -> Value {
         let text = name.to_string();
         match self.model.names.get(&text) {
+            Some(Name::Body(f)) => self.body(name, *f, indices, env),
             Some(Name::Param(f)) => {
                 self.members(name, indices, &self.model.params[*f], Symbol::Param, env)
             }
@@ -66,6 +67,7 @@ impl<'m> Lowering<'m> {
                     name.span(),
                     format!("`{text}` is a function; call it: `{text}(…)`"),
                 ),
+                None if text == "ground" && indices.is_empty() => Self::ground(),
                 None => self.unknown(name, env),
             },
         }
@@ -205,7 +207,7 @@ impl<'m> Lowering<'m> {
     }
 
     /// Positions of the members of a family that `indices` choose, and the shape of what they make up.
-    fn member(
+    pub(super) fn member(
         &mut self,
         name: &Ident,
         indices: &[Expr],
@@ -244,15 +246,29 @@ impl<'m> Lowering<'m> {
         scope: &Scope<'m>,
     ) -> Option<(&'m [usize], &'m [usize])> {
         let name = key.name.to_string();
-        let Some(Name::Coord(family)) = self.model.names.get(&name) else {
+        let family = match self.model.names.get(&name) {
+            Some(Name::Coord(family)) => Some(*family),
+            Some(Name::Body(body)) => match self.of_body_named(*body, key) {
+                Some(family) => Some(family),
+                None => return None,
+            },
+            _ => None,
+        };
+        let Some(family) = family else {
             // Once for all its uses.
             if !self.unknown.insert(name.clone()) {
                 return None;
             }
-            let coords = self.model.coords.iter().map(|f| f.name.to_string());
-            let coords: Vec<String> = coords.collect();
+            let of_bodies = self
+                .model
+                .body_kinds
+                .first()
+                .map_or(usize::MAX, |k| k.first);
+            let coords = self.model.coords.iter().take(of_bodies);
+            let coords: Vec<String> = coords.map(|f| f.name.to_string()).collect();
             let remedy = match coords.len() {
-                0..=8 => format!("coordinates are `{}`", coords.join("`, `")),
+                0 => "those of bodies are written `link.x`".to_owned(),
+                1..=8 => format!("coordinates are `{}`", coords.join("`, `")),
                 _ => "declare it under `coords`".to_owned(),
             };
             let end = suggest(&name, coords.iter().map(String::as_str), &remedy);
@@ -262,8 +278,42 @@ impl<'m> Lowering<'m> {
             );
             return None;
         };
-        let family = &self.model.coords[*family];
+        if let (Some(field), false) = (
+            &key.field,
+            self.model
+                .names
+                .get(&name)
+                .is_some_and(|n| matches!(n, Name::Body(_))),
+        ) {
+            let message = "no fields here; a coordinate is written by its name alone, such as `x`";
+            self.diag.error(field.span(), message);
+            return None;
+        }
+        let family = &self.model.coords[family];
         self.member(&key.name, &key.indices, family, scope)
+    }
+
+    /// The family of the coordinate of bodies that `key` names.
+    fn of_body_named(&mut self, body: usize, key: &Key) -> Option<usize> {
+        let (kind, name) = (self.model.body_kinds[body], &key.name);
+        let names = kind.coordinates();
+        let list = names.join("`, `");
+        let Some(field) = &key.field else {
+            let message = format!("`{name}` is a body; choose a coordinate of it: `{list}`");
+            self.diag.error(key.loc, message);
+            return None;
+        };
+        let place = names.iter().position(|n| field == n);
+        if place.is_none() {
+            let end = suggest(
+                &field.to_string(),
+                names.iter().copied(),
+                &format!("they are `{list}`"),
+            );
+            let message = format!("body `{name}` has no coordinate `{field}`{end}");
+            self.diag.error(field.span(), message);
+        }
+        Some(kind.first + place?)
     }
 
     /// Position in q of the coordinate that `key` names.
@@ -295,7 +345,12 @@ impl<'m> Lowering<'m> {
         indices.collect()
     }
 
-    fn allowed(&mut self, symbol: Symbol, span: proc_macro2::Span, env: &Env<'m>) -> Value {
+    pub(super) fn allowed(
+        &mut self,
+        symbol: Symbol,
+        span: proc_macro2::Span,
+        env: &Env<'m>,
+    ) -> Value {
         let id = self.graph.symbol(symbol);
         if env.place == Place::Default
             && let Symbol::Param(i) = symbol
@@ -317,6 +372,12 @@ impl<'m> Lowering<'m> {
                 Place::Default if !uses.constant() => Some(
                     "a parameter is a number; what changes with coordinates or time is declared by `let`",
                 ),
+                Place::Body if !uses.constant() => {
+                    Some("what a body consists of does not change: it depends on parameters only")
+                }
+                Place::Gravity if uses.coord || uses.velocity => Some(
+                    "gravity is one vector for all places, of parameters and `t`; a field that depends on the place goes under `potential`",
+                ),
                 Place::Mass if uses.velocity => Some(
                     "M depends on coordinates and time only; forces that depend on velocities go under `force`",
                 ),
@@ -337,7 +398,7 @@ impl<'m> Lowering<'m> {
 }
 
 /// `x[0]` to `x[2]`: the members of a family of this shape.
-fn range_of(name: &Ident, shape: &[usize]) -> String {
+pub(super) fn range_of(name: &Ident, shape: &[usize]) -> String {
     let last: Vec<usize> = shape.iter().map(|size| size - 1).collect();
     let first = indexed(name, &vec![0; shape.len()]);
     format!("`{first}` to `{}`", indexed(name, &last))

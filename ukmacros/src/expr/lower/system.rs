@@ -21,6 +21,8 @@ pub(crate) struct System {
     pub(crate) potential: Option<Id>,
     /// The paper's c, by coordinate.
     pub(crate) nonideal: Option<BTreeMap<usize, Id>>,
+    /// Of each spatial body its name, its mass, and its inertia by rows.
+    pub(crate) inertias: Vec<(String, Vec<Id>)>,
     /// Holonomic ones first.
     pub(crate) constraints: Vec<Constraint>,
     pub(crate) outputs: Vec<OutputValue>,
@@ -74,12 +76,17 @@ pub(crate) struct ConstraintRef {
     pub(crate) base: Ident,
     pub(crate) indices: Vec<i64>,
     pub(crate) components: Vec<usize>,
+    /// The body whose orientation is kept normal by it, as written.
+    pub(crate) unit_of: Option<String>,
 }
 
 impl ConstraintRef {
-    /// As shown: `link[3]`, `joint[0]`, `joint[2][1]`.
+    /// As shown: `link[3]`, `joint[0]`, `joint[2][1]`, `platform.unit`.
     pub(crate) fn text(&self) -> String {
-        indexed(indexed(&self.base, &self.indices), &self.components)
+        match &self.unit_of {
+            Some(body) => format!("{body}.unit"),
+            None => indexed(indexed(&self.base, &self.indices), &self.components),
+        }
     }
 }
 

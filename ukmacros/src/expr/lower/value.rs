@@ -21,7 +21,7 @@ impl<'m> Lowering<'m> {
         let value = self.value(e, env);
         match value {
             Value::Scalar(id) => Some(id),
-            Value::Array(_) => {
+            Value::Array(_) | Value::Body(_) | Value::Point(_) => {
                 let found = describe(value.shape());
                 self.diag
                     .error(e.loc, format!("expected a number, found {found}"));
@@ -45,7 +45,28 @@ impl<'m> Lowering<'m> {
         Value::Error
     }
 
+    /// A number or an array of numbers.
     pub(super) fn value(&mut self, e: &Expr, env: &Env<'m>) -> Value {
+        let value = self.argument(e, env);
+        self.numbers(value, e.loc)
+    }
+
+    /// A value as numbers: of a point its place; a body has none.
+    pub(super) fn numbers(&mut self, value: Value, loc: Loc) -> Value {
+        match value {
+            Value::Point(point) => point.place.clone(),
+            Value::Body(body) => {
+                let message = format!(
+                    "`{body}` is a body; choose a point of it, `{body}.at([…])`, or what belongs to it, such as `{body}.omega`"
+                );
+                self.error(loc, message)
+            }
+            value => value,
+        }
+    }
+
+    /// A value that may be a body, or a point of one.
+    pub(super) fn argument(&mut self, e: &Expr, env: &Env<'m>) -> Value {
         if self.depth >= MAX_DEPTH {
             return self.error(
                 self.outermost.unwrap_or(e.loc),
@@ -67,7 +88,8 @@ impl<'m> Lowering<'m> {
             )]
             ExprKind::Int(n) => Value::Scalar(self.graph.constant(*n as f64)),
             ExprKind::Float(x) => Value::Scalar(self.graph.constant(*x)),
-            ExprKind::Group(inner) => self.value(inner, env),
+            ExprKind::Group(inner) => self.argument(inner, env),
+            ExprKind::Field(base, name) => self.field(base, name, env),
             ExprKind::Name(name) => self.name(name, &[], env),
             ExprKind::Index(base, indices) => match &base.kind {
                 ExprKind::Name(name) => self.name(name, indices, env),
@@ -168,12 +190,17 @@ impl<'m> Lowering<'m> {
             };
             match self.value(operand, env) {
                 Value::Error => failed = true,
-                value @ Value::Array(_) if divides => {
+                Value::Scalar(id) if divides && self.graph.is_zero(id) => {
+                    self.error(operand.loc, "division by zero");
+                    failed = true;
+                }
+                Value::Scalar(id) => factors.push((id, if divides { -1 } else { 1 })),
+                value if divides => {
                     let found = describe(value.shape());
                     self.error(operand.loc, format!("cannot divide by {found}"));
                     failed = true;
                 }
-                value @ Value::Array(_) => {
+                value => {
                     let product = match &array {
                         None => value,
                         Some(left) => self.times(left, &value, loc),
@@ -181,11 +208,6 @@ impl<'m> Lowering<'m> {
                     failed |= product.is_error();
                     array = Some(product);
                 }
-                Value::Scalar(id) if divides && self.graph.is_zero(id) => {
-                    self.error(operand.loc, "division by zero");
-                    failed = true;
-                }
-                Value::Scalar(id) => factors.push((id, if divides { -1 } else { 1 })),
             }
             // Numbers are multiplied as Rust would, one by one.
             if let [(a, 1), b] = factors[..]

@@ -1,7 +1,7 @@
 //! The vocabulary of vectors and matrices: short for what could be written in components, which is what becomes of it.
 
 use super::array::{Value, describe, sum_of_products};
-use super::{Binding, Env, Lowering};
+use super::{Env, Lowering};
 use crate::expr::functions::Func;
 use crate::expr::graph::{Graph, Id};
 use crate::parse::{Expr, ExprKind};
@@ -36,6 +36,14 @@ operations! {
         let length = norm(g, &v[0])?;
         Some(v[0].map(|id| g.div(id, length)))
     };
+    "normal"(1, "a vector of 2"): |g, v| {
+        let ([2], Some(length)) = (v[0].shape(), norm(g, &v[0])) else {
+            return None;
+        };
+        let [x, y] = [0, 1].map(|k| g.div(v[0].entries()[k], length));
+        Some(Value::vector(vec![g.neg(y), x]))
+    };
+    "normals"(1, "a vector of 3"): |g, v| normals(g, &v[0]);
     "rot"(1, "a number"): |g, v| {
         let [s, c, minus] = turn(g, &v[0])?;
         Some(Value::new(&[2, 2], vec![c, minus, s, c]))
@@ -89,6 +97,29 @@ fn cross(g: &mut Graph, u: &Value, v: &Value) -> Option<Value> {
     }
 }
 
+/// Two unit vectors that make a right-handed frame with v, after Duff et al., Journal of Computer Graphics Techniques 6 (2017) 1: both are
+/// smooth but where the third component of v changes its sign.
+fn normals(g: &mut Graph, v: &Value) -> Option<Value> {
+    let ([3], Some(length)) = (v.shape(), norm(g, v)) else {
+        return None;
+    };
+    let [x, y, z] = [0, 1, 2].map(|k| g.div(v.entries()[k], length));
+    let (zero, one) = (g.zero(), g.one());
+    let minus = g.neg(one);
+    let sign = match g.as_const(z) {
+        Some(z) => g.constant(if z < 0.0 { -1.0 } else { 1.0 }),
+        None => g.select(zero, z, one, minus),
+    };
+    let sum = g.add(sign, z);
+    let sx = g.mul(sign, x);
+    let quotient = |g: &mut Graph, a: Id, b: Id| g.product(&[(a, 1), (b, 1), (sum, -1)]);
+    let (xx, xy, yy) = (quotient(g, sx, x), quotient(g, x, y), quotient(g, y, y));
+    let (first, second) = (g.sub(one, xx), g.sub(sign, yy));
+    let (twist, other) = (g.mul(sign, xy), g.neg(xy));
+    let entries = vec![first, g.neg(twist), g.neg(sx), other, second, g.neg(y)];
+    Some(Value::new(&[2, 3], entries))
+}
+
 /// sin a, cos a and −sin a.
 fn turn(g: &mut Graph, a: &Value) -> Option<[Id; 3]> {
     let Value::Scalar(a) = *a else {
@@ -137,6 +168,6 @@ impl<'m> Lowering<'m> {
     /// Whether `e` is short for a sum written without parentheses: its terms are added one by one to what stands beside it.
     pub(super) fn adds_up(&self, e: &Expr) -> bool {
         matches!(&e.kind, ExprKind::Call(name, _) if name == "sq"
-            || name == "inner" && !matches!(self.lets.get("inner"), Some(Binding::Function(_))))
+            || name == "inner" && !self.is_function("inner"))
     }
 }

@@ -1,0 +1,414 @@
+//! Bodies: their frames, their points and what belongs to them.
+//!
+//! The coordinates of a body are the place of its centre of mass and its orientation: so its mass matrix, where it is planar, is diagonal
+//! and constant, and points of it depend on the place with coefficients 1. Points and directions are given in the body's frame, whose
+//! origin is where its `centre` says that the centre of mass is not.
+
+use super::array::{Value, describe, sum_of_products};
+use super::{Env, Lowering, Place};
+use crate::diag::{Loc, suggest};
+use crate::expr::diff::Derivative;
+use crate::expr::functions::Func;
+use crate::expr::graph::{Graph, Id, Symbol};
+use crate::model::{BodyKind, Name, Scope, Variable};
+use crate::parse::{Body, Declaration, Expr, ExprKind};
+use proc_macro2::Ident;
+use std::fmt;
+use std::rc::Rc;
+
+/// A body, or the ground.
+pub(super) struct Frame {
+    /// As written: `link[3]`, `ground`.
+    name: String,
+    /// Nothing for the ground, whose frame is that of the coordinates.
+    moving: Option<Moving>,
+}
+
+struct Moving {
+    kind: BodyKind,
+    /// In the order of [`BodyKind::coordinates`].
+    coordinates: Vec<Id>,
+    /// The centre of mass in the body's frame.
+    centre: Vec<Id>,
+}
+
+/// A point of a body.
+pub(super) struct Point {
+    pub(super) body: Rc<Frame>,
+    /// Where it is, in axes of the ground.
+    pub(super) place: Value,
+}
+
+/// A body as declared, with the loop variables around it.
+pub(super) struct Declared {
+    pub(super) body: Body,
+    pub(super) variables: Vec<Variable>,
+    /// Its frame, once it is used.
+    frame: Option<Rc<Frame>>,
+}
+
+impl fmt::Display for Frame {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.name)
+    }
+}
+
+impl Frame {
+    /// The length of vectors where it lives; nothing for the ground, which lives anywhere.
+    pub(super) fn dimension(&self) -> Option<usize> {
+        let moving = self.moving.as_ref()?;
+        Some(if moving.kind.spatial { 3 } else { 2 })
+    }
+
+    /// Where the point `p` of its frame is, in axes of the ground.
+    pub(super) fn at(&self, p: &Value, g: &mut Graph) -> Value {
+        let Some(moving) = &self.moving else {
+            return p.clone();
+        };
+        let arms = p.entries().iter().zip(&moving.centre);
+        let arms: Vec<Id> = arms.map(|(p, c)| g.sub(*p, *c)).collect();
+        let rows = moving.rotation(g);
+        let rows = rows.chunks(arms.len()).zip(&moving.coordinates);
+        let sums = rows.map(|(row, centre)| {
+            let mut terms = vec![(1.0, *centre)];
+            let products = row.iter().zip(&arms);
+            terms.extend(products.map(|(a, b)| (1.0, g.mul(*a, *b))));
+            g.sum(&terms)
+        });
+        Value::vector(sums.collect())
+    }
+
+    /// The direction `d` of its frame in axes of the ground.
+    pub(super) fn along(&self, d: &Value, g: &mut Graph) -> Value {
+        let Some(moving) = &self.moving else {
+            return d.clone();
+        };
+        let rows = moving.rotation(g);
+        let rows = rows.chunks(d.entries().len());
+        let sums = rows.map(|row| sum_of_products(row.iter().zip(d.entries()), g));
+        Value::vector(sums.collect())
+    }
+}
+
+impl Moving {
+    /// The matrix that turns vectors from its axes to those of the ground, by rows.
+    fn rotation(&self, g: &mut Graph) -> Vec<Id> {
+        if !self.kind.spatial {
+            let angle = self.coordinates[2];
+            let (c, s) = (g.call1(Func::Cos, angle), g.call1(Func::Sin, angle));
+            return vec![c, g.neg(s), s, c];
+        }
+        let e = &self.coordinates[3..];
+        let one = g.one();
+        let mut entries = Vec::with_capacity(9);
+        for i in 1..4 {
+            for j in 1..4 {
+                // 1 − 2 (eₖ² + eₗ²) on the diagonal, 2 (eᵢ eⱼ ∓ e₀ eₖ) beside it.
+                let k = if i == j { i % 3 + 1 } else { 6 - i - j };
+                let entry = if i == j {
+                    let (a, b) = (g.square(e[k]), g.square(e[6 - i - k]));
+                    g.sum(&[(1.0, one), (-2.0, a), (-2.0, b)])
+                } else {
+                    let sign = if j % 3 + 1 == i { 1.0 } else { -1.0 };
+                    let (a, b) = (g.mul(e[i], e[j]), g.mul(e[0], e[k]));
+                    g.sum(&[(2.0, a), (2.0 * sign, b)])
+                };
+                entries.push(entry);
+            }
+        }
+        entries
+    }
+
+    /// Its angular velocity: about the axis out of the plane, or a vector in axes of the ground or its own.
+    fn omega(&self, own: bool, g: &mut Graph) -> Value {
+        let mut total = Derivative::total();
+        let mut rate = |id: Id| total.of(id, g);
+        if !self.kind.spatial {
+            return Value::Scalar(rate(self.coordinates[2]));
+        }
+        let e = self.coordinates[3..].to_vec();
+        let v: Vec<Id> = e.iter().map(|id| rate(*id)).collect();
+        // 2 (e₀ ė − ė₀ e ± e × ė)
+        let sign = if own { -2.0 } else { 2.0 };
+        let component = |k: usize| {
+            let (i, j) = (k % 3 + 1, (k + 1) % 3 + 1);
+            let terms = [(2.0, 0, k), (-2.0, k, 0), (sign, i, j), (-sign, j, i)];
+            let terms = terms.map(|(c, a, b)| (c, g.mul(e[a], v[b])));
+            g.sum(&terms)
+        };
+        Value::vector((1..4).map(component).collect())
+    }
+}
+
+/// What of a body is no coordinate.
+const FIELDS: [&str; 4] = ["centre", "omega", "spin", "axes"];
+
+impl<'m> Lowering<'m> {
+    /// Enters the bodies of the declaration, in the order of their members.
+    pub(super) fn declare_bodies(&mut self, decl: &Declaration, top: &Scope<'m>) {
+        let model = self.model;
+        let count = model.body_elements.len();
+        let mut found: Vec<Option<Declared>> = (0..count).map(|_| None).collect();
+        top.unroll(&decl.bodies, self.diag, &mut |body, scope| {
+            let Some(Name::Body(family)) = model.names.get(&body.key.name.to_string()) else {
+                return;
+            };
+            let members = &model.bodies[*family].members;
+            let chosen = match scope.variables.is_empty() {
+                true => members.clone(),
+                false => {
+                    let member = self.member(
+                        &body.key.name,
+                        &body.key.indices,
+                        &model.bodies[*family],
+                        scope,
+                    );
+                    member.map_or(Vec::new(), |(positions, _)| positions.to_vec())
+                }
+            };
+            for position in chosen {
+                found[position].get_or_insert_with(|| Declared {
+                    body: body.clone(),
+                    variables: scope.variables.clone(),
+                    frame: None,
+                });
+            }
+        });
+        self.bodies = found;
+    }
+
+    /// The body that `name` and `indices` choose.
+    pub(super) fn body(
+        &mut self,
+        name: &Ident,
+        family: usize,
+        indices: &[Expr],
+        env: &Env<'m>,
+    ) -> Value {
+        let bodies = &self.model.bodies[family];
+        if let Some(surplus) = indices.get(bodies.shape.len()) {
+            let message = match bodies.shape.len() {
+                0 => format!("`{name}` is one body; write it without an index"),
+                n => format!(
+                    "bodies of `{name}` take {n} ind{}",
+                    if n == 1 { "ex" } else { "ices" }
+                ),
+            };
+            return self.error(surplus.loc, message);
+        }
+        let Some((positions, shape)) = self.member(name, indices, bodies, &env.scope) else {
+            return Value::Error;
+        };
+        let [position] = positions else {
+            let members = super::names::range_of(name, &bodies.shape);
+            let message = format!("`{name}` is a family of bodies; choose a member, {members}");
+            return self.error(name.span(), message);
+        };
+        debug_assert!(shape.is_empty(), "one body has no shape");
+        // What depends on coordinates may not stand everywhere.
+        let kind = self.model.body_kinds[family];
+        let first = self.model.coords[kind.first].members
+            [self.model.body_elements[*position].place(&bodies.shape)];
+        if self
+            .allowed(Symbol::Coord(first), name.span(), env)
+            .is_error()
+        {
+            return Value::Error;
+        }
+        self.frame(*position).map_or(Value::Error, Value::Body)
+    }
+
+    /// The frame of the body at `position`.
+    pub(super) fn frame(&mut self, position: usize) -> Option<Rc<Frame>> {
+        let declared = self.bodies.get_mut(position)?.as_mut()?;
+        if let Some(frame) = &declared.frame {
+            return Some(frame.clone());
+        }
+        let (centre, variables) = (declared.body.centre.clone(), declared.variables.clone());
+        let element = &self.model.body_elements[position];
+        let kind = self.model.body_kinds[element.family];
+        let place = element.place(&self.model.bodies[element.family].shape);
+        let symbols = (0..kind.coordinates().len())
+            .map(|k| Symbol::Coord(self.model.coords[kind.first + k].members[place]));
+        let coordinates: Vec<Id> = symbols.map(|s| self.graph.symbol(s)).collect();
+        let dimension = if kind.spatial { 3 } else { 2 };
+        let mut own = vec![self.graph.zero(); dimension];
+        if let Some(e) = centre {
+            let value = self.part_of_body(&e, &variables);
+            if let Some(entries) = self.of_shape(&value, &[dimension], e.loc) {
+                own = entries;
+            }
+        }
+        let frame = Rc::new(Frame {
+            name: element.name.clone(),
+            moving: Some(Moving {
+                kind,
+                coordinates,
+                centre: own,
+            }),
+        });
+        if let Some(Some(declared)) = self.bodies.get_mut(position) {
+            declared.frame = Some(frame.clone());
+        }
+        Some(frame)
+    }
+
+    /// What a body consists of.
+    pub(super) fn part_of_body(&mut self, e: &Expr, variables: &[Variable]) -> Value {
+        let scope = Scope::with(self.model, variables.to_vec());
+        self.value(e, &Env::new(&scope, Place::Body))
+    }
+
+    /// The numbers of `value`, if it has this shape; reports it, if not.
+    pub(super) fn of_shape(&mut self, value: &Value, shape: &[usize], loc: Loc) -> Option<Vec<Id>> {
+        if value.is_error() {
+            return None;
+        }
+        if value.shape() != shape {
+            let (expected, found) = (describe(shape), describe(value.shape()));
+            self.error(loc, format!("expected {expected}, found {found}"));
+            return None;
+        }
+        Some(value.entries().to_vec())
+    }
+
+    /// The ground, where nothing else has its name.
+    pub(super) fn ground() -> Value {
+        Value::Body(Rc::new(Frame {
+            name: "ground".to_owned(),
+            moving: None,
+        }))
+    }
+
+    /// `body.at(p)`, `body.along(d)`: also of the body that a point belongs to.
+    pub(super) fn of_body(
+        &mut self,
+        e: &Expr,
+        name: &Ident,
+        args: &[Expr],
+        env: &Env<'m>,
+    ) -> Value {
+        let [body, v] = args else {
+            return self.arity(name, 2, args.len());
+        };
+        let frame = match self.argument(body, env) {
+            Value::Body(frame) => frame,
+            Value::Point(point) => point.body.clone(),
+            Value::Error => return Value::Error,
+            value => {
+                let found = describe(value.shape());
+                return self.error(body.loc, format!("`{name}` is of a body, found {found}"));
+            }
+        };
+        let value = self.value(v, env);
+        let fits = match frame.dimension() {
+            Some(n) => value.shape() == [n],
+            None => matches!(value.shape(), [2 | 3]),
+        };
+        if value.is_error() {
+            return Value::Error;
+        }
+        if !fits {
+            let expected = frame
+                .dimension()
+                .map_or("a vector of 2 or 3".to_owned(), |n| describe(&[n]));
+            let found = describe(value.shape());
+            return self.error(
+                v.loc,
+                format!("`{frame}.{name}` takes {expected}, found {found}"),
+            );
+        }
+        let value = match name == "at" {
+            true => Value::Point(Rc::new(Point {
+                place: frame.at(&value, &mut self.graph),
+                body: frame,
+            })),
+            false => frame.along(&value, &mut self.graph),
+        };
+        self.allowed_value(value, e.loc, env)
+    }
+
+    fn is_known(&self, name: &Ident, env: &Env<'m>) -> bool {
+        let text = name.to_string();
+        let declared = self.model.names.contains_key(&text) || self.lets.contains_key(&text);
+        declared || text == "ground" || env.args.iter().any(|(n, _)| *n == text)
+    }
+
+    /// `body.angle`.
+    pub(super) fn field(&mut self, base: &Expr, name: &Ident, env: &Env<'m>) -> Value {
+        let value = match &base.kind {
+            // Nothing declared here, perhaps a struct of Rust.
+            ExprKind::Name(base) if !self.is_known(base, env) => None,
+            _ => Some(self.argument(base, env)),
+        };
+        // The ground is a plane, or a space, where a point of it is given.
+        let mut in_space = false;
+        let frame = match value {
+            Some(Value::Body(frame)) => frame,
+            Some(Value::Point(point)) => {
+                in_space = point.place.shape() == [3];
+                point.body.clone()
+            }
+            Some(Value::Error) => return Value::Error,
+            _ => {
+                let message = "no fields here; a parameter or coordinate is written by its name alone, such as `m`";
+                return self.error(name.span(), message);
+            }
+        };
+        let text = name.to_string();
+        let Some(moving) = &frame.moving else {
+            return match text.as_str() {
+                "omega" if in_space => Value::vector(vec![self.graph.zero(); 3]),
+                "angle" | "omega" => Value::Scalar(self.graph.zero()),
+                _ => self.error(
+                    name.span(),
+                    format!(
+                        "the ground has no `{text}`; it has `at`, `along`, `angle` and `omega`"
+                    ),
+                ),
+            };
+        };
+        let coordinates = moving.kind.coordinates();
+        let dimension = frame.dimension().unwrap_or_default();
+        let value = match text.as_str() {
+            "omega" => moving.omega(false, &mut self.graph),
+            "centre" => Value::vector(moving.coordinates[..dimension].to_vec()),
+            "axes" => Value::new(&[dimension, dimension], moving.rotation(&mut self.graph)),
+            "spin" if moving.kind.spatial => self.spin(&frame),
+            text => match coordinates.iter().position(|c| *c == text) {
+                Some(k) => Value::Scalar(moving.coordinates[k]),
+                None => {
+                    let names = coordinates.iter().chain(&FIELDS).copied();
+                    let remedy = format!(
+                        "it has `{}`, `at` and `along`",
+                        names.clone().collect::<Vec<_>>().join("`, `")
+                    );
+                    let end = suggest(text, names, &remedy);
+                    return self.error(name.span(), format!("body `{frame}` has no `{text}`{end}"));
+                }
+            },
+        };
+        self.allowed_value(value, name.span().into(), env)
+    }
+
+    /// The angular velocity of a spatial body in its own axes, in which its inertia is constant.
+    pub(super) fn spin(&mut self, frame: &Frame) -> Value {
+        let Some(moving) = &frame.moving else {
+            return Value::Scalar(self.graph.zero());
+        };
+        let spin = moving.omega(true, &mut self.graph);
+        // The graph keeps the factor 2 apart.
+        let halves = spin.map(|id| self.graph.unscaled(id).1);
+        self.hint(&format!("{frame}.half_spin"), &halves);
+        spin
+    }
+}
+
+impl Frame {
+    /// Its coordinates, in the order of [`BodyKind::coordinates`].
+    pub(super) fn coordinates(&self) -> &[Id] {
+        self.moving
+            .as_ref()
+            .map_or(&[], |moving| &moving.coordinates)
+    }
+}

@@ -1,0 +1,323 @@
+//! What bodies have by themselves: kinetic energy, weight, and unit quaternions.
+
+use super::array::{Value, describe};
+use super::system::{Constraint, ConstraintRef, Kind};
+use super::{Env, Lowering, Place};
+use crate::diag::Loc;
+use crate::expr::eval::{Point, eval};
+use crate::expr::graph::{Id, Node, Symbol};
+use crate::model::{Scope, Variable};
+use crate::parse::{Body, Declaration, Expr};
+use proc_macro2::Ident;
+
+/// What all bodies have by themselves.
+#[derive(Default)]
+pub(super) struct OfBodies {
+    /// Coordinates with their masses, and where these are declared.
+    pub(super) diagonal: Vec<(usize, Id, Loc)>,
+    /// Terms of the kinetic energy of turning in space.
+    pub(super) turning: Vec<(f64, Id)>,
+    /// Where the first spatial body is declared.
+    pub(super) spatial: Option<Loc>,
+    pub(super) potential: Vec<(f64, Id)>,
+    pub(super) units: Vec<Constraint>,
+    /// [`System::inertias`](super::System::inertias).
+    pub(super) inertias: Vec<(String, Vec<Id>)>,
+}
+
+impl<'m> Lowering<'m> {
+    /// What the bodies of the declaration have by themselves; `defaults` are those of the parameters.
+    pub(super) fn of_bodies(
+        &mut self,
+        decl: &Declaration,
+        top: &Scope<'m>,
+        defaults: &[f64],
+    ) -> OfBodies {
+        let mut out = OfBodies::default();
+        let gravity = self.gravity(decl, top);
+        for position in 0..self.bodies.len() {
+            let declared = self.bodies[position].as_ref();
+            let Some((body, variables)) = declared.map(|d| (d.body.clone(), d.variables.clone()))
+            else {
+                continue;
+            };
+            let Some(frame) = self.frame(position) else {
+                continue;
+            };
+            let loc = body.key.loc;
+            let symbols = frame
+                .coordinates()
+                .iter()
+                .map(|id| match self.graph.node(*id) {
+                    Node::Symbol(Symbol::Coord(i)) => *i,
+                    _ => 0,
+                });
+            let coordinates: Vec<usize> = symbols.collect();
+            let mass = self.mass_of(&body, &variables, defaults);
+            let spatial = frame.dimension() == Some(3);
+            if spatial {
+                out.spatial = out.spatial.or(Some(loc));
+                self.needs(&body);
+                let place = coordinates[..3].iter();
+                out.diagonal.extend(place.map(|i| (*i, mass, loc)));
+                let spin = self.spin(&frame);
+                let inertia = self.turning(&body, &variables, &spin, defaults, &mut out.turning);
+                let given = inertia.map(|rows| [vec![mass], rows].concat());
+                out.inertias
+                    .extend(given.map(|given| (frame.to_string(), given)));
+                let unit = self.unit(position, &body.key.name, frame.coordinates(), loc);
+                out.units.push(unit);
+            } else {
+                let inertia = self.inertia_of(&body, &variables, defaults);
+                let masses = coordinates.iter().zip([mass, mass, inertia]);
+                out.diagonal.extend(masses.map(|(i, m)| (*i, m, loc)));
+            }
+            if let Some((gravity, e)) = &gravity {
+                let dimension = if spatial { 3 } else { 2 };
+                if gravity.entries().len() < dimension {
+                    let message = format!(
+                        "expected {}, found {}: `{frame}` is spatial",
+                        describe(&[3]),
+                        describe(gravity.shape())
+                    );
+                    self.error(*e, message);
+                    break;
+                }
+                for (g, x) in gravity
+                    .entries()
+                    .iter()
+                    .zip(frame.coordinates())
+                    .take(dimension)
+                {
+                    let term = self.graph.product(&[(mass, 1), (*g, 1), (*x, 1)]);
+                    out.potential.push((-1.0, term));
+                }
+            }
+        }
+        out.diagonal.retain(|(_, m, _)| !self.graph.is_zero(*m));
+        out.potential.retain(|(_, id)| !self.graph.is_zero(*id));
+        out
+    }
+
+    /// The vector that `gravity` gives, with its place.
+    fn gravity(&mut self, decl: &Declaration, top: &Scope<'m>) -> Option<(Value, Loc)> {
+        let section = decl.gravity.as_ref()?;
+        let mut terms = Vec::new();
+        let mut loc: Option<Loc> = None;
+        top.unroll(&section.blocks, self.diag, &mut |e: &Expr, scope| {
+            loc = Some(loc.map_or(e.loc, |l| l.to(e.loc)));
+            self.chain(e, 1.0, &Env::new(scope, Place::Gravity), &mut terms);
+        });
+        let (value, keyword) = (self.total(&terms, false), section.keyword.span());
+        let loc = loc.unwrap_or(keyword.into());
+        if value.is_error() {
+            return None;
+        }
+        if decl.bodies.is_empty() {
+            self.error(keyword, "`gravity` is the weight of `bodies`, and there are none; the weight of coordinates goes under `potential`");
+            return None;
+        }
+        if !matches!(value.shape(), [2 | 3]) {
+            let found = describe(value.shape());
+            self.error(loc, format!("expected a vector of 2 or 3, found {found}"));
+            return None;
+        }
+        Some((value, loc))
+    }
+
+    /// Reports a spatial body without mass or inertia.
+    fn needs(&mut self, body: &Body) {
+        let missing = [("mass", &body.mass), ("inertia", &body.inertia)];
+        let missing = missing.iter().find(|(_, given)| given.is_none());
+        if let Some((what, _)) = missing {
+            let name = &body.key.name;
+            self.error(
+                body.key.loc,
+                format!(
+                    "spatial body `{name}` has no {what}; give it: `mass: m, inertia: [i, j, k]`"
+                ),
+            );
+        }
+    }
+
+    /// Values of `ids` by the defaults of the parameters, if all are known.
+    fn by_default(&self, ids: &[Id], defaults: &[f64]) -> Option<Vec<f64>> {
+        let point = Point {
+            params: defaults,
+            ..Point::NOWHERE
+        };
+        let values = eval(&self.graph, ids, &point);
+        values.iter().all(|x| x.is_finite()).then_some(values)
+    }
+
+    fn mass_of(&mut self, body: &Body, variables: &[Variable], defaults: &[f64]) -> Id {
+        self.not_negative(
+            body.mass.as_ref(),
+            "mass",
+            body.spatial,
+            variables,
+            defaults,
+        )
+    }
+
+    fn inertia_of(&mut self, body: &Body, variables: &[Variable], defaults: &[f64]) -> Id {
+        self.not_negative(body.inertia.as_ref(), "inertia", false, variables, defaults)
+    }
+
+    /// A number that is not negative, nor zero where the body is `spatial`; 0 where none is given.
+    fn not_negative(
+        &mut self,
+        e: Option<&Expr>,
+        what: &str,
+        spatial: bool,
+        variables: &[Variable],
+        defaults: &[f64],
+    ) -> Id {
+        let zero = self.graph.zero();
+        let Some(e) = e else {
+            return zero;
+        };
+        let value = self.part_of_body(e, variables);
+        let Some(numbers) = self.of_shape(&value, &[], e.loc) else {
+            return zero;
+        };
+        let number = self.by_default(&numbers, defaults).map_or(1.0, |x| x[0]);
+        if number < 0.0 {
+            self.error(e.loc, format!("the {what} of a body must not be negative"));
+        } else if spatial && number == 0.0 {
+            self.error(
+                e.loc,
+                format!("the {what} of a spatial body must be positive"),
+            );
+        }
+        numbers[0]
+    }
+
+    /// Adds ½ ωᵀJω as a sum of squares: with J = L D Lᵀ it is ½ Σ dₖ (Lᵀω)ₖ². Returns J by rows.
+    fn turning(
+        &mut self,
+        body: &Body,
+        variables: &[Variable],
+        spin: &Value,
+        defaults: &[f64],
+        out: &mut Vec<(f64, Id)>,
+    ) -> Option<Vec<Id>> {
+        let e = body.inertia.as_ref()?;
+        let value = self.part_of_body(e, variables);
+        let j = value.entries();
+        let zero = self.graph.zero();
+        // By places [row][column] of the lower triangle.
+        let lower = match value.shape() {
+            [3] => [[j[0], zero, zero], [zero, j[1], zero], [zero, zero, j[2]]],
+            [6] => [[j[0], zero, zero], [j[3], j[1], zero], [j[4], j[5], j[2]]],
+            [3, 3] => [[j[0], zero, zero], [j[3], j[4], zero], [j[6], j[7], j[8]]],
+            _ if value.is_error() => return None,
+            shape => {
+                let found = describe(shape);
+                self.error(e.loc, format!("the inertia of a spatial body is `[xx, yy, zz]`, `[xx, yy, zz, xy, xz, yz]` or a matrix of 3×3, found {found}"));
+                return None;
+            }
+        };
+        let upper = match value.shape() {
+            [3, 3] => [j[1], j[2], j[5]],
+            _ => [lower[1][0], lower[2][0], lower[2][1]],
+        };
+        let mut all = lower.concat();
+        all.extend(upper);
+        if let Some(numbers) = self.by_default(&all, defaults)
+            && let Err(reason) = possible(&numbers)
+        {
+            self.error(e.loc, reason);
+            return None;
+        }
+        let mut l = lower;
+        let mut d = [zero; 3];
+        for k in 0..3 {
+            for i in k..3 {
+                let mut terms = vec![(1.0, lower[i][k])];
+                for (m, pivot) in d.iter().enumerate().take(k) {
+                    let product = self
+                        .graph
+                        .product(&[(l[i][m], 1), (l[k][m], 1), (*pivot, 1)]);
+                    terms.push((-1.0, product));
+                }
+                let reduced = self.graph.sum(&terms);
+                match i == k {
+                    true => d[k] = reduced,
+                    false => l[i][k] = self.graph.div(reduced, d[k]),
+                }
+            }
+        }
+        for k in 0..3 {
+            let mut terms = vec![(1.0, spin.entries()[k])];
+            for (row, rate) in l.iter().zip(spin.entries()).skip(k + 1) {
+                terms.push((1.0, self.graph.mul(row[k], *rate)));
+            }
+            let rate = self.graph.sum(&terms);
+            let square = self.graph.square(rate);
+            out.push((0.5, self.graph.mul(d[k], square)));
+        }
+        let [xy, xz, yz] = upper;
+        let [[xx, ..], [yx, yy, _], [zx, zy, zz]] = lower;
+        Some(vec![xx, xy, xz, yx, yy, yz, zx, zy, zz])
+    }
+
+    /// The row that keeps the quaternion of the body at `position` a unit.
+    fn unit(&mut self, position: usize, name: &Ident, coordinates: &[Id], loc: Loc) -> Constraint {
+        let body = &self.model.body_elements[position];
+        let indices = body.indices.iter();
+        let mut terms = vec![(-1.0, self.graph.one())];
+        terms.extend(
+            coordinates[3..]
+                .iter()
+                .map(|e| (1.0, self.graph.square(*e))),
+        );
+        let phi = self.graph.sum(&terms);
+        Constraint {
+            item: ConstraintRef {
+                base: Ident::new(&format!("{name}_unit"), name.span()),
+                indices: indices.filter_map(|i| i64::try_from(*i).ok()).collect(),
+                components: Vec::new(),
+                unit_of: Some(body.name.clone()),
+            },
+            kind: Kind::Holonomic,
+            phi,
+            loc,
+        }
+    }
+}
+
+/// Whether a rigid body can have this inertia, by rows of the lower triangle, then the upper one: J and ½ tr J − J, the second moments of
+/// its mass, are symmetric, the first positive definite and the second positive semidefinite.
+fn possible(numbers: &[f64]) -> Result<(), String> {
+    let [xx, _, _, yx, yy, _, zx, zy, zz, xy, xz, yz] = *numbers else {
+        return Ok(());
+    };
+    let trace = xx + yy + zz;
+    let slack = 1e-9 * trace.abs();
+    let same = |a: f64, b: f64| (a - b).abs() <= slack;
+    if !(same(xy, yx) && same(xz, zx) && same(yz, zy)) {
+        return Err("the inertia of a body is a symmetric matrix".to_owned());
+    }
+    // Principal minors of a symmetric matrix of this diagonal and these off-diagonal entries.
+    let minors = |[a, b, c]: [f64; 3], [d, e, f]: [f64; 3]| {
+        let pairs = [a * b - d * d, a * c - e * e, b * c - f * f];
+        let det = a * (b * c - f * f) - d * (d * c - e * f) + e * (d * f - b * e);
+        ([a, b, c], pairs, det)
+    };
+    let (own, pairs, det) = minors([xx, yy, zz], [yx, zx, zy]);
+    let own = own.iter().chain(&pairs).chain([&det]);
+    if own.into_iter().any(|x| *x <= 0.0) {
+        return Err("the inertia of a spatial body must be positive definite".to_owned());
+    }
+    let half = 0.5 * trace;
+    let (own, pairs, det) = minors([half - xx, half - yy, half - zz], [-yx, -zx, -zy]);
+    let least = |values: &[f64], power: i32| values.iter().all(|x| *x >= -1e-9 * trace.powi(power));
+    if least(&own, 1) && least(&pairs, 2) && least(&[det], 3) {
+        return Ok(());
+    }
+    Err(
+        "no rigid body has this inertia: no principal moment exceeds the sum of the other two"
+            .to_owned(),
+    )
+}

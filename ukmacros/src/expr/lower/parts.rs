@@ -1,0 +1,437 @@
+//! Joints, springs and forces: functions written in the language itself, so that each is short for equations that could stand in its place.
+//!
+//! The first arguments are points of bodies; the constraint force acts on the body of the second, in the direction in which the row grows.
+
+use super::array::{Value, describe};
+use super::{Env, Lowering, Place};
+use crate::diag::{Loc, suggest};
+use crate::expr::diff::Gradient;
+use crate::expr::graph::{Id, Symbol};
+use crate::model::Scope;
+use crate::parse::{Expr, ExprKind, own};
+use proc_macro2::Ident;
+use std::collections::BTreeMap;
+
+/// What an argument is.
+#[derive(Clone, Copy, PartialEq)]
+enum Takes {
+    /// A point of a body.
+    Point,
+    /// A body, or a point of one.
+    Body,
+    /// A direction: a vector that is not zero.
+    Direction,
+    Number,
+    /// A vector in space; in the plane a number.
+    Moment,
+    /// A vector.
+    Force,
+    /// A 3×3 matrix.
+    Turn,
+}
+
+/// Where a part lives.
+#[derive(Clone, Copy, PartialEq)]
+enum Home {
+    Plane,
+    Space,
+    Both,
+}
+
+/// What a part is good for.
+enum Meaning {
+    /// Rows, one after the other.
+    Rows(&'static [&'static str]),
+    /// A term of V.
+    Energy(&'static str),
+    /// What has this velocity is pushed by this force.
+    Push(&'static str, &'static str),
+}
+
+/// A joint, or what acts with a force.
+pub(super) struct Part {
+    pub(super) name: &'static str,
+    home: Home,
+    /// Names and kinds of its arguments, those that may be left out with what stands for them.
+    args: &'static [(&'static str, Takes, &'static str)],
+    meaning: Meaning,
+}
+
+macro_rules! parts {
+    ($($name:literal $home:ident ($($arg:ident: $takes:ident $(= $default:literal)?),*) $meaning:ident($($text:tt)*);)*) => {
+        pub(super) static PARTS: &[Part] = &[$(Part {
+            name: $name,
+            home: Home::$home,
+            args: &[$((stringify!($arg), Takes::$takes, concat!($($default)?))),*],
+            meaning: Meaning::$meaning($($text)*),
+        }),*];
+    };
+}
+
+parts! {
+    "pin" Plane (p: Point, q: Point) Rows(&["q - p"]);
+    "weld" Plane (p: Point, q: Point, angle: Number = "0") Rows(&["q - p", "q.angle - p.angle - angle"]);
+    "slider" Plane (p: Point, q: Point, d: Direction, angle: Number = "0")
+        Rows(&["inner(p.along(normal(d)), q - p)", "q.angle - p.angle - angle"]);
+    "slot" Plane (p: Point, q: Point, d: Direction) Rows(&["inner(p.along(normal(d)), q - p)"]);
+    "gear" Plane (a: Body, b: Body, r: Number, s: Number) Rows(&["r * a.angle + s * b.angle"]);
+    "rack" Plane (p: Point, q: Point, d: Direction, r: Number)
+        Rows(&["inner(p.along(normalise(d)), q - p) + r * (q.angle - p.angle)"]);
+    "wheel" Plane (p: Point, q: Point, d: Direction, r: Number) Rows(&[
+        "inner(p.along(normal(d)), q - p) - r",
+        "inner(p.along(normalise(d)), q - p) + r * (q.angle - p.angle)",
+    ]);
+    "turn" Plane (a: Body, b: Body) Rows(&["b.angle - a.angle"]);
+    "rod" Both (p: Point, q: Point, l: Number) Rows(&["sq(q - p) - sq(l)"]);
+    "ball" Space (p: Point, q: Point) Rows(&["q - p"]);
+    "hinge" Space (p: Point, q: Point, u: Direction, w: Direction = "u")
+        Rows(&["q - p", "inner(p.along(normals(u)[0]), q.along(normalise(w)))", "inner(p.along(normals(u)[1]), q.along(normalise(w)))"]);
+    "universal" Space (p: Point, q: Point, u: Direction, w: Direction)
+        Rows(&["q - p", "inner(p.along(normalise(u)), q.along(normalise(w)))"]);
+    "cylinder" Space (p: Point, q: Point, u: Direction, w: Direction = "u") Rows(&[
+        "inner(p.along(normals(u)[0]), q - p)",
+        "inner(p.along(normals(u)[1]), q - p)",
+        "inner(p.along(normals(u)[0]), q.along(normalise(w)))",
+        "inner(p.along(normals(u)[1]), q.along(normalise(w)))",
+    ]);
+    "slider" Space (p: Point, q: Point, u: Direction, turn: Turn = "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]") Rows(&[
+        "inner(p.along(normals(u)[0]), q - p)",
+        "inner(p.along(normals(u)[1]), q - p)",
+        "inner(p.along([1, 0, 0]), q.along(transpose(turn) * [0, 1, 0]))",
+        "inner(p.along([0, 1, 0]), q.along(transpose(turn) * [0, 0, 1]))",
+        "inner(p.along([0, 0, 1]), q.along(transpose(turn) * [1, 0, 0]))",
+    ]);
+    "weld" Space (p: Point, q: Point, turn: Turn = "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]") Rows(&[
+        "q - p",
+        "inner(p.along([1, 0, 0]), q.along(transpose(turn) * [0, 1, 0]))",
+        "inner(p.along([0, 1, 0]), q.along(transpose(turn) * [0, 0, 1]))",
+        "inner(p.along([0, 0, 1]), q.along(transpose(turn) * [1, 0, 0]))",
+    ]);
+    "drive" Space (a: Body, b: Body, u: Direction, angle: Number)
+        Rows(&["inner(a.along(cos(angle) * normals(u)[0] + sin(angle) * normals(u)[1]), b.along(normals(u)[1]))"]);
+    "screw" Space (p: Point, q: Point, u: Direction, lead: Number) Rows(&[
+        "inner(p.along(normalise(u)), dot(q - p) - cross(p.omega, q - p) - lead / (2 * PI) * (q.omega - p.omega))",
+    ]);
+    "disc" Space (q: Point, u: Direction, r: Number) Rows(&["q[2] - r * sqrt(1 - sq(q.along(normalise(u))[2]))"]);
+    "rolls" Space (q: Point, u: Direction, r: Number) Rows(&[
+        "inner([1, 0, 0], dot(q) + cross(q.omega, r / sqrt(1 - sq(q.along(normalise(u))[2])) * (q.along(normalise(u))[2] * q.along(normalise(u)) - [0, 0, 1])))",
+        "inner([0, 1, 0], dot(q) + cross(q.omega, r / sqrt(1 - sq(q.along(normalise(u))[2])) * (q.along(normalise(u))[2] * q.along(normalise(u)) - [0, 0, 1])))",
+    ]);
+    "spring" Both (p: Point, q: Point, k: Number, l: Number) Energy("0.5 * k * sq(norm(q - p) - l)");
+    "turning_spring" Plane (a: Body, b: Body, k: Number, angle: Number) Energy("0.5 * k * sq(b.angle - a.angle - angle)");
+    "damper" Both (p: Point, q: Point, c: Number) Push("dot(norm(q - p))", "-c * dot(norm(q - p))");
+    "turning_damper" Both (a: Body, b: Body, c: Number) Push("b.omega - a.omega", "-c * (b.omega - a.omega)");
+    "force" Both (p: Point, f: Force) Push("dot(p)", "f");
+    "force" Both (p: Point, q: Point, f: Number) Push("dot(norm(q - p))", "f");
+    "torque" Both (b: Body, m: Moment) Push("b.omega", "m");
+    "torque" Both (a: Body, b: Body, m: Moment) Push("b.omega - a.omega", "m");
+}
+
+/// What the entries of `forces` add up to.
+#[derive(Default)]
+pub(super) struct Acting {
+    pub(super) potential: Vec<(f64, Id)>,
+    /// By coordinate.
+    pub(super) force: BTreeMap<usize, Vec<Id>>,
+}
+
+impl Part {
+    /// How many arguments it takes at least, and at most.
+    fn arity(&self) -> (usize, usize) {
+        let least = self
+            .args
+            .iter()
+            .filter(|(_, _, default)| default.is_empty());
+        (least.count(), self.args.len())
+    }
+
+    /// Whether it is a joint: rows, which may stand wherever equations do.
+    pub(super) fn joins(&self) -> bool {
+        matches!(self.meaning, Meaning::Rows(_))
+    }
+
+    /// As it is written.
+    fn usage(&self) -> String {
+        let args = self
+            .args
+            .iter()
+            .map(|(name, _, default)| match default.is_empty() {
+                true => (*name).to_owned(),
+                false => format!("[{name}]"),
+            });
+        format!("`{}({})`", self.name, args.collect::<Vec<_>>().join(", "))
+    }
+}
+
+/// How all that acts is written.
+fn acting() -> String {
+    let parts = PARTS.iter().filter(|part| !part.joins());
+    parts.map(Part::usage).collect::<Vec<_>>().join(", ")
+}
+
+impl<'m> Lowering<'m> {
+    /// The rows of a joint.
+    pub(super) fn joint(&mut self, e: &Expr, name: &Ident, args: &[Expr], env: &Env<'m>) -> Value {
+        let Some((part, inner)) = self.part_of(name, args, env) else {
+            return Value::Error;
+        };
+        let Meaning::Rows(texts) = part.meaning else {
+            let message = format!("`{name}` acts with a force; it stands under `forces`");
+            return self.error(name.span(), message);
+        };
+        let mut rows: Vec<Id> = Vec::new();
+        let mut shaped = false;
+        for text in texts {
+            let value = self.written(text, e.loc, &inner);
+            shaped |= !value.shape().is_empty();
+            rows.extend_from_slice(value.entries());
+        }
+        let value = match rows[..] {
+            [row] if !shaped => Value::Scalar(row),
+            _ => Value::vector(rows),
+        };
+        self.allowed_value(value, e.loc, env)
+    }
+
+    /// Enters what an entry of `forces` means.
+    pub(super) fn acts(&mut self, e: &Expr, env: &Env<'m>, out: &mut Acting) {
+        let ExprKind::Call(name, args) = &e.kind else {
+            if !matches!(e.kind, ExprKind::Error) {
+                self.error(
+                    e.loc,
+                    format!(
+                        "what acts is written as one of {}; generalised forces go under `force`",
+                        acting()
+                    ),
+                );
+            }
+            return;
+        };
+        if !PARTS.iter().any(|part| name == part.name) {
+            let names = PARTS
+                .iter()
+                .filter(|part| !part.joins())
+                .map(|part| part.name);
+            let end = suggest(
+                &name.to_string(),
+                names,
+                &format!("what acts is one of {}", acting()),
+            );
+            self.error(
+                name.span(),
+                format!("nothing that acts is called `{name}`{end}"),
+            );
+            return;
+        }
+        let Some((part, inner)) = self.part_of(name, args, env) else {
+            return;
+        };
+        match part.meaning {
+            Meaning::Rows(_) => {
+                let message =
+                    format!("`{name}` is a joint; it stands under `holonomic`: `name: {name}(…)`");
+                self.error(name.span(), message);
+            }
+            Meaning::Energy(text) => {
+                let value = self.written(text, e.loc, &inner);
+                let velocity = value
+                    .entries()
+                    .iter()
+                    .any(|id| self.graph.uses(*id).velocity);
+                if velocity {
+                    self.error(e.loc, format!("a `{name}` depends on coordinates and time only; write what depends on velocities as a `force` or `torque`"));
+                    return;
+                }
+                out.potential
+                    .extend(value.entries().iter().map(|id| (1.0, *id)));
+            }
+            Meaning::Push(velocity, force) => {
+                let (velocity, force) = (
+                    self.written(velocity, e.loc, &inner),
+                    self.written(force, e.loc, &inner),
+                );
+                if force.is_error() || velocity.is_error() {
+                    return;
+                }
+                if force.shape() != velocity.shape() {
+                    let (expected, found) = (describe(velocity.shape()), describe(force.shape()));
+                    let last = args.last().map_or(e.loc, |a| a.loc);
+                    self.error(last, format!("expected {expected}, found {found}"));
+                    return;
+                }
+                for (v, f) in velocity.entries().iter().zip(force.entries()) {
+                    self.push(*v, *f, out);
+                }
+            }
+        }
+    }
+
+    /// Adds the generalised force of a force `f` at what has the velocity `v`: f ∂v/∂q̇.
+    pub(super) fn push(&mut self, v: Id, f: Id, out: &mut Acting) {
+        let gradient = Gradient::of(v, &self.graph);
+        for symbol in gradient.symbols() {
+            if let Symbol::Velocity(i) = symbol {
+                let slope = gradient.along(symbol, &mut self.graph);
+                let term = self.graph.mul(f, slope);
+                out.force.entry(i).or_default().push(term);
+            }
+        }
+    }
+
+    /// The value of a text of the table; what is wrong with it is wrong with what stands at `loc`.
+    fn written(&mut self, text: &str, loc: Loc, env: &Env<'m>) -> Value {
+        let e = own(text);
+        let before = self.diag.len();
+        self.written = true;
+        let mut terms = Vec::new();
+        self.chain(&e, 1.0, env, &mut terms);
+        let value = self.total(&terms, true);
+        self.written = false;
+        self.diag.relocate(before, loc);
+        match self.diag.len() == before {
+            true => value,
+            false => Value::Error,
+        }
+    }
+
+    /// The part that is meant, and its arguments by their names.
+    fn part_of(
+        &mut self,
+        name: &Ident,
+        args: &[Expr],
+        env: &Env<'m>,
+    ) -> Option<(&'static Part, Env<'m>)> {
+        let values: Vec<Value> = args.iter().map(|a| self.argument(a, env)).collect();
+        if values.iter().any(Value::is_error) {
+            return None;
+        }
+        let named = || PARTS.iter().filter(|part| name == part.name);
+        // Where it is used is told by its bodies, or else by points of the ground.
+        let frames = || {
+            values.iter().filter_map(|value| match value {
+                Value::Body(body) => body.dimension(),
+                Value::Point(point) => point.body.dimension(),
+                _ => None,
+            })
+        };
+        let of_ground = values.iter().find_map(|value| match value {
+            Value::Point(point) => Some(point.place.entries().len()),
+            _ => None,
+        });
+        let dimension = frames().next().or(of_ground);
+        let home = match dimension {
+            Some(3) => Home::Space,
+            _ => Home::Plane,
+        };
+        let at_home = || named().filter(|part| part.home == Home::Both || part.home == home);
+        let fits = |part: &&Part| {
+            let (least, most) = part.arity();
+            (least..=most).contains(&args.len())
+        };
+        let Some(part) = at_home().find(fits) else {
+            let usages = |parts: &mut dyn Iterator<Item = &'static Part>| {
+                parts.map(Part::usage).collect::<Vec<_>>().join(" or ")
+            };
+            let message = match at_home().next() {
+                Some(_) => format!(
+                    "it is written {}, found {} arguments",
+                    usages(&mut at_home()),
+                    args.len()
+                ),
+                None => {
+                    let (here, there) = match home {
+                        Home::Space => ("in space", "planar"),
+                        _ => ("in the plane", "spatial"),
+                    };
+                    format!(
+                        "`{name}` joins {there} bodies: {}; these are {here}",
+                        usages(&mut named())
+                    )
+                }
+            };
+            self.error(name.span(), message);
+            return None;
+        };
+        let dimension = dimension.unwrap_or(2);
+        let mut inner = Env {
+            scope: Scope::new(self.model),
+            args: Vec::new(),
+            place: Place::Let,
+        };
+        let mut sound = true;
+        for (k, (arg, takes, default)) in part.args.iter().enumerate() {
+            let value = match values.get(k) {
+                Some(value) => {
+                    sound &= self.takes(part, arg, *takes, value, dimension, &args[k]);
+                    match takes {
+                        Takes::Point | Takes::Body => value.clone(),
+                        _ => self.numbers(value.clone(), args[k].loc),
+                    }
+                }
+                None => self.written(default, name.span().into(), &inner),
+            };
+            inner.args.push(((*arg).to_owned(), value));
+        }
+        sound.then_some((part, inner))
+    }
+
+    /// Whether an argument is what the part takes; reports it, if not.
+    fn takes(
+        &mut self,
+        part: &Part,
+        arg: &str,
+        takes: Takes,
+        value: &Value,
+        dimension: usize,
+        e: &Expr,
+    ) -> bool {
+        let flat = dimension == 2;
+        let (fits, expected) = match takes {
+            Takes::Point => (
+                matches!(value, Value::Point(p) if p.place.shape() == [dimension]),
+                "a point of a body, such as `link.at([0, 0])` or `ground.at([0, 0])`".to_owned(),
+            ),
+            Takes::Body => (
+                matches!(value, Value::Body(_) | Value::Point(_)),
+                "a body".to_owned(),
+            ),
+            Takes::Direction | Takes::Force => {
+                (value.shape() == [dimension], describe(&[dimension]))
+            }
+            Takes::Number => (
+                value.shape().is_empty() && !matches!(value, Value::Body(_)),
+                describe(&[]),
+            ),
+            Takes::Moment if flat => (
+                value.shape().is_empty() && !matches!(value, Value::Body(_)),
+                describe(&[]),
+            ),
+            Takes::Moment => (value.shape() == [3], describe(&[3])),
+            Takes::Turn => (value.shape() == [3, 3], describe(&[3, 3])),
+        };
+        if !fits {
+            let found = match value {
+                Value::Body(body) => format!("the body `{body}`"),
+                Value::Point(p) => {
+                    format!("a point of `{}`, {}", p.body, describe(p.place.shape()))
+                }
+                _ => describe(value.shape()),
+            };
+            let message = format!("`{arg}` of {} is {expected}, found {found}", part.usage());
+            self.error(e.loc, message);
+            return false;
+        }
+        let zero = value.entries().iter().all(|id| self.graph.is_zero(*id));
+        if takes == Takes::Direction && zero {
+            self.error(
+                e.loc,
+                format!(
+                    "`{arg}` of {} is a direction; it must not be zero",
+                    part.usage()
+                ),
+            );
+            return false;
+        }
+        true
+    }
+}
