@@ -1,6 +1,6 @@
 //! The generated code side by side with code written by hand, in one run.
 //!
-//! `cargo bench -p tests` measures everything in about a minute, `cargo bench -p tests -- uchain` the groups whose name contains
+//! `cargo bench -p tests` measures everything in two minutes, `cargo bench -p tests -- uchain` the groups whose name contains
 //! `uchain`. Each group has as its reference the fastest of those written by hand. Figures also go to `speed.json` in cargo's directory
 //! for temporary files (`target/tmp`).
 
