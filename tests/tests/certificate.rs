@@ -467,3 +467,53 @@ fn shares_of_the_elimination_and_significances_of_rows_have_one_ceiling() {
     }
     every_model(&Shares);
 }
+
+ukcore::multibody! {
+    /// Shafts coupled by gears whose ratios are parameters.
+    Geared {
+        params { r = 1.5, k = 0.7 }
+        coords { a[6] }
+        mass { for i in 0..6 { a[i]: 1.0 + i } }
+        potential { for i in 0..6 { 0.5 * sq(a[i]) - cos(a[i]) } }
+        holonomic {
+            one: a[0] + r * a[1] = 2.0 * k * a[2],
+            two: a[2] - a[3] = r * (a[4] - a[1]),
+            three: a[4] + k * a[5] = sin(t),
+            four: a[5] - r * a[0] + k * a[3] = 0.1,
+        }
+    }
+}
+
+/// A ratio may be set to anything: what was well conditioned by the defaults must not be taken for well conditioned at run time.
+#[test]
+fn ratios_set_far_from_their_defaults() {
+    let mut random = Random::new(7);
+    for (r, k) in [
+        (1.5, 0.7),
+        (1e-9, 0.7),
+        (1e9, 0.7),
+        (0.0, 0.7),
+        (1.5, 0.0),
+        (1.5, 1e9),
+    ] {
+        let mechanism = Geared { r, k };
+        let mut solver = Solver::new(&mechanism, SolverOptions::default());
+        let mut printed = Solver::new(
+            &mechanism,
+            SolverOptions {
+                formula: Formula::UdwadiaKalaba,
+                ..SolverOptions::default()
+            },
+        );
+        for _ in 0..20 {
+            let state = at::<Geared>(random.vector(6), &mut random);
+            let (mut found, mut expected) = ([0.0; 6], [0.0; 6]);
+            let State { t, q, v } = &state;
+            solver.acceleration(*t, q, v, &mut found).unwrap();
+            printed.acceleration(*t, q, v, &mut expected).unwrap();
+            let size = tests::largest(&expected);
+            tests::assert_all_close("ratios", &found, &expected, 1e-13 * size);
+        }
+        assert_eq!(solver.work().fallbacks, 0, "r = {r:e}, k = {k:e}");
+    }
+}

@@ -54,16 +54,15 @@
 /// # How it is computed
 ///
 /// By straight-line code: [M Aᵀ; A 0] is eliminated at compile time, which fills in 0 of its entries.
-/// Coordinate `x` is not solved for, since `plane` gives it by the others.
 ///
 /// | operations | add | multiply | divide | root | function | select |
 /// | --- | ---: | ---: | ---: | ---: | ---: | ---: |
 /// | M, Q, c, A and b | 3 | 4 | 0 | 0 | 0 | 2 |
 /// | dense LDLᵀ of [M Aᵀ; A 0] after that | 10 | 16 | 3 | 0 | 0 | 0 |
-/// | straight line, nothing hoisted | 5 | 20 | 2 | 0 | 1 | 8 |
-/// | straight line, as emitted | 4 | 6 | 0 | 0 | 0 | 2 |
-/// | correction of a projection | 3 | 3 | 0 | 0 | 0 | 0 |
-/// | once for a set of parameters | 1 | 33 | 2 | 0 | 1 | 6 |
+/// | straight line, nothing hoisted | 8 | 17 | 1 | 0 | 1 | 6 |
+/// | straight line, as emitted | 7 | 8 | 0 | 0 | 0 | 2 |
+/// | correction of a projection | 2 | 2 | 0 | 0 | 0 | 0 |
+/// | once for a set of parameters | 1 | 22 | 1 | 0 | 1 | 4 |
 ///
 /// `Mechanism::plan` tells the order, what is hoisted and left out, and draws the sparsity; `Mechanism::CODE` is the code.
 #[derive(Clone, Debug, PartialEq)]
@@ -149,25 +148,15 @@ const _: () = {
                 ("m", "m"),
                 ("sq_cos_slope_mu_m_g", "sq(cos(slope))*mu*m*g"),
                 ("cos_slope_sin_slope_mu_m_g", "cos(slope)*sin(slope)*mu*m*g"),
-                ("cos_slope_sin_slope_mu_g", "cos(slope)*sin(slope)*mu*g"),
+                ("cos_slope_sin_slope_mu", "cos(slope)*sin(slope)*mu"),
+                ("prepared_part", "sq(cos(slope))/(sq(sin(slope)) + sq(cos(slope)))"),
                 ("g", "g"),
-                ("prepared_part", "cos(slope)^3*mu*g/sin(slope)"),
-                ("prepared_part_2", "1/(1 + sq(cos(slope))/sq(sin(slope)))"),
+                ("cos_slope_mu", "cos(slope)*mu"),
+                ("prepared_part_2", "sin(slope)/(sq(sin(slope)) + sq(cos(slope)))"),
+                ("cos_slope_g", "cos(slope)*g"),
+                ("prepared_part_3", "cos(slope)/(sq(sin(slope)) + sq(cos(slope)))"),
                 (
-                    "prepared_part_3",
-                    "cos(slope)/(sin(slope)*(1 + sq(cos(slope))/sq(sin(slope))))",
-                ),
-                (
-                    "prepared_part_4",
-                    "cos(slope)/(sq(sin(slope))*(1 + sq(cos(slope))/sq(sin(slope))))",
-                ),
-                (
-                    "prepared_part_5",
-                    "sq(cos(slope))/(sq(sin(slope))*(1 + sq(cos(slope))/sq(sin(slope))))",
-                ),
-                ("per_sin_slope", "1/sin(slope)"),
-                (
-                    "safe_y",
+                    "safe_plane",
                     "1 if the pivots that depend on m, slope alone are positive and finite, else 0",
                 ),
             ],
@@ -206,15 +195,12 @@ const _: () = {
                 solve: ukcore::Solve {
                     refusal: "",
                     pivots: &[
-                        ukcore::Pivot::Substituted(0, 0),
+                        ukcore::Pivot::Coordinate(0),
                         ukcore::Pivot::Coordinate(1),
+                        ukcore::Pivot::Constraint(0),
                     ],
                     fill: &[],
-                    checks: &[
-                        ukcore::Check::Positive(0),
-                        ukcore::Check::Positive(2),
-                        ukcore::Check::Positive(1),
-                    ],
+                    checks: &[ukcore::Check::Positive(0), ukcore::Check::Positive(2)],
                     least_share: 0.0009765625,
                     regular: &[],
                     met: &[],
@@ -258,24 +244,24 @@ const _: () = {
                         selections: 0,
                     },
                     unprepared: ukcore::Operations {
-                        additions: 5,
-                        multiplications: 20,
-                        divisions: 2,
+                        additions: 8,
+                        multiplications: 17,
+                        divisions: 1,
                         square_roots: 0,
                         transcendentals: 1,
-                        selections: 8,
+                        selections: 6,
                     },
                     acceleration: ukcore::Operations {
-                        additions: 4,
-                        multiplications: 6,
+                        additions: 7,
+                        multiplications: 8,
                         divisions: 0,
                         square_roots: 0,
                         transcendentals: 0,
                         selections: 2,
                     },
                     correction: ukcore::Operations {
-                        additions: 3,
-                        multiplications: 3,
+                        additions: 2,
+                        multiplications: 2,
                         divisions: 0,
                         square_roots: 0,
                         transcendentals: 0,
@@ -283,11 +269,11 @@ const _: () = {
                     },
                     prepare: ukcore::Operations {
                         additions: 1,
-                        multiplications: 33,
-                        divisions: 2,
+                        multiplications: 22,
+                        divisions: 1,
                         square_roots: 0,
                         transcendentals: 1,
-                        selections: 6,
+                        selections: 4,
                     },
                 },
             },
@@ -322,7 +308,7 @@ const _: () = {
             }
         }
         fn prepare<S: ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
-            let prepared = ukcore::emitted::exact_mut::<S, 16>(prepared, "prepared");
+            let prepared = ukcore::emitted::exact_mut::<S, 15>(prepared, "prepared");
             let [m, g, slope, mu] = *ukcore::emitted::exact::<S, 4>(given, "given");
             let lit = S::from_f64;
             let (sin_slope, cos_slope) = slope.sin_cos();
@@ -333,17 +319,15 @@ const _: () = {
             prepared[4] = m;
             prepared[5] = mu * m * g * cos_slope * cos_slope;
             prepared[6] = mu * m * g * cos_slope * sin_slope;
-            prepared[7] = mu * g * cos_slope * sin_slope;
-            prepared[8] = g;
-            prepared[9] = mu * g * cos_slope * cos_slope * cos_slope / sin_slope;
-            let pivot_y = lit(1.0) + cos_slope * cos_slope / (sin_slope * sin_slope);
-            let per_pivot_y = pivot_y.recip();
-            prepared[10] = per_pivot_y;
-            prepared[11] = cos_slope * per_pivot_y / sin_slope;
-            prepared[12] = cos_slope * per_pivot_y / (sin_slope * sin_slope);
-            prepared[13] = cos_slope * cos_slope * per_pivot_y / (sin_slope * sin_slope);
-            prepared[14] = sin_slope.recip();
-            let sq_sin_slope = sin_slope * sin_slope;
+            prepared[7] = mu * cos_slope * sin_slope;
+            let pivot_plane = cos_slope.mul_add(cos_slope, sin_slope * sin_slope);
+            let per_pivot_plane = pivot_plane.recip();
+            prepared[8] = cos_slope * cos_slope * per_pivot_plane;
+            prepared[9] = g;
+            prepared[10] = mu * cos_slope;
+            prepared[11] = sin_slope * per_pivot_plane;
+            prepared[12] = g * cos_slope;
+            prepared[13] = cos_slope * per_pivot_plane;
             let safe_x = S::select_le(
                 m,
                 lit(1.7976931348623157e308),
@@ -351,28 +335,17 @@ const _: () = {
                 lit(0.0),
             );
             let safe_plane = S::select_le(
-                sq_sin_slope,
+                pivot_plane,
                 lit(1.7976931348623157e308),
                 S::select_le(
                     lit(2.2250738585072014e-308),
-                    sq_sin_slope,
+                    pivot_plane,
                     safe_x,
                     lit(0.0),
                 ),
                 lit(0.0),
             );
-            let safe_y = S::select_le(
-                pivot_y,
-                lit(1.7976931348623157e308),
-                S::select_le(
-                    lit(2.2250738585072014e-308),
-                    pivot_y,
-                    safe_plane,
-                    lit(0.0),
-                ),
-                lit(0.0),
-            );
-            prepared[15] = safe_y;
+            prepared[14] = safe_plane;
         }
         /// 3 additions, 4 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 2 selections.
         fn dynamics<S: ukcore::Scalar>(
@@ -388,9 +361,9 @@ const _: () = {
             let jacobian = ukcore::emitted::exact_mut::<S, 2>(out.jacobian, "jacobian");
             let rhs = ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
             let [cos_slope, sin_slope, _, m_g, m, sq_cos_slope_mu_m_g,
-            cos_slope_sin_slope_mu_m_g, _, _, _, _, _, _, _, _, _, held_speed_down] = *ukcore::emitted::exact::<
+            cos_slope_sin_slope_mu_m_g, _, _, _, _, _, _, _, _, held_speed_down] = *ukcore::emitted::exact::<
                 S,
-                17,
+                16,
             >(prepared, "prepared");
             let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
             let lit = S::from_f64;
@@ -399,9 +372,9 @@ const _: () = {
             force[0] = lit(0.0);
             force[1] = -m_g;
             let speed_down = dot_y.neg_mul_add(sin_slope, dot_x * cos_slope);
-            let nonideal_0_part = speed_down.branch(held_speed_down).sign();
-            nonideal[0] = -(sq_cos_slope_mu_m_g * nonideal_0_part);
-            nonideal[1] = cos_slope_sin_slope_mu_m_g * nonideal_0_part;
+            let right_x = speed_down.branch(held_speed_down).sign();
+            nonideal[0] = -(sq_cos_slope_mu_m_g * right_x);
+            nonideal[1] = cos_slope_sin_slope_mu_m_g * right_x;
             jacobian[0] = sin_slope;
             jacobian[1] = cos_slope;
             rhs[0] = lit(0.0);
@@ -413,9 +386,9 @@ const _: () = {
             mass: &mut [S],
         ) {
             let mass = ukcore::emitted::exact_mut::<S, 4>(mass, "mass");
-            let [_, _, _, _, m, _, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
+            let [_, _, _, _, m, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
                 S,
-                17,
+                16,
             >(prepared, "prepared");
             mass[0] = m;
             mass[3] = m;
@@ -428,18 +401,18 @@ const _: () = {
             jacobian: &mut [S],
         ) {
             let jacobian = ukcore::emitted::exact_mut::<S, 2>(jacobian, "jacobian");
-            let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
+            let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
                 S,
-                17,
+                16,
             >(prepared, "prepared");
             jacobian[0] = sin_slope;
             jacobian[1] = cos_slope;
         }
         fn residual<S: ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
             let phi = ukcore::emitted::exact_mut::<S, 1>(phi, "phi");
-            let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
+            let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
                 S,
-                17,
+                16,
             >(prepared, "prepared");
             let [x, y] = *ukcore::emitted::exact::<S, 2>(q, "q");
             phi[0] = y.mul_add(cos_slope, x * sin_slope);
@@ -452,9 +425,9 @@ const _: () = {
             rate: &mut [S],
         ) {
             let rate = ukcore::emitted::exact_mut::<S, 1>(rate, "rate");
-            let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
+            let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
                 S,
-                17,
+                16,
             >(prepared, "prepared");
             let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
             rate[0] = dot_y.mul_add(cos_slope, dot_x * sin_slope);
@@ -465,9 +438,9 @@ const _: () = {
             q: &[S],
             v: &[S],
         ) -> ukcore::Energy<S> {
-            let [_, _, _, m_g, m, _, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
+            let [_, _, _, m_g, m, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
                 S,
-                17,
+                16,
             >(prepared, "prepared");
             let [_, y] = *ukcore::emitted::exact::<S, 2>(q, "q");
             let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
@@ -488,7 +461,7 @@ const _: () = {
         ) {
             let outputs = ukcore::emitted::exact_mut::<S, 3>(outputs, "outputs");
             let [cos_slope, sin_slope, cos_slope_mu_m_g, _, _, _, _, _, _, _, _, _, _, _,
-            _, _, _] = *ukcore::emitted::exact::<S, 17>(prepared, "prepared");
+            _, _] = *ukcore::emitted::exact::<S, 16>(prepared, "prepared");
             let [x, y] = *ukcore::emitted::exact::<S, 2>(q, "q");
             let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
             outputs[0] = y.neg_mul_add(sin_slope, x * cos_slope);
@@ -505,15 +478,15 @@ const _: () = {
             switching: &mut [S],
         ) {
             let switching = ukcore::emitted::exact_mut::<S, 1>(switching, "switching");
-            let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
+            let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
                 S,
-                17,
+                16,
             >(prepared, "prepared");
             let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
             let speed_down = dot_y.neg_mul_add(sin_slope, dot_x * cos_slope);
             switching[0] = speed_down;
         }
-        /// 4 additions, 6 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 2 selections.
+        /// 7 additions, 8 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 2 selections.
         fn acceleration<S: ukcore::Scalar>(
             prepared: &[S],
             t: S,
@@ -522,17 +495,20 @@ const _: () = {
             out: &mut [S],
         ) -> S {
             let out = ukcore::emitted::exact_mut::<S, 2>(out, "out");
-            let [cos_slope, sin_slope, _, _, _, _, _, cos_slope_sin_slope_mu_g, g,
-            prepared_part, prepared_part_2, prepared_part_3, _, _, _, safe_y,
-            held_speed_down] = *ukcore::emitted::exact::<S, 17>(prepared, "prepared");
+            let [cos_slope, sin_slope, _, _, _, _, _, cos_slope_sin_slope_mu,
+            prepared_part, g, cos_slope_mu, prepared_part_2, cos_slope_g, _, safe_plane,
+            held_speed_down] = *ukcore::emitted::exact::<S, 16>(prepared, "prepared");
             let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
+            let lit = S::from_f64;
             let speed_down = dot_y.neg_mul_add(sin_slope, dot_x * cos_slope);
-            let acceleration_0_part = speed_down.branch(held_speed_down).sign();
-            let right_y = prepared_part * acceleration_0_part
-                + (cos_slope_sin_slope_mu_g * acceleration_0_part - g);
-            let safe = safe_y;
-            out[1] = prepared_part_2 * right_y;
-            out[0] = -(prepared_part_3 * right_y);
+            let right_x = speed_down.branch(held_speed_down).sign();
+            let right_x_cos_slope_sin_slope_mu = cos_slope_sin_slope_mu * right_x;
+            let right_y = lit(1.0) - right_x_cos_slope_sin_slope_mu;
+            let right_plane = right_x_cos_slope_sin_slope_mu + right_y;
+            let safe = safe_plane;
+            out[0] = -(cos_slope_g
+                * prepared_part_2.neg_mul_add(right_plane, cos_slope_mu * right_x));
+            out[1] = -(g * prepared_part.neg_mul_add(right_plane, right_y));
             safe
         }
         fn correction<S: ukcore::Scalar>(
@@ -544,16 +520,12 @@ const _: () = {
             out: &mut [S],
         ) -> S {
             let out = ukcore::emitted::exact_mut::<S, 2>(out, "out");
-            let [_, _, _, _, _, _, _, _, _, _, _, _, prepared_part_4, prepared_part_5,
-            per_sin_slope, safe_y, _] = *ukcore::emitted::exact::<
-                S,
-                17,
-            >(prepared, "prepared");
+            let [_, _, _, _, _, _, _, _, _, _, _, prepared_part_2, _, prepared_part_3,
+            safe_plane, _] = *ukcore::emitted::exact::<S, 16>(prepared, "prepared");
             let [residual_0] = *ukcore::emitted::exact::<S, 1>(residual, "residual");
-            let safe = safe_y;
-            out[1] = -(residual_0 * prepared_part_4);
-            out[0] = -(per_sin_slope
-                * residual_0.neg_mul_add(prepared_part_5, residual_0));
+            let safe = safe_plane;
+            out[0] = -(residual_0 * prepared_part_2);
+            out[1] = -(residual_0 * prepared_part_3);
             safe
         }
     }

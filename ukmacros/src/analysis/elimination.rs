@@ -1,10 +1,10 @@
 //! The constrained solve as part of the graph: [M Aᵀ; A 0] [q̈; −λ] = [Q; b] eliminated symbolically, in an order chosen here.
 //!
 //! Pivots:
-//! 1. A coordinate together with a constraint in which its coefficient is a number or depends on parameters alone, also after steps before:
-//!    the 2 × 2 pivot [μ a; a 0] with a ≠ 0 is safe whatever the state. What is left is the system in the other coordinates, M' = Zᵀ M Z. Bodies
-//!    pinned to each other are eliminated so, each with its pins, and velocities that T is written in with their definitions
-//!    ([`super::lift`]).
+//! 1. A coordinate together with a constraint in which its coefficient is a number or, if it has no inertia, depends on parameters alone, also
+//!    after steps before: the 2 × 2 pivot [μ a; a 0] with a ≠ 0 is safe whatever the state. What is left is the system in the other
+//!    coordinates, M' = Zᵀ M Z. Bodies pinned to each other are eliminated so, each with its pins, and velocities that T is written in with
+//!    their definitions ([`super::lift`]).
 //! 2. Coordinates with inertia, and constraints all of whose coordinates are eliminated: 1 × 1 pivots that are definite where A has full
 //!    rank, since what is eliminated is then a saddle-point matrix of its own.
 //!

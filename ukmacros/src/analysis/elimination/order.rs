@@ -125,12 +125,16 @@ pub(super) fn order(taste: Taste, mut pattern: Pattern, names: &[String]) -> Res
 /// What is compared, and what it is of: a coordinate or constraint alone, or a coordinate with a constraint.
 type Key = ([usize; 5], usize, Option<usize>);
 
-/// What the keys that an elimination changes belong to: its neighbours, and what shares a constraint with them.
+/// What the keys that an elimination changes belong to: its neighbours, what shares a constraint with them, and the coordinates in the
+/// constraints among these, which wait for the pairs that such a constraint has.
 fn around(at: usize, partner: Option<usize>, pattern: &Pattern) -> BTreeSet<usize> {
     let taken = [Some(at), partner].into_iter().flatten();
     let near: BTreeSet<usize> = taken.flat_map(|k| pattern.near(k).chain([k])).collect();
     let sharing = near.iter().flat_map(|k| pattern.near(*k));
-    near.iter().copied().chain(sharing).collect()
+    let sharing: BTreeSet<usize> = near.iter().copied().chain(sharing).collect();
+    let constraints = sharing.iter().filter(|k| !pattern.is_coordinate(**k));
+    let waiting = constraints.flat_map(|c| pattern.coordinates_in(*c));
+    sharing.iter().copied().chain(waiting).collect()
 }
 
 /// The keys of what can be eliminated, alone or in pairs with others, among `of`.

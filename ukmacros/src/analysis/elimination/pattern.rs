@@ -121,6 +121,8 @@ impl Pattern {
 
     /// The pivot of `coordinate` with `constraint`, if it is one at any state: its coefficient there is fixed, not zero and not much smaller
     /// than another fixed one, and the constraint has no entry on the diagonal, as it gets where one of its coordinates is eliminated alone.
+    /// With inertia the fixed coefficients have to be numbers, too: one that is much larger than the pivot at run time would magnify the
+    /// rounding of accelerations, with all rows of A q̈ = b still met.
     pub(super) fn pair(&self, coordinate: usize, constraint: usize) -> Option<Pair> {
         let coefficient = *self.fixed.get(&(constraint, coordinate))?;
         let row = self.fixed.range((constraint, 0)..(constraint + 1, 0));
@@ -131,9 +133,13 @@ impl Pattern {
         let free = !self.coupled[constraint] && defined.is_none_or(|own| own == coordinate);
         // Inertia that a coordinate gets by a factor alone may vanish with it, and there is nothing to compare it with.
         let inert = |i: &usize| self.inertia[*i] || self.fixed.contains_key(&(constraint, *i));
+        // A parameter may be set to anything, 0 or 1e9: what a coordinate with inertia needs not depend on, it does not.
+        let alone = self.near[constraint].len() == 1;
+        let mut others = self.fixed.range((constraint, 0)..(constraint + 1, 0));
+        let numbers = alone || others.all(|(_, c)| c.number);
         let certain = !self.inertia[coordinate]
             || defined.is_some()
-            || self.near[constraint].range(..self.n).all(inert);
+            || numbers && self.near[constraint].range(..self.n).all(inert);
         let size = coefficient.value.abs();
         let fits = free && certain && size > 0.0 && size.is_finite() && size >= SMALL * largest;
         fits.then(|| Pair {
@@ -141,7 +147,7 @@ impl Pattern {
             constraint,
             coefficient,
             massive: self.inertia[coordinate],
-            alone: self.near[constraint].len() == 1,
+            alone,
         })
     }
 
