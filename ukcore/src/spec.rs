@@ -156,7 +156,8 @@ pub enum Pivot {
     Prescribed(usize, usize),
     /// A coordinate without inertia, taken together with a constraint in which its coefficient is such a one.
     Massless(usize, usize),
-    /// A coordinate with inertia, taken together with a constraint that gives it by other coordinates, as its coefficient there is such a one.
+    /// A coordinate with inertia, taken together with a constraint that gives it by other coordinates: its coefficient there is a number, as
+    /// are all that are the same at any state.
     Substituted(usize, usize),
     /// A coordinate with inertia.
     Coordinate(usize),
