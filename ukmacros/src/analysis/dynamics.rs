@@ -2,7 +2,7 @@
 
 use super::cost::cost;
 use super::lift::{Lift, lift};
-use crate::expr::{Adjoint, Derivative, Gradient, Graph, Id, Kind, Symbol, System};
+use crate::expr::{Adjoint, Constraint, Derivative, Gradient, Graph, Id, Kind, Symbol, System};
 use std::collections::BTreeMap;
 
 /// The equations of motion as nodes. Notation as in Zhao, Zhen & Chen 2013.
@@ -102,49 +102,54 @@ pub(crate) fn derive(system: &mut System, n: usize) -> Dynamics {
     for (i, c) in system.nonideal.iter().flatten() {
         nonideal[*i] = *c;
     }
-
-    let mut total = Derivative::total();
-    let mut partials: BTreeMap<Symbol, Derivative> = BTreeMap::new();
-    let mut jacobian = BTreeMap::new();
-    let (mut rhs, mut phi, mut rate) = (Vec::new(), Vec::new(), Vec::new());
-    for (row, constraint) in system.constraints.iter().enumerate() {
-        let velocity_level = match constraint.kind {
-            Kind::Holonomic => {
-                phi.push(constraint.phi);
-                total.of(constraint.phi, g)
-            }
-            Kind::Nonholonomic => constraint.phi,
-        };
-        rate.push(velocity_level);
-        let gradient = Gradient::of(constraint.phi, g);
-        for symbol in gradient.symbols() {
-            let ((Kind::Holonomic, Symbol::Coord(i)) | (Kind::Nonholonomic, Symbol::Velocity(i))) =
-                (constraint.kind, symbol)
-            else {
-                continue;
-            };
-            let partial = partials.entry(symbol);
-            let partial = partial.or_insert_with(|| Derivative::partial(symbol));
-            let entry = gradient.by(partial, g);
-            if !g.is_zero(entry) {
-                jacobian.insert((row, i), entry);
-            }
-        }
-        // d/dt of the velocity level is A q̈ + (its value at q̈ = 0), so b is minus the latter.
-        let at_rest = total.of(velocity_level, g);
-        rhs.push(g.neg(at_rest));
-    }
-    Dynamics {
+    let mut dynamics = Dynamics {
         mass,
         force,
         nonideal,
-        jacobian,
-        rhs,
-        phi,
-        rate,
+        jacobian: BTreeMap::new(),
+        rhs: Vec::new(),
+        phi: Vec::new(),
+        rate: Vec::new(),
         kinetic,
         potential,
         lift: lifted,
+    };
+    dynamics.constrain(&system.constraints, g);
+    dynamics
+}
+
+impl Dynamics {
+    /// Derives φ̇, A and b.
+    fn constrain(&mut self, constraints: &[Constraint], g: &mut Graph) {
+        let mut total = Derivative::total();
+        let mut partials: BTreeMap<Symbol, Derivative> = BTreeMap::new();
+        for (row, constraint) in constraints.iter().enumerate() {
+            let velocity_level = match constraint.kind {
+                Kind::Holonomic => {
+                    self.phi.push(constraint.phi);
+                    total.of(constraint.phi, g)
+                }
+                Kind::Nonholonomic => constraint.phi,
+            };
+            self.rate.push(velocity_level);
+            let gradient = Gradient::of(constraint.phi, g);
+            for symbol in gradient.symbols() {
+                let ((Kind::Holonomic, Symbol::Coord(i))
+                | (Kind::Nonholonomic, Symbol::Velocity(i))) = (constraint.kind, symbol)
+                else {
+                    continue;
+                };
+                let partial = partials.entry(symbol);
+                let partial = partial.or_insert_with(|| Derivative::partial(symbol));
+                let entry = gradient.by(partial, g);
+                if !g.is_zero(entry) {
+                    self.jacobian.insert((row, i), entry);
+                }
+            }
+            // d/dt of the velocity level is A q̈ + (its value at q̈ = 0), so b is minus the latter.
+            let at_rest = total.of(velocity_level, g);
+            self.rhs.push(g.neg(at_rest));
+        }
     }
 }
 

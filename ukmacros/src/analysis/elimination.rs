@@ -240,18 +240,7 @@ pub(crate) fn eliminate(
         }
         factors.push(factor);
     }
-    // Inertia that is no pivot by itself.
-    let pivots: BTreeSet<usize> = divisors
-        .iter()
-        .filter(|d: &&Divisor| g.uses(d.value).constant())
-        .map(|d| d.position)
-        .collect();
-    let inertia = d
-        .mass
-        .iter()
-        .filter(|((i, j), _)| i == j && !pivots.contains(i));
-    let inertia = inertia.filter(|(_, m)| g.uses(**m).constant() && g.as_const(**m).is_none());
-    fixed.extend(inertia.map(|((i, _), m)| Divisor::positive(*i, *m, names)));
+    fixed.extend(inertia(d, &divisors, names, g));
     let mut motion = motion.solution(&factors, names, g, &mut hints)?;
     let droppings = droppings(&factors, &motion, d, [&force, &rhs], g);
     motion.coordinates.truncate(own.0);
@@ -282,6 +271,17 @@ pub(crate) fn eliminate(
         place: place(d, own),
         hints,
     })
+}
+
+/// Inertia that depends on parameters and is no pivot by itself: it has to be positive, too.
+fn inertia(d: &Dynamics, pivots: &[Divisor], names: &[String], g: &Graph) -> Vec<Divisor> {
+    let pivots = pivots.iter().filter(|d| g.uses(d.value).constant());
+    let pivots: BTreeSet<usize> = pivots.map(|d| d.position).collect();
+    let diagonal = d.mass.iter().filter(|((i, j), _)| i == j);
+    let others = diagonal.filter(|((i, _), _)| !pivots.contains(i));
+    let others = others.filter(|(_, m)| g.uses(**m).constant() && g.as_const(**m).is_none());
+    let others = others.map(|((i, _), m)| Divisor::positive(*i, *m, names));
+    others.collect()
 }
 
 /// Where each coordinate and constraint of `d` stands among those of the mechanism.

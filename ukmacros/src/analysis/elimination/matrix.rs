@@ -352,20 +352,10 @@ impl Matrix {
         hints: &mut Vec<(Id, String)>,
     ) -> Result<(Single, Divisor), String> {
         let constraint = k >= self.n;
-        let zero = g.zero();
-        let pivot = self.pivot(k, g).or_else(|| {
-            // Whatever the state.
-            let reference = self.entries.get(&(k, k))?.reference(g);
-            let reference = g.scale(self.sign(k), reference);
-            let redundant = constraint && !g.is_zero(reference);
-            redundant.then(|| {
-                self.droppable.insert(k);
-                (zero, reference, None)
-            })
-        });
-        let droppable = self.droppable.contains(&k);
+        let pivot = self.pivot(k, g).or_else(|| self.nothing_left(k, g));
         let (numerator, reference, denominator) =
             pivot.ok_or_else(|| vanished(k, self.n, names))?;
+        let droppable = self.droppable.contains(&k);
         hints.push((numerator, format!("pivot_{}", names[k])));
         hints.push((reference, format!("diagonal_{}", names[k])));
         let divisor = Divisor {
@@ -430,23 +420,43 @@ impl Matrix {
             }
             single.factors.push((*a, factor));
         }
+        self.spread(&single, inverse, g);
+        Ok((single, divisor))
+    }
+
+    /// The pivot of a constraint of which nothing is left whatever the state, as it follows from others: zero, beside what it could be.
+    fn nothing_left(&mut self, k: usize, g: &mut Graph) -> Option<(Id, Id, Option<Id>)> {
+        let reference = self.entries.get(&(k, k))?.reference(g);
+        let reference = g.scale(self.sign(k), reference);
+        if k < self.n || g.is_zero(reference) {
+            return None;
+        }
+        self.droppable.insert(k);
+        Some((g.zero(), reference, None))
+    }
+
+    /// Takes what the elimination of `single` leaves off its neighbours; `inverse` is one over its pivot.
+    fn spread(&mut self, single: &Single, inverse: Id, g: &mut Graph) {
         for (p, (a, factor)) in single.factors.iter().enumerate() {
             for (b, entry) in &single.row[..=p] {
                 let term = g.mul(*factor, *entry);
                 // What a coordinate adds to constraints makes up G; all else is taken off a diagonal that stood before.
-                let adds = !constraint && *a >= self.n;
-                if adds && a == b {
-                    let square = self.entry(*a, k).square(g);
-                    let size = g.mul(square, inverse);
-                    let plain = self.entry(*a, k).size.is_none();
-                    let size = if plain { term } else { size };
-                    self.entry_mut(*a, *a).take_off_sized(&[term], size);
-                } else {
+                let adds = single.at < self.n && *a >= self.n;
+                if !adds || a != b {
                     self.take_off(*a, *b, term, !adds, g);
+                    continue;
                 }
+                let own = self.entry(*a, single.at);
+                let size = match own.size {
+                    None => term,
+                    Some(_) => {
+                        let square = own.square(g);
+                        g.mul(square, inverse)
+                    }
+                };
+                self.entry_mut(*a, *a).take_off_sized(&[term], size);
             }
         }
-        Ok((single, divisor))
     }
 
     /// Eliminates a coordinate with a constraint, whose pivot P = [μ a; a 0] has P⁻¹ = [0 1/a; 1/a −μ/a²].
