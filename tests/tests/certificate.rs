@@ -517,3 +517,31 @@ fn ratios_set_far_from_their_defaults() {
         assert_eq!(solver.work().fallbacks, 0, "r = {r:e}, k = {k:e}");
     }
 }
+
+ukcore::multibody! {
+    /// A particle on two planes that all but coincide, by their numbers.
+    NearPlanes {
+        coords { x, y, z }
+        mass { x: 1.0, y: 1.0, z: 1.0 }
+        force { x: 1.0, y: 2.0, z: 3.0 }
+        holonomic { plane: x + y = 0.0, turned: x + 1.0000001 * y = 0.0 }
+    }
+}
+
+/// What numbers that cancel leave is no pivot that is safe at any state.
+#[test]
+fn planes_that_all_but_coincide() {
+    let planes = NearPlanes {};
+    let mut out = [f64::NAN; 3];
+    let safe = planes
+        .prepared::<f64>()
+        .acceleration(0.0, &[0.0; 3], &[0.0; 3], &mut out);
+    assert!(safe <= 0.5, "{safe}: {out:?}");
+    let mut solver = Solver::new(&planes, SolverOptions::default());
+    solver
+        .acceleration(0.0, &[0.0; 3], &[0.0; 3], &mut out)
+        .expect("rank 2");
+    for (found, expected) in out.iter().zip([0.0, 0.0, 3.0]) {
+        assert!((found - expected).abs() < 1e-8, "{out:?}");
+    }
+}

@@ -111,8 +111,8 @@ pub(crate) struct Coefficient {
     pub(crate) number: bool,
 }
 
-/// A difference below this share of what it is of may be rounding.
-const CLEAR: f64 = 1e-9;
+/// A difference below this share of what it is of has lost digits: it is no pivot. It is the root of [`SAFE_SHARE`].
+const CLEAR: f64 = 1.0 / 32.0;
 
 impl Coefficient {
     const ZERO: Coefficient = Coefficient {

@@ -330,9 +330,18 @@ impl Matrix {
         Ok(match step {
             Pivoting::Pair(pair) => {
                 let double = self.eliminate_pair(pair, names, g)?;
+                // Parameters may make it vanish, or all but cancel.
                 let divisor = (!pair.coefficient.number).then(|| {
-                    let square = g.square(double.coefficient);
-                    Divisor::positive(pair.constraint, square, names)
+                    let entry = self.entry(pair.coordinate, pair.constraint);
+                    let value = g.square(double.coefficient);
+                    let divisor = Divisor::positive(pair.constraint, value, names);
+                    match entry.size {
+                        None => divisor,
+                        Some(_) => Divisor {
+                            reference: entry.square(g),
+                            ..divisor
+                        },
+                    }
                 });
                 (Factor::Double(double), divisor)
             }
