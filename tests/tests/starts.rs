@@ -92,9 +92,11 @@ fn what_is_held_stays_and_guesses_choose_the_branch() {
 
 #[test]
 fn parameters_move_starts() {
-    let mut linkage = Linkage::default();
-    linkage.l = [0.3, 1.2, 1.0];
-    linkage.span = 1.4;
+    let linkage = Linkage {
+        l: [0.3, 1.2, 1.0],
+        span: 1.4,
+        ..Linkage::default()
+    };
     let start = state(&linkage.prepared(), "open", StartOptions::new());
     assert_close(
         "pin",

@@ -160,7 +160,10 @@ fn it_is_measured() {
         assert!(Path::new(&place).join(file).is_file(), "{file}");
     }
     fails(
-        &format!("report cart --hold s,x,y --out {}", place.display()),
+        &format!(
+            "report cart --guess x=9 --hold s,x,y --out {}",
+            place.display()
+        ),
         1,
         "`--guess NAME=VALUE` gives one, of s, x, y",
     );
