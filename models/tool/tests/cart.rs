@@ -198,6 +198,7 @@ fn its_motion_is_shown() {
         // The last picture, asked for by the address, with the whole trace.
         let traces = shown
             .split("<polyline")
+            .skip(1)
             .find(|part| part.contains("#c25a00"));
         let trace = traces
             .expect("a trace")
