@@ -53,7 +53,8 @@ fn bodies_and_joints_have_a_picture() {
         .prepared()
         .drawing(0.0, &q, &[0.0; 12], &mut numbers);
     let crank = [1.0, 2.0, 1.0 + 0.5 * cos, 2.0 + 0.5 * sin];
-    let plate = [4.0, 5.0, 4.3, 5.0, 4.0, 5.3, 4.0, 5.0];
+    // From where the spring acts.
+    let plate = [4.0, 5.3, 4.0, 5.0, 4.3, 5.0, 4.0, 5.3];
     let spring = [4.0, 5.3, 6.0, 7.0];
     let expected = [
         &spring[..],
