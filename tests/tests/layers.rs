@@ -154,6 +154,7 @@ fn ukcore() {
             "explain",
             "model",
             "linearise",
+            "modes",
             "integrate",
             "events",
             "trajectory",

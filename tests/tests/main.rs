@@ -21,6 +21,7 @@ mod layers;
 mod linearise;
 mod machines;
 mod mechanisms;
+mod modes;
 mod orientations;
 mod paper_fish;
 mod paper_uchain;

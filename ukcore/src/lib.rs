@@ -10,7 +10,7 @@
 //! - [`Simulation`]: adaptive integration with projection, events, dense output and named CSV; `Ensemble` (feature `ensemble`): many
 //!   motions at once, in
 //!   lanes and on all cores.
-//! - [`Linearisation`]: exact derivatives of the accelerations. [`lanes`]: several mechanisms at once, in the lanes of wide numbers.
+//! - [`Linearisation`]: exact derivatives of the accelerations. [`modes`](modes()): how a mechanism vibrates. [`lanes`]: several mechanisms at once, in the lanes of wide numbers.
 //! - [`equations`]: the formulas as printed. [`spec`] and [`plan`]: what the compiler knows about a mechanism, and decided. [`model`]: what
 //!   a mechanism may
 //!   say of itself besides.
@@ -43,6 +43,7 @@ pub mod manifold;
 pub mod mechanism;
 mod metric;
 pub mod model;
+mod modes;
 mod noise;
 pub mod numbers;
 mod pinv;
@@ -63,6 +64,7 @@ pub use error::Error;
 pub use linearise::Linearisation;
 pub use manifold::Stabilisation;
 pub use mechanism::{Mechanism, Prepared};
+pub use modes::{Mode, modes};
 #[cfg(feature = "ensemble")]
 pub use simulate::Ensemble;
 pub use simulate::{Event, Failure, Method, Simulation, Trajectory};
