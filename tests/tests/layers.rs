@@ -155,6 +155,7 @@ fn ukcore() {
             "model",
             "linearise",
             "modes",
+            "equilibrium",
             "integrate",
             "events",
             "trajectory",

@@ -32,6 +32,7 @@ mod rattle;
 mod redundant;
 mod redundant_loop;
 mod registry;
+mod rest;
 mod rows_in_time;
 mod stability;
 mod starts;

@@ -54,13 +54,7 @@ pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>,
     let found = Linearisation::at(&mech, state)?;
     steady(&mech, &found, state)?;
     let n = mech.spec().n();
-    let mut mass = vec![0.0; n * n];
-    mech.mass_matrix(state.t, &state.q, &mut mass);
-    let unit = |j: usize| match mass[j * n + j] {
-        m if m > 0.0 => m.sqrt().recip(),
-        _ => 1.0,
-    };
-    let units = DVector::from_iterator(2 * n, (0..2 * n).map(|k| unit(k % n)));
+    let units = units(&mech, state);
     let tangent = tangent(&mech, state, &units);
     let mut flow = DMatrix::zeros(2 * n, 2 * n);
     for i in 0..n {
@@ -97,6 +91,37 @@ pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>,
         by_frequency.then(a.growth.total_cmp(&b.growth))
     });
     Ok(modes)
+}
+
+/// What the coordinates of `mech` are measured by: 1/√M_jj; 1 where there is no inertia.
+pub(crate) fn units(mech: &Prepared, state: &State) -> DVector<f64> {
+    let n = mech.spec().n();
+    let mut mass = vec![0.0; n * n];
+    mech.mass_matrix(state.t, &state.q, &mut mass);
+    DVector::from_fn(n, |j, _| match mass[j * n + j] {
+        m if m > 0.0 => m.sqrt().recip(),
+        _ => 1.0,
+    })
+}
+
+/// An orthonormal basis of what all `rows` are at right angles to, measured by `units`, in columns.
+pub(crate) fn null_space(mut rows: DMatrix<f64>, units: &DVector<f64>) -> DMatrix<f64> {
+    let n = rows.ncols();
+    for (k, mut column) in rows.column_iter_mut().enumerate() {
+        column *= units[k % units.len()];
+    }
+    for mut row in rows.row_iter_mut() {
+        let length = row.norm();
+        if length > 0.0 {
+            row /= length;
+        }
+    }
+    let decomposed = rows.transpose().col_piv_qr();
+    let diagonal = decomposed.r().diagonal();
+    let rank = diagonal.iter().filter(|x| x.abs() > INDEPENDENT).count();
+    let mut turned = DMatrix::identity(n, n);
+    decomposed.q_tr_mul(&mut turned);
+    turned.rows(rank, n - rank).transpose()
 }
 
 /// Whether no coordinate accelerates, to what the parts of its acceleration add up to.
@@ -145,25 +170,7 @@ fn tangent(mech: &Prepared, state: &State, units: &DVector<f64>) -> DMatrix<f64>
             rows[(h + row, j)] = rate.eps;
         }
     }
-    for (mut column, unit) in rows.column_iter_mut().zip(units.iter()) {
-        column *= *unit;
-    }
-    for mut row in rows.row_iter_mut() {
-        let length = row.norm();
-        if length > 0.0 {
-            row /= length;
-        }
-    }
-    let decomposed = rows.transpose().col_piv_qr();
-    let diagonal = decomposed.r();
-    let rank = diagonal
-        .diagonal()
-        .iter()
-        .filter(|x| x.abs() > INDEPENDENT)
-        .count();
-    let mut turned = DMatrix::identity(2 * n, 2 * n);
-    decomposed.q_tr_mul(&mut turned);
-    turned.rows(rank, 2 * n - rank).transpose()
+    null_space(rows, units)
 }
 
 /// The eigenvector of the eigenvalue `value`, of length 1, by inverse iteration.
