@@ -13,12 +13,13 @@ use crate::error::Error;
 use crate::linearise::Linearisation;
 use crate::mechanism::Prepared;
 use crate::scalar::Dual;
+use crate::solver::{Solver, SolverOptions};
 
 /// Rows of constraints, each of length 1, that keep less beside the others follow from them.
 const INDEPENDENT: f64 = 1e-9;
-/// An acceleration below this share of the parts that it is the sum of is rounding, or what is left of a rest position that was found by
-/// iteration.
-const REST: f64 = 1e-6;
+/// An acceleration below this share of the parts that the largest one is the sum of is rounding, or what is left of a rest position that was
+/// found by iteration.
+const REST: f64 = 1e-9;
 
 /// A mode: deviations that grow by exp((`growth` + i `frequency`) t) without changing their shape.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,9 +53,9 @@ impl Mode {
 pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>, Error> {
     let mech: Prepared = mechanism.into();
     let found = Linearisation::at(&mech, state)?;
-    steady(&mech, &found, state)?;
     let n = mech.spec().n();
     let units = units(&mech, state);
+    steady(&mech, &found, state, &units)?;
     let tangent = tangent(&mech, state, &units);
     let mut flow = DMatrix::zeros(2 * n, 2 * n);
     for i in 0..n {
@@ -124,16 +125,30 @@ pub(crate) fn null_space(mut rows: DMatrix<f64>, units: &DVector<f64>) -> DMatri
     turned.rows(rank, n - rank).transpose()
 }
 
-/// Whether no coordinate accelerates, to what the parts of its acceleration add up to.
-fn steady(mech: &Prepared, found: &Linearisation, state: &State) -> Result<(), Error> {
+/// Whether no coordinate accelerates, beside what accelerations here are made up of.
+fn steady(
+    mech: &Prepared,
+    found: &Linearisation,
+    state: &State,
+    units: &DVector<f64>,
+) -> Result<(), Error> {
     let n = mech.spec().n();
-    for (i, a) in found.acceleration.iter().enumerate() {
-        let parts = |columns: &[f64], by: &[f64]| -> f64 {
-            let products = by.iter().enumerate().map(|(j, x)| x * columns[j * n + i]);
-            products.map(f64::abs).sum()
-        };
-        let size = parts(&found.by_position, &state.q) + parts(&found.by_velocity, &state.v);
-        if a.abs() > REST * size {
+    let parts = |i: usize, columns: &[f64], by: &[f64]| -> f64 {
+        let products = by.iter().enumerate().map(|(j, x)| x * columns[j * n + i]);
+        products.map(f64::abs).sum()
+    };
+    let sizes = (0..n).map(|i| {
+        let by_position = parts(i, &found.by_position, &state.q);
+        (by_position + parts(i, &found.by_velocity, &state.v)) / units[i]
+    });
+    // Forces of constraints balance others.
+    let solved = Solver::new(mech, SolverOptions::default()).solve(state.t, &state.q, &state.v)?;
+    let ideal = solved.ideal_force.iter().zip(units.iter());
+    let ideal = ideal.map(|(force, unit)| (force * unit).abs());
+    let size = sizes.chain(ideal).fold(0.0, f64::max);
+    let accelerations = found.acceleration.iter().zip(units.iter());
+    for (i, (a, unit)) in accelerations.enumerate() {
+        if (a / unit).abs() > REST * size {
             let name = mech.spec().coords[i];
             return Err(Error::InvalidSetting {
                 what: "state",
