@@ -3,14 +3,13 @@
 use super::cost::{Costs, cost, costs};
 use super::dynamics::Dynamics;
 use super::elimination::{Further, Solve, Straight, Task, eliminate, orders};
-use super::functions::{Function, functions};
+use super::functions::{Function, acceleration, functions};
 use super::hoist::{Hoisted, hoist};
 use super::hub::{Divided, divided};
 use super::redundant::redundant;
 use super::regular::Regular;
 use super::switches::Switch;
-use crate::expr::{Graph, Id, System};
-use std::collections::HashMap;
+use crate::expr::{Graph, Id, Map, System};
 
 /// The equations as they are emitted.
 pub(super) struct Chosen {
@@ -38,7 +37,7 @@ struct Variant {
 /// What each way to solve begins with, or ends with.
 struct Nodes {
     graph: Graph,
-    hints: HashMap<Id, String>,
+    hints: Map<Id, String>,
 }
 
 impl Nodes {
@@ -71,8 +70,13 @@ pub(super) fn choose(
     names: &[String],
 ) -> Chosen {
     let own = (held.force.len(), held.rhs.len());
+    let refused = |refusal: String, system: &mut System| {
+        let straight = Err(refusal);
+        let hoisted = hoist(system, held, &straight, switches);
+        emitted(system, straight, hoisted, names)
+    };
     if let Some(refusal) = regular.refusal(names) {
-        return emitted(system, held, Err(refusal), switches, names);
+        return refused(refusal, system);
     }
     let variants = variants(system, held, regular, names);
     let redundant = redundant(&regular.dynamics, &system.defaults, &system.graph);
@@ -101,7 +105,7 @@ pub(super) fn choose(
     let least = ways.iter().map(|(guess, ..)| *guess).min().unwrap_or(0);
     ways.retain(|(guess, ..)| 4 * guess <= 5 * least);
     let base = (ways.len() > 1).then(|| Nodes::copy(system));
-    let mut best: Option<(Chosen, Nodes)> = None;
+    let mut best: Option<(usize, Result<Straight, String>, Hoisted, usize, Nodes)> = None;
     for (_, at, order) in ways {
         if let Some(base) = &base {
             let Nodes { graph, hints } = base;
@@ -114,7 +118,17 @@ pub(super) fn choose(
                 continue;
             }
         };
-        let mut chosen = emitted(system, held, Ok(straight), switches, names);
+        let straight = Ok(straight);
+        let hoisted = hoist(system, held, &straight, switches);
+        let work = base.as_ref().and_then(|_| acceleration(system, &hoisted));
+        let work = work.map_or(0, |function| function.operations.work());
+        if best.as_ref().is_none_or(|(least, ..)| work < *least) {
+            best = Some((work, straight, hoisted, at, Nodes::taken(system)));
+        }
+    }
+    if let Some((_, straight, hoisted, at, nodes)) = best {
+        nodes.give(system);
+        let mut chosen = emitted(system, straight, hoisted, names);
         if let Ok(solve) = &mut chosen.solve {
             let variant = &variants[at];
             solve.regular.clone_from(&regular.rows);
@@ -124,21 +138,12 @@ pub(super) fn choose(
                 solve.velocities = variant.names[further].to_vec();
             }
         }
-        let work = |chosen: &Chosen| chosen.costs.acceleration.work();
-        let better = |(known, _): &(Chosen, Nodes)| work(&chosen) < work(known);
-        if best.as_ref().is_none_or(better) {
-            best = Some((chosen, Nodes::taken(system)));
-        }
-    }
-    if let Some((chosen, nodes)) = best {
-        nodes.give(system);
         return chosen;
     }
     if let Some(base) = base {
         base.give(system);
     }
-    let refusal = refusal.unwrap_or_default();
-    emitted(system, held, Err(refusal), switches, names)
+    refused(refusal.unwrap_or_default(), system)
 }
 
 /// Operations of the entries of a system before its elimination.
@@ -195,15 +200,13 @@ fn variants(
 
 /// What is emitted with the given solve.
 fn emitted(
-    system: &mut System,
-    held: &Dynamics,
+    system: &System,
     straight: Result<Straight, String>,
-    switches: &[Switch],
+    hoisted: Hoisted,
     names: &[String],
 ) -> Chosen {
     let solve = straight.as_ref().map(Straight::told);
     let solve = solve.map_err(String::clone);
-    let hoisted = hoist(system, held, &straight, switches);
     let functions = functions(system, &hoisted);
     let costs = costs(
         &functions,
