@@ -3,6 +3,7 @@
 use super::cost::{Costs, cost, costs};
 use super::dynamics::Dynamics;
 use super::elimination::{Further, Solve, Straight, Task, eliminate, orders};
+use super::frame::{Frame, turned};
 use super::functions::{Function, acceleration, functions};
 use super::hoist::{Hoisted, hoist};
 use super::hub::{Divided, divided};
@@ -32,6 +33,17 @@ struct Variant {
     further: Further,
     /// The hubs whose copies it has.
     copies: Vec<usize>,
+    frames: Vec<Frame>,
+}
+
+impl Variant {
+    /// What was added to M: nothing where coordinates are turned.
+    fn weights<'a>(&self, regular: &'a Regular) -> &'a [(usize, usize, Id)] {
+        match self.frames.is_empty() {
+            true => &regular.weights,
+            false => &[],
+        }
+    }
 }
 
 /// What each way to solve begins with, or ends with.
@@ -84,11 +96,12 @@ pub(super) fn choose(
     let mut refusal = None;
     let tasks = variants.iter().map(|variant| Task {
         dynamics: &variant.dynamics,
-        weights: &regular.weights,
+        weights: variant.weights(regular),
         names: &variant.names,
         own,
         further: variant.further,
         redundant: &redundant,
+        frames: &variant.frames,
     });
     let tasks: Vec<Task<'_>> = tasks.collect();
     let mut ways = Vec::new();
@@ -131,7 +144,9 @@ pub(super) fn choose(
         let mut chosen = emitted(system, straight, hoisted, names);
         if let Ok(solve) = &mut chosen.solve {
             let variant = &variants[at];
-            solve.regular.clone_from(&regular.rows);
+            if variant.frames.is_empty() {
+                solve.regular.clone_from(&regular.rows);
+            }
             solve.copies.clone_from(&variant.copies);
             if variant.further == Further::Velocities {
                 let further = own.0..variant.dynamics.force.len();
@@ -166,11 +181,16 @@ fn variants(
         names: names.to_vec(),
         further: Further::Nothing,
         copies: Vec::new(),
+        frames: Vec::new(),
     }];
     let (coordinates, constraints) = names.split_at(held.force.len());
     let with = |more: &[String]| [coordinates, more, constraints, more].concat();
     if let Some(lift) = &held.lift {
-        let dynamics = lift.extended(&regular.dynamics, &regular.added, &regular.pulled, g);
+        let turned = turned(held, lift, &regular.rows, &system.defaults, g);
+        let (dynamics, frames) = turned.unwrap_or_else(|| {
+            let (mass, force) = (&regular.added, &regular.pulled);
+            (lift.extended(&regular.dynamics, mass, force, g), Vec::new())
+        });
         let velocities = lift.velocities().enumerate();
         let velocities = velocities.map(|(k, id)| match system.hints.get(&id) {
             Some(name) => name.clone(),
@@ -182,6 +202,7 @@ fn variants(
             names: with(&velocities),
             further: Further::Velocities,
             copies: Vec::new(),
+            frames,
         });
     }
     if let Some(Divided { dynamics, copies }) = divided(&regular.dynamics, g) {
@@ -193,6 +214,7 @@ fn variants(
             names: with(&more),
             further: Further::Copies,
             copies,
+            frames: Vec::new(),
         });
     }
     variants
