@@ -162,6 +162,7 @@ const _: () = {
                     regular: &[],
                     met: &[],
                     velocities: &[],
+                    turned: &[],
                     copies: &[],
                     redundant: &[],
                 },

@@ -144,7 +144,8 @@ pub(super) fn choose(
         let mut chosen = emitted(system, straight, hoisted, names);
         if let Ok(solve) = &mut chosen.solve {
             let variant = &variants[at];
-            if variant.frames.is_empty() {
+            solve.turned = variant.frames.iter().map(Frame::row).collect();
+            if solve.turned.is_empty() {
                 solve.regular.clone_from(&regular.rows);
             }
             solve.copies.clone_from(&variant.copies);

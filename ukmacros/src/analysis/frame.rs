@@ -35,6 +35,11 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
+    /// The constraint.
+    pub(super) fn row(&self) -> usize {
+        self.row
+    }
+
     /// Rᵀ u.
     fn across(&self, u: &[Id], g: &mut Graph) -> Vec<Id> {
         let columns = self.columns.iter();
