@@ -2,7 +2,7 @@
 
 use super::cost::{Costs, cost, costs};
 use super::dynamics::Dynamics;
-use super::elimination::{Further, Solve, Straight, Task, eliminate, orders};
+use super::elimination::{Further, Order, Solve, Straight, Task, eliminate, orders};
 use super::frame::{Frame, turned};
 use super::functions::{Function, acceleration, functions};
 use super::hoist::{Hoisted, hoist};
@@ -72,6 +72,17 @@ impl Nodes {
     }
 }
 
+/// A way that was gone to its end.
+struct Tried {
+    /// What its accelerations cost; nothing where there is no other way.
+    work: usize,
+    straight: Result<Straight, String>,
+    hoisted: Hoisted,
+    /// Its system among the variants.
+    at: usize,
+    nodes: Nodes,
+}
+
 /// Takes the way whose accelerations cost least; `held` are the equations, with `regular` made of them, `names` those of coordinates and
 /// constraints.
 pub(super) fn choose(
@@ -104,22 +115,10 @@ pub(super) fn choose(
         frames: &variant.frames,
     });
     let tasks: Vec<Task<'_>> = tasks.collect();
-    let mut ways = Vec::new();
-    for (at, task) in tasks.iter().enumerate() {
-        let given = given(task.dynamics, &system.graph);
-        match orders(task, &system.defaults, &system.graph) {
-            Ok(orders) => ways.extend(orders.into_iter().map(|order| {
-                let guess = given + PER_ENTRY * order.changes;
-                (guess, at, order)
-            })),
-            Err(text) => drop(refusal.get_or_insert(text)),
-        }
-    }
-    let least = ways.iter().map(|(guess, ..)| *guess).min().unwrap_or(0);
-    ways.retain(|(guess, ..)| 4 * guess <= 5 * least);
+    let ways = ways(&tasks, system, &mut refusal);
     let base = (ways.len() > 1).then(|| Nodes::copy(system));
-    let mut best: Option<(usize, Result<Straight, String>, Hoisted, usize, Nodes)> = None;
-    for (_, at, order) in ways {
+    let mut best: Option<Tried> = None;
+    for (at, order) in ways {
         if let Some(base) = &base {
             let Nodes { graph, hints } = base;
             (system.graph, system.inner_hints) = (graph.clone(), hints.clone());
@@ -135,15 +134,21 @@ pub(super) fn choose(
         let hoisted = hoist(system, held, &straight, switches);
         let work = base.as_ref().and_then(|_| acceleration(system, &hoisted));
         let work = work.map_or(0, |function| function.operations.work());
-        if best.as_ref().is_none_or(|(least, ..)| work < *least) {
-            best = Some((work, straight, hoisted, at, Nodes::taken(system)));
+        if best.as_ref().is_none_or(|best| work < best.work) {
+            best = Some(Tried {
+                work,
+                straight,
+                hoisted,
+                at,
+                nodes: Nodes::taken(system),
+            });
         }
     }
-    if let Some((_, straight, hoisted, at, nodes)) = best {
-        nodes.give(system);
-        let mut chosen = emitted(system, straight, hoisted, names);
+    if let Some(best) = best {
+        best.nodes.give(system);
+        let mut chosen = emitted(system, best.straight, best.hoisted, names);
         if let Ok(solve) = &mut chosen.solve {
-            let variant = &variants[at];
+            let variant = &variants[best.at];
             solve.turned = variant.frames.iter().map(Frame::row).collect();
             if solve.turned.is_empty() {
                 solve.regular.clone_from(&regular.rows);
@@ -160,6 +165,24 @@ pub(super) fn choose(
         base.give(system);
     }
     refused(refusal.unwrap_or_default(), system)
+}
+
+/// The orders that are worth a try, each with the place of its system among the `tasks`; the first reason against one goes into `refusal`.
+fn ways(tasks: &[Task<'_>], system: &System, refusal: &mut Option<String>) -> Vec<(usize, Order)> {
+    let mut ways = Vec::new();
+    for (at, task) in tasks.iter().enumerate() {
+        let given = given(task.dynamics, &system.graph);
+        match orders(task, &system.defaults, &system.graph) {
+            Ok(orders) => ways.extend(orders.into_iter().map(|order| {
+                let guess = given + PER_ENTRY * order.changes;
+                (guess, at, order)
+            })),
+            Err(text) => drop(refusal.get_or_insert(text)),
+        }
+    }
+    let least = ways.iter().map(|(guess, ..)| *guess).min().unwrap_or(0);
+    ways.retain(|(guess, ..)| 4 * guess <= 5 * least);
+    ways.into_iter().map(|(_, at, order)| (at, order)).collect()
 }
 
 /// Operations of the entries of a system before its elimination.
