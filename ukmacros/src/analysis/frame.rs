@@ -15,10 +15,10 @@
 use super::dynamics::Dynamics;
 use super::lift::Lift;
 use super::probe::{Probe, Random};
-use crate::expr::{Graph, Id, eval};
+use crate::expr::{Graph, Id, Node, Symbol, eval};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// States at which right angles are looked for; polynomials that vanish at these vanish.
+/// Random states at which right angles are looked for: a polynomial that vanishes there is zero.
 const STATES: usize = 3;
 /// The cosine of a right angle, in rounding.
 const RIGHT: f64 = 1e-13;
@@ -156,14 +156,16 @@ fn frames(d: &Dynamics, lift: &Lift, defaults: &[f64], g: &mut Graph) -> Vec<Fra
     found
 }
 
-/// Whether no two of `vectors`, which are to depend on `n` coordinates alone, are ever at another angle.
+/// Whether `vectors` are polynomials in the `n` coordinates, no two of them ever at another angle.
 fn at_right_angles(vectors: &[Vec<Id>], n: usize, defaults: &[f64], g: &Graph) -> bool {
     let all = vectors.concat();
-    let foreign = |id: &Id| {
-        let uses = g.uses(*id);
-        uses.param || uses.velocity || uses.time || uses.branch
+    let foreign = |id: &Id| match g.node(*id) {
+        Node::Symbol(symbol) => !matches!(symbol, Symbol::Coord(_)),
+        Node::Product(factors) => factors.iter().any(|(_, e)| *e < 0),
+        Node::Call(..) | Node::Select(_) => true,
+        _ => false,
     };
-    if all.iter().any(foreign) {
+    if g.reachable(&all).iter().any(foreign) {
         return false;
     }
     let mut random = Random::new(21);
