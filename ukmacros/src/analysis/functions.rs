@@ -18,6 +18,7 @@ pub(crate) enum Role {
     ResidualRate,
     Energy,
     Outputs,
+    Drawing,
     Switching,
     Acceleration,
     Correction,
@@ -35,6 +36,7 @@ pub(crate) enum Slice {
     Phi,
     Rate,
     Outputs,
+    Drawing,
     Switching,
     /// The solution of a straight-line solve.
     Out,
@@ -88,6 +90,9 @@ pub(crate) fn functions(system: &System, hoisted: &Hoisted) -> Vec<Function> {
         ),
         all(Role::Outputs, Slice::Outputs, &hoisted.outputs),
     ];
+    if !hoisted.drawing.is_empty() {
+        functions.push(all(Role::Drawing, Slice::Drawing, &hoisted.drawing));
+    }
     if !hoisted.switches.is_empty() {
         functions.push(all(Role::Switching, Slice::Switching, &hoisted.switches));
     }
