@@ -261,6 +261,20 @@ pub mod emitted {
         }
     }
 
+    /// A place that the optimiser does not see across. What it does with the statements between two of them takes time that grows faster than
+    /// their number, so long functions have some. It costs a load, and a branch that is never taken.
+    #[inline(always)]
+    pub fn border() {
+        if std::hint::black_box(false) {
+            beyond_border();
+        }
+    }
+
+    #[cold]
+    fn beyond_border() -> ! {
+        unreachable!("`false` is false")
+    }
+
     /// A parameter's position that is none.
     #[cold]
     #[track_caller]

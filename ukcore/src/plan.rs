@@ -187,6 +187,14 @@ impl Plan {
             );
             paragraph(f, &text)?;
         }
+        if !solve.turned.is_empty() {
+            let names: Vec<&str> = solve.turned.iter().map(|c| row(*c)).collect();
+            let text = format!(
+                "The coordinates of {} stand for rates of these velocities: a of the constraint and c of the velocities y = c·q̇ are at right angles,                  so that their q̈ are Σ c ẏ/|c|² + a b/|a|².",
+                shortened(&names)
+            );
+            paragraph(f, &text)?;
+        }
         let mut hubs = solve.copies;
         while let Some(hub) = hubs.first() {
             let of = hubs.iter().take_while(|i| *i == hub).count();

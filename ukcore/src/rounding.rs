@@ -128,6 +128,15 @@ impl Scalar for Rounded {
     fn select_le(a: Self, b: Self, then: Self, otherwise: Self) -> Self {
         if a.value <= b.value { then } else { otherwise }
     }
+    // Apart, as all of these: one call is compiled for each operation of a mechanism, and nothing else.
+    #[inline(never)]
+    fn mul_add(self, b: Self, c: Self) -> Self {
+        self * b + c
+    }
+    #[inline(never)]
+    fn neg_mul_add(self, b: Self, c: Self) -> Self {
+        c - self * b
+    }
     fn sin_cos(self) -> (Self, Self) {
         (self.unary(Scalar::sin), self.unary(Scalar::cos))
     }

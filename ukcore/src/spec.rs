@@ -235,6 +235,9 @@ pub struct Solve {
     /// Names of the velocities, linear in q̇, that the kinetic energy is written in, where M is not expanded: the solve has them as unknowns, and
     /// eliminates each with its definition.
     pub velocities: &'static [&'static str],
+    /// Constraints, |e|² = 1 of a quaternion among them, whose coordinates are given by the constraint and by these velocities, all at right
+    /// angles to each other: the solve has their rates in the place of the coordinates'.
+    pub turned: &'static [usize],
     /// Coordinates that many otherwise separate parts share, each once for every part but one: the solve has a copy of the coordinate for each
     /// of these, tied to the one before, with its share of the inertia.
     pub copies: &'static [usize],
@@ -354,6 +357,7 @@ impl Solve {
             regular: &[],
             met: &[],
             velocities: &[],
+            turned: &[],
             copies: &[],
             redundant: &[],
         }

@@ -179,6 +179,7 @@ const _: () = {
                     regular: &[],
                     met: &[],
                     velocities: &[],
+                    turned: &[],
                     copies: &[],
                     redundant: &[],
                 },

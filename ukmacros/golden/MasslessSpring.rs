@@ -156,6 +156,7 @@ const _: () = {
                     regular: &[],
                     met: &[],
                     velocities: &[],
+                    turned: &[],
                     copies: &[],
                     redundant: &[],
                 },

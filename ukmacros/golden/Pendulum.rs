@@ -163,6 +163,7 @@ const _: () = {
                     regular: &[],
                     met: &[],
                     velocities: &[],
+                    turned: &[],
                     copies: &[],
                     redundant: &[],
                 },

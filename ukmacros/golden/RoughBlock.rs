@@ -207,6 +207,7 @@ const _: () = {
                     regular: &[],
                     met: &[],
                     velocities: &[],
+                    turned: &[],
                     copies: &[],
                     redundant: &[],
                 },

@@ -2,15 +2,15 @@
 
 use super::cost::{Costs, cost, costs};
 use super::dynamics::Dynamics;
-use super::elimination::{Further, Solve, Straight, Task, eliminate, orders};
-use super::functions::{Function, functions};
+use super::elimination::{Further, Order, Solve, Straight, Task, eliminate, orders};
+use super::frame::{Frame, turned};
+use super::functions::{Function, acceleration, functions};
 use super::hoist::{Hoisted, hoist};
 use super::hub::{Divided, divided};
 use super::redundant::redundant;
 use super::regular::Regular;
 use super::switches::Switch;
-use crate::expr::{Graph, Id, System};
-use std::collections::HashMap;
+use crate::expr::{Graph, Id, Map, System};
 
 /// The equations as they are emitted.
 pub(super) struct Chosen {
@@ -33,12 +33,23 @@ struct Variant {
     further: Further,
     /// The hubs whose copies it has.
     copies: Vec<usize>,
+    frames: Vec<Frame>,
+}
+
+impl Variant {
+    /// What was added to M: nothing where coordinates are turned.
+    fn weights<'a>(&self, regular: &'a Regular) -> &'a [(usize, usize, Id)] {
+        match self.frames.is_empty() {
+            true => &regular.weights,
+            false => &[],
+        }
+    }
 }
 
 /// What each way to solve begins with, or ends with.
 struct Nodes {
     graph: Graph,
-    hints: HashMap<Id, String>,
+    hints: Map<Id, String>,
 }
 
 impl Nodes {
@@ -61,6 +72,17 @@ impl Nodes {
     }
 }
 
+/// A way that was gone to its end.
+struct Tried {
+    /// What its accelerations cost; nothing where there is no other way.
+    work: usize,
+    straight: Result<Straight, String>,
+    hoisted: Hoisted,
+    /// Its system among the variants.
+    at: usize,
+    nodes: Nodes,
+}
+
 /// Takes the way whose accelerations cost least; `held` are the equations, with `regular` made of them, `names` those of coordinates and
 /// constraints.
 pub(super) fn choose(
@@ -71,8 +93,13 @@ pub(super) fn choose(
     names: &[String],
 ) -> Chosen {
     let own = (held.force.len(), held.rhs.len());
+    let refused = |refusal: String, system: &mut System| {
+        let straight = Err(refusal);
+        let hoisted = hoist(system, held, &straight, switches);
+        emitted(system, straight, hoisted, names)
+    };
     if let Some(refusal) = regular.refusal(names) {
-        return emitted(system, held, Err(refusal), switches, names);
+        return refused(refusal, system);
     }
     let variants = variants(system, held, regular, names);
     let redundant = redundant(&regular.dynamics, &system.defaults, &system.graph);
@@ -80,13 +107,68 @@ pub(super) fn choose(
     let mut refusal = None;
     let tasks = variants.iter().map(|variant| Task {
         dynamics: &variant.dynamics,
-        weights: &regular.weights,
+        weights: variant.weights(regular),
         names: &variant.names,
         own,
         further: variant.further,
         redundant: &redundant,
+        frames: &variant.frames,
     });
     let tasks: Vec<Task<'_>> = tasks.collect();
+    let ways = ways(&tasks, system, &mut refusal);
+    let base = (ways.len() > 1).then(|| Nodes::copy(system));
+    let mut best: Option<Tried> = None;
+    for (at, order) in ways {
+        if let Some(base) = &base {
+            let Nodes { graph, hints } = base;
+            (system.graph, system.inner_hints) = (graph.clone(), hints.clone());
+        }
+        let straight = match eliminate(&tasks[at], order, &mut system.graph) {
+            Ok(elimination) => Straight::new(elimination, held, &regular.met, system),
+            Err(text) => {
+                refusal.get_or_insert(text);
+                continue;
+            }
+        };
+        let straight = Ok(straight);
+        let hoisted = hoist(system, held, &straight, switches);
+        let work = base.as_ref().and_then(|_| acceleration(system, &hoisted));
+        let work = work.map_or(0, |function| function.operations.work());
+        if best.as_ref().is_none_or(|best| work < best.work) {
+            best = Some(Tried {
+                work,
+                straight,
+                hoisted,
+                at,
+                nodes: Nodes::taken(system),
+            });
+        }
+    }
+    if let Some(best) = best {
+        best.nodes.give(system);
+        let mut chosen = emitted(system, best.straight, best.hoisted, names);
+        if let Ok(solve) = &mut chosen.solve {
+            let variant = &variants[best.at];
+            solve.turned = variant.frames.iter().map(Frame::row).collect();
+            if solve.turned.is_empty() {
+                solve.regular.clone_from(&regular.rows);
+            }
+            solve.copies.clone_from(&variant.copies);
+            if variant.further == Further::Velocities {
+                let further = own.0..variant.dynamics.force.len();
+                solve.velocities = variant.names[further].to_vec();
+            }
+        }
+        return chosen;
+    }
+    if let Some(base) = base {
+        base.give(system);
+    }
+    refused(refusal.unwrap_or_default(), system)
+}
+
+/// The orders that are worth a try, each with the place of its system among the `tasks`; the first reason against one goes into `refusal`.
+fn ways(tasks: &[Task<'_>], system: &System, refusal: &mut Option<String>) -> Vec<(usize, Order)> {
     let mut ways = Vec::new();
     for (at, task) in tasks.iter().enumerate() {
         let given = given(task.dynamics, &system.graph);
@@ -100,45 +182,7 @@ pub(super) fn choose(
     }
     let least = ways.iter().map(|(guess, ..)| *guess).min().unwrap_or(0);
     ways.retain(|(guess, ..)| 4 * guess <= 5 * least);
-    let base = (ways.len() > 1).then(|| Nodes::copy(system));
-    let mut best: Option<(Chosen, Nodes)> = None;
-    for (_, at, order) in ways {
-        if let Some(base) = &base {
-            let Nodes { graph, hints } = base;
-            (system.graph, system.inner_hints) = (graph.clone(), hints.clone());
-        }
-        let straight = match eliminate(&tasks[at], order, &mut system.graph) {
-            Ok(elimination) => Straight::new(elimination, held, &regular.met, system),
-            Err(text) => {
-                refusal.get_or_insert(text);
-                continue;
-            }
-        };
-        let mut chosen = emitted(system, held, Ok(straight), switches, names);
-        if let Ok(solve) = &mut chosen.solve {
-            let variant = &variants[at];
-            solve.regular.clone_from(&regular.rows);
-            solve.copies.clone_from(&variant.copies);
-            if variant.further == Further::Velocities {
-                let further = own.0..variant.dynamics.force.len();
-                solve.velocities = variant.names[further].to_vec();
-            }
-        }
-        let work = |chosen: &Chosen| chosen.costs.acceleration.work();
-        let better = |(known, _): &(Chosen, Nodes)| work(&chosen) < work(known);
-        if best.as_ref().is_none_or(better) {
-            best = Some((chosen, Nodes::taken(system)));
-        }
-    }
-    if let Some((chosen, nodes)) = best {
-        nodes.give(system);
-        return chosen;
-    }
-    if let Some(base) = base {
-        base.give(system);
-    }
-    let refusal = refusal.unwrap_or_default();
-    emitted(system, held, Err(refusal), switches, names)
+    ways.into_iter().map(|(_, at, order)| (at, order)).collect()
 }
 
 /// Operations of the entries of a system before its elimination.
@@ -161,11 +205,16 @@ fn variants(
         names: names.to_vec(),
         further: Further::Nothing,
         copies: Vec::new(),
+        frames: Vec::new(),
     }];
     let (coordinates, constraints) = names.split_at(held.force.len());
     let with = |more: &[String]| [coordinates, more, constraints, more].concat();
     if let Some(lift) = &held.lift {
-        let dynamics = lift.extended(&regular.dynamics, &regular.added, &regular.pulled, g);
+        let turned = turned(held, lift, &regular.rows, &system.defaults, g);
+        let (dynamics, frames) = turned.unwrap_or_else(|| {
+            let (mass, force) = (&regular.added, &regular.pulled);
+            (lift.extended(&regular.dynamics, mass, force, g), Vec::new())
+        });
         let velocities = lift.velocities().enumerate();
         let velocities = velocities.map(|(k, id)| match system.hints.get(&id) {
             Some(name) => name.clone(),
@@ -177,6 +226,7 @@ fn variants(
             names: with(&velocities),
             further: Further::Velocities,
             copies: Vec::new(),
+            frames,
         });
     }
     if let Some(Divided { dynamics, copies }) = divided(&regular.dynamics, g) {
@@ -188,6 +238,7 @@ fn variants(
             names: with(&more),
             further: Further::Copies,
             copies,
+            frames: Vec::new(),
         });
     }
     variants
@@ -195,15 +246,13 @@ fn variants(
 
 /// What is emitted with the given solve.
 fn emitted(
-    system: &mut System,
-    held: &Dynamics,
+    system: &System,
     straight: Result<Straight, String>,
-    switches: &[Switch],
+    hoisted: Hoisted,
     names: &[String],
 ) -> Chosen {
     let solve = straight.as_ref().map(Straight::told);
     let solve = solve.map_err(String::clone);
-    let hoisted = hoist(system, held, &straight, switches);
     let functions = functions(system, &hoisted);
     let costs = costs(
         &functions,

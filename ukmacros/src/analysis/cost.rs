@@ -3,8 +3,7 @@
 use super::elimination::Straight;
 use super::functions::{Function, Role};
 use super::schedule::{Sequence, schedule};
-use crate::expr::{Cost, Func, Graph, Id, Node};
-use std::collections::{HashMap, HashSet};
+use crate::expr::{Cost, Func, Graph, Id, Map, Node, Set};
 
 /// Operations of straight-line code; each node is computed once.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -88,8 +87,8 @@ pub(crate) fn costs(
     }
 }
 
-/// Counts the operations of the nodes `needed`, where each of `reciprocals` is taken once.
-pub(crate) fn count(g: &Graph, needed: &HashSet<Id>, reciprocals: &HashSet<Id>) -> Operations {
+/// Counts the operations of the nodes `needed`, in ascending order, where each of `reciprocals` is taken once.
+pub(crate) fn count(g: &Graph, needed: &[Id], reciprocals: &Set<Id>) -> Operations {
     let mut n = Operations {
         divisions: reciprocals.len(),
         ..Operations::default()
@@ -115,7 +114,7 @@ pub(crate) fn count(g: &Graph, needed: &HashSet<Id>, reciprocals: &HashSet<Id>) 
             // A cosine is counted with its sine.
             Node::Call(Func::Cos, args)
                 if g.find_call(Func::Sin, args[0])
-                    .is_some_and(|s| needed.contains(&s)) => {}
+                    .is_some_and(|s| needed.binary_search(&s).is_ok()) => {}
             Node::Call(func, _) => match func.row().cost {
                 Cost::Selection => n.selections += 1,
                 Cost::SquareRoot => n.square_roots += 1,
@@ -129,7 +128,7 @@ pub(crate) fn count(g: &Graph, needed: &HashSet<Id>, reciprocals: &HashSet<Id>) 
 
 /// Operations of computing `values`.
 pub(super) fn cost(g: &Graph, values: &[Id]) -> Operations {
-    let program = schedule(g, values, &HashMap::new(), Sequence::Roots);
+    let program = schedule(g, values, &Map::default(), Sequence::Roots);
     count(g, &program.needed, &program.reciprocals)
 }
 

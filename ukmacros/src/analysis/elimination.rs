@@ -27,6 +27,7 @@ mod solution;
 pub(crate) use certificate::{SAFE_SHARE, Solve, Straight};
 
 use super::dynamics::Dynamics;
+use super::frame::Frame;
 use crate::expr::{Graph, Id, Symbol, is_power_of_two};
 use dropping::{Dropping, droppings};
 use matrix::{Factor, Matrix};
@@ -145,6 +146,8 @@ pub(crate) struct Task<'a> {
     pub(crate) further: Further,
     /// The constraints that may follow from others.
     pub(crate) redundant: &'a BTreeSet<usize>,
+    /// The coordinates that others stand for.
+    pub(crate) frames: &'a [Frame],
 }
 
 /// What a system has beyond the coordinates and constraints of the mechanism.
@@ -244,6 +247,11 @@ pub(crate) fn eliminate(
     let mut motion = motion.solution(&factors, names, g, &mut hints)?;
     let droppings = droppings(&factors, &motion, d, [&force, &rhs], g);
     motion.coordinates.truncate(own.0);
+    let turn_back = |solution: &mut [Id], g: &mut Graph| {
+        let frames = task.frames.iter();
+        frames.for_each(|frame| frame.turn_back(solution, g));
+    };
+    turn_back(&mut motion.coordinates, g);
     let residuals = (0..own.1).map(|i| g.symbol(Symbol::Residual(i)));
     let mut residuals: Vec<Id> = residuals.collect();
     residuals.resize(d.rhs.len(), g.zero());
@@ -258,6 +266,7 @@ pub(crate) fn eliminate(
     factors.iter().for_each(|factor| projection.step(factor, g));
     let mut projection = projection.solution(&factors, names, g, &mut hints)?;
     projection.coordinates.truncate(own.0);
+    turn_back(&mut projection.coordinates, g);
     let rights = motion.rights.into_iter().map(Some);
     let divisors = divisors.into_iter().zip(rights);
     let fixed = fixed.into_iter().map(|divisor| (divisor, None));

@@ -5,8 +5,7 @@ use super::dynamics::Dynamics;
 use super::elimination::Straight;
 use super::hoist::Hoisted;
 use super::schedule::{Program, Sequence, schedule};
-use crate::expr::{Id, System};
-use std::collections::HashMap;
+use crate::expr::{Id, Map, System};
 
 /// A function of `ukcore::Mechanism`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -97,29 +96,21 @@ pub(crate) fn functions(system: &System, hoisted: &Hoisted) -> Vec<Function> {
     if !hoisted.switches.is_empty() {
         functions.push(all(Role::Switching, Slice::Switching, &hoisted.switches));
     }
+    functions.extend(acceleration(system, hoisted));
     if let Ok(straight) = &hoisted.straight {
-        let Straight {
-            met_too,
-            certificate,
-            elimination,
-            ..
-        } = straight;
-        functions.extend([
-            builder.solve(
-                Role::Acceleration,
-                straight,
-                &elimination.acceleration,
-                *met_too,
-            ),
-            builder.solve(
-                Role::Correction,
-                straight,
-                &elimination.correction,
-                *certificate,
-            ),
-        ]);
+        let (values, safe) = (&straight.elimination.correction, straight.certificate);
+        functions.push(builder.solve(Role::Correction, straight, values, safe));
     }
     functions
+}
+
+/// The straight-line solve for q̈, if there is one.
+pub(crate) fn acceleration(system: &System, hoisted: &Hoisted) -> Option<Function> {
+    let straight = hoisted.straight.as_ref().ok()?;
+    let hints = system.all_hints();
+    let builder = Builder { system, hints };
+    let (values, safe) = (&straight.elimination.acceleration, straight.met_too);
+    Some(builder.solve(Role::Acceleration, straight, values, safe))
 }
 
 /// The values `roots`, which depend on parameters only, as a function like that which prepares others.
@@ -134,7 +125,7 @@ pub(crate) fn of_parameters(system: &System, roots: &[Id]) -> Function {
 
 struct Builder<'a> {
     system: &'a System,
-    hints: HashMap<Id, String>,
+    hints: Map<Id, String>,
 }
 
 impl Builder<'_> {

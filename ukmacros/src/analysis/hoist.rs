@@ -8,8 +8,7 @@ use super::dynamics::Dynamics;
 use super::elimination::Straight;
 use super::probe::{Probe, Random, Shake};
 use super::switches::Switch;
-use crate::expr::{Graph, Id, Node, Symbol, System, eval, eval_shaken};
-use std::collections::HashMap;
+use crate::expr::{Graph, Id, Map, Node, Symbol, System, eval, eval_shaken};
 
 /// States at which both forms of the equations are compared.
 const STATES: usize = 2;
@@ -79,27 +78,27 @@ pub(crate) fn hoist(
 struct Pass<'g> {
     g: &'g mut Graph,
     /// New node of each old one that varies.
-    known: HashMap<Id, Id>,
+    known: Map<Id, Id>,
     /// How many nodes read each old one.
-    readers: HashMap<Id, usize>,
+    readers: Map<Id, usize>,
     values: Vec<Id>,
-    places: HashMap<Id, usize>,
+    places: Map<Id, usize>,
 }
 
 impl<'g> Pass<'g> {
     fn new(g: &'g mut Graph, roots: &[Id]) -> Self {
         let order = g.reachable(roots);
-        let mut readers: HashMap<Id, usize> = HashMap::new();
+        let mut readers: Map<Id, usize> = Map::default();
         let read = order.iter().flat_map(|id| g.operands(*id));
         for id in read.chain(roots.iter().copied()) {
             *readers.entry(id).or_insert(0) += 1;
         }
         let mut pass = Pass {
             g,
-            known: HashMap::new(),
+            known: Map::default(),
             readers,
             values: Vec::new(),
-            places: HashMap::new(),
+            places: Map::default(),
         };
         for id in order {
             if !pass.g.uses(id).constant() {
@@ -159,7 +158,7 @@ impl<'g> Pass<'g> {
             Node::Product(factors) => self.product(1.0, &factors),
             Node::Call(..) | Node::Held(_) | Node::Select(_) => {
                 let operands = self.g.operands(id);
-                let values: HashMap<Id, Id> =
+                let values: Map<Id, Id> =
                     operands.into_iter().map(|o| (o, self.value(o))).collect();
                 self.g.with_operands(id, |_, operand| values[&operand])
             }

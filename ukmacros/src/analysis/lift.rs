@@ -208,6 +208,22 @@ impl Lift {
         self.definitions.keys().copied()
     }
 
+    /// Of each y in that order what it is the sum of, if that is coordinates alone.
+    pub(super) fn of_coordinates(&self) -> Vec<Option<BTreeMap<usize, Id>>> {
+        let entry = |(of, c): (&Unknown, &Id)| match of {
+            Unknown::Coordinate(i) => Some((*i, *c)),
+            Unknown::Velocity(_) => None,
+        };
+        let definitions = self.definitions.values();
+        definitions.map(|d| d.iter().map(entry).collect()).collect()
+    }
+
+    /// Whether T has no term in q̇_i but through the y.
+    pub(super) fn has_no_inertia(&self, i: usize) -> bool {
+        let own = Unknown::Coordinate(i);
+        self.inertia.keys().all(|(a, b)| *a != own && *b != own)
+    }
+
     /// All values, in a fixed order.
     pub(super) fn values_mut(&mut self) -> impl Iterator<Item = &mut Id> {
         let coefficients = self.definitions.values_mut().flat_map(|d| d.values_mut());

@@ -6,6 +6,7 @@ mod constants;
 mod cost;
 mod dynamics;
 mod elimination;
+mod frame;
 mod functions;
 mod groups;
 mod hoist;
@@ -29,6 +30,8 @@ pub(crate) use dynamics::{Dynamics, derive};
 #[cfg(test)]
 pub(crate) use elimination::{Further, Straight, Task, eliminate, orders};
 pub(crate) use elimination::{Pair, Pivoting, SAFE_SHARE, Solve};
+#[cfg(test)]
+pub(crate) use frame::turned;
 pub(crate) use functions::{Function, Place, Role, Slice, of_parameters};
 pub(crate) use schedule::{Program, Step};
 pub(crate) use structure::Structure;

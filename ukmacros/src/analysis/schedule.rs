@@ -1,15 +1,14 @@
 //! What becomes a variable, and in which order.
 
-use crate::expr::{Func, Graph, Id, Node};
-use std::collections::{HashMap, HashSet};
+use crate::expr::{Func, Graph, Id, Map, Node, Set};
 
 /// Straight-line code for some values.
 pub(crate) struct Program {
     pub(crate) steps: Vec<Step>,
-    /// All nodes that are computed.
-    pub(crate) needed: HashSet<Id>,
+    /// All nodes that are computed, operands before users.
+    pub(crate) needed: Vec<Id>,
     /// Nodes whose reciprocal is a variable: several products divide by them.
-    pub(crate) reciprocals: HashSet<Id>,
+    pub(crate) reciprocals: Set<Id>,
 }
 
 /// The order of statements.
@@ -40,13 +39,13 @@ pub(crate) enum Step {
 pub(crate) fn schedule(
     g: &Graph,
     roots: &[Id],
-    named: &HashMap<Id, String>,
+    named: &Map<Id, String>,
     sequence: Sequence<'_>,
 ) -> Program {
-    let order = g.reachable(roots);
-    let needed: HashSet<Id> = order.iter().copied().collect();
-    let uses = count_uses(g, roots, &order);
-    let reciprocals = reciprocals(g, &order);
+    let needed = g.reachable(roots);
+    let uses = count_uses(g, roots, &needed);
+    let is_needed = |id: Id| uses.get(id.index()).is_some_and(|n| *n > 0);
+    let reciprocals = reciprocals(g, &needed);
     let pair = |id: Id| -> Option<(Id, Id)> {
         let Node::Call(func @ (Func::Sin | Func::Cos), args) = g.node(id) else {
             return None;
@@ -56,9 +55,7 @@ pub(crate) fn schedule(
         } else {
             Func::Sin
         };
-        let other = g
-            .find_call(other_func, args[0])
-            .filter(|o| needed.contains(o))?;
+        let other = g.find_call(other_func, args[0]).filter(|o| is_needed(*o))?;
         Some(if *func == Func::Sin {
             (id, other)
         } else {
@@ -74,16 +71,14 @@ pub(crate) fn schedule(
         Node::Product(factors) if matches!(factors[..], [(base, -1)] if reciprocals.contains(&base)) => {
             false
         }
-        _ => uses[&id] > 1 || named.contains_key(&id) || pair(id).is_some(),
+        _ => uses[id.index()] > 1 || named.contains_key(&id) || pair(id).is_some(),
     };
     let mut steps = Vec::new();
-    let mut done: HashSet<Id> = HashSet::new();
+    let mut done = vec![false; uses.len()];
     let mut goals: Vec<(Id, Option<usize>)> = Vec::new();
     let mut stores: Vec<usize> = (0..roots.len()).collect();
     if let Sequence::Stages(stages) = sequence {
-        let stages = stages
-            .iter()
-            .flat_map(|id| g.open_products(*id, |id| needed.contains(&id)));
+        let stages = stages.iter().flat_map(|id| g.open_products(*id, is_needed));
         goals.extend(stages.map(|id| (id, None)));
         stores.sort_by_key(|k| g.latency(roots[*k]));
     }
@@ -92,22 +87,22 @@ pub(crate) fn schedule(
         // Depth-first, operands before users, without recursion.
         let mut stack = vec![(goal, false)];
         while let Some((id, expanded)) = stack.pop() {
-            if done.contains(&id) {
+            if done[id.index()] {
                 continue;
             }
             if !expanded {
                 stack.push((id, true));
-                for operand in g.operands(id).into_iter().rev() {
-                    stack.push((operand, false));
-                }
+                let first = stack.len();
+                g.each_operand(id, |operand| stack.push((operand, false)));
+                stack[first..].reverse();
                 continue;
             }
-            done.insert(id);
+            done[id.index()] = true;
             // A reciprocal directly after its base.
             let recip = reciprocals.contains(&id);
             if let Some((sin, cos)) = pair(id) {
-                done.insert(sin);
-                done.insert(cos);
+                done[sin.index()] = true;
+                done[cos.index()] = true;
                 steps.push(Step::SinCos { sin, cos });
             } else if variable(id) {
                 steps.push(Step::Let(id));
@@ -126,8 +121,8 @@ pub(crate) fn schedule(
 }
 
 /// Bases that several products divide by.
-fn reciprocals(g: &Graph, needed: &[Id]) -> HashSet<Id> {
-    let mut divided: HashMap<Id, usize> = HashMap::new();
+fn reciprocals(g: &Graph, needed: &[Id]) -> Set<Id> {
+    let mut divided: Map<Id, usize> = Map::default();
     for id in needed {
         if let Node::Product(factors) = g.node(*id) {
             for (base, _) in factors.iter().filter(|(_, e)| *e == -1) {
@@ -139,34 +134,24 @@ fn reciprocals(g: &Graph, needed: &[Id]) -> HashSet<Id> {
     divided.into_keys().collect()
 }
 
-/// How often each node is read; a square reads its base twice, an inlined sign passes its readers on.
-fn count_uses(g: &Graph, roots: &[Id], ascending: &[Id]) -> HashMap<Id, usize> {
-    let mut uses: HashMap<Id, usize> = ascending.iter().map(|id| (*id, 0)).collect();
-    let read = |id: Id, times: usize, uses: &mut HashMap<Id, usize>| {
-        *uses.entry(id).or_insert(0) += times;
-    };
+/// How often each node is read, by its index; a square reads its base twice, an inlined sign passes its readers on.
+fn count_uses(g: &Graph, roots: &[Id], ascending: &[Id]) -> Vec<usize> {
+    let mut uses = vec![0; ascending.last().map_or(0, |id| id.index() + 1)];
     for root in roots {
-        read(*root, 1, &mut uses);
+        uses[root.index()] += 1;
     }
     for id in ascending.iter().rev() {
         match g.node(*id) {
-            Node::Scale(c, inner) if c.get() == -1.0 => {
-                let readers = uses[id];
-                read(*inner, readers, &mut uses);
-            }
+            Node::Scale(c, inner) if c.get() == -1.0 => uses[inner.index()] += uses[id.index()],
             Node::Product(factors) => {
                 for (base, exponent) in factors {
-                    let times = match exponent.unsigned_abs() {
+                    uses[base.index()] += match exponent.unsigned_abs() {
                         2 | 3 => 2,
                         _ => 1,
                     };
-                    read(*base, times, &mut uses);
                 }
             }
-            _ => {
-                let operands = g.operands(*id).into_iter();
-                operands.for_each(|o| read(o, 1, &mut uses));
-            }
+            _ => g.each_operand(*id, |operand| uses[operand.index()] += 1),
         }
     }
     uses

@@ -8,8 +8,8 @@
 //! change its sign there, so no branch of it is held; a run that stays about its zero is told of it.
 
 use super::dynamics::Dynamics;
-use crate::expr::{Func, Graph, Id, Node, Num, Symbol, System, is_power_of_two};
-use std::collections::{HashMap, HashSet};
+use crate::expr::{Func, Graph, Id, Map, Node, Num, Symbol, System, is_power_of_two};
+use std::collections::HashSet;
 
 /// A switch.
 pub(crate) struct Switch {
@@ -36,6 +36,12 @@ pub(crate) fn hold(
     names: &[String],
 ) -> (Dynamics, Vec<Switch>) {
     let g = &mut system.graph;
+    let mut held = dynamics.clone();
+    let roots: Vec<Id> = held.equations_mut().map(|id| *id).collect();
+    let turns = |id: &Id| branches(g.node(*id)).is_some() || !lengths_below(*id, g).is_empty();
+    if !g.reachable(&roots).iter().any(turns) {
+        return (held, Vec::new());
+    }
     let mut switches = Found::default();
     let mut lengths = Found::default();
     for (term, root) in terms(dynamics, names) {
@@ -48,16 +54,14 @@ pub(crate) fn hold(
             }
         }
     }
-    let mut held = dynamics.clone();
     let Found { numbers, list } = switches;
     if list.is_empty() {
         return (held, lengths.list);
     }
-    let roots: Vec<Id> = held.equations_mut().map(|id| *id).collect();
     let mut pass = Pass {
         numbers,
-        branches: HashMap::new(),
-        known: HashMap::new(),
+        branches: Map::default(),
+        known: Map::default(),
     };
     for id in g.reachable(&roots) {
         let new = pass.rewrite(id, g);
@@ -75,7 +79,7 @@ pub(crate) fn hold(
 #[derive(Default)]
 struct Found {
     list: Vec<Switch>,
-    numbers: HashMap<Id, usize>,
+    numbers: Map<Id, usize>,
 }
 
 impl Found {
@@ -145,14 +149,19 @@ fn terms(d: &Dynamics, names: &[String]) -> Vec<(String, Id)> {
     out
 }
 
+/// What is compared where a node has branches: a number with zero, or with another one.
+fn branches(node: &Node) -> Option<(Id, Option<Id>)> {
+    match *node {
+        Node::Call(Func::Abs | Func::Sign, ref args) => Some((args[0], None)),
+        Node::Call(Func::Min | Func::Max, ref args) => Some((args[0], Some(args[1]))),
+        Node::Select([a, b, ..]) => Some((a, Some(b))),
+        _ => None,
+    }
+}
+
 /// What decides the branch of the node `id`, if it has branches and they vary along a motion.
 fn decision(id: Id, g: &mut Graph) -> Option<Decision> {
-    let (a, b) = match *g.node(id) {
-        Node::Call(Func::Abs | Func::Sign, ref args) => (args[0], None),
-        Node::Call(Func::Min | Func::Max, ref args) => (args[0], Some(args[1])),
-        Node::Select([a, b, ..]) => (a, Some(b)),
-        _ => return None,
-    };
+    let (a, b) = branches(g.node(id))?;
     let mut terms = g.open(1.0, a);
     if let Some(b) = b {
         terms.extend(g.open(-1.0, b));
@@ -180,11 +189,11 @@ fn decision(id: Id, g: &mut Graph) -> Option<Decision> {
 
 struct Pass {
     /// Positions of the switches by their functions.
-    numbers: HashMap<Id, usize>,
+    numbers: Map<Id, usize>,
     /// What stands for g in decisions: the branch where one is held.
-    branches: HashMap<Id, Id>,
+    branches: Map<Id, Id>,
     /// New node of each old one.
-    known: HashMap<Id, Id>,
+    known: Map<Id, Id>,
 }
 
 impl Pass {

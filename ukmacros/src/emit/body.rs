@@ -17,7 +17,8 @@ pub(super) struct Writing<'a> {
 }
 
 /// In functions of more steps, variables are declared in groups: the compiler of the emitted code opens a scope within a scope at each
-/// `let`, and recurses on them where it writes what debuggers read.
+/// `let`, and recurses on them where it writes what debuggers read. A border follows each group, for its optimiser: packing scalars into vectors
+/// takes time that grows as the square of the statements in sight.
 const MANY: usize = 1000;
 /// Variables of a group.
 const GROUP: usize = 64;
@@ -86,7 +87,8 @@ pub(super) fn body(writing: &Writing<'_>) -> TokenStream {
         if declared.len() >= GROUP {
             let names = std::mem::take(&mut declared);
             let names = many.then(|| quote! { let (#(#names),*); });
-            statements.extend(quote! { #names #group });
+            let border = many.then(|| quote! { ukcore::emitted::border(); });
+            statements.extend(quote! { #names #group #border });
             group = TokenStream::new();
         }
     }

@@ -2,9 +2,9 @@
 
 use super::names::{Namer, Slots};
 use crate::analysis::Analysis;
-use crate::expr::{Id, Node, Printer, Symbol, System};
+use crate::expr::{Id, Map, Node, Printer, Symbol, System};
 use crate::model::Model;
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 
 /// A shared subexpression of at least this many symbols gets a name of its own.
 const ABBREVIATE: usize = 12;
@@ -35,7 +35,7 @@ pub(super) fn listing(system: &System, model: &Model, analysis: &Analysis) -> Li
         graph: &system.graph,
         coords: &coords,
         params: &params,
-        named: HashMap::new(),
+        named: Map::default(),
     };
     let phis: Vec<Id> = system.constraints.iter().map(|c| c.phi).collect();
     let roots: Vec<Id> = dynamics
@@ -98,7 +98,7 @@ fn abbreviate(
     printer: &mut Printer<'_>,
 ) -> Vec<(String, String)> {
     let g = &system.graph;
-    let mut readers: HashMap<Id, usize> = HashMap::new();
+    let mut readers: Map<Id, usize> = Map::default();
     let mut stack = roots.to_vec();
     while let Some(id) = stack.pop() {
         let count = readers.entry(id).or_insert(0);
@@ -109,7 +109,7 @@ fn abbreviate(
     }
     let mut order: Vec<Id> = readers.keys().copied().collect();
     order.sort_unstable();
-    let mut sizes: HashMap<Id, usize> = HashMap::new();
+    let mut sizes: Map<Id, usize> = Map::default();
     let mut definitions = Vec::new();
     let mut free = (1_usize..)
         .map(|k| format!("s{k}"))

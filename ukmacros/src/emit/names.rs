@@ -1,6 +1,6 @@
 //! Names of variables and constants, from those of the source.
 
-use crate::expr::{Graph, Id, Node, Symbol};
+use crate::expr::{Graph, Id, Map, Node, Symbol};
 use crate::model::Model;
 use proc_macro2::Ident;
 use quote::format_ident;
@@ -54,10 +54,10 @@ impl Slots<'_> {
 /// Variables of one emitted function.
 pub(super) struct Namer<'a> {
     graph: &'a Graph,
-    hints: &'a HashMap<Id, String>,
+    hints: &'a Map<Id, String>,
     symbols: HashMap<Symbol, String>,
-    variables: HashMap<Id, String>,
-    reciprocals: HashMap<Id, String>,
+    variables: Map<Id, String>,
+    reciprocals: Map<Id, String>,
     taken: HashSet<String>,
     /// How often each was wished for again.
     repeated: HashMap<String, usize>,
@@ -68,15 +68,15 @@ impl<'a> Namer<'a> {
         graph: &'a Graph,
         model: &Model,
         constraints: usize,
-        hints: &'a HashMap<Id, String>,
+        hints: &'a Map<Id, String>,
         prepared: Slots<'_>,
     ) -> Self {
         let mut namer = Namer {
             graph,
             hints,
             symbols: HashMap::new(),
-            variables: HashMap::new(),
-            reciprocals: HashMap::new(),
+            variables: Map::default(),
+            reciprocals: Map::default(),
             taken: TAKEN.split(' ').map(str::to_owned).collect(),
             repeated: HashMap::new(),
         };

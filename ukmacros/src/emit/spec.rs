@@ -181,6 +181,7 @@ fn solve(solve: &Solve, n: usize) -> TokenStream {
     let regular = solve.regular.iter().map(|row| number(*row));
     let met = solve.met.iter().map(|row| number(*row));
     let velocities = &solve.velocities;
+    let turned = solve.turned.iter().map(|row| number(*row));
     let copies = solve.copies.iter().map(|i| number(*i));
     let redundant = solve.droppable.iter().map(|row| number(*row));
     quote! {
@@ -193,6 +194,7 @@ fn solve(solve: &Solve, n: usize) -> TokenStream {
             regular: &[#(#regular),*],
             met: &[#(#met),*],
             velocities: &[#(#velocities),*],
+            turned: &[#(#turned),*],
             copies: &[#(#copies),*],
             redundant: &[#(#redundant),*],
         }

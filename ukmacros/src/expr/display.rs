@@ -1,7 +1,6 @@
 //! Expressions as a reader writes them.
 
-use super::graph::{Graph, Id, Node, Symbol};
-use std::collections::HashMap;
+use super::graph::{Graph, Id, Map, Node, Symbol};
 
 /// Prints expressions with the modeller's names.
 pub(crate) struct Printer<'a> {
@@ -9,7 +8,7 @@ pub(crate) struct Printer<'a> {
     pub(crate) coords: &'a [String],
     pub(crate) params: &'a [String],
     /// Nodes that have a name of their own.
-    pub(crate) named: HashMap<Id, String>,
+    pub(crate) named: Map<Id, String>,
 }
 
 /// How tightly the outermost operator of a printed expression binds.

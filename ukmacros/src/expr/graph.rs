@@ -15,11 +15,13 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 use std::hash::{BuildHasherDefault, Hasher};
 
 /// A map whose hashes cost little where the compiler is not optimised, as macros are not.
-pub(super) type Map<K, V> = HashMap<K, V, BuildHasherDefault<Hash>>;
+pub(crate) type Map<K, V> = HashMap<K, V, BuildHasherDefault<Hash>>;
+/// A set of the same kind.
+pub(crate) type Set<K> = HashSet<K, BuildHasherDefault<Hash>>;
 
 /// Multiplies and rotates; keys are not chosen by an adversary.
 #[derive(Default)]
-pub(super) struct Hash(u64);
+pub(crate) struct Hash(u64);
 
 impl Hasher for Hash {
     fn finish(&self) -> u64 {
@@ -44,6 +46,9 @@ impl Hasher for Hash {
 pub(crate) struct Id(u32);
 
 impl Id {
+    fn at(index: usize) -> Self {
+        Id(u32::try_from(index).unwrap_or(u32::MAX))
+    }
     pub(crate) fn index(self) -> usize {
         self.0 as usize
     }
@@ -162,13 +167,15 @@ impl Graph {
     pub(crate) fn support(&self, id: Id) -> BTreeSet<Symbol> {
         let moving = |id: &Id| self.uses(*id).coord || self.uses(*id).velocity;
         let mut stack: Vec<Id> = [id].into_iter().filter(moving).collect();
-        let (mut seen, mut found) = (HashSet::new(), BTreeSet::new());
+        let (mut seen, mut found) = (Set::default(), BTreeSet::new());
         while let Some(id) = stack.pop() {
             match *self.node(id) {
                 Node::Symbol(symbol) => drop(found.insert(symbol)),
-                _ if seen.insert(id) => {
-                    stack.extend(self.operands(id).iter().filter(|id| moving(id)))
-                }
+                _ if seen.insert(id) => self.each_operand(id, |operand| {
+                    if moving(&operand) {
+                        stack.push(operand);
+                    }
+                }),
                 _ => {}
             }
         }
@@ -180,12 +187,13 @@ impl Graph {
         if let Some(id) = self.known.get(&node) {
             return *id;
         }
-        let id = Id(u32::try_from(self.nodes.len()).unwrap_or(u32::MAX));
-        let operands = operands(&node);
-        let slowest = operands.iter().map(|o| self.latency[o.index()]).max();
-        let latency = slowest.unwrap_or(0) + own_latency(&node);
-        self.latency.push(latency);
-        let mut uses = Uses::default();
+        let id = Id::at(self.nodes.len());
+        let (mut slowest, mut uses) = (0, Uses::default());
+        each_operand(&node, |operand| {
+            slowest = slowest.max(self.latency[operand.index()]);
+            uses = uses.join(self.uses[operand.index()]);
+        });
+        self.latency.push(slowest + own_latency(&node));
         if let Node::Symbol(s) = node {
             match s {
                 Symbol::Param(_) | Symbol::Prepared(_) => uses.param = true,
@@ -195,9 +203,6 @@ impl Graph {
                 Symbol::Residual(_) => uses.residual = true,
                 Symbol::Branch(_) => uses.branch = true,
             }
-        }
-        for operand in operands {
-            uses = uses.join(self.uses[operand.index()]);
         }
         self.nodes.push(node.clone());
         self.uses.push(uses);
@@ -241,16 +246,20 @@ impl Graph {
 
     /// The nodes that `roots` are made of, themselves included, operands before users.
     pub(crate) fn reachable(&self, roots: &[Id]) -> Vec<Id> {
-        let top = roots.iter().map(|r| r.index() + 1).max().unwrap_or(0);
-        let mut seen = vec![false; top];
-        let (mut found, mut stack) = (Vec::new(), roots.to_vec());
-        while let Some(id) = stack.pop() {
-            if !std::mem::replace(&mut seen[id.index()], true) {
+        let mut index = roots.iter().map(|r| r.index() + 1).max().unwrap_or(0);
+        let mut wanted = vec![false; index];
+        roots.iter().for_each(|root| wanted[root.index()] = true);
+        // From the last down, so that there is nothing to be sorted; by a plain loop, which is quick where the compiler is not optimised.
+        let mut found = Vec::new();
+        while index > 0 {
+            index -= 1;
+            if wanted[index] {
+                let id = Id::at(index);
+                self.each_operand(id, |operand| wanted[operand.index()] = true);
                 found.push(id);
-                stack.extend(self.operands(id));
             }
         }
-        found.sort_unstable();
+        found.reverse();
         found
     }
 
@@ -271,7 +280,14 @@ impl Graph {
 
     /// Operands of `id`.
     pub(crate) fn operands(&self, id: Id) -> Vec<Id> {
-        operands(self.node(id))
+        let mut operands = Vec::new();
+        self.each_operand(id, |operand| operands.push(operand));
+        operands
+    }
+
+    /// Calls `take` with each operand of `id`.
+    pub(crate) fn each_operand(&self, id: Id, take: impl FnMut(Id)) {
+        each_operand(self.node(id), take);
     }
 }
 
@@ -291,13 +307,13 @@ fn own_latency(node: &Node) -> u32 {
     }
 }
 
-fn operands(node: &Node) -> Vec<Id> {
+fn each_operand(node: &Node, mut take: impl FnMut(Id)) {
     match node {
-        Node::Const(_) | Node::Symbol(_) => Vec::new(),
-        Node::Sum(_, terms) => terms.iter().map(|(_, id)| *id).collect(),
-        Node::Scale(_, inner) | Node::Held(inner) => vec![*inner],
-        Node::Product(factors) => factors.iter().map(|(id, _)| *id).collect(),
-        Node::Call(_, args) => args.clone(),
-        Node::Select(args) => args.to_vec(),
+        Node::Const(_) | Node::Symbol(_) => {}
+        Node::Sum(_, terms) => terms.iter().for_each(|(_, id)| take(*id)),
+        Node::Scale(_, inner) | Node::Held(inner) => take(*inner),
+        Node::Product(factors) => factors.iter().for_each(|(id, _)| take(*id)),
+        Node::Call(_, args) => args.iter().for_each(|id| take(*id)),
+        Node::Select(args) => args.iter().for_each(|id| take(*id)),
     }
 }

@@ -15,7 +15,7 @@ pub(crate) use display::Printer;
 pub(crate) use eval::{Point, Sweep, eval, eval_shaken};
 pub(crate) use fold::is_power_of_two;
 pub(crate) use functions::{Cost, Func};
-pub(crate) use graph::{Graph, Id, Node, Num, Symbol};
+pub(crate) use graph::{Graph, Id, Map, Node, Num, Set, Symbol};
 pub(crate) use jet::Jet;
 #[cfg(test)]
 pub(crate) use lower::vocabulary;

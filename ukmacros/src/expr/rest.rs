@@ -1,7 +1,6 @@
 //! Expressions at q̇ = 0.
 
-use super::graph::{Graph, Id, Node, Symbol};
-use std::collections::HashMap;
+use super::graph::{Graph, Id, Map, Node, Symbol};
 
 impl Graph {
     /// `id` with every velocity set to zero.
@@ -9,7 +8,7 @@ impl Graph {
         // Operands before their users, without recursion.
         let mut moving = Vec::new();
         let mut stack = vec![id];
-        let mut known: HashMap<Id, Id> = HashMap::new();
+        let mut known: Map<Id, Id> = Map::default();
         while let Some(id) = stack.pop() {
             let at_rest = !self.uses(id).velocity;
             if known.insert(id, id).is_none() && !at_rest {
@@ -25,7 +24,7 @@ impl Graph {
         known[&id]
     }
 
-    fn node_at_rest(&mut self, id: Id, known: &HashMap<Id, Id>) -> Id {
+    fn node_at_rest(&mut self, id: Id, known: &Map<Id, Id>) -> Id {
         match self.node(id) {
             Node::Symbol(Symbol::Velocity(_)) => self.zero(),
             Node::Held(inner) => known[inner],

@@ -79,3 +79,31 @@ fn legs_on_one_shaft_cost_what_legs_with_angles_of_their_own_cost() {
     );
     assert!(one <= 6500 && one <= own, "{one}, {own}");
 }
+
+/// Bodies in space, one joined to the next by `joint`.
+fn spatial_chain(n: usize, joint: &str) -> TokenStream {
+    let text = format!(
+        "pub Chain {{ const N: usize = {n}; params {{ m = 1.0, along = 0.01, across = 0.03, l = 0.5 }} gravity {{ [0, 0, -9.81] }} \
+         bodies {{ for i in 0..N {{ spatial b[i] {{ mass: m, inertia: [along, across, across], centre: [l / 2, 0, 0] }} }} }} \
+         holonomic {{ {joint}; for i in 1..N {{ j[i]: {} }} }} }}",
+        joint
+            .replace("first: ", "")
+            .replace("ground.at([0, 0, 0])", "b[i - 1].at([l, 0, 0])")
+            .replace("b[0]", "b[i]")
+    );
+    text.parse().expect("tokens")
+}
+
+#[test]
+fn bodies_in_space_cost_what_they_are_many() {
+    let free = "pub Free { bodies { spatial b { mass: 1, inertia: [1, 2, 2.5] } } }";
+    let free = operations(free.parse().expect("tokens"));
+    assert!(free <= 150, "{free}");
+    let balls = "first: ball(ground.at([0, 0, 0]), b[0].at([0, 0, 0]))";
+    let hinges = "first: hinge(ground.at([0, 0, 0]), b[0].at([0, 0, 0]), [0, 1, 0])";
+    for (joint, each) in [(balls, 560), (hinges, 1450)] {
+        let [six, twelve] = [6, 12].map(|n| operations(spatial_chain(n, joint)));
+        assert!(six <= 6 * each, "{joint}: {six}");
+        assert!(10 * twelve <= 22 * six, "{joint}: {six}, {twelve}");
+    }
+}

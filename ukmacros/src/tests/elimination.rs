@@ -1,7 +1,7 @@
 //! The straight-line solve of random mechanisms against dense elimination with pivoting.
 
 use super::system;
-use crate::analysis::{Dynamics, Further, Straight, Task, derive, eliminate, orders};
+use crate::analysis::{Dynamics, Further, Straight, Task, derive, eliminate, orders, turned};
 use crate::expr::{Point, System, eval};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
@@ -154,6 +154,43 @@ fn bodies(random: &mut Random) -> String {
     text + "} }"
 }
 
+/// Bodies in space, each joined to one before it or to the ground, with inertia about any axes.
+fn spatial(random: &mut Random) -> String {
+    let n = 1 + random.below(3);
+    let mut text = String::from("pub T { params { r = 0.3 } bodies { ");
+    for i in 0..n {
+        let (m, j, k) = (random.unit(), 1.0 + random.unit(), 1.0 + random.unit());
+        let products = match random.below(2) {
+            0 => String::new(),
+            _ => format!(", {}, 0.02, -0.03", 0.1 * random.unit()),
+        };
+        let _ = write!(
+            text,
+            "spatial b{i} {{ mass: {m}, inertia: [{j}, {k}, {}{products}], centre: [r, 0.1, 0] }} ",
+            0.5 * (j + k)
+        );
+    }
+    text += "} gravity { [0, 0, -9.81] } holonomic { ";
+    for i in 0..n {
+        let to = match random.below(i + 1) {
+            0 => "ground".to_owned(),
+            j => format!("b{}", j - 1),
+        };
+        let (p, q) = (
+            format!("{to}.at([r, 0.2, 0])"),
+            format!("b{i}.at([0, 0, 0.1])"),
+        );
+        let joint = match random.below(4) {
+            0 => continue,
+            1 => format!("ball({p}, {q})"),
+            2 => format!("hinge({p}, {q}, [0, 0.6, 0.8])"),
+            _ => format!("universal({p}, {q}, [1, 0, 0], [0, 1, 0])"),
+        };
+        let _ = write!(text, "j{i}: {joint}, ");
+    }
+    text + "} }"
+}
+
 /// x of K x = r, or nothing where K is singular or nearly so.
 fn solve(mut k: Vec<Vec<f64>>, mut r: Vec<f64>) -> Option<Vec<f64>> {
     let n = r.len();
@@ -206,6 +243,8 @@ struct Tally {
     without: usize,
     /// With the velocities that T is written in as unknowns.
     lifted: usize,
+    /// With rates of turning for quaternions.
+    turned: usize,
 }
 
 impl Tally {
@@ -217,10 +256,19 @@ impl Tally {
         let own = (n, dynamics.rhs.len());
         let none = (BTreeMap::new(), BTreeMap::new());
         let lift = dynamics.lift.as_ref();
-        let extended =
-            lift.map(|lift| lift.extended(&dynamics, &none.0, &none.1, &mut system.graph));
+        let g = &mut system.graph;
+        let extended = lift.map(|lift| (lift.extended(&dynamics, &none.0, &none.1, g), Vec::new()));
+        let turned = lift.and_then(|lift| turned(&dynamics, lift, &[], &system.defaults, g));
+        // M knows nothing of the length of a quaternion: as it stands it is singular.
+        let forms = match turned {
+            Some(turned) => vec![turned],
+            None => [(dynamics.clone(), Vec::new())]
+                .into_iter()
+                .chain(extended)
+                .collect(),
+        };
         let mut lines = Vec::new();
-        for of in [Some(&dynamics), extended.as_ref()].into_iter().flatten() {
+        for (of, frames) in &forms {
             let size = of.force.len() + of.rhs.len();
             let names: Vec<String> = (0..size).map(|i| format!("u{i}")).collect();
             let task = Task {
@@ -233,12 +281,14 @@ impl Tally {
                     false => Further::Velocities,
                 },
                 redundant: &BTreeSet::new(),
+                frames,
             };
             for order in orders(&task, &system.defaults, &system.graph).unwrap_or_default() {
                 let elimination = eliminate(&task, order, &mut system.graph);
                 let elimination = elimination.unwrap_or_else(|e| panic!("{e}\n{source}"));
                 lines.push(Straight::new(elimination, &dynamics, &[], &mut system));
                 self.lifted += usize::from(of.force.len() > n);
+                self.turned += usize::from(!frames.is_empty());
             }
         }
         self.without += usize::from(lines.is_empty());
@@ -301,9 +351,10 @@ impl Tally {
 fn straight_lines_solve_the_saddle_point_system() {
     let mut random = Random(20_131);
     let mut tally = Tally::default();
-    for case in 0..105 {
-        let source = match case % 3 {
-            2 => bodies(&mut random),
+    for case in 0..135 {
+        let source = match case {
+            105.. => spatial(&mut random),
+            _ if case % 3 == 2 => bodies(&mut random),
             _ => declaration(&mut random),
         };
         tally.check(&source, &mut random);
@@ -313,9 +364,10 @@ fn straight_lines_solve_the_saddle_point_system() {
         refused,
         without,
         lifted,
+        turned,
     } = tally;
     assert!(
-        solved > 500 && refused < solved / 10 && without < 10 && lifted > 30,
-        "{solved} solved, {refused} refused, {without} without a straight line, {lifted} lifted"
+        solved > 500 && refused < solved / 10 && without < 10 && lifted > 30 && turned > 50,
+        "{solved} solved, {refused} refused, {without} without a straight line, {lifted} lifted, {turned} turned"
     );
 }

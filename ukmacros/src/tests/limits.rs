@@ -48,6 +48,14 @@ fn flat_expressions_of_thousands_of_operands_are_taken() {
 }
 
 #[test]
+fn long_functions_have_borders() {
+    for (links, has) in [(5, false), (400, true)] {
+        let (code, _) = expand(&super::speed::chain(links));
+        assert_eq!(code.to_string().contains("border"), has, "{links} links");
+    }
+}
+
+#[test]
 fn deep_nesting_is_refused_before_it_overflows() {
     let n = 20_000;
     let nested = |open: &str, inner: &str, close: &str| {

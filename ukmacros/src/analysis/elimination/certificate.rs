@@ -85,6 +85,8 @@ pub(crate) struct Solve {
     pub(crate) checks: Vec<(usize, bool)>,
     /// Names of the velocities that the kinetic energy is written in, where they are unknowns.
     pub(crate) velocities: Vec<String>,
+    /// Constraints whose coordinates stand for rates of those velocities.
+    pub(crate) turned: Vec<usize>,
     /// Coordinates that are written once for each part they are shared by, each as often as it has copies.
     pub(crate) copies: Vec<usize>,
     /// Constraints that make M regular.
@@ -117,6 +119,7 @@ impl Straight {
             fill: fill.collect(),
             checks: checks.collect(),
             velocities: Vec::new(),
+            turned: Vec::new(),
             copies: Vec::new(),
             regular: Vec::new(),
             met: self.met.clone(),

@@ -2,7 +2,7 @@
 
 use super::pattern::Pattern;
 use super::{Pair, Pivoting};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Programs larger than this are not worth their compile time: the solve is then left to the runtime.
 const MAX_ENTRIES: usize = 20_000;
@@ -62,16 +62,12 @@ impl Taste {
 
 /// The pivots in their order; or why there is none.
 pub(super) fn order(taste: Taste, mut pattern: Pattern, names: &[String]) -> Result<Order, String> {
-    let left: BTreeSet<usize> = pattern.left().collect();
-    let mut ready: BTreeSet<Key> = keys(&left, taste, &pattern).into_iter().collect();
+    let mut keys = Keys::new(taste, &pattern);
     let (mut pivots, mut entries, mut changes) = (Vec::new(), 0, 0);
-    while let Some((_, at, partner)) = ready.first().copied() {
+    while let Some((_, at, partner)) = keys.ready.first().copied() {
         let pair = partner.and_then(|constraint| pattern.pair(at, constraint));
         debug_assert_eq!(pair.is_some(), partner.is_some());
         let around = around(at, partner, &pattern);
-        for before in keys(&around, taste, &pattern) {
-            ready.remove(&before);
-        }
         changes += match &pair {
             Some(pair) => changed_by_pair(pair, &pattern),
             None => changed_by(at, &pattern),
@@ -80,7 +76,7 @@ pub(super) fn order(taste: Taste, mut pattern: Pattern, names: &[String]) -> Res
             Some(pair) => (Pivoting::Pair(pair), pattern.eliminate_pair(pair)),
             None => (Pivoting::Single(at), pattern.eliminate(at)),
         };
-        ready.extend(keys(&around, taste, &pattern));
+        keys.renew(&around, &pattern);
         pivots.push(pivot);
         entries += neighbours.len().pow(2);
         if entries > MAX_ENTRIES {
@@ -125,31 +121,65 @@ fn around(at: usize, partner: Option<usize>, pattern: &Pattern) -> BTreeSet<usiz
     sharing.iter().copied().chain(waiting).collect()
 }
 
-/// The keys of what can be eliminated, alone or in pairs with others, among `of`.
-fn keys(of: &BTreeSet<usize>, taste: Taste, pattern: &Pattern) -> Vec<Key> {
-    let mut keys = Vec::new();
-    for k in of.iter().copied().filter(|k| pattern.is_left(*k)) {
-        let mut pairs: Vec<Pair> = match pattern.is_coordinate(k) {
-            true => pattern
-                .constraints_on(k)
-                .filter_map(|c| pattern.pair(k, c))
-                .collect(),
-            false => pattern
-                .coordinates_in(k)
-                .filter_map(|i| pattern.pair(i, k))
-                .collect(),
+/// The keys of all that can be eliminated.
+struct Keys {
+    taste: Taste,
+    ready: BTreeSet<Key>,
+    /// The same by what they are of; those of pairs are of the coordinate.
+    of: Vec<Vec<Key>>,
+}
+
+impl Keys {
+    fn new(taste: Taste, pattern: &Pattern) -> Self {
+        let left: BTreeSet<usize> = pattern.left().collect();
+        let mut keys = Keys {
+            taste,
+            ready: BTreeSet::new(),
+            of: vec![Vec::new(); left.last().map_or(0, |k| k + 1)],
         };
-        pairs.retain(|pair| taste.takes(pair));
-        keys.extend(pairs.iter().map(|pair| pair_key(pair, taste, pattern)));
-        // A coordinate that is eliminated alone takes the fixed pivots of its constraints with it.
-        let kept = taste != Taste::Multipliers
-            && pattern.is_coordinate(k)
-            && pattern.constraints_on(k).any(|c| pattern.has_pair(c));
-        if pattern.is_definite(k) && !kept {
-            keys.push(single_key(k, taste, pattern));
+        keys.renew(&left, pattern);
+        keys
+    }
+
+    /// Brings those of `changed` up to date.
+    fn renew(&mut self, changed: &BTreeSet<usize>, pattern: &Pattern) {
+        // Whether a constraint has a pair.
+        let mut pairs: BTreeMap<usize, bool> = BTreeMap::new();
+        for k in changed {
+            let now = self.now(*k, pattern, &mut pairs);
+            if now != self.of[*k] {
+                for before in &self.of[*k] {
+                    self.ready.remove(before);
+                }
+                self.ready.extend(&now);
+                self.of[*k] = now;
+            }
         }
     }
-    keys
+
+    fn now(&self, k: usize, pattern: &Pattern, known: &mut BTreeMap<usize, bool>) -> Vec<Key> {
+        let (taste, mut keys) = (self.taste, Vec::new());
+        if !pattern.is_left(k) {
+            return keys;
+        }
+        // A coordinate that is eliminated alone takes the fixed pivots of its constraints with it.
+        let mut kept = false;
+        if pattern.is_coordinate(k) {
+            for constraint in pattern.constraints_on(k) {
+                let pair = pattern.pair(k, constraint);
+                kept |= pair.is_some()
+                    || *known
+                        .entry(constraint)
+                        .or_insert_with(|| pattern.has_pair(constraint));
+                let pair = pair.filter(|pair| taste.takes(pair));
+                keys.extend(pair.map(|pair| pair_key(&pair, taste, pattern)));
+            }
+        }
+        if pattern.is_definite(k) && (taste == Taste::Multipliers || !kept) {
+            keys.push(single_key(k, taste, pattern));
+        }
+        keys
+    }
 }
 
 /// How many entries eliminating `k` alone changes.

@@ -19,7 +19,7 @@ pub(crate) use system::{
 #[cfg(test)]
 pub(crate) use vectors::vocabulary;
 
-use super::graph::{Graph, Id, Symbol};
+use super::graph::{Graph, Id, Map, Symbol};
 use crate::diag::{Diagnostics, Loc};
 use crate::model::{Model, Scope, every};
 use crate::parse::{Block, Declaration, Entry, Equation, Expr, ExprKind, Function, MassEntry};
@@ -102,7 +102,7 @@ pub(crate) fn lower(decl: &Declaration, model: &Model, diag: &Diagnostics) -> Sy
         outermost: None,
         oversized: false,
         known_params: 0,
-        hints: HashMap::new(),
+        hints: Map::default(),
         unknown: HashSet::new(),
         results: HashMap::new(),
         between: Vec::new(),
@@ -139,7 +139,7 @@ struct Lowering<'m> {
     oversized: bool,
     /// Parameters whose default is known: those a default may use.
     known_params: usize,
-    hints: HashMap<Id, String>,
+    hints: Map<Id, String>,
     /// Names and functions that were reported to be unknown.
     unknown: HashSet<String>,
     /// Names of constraints (true) and outputs (false).
@@ -229,7 +229,7 @@ impl<'m> Lowering<'m> {
             starts,
             drawing,
             hints: std::mem::take(&mut self.hints),
-            inner_hints: HashMap::new(),
+            inner_hints: Map::default(),
         }
     }
 

@@ -1,10 +1,10 @@
 //! What lowering makes.
 
 use crate::diag::Loc;
-use crate::expr::graph::{Graph, Id};
+use crate::expr::graph::{Graph, Id, Map};
 use crate::model::indexed;
 use proc_macro2::Ident;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 /// The equations of a declaration as a graph.
 pub(crate) struct System {
@@ -29,29 +29,29 @@ pub(crate) struct System {
     pub(crate) starts: Vec<StartValue>,
     pub(crate) drawing: Drawing,
     /// Names that the modeller gave to values.
-    pub(crate) hints: HashMap<Id, String>,
+    pub(crate) hints: Map<Id, String>,
     /// Names for what the compiler adds: pivots, multipliers. They serve the emitted code alone, not the printed equations.
-    pub(crate) inner_hints: HashMap<Id, String>,
+    pub(crate) inner_hints: Map<Id, String>,
 }
 
 impl System {
     /// All names, the modeller's before the compiler's.
-    pub(crate) fn all_hints(&self) -> HashMap<Id, String> {
+    pub(crate) fn all_hints(&self) -> Map<Id, String> {
         let mut all = self.inner_hints.clone();
         all.extend(self.hints.clone());
         all
     }
 
     /// Values that were rewritten, old to new, keep their names.
-    pub(crate) fn carry_names(&mut self, rewritten: HashMap<Id, Id>) {
-        let names = self.all_hints();
-        let mut rewritten: Vec<(Id, Id)> = rewritten.into_iter().collect();
-        rewritten.sort_unstable();
-        for (old, new) in rewritten {
-            let (_, inner) = self.graph.unscaled(new);
-            if let Some(name) = names.get(&old).cloned()
-                && !self.graph.operands(inner).is_empty()
-            {
+    pub(crate) fn carry_names(&mut self, rewritten: Map<Id, Id>) {
+        let mut names: Vec<(Id, String)> = self.all_hints().into_iter().collect();
+        names.sort_unstable_by_key(|(old, _)| *old);
+        for (old, name) in names {
+            let Some(new) = rewritten.get(&old) else {
+                continue;
+            };
+            let (_, inner) = self.graph.unscaled(*new);
+            if !self.graph.operands(inner).is_empty() {
                 self.inner_hints.entry(inner).or_insert(name);
             }
         }

@@ -1,0 +1,191 @@
+//! Rates of turning in place of the second derivatives of a quaternion, or of other coordinates e that are like it.
+//!
+//! Let T be written in velocities y_k = c_k·ė, let a constraint on the same coordinates be a·ë = b, and let a and the c_k be as many as the
+//! coordinates and at right angles to each other at all states: 2 e and the rows of 2 E, for a quaternion. Then ë = R x with x = (a·ë, c_1·ë,
+//! …) and R = (a/|a|², c_1/|c_1|², …), which needs no elimination, and
+//!
+//! ```text
+//! ⎡M  Aᵀ⎤ ⎡ ë⎤ = ⎡Q⎤     is     ⎡RᵀMR  RᵀAᵀ⎤ ⎡ x⎤ = ⎡RᵀQ⎤
+//! ⎣A  0 ⎦ ⎣−λ⎦   ⎣b⎦            ⎣A R    0  ⎦ ⎣−λ⎦   ⎣ b ⎦
+//! ```
+//!
+//! where the constraint prescribes the first of x, each definition gives one of the others, and RᵀMR is the inertia that T is written with. M
+//! knows nothing of the length of a quaternion; here nothing has to be added to it.
+
+use super::dynamics::Dynamics;
+use super::lift::Lift;
+use super::probe::{Probe, Random};
+use crate::expr::{Graph, Id, Node, Symbol, eval};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Random states at which right angles are looked for: a polynomial that vanishes there is zero.
+const STATES: usize = 3;
+/// The cosine of a right angle, in rounding.
+const RIGHT: f64 = 1e-13;
+
+/// Coordinates e with their R.
+pub(crate) struct Frame {
+    coordinates: Vec<usize>,
+    /// The constraint.
+    row: usize,
+    /// The definitions, in the order of the further columns.
+    definitions: Vec<usize>,
+    /// R, column by column.
+    columns: Vec<Vec<Id>>,
+}
+
+impl Frame {
+    /// The constraint.
+    pub(super) fn row(&self) -> usize {
+        self.row
+    }
+
+    /// Rᵀ u.
+    fn across(&self, u: &[Id], g: &mut Graph) -> Vec<Id> {
+        let columns = self.columns.iter();
+        columns.map(|column| inner(column, u, g)).collect()
+    }
+
+    /// Puts ë = R x in the place of x.
+    pub(super) fn turn_back(&self, solution: &mut [Id], g: &mut Graph) {
+        let x: Vec<Id> = self.coordinates.iter().map(|i| solution[*i]).collect();
+        for (j, i) in self.coordinates.iter().enumerate() {
+            let row: Vec<Id> = self.columns.iter().map(|column| column[j]).collect();
+            solution[*i] = inner(&row, &x, g);
+        }
+    }
+
+    /// Writes `d`, which has definitions behind its first `m` constraints, in x.
+    fn turn(&self, d: &mut Dynamics, m: usize, g: &mut Graph) {
+        let (zero, one) = (g.zero(), g.one());
+        for vector in [&mut d.force, &mut d.nonideal] {
+            let own: Vec<Id> = self.coordinates.iter().map(|i| vector[*i]).collect();
+            let turned = self.across(&own, g);
+            let places = self.coordinates.iter().zip(turned);
+            places.for_each(|(i, of)| vector[*i] = of);
+        }
+        let mut rows: BTreeMap<usize, Vec<Id>> = BTreeMap::new();
+        for (j, i) in self.coordinates.iter().enumerate() {
+            for row in 0..d.rhs.len() {
+                if let Some(a) = d.jacobian.remove(&(row, *i)) {
+                    let empty = || vec![zero; self.coordinates.len()];
+                    rows.entry(row).or_insert_with(empty)[j] = a;
+                }
+            }
+        }
+        let given = [self.row].into_iter();
+        let given = given.chain(self.definitions.iter().map(|k| m + k));
+        for (row, i) in given.zip(&self.coordinates) {
+            rows.remove(&row);
+            d.jacobian.insert((row, *i), one);
+        }
+        for (row, entries) in rows {
+            let turned = self.across(&entries, g);
+            let places = self.coordinates.iter().zip(turned);
+            let places = places.filter(|(_, a)| !g.is_zero(*a));
+            d.jacobian.extend(places.map(|(i, a)| ((row, *i), a)));
+        }
+    }
+}
+
+/// The equations `d` with the velocities of `lift`, in the rates of all frames that are found, with these. Nothing if there are none, or if not
+/// all constraints in `regular` are theirs: what these add to M is in the coordinates as they were. `defaults` are those of the parameters.
+pub(crate) fn turned(
+    d: &Dynamics,
+    lift: &Lift,
+    regular: &[usize],
+    defaults: &[f64],
+    g: &mut Graph,
+) -> Option<(Dynamics, Vec<Frame>)> {
+    let frames = frames(d, lift, defaults, g);
+    let own = |row: &usize| frames.iter().any(|frame| frame.row == *row);
+    if frames.is_empty() || !regular.iter().all(own) {
+        return None;
+    }
+    let mut turned = lift.extended(d, &BTreeMap::new(), &BTreeMap::new(), g);
+    let m = d.rhs.len();
+    frames
+        .iter()
+        .for_each(|frame| frame.turn(&mut turned, m, g));
+    Some((turned, frames))
+}
+
+/// The frames among the coordinates of `d`.
+fn frames(d: &Dynamics, lift: &Lift, defaults: &[f64], g: &mut Graph) -> Vec<Frame> {
+    let definitions = lift.of_coordinates();
+    let mut rows: BTreeMap<usize, BTreeMap<usize, Id>> = BTreeMap::new();
+    for ((row, i), a) in &d.jacobian {
+        rows.entry(*row).or_default().insert(*i, *a);
+    }
+    let mut taken: BTreeSet<usize> = BTreeSet::new();
+    let mut found = Vec::new();
+    for (row, entries) in rows {
+        let within = |of: &BTreeMap<usize, Id>| of.keys().all(|i| entries.contains_key(i));
+        let suits = |i: &usize| lift.has_no_inertia(*i) && !taken.contains(i);
+        if entries.len() < 2 || !entries.keys().all(suits) {
+            continue;
+        }
+        let own: Vec<usize> = (0..definitions.len())
+            .filter(|k| definitions[*k].as_ref().is_some_and(within))
+            .collect();
+        if own.len() + 1 != entries.len() {
+            continue;
+        }
+        let coordinates: Vec<usize> = entries.keys().copied().collect();
+        let mut vectors = vec![coordinates.iter().map(|i| entries[i]).collect::<Vec<Id>>()];
+        for definition in own.iter().filter_map(|k| definitions[*k].as_ref()) {
+            let entry = |i| definition.get(i).copied().unwrap_or_else(|| g.zero());
+            vectors.push(coordinates.iter().map(entry).collect());
+        }
+        if !at_right_angles(&vectors, d.force.len(), defaults, g) {
+            continue;
+        }
+        taken.extend(&coordinates);
+        let columns = vectors.iter().map(|vector| {
+            let square = inner(vector, vector, g);
+            let entries = vector.iter().map(|a| g.div(*a, square));
+            entries.collect()
+        });
+        found.push(Frame {
+            columns: columns.collect(),
+            coordinates,
+            row,
+            definitions: own,
+        });
+    }
+    found
+}
+
+/// Whether `vectors` are polynomials in the `n` coordinates, no two of them ever at another angle.
+fn at_right_angles(vectors: &[Vec<Id>], n: usize, defaults: &[f64], g: &Graph) -> bool {
+    let all = vectors.concat();
+    let foreign = |id: &Id| match g.node(*id) {
+        Node::Symbol(symbol) => !matches!(symbol, Symbol::Coord(_)),
+        Node::Product(factors) => factors.iter().any(|(_, e)| *e < 0),
+        Node::Call(..) | Node::Select(_) => true,
+        _ => false,
+    };
+    if g.reachable(&all).iter().any(foreign) {
+        return false;
+    }
+    let mut random = Random::new(21);
+    (0..STATES).all(|_| {
+        let probe = Probe::signed(defaults, n, &mut random);
+        let values = eval(g, &all, &probe.point());
+        let values: Vec<&[f64]> = values.chunks(vectors.len()).collect();
+        let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let right = |a: &[f64], b: &[f64]| {
+            product(a, b).abs() <= RIGHT * (product(a, a) * product(b, b)).sqrt()
+        };
+        let one = |k: usize| {
+            let others = values[..k].iter();
+            product(values[k], values[k]) > 0.0 && others.clone().all(|b| right(values[k], b))
+        };
+        (0..values.len()).all(one)
+    })
+}
+
+fn inner(u: &[Id], v: &[Id], g: &mut Graph) -> Id {
+    let products: Vec<(f64, Id)> = u.iter().zip(v).map(|(a, b)| (1.0, g.mul(*a, *b))).collect();
+    g.factored_sum(&products)
+}
