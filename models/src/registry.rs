@@ -1,8 +1,8 @@
 //! All models, by name.
 
 use crate::{
-    DoublePendulum, DoublePendulumAngles, Entry, FishRobot, FourBars, KapitzaPendulum, KnifeEdge,
-    MasslessSpring, Model, Pendulum, RigidBody, RoughBlock, SliderCrank, SliderCrankRedundant,
+    DoublePendulum, DoublePendulumAngles, DoubleScottRussell, Entry, FishRobot, FourBars, KapitzaPendulum, KnifeEdge,
+    MasslessSpring, Model, Pendulum, RigidBody, RoughBlock, SliderCrank,
     SpringPendulum, UChain,
 };
 use ukcore::Error;
@@ -52,7 +52,7 @@ registry![
     DoublePendulumAngles,
     KapitzaPendulum,
     SliderCrank,
-    SliderCrankRedundant,
+    DoubleScottRussell,
     KnifeEdge,
     RoughBlock,
     MasslessSpring,
