@@ -82,7 +82,7 @@ impl Model for DoubleScottRussell {
     }
 
     fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let [angle, speed] = Chosen::of::<Self>(name, options)?.values();
+        let [angle, speed] = Chosen::among(Self::starts(), name, options)?.values();
         positive("l", self.l)?;
         Ok(self.at_crank(angle, speed))
     }
@@ -106,11 +106,15 @@ impl DoubleScottRussell {
         // The rod leans as the other crank.
         for (i, (crank, rod)) in [(own, mirrored), (mirrored, own)].into_iter().enumerate() {
             let ((sin, cos), rate) = (crank.0.sin_cos(), crank.1);
-            let place = |k: f64| ([i as f64 * self.span + k * cos, k * sin], [-k * sin, k * cos]);
-            for (first, k, (turn, turning)) in [
-                (Self::CRANK_X[i], l / 2.0, crank),
-                (Self::ROD_X[i], l, rod),
-            ] {
+            let place = |k: f64| {
+                (
+                    [i as f64 * self.span + k * cos, k * sin],
+                    [-k * sin, k * cos],
+                )
+            };
+            for (first, k, (turn, turning)) in
+                [(Self::CRANK_X[i], l / 2.0, crank), (Self::ROD_X[i], l, rod)]
+            {
                 let ([x, y], [u, v]) = place(k);
                 enter(first, [x, y, turn], [u * rate, v * rate, turning]);
             }

@@ -1,9 +1,9 @@
 //! All models, by name.
 
 use crate::{
-    DoublePendulum, DoublePendulumAngles, DoubleScottRussell, Entry, FishRobot, FourBars, KapitzaPendulum, KnifeEdge,
-    MasslessSpring, Model, Pendulum, RigidBody, RoughBlock, SliderCrank,
-    SpringPendulum, UChain,
+    DoublePendulum, DoublePendulumAngles, DoubleScottRussell, Entry, FishRobot, FourBars,
+    KapitzaPendulum, KnifeEdge, MasslessSpring, Model, Pendulum, RigidBody, RoughBlock,
+    SliderCrank, SpringPendulum, UChain,
 };
 use ukcore::Error;
 

@@ -1,7 +1,6 @@
 //! Andrews' squeezing mechanism.
 
-use ukcore::model::{Chosen, Model, StartOptions, StartSpec};
-use ukcore::{Error, State, assemble};
+use ukcore::model::Model;
 
 ukcore::multibody! {
     /// Andrews' squeezing mechanism: seven planar bodies, one degree of freedom, driven by a constant torque.
@@ -33,19 +32,18 @@ ukcore::multibody! {
         forces { spring(k[2].at([sd, -sc]), ground.at(c), c0, l0), torque(k[0], mom) }
         output { beta = k[0].angle, theta = k[1].angle - k[0].angle, gamma = k[2].angle, phi = k[3].angle - k[4].angle, delta = k[4].angle,
             omega = k[5].angle - k[6].angle, epsilon = k[6].angle }
+        /// at rest at the published angles
+        start published {
+            k[0].angle = -0.06171389001427645
+            k[1].angle near -0.06171389001427645
+            k[2].angle near 0.4552798191630704
+            k[3].angle near 0.7100333697097284
+            k[4].angle near 0.48736497954384255
+            k[5].angle near 1.0078790543839353
+            k[6].angle near 1.2305474445498212
+        }
     }
 }
-
-/// The angles of the start, (β, Θ, γ, Φ, δ, Ω, ε), as published.
-const START: [f64; 7] = [
-    -0.061_713_890_014_276_45,
-    0.0,
-    0.455_279_819_163_070_4,
-    0.222_668_390_165_885_88,
-    0.487_364_979_543_842_55,
-    -0.222_668_390_165_885_87,
-    1.230_547_444_549_821_2,
-];
 
 impl Andrews {
     /// The angles of the seven bodies from (β, Θ, γ, Φ, δ, Ω, ε).
@@ -57,23 +55,6 @@ impl Andrews {
 }
 
 impl Model for Andrews {
-    fn starts() -> &'static [StartSpec] {
-        &[StartSpec {
-            name: "published",
-            doc: "at rest at the published angles",
-            options: &[],
-        }]
-    }
-
-    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        Chosen::of::<Self>(name, options)?;
-        let mut sketch = State::zeros::<Self>();
-        for (place, angle) in Andrews::K_ANGLE.into_iter().zip(Andrews::angles(START)) {
-            sketch.q[place] = angle;
-        }
-        assemble(self, sketch, &["k[0].angle"])
-    }
-
     fn duration() -> f64 {
         0.03
     }

@@ -78,7 +78,7 @@ impl Model for Arm {
     }
 
     fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let [first, step] = Chosen::of::<Self>(name, options)?.values();
+        let [first, step] = Chosen::among(Self::starts(), name, options)?.values();
         let angles = std::array::from_fn(|i| first + step * i as f64);
         Ok(self.bent(angles, angles))
     }

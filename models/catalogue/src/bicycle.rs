@@ -101,7 +101,7 @@ impl Model for Bicycle {
     }
 
     fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let [speed, lean_rate] = Chosen::of::<Self>(name, options)?.values();
+        let [speed, lean_rate] = Chosen::among(Self::starts(), name, options)?.values();
         positive("rear_radius", self.rear_radius)?;
         positive("front_radius", self.front_radius)?;
         Ok(self.upright(speed, lean_rate))

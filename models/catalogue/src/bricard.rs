@@ -1,9 +1,6 @@
 //! Bricard's linkage.
 
-use ukcore::model::{Chosen, Model, StartOptions, StartSpec};
-use ukcore::{Error, State};
-
-use crate::Pose;
+use ukcore::model::Model;
 
 ukcore::multibody! {
     /// Bricard's linkage: five rods, six hinges; by count it cannot move.
@@ -29,30 +26,15 @@ ukcore::multibody! {
             p5: hinge(r4.at([0, 1, 0]), ground.at([0, 0, 1]), [1, 0, 0])
         }
         output { p3_at = r3.at([0, 0, 0]) }
-    }
-}
-
-impl Model for Bricard {
-    fn starts() -> &'static [StartSpec] {
-        &[StartSpec {
-            name: "cube",
-            doc: "at rest in the edges of a cube",
-            options: &[],
-        }]
-    }
-
-    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        Chosen::of::<Self>(name, options)?;
-        let mut state = State::zeros::<Self>();
-        for (x, centre) in [
-            (Bricard::R0_X, [0.5, 0.0, 0.0]),
-            (Bricard::R1_X, [1.0, -0.5, 0.0]),
-            (Bricard::R2_X, [1.0, -1.0, 0.5]),
-            (Bricard::R3_X, [0.5, -1.0, 1.0]),
-            (Bricard::R4_X, [0.0, -0.5, 1.0]),
-        ] {
-            Pose::at_rest(centre).enter(&mut state, x);
+        /// at rest in the edges of a cube
+        start cube {
+            r0.x near 0.5
+            r1.x near 1, r1.y near -0.5
+            r2.x near 1, r2.y near -1, r2.z near 0.5
+            r3.x near 0.5, r3.y near -1, r3.z near 1
+            r4.y near -0.5, r4.z near 1
         }
-        Ok(state)
     }
 }
+
+impl Model for Bricard {}

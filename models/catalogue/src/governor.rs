@@ -114,7 +114,7 @@ impl Model for Governor {
     }
 
     fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let [angle, spin] = Chosen::of::<Self>(name, options)?.values();
+        let [angle, spin] = Chosen::among(Self::starts(), name, options)?.values();
         self.turning(angle, spin).ok_or_else(|| {
             let reason = format!("is {angle} rad; there the struts do not reach the axle");
             Error::InvalidSetting {

@@ -1,10 +1,6 @@
 //! A fast heavy top.
 
-use nalgebra::Vector3;
-use ukcore::model::{Chosen, Model, StartOption, StartOptions, StartSpec};
-use ukcore::{Error, State};
-
-use crate::Pose;
+use ukcore::model::Model;
 
 ukcore::multibody! {
     /// The heavy top of Brüls, Cardona & Arnold, spinning about its axis y, about a fixed point.
@@ -17,40 +13,23 @@ ukcore::multibody! {
         gravity { [0, 0, -g] }
         holonomic { foot: ball(ground.at([0, 0, 0]), top.at([0, 0, 0])) }
         output { height = top.along([0, 1, 0])[2], spin = top.spin }
+        /// the axis level, along y
+        start level(
+            /// Angular velocity about the axis, rad/s
+            turning = 150.0,
+            /// Angular velocity about the vertical, rad/s
+            precession = -4.61538,
+        ) {
+            top.y near l
+            top.e0 = 1
+            dot(top.x) near -precession * l
+            dot(top.e2) = turning / 2
+            dot(top.e3) = precession / 2
+        }
     }
 }
 
 impl Model for HeavyTop {
-    fn starts() -> &'static [StartSpec] {
-        &[StartSpec {
-            name: "level",
-            doc: "the axis level, along y",
-            options: &[
-                StartOption {
-                    name: "spin",
-                    doc: "angular velocity about the axis",
-                    default: 150.0,
-                    unit: "rad/s",
-                },
-                StartOption {
-                    name: "precession",
-                    doc: "angular velocity about the vertical",
-                    default: -4.61538,
-                    unit: "rad/s",
-                },
-            ],
-        }]
-    }
-
-    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let [spin, precession] = Chosen::of::<Self>(name, options)?.values();
-        let mut state = State::zeros::<Self>();
-        Pose::at_rest([0.0, self.l, 0.0])
-            .turning(Vector3::new(0.0, spin, precession))
-            .enter(&mut state, HeavyTop::TOP_X);
-        Ok(state)
-    }
-
     fn duration() -> f64 {
         2.0
     }

@@ -128,7 +128,7 @@ macro_rules! legs {
             }
 
             fn start(&self, name: &str, options: &ukcore::model::StartOptions) -> Result<ukcore::State, ukcore::Error> {
-                let [angle, speed] = ukcore::model::Chosen::of::<Self>(name, options)?.values();
+                let [angle, speed] = ukcore::model::Chosen::among(Self::starts(), name, options)?.values();
                 let mut missing = None;
                 let mut sketch = self.drawn(angle, |n, s| {
                     self.joints(angle, (n, s), [true, false, false]).unwrap_or_else(|| {

@@ -62,7 +62,7 @@ impl Model for RollingDisc {
     }
 
     fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let [tilt, precession] = Chosen::of::<Self>(name, options)?.values();
+        let [tilt, precession] = Chosen::among(Self::starts(), name, options)?.values();
         positive("r", self.r)?;
         positive("precession", precession.abs())?;
         positive("sin(tilt)", tilt.sin())?;

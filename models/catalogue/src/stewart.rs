@@ -89,7 +89,7 @@ impl Model for Stewart {
     }
 
     fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        Chosen::of::<Self>(name, options)?;
+        Chosen::among(Self::starts(), name, options)?;
         let mut state = State::zeros::<Self>();
         self.pose(0.0).enter(&mut state, Stewart::PLATFORM_X);
         Ok(state)
