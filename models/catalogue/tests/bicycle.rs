@@ -168,7 +168,6 @@ fn its_eigenvalues_are_the_published_ones() {
         let found = eigenvalues(speed);
         for (f, e) in found.iter().zip(&expected) {
             worst = worst.max((f - e).norm());
-            eprintln!("{speed} {f} {:e}", (f - e).norm());
         }
         let parts = |values: &[Complex<f64>]| -> Vec<f64> {
             values.iter().flat_map(|z| [z.re, z.im]).collect()

@@ -45,7 +45,7 @@ fn walk(end: f64) -> (f64, f64) {
     let start = walker.default_start().expect("a start");
     let run = Simulation::new(walker)
         .start(start)
-        .every(end / 100.0)
+        .every(end / 1000.0)
         .until(end)
         .unwrap_or_else(|e| panic!("{e}"));
     let residuals = run.residuals();
