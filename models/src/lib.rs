@@ -8,6 +8,7 @@
 
 pub mod double_pendulum;
 pub mod double_pendulum_angles;
+pub mod double_scott_russell;
 pub mod elliptic;
 pub mod fish;
 pub mod four_bars;
@@ -20,12 +21,12 @@ mod registry;
 pub mod rigid_body;
 pub mod rough_block;
 pub mod slider_crank;
-pub mod slider_crank_redundant;
 pub mod spring_pendulum;
 pub mod uchain;
 
 pub use double_pendulum::DoublePendulum;
 pub use double_pendulum_angles::DoublePendulumAngles;
+pub use double_scott_russell::DoubleScottRussell;
 pub use fish::FishRobot;
 pub use four_bars::FourBars;
 pub use kapitza::KapitzaPendulum;
@@ -36,7 +37,6 @@ pub use registry::{Visitor, entries, ids, visit};
 pub use rigid_body::RigidBody;
 pub use rough_block::RoughBlock;
 pub use slider_crank::SliderCrank;
-pub use slider_crank_redundant::SliderCrankRedundant;
 pub use spring_pendulum::SpringPendulum;
 pub use uchain::UChain;
 pub use ukcore::model::{Entry, Model, Reference, StartOption, StartOptions, StartSpec};

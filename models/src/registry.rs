@@ -1,9 +1,9 @@
 //! All models, by name.
 
 use crate::{
-    DoublePendulum, DoublePendulumAngles, Entry, FishRobot, FourBars, KapitzaPendulum, KnifeEdge,
-    MasslessSpring, Model, Pendulum, RigidBody, RoughBlock, SliderCrank, SliderCrankRedundant,
-    SpringPendulum, UChain,
+    DoublePendulum, DoublePendulumAngles, DoubleScottRussell, Entry, FishRobot, FourBars,
+    KapitzaPendulum, KnifeEdge, MasslessSpring, Model, Pendulum, RigidBody, RoughBlock,
+    SliderCrank, SpringPendulum, UChain,
 };
 use ukcore::Error;
 
@@ -52,7 +52,7 @@ registry![
     DoublePendulumAngles,
     KapitzaPendulum,
     SliderCrank,
-    SliderCrankRedundant,
+    DoubleScottRussell,
     KnifeEdge,
     RoughBlock,
     MasslessSpring,

@@ -1,4 +1,4 @@
-//! A slider-crank of three rigid bodies in absolute coordinates.
+//! A slider-crank of three rigid bodies.
 
 use crate::{Model, StartOption, StartOptions, StartSpec};
 use std::f64::consts::FRAC_PI_4;
@@ -6,8 +6,8 @@ use ukcore::model::{Chosen, positive};
 use ukcore::{Error, State};
 
 ukcore::multibody! {
-    /// Planar slider-crank: crank about a fixed bearing at the origin, connecting rod, slider on the x axis; each body has a position
-    /// and an angle. Bearing, crank pin, wrist pin and guide close the loop and leave one degree of freedom. y points up.
+    /// Planar slider-crank: crank about a fixed bearing at the origin, connecting rod, slider on the x axis. Bearing, crank pin, wrist pin
+    /// and guide close the loop and leave one degree of freedom. y points up.
     pub SliderCrank {
         params {
             /// Length of the crank, m
@@ -28,38 +28,34 @@ ukcore::multibody! {
             i3 = 5.0e-4,
             /// Acceleration of gravity, m/s^2
             g = 9.81,
-            /// Constant torque on the crank (with the potential -torque * th1), Nm
+            /// Constant torque on the crank (with the potential -torque * crank.angle), Nm
             torque = 0.0,
         }
-        coords {
-            /// Centre, m, and angle, rad, of the crank
-            x1, y1, th1,
-            /// Centre, m, and angle, rad, of the connecting rod
-            x2, y2, th2,
-            /// Centre, m, and angle, rad, of the slider
-            x3, y3, th3,
+        bodies {
+            planar crank { mass: m1, inertia: i1, centre: [r / 2, 0] }
+            planar rod { mass: m2, inertia: i2, centre: [l / 2, 0] }
+            planar slide { mass: m3, inertia: i3 }
         }
-        mass { x1: m1, y1: m1, th1: i1, x2: m2, y2: m2, th2: i2, x3: m3, y3: m3, th3: i3 }
-        potential { m1 * g * y1, m2 * g * y2, m3 * g * y3, -torque * th1 }
+        gravity { [0, -g] }
+        potential { -torque * crank.angle }
         holonomic {
-            bearing: [x1, y1] = r / 2.0 * [cos(th1), sin(th1)],
-            crank_pin: [x1, y1] + r / 2.0 * [cos(th1), sin(th1)] = [x2, y2] - l / 2.0 * [cos(th2), sin(th2)],
-            wrist_pin: [x2, y2] + l / 2.0 * [cos(th2), sin(th2)] = [x3, y3],
-            guide: [y3, th3] = [0.0, 0.0],
+            bearing: pin(ground.at([0, 0]), crank.at([0, 0]))
+            crank_pin: pin(crank.at([r, 0]), rod.at([0, 0]))
+            wrist_pin: pin(rod.at([l, 0]), slide.at([0, 0]))
+            guide: slider(ground.at([0, 0]), slide.at([0, 0]), [1, 0])
         }
         output {
             /// Angle of the crank, rad
-            crank = th1,
+            crank_angle = crank.angle,
             /// Position of the slider, m
-            stroke = x3,
+            stroke = slide.x,
             /// Velocity of the slider, m/s
-            stroke_speed = dot(x3),
+            stroke_speed = dot(slide.x),
         }
     }
 }
 
-/// Starts of the slider-crank, with and without redundant constraints.
-pub(crate) const TURNING: StartSpec = StartSpec {
+const TURNING: StartSpec = StartSpec {
     name: "turning",
     doc: "crank at an angle, turning; rod and slider where the joints put them",
     options: &[

@@ -210,13 +210,13 @@ fn crank_and_rod_of_one_length_near_their_dead_centre() {
             let r = mechanism.r;
             let mut q = vec![0.0; 9];
             let places = [
-                (SliderCrank::X1, 0.5 * r * cos),
-                (SliderCrank::Y1, 0.5 * r * sin),
-                (SliderCrank::TH1, angle),
-                (SliderCrank::X2, 1.5 * r * cos),
-                (SliderCrank::Y2, 0.5 * r * sin),
-                (SliderCrank::TH2, -angle),
-                (SliderCrank::X3, 2.0 * r * cos),
+                (SliderCrank::CRANK_X, 0.5 * r * cos),
+                (SliderCrank::CRANK_Y, 0.5 * r * sin),
+                (SliderCrank::CRANK_ANGLE, angle),
+                (SliderCrank::ROD_X, 1.5 * r * cos),
+                (SliderCrank::ROD_Y, 0.5 * r * sin),
+                (SliderCrank::ROD_ANGLE, -angle),
+                (SliderCrank::SLIDE_X, 2.0 * r * cos),
             ];
             for (place, value) in places {
                 q[place] = value;

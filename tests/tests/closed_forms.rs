@@ -1,8 +1,8 @@
 //! Each small model against its motion in closed form.
 
 use models::{
-    DoublePendulum, DoublePendulumAngles, FourBars, KapitzaPendulum, KnifeEdge, MasslessSpring,
-    Model, Pendulum, RigidBody, RoughBlock, SliderCrank, SliderCrankRedundant, StartOptions,
+    DoublePendulum, DoublePendulumAngles, DoubleScottRussell, FourBars, KapitzaPendulum, KnifeEdge,
+    MasslessSpring, Model, Pendulum, RigidBody, RoughBlock, SliderCrank, StartOptions,
 };
 use serde_json::Value;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -302,19 +302,24 @@ fn slider_crank_with_one_degree_of_freedom() {
     let kinetic = |angle: f64, rate: f64| {
         0.5 * crank.reduced_inertia(angle).expect("the rod reaches") * rate * rate
     };
-    let angle = start.q[SliderCrank::TH1];
-    let energy = kinetic(angle, start.v[SliderCrank::TH1]) + crank.reduced_potential(angle);
+    let angle = start.q[SliderCrank::CRANK_ANGLE];
+    let energy = kinetic(angle, start.v[SliderCrank::CRANK_ANGLE]) + crank.reduced_potential(angle);
     for sample in run.samples() {
-        let angle = sample.q[SliderCrank::TH1];
+        let angle = sample.q[SliderCrank::CRANK_ANGLE];
         assert_close(
             "stroke",
-            sample.q[SliderCrank::X3],
+            sample.q[SliderCrank::SLIDE_X],
             crank.stroke(angle),
             1e-13,
         );
         let work = energy - crank.reduced_potential(angle);
         let rate = (2.0 * work / crank.reduced_inertia(angle).expect("the rod reaches")).sqrt();
-        assert_close("rate of the crank", sample.v[SliderCrank::TH1], rate, 1e-8);
+        assert_close(
+            "rate of the crank",
+            sample.v[SliderCrank::CRANK_ANGLE],
+            rate,
+            1e-8,
+        );
         let expected = crank.at_crank(angle, rate).expect("the rod reaches");
         assert_all_close("q", sample.q, &expected.q, 1e-12);
         assert_all_close("q̇", sample.v, &expected.v, 1e-8);
@@ -327,19 +332,25 @@ fn slider_crank_with_one_degree_of_freedom() {
 }
 
 #[test]
-fn slider_crank_does_not_mind_redundant_constraints() {
-    let redundant = SliderCrankRedundant::default();
-    let plain = redundant.without_redundancy();
-    let with = run(redundant.clone(), StartOptions::new(), 1.0);
-    let without = run(plain, StartOptions::new(), 1.0);
-    let (a, b) = (
-        with.last().expect("an end"),
-        without.last().expect("an end"),
-    );
-    assert_all_close("q", a.q, b.q, 1e-8);
-    assert_all_close("q̇", a.v, b.v, 1e-7);
-    for solution in with.solutions().expect("redundant is no error") {
-        assert_eq!((solution.rank, solution.degrees_of_freedom), (8, 1));
+fn redundant_scott_russell_linkages_with_one_degree_of_freedom() {
+    let linkage = DoubleScottRussell::default();
+    let run = run(linkage.clone(), StartOptions::new(), 1.0);
+    let start = run.sample(0).expect("a start").to_state();
+    let crank = DoubleScottRussell::CRANK_ANGLE[0];
+    let (angle, rate) = (start.q[crank], start.v[crank]);
+    let kinetic = 0.5 * linkage.reduced_inertia(angle) * rate * rate;
+    let energy = kinetic + linkage.reduced_potential(angle);
+    for sample in run.samples() {
+        let (angle, rate) = (sample.q[crank], sample.v[crank]);
+        let expected = linkage.at_crank(angle, rate);
+        assert_all_close("q", sample.q, &expected.q, 1e-12);
+        assert_all_close("q̇", sample.v, &expected.v, 1e-11);
+        let work = energy - linkage.reduced_potential(angle);
+        let square = 2.0 * work / linkage.reduced_inertia(angle);
+        assert_close("rate of the crank", rate * rate, square, 1e-8);
+    }
+    for solution in run.solutions().expect("redundant is no error") {
+        assert_eq!((solution.rank, solution.degrees_of_freedom), (14, 1));
         assert_eq!(solution.redundant.len(), 2);
     }
 }

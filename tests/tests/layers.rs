@@ -192,6 +192,7 @@ fn no_unsafe_code_and_no_loose_ends() {
         "ukcore",
         "ukmacros",
         "models",
+        "models/catalogue",
         "models/tool",
         "models/uk",
         "tests",

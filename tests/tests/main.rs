@@ -20,7 +20,6 @@ mod language;
 mod layers;
 mod linearise;
 mod machines;
-mod mechanisms;
 mod modes;
 mod orientations;
 mod paper_fish;

@@ -1,8 +1,8 @@
 //! RATTLE: order, energy over many steps, reversibility, and what it refuses.
 
 use models::{
-    DoublePendulum, FishRobot, KnifeEdge, MasslessSpring, Model, Pendulum, RigidBody,
-    SliderCrankRedundant, SpringPendulum, StartOptions, UChain,
+    DoublePendulum, DoubleScottRussell, FishRobot, KnifeEdge, MasslessSpring, Model, Pendulum,
+    RigidBody, SpringPendulum, StartOptions, UChain,
 };
 use tests::largest;
 use ukcore::solver::Baumgarte;
@@ -109,7 +109,7 @@ fn a_run_back_ends_where_it_began() {
 /// Redundant constraints have no straight line: the rank-revealing solve serves.
 #[test]
 fn redundant_constraints_are_served_too() {
-    let mech = SliderCrankRedundant::default();
+    let mech = DoubleScottRussell::default();
     let start = mech.default_start().expect("a start");
     let dop853 = Simulation::new(mech.clone())
         .start(start.clone())

@@ -291,7 +291,7 @@ fn explain_shows_equations_and_rank() {
     ] {
         assert!(fish.contains(part), "{part} in {fish}");
     }
-    let crank = output(&["explain", "slider_crank_redundant"]);
+    let crank = output(&["explain", "double_scott_russell"]);
     assert!(crank.contains("degrees of freedom: 1"), "{crank}");
     assert!(crank.contains("redundant constraints: "), "{crank}");
     assert!(!crank.contains("redundant constraints: none"), "{crank}");

@@ -173,7 +173,10 @@ fn crank_through(gap: f64, effort: &mut Effort) -> Result<f64, Error> {
     let run = effort.run(simulation.max_steps(1_000_000), 0.2)?;
     let mut worst: f64 = run.energy_drift();
     for sample in run.samples() {
-        let (angle, slider) = (sample.q[SliderCrank::TH1], sample.q[SliderCrank::X3]);
+        let (angle, slider) = (
+            sample.q[SliderCrank::CRANK_ANGLE],
+            sample.q[SliderCrank::SLIDE_X],
+        );
         // As (l² − r²) + r² cos², without cancellation.
         let (r, l) = (crank.r, crank.l);
         let reach = ((l - r) * (l + r) + (r * angle.cos()).powi(2)).sqrt();

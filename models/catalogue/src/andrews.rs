@@ -1,0 +1,61 @@
+//! Andrews' squeezing mechanism.
+
+use ukcore::model::Model;
+
+ukcore::multibody! {
+    /// Andrews' squeezing mechanism: seven planar bodies, one degree of freedom, driven by a constant torque.
+    ///
+    /// Schiehlen (ed.), Multibody Systems Handbook, 1990; Hairer & Wanner, Solving Ordinary Differential Equations II, VII.7; Test Set for IVP
+    /// Solvers. Bodies 1 to 7 of the literature are `k[0]` to `k[6]`: crank, rod, triangle, rod, lever, rod, lever; `a`, `b` and `c` are its
+    /// points A, B and C of the ground. Lengths in m, masses in kg.
+    pub Andrews {
+        params {
+            m[7] = [0.04325, 0.00365, 0.02373, 0.00706, 0.07050, 0.00706, 0.05498],
+            i[7] = [2.194e-6, 4.410e-7, 5.255e-6, 5.667e-7, 1.169e-5, 5.667e-7, 1.912e-5],
+            a[2] = [-0.06934, -0.00227], b[2] = [-0.03635, 0.03273], c[2] = [0.014, 0.072], c0 = 4530.0, l0 = 0.07785,
+            d = 0.028, da = 0.0115, e = 0.02, ea = 0.01421, rr = 0.007, ra = 0.00092, ss = 0.035, sa = 0.01874, sb = 0.01043, sc = 0.018,
+            sd = 0.02, ta = 0.02308, tb = 0.00916, u = 0.04, ua = 0.01228, ub = 0.00449, zf = 0.02, zt = 0.04, fa = 0.01421, mom = 0.033,
+        }
+        let centre = [[ra, 0], [-da, 0], [sb, -sa], [0, ea - e], [ta, -tb], [zf - fa, 0], [ua, -ub]];
+        bodies { for n in 0..7 { planar k[n] { mass: m[n], inertia: i[n], centre: centre[n] } } }
+        let end = [k[1].at([-d, 0]), k[2].at([0, -ss]), k[3].at([0, -e]), k[5].at([zf, 0])];
+        holonomic {
+            o: pin(ground.at([0, 0]), k[0].at([0, 0]))
+            f: pin(k[0].at([rr, 0]), k[1].at([0, 0]))
+            b3: pin(ground.at(b), k[2].at([0, 0]))
+            a5: pin(ground.at(a), k[4].at([0, 0]))
+            h: pin(k[4].at([zt, 0]), k[3].at([0, 0]))
+            a7: pin(ground.at(a), k[6].at([0, 0]))
+            g: pin(k[6].at([0, -u]), k[5].at([0, 0]))
+            for n in 1..4 { e0[n - 1]: end[n] - end[0] = 0 }
+        }
+        forces { spring(k[2].at([sd, -sc]), ground.at(c), c0, l0), torque(k[0], mom) }
+        output { beta = k[0].angle, theta = k[1].angle - k[0].angle, gamma = k[2].angle, phi = k[3].angle - k[4].angle, delta = k[4].angle,
+            omega = k[5].angle - k[6].angle, epsilon = k[6].angle }
+        /// at rest at the published angles
+        start published {
+            k[0].angle = -0.06171389001427645
+            k[1].angle near -0.06171389001427645
+            k[2].angle near 0.4552798191630704
+            k[3].angle near 0.7100333697097284
+            k[4].angle near 0.48736497954384255
+            k[5].angle near 1.0078790543839353
+            k[6].angle near 1.2305474445498212
+        }
+    }
+}
+
+impl Andrews {
+    /// The angles of the seven bodies from (β, Θ, γ, Φ, δ, Ω, ε).
+    #[must_use]
+    pub fn angles([beta, theta, gamma, phi, delta, omega, epsilon]: [f64; 7]) -> [f64; 7] {
+        let rods = [beta + theta, phi + delta, omega + epsilon];
+        [beta, rods[0], gamma, rods[1], delta, rods[2], epsilon]
+    }
+}
+
+impl Model for Andrews {
+    fn duration() -> f64 {
+        0.03
+    }
+}

@@ -1,0 +1,36 @@
+//! A fast heavy top.
+
+use ukcore::model::Model;
+
+ukcore::multibody! {
+    /// The heavy top of Brüls, Cardona & Arnold, spinning about its axis y, about a fixed point.
+    ///
+    /// Brüls, Cardona & Arnold, Lie group generalized-α time integration of constrained flexible multibody systems, Mechanism and Machine
+    /// Theory 48 (2012) 121. The centre of mass is at (0, 1, 0) from the fixed point; gravity points along −z.
+    pub HeavyTop {
+        params { m = 15.0, across = 0.234375, along = 0.46875, l = 1.0, g = 9.81 }
+        bodies { spatial top { mass: m, inertia: [across, along, across], centre: [0, l, 0] } }
+        gravity { [0, 0, -g] }
+        holonomic { foot: ball(ground.at([0, 0, 0]), top.at([0, 0, 0])) }
+        output { height = top.along([0, 1, 0])[2], spin = top.spin }
+        /// the axis level, along y
+        start level(
+            /// Angular velocity about the axis, rad/s
+            turning = 150.0,
+            /// Angular velocity about the vertical, rad/s
+            precession = -4.61538,
+        ) {
+            top.y near l
+            top.e0 = 1
+            dot(top.x) near -precession * l
+            dot(top.e2) = turning / 2
+            dot(top.e3) = precession / 2
+        }
+    }
+}
+
+impl Model for HeavyTop {
+    fn duration() -> f64 {
+        2.0
+    }
+}

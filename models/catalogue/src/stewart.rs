@@ -1,0 +1,97 @@
+//! The Stewart platform.
+
+use nalgebra::{UnitQuaternion, Vector3};
+use ukcore::model::{Chosen, Model, StartOptions, StartSpec};
+use ukcore::{Error, State};
+
+use crate::Pose;
+
+ukcore::multibody! {
+    /// A platform on six legs whose lengths are driven, so that it heaves, yaws and nods: the leg forces are the multipliers.
+    ///
+    /// Stewart, A platform with six degrees of freedom, Proc. Inst. Mech. Eng. 180 (1965) 371; legs without mass between joints in pairs on
+    /// two circles. Place and attitude that the lengths are made for are `place` and `attitude`; other ways to put the platform on legs
+    /// of the same lengths exist, up to 40.
+    pub Stewart {
+        params {
+            m = 10.0,
+            inertia[3] = [0.4, 0.5, 0.8],
+            /// Radius of the circle of joints on the ground, m
+            base = 0.8,
+            /// Radius of that on the platform, m
+            plate = 0.5,
+            /// Half angle between the joints of a pair, rad
+            spread = 0.2,
+            /// Mean height, m
+            height = 0.7,
+            /// Amplitude of the height, m
+            rise = 0.1,
+            /// Amplitude of the angles, rad
+            turn = 0.2,
+            /// Angular frequency of the motion, rad/s
+            w = 2.0,
+            g = 9.81,
+        }
+        bodies { spatial platform { mass: m, inertia: inertia } }
+        gravity { [0, 0, -g] }
+        let ring = |r, angle| r * [cos(angle), sin(angle), 0];
+        let foot = |i, s| ring(base, 2 * PI / 3 * i + (2 * s - 1) * spread);
+        let head = |i, s| ring(plate, 2 * PI / 3 * i + (2 * s - 1) * (PI / 3 - spread));
+        let place = [0, 0, height + rise * sin(w * t)];
+        let attitude = rotz(turn * sin(w * t)) * rotx(turn * (1 - cos(w * t)));
+        holonomic {
+            for i in 0..3 { for s in 0..2 {
+                leg[i][s]: rod(ground.at(foot(i, s)), platform.at(head(i, s)), norm(place + attitude * head(i, s) - foot(i, s)))
+            } }
+        }
+        output {
+            for i in 0..3 { for s in 0..2 { length[i][s] = norm(platform.at(head(i, s)) - foot(i, s)) } }
+        }
+    }
+}
+
+impl Stewart {
+    /// The pose that the lengths of the legs are made for, at time t, s.
+    #[must_use]
+    pub fn pose(&self, t: f64) -> Pose {
+        let (sin, cos) = (self.w * t).sin_cos();
+        let yaw = UnitQuaternion::from_scaled_axis(Vector3::z() * (self.turn * sin));
+        let nod = UnitQuaternion::from_scaled_axis(Vector3::x() * (self.turn * (1.0 - cos)));
+        Pose {
+            centre: Vector3::z() * (self.height + self.rise * sin),
+            turn: yaw * nod,
+            velocity: Vector3::z() * (self.rise * self.w * cos),
+            omega: Vector3::z() * (self.turn * self.w * cos)
+                + yaw * Vector3::x() * (self.turn * self.w * sin),
+        }
+    }
+
+    /// Joint (i, s) on the ground, and that on the platform in its frame.
+    #[must_use]
+    pub fn ends(&self, i: usize, s: usize) -> [Vector3<f64>; 2] {
+        let third = std::f64::consts::TAU / 3.0;
+        let (turn, side) = (third * i as f64, 2.0 * s as f64 - 1.0);
+        let ring = |r: f64, angle: f64| Vector3::new(r * angle.cos(), r * angle.sin(), 0.0);
+        [
+            ring(self.base, turn + side * self.spread),
+            ring(self.plate, turn + side * (third / 2.0 - self.spread)),
+        ]
+    }
+}
+
+impl Model for Stewart {
+    fn starts() -> &'static [StartSpec] {
+        &[StartSpec {
+            name: "level",
+            doc: "level at the mean height, moving as the legs drive it",
+            options: &[],
+        }]
+    }
+
+    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
+        Chosen::among(Self::starts(), name, options)?;
+        let mut state = State::zeros::<Self>();
+        self.pose(0.0).enter(&mut state, Stewart::PLATFORM_X);
+        Ok(state)
+    }
+}

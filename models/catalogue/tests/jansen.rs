@@ -1,0 +1,185 @@
+//! Theo Jansen's leg and walkers.
+
+use catalogue::jansen::Joints;
+use catalogue::{JansenLeg, Walker};
+use std::f64::consts::TAU;
+use tests::{Random, assert_close, hunted};
+use ukcore::model::Model;
+use ukcore::{Mechanism, Simulation, State, assemble};
+
+catalogue::legs! {
+    /// Twelve legs.
+    Twelve, 6, 2
+}
+
+/// How Jansen puts a leg together.
+const JANSEN: [bool; 3] = [true, false, false];
+
+/// Over a turn of the crank the toe is where circles about the joints have it.
+#[test]
+fn toes_go_where_compass_and_ruler_have_them() {
+    fn check<M: Model>(crank: usize, toe: impl Fn(f64) -> Vec<f64>) {
+        let run = super::run::<M>(1e-10, 0.1, 2.0);
+        let angle = |q: &[f64]| q[crank];
+        assert!(angle(run.last().expect("the end").q) > TAU, "a whole turn");
+        for (sample, found) in run.samples().zip(run.outputs()) {
+            tests::assert_all_close("toes", &found, &toe(angle(sample.q)), 1e-9);
+        }
+    }
+    check::<JansenLeg>(JansenLeg::CRANK_ANGLE, |angle| {
+        let joints = JansenLeg::default().joints(angle, (0, 0), JANSEN);
+        joints.expect("bars reach")[5].to_vec()
+    });
+    check::<Walker>(Walker::CRANK_ANGLE, |angle| {
+        let legs = (0..6).map(|leg| {
+            let joints = Walker::default().joints(angle, (leg / 2, leg % 2), JANSEN);
+            joints.expect("bars reach")[5]
+        });
+        legs.flatten().collect()
+    });
+}
+
+/// A walk of twelve legs: how far its samples are off the constraints, and the turns of the crank.
+fn walk(end: f64, samples: u32) -> (f64, f64) {
+    let walker = Twelve::default();
+    let start = walker.default_start().expect("a start");
+    let run = Simulation::new(walker)
+        .start(start)
+        .every(end / f64::from(samples))
+        .until(end)
+        .unwrap_or_else(|e| panic!("{e}"));
+    let residuals = run.residuals();
+    let off = residuals.iter().map(|r| r.position).fold(0.0, f64::max);
+    (
+        off,
+        run.last().expect("the end").q[Twelve::CRANK_ANGLE] / TAU,
+    )
+}
+
+#[test]
+fn twelve_legs_walk() {
+    let (off, turns) = walk(2.0, 20);
+    assert!(off < 1e-10 && turns > 1.0, "{off:e}, {turns}");
+}
+
+#[test]
+#[ignore = "long: cargo test --release -p catalogue hunt -- --ignored --nocapture"]
+fn hunt_twelve_legs_walk_on() {
+    let (off, turns) = walk(1000.0, 1000);
+    println!("1000 s, {turns:.1} turns: loops within {off:e}");
+    assert!(off < 1e-10 && turns > 100.0, "{off:e}, {turns}");
+}
+
+/// Squared distance in the mass metric of the bodies of leg (n, s), angles by the shorter way round.
+fn apart(masses: &[f64], a: &State, b: &State, (n, s): (usize, usize)) -> f64 {
+    let first = [
+        Twelve::BAR_J_X,
+        Twelve::BAR_K_X,
+        Twelve::BAR_C_X,
+        Twelve::BAR_F_X,
+        Twelve::THIGH_X,
+        Twelve::FOOT_X,
+    ];
+    let places = first.into_iter().flat_map(|x| x[n][s]..x[n][s] + 3);
+    let squares = places.map(|i| {
+        let off = a.q[i] - b.q[i];
+        let angle = Twelve::SPEC.coords[i].ends_with(".angle");
+        let off = if angle {
+            off - TAU * (off / TAU).round()
+        } else {
+            off
+        };
+        masses[i] * off * off
+    });
+    squares.sum()
+}
+
+/// Sketches whose joints are up to `spread` off, m, put together with the crank held: how many could be, and of how many all legs are
+/// put together in the way that is the nearest of all there are.
+fn sketches(spread: f64, draws: u64) -> (u64, u64) {
+    let walker = Twelve::default();
+    let mut random = Random::new(12);
+    let legs: Vec<(usize, usize)> = (0..12).map(|leg| (leg / 2, leg % 2)).collect();
+    let ways: Vec<[bool; 3]> = (0..8_u8)
+        .map(|k| [k & 1 == 0, k & 2 != 0, k & 4 != 0])
+        .collect();
+    let (mut assembled, mut nearest) = (0, 0);
+    for _ in 0..draws {
+        let angle = TAU / 2.0 * random.signed();
+        let mut exact = |n: usize, s: usize| -> Joints {
+            let joints = walker.joints(angle, (n, s), JANSEN).expect("bars reach");
+            joints.map(|p| p.map(|x| x + spread * random.signed()))
+        };
+        let sketch = walker.drawn(angle, &mut exact);
+        let Ok(found) = assemble(&walker, sketch.clone(), &["crank.angle"]) else {
+            continue;
+        };
+        assembled += 1;
+        let mut masses = vec![0.0; sketch.q.len().pow(2)];
+        walker
+            .prepared::<f64>()
+            .mass_matrix(0.0, &sketch.q, &mut masses);
+        let masses: Vec<f64> = masses.into_iter().step_by(sketch.q.len() + 1).collect();
+        // All legs in each of the ways that there are.
+        let states: Vec<Option<State>> = ways
+            .iter()
+            .map(|way| {
+                let joints = |n, s| walker.joints(angle, (n, s), *way);
+                legs.iter()
+                    .try_for_each(|(n, s)| joints(*n, *s).map(drop))?;
+                let drawn = walker.drawn(angle, |n, s| joints(n, s).expect("as seen"));
+                assemble(&walker, drawn, &["crank.angle"]).ok()
+            })
+            .collect();
+        let least = |from: &State, leg: (usize, usize)| {
+            let distance = |state: &Option<State>| {
+                let state = state.as_ref();
+                state.map_or(f64::INFINITY, |state| apart(&masses, from, state, leg))
+            };
+            let all: Vec<f64> = states.iter().map(distance).collect();
+            (0..all.len())
+                .min_by(|i, j| all[*i].total_cmp(&all[*j]))
+                .expect("ways")
+        };
+        let wrong = legs
+            .iter()
+            .filter(|leg| least(&sketch, **leg) != least(&found, **leg));
+        nearest += u64::from(wrong.count() == 0);
+    }
+    (assembled, nearest)
+}
+
+#[test]
+fn twelve_legs_are_assembled_from_a_sketch() {
+    assert_eq!(sketches(0.04, 5), (5, 5));
+}
+
+#[test]
+#[ignore = "long: cargo test --release -p catalogue hunt -- --ignored --nocapture"]
+fn hunt_twelve_legs_are_assembled_from_sketches() {
+    let draws = hunted(200);
+    for spread in [0.02, 0.04, 0.1, 0.2, 0.4] {
+        let (assembled, nearest) = sketches(spread, draws);
+        println!(
+            "joints {spread} m off: {assembled} of {draws} assembled, {nearest} in the nearest way"
+        );
+    }
+    assert_eq!(sketches(0.04, draws), (draws, draws));
+}
+
+/// Without torque and drag the energy stays.
+#[test]
+fn a_leg_that_nothing_drives_keeps_its_energy() {
+    let leg = JansenLeg {
+        torque: 0.0,
+        drag: 0.0,
+        ..JansenLeg::default()
+    };
+    let start = leg.default_start().expect("a start");
+    let run = Simulation::new(leg)
+        .tolerance(1e-11)
+        .start(start)
+        .until(5.0)
+        .expect("a run");
+    assert_close("energy", run.energy_drift(), 0.0, 1e-8);
+}
