@@ -213,7 +213,9 @@ pub(crate) struct Step<'a> {
     pub(crate) old: Sample<'a>,
     /// Projected state at its end, whose time is before that of its start where integration runs backward.
     pub(crate) new: Sample<'a>,
-    /// States between; there if [`Settings::dense`] is set or [`Problem::next_sample`] lies in this step.
+    /// The time at its end, or that at the end of the run where a step over a singular position goes on behind it.
+    pub(crate) until: f64,
+    /// States between; there if [`Settings::dense`] is set, if [`Problem::next_sample`] lies in this step or if that goes on behind the end.
     pub(crate) interpolant: Option<Interpolant<&'a [f64]>>,
     /// It is near a singular position, or goes over it.
     pub(crate) nearby: bool,

@@ -101,8 +101,8 @@ impl<'s> Recorder<'s> {
             work: &mut trajectory.work,
         };
         let between = &mut self.between;
-        self.watch.search(step.old.t, step.new.t, &mut within)?;
-        let mut t_stop = step.new.t;
+        self.watch.search(step.old.t, step.until, &mut within)?;
+        let mut t_stop = step.until;
         for crossing in &self.watch.crossings {
             let event = &self.watch.events[crossing.event];
             let t = crossing.t;
@@ -121,7 +121,7 @@ impl<'s> Recorder<'s> {
                 trajectory.ending = Ending::Event;
             }
         }
-        let forward = step.new.t >= step.old.t;
+        let forward = step.until >= step.old.t;
         let passed = |t: &f64| if forward { *t <= t_stop } else { *t >= t_stop };
         while let Some(t) = self.agenda.next().filter(passed) {
             within.consistent(t, between)?;

@@ -235,7 +235,7 @@ cases! {
     two_commas_in_a_call: "coords { x } mass { x: 1.0 } force { x: max(x,«,» 2) }" => "expected an expression";
     semicolon_in_a_sum: "coords { x } mass { x: 1.0 } force { x: sum(0..3«;» |i| x) }" => "expected `,`";
     ternary: "coords { x } mass { x: 1.0 } force { x: x «>» 0 ? 1 : 2 }" => "no comparisons";
-    pair_of_three: "coords { x, y } mass { x: 1.0, y: 1.0, (x, y«,» x): 1.0 }" => "an entry of M belongs to one or two coordinates";
+    pair_of_three: "coords { x, y } mass { x: 1.0, y: 1.0, (x, y, «x»): 1.0 }" => "an entry of M belongs to one or two coordinates";
     type_of_an_argument: "coords { x } let f = |«a: f64»| a; mass { x: 1.0 } force { x: f(x) }" => "an argument is a plain name";
     attribute: "coords { #[«inline»] x } mass { x: 1.0 }" => "only doc comments are allowed here";
     lint_of_an_entry: "coords { «#»[allow(dead_code)] x } mass { x: 1.0 }" => "`#[allow(…)]` stands before the whole declaration";

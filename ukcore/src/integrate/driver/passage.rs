@@ -46,6 +46,9 @@ pub(super) struct Passage {
     ahead: Option<Singular>,
     /// The step in hand goes over it.
     passing: bool,
+    /// The step in hand, where it goes over it to behind the end of the run; whether none may.
+    pub(super) beyond: Option<Trial>,
+    pub(super) bounded: bool,
     /// It has not been tried yet to pass it.
     untried: bool,
     /// How often the step in hand has been planned anew.
@@ -78,9 +81,14 @@ impl Passage {
 impl Driver<'_> {
     /// Shortens the next step so that it stays before the singular position ahead, or has it go over; not one that is `planned` already.
     pub(super) fn approach(&mut self, planned: bool) {
-        let Equations { course, nearby, .. } = &mut self.equations;
+        let Equations {
+            course,
+            nearby,
+            switches,
+            ..
+        } = &mut self.equations;
         let passage = &mut self.passage;
-        (passage.passing, passage.wanted) = (false, 0.0);
+        (passage.passing, passage.wanted, passage.beyond) = (false, 0.0, None);
         if planned {
             return;
         }
@@ -111,14 +119,21 @@ impl Driver<'_> {
         let (middle, rest) = (0.5 * (from + to), course.ahead(course.end.t));
         let size = left / middle;
         let bold = std::mem::take(&mut passage.untried) && size <= BOLD * h;
-        if rest < left {
+        // No stage comes near the position, but where the run ends near it the end does: then the step goes on as the motion does.
+        let behind = size > rest * (1.0 + OFF);
+        let beyond =
+            behind && (rest - left).abs() < OFF * size && switches.is_empty() && !passage.bounded;
+        if behind && !beyond && rest < left {
             course.limit(rest);
-        } else if size > rest * (1.0 + OFF) {
+        } else if behind && !beyond {
             // So that the rest is the step that goes over.
             course.limit((0.5 * left).min((left - middle * rest) / (1.0 - middle)));
         } else if size <= h || bold {
             course.h = course.along * size;
             passage.passing = true;
+            if beyond {
+                passage.beyond = course.step_beyond();
+            }
             passage.distance = 0.5 * (to - from) * size;
             return;
         } else {
@@ -166,6 +181,8 @@ impl Driver<'_> {
         let mut other = Driver::new(Method::Dop853, problem, t, &y, end.t, &settings);
         other.shown = Some(here);
         (other.passage.ahead, other.passage.untried) = (Some(position), true);
+        // Equal steps go on from its end.
+        other.passage.bounded = !last;
         let (report, y) = other.travel();
         self.scheme.end_mut().copy_from_slice(&y);
         self.scheme.advance();
