@@ -96,10 +96,10 @@ impl Driver<'_> {
         let Some([from, to]) = self.gap else {
             return;
         };
-        if passage.turns > 0.0 {
-            course.limit(SEEN / passage.turns);
-        }
         let Some(position) = &passage.ahead else {
+            if passage.turns > 0.0 {
+                course.limit(SEEN / passage.turns);
+            }
             return;
         };
         let (left, h) = (course.ahead(position.t), course.h.abs());
@@ -246,7 +246,8 @@ impl Driver<'_> {
         } else {
             size <= 0.51 * left || trial.last && size < left
         };
-        if found.gap > 0.0 && left > 4.0 * found.gap {
+        // Stages of a step that is far too long tell nothing of the motion.
+        if made && found.gap > 0.0 && left > 4.0 * found.gap {
             self.passage.turns = self.passage.turns.max(found.rate);
         }
         self.passage.untried |= self.passage.ahead.is_none();
