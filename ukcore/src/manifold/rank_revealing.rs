@@ -38,7 +38,7 @@ pub(super) struct Factors {
     place: Option<f64>,
     q: Vec<f64>,
     /// Whether rows below the ceiling are left out.
-    cautious: bool,
+    pub(super) cautious: bool,
 }
 
 impl Factors {
