@@ -198,13 +198,26 @@ pub(crate) trait Problem {
 pub(crate) struct Singular {
     /// When the motion is there, or nearest to it.
     pub(crate) t: f64,
-    /// How long it takes to turn there; 0 where it passes, NaN where rounding does not tell.
+    /// How long it takes to turn there; 0 where it passes, infinite where it does not get there, NaN where rounding does not tell.
     pub(crate) gap: f64,
     /// The least significance of a constraint where the motion was nearest, and by how much it falls in a unit of time from there on.
     pub(crate) significance: f64,
     pub(crate) rate: f64,
     /// These constraints.
     pub(crate) constraints: Vec<String>,
+}
+
+impl Singular {
+    /// One that the motion is beside at `t`, with this significance, but that it does not lead to.
+    pub(crate) fn beside(t: f64, significance: f64) -> Self {
+        Singular {
+            t,
+            gap: f64::INFINITY,
+            significance,
+            rate: 0.0,
+            constraints: Vec::new(),
+        }
+    }
 }
 
 /// An accepted step.

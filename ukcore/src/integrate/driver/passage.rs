@@ -153,7 +153,8 @@ impl Driver<'_> {
         };
         let course = &mut self.equations.course;
         let (left, h) = (course.ahead(position.t), course.h.abs());
-        let size = (2.0 * left.max(0.0)).max(h) + position.gap.max(0.0);
+        let turn = Some(position.gap).filter(|gap| gap.is_finite());
+        let size = (2.0 * left.max(0.0)).max(h) + turn.unwrap_or(0.0).max(0.0);
         let trial = course.step(course.along * (size / h).ceil() * h);
         let trial = trial.filter(|trial| course.ahead(trial.end.t) < course.ahead(course.end.t));
         let (end, last) = trial.map_or((course.end, true), |trial| (trial.end, false));
