@@ -51,6 +51,8 @@ pub(super) struct Passage {
     pub(super) bounded: bool,
     /// It has not been tried yet to pass it.
     untried: bool,
+    /// A step over it did not come out as exactly as was asked for: nearer to it rounding makes more of it, so less is asked for.
+    faint: bool,
     /// How often the step in hand has been planned anew.
     pub(super) plans: usize,
     /// The fastest fall of a significance in a unit of time towards a place where the motion turned; 0 before there was one.
@@ -69,7 +71,10 @@ impl Passage {
         if let Some(position) = &self.ahead {
             let significance = self.distance * position.rate;
             let noise = if position.gap > 0.0 { TURNING } else { NOISE };
-            let least = (noise / (significance * significance)).min(COARSEST);
+            let least = match self.faint && self.passing {
+                true => COARSEST,
+                false => (noise / (significance * significance)).min(COARSEST),
+            };
             let coarser = (least / tolerance.relative).max(1.0);
             tolerance.relative *= coarser;
             tolerance.absolute *= coarser;
@@ -219,6 +224,9 @@ impl Driver<'_> {
         } = &mut self.equations;
         let here = Sample::of(course.now.t, self.scheme.start());
         let gap = self.gap;
+        if self.passage.passing && !made && !self.passage.faint {
+            (self.passage.faint, self.passage.untried) = (true, true);
+        }
         let found = problem.singular((!made && gap.is_none()).then_some(here));
         let end = Sample::of(trial.end.t, self.scheme.end());
         let Some(found) = found.or_else(|| problem.vanishing(here, made.then_some(end))) else {
@@ -231,7 +239,8 @@ impl Driver<'_> {
             self.passage.ahead = Some(found);
             return Err(Refusal::Unplanned);
         };
-        let close = self.passage.ahead.is_some() && found.gap == 0.0 && found.significance < CLOSE;
+        // Where the run stands: a stage of a step that comes to nothing may be near by chance.
+        let close = self.passage.ahead.is_some() && found.gap == 0.0 && found.rate * left < CLOSE;
         if (found.gap.is_nan() || close) && left > 0.0 {
             let constraints = found.constraints;
             let error = Error::Singular { constraints };
@@ -251,7 +260,9 @@ impl Driver<'_> {
         if made && found.gap > 0.0 && left > 4.0 * found.gap {
             self.passage.turns = self.passage.turns.max(found.rate);
         }
-        self.passage.untried |= self.passage.ahead.is_none();
+        if self.passage.ahead.is_none() {
+            (self.passage.untried, self.passage.faint) = (true, false);
+        }
         self.passage.ahead = Some(found);
         if good {
             return Ok(());
