@@ -152,7 +152,7 @@ impl Projector {
 
     /// Moves a state y = [q; q̇] between the ends of a step, which is as exact as an interpolant, onto the constraints. Where some all but
     /// depend on the others, so small an error may have it in another branch of the motion, with another velocity: where the projection
-    /// changes velocities by more than `most` there, the state is interpolated `again`, and these are left out.
+    /// changes velocities by more than `most` there, the state is interpolated `again`, and they are as these constraints leave them.
     ///
     /// # Errors
     /// As [`Projector::position`].
@@ -170,7 +170,9 @@ impl Projector {
         if corrections[1].norm > most && self.manifold.doubts(&at, v)? {
             again(y);
             let (q, v) = y.split_at_mut(n);
-            self.settle(t, q, v)?;
+            self.position(t, q, v)?;
+            let at = At::new(&self.mechanism, Level::Velocity, t, q);
+            self.manifold.settle(&at, v)?;
         }
         Ok(corrections)
     }
