@@ -4,7 +4,7 @@
 use models::FourBars;
 use tests::hunted;
 use ukcore::simulate::Sample;
-use ukcore::{Ensemble, Error, Mechanism, Method, Prepared, Simulation, State, Trajectory};
+use ukcore::{Ensemble, Error, Event, Mechanism, Method, Prepared, Simulation, State, Trajectory};
 
 ukcore::multibody! {
     /// A slider-crank of three bodies. With l = r the slider can be at rest in the bearing, while crank and rod turn as one.
@@ -328,6 +328,7 @@ impl Outcomes {
             Err(failure) => {
                 let off = worst(&failure.trajectory, off);
                 if off <= bound {
+                    println!("{label}: {failure}");
                     self.refused += 1;
                 } else {
                     self.wrong.push(format!(
@@ -396,14 +397,106 @@ fn hunt_for_branches() {
                 "{method}, {tolerance:e}, case {number}: {passed} passed, {refused} refused, {} wrong",
                 wrong.len()
             );
-            assert!(
-                50 * refused as u64 <= count,
-                "{refused} of {count} are refused"
-            );
+            all.refused += refused;
             all.wrong.extend(wrong);
         }
     }
-    assert!(all.wrong.is_empty(), "{:#?}", all.wrong);
+    assert!(all.wrong.is_empty() && all.refused == 0, "{all:#?}");
+}
+
+/// Motions that hurt: rates of near misses from stages of far too long steps, stages that come near by chance, passages that miss the
+/// accuracy asked for by a hair, a crank that hovers beside its dead centre, samples on it that no step was planned for.
+#[test]
+fn what_the_hunt_has_found() {
+    let mut outcomes = Outcomes::default();
+    for (number, rate, tolerance) in [
+        (7, 4.4809, 1e-4),
+        (7, 5.930899999999999, 1e-6),
+        (2, 3.838832, 1e-4),
+        (5, 7.294832, 1e-6),
+        (3, 7.750832, 1e-11),
+        (4, 2.854832, 1e-12),
+        (5, 5.710832, 1e-9),
+    ] {
+        outcomes.case(number, rate, Method::Dop853, tolerance, 10.0);
+    }
+    assert!(
+        outcomes.wrong.is_empty() && outcomes.refused == 0,
+        "{outcomes:#?}"
+    );
+    for (rate, method, bound) in [
+        (6.3809, Method::Radau5, 1e-3),
+        (7.0809, Method::Rattle { step: 1e-2 }, 2e-4),
+    ] {
+        let Case {
+            mechanism,
+            start,
+            off,
+        } = crank_pendulum(rate);
+        let run = Simulation::new(mechanism).start(start).method(method);
+        let run = run.tolerance(1e-4).every(0.013).until(10.0);
+        let run = run.unwrap_or_else(|failure| panic!("{failure}"));
+        // Where the slider stands at the bearing, only its velocity tells the branches apart.
+        let (off, drift) = (worst(&run, off), run.energy_drift());
+        assert!(off < 1e-4 && drift < bound, "{method}: {off:e}, {drift:e}");
+    }
+}
+
+#[test]
+fn runs_end_and_are_sampled_at_singular_positions() {
+    let rate = 5.5;
+    let angle = State {
+        t: 0.0,
+        q: vec![ANGLE],
+        v: vec![rate],
+    };
+    let own = CrankAngle::default();
+    let up = Event::new("up", |_t, q, _v| q[0] - 0.5 * std::f64::consts::PI);
+    let own = Simulation::new(own).start(angle).tolerance(1e-13).event(up);
+    let own = own.dense().until(2.0).expect("a regular motion");
+    let there = own.all_events()[0].t;
+    for method in [
+        Method::Dop853,
+        Method::Dopri5,
+        Method::Radau5,
+        Method::Rattle { step: 2e-3 },
+    ] {
+        let crank = || crank(1.0, 0.0, rate);
+        let simulation = || {
+            let Case {
+                mechanism, start, ..
+            } = crank();
+            Simulation::new(mechanism).start(start).method(method)
+        };
+        let whole = simulation().dense().until(1.0);
+        let whole = whole.unwrap_or_else(|failure| panic!("{method}: {failure}"));
+        for past in [-1e-3, -1e-5, -1e-8, 0.0, 1e-8, 1e-5, 1e-3] {
+            let t = there + past;
+            let exact = own.at(t).expect("within the run");
+            let run = simulation().until(t);
+            let run = run.unwrap_or_else(|failure| panic!("{method}, {past:e}: {failure}"));
+            let end = run.last().expect("an end").to_state();
+            assert_eq!(end.t, t);
+            let within = whole.at(t).expect("within the run");
+            for (what, state) in [("end", end), ("sample", within)] {
+                let slider = -2.0 * exact.q[0].sin() * exact.v[0];
+                let off = [
+                    state.q[2] - exact.q[0],
+                    state.q[6] - 2.0 * exact.q[0].cos(),
+                    state.v[2] - exact.v[0],
+                    state.v[6] - slider,
+                ];
+                let bound = match method {
+                    Method::Rattle { .. } => 2e-3,
+                    _ => 1e-5,
+                };
+                assert!(
+                    off.iter().all(|x| x.abs() < bound),
+                    "{method}, {what}, {past:e}: {off:?}"
+                );
+            }
+        }
+    }
 }
 
 #[test]

@@ -181,8 +181,32 @@ impl Exact {
             }
         }
         let (beside, least) = self.beside_constraints(a);
-        let bound = BOUND.max(ROUNDING * self.rounding / least);
-        (worst.max(beside), bound)
+        let rounding = self.rounding * (ROUNDING / least).max(self.cancellation(a));
+        (worst.max(beside), BOUND.max(rounding))
+    }
+
+    /// How much larger than M^−½ (M q̈ − Q) are the forces of constraints that make it up, by which the rounding of A's entries counts:
+    /// many times on light masses between heavy ones, where large forces all but cancel. In f64, which is good enough for a size.
+    fn cancellation(&self, a: &[f64]) -> f64 {
+        let n = 2 * N;
+        let root: Vec<f64> = self.mass.iter().map(|m| m.sqrt()).collect();
+        let entry = |i: usize, c: usize| self.jacobian[i * K + c].to_f64() / root[i];
+        let mut rows = nalgebra::DMatrix::from_fn(n, K, entry);
+        for mut row in rows.column_iter_mut() {
+            let norm = row.norm();
+            row /= if norm > 0.0 { norm } else { 1.0 };
+        }
+        let force = nalgebra::DVector::from_fn(n, |i, _| self.force[i].to_f64() / root[i]);
+        let inertia = nalgebra::DVector::from_fn(n, |i, _| root[i] * a[i]);
+        let size = force.norm() + inertia.norm();
+        let forces = rows.clone().svd(true, true);
+        let multipliers = forces.solve(&(inertia - force), 1e-13);
+        let multipliers = multipliers.expect("both factors were asked for");
+        if size > 0.0 {
+            (rows.abs() * multipliers.abs()).norm() / size
+        } else {
+            0.0
+        }
     }
 
     /// The part of M^−½ (M q̈ − Q) outside of the range of M^−½ Aᵀ, by Gram and Schmidt, and the least part that a row has for itself, in
@@ -348,8 +372,16 @@ impl Outcomes {
         match simulation.until(0.2 * time) {
             Ok(motion) => {
                 let drift = motion.energy_drift();
-                ensure(drift <= DRIFT, || {
-                    format!("seed {seed}: energy drifts by {drift:e}\n{rods:?}")
+                // V is known to the rounding of heights, as a part of what is exchanged.
+                let energy = motion.energy();
+                let weight: f64 = rods.m.iter().map(|m| m * rods.g).sum();
+                let exchanged = energy.iter().fold(0.0, |most: f64, e| {
+                    let gained = e.potential - energy[0].potential;
+                    most.max(e.kinetic).max(gained.abs())
+                });
+                let known = 4.0 * f64::EPSILON * weight * size / exchanged;
+                ensure(drift <= DRIFT + known, || {
+                    format!("seed {seed}: energy drifts by {drift:e}, known to {known:e}\n{rods:?}")
                 })?;
                 let rows: Vec<f64> = (0..K)
                     .map(|k| rods.get(&format!("row[{k}]")).expect("row"))
@@ -394,6 +426,18 @@ fn random_mechanisms_come_out_right_or_are_refused_by_name() {
 fn large_projections_of_rows_in_doubt_refuse_the_step() {
     let mut outcomes = Outcomes::default();
     for seed in [1_001_322, 1_001_486, 1_007_141, 1_007_525, 1_009_068] {
+        if let Err(wrong) = outcomes.case(seed, true) {
+            panic!("{wrong}");
+        }
+    }
+}
+
+/// Bounds that know what rounding makes of the equations: V of a mass of 6e9 kg at a height of 6e4 m, forces on light masses between
+/// heavy ones that all but cancel. All formulas agree there in ten digits.
+#[test]
+fn bounds_know_what_is_rounded() {
+    let mut outcomes = Outcomes::default();
+    for seed in [1_002_529, 1_003_327, 1_007_822] {
         if let Err(wrong) = outcomes.case(seed, true) {
             panic!("{wrong}");
         }

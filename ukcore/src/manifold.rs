@@ -150,6 +150,33 @@ impl Projector {
         self.manifold.settle(&at, v)
     }
 
+    /// Moves a state y = [q; q̇] between the ends of a step, which is as exact as an interpolant, onto the constraints. Where some all but
+    /// depend on the others, so small an error may have it in another branch of the motion, with another velocity: where the projection
+    /// changes velocities by more than `most` there, the state is interpolated `again`, and they are as these constraints leave them.
+    ///
+    /// # Errors
+    /// As [`Projector::position`].
+    pub(crate) fn interpolated(
+        &mut self,
+        t: f64,
+        y: &mut [f64],
+        most: f64,
+        again: impl FnOnce(&mut [f64]),
+    ) -> Result<[Correction; 2], Error> {
+        let n = y.len() / 2;
+        let (q, v) = y.split_at_mut(n);
+        let corrections = [self.position(t, q, v)?, self.velocity(t, q, v)?];
+        let at = At::new(&self.mechanism, Level::Velocity, t, q);
+        if corrections[1].norm > most && self.manifold.doubts(&at, v)? {
+            again(y);
+            let (q, v) = y.split_at_mut(n);
+            self.position(t, q, v)?;
+            let at = At::new(&self.mechanism, Level::Velocity, t, q);
+            self.manifold.settle(&at, v)?;
+        }
+        Ok(corrections)
+    }
+
     /// Moves `q` onto φ(q, t) = 0 along M⁻¹A(`base`)ᵀ, for mechanisms with holonomic constraints alone; `shift` is the sum of all moves,
     /// which is more exact than the difference of coordinates.
     ///
@@ -278,22 +305,35 @@ impl Manifold {
             return Ok(Correction::default());
         }
         self.start.copy_from_slice(q);
-        let (base, factors) = (at.other, &mut self.factors);
-        let (mut begun, mut factored, mut failure) = (false, false, None);
-        let newton = &mut self.newton;
-        let (good, _, count) = newton.direct(at, q, 1.0, Steps::Elsewhere, |newton, _| {
-            if begun {
-                let sums = shift.iter_mut().zip(&newton.step);
-                sums.for_each(|(sum, d)| *sum += d);
+        self.factors.cautious = true;
+        loop {
+            let (base, factors) = (at.other, &mut self.factors);
+            let (mut begun, mut factored, mut failure) = (false, false, None);
+            let newton = &mut self.newton;
+            let (good, _, count) = newton.direct(at, q, 1.0, Steps::Elsewhere, |newton, _| {
+                if begun {
+                    let sums = shift.iter_mut().zip(&newton.step);
+                    sums.for_each(|(sum, d)| *sum += d);
+                }
+                begun = true;
+                failure = factors.step(at, base, newton, &mut factored).err();
+                f64::from(u8::from(failure.is_none()))
+            });
+            if let Some(error) = failure {
+                return Err(error);
             }
-            begun = true;
-            failure = factors.step(at, base, newton, &mut factored).err();
-            f64::from(u8::from(failure.is_none()))
-        });
-        match failure {
-            Some(error) => Err(error),
-            None if good > 0.5 || self.accept(at, q, factored) => Ok(self.correction(q, count)),
-            None => Err(self.error(at, q)),
+            // No step tells of rows that are left out.
+            let left_out = factored && self.factors.cautious && self.factors.doubts();
+            if good > 0.5 && !left_out || self.accept(at, q, factored) {
+                return Ok(self.correction(q, count));
+            }
+            if !left_out {
+                return Err(self.error(at, q));
+            }
+            // They are not implied by the others.
+            self.factors.cautious = false;
+            q.copy_from_slice(&self.start);
+            shift.fill(0.0);
         }
     }
 
@@ -304,6 +344,7 @@ impl Manifold {
         newton.rounding(at, x, &mut self.noise, [Size::new(0.0); 2]);
         newton.acceptance.clear(&mut newton.residual[..at.rows()]);
         let mut factored = false;
+        self.factors.cautious = true;
         if at.rows() == 0 || (self.factors.step(at, x, newton, &mut factored)).is_err() {
             return;
         }

@@ -6,10 +6,11 @@ use std::io::{self, Write};
 use crate::assemble::State;
 use crate::error::Error;
 use crate::events::EventHit;
-use crate::integrate::Segment;
 pub use crate::integrate::sample::Sample;
+use crate::integrate::{Segment, Tolerance};
 use crate::manifold::Projector;
 use crate::mechanism::{Energy, Prepared};
+use crate::scan::largest;
 use crate::solver::{Solution, Solver, SolverOptions};
 use crate::spec::Spec;
 
@@ -89,6 +90,8 @@ pub struct Trajectory {
     pub(crate) segments: Option<Vec<Segment>>,
     /// Whether states between samples are to be projected.
     pub(crate) projected: bool,
+    /// Most that states between the ends of steps are expected to be off before they are.
+    pub(crate) error: Tolerance,
     /// Start time, and the state with which the run ended; unset before a valid start.
     pub(crate) start: f64,
     pub(crate) end: Option<State>,
@@ -107,6 +110,10 @@ impl Trajectory {
             watched: Vec::new(),
             segments: None,
             projected: false,
+            error: Tolerance {
+                relative: 0.0,
+                absolute: 0.0,
+            },
             start: 0.0,
             end: None,
             ending: Ending::Failed,
@@ -256,12 +263,12 @@ impl Trajectory {
         let n = self.spec().n();
         let mut q = vec![0.0; 2 * n];
         segment.state(t, &mut q);
-        let mut v = q.split_off(n);
         if self.projected {
+            let most = self.error.at(largest(&q[n..]));
             let mut projector = Projector::new(&self.mechanism);
-            projector.position(t, &mut q, &v)?;
-            projector.velocity(t, &q, &mut v)?;
+            projector.interpolated(t, &mut q, most, |q| segment.state(t, q))?;
         }
+        let v = q.split_off(n);
         Ok(State { t, q, v })
     }
 

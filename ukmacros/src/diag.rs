@@ -40,6 +40,11 @@ impl Loc {
     }
 }
 
+/// Whether both stand at one place: spans cannot be compared, but they can be printed.
+pub(crate) fn is_same(a: Span, b: Span) -> bool {
+    format!("{a:?}") == format!("{b:?}")
+}
+
 /// An error at a place.
 #[derive(Clone, Debug)]
 pub(crate) struct Diagnostic {
@@ -58,6 +63,11 @@ impl Diagnostics {
     /// Records an error that leaves names undeclared: what follows from that is not the user's mistake.
     pub(crate) fn damage(&self, loc: impl Into<Loc>, message: impl Into<String>) {
         self.error(loc, message);
+        self.doubt();
+    }
+
+    /// Names may be missing because of an error that is recorded already.
+    pub(crate) fn doubt(&self) {
         self.damaged.set(true);
     }
 
@@ -69,10 +79,9 @@ impl Diagnostics {
     /// Records an error, unless the same one is recorded for the same place (in a function that is called twice, say).
     pub(crate) fn error(&self, loc: impl Into<Loc>, message: impl Into<String>) {
         let (loc, message) = (loc.into(), message.into());
-        // Spans cannot be compared, but they can be printed.
-        let place = |l: &Loc| format!("{:?} {:?}", l.start, l.end);
         let mut found = self.found.borrow_mut();
-        let same = |d: &Diagnostic| d.message == message && place(&d.loc) == place(&loc);
+        let same_place = |l: Loc| is_same(l.start, loc.start) && is_same(l.end, loc.end);
+        let same = |d: &Diagnostic| d.message == message && same_place(d.loc);
         if !found.iter().any(same) {
             found.push(Diagnostic { loc, message });
         }

@@ -112,6 +112,16 @@ impl Course {
         self.towards(self.place(self.now.s + h), h, false)
     }
 
+    /// The step of the proposed size as the last one: it may go on behind the end of the run.
+    pub(super) fn step_beyond(&self) -> Option<Trial> {
+        self.towards(self.place(self.now.s + self.h), self.h, true)
+    }
+
+    /// Whether `trial` goes on behind the end of the run.
+    pub(super) fn is_beyond(&self, trial: Trial) -> bool {
+        self.is_before(self.end.s, trial.end.s)
+    }
+
     /// The step of size `h` from here to `end`; `None` where it would be lost in rounding.
     fn towards(&self, end: Place, h: f64, last: bool) -> Option<Trial> {
         let start = self.now;
@@ -210,6 +220,10 @@ impl Course {
         Step {
             old: Sample::of(start.t, old),
             new: Sample::of(end.t, new),
+            until: match self.is_beyond(trial) {
+                true => self.end.t,
+                false => end.t,
+            },
             interpolant: coefficients.map(|coefficients| Interpolant {
                 t0: self.t0,
                 s: start.s,

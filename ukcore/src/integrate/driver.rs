@@ -165,7 +165,8 @@ impl Driver<'_> {
             }
             let goal = self.goal.take();
             self.approach(goal.is_some());
-            let trial = (self.equations.course).plan(goal.as_ref().map(|goal| goal.trial))?;
+            let planned = goal.as_ref().map(|goal| goal.trial).or(self.passage.beyond);
+            let trial = self.equations.course.plan(planned)?;
             // How long a step may be was found out by the one that a step onto a zero was cut from.
             let whole = |error: f64| goal.as_ref().map_or((trial.h, error), |goal| goal.whole);
             match self.attempt(trial) {
@@ -197,6 +198,9 @@ impl Driver<'_> {
         whole: impl Fn(f64) -> (f64, f64),
     ) -> Result<(), Error> {
         self.equations.switches.targets.clear();
+        // There may be nothing behind the end of the run.
+        let made = !matches!(refusal, Refusal::Stage(_) | Refusal::End(_));
+        self.passage.bounded |= self.passage.beyond.is_some() && !made;
         let h = trial.h;
         let (next, cause) = match refusal {
             Refusal::Leaves(leaving, error) => return self.follow(leaving, trial, whole(error)),
@@ -334,7 +338,9 @@ impl Driver<'_> {
             return Ok(Next::Continue);
         }
         let next = equations.problem.next_sample();
-        let wanted = self.settings.dense || equations.course.covers(trial, next);
+        let wanted = self.settings.dense
+            || equations.course.covers(trial, next)
+            || equations.course.is_beyond(trial);
         if wanted && !interpolated {
             let stages = self.scheme.interpolate(equations, trial);
             stages.map_err(Refusal::End)?;

@@ -198,7 +198,7 @@ pub(crate) trait Problem {
 pub(crate) struct Singular {
     /// When the motion is there, or nearest to it.
     pub(crate) t: f64,
-    /// How long it takes to turn there; 0 where it passes, NaN where rounding does not tell.
+    /// How long it takes to turn there; 0 where it passes, infinite where it does not get there, NaN where rounding does not tell.
     pub(crate) gap: f64,
     /// The least significance of a constraint where the motion was nearest, and by how much it falls in a unit of time from there on.
     pub(crate) significance: f64,
@@ -207,13 +207,28 @@ pub(crate) struct Singular {
     pub(crate) constraints: Vec<String>,
 }
 
+impl Singular {
+    /// One that the motion is beside at `t`, with this significance, but that it does not lead to.
+    pub(crate) fn beside(t: f64, significance: f64) -> Self {
+        Singular {
+            t,
+            gap: f64::INFINITY,
+            significance,
+            rate: 0.0,
+            constraints: Vec::new(),
+        }
+    }
+}
+
 /// An accepted step.
 pub(crate) struct Step<'a> {
     /// State at its start.
     pub(crate) old: Sample<'a>,
     /// Projected state at its end, whose time is before that of its start where integration runs backward.
     pub(crate) new: Sample<'a>,
-    /// States between; there if [`Settings::dense`] is set or [`Problem::next_sample`] lies in this step.
+    /// The time at its end, or that at the end of the run where a step over a singular position goes on behind it.
+    pub(crate) until: f64,
+    /// States between; there if [`Settings::dense`] is set, if [`Problem::next_sample`] lies in this step or if that goes on behind the end.
     pub(crate) interpolant: Option<Interpolant<&'a [f64]>>,
     /// It is near a singular position, or goes over it.
     pub(crate) nearby: bool,

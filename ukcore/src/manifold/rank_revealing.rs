@@ -38,7 +38,7 @@ pub(super) struct Factors {
     place: Option<f64>,
     q: Vec<f64>,
     /// Whether rows below the ceiling are left out.
-    cautious: bool,
+    pub(super) cautious: bool,
 }
 
 impl Factors {
@@ -116,7 +116,7 @@ impl Factors {
         }
         at.jacobian(base, &mut newton.jacobian);
         if !*factored {
-            (self.place, self.cautious) = (None, true);
+            self.place = None;
             self.factor(at, base, newton)?;
             *factored = true;
         }
@@ -135,6 +135,17 @@ impl Factors {
 }
 
 impl Manifold {
+    /// Whether a constraint all but depends on the others at `x`.
+    pub(super) fn doubts(&mut self, at: &At<'_, f64>, x: &[f64]) -> Result<bool, Error> {
+        if at.rows() == 0 {
+            return Ok(false);
+        }
+        at.jacobian(x, &mut self.newton.jacobian);
+        (self.factors.place, self.factors.cautious) = (None, true);
+        self.factors.factor(at, x, &mut self.newton)?;
+        Ok(self.factors.doubts())
+    }
+
     /// Moves `x` onto the constraints that count beyond doubt, by as many steps as that takes from nearby.
     pub(super) fn settle(&mut self, at: &At<'_, f64>, x: &mut [f64]) -> Result<(), Error> {
         for _ in 0..if at.rows() > 0 { NEARBY } else { 0 } {

@@ -6,9 +6,10 @@ use super::agenda::Agenda;
 use crate::assemble::State;
 use crate::error::Error;
 use crate::events::{Event, EventHit, States, Watch};
-use crate::integrate::Step;
 use crate::integrate::sample::Sample;
+use crate::integrate::{Step, Tolerance};
 use crate::manifold::Projector;
+use crate::scan::largest;
 use crate::trajectory::{Ending, Record, Trajectory, Work};
 
 /// What takes the samples and events of a streamed run.
@@ -98,11 +99,12 @@ impl<'s> Recorder<'s> {
             projector: &mut self.projector,
             project: trajectory.projected,
             step,
+            error: trajectory.error,
             work: &mut trajectory.work,
         };
         let between = &mut self.between;
-        self.watch.search(step.old.t, step.new.t, &mut within)?;
-        let mut t_stop = step.new.t;
+        self.watch.search(step.old.t, step.until, &mut within)?;
+        let mut t_stop = step.until;
         for crossing in &self.watch.crossings {
             let event = &self.watch.events[crossing.event];
             let t = crossing.t;
@@ -121,7 +123,7 @@ impl<'s> Recorder<'s> {
                 trajectory.ending = Ending::Event;
             }
         }
-        let forward = step.new.t >= step.old.t;
+        let forward = step.until >= step.old.t;
         let passed = |t: &f64| if forward { *t <= t_stop } else { *t >= t_stop };
         while let Some(t) = self.agenda.next().filter(passed) {
             within.consistent(t, between)?;
@@ -205,6 +207,8 @@ struct Within<'a, 'b> {
     projector: &'a mut Projector,
     project: bool,
     step: &'a Step<'b>,
+    /// Most that is expected of the interpolant's.
+    error: Tolerance,
     work: &'a mut Work,
 }
 
@@ -232,14 +236,29 @@ impl States for Within<'_, '_> {
 
     fn consistent(&mut self, t: f64, y: &mut [f64]) -> Result<(), Error> {
         self.state(t, y);
-        if self.project && self.end(t).is_none() {
-            let state = y.split_at_mut(self.step.new.q.len());
-            if self.step.nearby {
-                self.projector.settle(t, state.0, state.1)?;
-            } else {
-                project(self.projector, self.work, t, state)?;
-            }
+        if !self.project || self.end(t).is_some() {
+            return Ok(());
         }
+        let n = self.step.new.q.len();
+        let (q, v) = y.split_at_mut(n);
+        if self.step.nearby {
+            return self.projector.settle(t, q, v);
+        }
+        let Within {
+            projector,
+            step,
+            work,
+            ..
+        } = self;
+        let most = self.error.at(largest(v));
+        let again = |y: &mut [f64]| {
+            if let Some(interpolant) = &step.interpolant {
+                interpolant.state(t, y);
+            }
+        };
+        let corrections = projector.interpolated(t, y, most, again)?;
+        work.projections += 1;
+        work.projection_iterations += corrections.iter().map(|c| c.iterations).sum::<usize>();
         Ok(())
     }
 }

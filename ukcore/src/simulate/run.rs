@@ -154,7 +154,10 @@ impl Problem for Run<'_> {
         self.weakest = self.solver.take_weakest();
         let nearest = self.nearest.take().filter(|_| self.weakest <= RANK_CEILING);
         let near = nearest.or_else(|| stands.map(Sample::to_state))?;
-        crossing::find(self.solver.mechanism(), &near, None)
+        let found = crossing::find(self.solver.mechanism(), &near, None);
+        // A motion that turns before it gets there is no less hard on steps that come to nothing.
+        let beside = stands.is_some() && self.weakest <= RANK_CEILING;
+        found.or_else(|| beside.then(|| Singular::beside(near.t, self.weakest)))
     }
 
     fn vanishing(&mut self, old: Sample<'_>, new: Option<Sample<'_>>) -> Option<Singular> {

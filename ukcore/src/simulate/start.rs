@@ -6,11 +6,15 @@ use super::{START_BOUND, Simulation, angles};
 use crate::assemble::State;
 use crate::diagnose;
 use crate::error::Error;
-use crate::integrate::{Settings, Tolerance};
+use crate::integrate::{Method, Settings, Tolerance};
 use crate::manifold::{Projector, Stabilisation};
 use crate::scan::largest;
 use crate::spec::Spec;
 use crate::trajectory::{Trajectory, Work};
+
+/// States between the ends of steps are off by some ten tolerances; so many times that much is expected at most, of RATTLE's of this one.
+const INTERPOLATED: f64 = 100.0;
+const RATTLE: f64 = 1e-5;
 
 impl Simulation {
     /// What takes the records of a run to `t_end`, the consistent start, and what a method is to be told.
@@ -23,6 +27,15 @@ impl Simulation {
         let mut trajectory = self.trajectory();
         let mut projector = Projector::new(&self.mechanism);
         let (start, tolerance) = self.consistent_start(&mut projector, &mut trajectory.work)?;
+        // The accuracy of RATTLE is that of its step.
+        let relative = match self.method {
+            Method::Rattle { .. } => RATTLE,
+            _ => tolerance.relative,
+        };
+        trajectory.error = Tolerance {
+            relative: INTERPOLATED * relative,
+            absolute: INTERPOLATED * tolerance.absolute,
+        };
         trajectory.start = start.t;
         trajectory.end = Some(start.clone());
         let settings = Settings {

@@ -2,9 +2,10 @@
 
 use super::dynamics::Dynamics;
 use super::sparsity::unmatched_rows;
-use crate::diag::Diagnostics;
+use crate::diag::{Diagnostics, is_same};
 use crate::expr::{Id, Kind, System};
 use crate::model::Model;
+use proc_macro2::Span;
 use std::collections::HashMap;
 
 /// Reports what makes the motion undetermined or a constraint meaningless.
@@ -92,18 +93,35 @@ fn determined(dynamics: &Dynamics, model: &Model, diag: &Diagnostics) {
     for (row, i) in dynamics.jacobian.keys() {
         columns[*i].push(n + row);
     }
+    // One message for all coordinates of a family or body that nothing determines.
+    let mut free: Vec<(Span, Vec<&str>)> = Vec::new();
     for i in unmatched_rows(&columns, n + dynamics.rhs.len()) {
         let element = &model.coord_elements[i];
         let name = &element.name;
-        let message = if columns[i].is_empty() {
-            format!(
-                "coordinate `{name}` has neither mass nor constraint, so nothing determines its motion; give it mass, constrain it, or remove it"
-            )
-        } else {
-            format!(
-                "rank [M | Aᵀ] is below {n} whatever the parameters are: the massless coordinates outnumber the constraints on them, `{name}` among them; give it mass or constrain it"
-            )
+        let declared = model.coords[element.family].name.span();
+        if columns[i].is_empty() {
+            match free.last_mut().filter(|free| is_same(free.0, declared)) {
+                Some((_, names)) => names.push(name),
+                None => free.push((declared, vec![name])),
+            }
+            continue;
+        }
+        let message = format!(
+            "rank [M | Aᵀ] is below {n} whatever the parameters are: the massless coordinates outnumber the constraints on them, `{name}` among them; give it mass or constrain it"
+        );
+        diag.error(declared, message);
+    }
+    for (declared, names) in free {
+        let what = match &names[..] {
+            [name] => format!("coordinate `{name}` has"),
+            [first, .., last] if names.len() > 3 => {
+                format!("coordinates `{first}` … `{last}` have")
+            }
+            _ => format!("coordinates `{}` have", names.join("`, `")),
         };
-        diag.error(model.coords[element.family].name.span(), message);
+        let message = format!(
+            "{what} neither mass nor constraint, so nothing determines the motion; give mass, constrain or remove what has none"
+        );
+        diag.error(declared, message);
     }
 }

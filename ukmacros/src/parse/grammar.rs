@@ -23,14 +23,18 @@ pub(crate) fn parse(mut tokens: TokenStream, diag: &Diagnostics) -> Option<Decla
         diag.damage(place, "nested too deeply; name parts of it with `let`");
         tokens = nesting::head(tokens);
     }
-    let parser = |input: ParseStream<'_>| declaration(input, diag);
-    match syn::parse::Parser::parse2(parser, tokens) {
-        Ok(declaration) => Some(declaration),
-        Err(e) => {
+    let mut read = None;
+    let parser = |input: ParseStream<'_>| {
+        read = Some(declaration(input, diag)?);
+        Ok(())
+    };
+    if let Err(e) = syn::parse::Parser::parse2(parser, tokens) {
+        // Within a declaration errors are told where they are met; what they left unread is found once more behind it.
+        if read.is_none() || diag.is_empty() {
             diag.syntax(&e);
-            None
         }
     }
+    read
 }
 
 fn declaration(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Declaration> {
@@ -117,10 +121,11 @@ fn section(
         return Ok(());
     }
     if seen.contains(&name) {
-        diag.error(
-            keyword.span(),
-            format!("section `{name}` appears twice; put its entries into one"),
-        );
+        // Its names may be those of the first one, or others.
+        let message = format!("section `{name}` appears twice; put its entries into one");
+        diag.damage(keyword.span(), message);
+        skip(input);
+        return Ok(());
     }
     seen.push(name.clone());
     match name.as_str() {
@@ -316,7 +321,10 @@ fn blocks<T>(
 ) -> syn::Result<()> {
     let body;
     braced!(body in input);
+    // Whether what is read next may be the rest of an entry that is told of already.
+    let mut told = false;
     while !body.is_empty() {
+        let before = diag.len();
         let block = if body.peek(Token![for]) {
             for_block(&body, diag, parse)
         } else {
@@ -326,12 +334,16 @@ fn blocks<T>(
             Ok(block) => out.push(block),
             // The rest of this section cannot be trusted; the next ones can.
             Err(e) => {
-                diag.syntax(&e);
+                match told {
+                    true => diag.doubt(),
+                    false => diag.syntax(&e),
+                }
                 let _: TokenStream = body.parse()?;
             }
         }
-        let _: Option<Token![,]> = body.parse()?;
-        let _: Option<Token![;]> = body.parse()?;
+        let comma: Option<Token![,]> = body.parse()?;
+        let semicolon: Option<Token![;]> = body.parse()?;
+        told = diag.len() > before && comma.is_none() && semicolon.is_none();
     }
     Ok(())
 }
@@ -460,7 +472,7 @@ fn let_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Let> {
                     syn::Pat::Ident(p) if p.subpat.is_none() && p.by_ref.is_none() => {
                         args.push(p.ident.clone());
                     }
-                    other => diag.error(
+                    other => diag.damage(
                         Loc::of(other),
                         "an argument is a plain name, such as `|v| …`",
                     ),

@@ -339,5 +339,8 @@ cases! {
     planar_and_spatial: "bodies { planar a { mass: 1, inertia: 1 }, spatial «a» { mass: 1, inertia: [1, 1, 1] } }" => "`a` is declared twice";
     body_and_coordinate: "coords { a } mass { a: 1 } bodies { planar «a» { mass: 1, inertia: 1 } }" => "`a` is declared twice";
     coordinate_of_the_same_constant: "coords { a_x } mass { a_x: 1 } bodies { planar «a» { mass: 1, inertia: 1 } }" => "would both become the constant `A_X`";
-    massless_body: "bodies { planar ««a»» { inertia: 1 } }" => "coordinate `a.x` has neither mass nor constraint", "coordinate `a.y` has neither mass nor constraint";
+    massless_body: "bodies { planar «a» { inertia: 1 } }" => "coordinates `a.x`, `a.y` have neither mass nor constraint";
+    nothing_in_a_body: "bodies { planar «a» { } }" => "coordinates `a.x`, `a.y`, `a.angle` have neither mass nor constraint";
+    semicolon_in_a_body: "bodies { planar a { mass: 1«;» inertia: 1 } }" => "expected identifier";
+    equals_in_a_body: "bodies { planar a { mass «=» 1, inertia: 1 } }" => "expected `:`";
 }

@@ -103,7 +103,7 @@ fn errors_as_they_are_shown() {
     force { x: -k * x, y: -k * y }
 }",
         &expect![[r#"
-            error: coordinate `y` has neither mass nor constraint, so nothing determines its motion; give it mass, constrain it, or remove it
+            error: coordinate `y` has neither mass nor constraint, so nothing determines the motion; give mass, constrain or remove what has none
              --> 3:17
             3 |     coords { x, y }
               |                 ^
@@ -245,6 +245,18 @@ cases! {
     option_not_finite: "coords { x } mass { x: 1.0 } start a(b = «ln(0.0 - 1.0)») { x = b }" => "default of `b`";
     start_of_a_wrong_shape: "coords { x[2] } mass { x: 1.0 } start a { x = «[1.0, 2.0, 3.0]» }" => "expected a vector of 2, found a vector of 3";
     repeated_section: "coords { x } «coords» { y } mass { x: 1.0, y: 1.0 }" => "section `coords` appears twice";
+    repeated_section_of_the_same_names: "params { m = 1.0 } «params» { m = 2.0 } coords { x } mass { x: m }" => "section `params` appears twice";
+    repeated_constraints: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { c: x = y } «holonomic» { c: x = y }" => "section `holonomic` appears twice";
+    repeated_outputs: "coords { x } mass { x: 1.0 } output { o = x } «output» { o = x }" => "section `output` appears twice";
+    repeated_section_with_an_error: "coords { x } mass { x: 1.0 } «mass» { x: sin(x; 2) }" => "section `mass` appears twice";
+    semicolon_in_a_call: "coords { x } mass { x: 1.0 } force { x: atan(x«;» 2) }" => "expected `,`";
+    semicolon_in_parentheses: "coords { x } mass { x: 1.0 } force { x: 2 * (x«;» 2) } output { o = x }" => "expected `,`";
+    no_comma_in_a_call: "coords { x, y } mass { x: 1.0, y: 1.0 } force { x: max(x «y») }" => "expected `,`";
+    two_commas_in_a_call: "coords { x } mass { x: 1.0 } force { x: max(x,«,» 2) }" => "expected an expression";
+    semicolon_in_a_sum: "coords { x } mass { x: 1.0 } force { x: sum(0..3«;» |i| x) }" => "expected `,`";
+    ternary: "coords { x } mass { x: 1.0 } force { x: x «>» 0 ? 1 : 2 }" => "no comparisons";
+    pair_of_three: "coords { x, y } mass { x: 1.0, y: 1.0, (x, y, «x»): 1.0 }" => "an entry of M belongs to one or two coordinates";
+    type_of_an_argument: "coords { x } let f = |«a: f64»| a; mass { x: 1.0 } force { x: f(x) }" => "an argument is a plain name";
     attribute: "coords { #[«inline»] x } mass { x: 1.0 }" => "only doc comments are allowed here";
     lint_of_an_entry: "coords { «#»[allow(dead_code)] x } mass { x: 1.0 }" => "`#[allow(…)]` stands before the whole declaration";
     crate_without_path: "#[«ukcore(runtime)»] coords { x } mass { x: 1.0 }" => "this attribute is written `#[ukcore(crate = my::path::to::ukcore)]`";
@@ -362,6 +374,7 @@ cases! {
     constraint_without_velocity: "coords { x } mass { x: 1.0 } nonholonomic { «c»: x = 1.0 }" => "contains no velocity; move it under `holonomic`";
     constraint_always_true: "coords { x } mass { x: 1.0 } holonomic { «c»: 2.0 * x = x + x }" => "constraint `c` is always true";
     same_constraint_twice: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { a: x - y = 0.0  «b»: y = x }" => "constraint `b` is the same equation as `a`";
+    massless_family: "coords { «x»[5], «y»[2], z } mass { z: 1.0 }" => "coordinates `x[0]` … `x[4]` have neither mass nor constraint", "coordinates `y[0]`, `y[1]` have neither";
     massless_and_unconstrained: "coords { x, «y» } mass { x: 1.0 } force { y: 1.0 }" => "coordinate `y` has neither mass nor constraint";
     massless_outnumber_constraints: "coords { x, y, «z» } mass { x: 1.0 } holonomic { c: x + y + z = 0.0 }" => "rank [M | Aᵀ] is below 3";
     // One mistake, one message.

@@ -46,8 +46,13 @@ pub(super) struct Passage {
     ahead: Option<Singular>,
     /// The step in hand goes over it.
     passing: bool,
+    /// The step in hand, where it goes over it to behind the end of the run; whether none may.
+    pub(super) beyond: Option<Trial>,
+    pub(super) bounded: bool,
     /// It has not been tried yet to pass it.
     untried: bool,
+    /// A step over it did not come out as exactly as was asked for: nearer to it rounding makes more of it, so less is asked for.
+    faint: bool,
     /// How often the step in hand has been planned anew.
     pub(super) plans: usize,
     /// The fastest fall of a significance in a unit of time towards a place where the motion turned; 0 before there was one.
@@ -66,7 +71,10 @@ impl Passage {
         if let Some(position) = &self.ahead {
             let significance = self.distance * position.rate;
             let noise = if position.gap > 0.0 { TURNING } else { NOISE };
-            let least = (noise / (significance * significance)).min(COARSEST);
+            let least = match self.faint && self.passing {
+                true => COARSEST,
+                false => (noise / (significance * significance)).min(COARSEST),
+            };
             let coarser = (least / tolerance.relative).max(1.0);
             tolerance.relative *= coarser;
             tolerance.absolute *= coarser;
@@ -78,9 +86,14 @@ impl Passage {
 impl Driver<'_> {
     /// Shortens the next step so that it stays before the singular position ahead, or has it go over; not one that is `planned` already.
     pub(super) fn approach(&mut self, planned: bool) {
-        let Equations { course, nearby, .. } = &mut self.equations;
+        let Equations {
+            course,
+            nearby,
+            switches,
+            ..
+        } = &mut self.equations;
         let passage = &mut self.passage;
-        (passage.passing, passage.wanted) = (false, 0.0);
+        (passage.passing, passage.wanted, passage.beyond) = (false, 0.0, None);
         if planned {
             return;
         }
@@ -88,10 +101,10 @@ impl Driver<'_> {
         let Some([from, to]) = self.gap else {
             return;
         };
-        if passage.turns > 0.0 {
-            course.limit(SEEN / passage.turns);
-        }
         let Some(position) = &passage.ahead else {
+            if passage.turns > 0.0 {
+                course.limit(SEEN / passage.turns);
+            }
             return;
         };
         let (left, h) = (course.ahead(position.t), course.h.abs());
@@ -111,14 +124,21 @@ impl Driver<'_> {
         let (middle, rest) = (0.5 * (from + to), course.ahead(course.end.t));
         let size = left / middle;
         let bold = std::mem::take(&mut passage.untried) && size <= BOLD * h;
-        if rest < left {
+        // No stage comes near the position, but where the run ends near it the end does: then the step goes on as the motion does.
+        let behind = size > rest * (1.0 + OFF);
+        let beyond =
+            behind && (rest - left).abs() < OFF * size && switches.is_empty() && !passage.bounded;
+        if behind && !beyond && rest < left {
             course.limit(rest);
-        } else if size > rest * (1.0 + OFF) {
+        } else if behind && !beyond {
             // So that the rest is the step that goes over.
             course.limit((0.5 * left).min((left - middle * rest) / (1.0 - middle)));
         } else if size <= h || bold {
             course.h = course.along * size;
             passage.passing = true;
+            if beyond {
+                passage.beyond = course.step_beyond();
+            }
             passage.distance = 0.5 * (to - from) * size;
             return;
         } else {
@@ -138,7 +158,8 @@ impl Driver<'_> {
         };
         let course = &mut self.equations.course;
         let (left, h) = (course.ahead(position.t), course.h.abs());
-        let size = (2.0 * left.max(0.0)).max(h) + position.gap.max(0.0);
+        let turn = Some(position.gap).filter(|gap| gap.is_finite());
+        let size = (2.0 * left.max(0.0)).max(h) + turn.unwrap_or(0.0).max(0.0);
         let trial = course.step(course.along * (size / h).ceil() * h);
         let trial = trial.filter(|trial| course.ahead(trial.end.t) < course.ahead(course.end.t));
         let (end, last) = trial.map_or((course.end, true), |trial| (trial.end, false));
@@ -166,6 +187,8 @@ impl Driver<'_> {
         let mut other = Driver::new(Method::Dop853, problem, t, &y, end.t, &settings);
         other.shown = Some(here);
         (other.passage.ahead, other.passage.untried) = (Some(position), true);
+        // Equal steps go on from its end.
+        other.passage.bounded = !last;
         let (report, y) = other.travel();
         self.scheme.end_mut().copy_from_slice(&y);
         self.scheme.advance();
@@ -201,6 +224,9 @@ impl Driver<'_> {
         } = &mut self.equations;
         let here = Sample::of(course.now.t, self.scheme.start());
         let gap = self.gap;
+        if self.passage.passing && !made && !self.passage.faint {
+            (self.passage.faint, self.passage.untried) = (true, true);
+        }
         let found = problem.singular((!made && gap.is_none()).then_some(here));
         let end = Sample::of(trial.end.t, self.scheme.end());
         let Some(found) = found.or_else(|| problem.vanishing(here, made.then_some(end))) else {
@@ -213,7 +239,8 @@ impl Driver<'_> {
             self.passage.ahead = Some(found);
             return Err(Refusal::Unplanned);
         };
-        let close = self.passage.ahead.is_some() && found.gap == 0.0 && found.significance < CLOSE;
+        // Where the run stands: a stage of a step that comes to nothing may be near by chance.
+        let close = self.passage.ahead.is_some() && found.gap == 0.0 && found.rate * left < CLOSE;
         if (found.gap.is_nan() || close) && left > 0.0 {
             let constraints = found.constraints;
             let error = Error::Singular { constraints };
@@ -229,10 +256,13 @@ impl Driver<'_> {
         } else {
             size <= 0.51 * left || trial.last && size < left
         };
-        if found.gap > 0.0 && left > 4.0 * found.gap {
+        // Stages of a step that is far too long tell nothing of the motion.
+        if made && found.gap > 0.0 && left > 4.0 * found.gap {
             self.passage.turns = self.passage.turns.max(found.rate);
         }
-        self.passage.untried |= self.passage.ahead.is_none();
+        if self.passage.ahead.is_none() {
+            (self.passage.untried, self.passage.faint) = (true, false);
+        }
         self.passage.ahead = Some(found);
         if good {
             return Ok(());
