@@ -83,6 +83,8 @@ pub struct Trajectory {
     pub(crate) times: Vec<f64>,
     /// [q; q̇] of one sample after the other.
     pub(crate) states: Vec<f64>,
+    /// The integrals at one sample after the other.
+    pub(crate) integrals: Vec<f64>,
     pub(crate) events: Vec<EventHit>,
     /// Names of the events that were watched.
     pub(crate) watched: Vec<String>,
@@ -92,6 +94,8 @@ pub struct Trajectory {
     /// Start time, and the state with which the run ended; unset before a valid start.
     pub(crate) start: f64,
     pub(crate) end: Option<State>,
+    /// The integrals there.
+    pub(crate) sums: Vec<f64>,
     pub(crate) ending: Ending,
     pub(crate) work: Work,
 }
@@ -103,12 +107,14 @@ impl Trajectory {
             options,
             times: Vec::new(),
             states: Vec::new(),
+            integrals: Vec::new(),
             events: Vec::new(),
             watched: Vec::new(),
             segments: None,
             projected: false,
             start: 0.0,
             end: None,
+            sums: Vec::new(),
             ending: Ending::Failed,
             work: Work::default(),
         }
@@ -119,6 +125,7 @@ impl Trajectory {
         self.times.push(sample.t);
         self.states.extend_from_slice(sample.q);
         self.states.extend_from_slice(sample.v);
+        self.integrals.extend_from_slice(sample.integrals);
     }
 
     /// The run has got to this state.
@@ -127,6 +134,7 @@ impl Trajectory {
             end.t = now.t;
             end.q.copy_from_slice(now.q);
             end.v.copy_from_slice(now.v);
+            self.sums.copy_from_slice(now.integrals);
         }
     }
 
@@ -172,14 +180,19 @@ impl Trajectory {
         let state = &self.states[2 * n * index..2 * n * (index + 1)];
         let (q, v) = state.split_at(n);
         let t = self.times[index];
-        Sample { t, q, v }
+        // None of the members of an ensemble, which gives states alone.
+        let count = self.integrals.len() / self.times.len();
+        let integrals = &self.integrals[count * index..][..count];
+        Sample { t, q, v, integrals }
     }
 
     /// The state with which the run ended, be it a sample or not: at the end time, at a terminal event, or after the last step
     /// that succeeded. `None` only in a [`Failure`](crate::Failure) of a run that could not start.
     #[must_use]
     pub fn last(&self) -> Option<Sample<'_>> {
-        self.end.as_ref().map(Sample::from)
+        let integrals = &self.sums[..];
+        let end = self.end.as_ref().map(Sample::from);
+        end.map(|end| Sample { integrals, ..end })
     }
 
     /// Why the run ended.
@@ -290,6 +303,23 @@ impl Trajectory {
     pub fn output(&self, name: &str) -> Result<Vec<f64>, Error> {
         let index = self.spec().output_index(name)?;
         Ok(self.outputs().iter().map(|row| row[index]).collect())
+    }
+
+    /// Values of the integral called `name` at the samples, since the start of the run.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name.
+    pub fn integral(&self, name: &str) -> Result<Vec<f64>, Error> {
+        let names = || {
+            self.mechanism
+                .integrals()
+                .iter()
+                .map(|integral| integral.name)
+        };
+        let Some(index) = names().position(|known| known == name) else {
+            return Err(Error::unknown_name("integral", name, &mut names()));
+        };
+        Ok(self.samples().map(|s| s.integrals[index]).collect())
     }
 
     /// All outputs at the samples: one row a sample, the order of [`Spec::outputs`](crate::spec::Spec::outputs).

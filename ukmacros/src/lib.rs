@@ -339,6 +339,12 @@ fn analysed(
         defects.extend(wrong.map(|what| format!("wrong derivatives of {what}")));
     }
     let analysis = analysis::analyse(system, model, dynamics);
+    if let (Some(reason), Some(place)) = (&analysis.unsolved, system.reaction) {
+        let message = format!(
+            "reactions cannot be used here, as they are not solved for on a straight line: {reason}; ask the solution of a run for its multipliers"
+        );
+        diag.error(place, message);
+    }
     let changed = analysis.defect.iter();
     defects.extend(changed.map(|k| format!("value {k} changed by hoisting")));
     for defect in defects {

@@ -8,7 +8,7 @@ use crate::mechanism::Prepared;
 
 /// Writes samples as comma-separated values: first a line of names, then a row for each sample.
 ///
-/// The columns are `t`, the coordinates (`x[0]`), their rates (`dot(x[0])`), the outputs, `energy` (T + V) and `residual`
+/// The columns are `t`, the coordinates (`x[0]`), their rates (`dot(x[0])`), the outputs, the integrals, `energy` (T + V) and `residual`
 /// ([`Residual::largest`](super::Residual::largest)). Numbers have the fewest digits that read back as the same number.
 ///
 /// ```
@@ -55,7 +55,7 @@ impl<W: Write> CsvWriter<W> {
         for name in spec.coords {
             write!(out, ",dot({name})")?;
         }
-        for output in spec.outputs {
+        for output in spec.outputs.iter().chain(mechanism.integrals()) {
             write!(out, ",{}", output.name)?;
         }
         writeln!(out, ",energy,residual")?;
@@ -72,16 +72,18 @@ impl<W: Write> CsvWriter<W> {
     /// What writing reports.
     ///
     /// # Panics
-    /// If the sample has not as many coordinates as the mechanism.
+    /// If the sample has not as many coordinates as the mechanism, or not as many integrals: it is one of a run.
     pub fn write(&mut self, sample: Sample<'_>) -> io::Result<()> {
-        let Sample { t, q, v } = sample;
+        let Sample { t, q, v, integrals } = sample;
         let mechanism = &self.gauge.mechanism;
+        let (expected, found) = (mechanism.integrals().len(), integrals.len());
+        assert_eq!(expected, found, "the sample has the integrals of its run");
         mechanism.outputs(t, q, v, &mut self.outputs);
         let energy = mechanism.energy(t, q, v).total();
         let residual = self.gauge.residual(sample).largest();
         let out = &mut self.out;
         write!(out, "{t:?}")?;
-        for value in q.iter().chain(v).chain(&self.outputs) {
+        for value in q.iter().chain(v).chain(&self.outputs).chain(integrals) {
             write!(out, ",{value:?}")?;
         }
         writeln!(out, ",{energy:?},{residual:?}")

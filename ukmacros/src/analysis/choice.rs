@@ -88,6 +88,7 @@ pub(super) fn choose(
         own,
         further: variant.further,
         redundant: &redundant,
+        multipliers: false,
     });
     let tasks: Vec<Task<'_>> = tasks.collect();
     let mut ways = Vec::new();

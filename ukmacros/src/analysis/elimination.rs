@@ -67,6 +67,8 @@ impl Divisor {
 pub(crate) struct Elimination {
     /// q̈.
     pub(crate) acceleration: Vec<Id>,
+    /// λ of all constraints, with M q̈ = Q + c + Aᵀλ, if they are wanted.
+    pub(crate) multipliers: Vec<Id>,
     /// Δ of least M-norm with A Δ = −residual (residuals are [`Symbol::Residual`]).
     pub(crate) correction: Vec<Id>,
     /// The factor that all of M shares, if there is one, and the 1 × 1 pivots, each with its right-hand side for the acceleration.
@@ -145,6 +147,8 @@ pub(crate) struct Task<'a> {
     pub(crate) further: Further,
     /// The constraints that may follow from others.
     pub(crate) redundant: &'a BTreeSet<usize>,
+    /// Whether all multipliers are wanted.
+    pub(crate) multipliers: bool,
 }
 
 /// What a system has beyond the coordinates and constraints of the mechanism.
@@ -241,9 +245,16 @@ pub(crate) fn eliminate(
         factors.push(factor);
     }
     fixed.extend(inertia(d, &divisors, names, g));
-    let mut motion = motion.solution(&factors, names, g, &mut hints)?;
+    let mut motion = motion.solution(&factors, task.multipliers, names, g, &mut hints)?;
     let droppings = droppings(&factors, &motion, d, [&force, &rhs], g);
     motion.coordinates.truncate(own.0);
+    // K has M over the common factor, and rows over their scales.
+    let multipliers = motion.constraints.iter().zip(&scales);
+    let multipliers = multipliers.map(|(x, s)| {
+        let x = g.mul(*x, *common_factor);
+        g.scale(-1.0 / s, x)
+    });
+    let multipliers: Vec<Id> = multipliers.collect();
     let residuals = (0..own.1).map(|i| g.symbol(Symbol::Residual(i)));
     let mut residuals: Vec<Id> = residuals.collect();
     residuals.resize(d.rhs.len(), g.zero());
@@ -256,13 +267,14 @@ pub(crate) fn eliminate(
     let residuals = scaled(-1.0, &residuals, g);
     let mut projection = Forward::new(&pull, &residuals);
     factors.iter().for_each(|factor| projection.step(factor, g));
-    let mut projection = projection.solution(&factors, names, g, &mut hints)?;
+    let mut projection = projection.solution(&factors, false, names, g, &mut hints)?;
     projection.coordinates.truncate(own.0);
     let rights = motion.rights.into_iter().map(Some);
     let divisors = divisors.into_iter().zip(rights);
     let fixed = fixed.into_iter().map(|divisor| (divisor, None));
     Ok(Elimination {
         acceleration: motion.coordinates,
+        multipliers,
         correction: projection.coordinates,
         divisors: fixed.chain(divisors).collect(),
         correction_rights: projection.rights,

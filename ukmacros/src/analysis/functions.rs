@@ -19,6 +19,7 @@ pub(crate) enum Role {
     ResidualRate,
     Energy,
     Outputs,
+    Integrands,
     Switching,
     Acceleration,
     Correction,
@@ -36,6 +37,7 @@ pub(crate) enum Slice {
     Phi,
     Rate,
     Outputs,
+    Integrands,
     Switching,
     /// The solution of a straight-line solve.
     Out,
@@ -89,6 +91,10 @@ pub(crate) fn functions(system: &System, hoisted: &Hoisted) -> Vec<Function> {
         ),
         all(Role::Outputs, Slice::Outputs, &hoisted.outputs),
     ];
+    if !hoisted.integrands.is_empty() {
+        let integrands = all(Role::Integrands, Slice::Integrands, &hoisted.integrands);
+        functions.push(integrands);
+    }
     if !hoisted.switches.is_empty() {
         functions.push(all(Role::Switching, Slice::Switching, &hoisted.switches));
     }

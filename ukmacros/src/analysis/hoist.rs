@@ -18,6 +18,8 @@ const STATES: usize = 2;
 pub(crate) struct Hoisted {
     pub(crate) dynamics: Dynamics,
     pub(crate) outputs: Vec<Id>,
+    /// What is integrated along with the motion.
+    pub(crate) integrands: Vec<Id>,
     /// Switching functions.
     pub(crate) switches: Vec<Id>,
     /// The solve, or why there is none.
@@ -37,9 +39,11 @@ pub(crate) fn hoist(
     dynamics.lift = None;
     let mut straight = straight.clone();
     let mut outputs: Vec<Id> = system.outputs.iter().map(|o| o.value).collect();
+    let mut integrands: Vec<Id> = system.integrals.iter().map(|o| o.value).collect();
     let mut switches: Vec<Id> = switches.iter().map(|s| s.function).collect();
     let mut places: Vec<&mut Id> = dynamics.values_mut().collect();
-    places.extend(outputs.iter_mut().chain(&mut switches));
+    let reported = outputs.iter_mut().chain(&mut integrands);
+    places.extend(reported.chain(&mut switches));
     if let Ok(straight) = &mut straight {
         places.extend(straight.values_mut());
     }
@@ -64,6 +68,7 @@ pub(crate) fn hoist(
     Hoisted {
         dynamics,
         outputs,
+        integrands,
         switches,
         straight,
         values,

@@ -12,6 +12,7 @@ use crate::expr::{Func, Graph, Id, Node, Num, Symbol, System, is_power_of_two};
 use std::collections::{HashMap, HashSet};
 
 /// A switch.
+#[derive(Clone)]
 pub(crate) struct Switch {
     /// g.
     pub(crate) function: Id,

@@ -31,10 +31,13 @@ pub(super) fn listing(system: &System, model: &Model, analysis: &Analysis) -> Li
     let coords = model.coord_elements.iter().map(|e| e.name.clone());
     let params = model.param_elements.iter().map(|e| e.name.clone());
     let (coords, params): (Vec<String>, Vec<String>) = (coords.collect(), params.collect());
+    let constraints = system.constraints.iter().map(|c| c.item.text());
+    let constraints: Vec<String> = constraints.collect();
     let mut printer = Printer {
         graph: &system.graph,
         coords: &coords,
         params: &params,
+        constraints: &constraints,
         named: HashMap::new(),
     };
     let phis: Vec<Id> = system.constraints.iter().map(|c| c.phi).collect();

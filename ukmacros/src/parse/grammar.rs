@@ -15,7 +15,7 @@ use quote::ToTokens as _;
 use syn::parse::ParseStream;
 use syn::{Token, braced, bracketed, parenthesized};
 
-const SECTIONS: &str = "const params coords bodies gravity let mass kinetic force forces potential dissipation holonomic nonholonomic nonideal output";
+const SECTIONS: &str = "const params coords bodies gravity let mass kinetic force forces potential dissipation holonomic nonholonomic nonideal output integral";
 
 /// Parses a declaration; `None` if not even its name could be read.
 pub(crate) fn parse(mut tokens: TokenStream, diag: &Diagnostics) -> Option<Declaration> {
@@ -64,6 +64,7 @@ fn declaration(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Declar
         nonholonomic: Vec::new(),
         nonideal: None,
         outputs: Vec::new(),
+        integrals: Vec::new(),
     };
     let body;
     braced!(body in input);
@@ -132,6 +133,7 @@ fn section(
         "holonomic" => blocks(input, &mut out.holonomic, diag, equation),
         "nonholonomic" => blocks(input, &mut out.nonholonomic, diag, equation),
         "output" => blocks(input, &mut out.outputs, diag, output_entry),
+        "integral" => blocks(input, &mut out.integrals, diag, output_entry),
         _ => {
             let remedy = format!("sections are {}", sections());
             let near = suggest(&name, SECTIONS.split(' '), &remedy);

@@ -232,6 +232,7 @@ impl Tally {
                     true => Further::Nothing,
                     false => Further::Velocities,
                 },
+                multipliers: false,
                 redundant: &BTreeSet::new(),
             };
             for order in orders(&task, &system.defaults, &system.graph).unwrap_or_default() {

@@ -51,6 +51,22 @@ operations! {
     "rotx"(1, "a number"): |g, v| about(g, &v[0], 0);
     "roty"(1, "a number"): |g, v| about(g, &v[0], 1);
     "rotz"(1, "a number"): |g, v| about(g, &v[0], 2);
+    "friction"(2, "a velocity, which is a number or a vector, and a number"): |g, v| {
+        let &Value::Scalar(force) = &v[1] else {
+            return None;
+        };
+        let against = g.neg(force);
+        Some(match v[0].shape() {
+            [] => v[0].map(|id| {
+                let sign = g.call1(Func::Sign, id);
+                g.mul(against, sign)
+            }),
+            _ => {
+                let length = norm(g, &v[0])?;
+                v[0].map(|id| g.product(&[(against, 1), (id, 1), (length, -1)]))
+            }
+        })
+    };
     "transpose"(1, "a matrix"): |_, v| {
         let [rows, columns] = v[0].shape() else {
             return None;
