@@ -97,9 +97,14 @@ fn multipliers(
     let g = &mut system.graph;
     let one = g.one();
     let minus = g.neg(one);
-    // 1, or √−1.
-    let unique = g.select(one, straight.met_too, one, minus);
-    let unique = g.call1(Func::Sqrt, unique);
+    // 1, or √−1. What parameters make wrong, a run refuses before it asks for anything.
+    let unique = match g.uses(straight.met_too).constant() {
+        true => one,
+        false => {
+            let sign = g.select(one, straight.met_too, one, minus);
+            g.call1(Func::Sqrt, sign)
+        }
+    };
     let multipliers = straight
         .elimination
         .multipliers

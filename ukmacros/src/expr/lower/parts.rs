@@ -204,7 +204,8 @@ impl<'m> Lowering<'m> {
         if self.allowed_value(rows.clone(), e.loc, env).is_error() {
             return Value::Error;
         }
-        let names = names.split_whitespace().collect();
+        let names: Vec<&str> = names.split_whitespace().collect();
+        debug_assert!(names.is_empty() || names.len() == rows.entries().len());
         let frame = |name: &str| {
             let mut given = inner.args.iter();
             given.find_map(|(n, value)| match value {
