@@ -15,6 +15,7 @@ use crate::spec::Spec;
 
 mod csv;
 mod drift;
+mod multipliers;
 
 pub use csv::CsvWriter;
 pub(crate) use drift::EnergyDrift;

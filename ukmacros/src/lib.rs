@@ -264,11 +264,11 @@ use proc_macro2::TokenStream;
 /// | --- | --- |
 /// | a joint between points: `pin`, `slider`, `rod`, `hinge`, `disc`, … | the force on the second body, in axes of the ground, a vector; of several rows their sum |
 /// | a joint between bodies: `gear`, `turn`, `drive` | its multiplier, a number: of `turn` the moment on the second body |
-/// | a row of a joint | its multiplier λ; Aᵀλ is its share in the generalised forces. Of an `angle` it is the moment on the second body, about the point of the joint; of a row of two directions e, f at right angles the moment on the second body is λ e × f |
+/// | a row of a joint | its multiplier λ; Aᵀλ is its share in the generalised forces. Of an `angle` it is the moment on the second body; of a row e · f of a direction of the first body with one of the second the moment on the second is λ f × e |
 /// | any other constraint | its multiplier, a number, or of a vector equation the vector of them: the force along what stands on its left side, less the right |
 ///
-/// Forces act on the second body at q. (A planar `slider` turns its line with the first body: its force acts there at q, too.) They are
-/// those of **ideal constraints**: λ of M q̈ = Q + Aᵀλ, A q̈ = b, the equations without c. By eq. 8 the constraint force is this ideal part and
+/// Forces act at q, on the first body, too, as its lines turn with it; of `wheel`, `rack`, `disc` and `rolls` at the point of contact. They
+/// are those of **ideal constraints**: λ of M q̈ = Q + Aᵀλ, A q̈ = b, the equations without c. By eq. 8 the constraint force is this ideal part and
 /// one that c determines, which does not change the first. So `nonideal { s: friction(dot(s), mu * norm(reaction(track))) }` is no circle:
 /// λ is solved for, then c, then q̈.
 ///
