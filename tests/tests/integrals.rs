@@ -161,7 +161,11 @@ fn integrals_leave_no_trace_in_the_motion() {
             assert!(b.integrals.is_empty());
         }
     }
-    assert_eq!(Bare::SPEC.structure.costs, Oscillator::SPEC.structure.costs);
+    let [with, without] = [Oscillator::SPEC, Bare::SPEC].map(|spec| spec.structure.costs);
+    assert_eq!(
+        [with.dynamics, with.acceleration, with.correction],
+        [without.dynamics, without.acceleration, without.correction]
+    );
 }
 
 #[test]
@@ -310,11 +314,11 @@ fn an_integrand_that_is_not_a_number_ends_the_run_by_name() {
         "{failure}"
     );
     let reached = failure.trajectory.last().unwrap();
-    assert!(reached.t <= 1.0 && reached.t > 0.9, "{}", reached.t);
+    assert!(reached.t < 1.0 + 1e-9 && reached.t > 0.9, "{}", reached.t);
     assert_close(
         "root",
         reached.integrals[0],
-        (1.0 - (1.0 - reached.t).powf(1.5)) / 1.5,
+        (1.0 - (1.0 - reached.t).max(0.0).powf(1.5)) / 1.5,
         1e-8,
     );
 }

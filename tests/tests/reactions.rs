@@ -391,7 +391,7 @@ fn a_bead_on_a_rough_wire_loses_speed_by_its_angle() {
 ukcore::multibody! {
     /// A table on three or four legs that press on the ground, with weights on them: with four the load is not determined.
     pub Table {
-        params { m = 2.0, g = 9.81, mu = 0.2 }
+        params { m = 2.0, g = 9.81 }
         coords { x, z, tilt, roll, other }
         mass { x: m, z: m, tilt: 1.0, roll: 1.0, other: 1.0 }
         potential { m * g * z }

@@ -97,11 +97,12 @@ fn multipliers(
     let g = &mut system.graph;
     let one = g.one();
     let minus = g.neg(one);
+    let unique = straight.elimination.unique(&straight.met, held, g);
     // 1, or √−1. What parameters make wrong, a run refuses before it asks for anything.
-    let unique = match g.uses(straight.met_too).constant() {
+    let unique = match g.uses(unique).constant() && g.as_const(unique) != Some(0.0) {
         true => one,
         false => {
-            let sign = g.select(one, straight.met_too, one, minus);
+            let sign = g.select(one, unique, one, minus);
             g.call1(Func::Sqrt, sign)
         }
     };
