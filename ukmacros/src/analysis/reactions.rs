@@ -78,13 +78,12 @@ fn multipliers(
     }
     let mut ideal = regular.dynamics.clone();
     ideal.nonideal.fill(system.graph.zero());
-    let rows: Vec<usize> = (0..ideal.rhs.len()).collect();
-    let redundant = redundant(&ideal, &rows, &system.defaults, &system.graph);
+    let redundant = redundant(&ideal, &system.defaults, &system.graph);
     let task = Task {
         dynamics: &ideal,
         weights: &regular.weights,
         names,
-        own: (ideal.force.len(), rows.len()),
+        own: (ideal.force.len(), ideal.rhs.len()),
         further: Further::Nothing,
         redundant: &redundant,
         multipliers: true,
@@ -98,14 +97,15 @@ fn multipliers(
     let one = g.one();
     let minus = g.neg(one);
     let unique = straight.elimination.unique(&straight.met, held, g);
-    // 1, or √−1. What parameters make wrong, a run refuses before it asks for anything.
-    let unique = match g.uses(unique).constant() && g.as_const(unique) != Some(0.0) {
+    // 1, or √−1.
+    let unique = match g.as_const(unique) == Some(1.0) {
         true => one,
         false => {
             let sign = g.select(one, unique, one, minus);
             g.call1(Func::Sqrt, sign)
         }
     };
+    system.unique = Some(unique);
     let multipliers = straight
         .elimination
         .multipliers

@@ -56,6 +56,9 @@ pub(super) fn listing(system: &System, model: &Model, analysis: &Analysis) -> Li
     let taken = taken.chain(system.hints.values().cloned()).collect();
     let definitions = abbreviate(system, &roots, &taken, &mut printer);
     let g = &system.graph;
+    if let Some(unique) = system.unique.filter(|id| !g.operands(*id).is_empty()) {
+        printer.named.insert(unique, "unique".to_owned());
+    }
     let vector = |ids: &[Id]| -> Vec<(usize, String)> {
         let present = ids.iter().enumerate().filter(|(_, id)| !g.is_zero(**id));
         present.map(|(i, id)| (i, printer.text(*id))).collect()
@@ -68,6 +71,9 @@ pub(super) fn listing(system: &System, model: &Model, analysis: &Analysis) -> Li
     };
     let names = prepared_names(system, model, prepared);
     let texts = prepared.iter().map(|id| match g.node(*id) {
+        _ if system.unique == Some(*id) => {
+            "1; not a number where reactions are not unique".to_owned()
+        }
         // The part of the certificate that parameters decide.
         Node::Select(_) => format!(
             "1 if the pivots that depend on {} alone are positive and finite, else 0",
@@ -142,7 +148,7 @@ fn prepared_names(system: &System, model: &Model, prepared: &[Id]) -> Vec<String
     let hints = system.all_hints();
     let slots = Slots {
         values: prepared,
-        switches: &[],
+        ..Slots::default()
     };
     let namer = Namer::new(&system.graph, model, constraints, &hints, slots);
     let symbols = (0..prepared.len()).map(Symbol::Prepared);

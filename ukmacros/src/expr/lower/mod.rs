@@ -8,11 +8,12 @@ mod lets;
 mod names;
 mod parts;
 mod reactions;
+mod starts;
 mod system;
 mod value;
 mod vectors;
 
-pub(crate) use system::{Constraint, ConstraintRef, Kind, OutputValue, System};
+pub(crate) use system::{Constraint, ConstraintRef, Kind, OutputValue, StartValue, System};
 #[cfg(test)]
 pub(crate) use vectors::vocabulary;
 
@@ -47,6 +48,7 @@ enum Place {
     Nonideal,
     Output,
     Integral,
+    Start,
 }
 
 /// What has a name that is no value.
@@ -238,6 +240,7 @@ impl<'m> Lowering<'m> {
         let mut names = Names::default();
         let outputs = self.reported(&decl.outputs, NoValue::Output, &top, &mut names);
         let integrals = self.reported(&decl.integrals, NoValue::Integral, &top, &mut names);
+        let starts = self.starts(decl, &top);
         System {
             graph: std::mem::take(&mut self.graph),
             constants,
@@ -252,6 +255,8 @@ impl<'m> Lowering<'m> {
             outputs,
             integrals,
             reaction: self.reaction_used,
+            unique: None,
+            starts,
             hints: std::mem::take(&mut self.hints),
             inner_hints: HashMap::new(),
         }
