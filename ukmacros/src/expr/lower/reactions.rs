@@ -25,7 +25,7 @@ pub(super) struct Known {
 /// Where the force of a joint on its second body is read.
 #[derive(Clone)]
 pub(super) struct Pushed {
-    /// Coordinates of a centre of mass, by position.
+    /// Coordinates of a centre of mass, by position; none of a body whose place follows from other coordinates.
     centre: Vec<usize>,
     /// −1 where that is the first body's, as the second is the ground.
     sign: f64,
@@ -40,7 +40,8 @@ impl Pushed {
                 Node::Symbol(Symbol::Coord(i)) => Some(*i),
                 _ => None,
             });
-            let centre = place.collect::<Option<Vec<usize>>>()?;
+            let centre = place.collect::<Option<Vec<usize>>>();
+            let centre = centre.unwrap_or_default();
             Some(Pushed { centre, sign })
         };
         of(second, 1.0).or_else(|| of(first?, -1.0))
@@ -104,7 +105,7 @@ impl<'m> Lowering<'m> {
         }
         self.reaction_used.get_or_insert(e.loc);
         match row {
-            None => self.whole(&text),
+            None => self.whole(&text, arg),
             Some(row) => self.of_row(&text, row),
         }
     }
@@ -146,7 +147,7 @@ impl<'m> Lowering<'m> {
     }
 
     /// The force of a joint between points on its second body; of any other constraint its multipliers, in the shape of its equation.
-    fn whole(&mut self, text: &str) -> Value {
+    fn whole(&mut self, text: &str, arg: &Expr) -> Value {
         let Some(Known {
             rows, shape, force, ..
         }) = self.known.get(text)
@@ -159,6 +160,12 @@ impl<'m> Lowering<'m> {
             let multipliers: Vec<Id> = multipliers.collect();
             return Value::new(&shape, multipliers);
         };
+        if centre.is_empty() {
+            let message = format!(
+                "the bodies of `{text}` have no coordinates of their own place; take the multipliers of its rows"
+            );
+            return self.error(arg.loc, message);
+        }
         let components = centre.into_iter().map(|i| {
             let terms = rows.clone().map(|row| {
                 let slope = slope(&self.constraints[row], i, &mut self.graph);
