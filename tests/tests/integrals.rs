@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use tests::{assert_all_close, assert_close};
-use ukcore::simulate::{Direction, Record};
+use ukcore::simulate::{CsvWriter, Direction, Record, Sample};
 use ukcore::{Error, Event, Mechanism, Method, Simulation, State};
 
 ukcore::multibody! {
@@ -225,6 +225,16 @@ fn integrals_go_backward_stop_at_events_and_are_streamed() {
     assert_eq!(
         &row.collect::<Vec<_>>()[4..10],
         run.last().unwrap().integrals
+    );
+    let mut csv = CsvWriter::new(&Oscillator::default(), Vec::new()).unwrap();
+    csv.write(Sample::from(&run.last().unwrap().to_state()))
+        .unwrap();
+    let csv = String::from_utf8(csv.into_inner()).unwrap();
+    let bare = csv.lines().next_back().unwrap();
+    assert_eq!(
+        bare.split(',').filter(|x| x.is_empty()).count(),
+        6,
+        "{bare}"
     );
     let unknown = run.integral("wrok");
     assert!(matches!(unknown, Err(Error::UnknownName { nearest: Some(n), .. }) if n == "work"));

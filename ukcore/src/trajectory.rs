@@ -96,7 +96,7 @@ pub struct Trajectory {
     pub(crate) start: f64,
     pub(crate) end: Option<State>,
     /// The integrals there.
-    pub(crate) sums: Vec<f64>,
+    pub(crate) end_integrals: Vec<f64>,
     pub(crate) ending: Ending,
     pub(crate) work: Work,
 }
@@ -115,7 +115,7 @@ impl Trajectory {
             projected: false,
             start: 0.0,
             end: None,
-            sums: Vec::new(),
+            end_integrals: Vec::new(),
             ending: Ending::Failed,
             work: Work::default(),
         }
@@ -135,7 +135,7 @@ impl Trajectory {
             end.t = now.t;
             end.q.copy_from_slice(now.q);
             end.v.copy_from_slice(now.v);
-            self.sums.copy_from_slice(now.integrals);
+            self.end_integrals.copy_from_slice(now.integrals);
         }
     }
 
@@ -191,7 +191,7 @@ impl Trajectory {
     /// that succeeded. `None` only in a [`Failure`](crate::Failure) of a run that could not start.
     #[must_use]
     pub fn last(&self) -> Option<Sample<'_>> {
-        let integrals = &self.sums[..];
+        let integrals = &self.end_integrals[..];
         let end = self.end.as_ref().map(Sample::from);
         end.map(|end| Sample { integrals, ..end })
     }

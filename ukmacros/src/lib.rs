@@ -268,20 +268,21 @@ use proc_macro2::TokenStream;
 /// | a row of a joint | its multiplier λ; Aᵀλ is its share in the generalised forces. Of an `angle` it is the moment on the second body; of a row e · f of a direction of the first body with one of the second the moment on the second is λ f × e |
 /// | any other constraint | its multiplier, a number, or of a vector equation the vector of them: the force along what stands on its left side, less the right |
 ///
-/// Forces act at q, on the first body, too, as its lines turn with it; of `wheel`, `rack`, `disc` and `rolls` at the point of contact. They
-/// are those of **ideal constraints**: λ of M q̈ = Q + Aᵀλ, A q̈ = b, the equations without c. By eq. 8 the constraint force is this ideal part and
-/// one that c determines, which does not change the first. So `nonideal { s: friction(dot(s), mu * norm(reaction(track))) }` is no circle:
-/// λ is solved for, then c, then q̈.
+/// Forces act at q, on the first body, too, as its lines turn with it; of `wheel`, `rack`, `disc` and `rolls` at the point of contact.
+/// They are those of **ideal constraints**: λ of M q̈ = Q + Aᵀλ, A q̈ = b, the equations without c. By eq. 8 the constraint force is this
+/// ideal part and one that c determines, which does not change the first. So `nonideal { s: friction(dot(s), mu * norm(reaction(track)))
+/// }` is no circle: λ is solved for, then c, then q̈.
 ///
-/// What eq. 8 leaves out is that friction itself loads constraints. Friction at one joint is carried by others, as the force of a belt on a
-/// second pulley or the tangential force of a jamming wedge on the opposite wall; in rigid bodies with dry friction these loads raise
-/// friction in turn, so that λ follows from a system that need not have one solution (Painlevé). `reaction` does not contain them. It is the
-/// whole force where friction acts along directions that the constraints leave free and that inertia does not couple to their rows, as
+/// What eq. 8 leaves out is that friction itself loads constraints. Friction at one joint is carried by others, as the force of a belt on
+/// a second pulley or the tangential force of a jamming wedge on the opposite wall; in rigid bodies with dry friction these loads raise
+/// friction in turn, so that λ follows from a system that need not have one solution (Painlevé). `reaction` does not contain them. It is
+/// the whole force where friction acts along directions that the constraints leave free and that inertia does not couple to their rows, as
 /// for particles on surfaces and wires and blocks on planes; else what is left out is of the order of μ times the reaction.
 ///
-/// Where constraints imply each other λ is not unique: loads are shared in ways that rigid bodies do not know. All reactions of the mechanism
-/// are then not a number at that state, and a run whose `nonideal` uses them ends there with an error that says so.
-/// `Trajectory::multipliers` tells which are unique. Reactions are solved for on the straight line; where there is none, using one is an error.
+/// Where constraints imply each other λ is not unique: loads are shared in ways that rigid bodies do not know. All reactions of the
+/// mechanism are then not a number at that state, and a run whose `nonideal` uses them ends there with an error that says so.
+/// `Trajectory::multipliers` tells which are unique. Reactions are solved for on the straight line; where there is none, using one is an
+/// error.
 ///
 /// ```
 /// use ukcore::{Simulation, State};
@@ -310,9 +311,10 @@ use proc_macro2::TokenStream;
 /// # Integrals
 ///
 /// `integral { work = torque * dot(th) }` gives ∫ τ θ̇ dt since the start of a run: `Trajectory::integral("work")`, a column of its table,
-/// and `Sample::integrals`, where `T::INT_WORK` is its place. Integrals are no coordinates: no equation depends on them, and the steps of a run
-/// are the same with and without. Each accepted step of any method is integrated along its interpolant, to the tolerance of the run beside
-/// the integral of the magnitude, kinks and jumps included. No expression uses an integral. Members of ensembles have none.
+/// and `Sample::integrals`, where `T::INT_WORK` is its place. Integrals are no coordinates: no equation depends on them, and the steps of
+/// a run are the same with and without. Each accepted step of any method is integrated along its interpolant, to the tolerance of the run
+/// beside the integral of the magnitude, kinks and jumps included; that costs the interpolant of each step, as `Simulation::dense` does.
+/// No expression uses an integral. Members of ensembles have none.
 ///
 /// # What is emitted
 ///

@@ -2,17 +2,17 @@
 //!
 //! Integrals are quadratures: no equation depends on them, so they need no unknown of the solve nor of the method. Over each accepted step
 //! the integrand is taken along the interpolant, whose integral has the order of the method: between its states it is off by one order
-//! less than the step, and the step size makes up for that. (The error of the collocation polynomial of Radau IIA vanishes in the mean, which
-//! gives order 5.) The rule is Kronrod's extension of Lobatto's of 4 points to 7 (Gander & Gautschi 2000, Adaptive quadrature revisited, BIT 40);
-//! intervals are halved until both agree to the tolerance of the run, beside the integral of the magnitude so far: kinks and jumps of the
-//! integrand, which steps do not land on, are closed in so. Steps are what they are without integrals.
+//! less than the step, and the step size makes up for that. (The error of the collocation polynomial of Radau IIA vanishes in the mean,
+//! which gives order 5.) The rule is Kronrod's extension of Lobatto's of 4 points to 7 (Gander & Gautschi 2000, Adaptive quadrature
+//! revisited, BIT 40, 84-101); intervals are halved until both agree to the tolerance of the run, beside the integral of the magnitude so
+//! far: kinks and jumps of the integrand, which steps do not land on, are closed in so. Steps are what they are without integrals.
 
 use crate::error::Error;
 use crate::events::States;
 use crate::mechanism::Prepared;
 
 /// Points in [−1, 1] that are not negative, and their weights by the rule of 7 points and by that of 4, which is Lobatto's (Gander &
-/// Gautschi 2000, eqs. 2.1 and 2.2). With the ends among them a jump is seen wherever it is.
+/// Gautschi 2000). With the ends among them a jump is seen wherever it is.
 const RULE: [(f64, f64, f64); 4] = [
     (0.0, 16.0 / 35.0, 0.0),
     (0.447_213_595_499_957_9, 125.0 / 294.0, 5.0 / 6.0),
@@ -114,7 +114,7 @@ impl Integrals {
         }
         let part = |[seven, four, size]: [f64; 3]| {
             let (difference, size) = ((half * (seven - four)).abs(), half.abs() * size);
-            // As QUADPACK has it (Piessens et al. 1983, p. 64): the rule of more points is better than their difference.
+            // As QUADPACK has it (Piessens et al. 1983): the rule of more points is better than their difference.
             let error = match size > 0.0 {
                 true => size * (200.0 * difference / size).powf(1.5).min(1.0),
                 false => 0.0,

@@ -69,7 +69,7 @@ impl<'s> Recorder<'s> {
     /// Events and sample at the start of the run.
     pub(super) fn start(&mut self, at: Sample<'_>) -> Result<(), Error> {
         let count = self.integrals.as_ref().map_or(0, Integrals::len);
-        self.trajectory.sums = vec![0.0; count];
+        self.trajectory.end_integrals = vec![0.0; count];
         if self.agenda.takes_start(at.t) {
             let integrals = &vec![0.0; count][..];
             self.trajectory.push(Sample { integrals, ..at });
@@ -196,7 +196,7 @@ impl<'s> Recorder<'s> {
             && self.agenda.wants_ends()
             && self.sampled.is_some_and(|t| t != end.t)
         {
-            let integrals = &self.trajectory.sums.clone()[..];
+            let integrals = &self.trajectory.end_integrals.clone()[..];
             self.trajectory.push(Sample {
                 integrals,
                 ..Sample::from(&end)

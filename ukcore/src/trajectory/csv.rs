@@ -8,8 +8,9 @@ use crate::mechanism::Prepared;
 
 /// Writes samples as comma-separated values: first a line of names, then a row for each sample.
 ///
-/// The columns are `t`, the coordinates (`x[0]`), their rates (`dot(x[0])`), the outputs, the integrals, `energy` (T + V) and `residual`
-/// ([`Residual::largest`](super::Residual::largest)). Numbers have the fewest digits that read back as the same number.
+/// The columns are `t`, the coordinates (`x[0]`), their rates (`dot(x[0])`), the outputs, the integrals (empty for a state that belongs to
+/// no run), `energy` (T + V) and `residual` ([`Residual::largest`](super::Residual::largest)). Numbers have the fewest digits that read
+/// back as the same number.
 ///
 /// ```
 /// # use std::ops::ControlFlow;
@@ -72,12 +73,12 @@ impl<W: Write> CsvWriter<W> {
     /// What writing reports.
     ///
     /// # Panics
-    /// If the sample has not as many coordinates as the mechanism, or not as many integrals: it is one of a run.
+    /// If the sample has not as many coordinates as the mechanism.
     pub fn write(&mut self, sample: Sample<'_>) -> io::Result<()> {
         let Sample { t, q, v, integrals } = sample;
         let mechanism = &self.gauge.mechanism;
-        let (expected, found) = (mechanism.integrals().len(), integrals.len());
-        assert_eq!(expected, found, "the sample has the integrals of its run");
+        // Of a state that belongs to no run.
+        let missing = mechanism.integrals().len().saturating_sub(integrals.len());
         mechanism.outputs(t, q, v, &mut self.outputs);
         let energy = mechanism.energy(t, q, v).total();
         let residual = self.gauge.residual(sample).largest();
@@ -86,6 +87,7 @@ impl<W: Write> CsvWriter<W> {
         for value in q.iter().chain(v).chain(&self.outputs).chain(integrals) {
             write!(out, ",{value:?}")?;
         }
+        write!(out, "{}", ",".repeat(missing))?;
         writeln!(out, ",{energy:?},{residual:?}")
     }
 

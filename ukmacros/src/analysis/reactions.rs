@@ -15,8 +15,8 @@ use super::switches::Switch;
 use crate::expr::{Func, Graph, Id, Node, Symbol, System};
 use std::collections::HashMap;
 
-/// Puts λ of the equations `held`, of which `regular` was made, in place of [`Symbol::Multiplier`] in c, in switching functions, outputs and
-/// integrals; `names` are those of coordinates and constraints. Nothing happens where none is used. Says so if λ cannot be solved for.
+/// Puts λ of the equations `held`, of which `regular` was made, in place of [`Symbol::Multiplier`] in c, in switching functions, outputs
+/// and integrals; `names` are those of coordinates and constraints. Nothing happens where none is used. Says so if λ cannot be solved for.
 pub(super) fn solve(
     system: &mut System,
     held: &mut Dynamics,
@@ -88,10 +88,13 @@ fn multipliers(
         redundant: &redundant,
         multipliers: true,
     };
-    let orders = orders(&task, &system.defaults, &system.graph)?;
-    let order = orders.into_iter().min_by_key(|order| order.changes);
-    let order = order.ok_or("there is no order of elimination")?;
-    let elimination = eliminate(&task, order, &mut system.graph)?;
+    let mut orders = orders(&task, &system.defaults, &system.graph)?;
+    orders.sort_by_key(|order| order.changes);
+    let mut elimination = Err("there is no order of elimination".to_owned());
+    for order in orders {
+        elimination = elimination.or_else(|_| eliminate(&task, order, &mut system.graph));
+    }
+    let elimination = elimination?;
     let straight = Straight::new(elimination, held, &regular.met, system);
     let g = &mut system.graph;
     let one = g.one();
