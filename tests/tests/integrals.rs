@@ -33,7 +33,7 @@ fn oscillation(method: Method, tolerance: f64) -> Simulation {
         q: vec![1.0],
         v: vec![0.0],
     };
-    Simulation::new(&Oscillator::default())
+    Simulation::new(Oscillator::default())
         .method(method)
         .tolerance(tolerance)
         .start(start)
@@ -96,10 +96,13 @@ fn integrals_of_an_oscillation_are_their_closed_forms_by_every_method() {
     assert_eq!(ids, (1, [4, 5], "Work of the spring."));
 }
 
+/// A method by its step.
+type Stepping = fn(f64) -> Method;
+
 /// Errors fall with the step as those of the motion do: order 4 of RATTLE, and of the others their own.
 #[test]
 fn integrals_have_the_order_of_the_method() {
-    let error = |step: f64, method: fn(f64) -> Method| {
+    let error = |step: f64, method: Stepping| {
         let simulation = oscillation(method(step), 1e-3).absolute_tolerance(1e3);
         let simulation = match method(step) {
             Method::Rattle { .. } => simulation,
@@ -109,7 +112,7 @@ fn integrals_have_the_order_of_the_method() {
         let off = |k: usize| last.last().unwrap().integrals[k] - exact(2.0)[k];
         off(0).abs().max(off(1).abs())
     };
-    let methods: [(fn(f64) -> Method, f64, f64); 4] = [
+    let methods: [(Stepping, f64, f64); 4] = [
         (|_| Method::Dop853, 0.4, 7.5),
         (|_| Method::Dopri5, 0.1, 4.7),
         (|_| Method::Radau5, 0.1, 4.7),
@@ -151,7 +154,7 @@ fn integrals_leave_no_trace_in_the_motion() {
         Method::Rattle { step: 0.01 },
     ] {
         let with = oscillation(method, 1e-8).until(3.0).unwrap();
-        let without = Simulation::new(&Bare::default())
+        let without = Simulation::new(Bare::default())
             .method(method)
             .tolerance(1e-8);
         let without = without.start(start.clone()).dense().until(3.0).unwrap();
@@ -226,7 +229,7 @@ fn integrals_go_backward_stop_at_events_and_are_streamed() {
         &row.collect::<Vec<_>>()[4..10],
         run.last().unwrap().integrals
     );
-    let mut csv = CsvWriter::new(&Oscillator::default(), Vec::new()).unwrap();
+    let mut csv = CsvWriter::new(Oscillator::default(), Vec::new()).unwrap();
     csv.write(Sample::from(&run.last().unwrap().to_state()))
         .unwrap();
     let csv = String::from_utf8(csv.into_inner()).unwrap();
@@ -278,9 +281,9 @@ fn work_and_losses_make_up_the_change_of_energy() {
     sketch.q[Engine::CRANK_ANGLE] = 1.0;
     sketch.v[Engine::CRANK_ANGLE] = 2.0;
     sketch.q[Engine::PISTON_X] = 1.1;
-    let start = ukcore::assemble(&Engine::default(), sketch, &["crank.angle"]).unwrap();
+    let start = ukcore::assemble(Engine::default(), sketch, &["crank.angle"]).unwrap();
     for method in [Method::Dop853, Method::Radau5] {
-        let run = Simulation::new(&Engine::default())
+        let run = Simulation::new(Engine::default())
             .method(method)
             .tolerance(1e-9);
         let run = run.start(start.clone()).every(0.25).until(5.0).unwrap();
@@ -315,7 +318,7 @@ fn an_integrand_that_is_not_a_number_ends_the_run_by_name() {
         q: vec![0.0],
         v: vec![1.0],
     };
-    let failure = Simulation::new(&Domain::default())
+    let failure = Simulation::new(Domain::default())
         .start(start)
         .until(2.0)
         .unwrap_err();

@@ -99,8 +99,8 @@ spatial! {
 
 /// A consistent state near a random sketch, if there is one, its accelerations, and its outputs.
 fn motion<M: Mechanism>(sketch: State) -> Option<(State, Vec<f64>, Vec<f64>)> {
-    let start = assemble(&M::default(), sketch, &[]).ok()?;
-    let mut solver = Solver::new(&M::default(), SolverOptions::default());
+    let start = assemble(M::default(), sketch, &[]).ok()?;
+    let mut solver = Solver::new(M::default(), SolverOptions::default());
     let mut acceleration = vec![0.0; start.q.len()];
     solver
         .acceleration(start.t, &start.q, &start.v, &mut acceleration)
@@ -278,8 +278,8 @@ fn pins_of_a_four_bar_carry_what_newton_and_euler_say() {
         sketch.q[bar] = angle;
     }
     sketch.v[2] = 3.0;
-    let start = assemble(&FourBar::default(), sketch, &["bar[0].angle"]).unwrap();
-    let run = Simulation::new(&FourBar::default())
+    let start = assemble(FourBar::default(), sketch, &["bar[0].angle"]).unwrap();
+    let run = Simulation::new(FourBar::default())
         .tolerance(1e-10)
         .start(start)
         .every(0.05)
@@ -320,7 +320,7 @@ fn a_block_on_a_rough_incline_goes_up_slows_and_slides_back() {
             q: vec![0.0, 0.0, slope],
             v,
         };
-        let run = Simulation::new(&Incline::default())
+        let run = Simulation::new(Incline::default())
             .method(method)
             .start(start)
             .every(0.1)
@@ -436,7 +436,7 @@ fn loads_that_are_not_determined_are_not_a_number() {
         q: vec![0.0; 5],
         v: vec![1.0, 0.0, 0.0, 0.0, 0.0],
     };
-    let run = Simulation::new(&Table::default())
+    let run = Simulation::new(Table::default())
         .start(start.clone())
         .until(1.0)
         .unwrap();
@@ -462,7 +462,7 @@ fn loads_that_are_not_determined_are_not_a_number() {
     for q in [&mut start.q, &mut start.v] {
         q.truncate(4);
     }
-    let failure = Simulation::new(&RoughTable::default())
+    let failure = Simulation::new(RoughTable::default())
         .start(start)
         .until(1.0)
         .unwrap_err();
@@ -494,7 +494,7 @@ fn reactions_are_those_of_ideal_constraints() {
             formula,
             ..SolverOptions::default()
         };
-        let mut solver = Solver::new(&Wire::default(), options);
+        let mut solver = Solver::new(Wire::default(), options);
         let solution = solver.solve(0.0, &q, &v).unwrap();
         let mut out = vec![0.0; 4];
         solver.mechanism().outputs(0.0, &q, &v, &mut out);
@@ -537,9 +537,9 @@ fn derivatives_go_through_reactions() {
                 (0..2).for_each(|i| column[i] += sign * moved[i] / (2.0 * h));
             }
         }
-        for i in 0..2 {
-            assert_close("∂q̈/∂q", slopes.by_position[i + 2 * k], columns[0][i], 1e-6);
-            assert_close("∂q̈/∂q̇", slopes.by_velocity[i + 2 * k], columns[1][i], 1e-6);
+        let slopes = [&slopes.by_position, &slopes.by_velocity];
+        for (slopes, column) in slopes.into_iter().zip(&columns) {
+            assert_all_close("derivatives", &slopes[2 * k..][..2], column, 1e-6);
         }
     }
 }

@@ -248,13 +248,7 @@ pub(crate) fn eliminate(
     let mut motion = motion.solution(&factors, task.multipliers, names, g, &mut hints)?;
     let droppings = droppings(&factors, &motion, d, [&force, &rhs], g);
     motion.coordinates.truncate(own.0);
-    // K has M over the common factor, and rows over their scales.
-    let multipliers = motion.constraints.iter().zip(&scales);
-    let multipliers = multipliers.map(|(x, s)| {
-        let x = g.mul(*x, *common_factor);
-        g.scale(-1.0 / s, x)
-    });
-    let multipliers: Vec<Id> = multipliers.collect();
+    let multipliers = multipliers(&motion.constraints, *common_factor, &scales, g);
     let residuals = (0..own.1).map(|i| g.symbol(Symbol::Residual(i)));
     let mut residuals: Vec<Id> = residuals.collect();
     residuals.resize(d.rhs.len(), g.zero());
@@ -283,6 +277,15 @@ pub(crate) fn eliminate(
         place: place(d, own),
         hints,
     })
+}
+
+/// λ from the constraints' part x of a solution: K has M over a common factor, and rows over their scales.
+fn multipliers(x: &[Id], common_factor: Id, scales: &[f64], g: &mut Graph) -> Vec<Id> {
+    let scaled = x.iter().zip(scales).map(|(x, s)| {
+        let x = g.mul(*x, common_factor);
+        g.scale(-1.0 / s, x)
+    });
+    scaled.collect()
 }
 
 /// Inertia that depends on parameters and is no pivot by itself: it has to be positive, too.
