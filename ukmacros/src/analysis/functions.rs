@@ -20,6 +20,7 @@ pub(crate) enum Role {
     Energy,
     Outputs,
     Integrands,
+    Drawing,
     Switching,
     Acceleration,
     Correction,
@@ -38,6 +39,7 @@ pub(crate) enum Slice {
     Rate,
     Outputs,
     Integrands,
+    Drawing,
     Switching,
     /// The solution of a straight-line solve.
     Out,
@@ -94,6 +96,9 @@ pub(crate) fn functions(system: &System, hoisted: &Hoisted) -> Vec<Function> {
     if !hoisted.integrands.is_empty() {
         let integrands = all(Role::Integrands, Slice::Integrands, &hoisted.integrands);
         functions.push(integrands);
+    }
+    if !hoisted.drawing.is_empty() {
+        functions.push(all(Role::Drawing, Slice::Drawing, &hoisted.drawing));
     }
     if !hoisted.switches.is_empty() {
         functions.push(all(Role::Switching, Slice::Switching, &hoisted.switches));

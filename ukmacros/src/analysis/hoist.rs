@@ -20,6 +20,8 @@ pub(crate) struct Hoisted {
     pub(crate) outputs: Vec<Id>,
     /// What is integrated along with the motion.
     pub(crate) integrands: Vec<Id>,
+    /// Numbers of the shapes that are drawn.
+    pub(crate) drawing: Vec<Id>,
     /// Switching functions.
     pub(crate) switches: Vec<Id>,
     /// The solve, or why there is none.
@@ -40,10 +42,13 @@ pub(crate) fn hoist(
     let mut straight = straight.clone();
     let mut outputs: Vec<Id> = system.outputs.iter().map(|o| o.value).collect();
     let mut integrands: Vec<Id> = system.integrals.iter().map(|o| o.value).collect();
+    let shapes = system.drawing.shapes.iter();
+    let mut drawing: Vec<Id> = shapes.flat_map(|shape| &shape.numbers).copied().collect();
     let mut switches: Vec<Id> = switches.iter().map(|s| s.function).collect();
     let mut places: Vec<&mut Id> = dynamics.values_mut().collect();
     let reported = outputs.iter_mut().chain(&mut integrands);
     places.extend(reported.chain(&mut switches));
+    places.extend(&mut drawing);
     if let Ok(straight) = &mut straight {
         places.extend(straight.values_mut());
     }
@@ -69,6 +74,7 @@ pub(crate) fn hoist(
         dynamics,
         outputs,
         integrands,
+        drawing,
         switches,
         straight,
         values,

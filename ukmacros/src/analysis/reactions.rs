@@ -15,8 +15,8 @@ use super::switches::Switch;
 use crate::expr::{Func, Graph, Id, Node, Symbol, System};
 use std::collections::HashMap;
 
-/// Puts λ of the equations `held`, of which `regular` was made, in place of [`Symbol::Multiplier`] in c, in switching functions, outputs
-/// and integrals; `names` are those of coordinates and constraints. Nothing happens where none is used. Says so if λ cannot be solved for.
+/// Puts λ of the equations `held`, of which `regular` was made, in place of [`Symbol::Multiplier`] in c, in switching functions, outputs,
+/// integrals and pictures; `names` are those of coordinates and constraints. Nothing happens where none is used. Says so if λ cannot be solved for.
 pub(super) fn solve(
     system: &mut System,
     held: &mut Dynamics,
@@ -61,7 +61,9 @@ fn places<'a>(
         .nonideal
         .iter_mut()
         .chain(&mut regular.dynamics.nonideal);
-    let places = reported.map(|o| &mut o.value).chain(forces);
+    let drawn = system.drawing.shapes.iter_mut();
+    let drawn = drawn.flat_map(|shape| &mut shape.numbers);
+    let places = reported.map(|o| &mut o.value).chain(drawn).chain(forces);
     let places = places.chain(switches.iter_mut().map(|s| &mut s.function));
     (&mut system.graph, places.collect())
 }

@@ -4,7 +4,7 @@ use super::body::float;
 use super::listing::Listing;
 use crate::analysis::Switch;
 use crate::analysis::{Analysis, Costs, Operations, Pair, Pivoting, SAFE_SHARE, Solve, Structure};
-use crate::expr::{Kind, OutputValue, StartValue, System};
+use crate::expr::{Drawing, Kind, OutputValue, StartValue, System};
 use crate::model::Model;
 use crate::parse::Declaration;
 use proc_macro2::{Literal, TokenStream};
@@ -45,6 +45,7 @@ pub(super) fn spec(
         quote! { const INTEGRALS: &'static [ukcore::OutputSpec] = &[#(#integrals),*]; }
     });
     let starts = system.starts.iter().map(start);
+    let drawing = drawing(&system.drawing);
     let prepared = listing.prepared.iter().map(|(n, t)| quote! { (#n, #t) });
     let switches = listing.switches.iter().zip(&analysis.switches);
     let switches = switches.map(|((function, terms), Switch { length, .. })| {
@@ -63,6 +64,7 @@ pub(super) fn spec(
             holonomic: #holonomic,
             outputs: &[#(#outputs),*],
             starts: &[#(#starts),*],
+            drawing: #drawing,
             switches: &[#(#switches),*],
             structure: #structure,
             equations: #equations,
@@ -78,6 +80,19 @@ fn start(start: &StartValue) -> TokenStream {
         quote! { ukcore::StartOption { name: #name, doc: #doc, default: #default, unit: "" } }
     });
     quote! { ukcore::StartSpec { name: #name, doc: #doc, options: &[#(#options),*] } }
+}
+
+fn drawing(drawing: &Drawing) -> TokenStream {
+    let shapes = drawing.shapes.iter().map(|shape| {
+        let (kind, label) = (format_ident!("{}", format!("{:?}", shape.kind)), &shape.label);
+        let numbers = number(shape.numbers.len());
+        quote! { ukcore::ShapeSpec { kind: ukcore::ShapeKind::#kind, numbers: #numbers, label: #label } }
+    });
+    let dimension = number(drawing.dimension);
+    match drawing.shapes.is_empty() {
+        true => quote! { ukcore::Drawing::NONE },
+        false => quote! { ukcore::Drawing { dimension: #dimension, shapes: &[#(#shapes),*] } },
+    }
 }
 
 fn number(n: usize) -> Literal {

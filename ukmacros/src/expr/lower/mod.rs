@@ -3,6 +3,7 @@
 mod array;
 mod bodies;
 mod calls;
+mod drawing;
 mod inertia;
 mod lets;
 mod names;
@@ -13,7 +14,9 @@ mod system;
 mod value;
 mod vectors;
 
-pub(crate) use system::{Constraint, ConstraintRef, Kind, OutputValue, StartValue, System};
+pub(crate) use system::{
+    Constraint, ConstraintRef, Drawing, Kind, OutputValue, StartValue, System,
+};
 #[cfg(test)]
 pub(crate) use vectors::vocabulary;
 
@@ -25,6 +28,7 @@ use crate::parse::{
 };
 use array::{Value, describe};
 use bodies::Declared;
+use drawing::Between;
 use inertia::OfBodies;
 use parts::{Acting, PARTS};
 use reactions::Known;
@@ -118,6 +122,7 @@ pub(crate) fn lower(decl: &Declaration, model: &Model, diag: &Diagnostics) -> Sy
         constrained: false,
         known: HashMap::new(),
         reaction_used: None,
+        between: Vec::new(),
     };
     let results = &mut lowering.results;
     for block in decl.holonomic.iter().chain(&decl.nonholonomic) {
@@ -167,6 +172,8 @@ struct Lowering<'m> {
     known: HashMap<String, Known>,
     /// Where the first reaction is used.
     reaction_used: Option<Loc>,
+    /// What joints and springs are between.
+    between: Vec<Between>,
 }
 
 /// An expression's surroundings: loop variables, function arguments, section.
@@ -241,6 +248,7 @@ impl<'m> Lowering<'m> {
         let outputs = self.reported(&decl.outputs, NoValue::Output, &top, &mut names);
         let integrals = self.reported(&decl.integrals, NoValue::Integral, &top, &mut names);
         let starts = self.starts(decl, &top);
+        let drawing = self.drawing(decl, &top);
         System {
             graph: std::mem::take(&mut self.graph),
             constants,
@@ -257,6 +265,7 @@ impl<'m> Lowering<'m> {
             reaction: self.reaction_used,
             unique: None,
             starts,
+            drawing,
             hints: std::mem::take(&mut self.hints),
             inner_hints: HashMap::new(),
         }
