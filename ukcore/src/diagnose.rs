@@ -169,6 +169,14 @@ pub(crate) fn non_finite_terms(spec: &Spec, terms: &Evaluated, rhs: &[f64]) -> E
         let broken = pairs.filter(|(_, x)| !x.is_finite());
         what.extend(broken.map(|(name, _)| format!("{kind} on {name}")));
     }
+    let equations = &spec.equations;
+    let texts = equations.nonideal.iter().map(|(_, text)| text);
+    let mut texts = texts.chain(equations.definitions.iter().map(|(_, text)| text));
+    let forces = terms.force.iter().all(|x| x.is_finite());
+    let ideal = forces && terms.nonideal.iter().any(|x| !x.is_finite());
+    if ideal && texts.any(|text| text.contains("reaction(")) {
+        what.push("a reaction (not unique where constraints imply each other)".to_owned());
+    }
     if let Error::NonFinite { what: constraints } = non_finite_residual(spec, rhs) {
         for constraint in constraints {
             if !what.contains(&constraint) {

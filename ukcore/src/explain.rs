@@ -113,6 +113,11 @@ impl fmt::Display for Explanation {
             writeln!(f, "\nOutputs")?;
             table(f, spec.outputs.iter().map(|o| (o.name, o.doc)))?;
         }
+        let integrals = self.mechanism.integrals();
+        if !integrals.is_empty() {
+            writeln!(f, "\nIntegrals along a run")?;
+            table(f, integrals.iter().map(|o| (o.name, o.doc)))?;
+        }
         structure(f, spec)?;
         write!(f, "\n{}", self.mechanism.plan())?;
         match &self.start {

@@ -13,7 +13,7 @@ mod prepared;
 pub use prepared::Prepared;
 pub(crate) use prepared::{Dynamics, Equations};
 
-use crate::spec::{Guess, Spec};
+use crate::spec::{Guess, OutputSpec, Spec};
 
 /// A declared mechanism: its parameters (`self`), what is known about it (`SPEC`), and its equations as straight-line code.
 ///
@@ -31,6 +31,9 @@ pub trait Mechanism: Clone + Default + Into<Prepared> + Send + Sync + 'static {
     /// The emitted functions, in the order of this trait: name and text, which [`code::laid_out`](crate::plan::laid_out) makes readable.
     /// The numbers in it are those that run. Nothing of it is in a program that does not read it.
     const CODE: &'static [(&'static str, &'static str)] = &[];
+
+    /// Names of the integrals along a motion.
+    const INTEGRALS: &'static [OutputSpec] = &[];
 
     /// Value of parameter `index` (order of `SPEC.params`).
     fn parameter(&self, index: usize) -> f64;
@@ -54,6 +57,11 @@ pub trait Mechanism: Clone + Default + Into<Prepared> + Send + Sync + 'static {
     fn energy<S: Scalar>(prepared: &[S], t: S, q: &[S], v: &[S]) -> Energy<S>;
     /// The declared outputs.
     fn outputs<S: Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], outputs: &mut [S]);
+
+    /// What the declared integrals integrate by time, as many as `INTEGRALS`.
+    fn integrands<S: Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], integrands: &mut [S]) {
+        let _ = (prepared, t, q, v, integrands);
+    }
 
     /// Calls `each` with the name of each spatial body and, by the parameters (order of `SPEC.params`), ten numbers: its mass, and its
     /// inertia about the centre of mass by rows.

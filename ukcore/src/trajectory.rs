@@ -16,6 +16,7 @@ use crate::spec::Spec;
 
 mod csv;
 mod drift;
+mod multipliers;
 
 pub use csv::CsvWriter;
 pub(crate) use drift::EnergyDrift;
@@ -84,6 +85,8 @@ pub struct Trajectory {
     pub(crate) times: Vec<f64>,
     /// [q; q̇] of one sample after the other.
     pub(crate) states: Vec<f64>,
+    /// The integrals at one sample after the other.
+    pub(crate) integrals: Vec<f64>,
     pub(crate) events: Vec<EventHit>,
     /// Names of the events that were watched.
     pub(crate) watched: Vec<String>,
@@ -95,6 +98,8 @@ pub struct Trajectory {
     /// Start time, and the state with which the run ended; unset before a valid start.
     pub(crate) start: f64,
     pub(crate) end: Option<State>,
+    /// The integrals there.
+    pub(crate) end_integrals: Vec<f64>,
     pub(crate) ending: Ending,
     pub(crate) work: Work,
 }
@@ -106,6 +111,7 @@ impl Trajectory {
             options,
             times: Vec::new(),
             states: Vec::new(),
+            integrals: Vec::new(),
             events: Vec::new(),
             watched: Vec::new(),
             segments: None,
@@ -116,6 +122,7 @@ impl Trajectory {
             },
             start: 0.0,
             end: None,
+            end_integrals: Vec::new(),
             ending: Ending::Failed,
             work: Work::default(),
         }
@@ -126,6 +133,7 @@ impl Trajectory {
         self.times.push(sample.t);
         self.states.extend_from_slice(sample.q);
         self.states.extend_from_slice(sample.v);
+        self.integrals.extend_from_slice(sample.integrals);
     }
 
     /// The run has got to this state.
@@ -134,6 +142,7 @@ impl Trajectory {
             end.t = now.t;
             end.q.copy_from_slice(now.q);
             end.v.copy_from_slice(now.v);
+            self.end_integrals.copy_from_slice(now.integrals);
         }
     }
 
@@ -179,14 +188,19 @@ impl Trajectory {
         let state = &self.states[2 * n * index..2 * n * (index + 1)];
         let (q, v) = state.split_at(n);
         let t = self.times[index];
-        Sample { t, q, v }
+        // None of the members of an ensemble, which gives states alone.
+        let count = self.integrals.len() / self.times.len();
+        let integrals = &self.integrals[count * index..][..count];
+        Sample { t, q, v, integrals }
     }
 
     /// The state with which the run ended, be it a sample or not: at the end time, at a terminal event, or after the last step
     /// that succeeded. `None` only in a [`Failure`](crate::Failure) of a run that could not start.
     #[must_use]
     pub fn last(&self) -> Option<Sample<'_>> {
-        self.end.as_ref().map(Sample::from)
+        let integrals = &self.end_integrals[..];
+        let end = self.end.as_ref().map(Sample::from);
+        end.map(|end| Sample { integrals, ..end })
     }
 
     /// Why the run ended.
@@ -297,6 +311,23 @@ impl Trajectory {
     pub fn output(&self, name: &str) -> Result<Vec<f64>, Error> {
         let index = self.spec().output_index(name)?;
         Ok(self.outputs().iter().map(|row| row[index]).collect())
+    }
+
+    /// Values of the integral called `name` at the samples, since the start of the run.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name.
+    pub fn integral(&self, name: &str) -> Result<Vec<f64>, Error> {
+        let names = || {
+            self.mechanism
+                .integrals()
+                .iter()
+                .map(|integral| integral.name)
+        };
+        let Some(index) = names().position(|known| known == name) else {
+            return Err(Error::unknown_name("integral", name, &mut names()));
+        };
+        Ok(self.samples().map(|s| s.integrals[index]).collect())
     }
 
     /// All outputs at the samples: one row a sample, the order of [`Spec::outputs`](crate::spec::Spec::outputs).

@@ -62,8 +62,9 @@ use proc_macro2::TokenStream;
 /// | `potential` | `m * g * y` | terms of V(q, t); −∂V/∂q goes into Q |
 /// | `holonomic` | `rod: sq(x) + sq(y) = sq(l)`, `joint: [a, b] = [c, d]`, `knee: pin(p, q)` | φ(q, t) = 0 (eq. 3); a vector equation gives one constraint for each component; redundant equations are welcome, but the same one under two names is taken for a slip, an error |
 /// | `nonholonomic` | `blade: dot(x) * sin(th) = dot(y) * cos(th)` | φ(q, q̇, t) = 0 (eq. 4), linear in q̇ or not |
-/// | `nonideal` | `x: -mu * n * sign(dot(x))` | the force c of eq. 8, which may do work in virtual displacements; entries as of `force` |
-/// | `output` | `fall = y[0]` | quantities to report, of q, q̇, t |
+/// | `nonideal` | `x: -mu * n * sign(dot(x))` | the force c of eq. 8, which may do work in virtual displacements; entries as of `force`; may use [reactions](#reactions) |
+/// | `output` | `fall = y[0]` | quantities to report, of q, q̇, t and reactions |
+/// | `integral` | `work = torque * dot(th)` | quantities of q, q̇, t and reactions to be [integrated](#integrals) by time |
 /// | `draw` | `line(p, q)` | [shapes](#pictures) of the mechanism's picture |
 /// | `start` | `released(angle = 0.5) { th = angle; x near 1.0; dot(th) = 0.0 }` | a [start](#starts); there may be several |
 ///
@@ -103,6 +104,7 @@ use proc_macro2::TokenStream;
 /// | `transpose(m)` | mᵀ |
 /// | `normal(v)` | the unit vector of the plane at a right angle to v, to its left |
 /// | `normals(v)` | two unit vectors of space at right angles to v and to each other, right-handed with v as the third |
+/// | `friction(v, F)` | −F v/√(vᵀv), a force of size F against the velocity v; of a number v it is −F sign(v). It is a switch where v vanishes |
 ///
 /// All of them have a method form, too: `u.cross(v)`. Their names are not reserved: a coordinate or constraint may be called `norm`, and a
 /// function declared as `let inner = …` takes the place of this one.
@@ -173,38 +175,40 @@ use proc_macro2::TokenStream;
 ///
 /// # Joints
 ///
-/// A joint is short for rows: `knee: pin(p, q)` is `knee: q - p = 0`, and gives `knee[0]` and `knee[1]`. What stands in this table is what
-/// differentiation sees and what `explain` shows. `p` and `q` are points as `thigh.at([l, 0])` gives them, and know their body. Directions
+/// A joint is short for rows: `knee: pin(p, q)` is `knee: q - p = 0`, with its rows called `knee.x` and `knee.y`. What stands in this table
+/// is what differentiation sees and what `explain` shows. A joint of several rows names each by what it keeps; a joint of one row has its
+/// own name alone, and rows of any other vector equation have numbers, `c[0]`, as `T::KNEE[0]` has for all. Messages, tables and
+/// `reaction(knee.x)` use these names. `p` and `q` are points as `thigh.at([l, 0])` gives them, and know their body. Directions
 /// are given in the frame of the body of `p`, and are the same numbers in that of `q` unless told otherwise; they need not be unit vectors,
 /// nor are they zero. **Multipliers act on the second body**: λ pushes the body of `q` in the direction in which the row grows, and that of `p`
 /// against it. Of a row that is a distance, λ is the force; of `rod` it is half the force over the length.
 ///
-/// | planar joint | rows |
-/// | --- | --- |
-/// | `pin(p, q)` | `q - p` |
-/// | `weld(p, q, [angle])` | `q - p`, `q.angle - p.angle - angle`, the angle 0 if left out |
-/// | `slider(p, q, d, [angle])` | `inner(p.along(normal(d)), q - p)`, `q.angle - p.angle - angle`: q slides on the line through p along d, without turning |
-/// | `slot(p, q, d)` | `inner(p.along(normal(d)), q - p)`: q slides on that line, and may turn |
-/// | `wheel(p, q, d, r)` | `inner(p.along(normal(d)), q - p) - r`, `inner(p.along(normalise(d)), q - p) + r * (q.angle - p.angle)`: a wheel of radius r about q rolls on that line, to its left |
-/// | `rack(p, q, d, r)` | the second row of `wheel`: a pinion about q on a rack along d |
-/// | `gear(a, b, r, s)` | `r * a.angle + s * b.angle`: bodies of radii r and s roll on each other outside; with s < 0 one inside the other |
-/// | `turn(a, b)` | `b.angle - a.angle`; a motor is `motor: turn(a, b) = w * t` |
-/// | `rod(p, q, l)` | `sq(q - p) - sq(l)`, in space, too |
+/// | planar joint | names | rows |
+/// | --- | --- | --- |
+/// | `pin(p, q)` | `.x`, `.y` | `q - p` |
+/// | `weld(p, q, [angle])` | `.x`, `.y`, `.angle` | `q - p`, `q.angle - p.angle - angle`, the angle 0 if left out |
+/// | `slider(p, q, d, [angle])` | `.normal`, `.angle` | `inner(p.along(normal(d)), q - p)`, `q.angle - p.angle - angle`: q slides on the line through p along d, without turning |
+/// | `slot(p, q, d)` |  | `inner(p.along(normal(d)), q - p)`: q slides on that line, and may turn |
+/// | `wheel(p, q, d, r)` | `.normal`, `.rolling` | `inner(p.along(normal(d)), q - p) - r`, `inner(p.along(normalise(d)), q - p) + r * (q.angle - p.angle)`: a wheel of radius r about q rolls on that line, to its left |
+/// | `rack(p, q, d, r)` |  | the second row of `wheel`: a pinion about q on a rack along d |
+/// | `gear(a, b, r, s)` |  | `r * a.angle + s * b.angle`: bodies of radii r and s roll on each other outside; with s < 0 one inside the other |
+/// | `turn(a, b)` |  | `b.angle - a.angle`; a motor is `motor: turn(a, b) = w * t` |
+/// | `rod(p, q, l)` |  | `sq(q - p) - sq(l)`, in space, too |
 ///
 /// With `n = normals(u)` and `u`, `w` of unit length:
 ///
-/// | spatial joint | rows |
-/// | --- | --- |
-/// | `ball(p, q)` | `q - p` |
-/// | `hinge(p, q, u, [w])` | `q - p`, `inner(p.along(n[k]), q.along(w))` for k = 0, 1: both turn about u, which is w in the second body |
-/// | `universal(p, q, u, w)` | `q - p`, `inner(p.along(u), q.along(w))`: u of the first body is at a right angle to w of the second |
-/// | `cylinder(p, q, u, [w])` | `inner(p.along(n[k]), q - p)`, `inner(p.along(n[k]), q.along(w))`: q slides along u and turns about it |
-/// | `slider(p, q, u, [turn])` | `inner(p.along(n[k]), q - p)`, and the last three rows of `weld` |
-/// | `weld(p, q, [turn])` | `q - p`; `inner(p.along(x), q.along(y))`, likewise of y and z, of z and x: `turn` is the matrix that turns axes of the second body to those of the first, the identity if left out |
-/// | `drive(a, b, u, angle)` | `inner(a.along(cos(angle) * n[0] + sin(angle) * n[1]), b.along(n[1]))`: a motor for a hinge about u, at any number of turns |
-/// | `screw(p, q, u, lead)` | under `nonholonomic`, beside `cylinder`: the velocity along u is lead/2π times that of turning |
-/// | `disc(q, u, r)` | `q[2] - r * sqrt(1 - sq(q.along(u)[2]))`: a disc of radius r about q with axis u touches the plane z = 0 |
-/// | `rolls(q, u, r)` | under `nonholonomic`, beside `disc`: the point of the disc that touches has no velocity along x and y |
+/// | spatial joint | names | rows |
+/// | --- | --- | --- |
+/// | `ball(p, q)` | `.x`, `.y`, `.z` | `q - p` |
+/// | `hinge(p, q, u, [w])` | `.x`, `.y`, `.z`, `.tilt0`, `.tilt1` | `q - p`, `inner(p.along(n[k]), q.along(w))` for k = 0, 1: both turn about u, which is w in the second body |
+/// | `universal(p, q, u, w)` | `.x`, `.y`, `.z`, `.cross` | `q - p`, `inner(p.along(u), q.along(w))`: u of the first body is at a right angle to w of the second |
+/// | `cylinder(p, q, u, [w])` | `.n0`, `.n1`, `.tilt0`, `.tilt1` | `inner(p.along(n[k]), q - p)`, `inner(p.along(n[k]), q.along(w))`: q slides along u and turns about it |
+/// | `slider(p, q, u, [turn])` | `.n0`, `.n1`, `.xy`, `.yz`, `.zx` | `inner(p.along(n[k]), q - p)`, and the last three rows of `weld` |
+/// | `weld(p, q, [turn])` | `.x`, `.y`, `.z`, `.xy`, `.yz`, `.zx` | `q - p`; `inner(p.along(x), q.along(y))`, likewise of y and z, of z and x: `turn` is the matrix that turns axes of the second body to those of the first, the identity if left out |
+/// | `drive(a, b, u, angle)` |  | `inner(a.along(cos(angle) * n[0] + sin(angle) * n[1]), b.along(n[1]))`: a motor for a hinge about u, at any number of turns |
+/// | `screw(p, q, u, lead)` |  | under `nonholonomic`, beside `cylinder`: the velocity along u is lead/2π times that of turning |
+/// | `disc(q, u, r)` |  | `q[2] - r * sqrt(1 - sq(q.along(u)[2]))`: a disc of radius r about q with axis u touches the plane z = 0 |
+/// | `rolls(q, u, r)` | `.x`, `.y` | under `nonholonomic`, beside `disc`: the point of the disc that touches has no velocity along x and y |
 ///
 /// Rows of directions at right angles are met, too, where a body is turned over; the nearest state to the guess decides. A function of the
 /// declaration may be a joint, too: with `let hook = |p, q| pin(p, q + [0, h]);`, `c: hook(p, q)` is one.
@@ -253,13 +257,74 @@ use proc_macro2::TokenStream;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
+/// # Reactions
+///
+/// `reaction(knee)` is what a constraint pushes with, under `output`, `integral`, `draw` and `nonideal`, and in functions used there. Members of
+/// families are chosen as `reaction(link[2])`, rows of a joint as `reaction(knee.x)`.
+///
+/// | of | meaning |
+/// | --- | --- |
+/// | a joint between points: `pin`, `slider`, `rod`, `hinge`, `disc`, … | the force on the second body, in axes of the ground, a vector; of several rows their sum |
+/// | a joint between bodies: `gear`, `turn`, `drive` | its multiplier, a number: of `turn` the moment on the second body |
+/// | a row of a joint | its multiplier λ; Aᵀλ is its share in the generalised forces. Of an `angle` it is the moment on the second body; of a row e · f of a direction of the first body with one of the second the moment on the second is λ f × e |
+/// | any other constraint | its multiplier, a number, or of a vector equation the vector of them: the force along what stands on its left side, less the right |
+///
+/// Forces act at q, on the first body, too, as its lines turn with it; of `wheel`, `rack`, `disc` and `rolls` at the point of contact.
+/// They are those of **ideal constraints**: λ of M q̈ = Q + Aᵀλ, A q̈ = b, the equations without c. By eq. 8 the constraint force is this
+/// ideal part and one that c determines, which does not change the first. So `nonideal { s: friction(dot(s), mu * norm(reaction(track)))
+/// }` is no circle: λ is solved for, then c, then q̈.
+///
+/// What eq. 8 leaves out is that friction itself loads constraints. Friction at one joint is carried by others, as the force of a belt on
+/// a second pulley or the tangential force of a jamming wedge on the opposite wall; in rigid bodies with dry friction these loads raise
+/// friction in turn, so that λ follows from a system that need not have one solution (Painlevé). `reaction` does not contain them. It is
+/// the whole force where friction acts along directions that the constraints leave free and that inertia does not couple to their rows, as
+/// for particles on surfaces and wires and blocks on planes; else what is left out is of the order of μ times the reaction.
+///
+/// Where constraints imply each other λ is not unique: loads are shared in ways that rigid bodies do not know. All reactions of the
+/// mechanism are then not a number at that state, and a run whose `nonideal` uses them ends there with an error that says so.
+/// `Trajectory::multipliers` tells which are unique. Reactions are solved for on the straight line; where there is none, using one is an
+/// error.
+///
+/// ```
+/// use ukcore::{Simulation, State};
+///
+/// ukcore::multibody! {
+///     /// A bead on a rough ring in a level plane, of radius r.
+///     pub Bead {
+///         params { m = 0.1, mu = 0.2, r = 0.5 }
+///         coords { p[2] }
+///         let drag = |v| friction(v, mu * norm(reaction(ring) * 2 * p));
+///         mass { p: m }
+///         holonomic { ring: sq(p) = sq(r) }
+///         nonideal { p: drag(dot(p)) }
+///         integral { lost = -inner(drag(dot(p)), dot(p)) }
+///     }
+/// }
+/// let start = State { t: 0.0, q: vec![0.5, 0.0], v: vec![0.0, 2.0] };
+/// let run = Simulation::new(Bead::default()).tolerance(1e-10).start(start).until(3.0)?;
+/// let (end, lost) = (run.last().unwrap(), run.integral("lost")?);
+/// let speed = 2.0 / (1.0 + 0.2 * 2.0 * 3.0 / 0.5); // v̇ = −μ v²/r
+/// assert!((end.v[0].hypot(end.v[1]) - speed).abs() < 1e-8);
+/// assert!((lost.last().unwrap() - 0.05 * (4.0 - speed * speed)).abs() < 1e-8);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Integrals
+///
+/// `integral { work = torque * dot(th) }` gives ∫ τ θ̇ dt since the start of a run: `Trajectory::integral("work")`, a column of its table,
+/// and `Sample::integrals`, where `T::INT_WORK` is its place. Integrals are no coordinates: no equation depends on them, and the steps of
+/// a run are the same with and without. Each accepted step of any method is integrated along its interpolant, to the tolerance of the run
+/// beside the integral of the magnitude, kinks and jumps included; that costs the interpolant of each step, as `Simulation::dense` does.
+/// No expression uses an integral. Members of ensembles have none.
+///
 /// # What is emitted
 ///
 /// For `pub T { … }`: `struct T` with its parameters as public fields, `Default`, `Clone`, `Debug`, `PartialEq`; `T::N` for constant `N`;
 /// index constants `T::X` for coordinate `x` (`[usize; N]` for families, `[[usize; 3]; N]` for `p[N][3]`; θ stays `T::θ`, which Θ looks
-/// like), `T::ROD` for the row of constraint `rod`, `T::OUT_FALL` for output `fall`. Families of constraints and outputs have theirs if
-/// their indices are 0, 1, 2, … and their members are numbers, or vectors of one length; the names of all stand in `T::SPEC`. Two names
-/// that would become one constant are an error. Further, `impl ukcore::Mechanism for T`.
+/// like), `T::ROD` for the row of constraint `rod`, `T::OUT_FALL` for output `fall`, `T::INT_WORK` for integral `work`. Families of
+/// constraints, outputs and integrals have theirs if their indices are 0, 1, 2, … and their members are numbers, or vectors of one length;
+/// the names of all stand in `T::SPEC` and `T::INTEGRALS`. Two names that would become one constant are an error. Further, `impl
+/// ukcore::Mechanism for T`.
 ///
 /// A parameter, or what is declared by `let`, that no expression names is reported by the lint `dead_code` in the compiler's own words, as
 /// a field that is never read, a constant or function that is never used; but not where its name begins with `_`. `#[allow(dead_code)]`
@@ -282,7 +347,7 @@ use proc_macro2::TokenStream;
 ///             | ("gravity" | "kinetic" | "potential" | "dissipation" | "forces"), block(expr)
 ///             | ("force" | "nonideal"), block(place, ":", expr)
 ///             | ("holonomic" | "nonholonomic"), block(key, ":", expr, ["=", expr])
-///             | "output", block(docs, key, "=", expr) ;
+///             | ("output" | "integral"), block(docs, key, "=", expr) ;
 /// block(e)    = "{", { (e | "for", NAME, "in", expr, "..", expr, "{", { e }, "}"), ["," | ";"] }, "}" ;
 /// key         = NAME, { "[", expr, "]" } ;
 /// place       = key, [".", NAME] ;
@@ -416,6 +481,12 @@ fn analysed(
         defects.extend(wrong.map(|what| format!("wrong derivatives of {what}")));
     }
     let analysis = analysis::analyse(system, model, dynamics);
+    if let (Some(reason), Some(place)) = (&analysis.unsolved, system.reaction) {
+        let message = format!(
+            "reactions cannot be used here, as they are not solved for on a straight line: {reason}; ask the solution of a run for its multipliers"
+        );
+        diag.error(place, message);
+    }
     let changed = analysis.defect.iter();
     defects.extend(changed.map(|k| format!("value {k} changed by hoisting")));
     for defect in defects {

@@ -64,6 +64,7 @@ impl Summary<'_> {
             "q": named(coords(), last.q),
             "v": named(coords(), last.v),
             "outputs": named(spec.outputs.iter().map(|o| o.name), &outputs),
+            "integrals": named(mechanism.integrals().iter().map(|o| o.name), last.integrals),
             "energy": { "kinetic": energy.kinetic, "potential": energy.potential },
         }))
     }
@@ -203,7 +204,14 @@ impl Summary<'_> {
             return Ok(());
         };
         let names = spec.outputs.iter().map(|o| o.name);
-        let wide = width(spec.coords.iter().copied().chain(names.clone()));
+        let integrals = mechanism.integrals().iter().map(|o| o.name);
+        let wide = width(
+            spec.coords
+                .iter()
+                .copied()
+                .chain(names.clone())
+                .chain(integrals.clone()),
+        );
         writeln!(out, "\nState at t = {} s", full(last.t))?;
         for ((name, q), v) in spec.coords.iter().zip(last.q).zip(last.v) {
             let [q, v] = [q, v].map(|x| number(*x));
@@ -216,6 +224,12 @@ impl Summary<'_> {
         mechanism.outputs(last.t, last.q, last.v, &mut outputs);
         for (name, value) in names.zip(outputs) {
             writeln!(out, "  {name:<wide$} {:>18}", number(value))?;
+        }
+        if !last.integrals.is_empty() {
+            writeln!(out, "\nIntegrals")?;
+        }
+        for (name, value) in integrals.zip(last.integrals) {
+            writeln!(out, "  {name:<wide$} {:>18}", number(*value))?;
         }
         Ok(())
     }

@@ -12,6 +12,9 @@ pub struct Sample<'a> {
     pub q: &'a [f64],
     /// Velocities.
     pub v: &'a [f64],
+    /// Integrals since the start of the run, in the order of [`Prepared::integrals`](crate::Prepared::integrals); none of a state that
+    /// belongs to no run.
+    pub integrals: &'a [f64],
 }
 
 impl<'a> Sample<'a> {
@@ -19,7 +22,8 @@ impl<'a> Sample<'a> {
     #[inline]
     pub(crate) fn of(t: f64, y: &'a [f64]) -> Self {
         let (q, v) = y.split_at(y.len() / 2);
-        Sample { t, q, v }
+        let integrals = &[];
+        Sample { t, q, v, integrals }
     }
 
     /// An owned copy, for example to start another run from.
@@ -43,6 +47,12 @@ impl<'a> Sample<'a> {
 impl<'a> From<&'a State> for Sample<'a> {
     fn from(state: &'a State) -> Self {
         let State { t, q, v } = state;
-        Sample { t: *t, q, v }
+        let integrals = &[];
+        Sample {
+            t: *t,
+            q,
+            v,
+            integrals,
+        }
     }
 }

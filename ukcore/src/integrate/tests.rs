@@ -125,7 +125,7 @@ impl Problem for Plain {
         self.sample
     }
     fn step(&mut self, step: &Step<'_>) -> Result<Next, Error> {
-        let (t_old, Sample { t, q, v }) = (step.old.t, step.new);
+        let (t_old, Sample { t, q, v, .. }) = (step.old.t, step.new);
         if t > self.fail_after {
             return Err(failure());
         }

@@ -13,7 +13,7 @@ use crate::mechanism::{Branch, Energy, Mechanism, Terms};
 use crate::plan::Plan;
 use crate::rounding::Rounded;
 use crate::scalar::{Dual, Scalar};
-use crate::spec::{Guess, Spec};
+use crate::spec::{Guess, OutputSpec, Spec};
 
 /// The equations of motion and the constraints, in numbers `S`.
 pub trait Equations<S>: Send + Sync + 'static {
@@ -47,6 +47,8 @@ pub trait Emitted<S>: Dynamics<S> {
     fn energy(&self, prepared: &[S], t: S, q: &[S], v: &[S]) -> Energy<S>;
     /// [`Mechanism::outputs`].
     fn outputs(&self, prepared: &[S], t: S, q: &[S], v: &[S], outputs: &mut [S]);
+    /// [`Mechanism::integrands`].
+    fn integrands(&self, prepared: &[S], t: S, q: &[S], v: &[S], integrands: &mut [S]);
     /// [`Mechanism::correction`].
     fn correction(
         &self,
@@ -63,6 +65,8 @@ pub trait Emitted<S>: Dynamics<S> {
 pub trait Face: Send + Sync + 'static {
     /// [`Mechanism::SPEC`].
     fn spec(&self) -> &'static Spec;
+    /// [`Mechanism::INTEGRALS`].
+    fn integrals(&self) -> &'static [OutputSpec];
     /// The identity of the mechanism's type.
     fn id(&self) -> TypeId;
     /// [`Mechanism::inertias`].
@@ -83,6 +87,9 @@ struct Of<M>(PhantomData<fn() -> M>);
 impl<M: Mechanism> Face for Of<M> {
     fn spec(&self) -> &'static Spec {
         M::SPEC
+    }
+    fn integrals(&self) -> &'static [OutputSpec] {
+        M::INTEGRALS
     }
     fn id(&self) -> TypeId {
         TypeId::of::<M>()
@@ -143,6 +150,9 @@ impl<M: Mechanism, S: Scalar> Emitted<S> for Of<M> {
     }
     fn outputs(&self, prepared: &[S], t: S, q: &[S], v: &[S], outputs: &mut [S]) {
         M::outputs(prepared, t, q, v, outputs);
+    }
+    fn integrands(&self, prepared: &[S], t: S, q: &[S], v: &[S], integrands: &mut [S]) {
+        M::integrands(prepared, t, q, v, integrands);
     }
     fn correction(
         &self,
@@ -311,6 +321,19 @@ impl<S: Scalar, C: ?Sized + Emitted<S>> Prepared<S, C> {
     #[inline]
     pub fn outputs(&self, t: S, q: &[S], v: &[S], outputs: &mut [S]) {
         self.code.outputs(&self.values, t, q, v, outputs);
+    }
+
+    /// Names of what is integrated along with a motion.
+    #[must_use]
+    pub fn integrals(&self) -> &'static [OutputSpec] {
+        self.code.face().integrals()
+    }
+
+    /// What is integrated along with a motion, at (t, q, q̇), in the order of [`integrals`](Prepared::integrals); see
+    /// [`Mechanism::integrands`].
+    #[inline]
+    pub fn integrands(&self, t: S, q: &[S], v: &[S], integrands: &mut [S]) {
+        self.code.integrands(&self.values, t, q, v, integrands);
     }
 
     /// The smallest Δ with A Δ = −`residual` in the mass metric, and its certificate; see [`Mechanism::correction`].

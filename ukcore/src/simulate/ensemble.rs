@@ -43,7 +43,7 @@ pub struct Ensemble {
     max_steps: usize,
 }
 
-/// The motion of one member.
+/// The motion of one member: states alone. What is integrated along a motion, a [`Simulation`](crate::Simulation) of its own tells.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Member {
     /// The state at the end.

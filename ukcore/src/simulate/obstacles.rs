@@ -62,7 +62,7 @@ fn weakest_at(solver: &mut Solver, at: Sample<'_>) -> Result<f64, Error> {
 /// Why the nearest consistent state is far from the one `at` which a step arrived that began at `t_old`: a constraint jumps, or
 /// constraints all but imply each other there. `None` if neither is found.
 pub(super) fn jump(solver: &mut Solver, at: Sample<'_>, t_old: f64) -> Option<Error> {
-    let Sample { t, q, v } = at;
+    let Sample { t, q, v, .. } = at;
     let spec = solver.mechanism().spec();
     // Branches that are not followed do not jump.
     let mut followed = solver.mechanism().clone();
@@ -102,8 +102,8 @@ pub(super) fn jump(solver: &mut Solver, at: Sample<'_>, t_old: f64) -> Option<Er
             constraints: diagnose::offending(spec, &jumps, &vec![1.0; jumps.len()]),
         });
     }
-    let (q, v) = (&near_q, &near_v);
-    let weakest = weakest_at(solver, Sample { t, q, v }).ok()?;
+    let (q, v) = (&near_q[..], &near_v[..]);
+    let weakest = weakest_at(solver, Sample { q, v, ..at }).ok()?;
     (weakest <= RANK_CEILING).then(|| singular(solver, RANK_CEILING))
 }
 

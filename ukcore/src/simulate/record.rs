@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::agenda::Agenda;
+use super::integrals::Integrals;
 use crate::assemble::State;
 use crate::error::Error;
 use crate::events::{Event, EventHit, States, Watch};
@@ -29,6 +30,8 @@ pub(super) struct Recorder<'s> {
     sampled: Option<f64>,
     /// A state within a step.
     between: Vec<f64>,
+    /// If there is anything to integrate.
+    pub(super) integrals: Option<Integrals>,
 }
 
 impl<'s> Recorder<'s> {
@@ -50,6 +53,7 @@ impl<'s> Recorder<'s> {
             handed: ControlFlow::Continue(()),
             sampled: None,
             between: vec![0.0; 2 * coordinates],
+            integrals: None,
         }
     }
 
@@ -65,8 +69,11 @@ impl<'s> Recorder<'s> {
 
     /// Events and sample at the start of the run.
     pub(super) fn start(&mut self, at: Sample<'_>) -> Result<(), Error> {
+        let count = self.integrals.as_ref().map_or(0, Integrals::len);
+        self.trajectory.end_integrals = vec![0.0; count];
         if self.agenda.takes_start(at.t) {
-            self.trajectory.push(at);
+            let integrals = &vec![0.0; count][..];
+            self.trajectory.push(Sample { integrals, ..at });
         }
         self.watch.start(at).map_err(|error| at.locate(error))?;
         self.hand_over();
@@ -78,17 +85,22 @@ impl<'s> Recorder<'s> {
         let taken = self.agenda.taken();
         let trajectory = &self.trajectory;
         let (samples, values) = (trajectory.times.len(), trajectory.states.len());
+        let sums = trajectory.integrals.len();
         let (events, ending) = (trajectory.events.len(), trajectory.ending);
         if let Err(error) = self.record(step) {
             let trajectory = &mut self.trajectory;
             self.agenda.return_to(taken);
             trajectory.times.truncate(samples);
             trajectory.states.truncate(values);
+            trajectory.integrals.truncate(sums);
             trajectory.events.truncate(events);
             trajectory.ending = ending;
             return Err(error);
         }
         self.watch.accept();
+        if let Some(integrals) = &mut self.integrals {
+            integrals.accept();
+        }
         self.hand_over();
         Ok(())
     }
@@ -123,6 +135,10 @@ impl<'s> Recorder<'s> {
                 trajectory.ending = Ending::Event;
             }
         }
+        if let Some(integrals) = &mut self.integrals {
+            integrals.begin();
+        }
+        let mut integrated = step.old.t;
         let forward = step.until >= step.old.t;
         let passed = |t: &f64| if forward { *t <= t_stop } else { *t >= t_stop };
         while let Some(t) = self.agenda.next().filter(passed) {
@@ -130,9 +146,15 @@ impl<'s> Recorder<'s> {
             self.agenda.take();
             trajectory.times.push(t);
             trajectory.states.extend_from_slice(between);
+            let sums = sums(&mut self.integrals, &mut within, &mut integrated, t)?;
+            trajectory.integrals.extend_from_slice(sums);
         }
         within.consistent(t_stop, between)?;
-        let end = Sample::of(t_stop, between);
+        let integrals = sums(&mut self.integrals, &mut within, &mut integrated, t_stop)?;
+        let end = Sample {
+            integrals,
+            ..Sample::of(t_stop, between)
+        };
         if self.agenda.wants_steps() {
             trajectory.push(end);
         }
@@ -166,6 +188,7 @@ impl<'s> Recorder<'s> {
         }
         trajectory.times.clear();
         trajectory.states.clear();
+        trajectory.integrals.clear();
         trajectory.events.clear();
     }
 
@@ -175,7 +198,11 @@ impl<'s> Recorder<'s> {
             && self.agenda.wants_ends()
             && self.sampled.is_some_and(|t| t != end.t)
         {
-            self.trajectory.push(Sample::from(&end));
+            let integrals = &self.trajectory.end_integrals.clone()[..];
+            self.trajectory.push(Sample {
+                integrals,
+                ..Sample::from(&end)
+            });
         }
         self.hand_over();
         self.trajectory
@@ -184,6 +211,19 @@ impl<'s> Recorder<'s> {
     /// Projects the state at the end of a step, and counts it.
     pub(super) fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Error> {
         project(&mut self.projector, &mut self.trajectory.work, t, (q, v))
+    }
+}
+
+/// The integrals at `t`, which go on from time `at`.
+fn sums<'a>(
+    integrals: &'a mut Option<Integrals>,
+    within: &mut Within<'_, '_>,
+    at: &mut f64,
+    t: f64,
+) -> Result<&'a [f64], Error> {
+    match integrals {
+        Some(integrals) => integrals.go(within, std::mem::replace(at, t), t),
+        None => Ok(&[]),
     }
 }
 

@@ -48,7 +48,7 @@ impl Run<'_> {
         settings: &Settings,
     ) -> Result<(), Error> {
         self.recorder.start(start)?;
-        let Sample { t, q, v } = start;
+        let Sample { t, q, v, .. } = start;
         if self.t_end == t {
             self.recorder.trajectory.ending = Ending::Completed;
             return Ok(());
@@ -207,7 +207,7 @@ impl Problem for Run<'_> {
 
     fn step(&mut self, step: &Step<'_>) -> Result<Next, Error> {
         if let Some(energy) = &mut self.energy {
-            let Sample { t, q, v } = step.new;
+            let Sample { t, q, v, .. } = step.new;
             energy.check(self.solver.mechanism().energy(t, q, v))?;
         }
         obstacles::check_branch(&mut self.solver, self.weakest, step)?;

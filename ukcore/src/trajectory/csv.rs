@@ -8,8 +8,9 @@ use crate::mechanism::Prepared;
 
 /// Writes samples as comma-separated values: first a line of names, then a row for each sample.
 ///
-/// The columns are `t`, the coordinates (`x[0]`), their rates (`dot(x[0])`), the outputs, `energy` (T + V) and `residual`
-/// ([`Residual::largest`](super::Residual::largest)). Numbers have the fewest digits that read back as the same number.
+/// The columns are `t`, the coordinates (`x[0]`), their rates (`dot(x[0])`), the outputs, the integrals (empty for a state that belongs to
+/// no run), `energy` (T + V) and `residual` ([`Residual::largest`](super::Residual::largest)). Numbers have the fewest digits that read
+/// back as the same number.
 ///
 /// ```
 /// # use std::ops::ControlFlow;
@@ -55,7 +56,7 @@ impl<W: Write> CsvWriter<W> {
         for name in spec.coords {
             write!(out, ",dot({name})")?;
         }
-        for output in spec.outputs {
+        for output in spec.outputs.iter().chain(mechanism.integrals()) {
             write!(out, ",{}", output.name)?;
         }
         writeln!(out, ",energy,residual")?;
@@ -74,16 +75,19 @@ impl<W: Write> CsvWriter<W> {
     /// # Panics
     /// If the sample has not as many coordinates as the mechanism.
     pub fn write(&mut self, sample: Sample<'_>) -> io::Result<()> {
-        let Sample { t, q, v } = sample;
+        let Sample { t, q, v, integrals } = sample;
         let mechanism = &self.gauge.mechanism;
+        // Of a state that belongs to no run.
+        let missing = mechanism.integrals().len().saturating_sub(integrals.len());
         mechanism.outputs(t, q, v, &mut self.outputs);
         let energy = mechanism.energy(t, q, v).total();
         let residual = self.gauge.residual(sample).largest();
         let out = &mut self.out;
         write!(out, "{t:?}")?;
-        for value in q.iter().chain(v).chain(&self.outputs) {
+        for value in q.iter().chain(v).chain(&self.outputs).chain(integrals) {
             write!(out, ",{value:?}")?;
         }
+        write!(out, "{}", ",".repeat(missing))?;
         writeln!(out, ",{energy:?},{residual:?}")
     }
 

@@ -50,7 +50,7 @@ impl Drift {
         let Residual { position, velocity } = self.gauge.residual(sample);
         self.residual.position = nan_max(self.residual.position, position);
         self.residual.velocity = nan_max(self.residual.velocity, velocity);
-        let Sample { t, q, v } = sample;
+        let Sample { t, q, v, .. } = sample;
         self.energy.add(self.gauge.mechanism.energy(t, q, v));
     }
 
@@ -92,7 +92,7 @@ impl Gauge {
     }
 
     pub(super) fn residual(&mut self, sample: Sample<'_>) -> Residual {
-        let Sample { t, q, v } = sample;
+        let Sample { t, q, v, .. } = sample;
         self.mechanism.residual(t, q, &mut self.position);
         self.mechanism.residual_rate(t, q, v, &mut self.velocity);
         let largest = |values: &[f64]| values.iter().fold(0.0, |m, r| nan_max(m, r.abs()));

@@ -113,6 +113,7 @@ pub(super) fn choose(
         further: variant.further,
         redundant: &redundant,
         frames: &variant.frames,
+        multipliers: false,
     });
     let tasks: Vec<Task<'_>> = tasks.collect();
     let ways = ways(&tasks, system, &mut refusal);

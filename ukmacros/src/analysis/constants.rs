@@ -7,7 +7,7 @@ use proc_macro2::Ident;
 use std::collections::HashMap;
 
 /// Constants of `ukcore::Mechanism`.
-pub(crate) const ASSOCIATED: [&str; 2] = ["SPEC", "CODE"];
+pub(crate) const ASSOCIATED: [&str; 3] = ["SPEC", "CODE", "INTEGRALS"];
 
 /// In upper case, but for a θ: both cases of it in one crate are reported as look-alikes.
 fn upper(text: &str) -> String {
@@ -68,6 +68,9 @@ pub(crate) fn constants(model: &Model, system: &System, diag: &Diagnostics) -> V
     }
     for (base, positions) in grouped(system.outputs.iter().map(|o| &o.item)) {
         register.positions("OUT_", "output", "Position of", base, positions);
+    }
+    for (base, positions) in grouped(system.integrals.iter().map(|o| &o.item)) {
+        register.positions("INT_", "integral", "Position of", base, positions);
     }
     register.out
 }

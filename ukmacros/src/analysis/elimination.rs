@@ -68,6 +68,8 @@ impl Divisor {
 pub(crate) struct Elimination {
     /// q̈.
     pub(crate) acceleration: Vec<Id>,
+    /// λ of all constraints, with M q̈ = Q + c + Aᵀλ, if they are wanted.
+    pub(crate) multipliers: Vec<Id>,
     /// Δ of least M-norm with A Δ = −residual (residuals are [`Symbol::Residual`]).
     pub(crate) correction: Vec<Id>,
     /// The factor that all of M shares, if there is one, and the 1 × 1 pivots, each with its right-hand side for the acceleration.
@@ -148,6 +150,8 @@ pub(crate) struct Task<'a> {
     pub(crate) redundant: &'a BTreeSet<usize>,
     /// The coordinates that others stand for.
     pub(crate) frames: &'a [Frame],
+    /// Whether all multipliers are wanted.
+    pub(crate) multipliers: bool,
 }
 
 /// What a system has beyond the coordinates and constraints of the mechanism.
@@ -244,7 +248,7 @@ pub(crate) fn eliminate(
         factors.push(factor);
     }
     fixed.extend(inertia(d, &divisors, names, g));
-    let mut motion = motion.solution(&factors, names, g, &mut hints)?;
+    let mut motion = motion.solution(&factors, task.multipliers, names, g, &mut hints)?;
     let droppings = droppings(&factors, &motion, d, [&force, &rhs], g);
     motion.coordinates.truncate(own.0);
     let turn_back = |solution: &mut [Id], g: &mut Graph| {
@@ -252,6 +256,7 @@ pub(crate) fn eliminate(
         frames.for_each(|frame| frame.turn_back(solution, g));
     };
     turn_back(&mut motion.coordinates, g);
+    let multipliers = multipliers(&motion.constraints, *common_factor, &scales, g);
     let residuals = (0..own.1).map(|i| g.symbol(Symbol::Residual(i)));
     let mut residuals: Vec<Id> = residuals.collect();
     residuals.resize(d.rhs.len(), g.zero());
@@ -264,7 +269,7 @@ pub(crate) fn eliminate(
     let residuals = scaled(-1.0, &residuals, g);
     let mut projection = Forward::new(&pull, &residuals);
     factors.iter().for_each(|factor| projection.step(factor, g));
-    let mut projection = projection.solution(&factors, names, g, &mut hints)?;
+    let mut projection = projection.solution(&factors, false, names, g, &mut hints)?;
     projection.coordinates.truncate(own.0);
     turn_back(&mut projection.coordinates, g);
     let rights = motion.rights.into_iter().map(Some);
@@ -272,6 +277,7 @@ pub(crate) fn eliminate(
     let fixed = fixed.into_iter().map(|divisor| (divisor, None));
     Ok(Elimination {
         acceleration: motion.coordinates,
+        multipliers,
         correction: projection.coordinates,
         divisors: fixed.chain(divisors).collect(),
         correction_rights: projection.rights,
@@ -280,6 +286,15 @@ pub(crate) fn eliminate(
         place: place(d, own),
         hints,
     })
+}
+
+/// λ from the constraints' part x of a solution: K has M over a common factor, and rows over their scales.
+fn multipliers(x: &[Id], common_factor: Id, scales: &[f64], g: &mut Graph) -> Vec<Id> {
+    let scaled = x.iter().zip(scales).map(|(x, s)| {
+        let x = g.mul(*x, common_factor);
+        g.scale(-1.0 / s, x)
+    });
+    scaled.collect()
 }
 
 /// Inertia that depends on parameters and is no pivot by itself: it has to be positive, too.

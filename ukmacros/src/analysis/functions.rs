@@ -18,6 +18,7 @@ pub(crate) enum Role {
     ResidualRate,
     Energy,
     Outputs,
+    Integrands,
     Drawing,
     Switching,
     Acceleration,
@@ -36,6 +37,7 @@ pub(crate) enum Slice {
     Phi,
     Rate,
     Outputs,
+    Integrands,
     Drawing,
     Switching,
     /// The solution of a straight-line solve.
@@ -90,6 +92,10 @@ pub(crate) fn functions(system: &System, hoisted: &Hoisted) -> Vec<Function> {
         ),
         all(Role::Outputs, Slice::Outputs, &hoisted.outputs),
     ];
+    if !hoisted.integrands.is_empty() {
+        let integrands = all(Role::Integrands, Slice::Integrands, &hoisted.integrands);
+        functions.push(integrands);
+    }
     if !hoisted.drawing.is_empty() {
         functions.push(all(Role::Drawing, Slice::Drawing, &hoisted.drawing));
     }

@@ -17,6 +17,8 @@ const STATES: usize = 2;
 pub(crate) struct Hoisted {
     pub(crate) dynamics: Dynamics,
     pub(crate) outputs: Vec<Id>,
+    /// What is integrated along with the motion.
+    pub(crate) integrands: Vec<Id>,
     /// Numbers of the shapes that are drawn.
     pub(crate) drawing: Vec<Id>,
     /// Switching functions.
@@ -38,11 +40,13 @@ pub(crate) fn hoist(
     dynamics.lift = None;
     let mut straight = straight.clone();
     let mut outputs: Vec<Id> = system.outputs.iter().map(|o| o.value).collect();
+    let mut integrands: Vec<Id> = system.integrals.iter().map(|o| o.value).collect();
     let shapes = system.drawing.shapes.iter();
     let mut drawing: Vec<Id> = shapes.flat_map(|shape| &shape.numbers).copied().collect();
     let mut switches: Vec<Id> = switches.iter().map(|s| s.function).collect();
     let mut places: Vec<&mut Id> = dynamics.values_mut().collect();
-    places.extend(outputs.iter_mut().chain(&mut switches));
+    let reported = outputs.iter_mut().chain(&mut integrands);
+    places.extend(reported.chain(&mut switches));
     places.extend(&mut drawing);
     if let Ok(straight) = &mut straight {
         places.extend(straight.values_mut());
@@ -68,6 +72,7 @@ pub(crate) fn hoist(
     Hoisted {
         dynamics,
         outputs,
+        integrands,
         drawing,
         switches,
         straight,

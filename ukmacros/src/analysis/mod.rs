@@ -13,6 +13,7 @@ mod hoist;
 mod hub;
 mod lift;
 mod probe;
+mod reactions;
 mod redundant;
 mod regular;
 mod schedule;
@@ -56,6 +57,8 @@ pub(crate) struct Analysis {
     pub(crate) switching: Vec<Id>,
     pub(crate) functions: Vec<Function>,
     pub(crate) costs: Costs,
+    /// Why reactions that are used cannot be solved for.
+    pub(crate) unsolved: Option<String>,
     /// In debug builds, a value that hoisting changed: a defect of this compiler.
     pub(crate) defect: Option<usize>,
 }
@@ -66,15 +69,18 @@ pub(crate) fn analyse(system: &mut System, model: &Model, dynamics: Dynamics) ->
     let constraints = system.constraints.iter().map(|c| c.item.text());
     let names: Vec<String> = coordinates.chain(constraints).collect();
     let structure = structure::structure(system, &dynamics);
-    let (held, switches) = switches::hold(system, &dynamics, &names);
-    let regular = regular::regular(system, &held);
+    let (mut held, switches) = switches::hold(system, &dynamics, &names);
+    let mut regular = regular::regular(system, &held);
+    // The listing shows reactions by their names.
+    let mut located = switches.clone();
+    let solved = reactions::solve(system, &mut held, &mut regular, &mut located, &names);
     let Chosen {
         solve,
         straight,
         hoisted,
         functions,
         costs,
-    } = choose(system, &held, &regular, &switches, &names);
+    } = choose(system, &held, &regular, &located, &names);
     let defect = cfg!(debug_assertions)
         .then(|| hoist::verify(system, &held, &straight, &hoisted))
         .flatten();
@@ -85,6 +91,7 @@ pub(crate) fn analyse(system: &mut System, model: &Model, dynamics: Dynamics) ->
         solve,
         prepared: hoisted.values,
         switching: hoisted.switches,
+        unsolved: solved.err(),
         functions,
         costs,
         defect,

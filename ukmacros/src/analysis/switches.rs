@@ -12,6 +12,7 @@ use crate::expr::{Func, Graph, Id, Map, Node, Num, Symbol, System, is_power_of_t
 use std::collections::HashSet;
 
 /// A switch.
+#[derive(Clone)]
 pub(crate) struct Switch {
     /// g.
     pub(crate) function: Id,

@@ -258,9 +258,12 @@ impl Path<'_> {
             Node::Symbol(Symbol::Coord(i)) => self.q[*i],
             Node::Symbol(Symbol::Velocity(i)) => self.v[*i],
             Node::Symbol(Symbol::Time) => self.t,
-            Node::Symbol(Symbol::Residual(_) | Symbol::Prepared(_) | Symbol::Branch(_)) => {
-                Jet::constant(0.0)
-            }
+            Node::Symbol(
+                Symbol::Residual(_)
+                | Symbol::Prepared(_)
+                | Symbol::Branch(_)
+                | Symbol::Multiplier(_),
+            ) => Jet::constant(0.0),
             Node::Sum(c, terms) => terms.iter().fold(Jet::constant(c.get()), |sum, (k, t)| {
                 sum.plus(at(t).times(Jet::constant(k.get())))
             }),

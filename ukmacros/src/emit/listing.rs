@@ -31,10 +31,13 @@ pub(super) fn listing(system: &System, model: &Model, analysis: &Analysis) -> Li
     let coords = model.coord_elements.iter().map(|e| e.name.clone());
     let params = model.param_elements.iter().map(|e| e.name.clone());
     let (coords, params): (Vec<String>, Vec<String>) = (coords.collect(), params.collect());
+    let constraints = system.constraints.iter().map(|c| c.item.text());
+    let constraints: Vec<String> = constraints.collect();
     let mut printer = Printer {
         graph: &system.graph,
         coords: &coords,
         params: &params,
+        constraints: &constraints,
         named: Map::default(),
     };
     let phis: Vec<Id> = system.constraints.iter().map(|c| c.phi).collect();
@@ -53,6 +56,9 @@ pub(super) fn listing(system: &System, model: &Model, analysis: &Analysis) -> Li
     let taken = taken.chain(system.hints.values().cloned()).collect();
     let definitions = abbreviate(system, &roots, &taken, &mut printer);
     let g = &system.graph;
+    if let Some(unique) = system.unique.filter(|id| !g.operands(*id).is_empty()) {
+        printer.named.insert(unique, "unique".to_owned());
+    }
     let vector = |ids: &[Id]| -> Vec<(usize, String)> {
         let present = ids.iter().enumerate().filter(|(_, id)| !g.is_zero(**id));
         present.map(|(i, id)| (i, printer.text(*id))).collect()
@@ -65,6 +71,9 @@ pub(super) fn listing(system: &System, model: &Model, analysis: &Analysis) -> Li
     };
     let names = prepared_names(system, model, prepared);
     let texts = prepared.iter().map(|id| match g.node(*id) {
+        _ if system.unique == Some(*id) => {
+            "1; not a number where reactions are not unique".to_owned()
+        }
         // The part of the certificate that parameters decide.
         Node::Select(_) => format!(
             "1 if the pivots that depend on {} alone are positive and finite, else 0",

@@ -4,7 +4,7 @@ use super::body::float;
 use super::listing::Listing;
 use crate::analysis::Switch;
 use crate::analysis::{Analysis, Costs, Operations, Pair, Pivoting, SAFE_SHARE, Solve, Structure};
-use crate::expr::{Drawing, Kind, StartValue, System};
+use crate::expr::{Drawing, Kind, OutputValue, StartValue, System};
 use crate::model::Model;
 use crate::parse::Declaration;
 use proc_macro2::{Literal, TokenStream};
@@ -35,9 +35,14 @@ pub(super) fn spec(
         quote! { ukcore::ConstraintSpec { name: #name, kind: ukcore::ConstraintKind::#kind, equation: #equation } }
     });
     let holonomic = number(analysis.dynamics.phi.len());
-    let outputs = system.outputs.iter().map(|o| {
+    let reported = |o: &OutputValue| {
         let (name, docs) = (o.item.text(), o.docs.join(" "));
         quote! { ukcore::OutputSpec { name: #name, doc: #docs } }
+    };
+    let outputs = system.outputs.iter().map(reported);
+    let integrals = system.integrals.iter().map(reported);
+    let integrals = (!system.integrals.is_empty()).then(|| {
+        quote! { const INTEGRALS: &'static [ukcore::OutputSpec] = &[#(#integrals),*]; }
     });
     let starts = system.starts.iter().map(start);
     let drawing = drawing(&system.drawing);
@@ -64,6 +69,7 @@ pub(super) fn spec(
             structure: #structure,
             equations: #equations,
         };
+        #integrals
     }
 }
 

@@ -212,6 +212,7 @@ impl Derivative {
             Seed::Partial(Symbol::Param(_) | Symbol::Prepared(_)) => !uses.param,
             Seed::Partial(Symbol::Residual(_)) => !uses.residual,
             Seed::Partial(Symbol::Branch(_)) => !uses.branch,
+            Seed::Partial(Symbol::Multiplier(_)) => !uses.multiplier,
             Seed::Total => !(uses.coord || uses.time),
         }
     }

@@ -7,6 +7,7 @@ pub(crate) struct Printer<'a> {
     pub(crate) graph: &'a Graph,
     pub(crate) coords: &'a [String],
     pub(crate) params: &'a [String],
+    pub(crate) constraints: &'a [String],
     /// Nodes that have a name of their own.
     pub(crate) named: Map<Id, String>,
 }
@@ -89,6 +90,7 @@ impl Printer<'_> {
             Symbol::Residual(i) => format!("residual[{i}]"),
             Symbol::Prepared(i) => format!("prepared[{i}]"),
             Symbol::Branch(i) => format!("branch[{i}]"),
+            Symbol::Multiplier(i) => format!("reaction({})", self.constraints[i]),
         }
     }
 

@@ -97,6 +97,7 @@ fn value(node: &Node, values: &[f64], point: &Point<'_>) -> f64 {
         Node::Symbol(Symbol::Prepared(i)) => pick(point.prepared, *i),
         // Values are those of switches that are followed.
         Node::Symbol(Symbol::Branch(_)) => 0.0,
+        Node::Symbol(Symbol::Multiplier(_)) => f64::NAN,
         Node::Sum(c, terms) => c.get() + terms.iter().map(|(k, t)| k.get() * at(t)).sum::<f64>(),
         Node::Scale(c, inner) => c.get() * at(inner),
         Node::Held(inner) => at(inner),

@@ -84,6 +84,8 @@ pub(crate) enum Symbol {
     Prepared(usize),
     /// The branch that a switch is held in, by the switch's position: its sign ±1, or 0 where none is held.
     Branch(usize),
+    /// The multiplier of a constraint by its position, as ideal constraint forces have it, until what it is solved to stands in its place.
+    Multiplier(usize),
 }
 
 /// A node.
@@ -113,6 +115,7 @@ pub(crate) struct Uses {
     pub(crate) time: bool,
     pub(crate) residual: bool,
     pub(crate) branch: bool,
+    pub(crate) multiplier: bool,
 }
 
 impl Uses {
@@ -124,12 +127,14 @@ impl Uses {
             time: self.time | o.time,
             residual: self.residual | o.residual,
             branch: self.branch | o.branch,
+            multiplier: self.multiplier | o.multiplier,
         }
     }
 
     /// Neither q, q̇ nor t: fixed once the parameters are.
     pub(crate) fn constant(self) -> bool {
-        !(self.coord || self.velocity || self.time || self.residual || self.branch)
+        let along = self.coord || self.velocity || self.time || self.multiplier;
+        !(along || self.residual || self.branch)
     }
 }
 
@@ -202,6 +207,7 @@ impl Graph {
                 Symbol::Time => uses.time = true,
                 Symbol::Residual(_) => uses.residual = true,
                 Symbol::Branch(_) => uses.branch = true,
+                Symbol::Multiplier(_) => uses.multiplier = true,
             }
         }
         self.nodes.push(node.clone());

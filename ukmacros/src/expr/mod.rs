@@ -19,4 +19,6 @@ pub(crate) use graph::{Graph, Id, Map, Node, Num, Set, Symbol};
 pub(crate) use jet::Jet;
 #[cfg(test)]
 pub(crate) use lower::vocabulary;
-pub(crate) use lower::{Constraint, ConstraintRef, Drawing, Kind, StartValue, System, lower};
+pub(crate) use lower::{
+    Constraint, ConstraintRef, Drawing, Kind, OutputValue, StartValue, System, lower,
+};

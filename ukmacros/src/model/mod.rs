@@ -8,4 +8,4 @@ mod unused;
 pub(crate) use resolve::resolve;
 pub(crate) use scope::{Scope, arity};
 pub(crate) use types::{BodyKind, Family, Model, Name, Preset, Variable, block, every, indexed};
-pub(crate) use unused::{Unused, unused};
+pub(crate) use unused::{Unused, unused, uses};

@@ -38,6 +38,11 @@ pub(crate) fn unused(decl: &Declaration) -> Unused<'_> {
     out
 }
 
+/// Whether an expression uses `name`.
+pub(crate) fn uses(decl: &Declaration, name: &str) -> bool {
+    used(decl).contains(name)
+}
+
 /// All names that expressions use.
 fn used(decl: &Declaration) -> HashSet<String> {
     let mut found = Names::default();
@@ -78,9 +83,9 @@ fn used(decl: &Declaration) -> HashSet<String> {
             )
         });
     }
-    found.blocks(&decl.outputs, |output| {
-        (vec![&output.key], vec![&output.value])
-    });
+    for blocks in [&decl.outputs, &decl.integrals] {
+        found.blocks(blocks, |output| (vec![&output.key], vec![&output.value]));
+    }
     if let Some(section) = &decl.drawing {
         found.blocks(&section.blocks, |shape| {
             (Vec::new(), shape.args.iter().collect())

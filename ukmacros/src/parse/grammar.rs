@@ -15,7 +15,7 @@ use quote::ToTokens as _;
 use syn::parse::ParseStream;
 use syn::{Token, braced, bracketed, parenthesized};
 
-const SECTIONS: &str = "const params coords bodies gravity let mass kinetic force forces potential dissipation holonomic nonholonomic nonideal output start draw";
+const SECTIONS: &str = "const params coords bodies gravity let mass kinetic force forces potential dissipation holonomic nonholonomic nonideal output integral start draw";
 
 /// Parses a declaration; `None` if not even its name could be read.
 pub(crate) fn parse(mut tokens: TokenStream, diag: &Diagnostics) -> Option<Declaration> {
@@ -68,6 +68,7 @@ fn declaration(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Declar
         nonholonomic: Vec::new(),
         nonideal: None,
         outputs: Vec::new(),
+        integrals: Vec::new(),
         starts: Vec::new(),
         drawing: None,
     };
@@ -143,6 +144,7 @@ fn section(
         "holonomic" => blocks(input, &mut out.holonomic, diag, equation),
         "nonholonomic" => blocks(input, &mut out.nonholonomic, diag, equation),
         "output" => blocks(input, &mut out.outputs, diag, output_entry),
+        "integral" => blocks(input, &mut out.integrals, diag, output_entry),
         "draw" => present(input, keyword, &mut out.drawing, diag, shape),
         _ => {
             let remedy = format!("sections are {}", sections());

@@ -30,6 +30,7 @@ pub(crate) struct Declaration {
     pub(crate) nonholonomic: Vec<Block<Equation>>,
     pub(crate) nonideal: Option<Section<Entry>>,
     pub(crate) outputs: Vec<Block<Output>>,
+    pub(crate) integrals: Vec<Block<Output>>,
     pub(crate) starts: Vec<Start>,
     pub(crate) drawing: Option<Section<Shape>>,
 }

@@ -184,7 +184,7 @@ fn bodies_have_names_arguments_and_indices() {
         mass: 1, inertia: 1 } }";
     let same =
         |short: &str, long: &str| check(&format!("{head} {short}"), &format!("{head} {long}"));
-    let long = "holonomic { c: leg[1][0].at([l, 0]) - a.at([0, 0]) = 0 }";
+    let long = "holonomic { c: pin(a.at([0, 0]), leg[1][0].at([l, 0])) }";
     same(
         "let tip = |i, j| leg[i][j].at([l, 0]); holonomic { c: pin(a.at([0, 0]), tip(1, 0)) }",
         long,
@@ -273,11 +273,11 @@ fn names_of_coordinates_and_rows() {
         [
             "cube[0].unit",
             "cube[1].unit",
-            "c[0]",
-            "c[1]",
-            "d[0]",
-            "d[1]",
-            "d[2]"
+            "c.x",
+            "c.y",
+            "d.x",
+            "d.y",
+            "d.z"
         ]
     );
 }

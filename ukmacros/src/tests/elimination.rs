@@ -280,6 +280,7 @@ impl Tally {
                     true => Further::Nothing,
                     false => Further::Velocities,
                 },
+                multipliers: false,
                 redundant: &BTreeSet::new(),
                 frames,
             };

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
 /// Pieces that declarations are made of, and some that they are not.
-const PIECES: [&str; 103] = [
+const PIECES: [&str; 106] = [
     "pub",
     "T",
     "{",
@@ -42,6 +42,9 @@ const PIECES: [&str; 103] = [
     "nonholonomic",
     "nonideal",
     "output",
+    "integral",
+    "reaction(c)",
+    "friction(dot(x), 1.0)",
     "for i in 0..N",
     "for",
     "in",
@@ -129,7 +132,8 @@ const BODIES: &str = "pub T { const N: usize = 2; params { m[N] = [1.0, 2.0], l 
     mass: m[i], inertia: 0.1, centre: [l / 2, 0] } } spatial top { mass: 1, inertia: [1, 1, 1.5] } } gravity { [0, -g, 0] } \
     holonomic { o: pin(ground.at([0, 0]), link[0].at([0, 0])); for i in 0..N - 1 { knee[i]: pin(link[i].at([l, 0]), link[i + 1].at([0, 0])) } \
     foot: hinge(ground.at([0, 0, 0]), top.at([0, l, 0]), [0, 1, 0]) motor: turn(ground, link[0]) = sin(t) } forces { spring(link[1].at([l, 0]), \
-    ground.at([1, 0]), 2, 1) torque(top, [0, t, 0]) } dissipation { sq(link[1].omega) } output { tip = dot(link[1].at([l, 0])), s = top.spin } }";
+    ground.at([1, 0]), 2, 1) torque(top, [0, t, 0]) } dissipation { sq(link[1].omega) } nonideal { link[0].angle: friction(link[0].omega, norm(reaction(o)) + abs(reaction(motor))) } \
+    output { tip = dot(link[1].at([l, 0])), s = top.spin, f = reaction(knee[0]), d = reaction(foot.tilt0) } integral { w = reaction(motor) * t } }";
 
 fn survives(source: &str) {
     if let Ok(tokens) = source.parse::<proc_macro2::TokenStream>() {

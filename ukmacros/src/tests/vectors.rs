@@ -54,6 +54,11 @@ fn operations_are_their_components() {
     check_force("k - [x, y - z].sq()", "k - sq(x) - sq(y - z)");
     check_force("norm([x, y, z])", "sqrt(sq(x) + sq(y) + sq(z))");
     check_force("norm([x])", "abs(x)");
+    check_force("friction(dot(x), k)", "-k * sign(dot(x))");
+    check_force(
+        "friction(dot([x, y]), k)[1]",
+        "-k * normalise(dot([x, y]))[1]",
+    );
     check_force("normalise([x, y])[1]", "y / sqrt(sq(x) + sq(y))");
     check_force("normalise([x, y])[1]", "([x, y] / norm([x, y]))[1]");
     check_force("cross([x, y], [k, z])", "(x * z - y * k)");

@@ -61,7 +61,7 @@ impl Running {
 
     /// Whether a projection of `raw` to `new` is small without what rounding makes of it.
     pub(super) fn is_near(&mut self, new: &[f64], raw: &[f64], old: &[f64]) -> bool {
-        let Sample { t, q, v } = Sample::of(self.trial.end.t, raw);
+        let Sample { t, q, v, .. } = Sample::of(self.trial.end.t, raw);
         let mut excess: Vec<f64> = new.iter().zip(raw).map(|(new, raw)| new - raw).collect();
         self.recorder.projector.excess(t, q, v, &mut excess);
         let tolerance = self.settings.tolerance;

@@ -146,7 +146,7 @@ impl Straight {
         system: &mut System,
     ) -> Self {
         let g = &mut system.graph;
-        let (certificate, chain) = elimination.certificate(g);
+        let (certificate, chain) = elimination.certificate(false, g);
         let n = d.force.len();
         let places = elimination
             .droppings
@@ -237,9 +237,23 @@ impl Elimination {
         g.select(left, size, safe, zero)
     }
 
+    /// `safe` where the rows of A are independent, so that all multipliers are unique, and q̈ meets those of `met`; else 0. A share of
+    /// [`SAFE_SHARE`]² is enough: what is solved for then has lost half its digits at most, and there is no other way to it.
+    pub(crate) fn unique(&self, met: &[usize], d: &Dynamics, g: &mut Graph) -> Id {
+        let (independent, _) = self.certificate(true, g);
+        met.iter()
+            .fold(independent, |safe, row| self.meets(*row, d, safe, g))
+    }
+
     /// 1 where every pivot is safe, 0 where one is not, as a chain of selections, and its links with the pivots they check: what depends on
-    /// parameters only first, then in the order of the elimination, so that no pivot has to be kept for it.
-    fn certificate(&self, g: &mut Graph) -> (Id, Vec<(usize, Id)>) {
+    /// parameters only first, then in the order of the elimination, so that no pivot has to be kept for it. Rows that may be left out are
+    /// not, and pivots may be smaller, where `all` is asked for.
+    fn certificate(&self, all: bool, g: &mut Graph) -> (Id, Vec<(usize, Id)>) {
+        let share = if all {
+            SAFE_SHARE * SAFE_SHARE
+        } else {
+            SAFE_SHARE
+        };
         let (zero, tiny) = (g.zero(), g.constant(f64::MIN_POSITIVE));
         let largest = g.constant(f64::MAX);
         let divisors = || self.divisors.iter().map(|(divisor, _)| divisor);
@@ -252,16 +266,19 @@ impl Elimination {
         for (k, divisor) in divisors().enumerate() {
             let (value, reference) = (divisor.value, divisor.reference);
             let (value, least) = if divisor.droppable {
-                (value, least(reference, g))
+                match all {
+                    true => (value, g.scale(SAFE_SHARE, reference)),
+                    false => (value, least(reference, g)),
+                }
             } else if value == reference {
                 // Nothing was taken off the diagonal: it has to be positive.
                 (sign_of(value, &positive, g), tiny)
             } else {
                 let (value, reference) = reduced(value, reference, &positive, g);
-                (value, g.scale(SAFE_SHARE, reference))
+                (value, g.scale(share, reference))
             };
             let holds = match g.as_const(value) {
-                Some(x) => divisor.droppable || x > 0.0 && least == tiny,
+                Some(x) => divisor.droppable && !all || x > 0.0 && least == tiny,
                 None => false,
             };
             if !holds && known.insert((value, least)) {

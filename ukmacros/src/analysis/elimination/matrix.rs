@@ -177,6 +177,20 @@ pub(super) struct Touched {
 }
 
 impl Double {
+    /// The constraint's part of the solution, from the row of the coordinate with the right-hand side `given`, where all that is eliminated
+    /// later is known, and the coordinate.
+    pub(super) fn multiplier(&self, given: Id, known: &[Option<Id>], g: &mut Graph) -> Option<Id> {
+        let own = known[self.pair.coordinate]?;
+        let mut terms = vec![(1.0, given), (-1.0, g.mul(self.inertia, own))];
+        for touched in &self.touched {
+            if !g.is_zero(touched.with) {
+                terms.push((-1.0, g.mul(touched.with, known[touched.at]?)));
+            }
+        }
+        let rest = g.factored_sum(&terms);
+        Some(g.div(rest, self.coefficient))
+    }
+
     /// q̈_j follows from the constraint's row alone: its other entries, divided by a.
     pub(super) fn factors(&self, g: &Graph) -> Vec<(usize, Id)> {
         let factors = self.touched.iter().map(|t| (t.at, t.factor));

@@ -9,6 +9,8 @@ pub(super) struct Solution {
     pub(super) coordinates: Vec<Id>,
     /// Right-hand sides of the 1 × 1 pivots, times the same numbers as these.
     pub(super) rights: Vec<Id>,
+    /// The constraints' part of x, if it was asked for.
+    pub(super) constraints: Vec<Id>,
 }
 
 /// A right-hand side during forward elimination.
@@ -21,6 +23,8 @@ pub(super) struct Forward {
     rights: Vec<Id>,
     /// What each step leaves of its unknown.
     solved: Vec<Id>,
+    /// Of each 2 × 2 pivot, in their order, the right-hand side of its coordinate.
+    given: Vec<Id>,
 }
 
 impl Forward {
@@ -33,6 +37,7 @@ impl Forward {
             entries,
             rights: Vec::new(),
             solved: Vec::new(),
+            given: Vec::new(),
         }
     }
 
@@ -94,6 +99,7 @@ impl Forward {
             self.entries[pair.coordinate].open(g),
             self.entries[pair.constraint].open(g),
         );
+        self.given.push(own);
         let solved = g.div(given, double.coefficient);
         let moved = g.mul(double.inertia, solved);
         let left = g.factored_sum(&[(1.0, own), (-1.0, moved)]);
@@ -105,10 +111,12 @@ impl Forward {
         solved
     }
 
-    /// Back substitution, once all `factors` are taken; `names` are those of coordinates and constraints.
+    /// Back substitution, once all `factors` are taken; `names` are those of coordinates and constraints. What belongs to the constraints
+    /// of 2 × 2 pivots is computed if `all` is asked for.
     pub(super) fn solution(
-        self,
+        mut self,
         factors: &[Factor],
+        all: bool,
         names: &[String],
         g: &mut Graph,
         hints: &mut Vec<(Id, String)>,
@@ -120,7 +128,7 @@ impl Forward {
         let named = singles.zip(&self.rights);
         hints.extend(named.map(|(at, right)| (*right, format!("right_{}", names[at]))));
         let mut solution: Vec<Option<Id>> = vec![None; self.entries.len()];
-        for (factor, right) in factors.iter().zip(self.solved).rev() {
+        for (factor, right) in factors.iter().zip(std::mem::take(&mut self.solved)).rev() {
             let (unknown, row) = match factor {
                 Factor::Single(single) => (single.at, single.factors.clone()),
                 Factor::Double(double) => (double.pair.coordinate, double.factors(g)),
@@ -142,10 +150,19 @@ impl Forward {
                 hints.push((x, format!("lambda_{}", names[unknown])));
             }
             solution[unknown] = Some(x);
+            if let (true, Factor::Double(double)) = (all, factor) {
+                let given = self.given.pop().ok_or("a step was left out")?;
+                solution[double.pair.constraint] = double.multiplier(given, &solution, g);
+            }
         }
         let coordinates: Option<Vec<Id>> = solution[..self.n].iter().copied().collect();
+        let constraints: Option<Vec<Id>> = solution[self.n..].iter().copied().collect();
         Ok(Solution {
             coordinates: coordinates.ok_or("a coordinate was left over")?,
+            constraints: match all {
+                true => constraints.ok_or("a constraint was left over")?,
+                false => Vec::new(),
+            },
             rights: self.rights,
         })
     }

@@ -5,6 +5,7 @@ use crate::model::block;
 use std::rc::Rc;
 
 use super::bodies::{Frame, Point};
+use super::parts::Joint;
 
 /// Longer arrays are refused, and products of more terms: lists within lists grow fast.
 pub(super) const MAX_ENTRIES: usize = 100_000;
@@ -17,6 +18,8 @@ pub(super) enum Value {
     Body(Rc<Frame>),
     /// A point of a body: its place, which knows to what it belongs.
     Point(Rc<Point>),
+    /// A joint: its rows, which know their names.
+    Joint(Rc<Joint>),
     /// Something already reported: fits everywhere.
     Error,
 }
@@ -48,6 +51,7 @@ impl Value {
         match self {
             Value::Array(array) => &array.shape,
             Value::Point(point) => point.place.shape(),
+            Value::Joint(joint) => joint.rows.shape(),
             Value::Scalar(_) | Value::Body(_) | Value::Error => &[],
         }
     }
@@ -58,6 +62,7 @@ impl Value {
             Value::Scalar(id) => std::slice::from_ref(id),
             Value::Array(array) => &array.entries,
             Value::Point(point) => point.place.entries(),
+            Value::Joint(joint) => joint.rows.entries(),
             Value::Body(_) | Value::Error => &[],
         }
     }

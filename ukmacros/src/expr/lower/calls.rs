@@ -28,6 +28,7 @@ impl<'m> Lowering<'m> {
         }
         match text.as_str() {
             "dot" => return self.dot(e, name, args, env),
+            "reaction" => return self.reaction(e, name, args, env),
             "at" | "along" => return self.of_body(e, name, args, env),
             "ddot" => {
                 let message = "accelerations are what is solved for; no section may use them";
@@ -93,12 +94,17 @@ impl<'m> Lowering<'m> {
         !self.written && matches!(self.lets.get(name), Some(Binding::Function(_)))
     }
 
+    /// Whether a function of the declaration is being applied.
+    pub(super) fn applying(&self) -> bool {
+        !self.active.is_empty()
+    }
+
     pub(super) fn arity(&mut self, name: &Ident, expected: usize, found: usize) -> Value {
         self.error(name.span(), arity(name, expected, found))
     }
 
     /// Reports what is wrong with calling `name`, once for all its calls.
-    fn error_once(&mut self, name: &Ident, message: impl Into<String>) -> Value {
+    pub(super) fn error_once(&mut self, name: &Ident, message: impl Into<String>) -> Value {
         match self.unknown.insert(name.to_string()) {
             true => self.error(name.span(), message),
             false => Value::Error,
@@ -114,7 +120,7 @@ impl<'m> Lowering<'m> {
             return self.error_once(name, message);
         }
         let mut names: Vec<&str> = Func::all().map(|f| f.row().name).collect();
-        names.extend(["powi", "recip", "dot", "sum"]);
+        names.extend(["powi", "recip", "dot", "sum", "reaction"]);
         names.extend(OPERATIONS.iter().map(|o| o.name));
         let list = names.join(", ");
         names.extend(PARTS.iter().map(|part| part.name));
@@ -188,6 +194,9 @@ impl<'m> Lowering<'m> {
                 e.loc,
                 "the time derivative of a velocity is an acceleration, which is what is solved for; no section may use it",
             );
+        }
+        if ids.iter().any(|id| self.graph.uses(*id).multiplier) {
+            return self.error(e.loc, "the time derivative of a reaction is not solved for");
         }
         // What is unknown stands as zero, and is reported.
         if ids.iter().all(|id| self.graph.uses(*id).constant()) && self.unknown.is_empty() {

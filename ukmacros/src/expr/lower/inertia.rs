@@ -274,6 +274,7 @@ impl<'m> Lowering<'m> {
                 base: Ident::new(&format!("{name}_unit"), name.span()),
                 indices: indices.filter_map(|i| i64::try_from(*i).ok()).collect(),
                 components: Vec::new(),
+                row: None,
                 unit_of: Some(body.name.clone()),
             },
             kind: Kind::Holonomic,

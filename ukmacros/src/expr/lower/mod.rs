@@ -8,6 +8,7 @@ mod inertia;
 mod lets;
 mod names;
 mod parts;
+mod reactions;
 mod starts;
 mod system;
 mod value;
@@ -21,13 +22,16 @@ pub(crate) use vectors::vocabulary;
 
 use super::graph::{Graph, Id, Map, Symbol};
 use crate::diag::{Diagnostics, Loc};
-use crate::model::{Model, Scope, every};
-use crate::parse::{Block, Declaration, Entry, Equation, Expr, ExprKind, Function, MassEntry};
+use crate::model::{Model, Scope, every, uses};
+use crate::parse::{
+    Block, Declaration, Entry, Equation, Expr, ExprKind, Function, MassEntry, Output,
+};
 use array::{Value, describe};
 use bodies::Declared;
 use drawing::Between;
 use inertia::OfBodies;
 use parts::{Acting, PARTS};
+use reactions::Known;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::Rc;
 
@@ -47,7 +51,16 @@ enum Place {
     Nonholonomic,
     Nonideal,
     Output,
+    Integral,
     Start,
+}
+
+/// What has a name that is no value.
+#[derive(Clone, Copy, PartialEq)]
+enum NoValue {
+    Constraint,
+    Output,
+    Integral,
 }
 
 enum Binding {
@@ -105,14 +118,22 @@ pub(crate) fn lower(decl: &Declaration, model: &Model, diag: &Diagnostics) -> Sy
         hints: Map::default(),
         unknown: HashSet::new(),
         results: HashMap::new(),
+        constraints: Vec::new(),
+        constrained: false,
+        known: HashMap::new(),
+        reaction_used: None,
         between: Vec::new(),
     };
     let results = &mut lowering.results;
     for block in decl.holonomic.iter().chain(&decl.nonholonomic) {
-        block.each(&mut |c| results.extend([(c.key.name.to_string(), true)]));
+        block.each(&mut |c| results.extend([(c.key.name.to_string(), NoValue::Constraint)]));
     }
-    for block in &decl.outputs {
-        block.each(&mut |o| results.extend([(o.key.name.to_string(), false)]));
+    for (blocks, result) in [
+        (&decl.outputs, NoValue::Output),
+        (&decl.integrals, NoValue::Integral),
+    ] {
+        let blocks = blocks.iter();
+        blocks.for_each(|b| b.each(&mut |o| results.extend([(o.key.name.to_string(), result)])));
     }
     lowering.run(decl)
 }
@@ -142,8 +163,15 @@ struct Lowering<'m> {
     hints: Map<Id, String>,
     /// Names and functions that were reported to be unknown.
     unknown: HashSet<String>,
-    /// Names of constraints (true) and outputs (false).
-    results: HashMap<String, bool>,
+    /// Names of constraints, outputs and integrals.
+    results: HashMap<String, NoValue>,
+    constraints: Vec<Constraint>,
+    /// All constraints are there.
+    constrained: bool,
+    /// Constraints by their names, without those of rows.
+    known: HashMap<String, Known>,
+    /// Where the first reaction is used.
+    reaction_used: Option<Loc>,
     /// What joints and springs are between.
     between: Vec<Between>,
 }
@@ -197,21 +225,28 @@ impl<'m> Lowering<'m> {
             let values: Vec<Id> = before.chain(values).collect();
             force.insert(i, self.total_of(&values));
         }
-        let nonideal = decl
-            .nonideal
-            .as_ref()
-            .map(|s| self.entries(&s.blocks, &top, Place::Nonideal));
-        let mut constraints = of_bodies.units;
+        // Behind the constraints if it may use their reactions.
+        let late = uses(decl, "reaction");
+        let forces = |lowering: &mut Self| {
+            let section = decl.nonideal.as_ref();
+            section.map(|s| lowering.entries(&s.blocks, &top, Place::Nonideal))
+        };
+        let early = (!late).then(|| forces(self));
+        self.constraints = of_bodies.units;
         let mut names = Names::default();
         for (blocks, kind) in [
             (&decl.holonomic, Kind::Holonomic),
             (&decl.nonholonomic, Kind::Nonholonomic),
         ] {
             top.unroll(blocks, self.diag, &mut |equation, scope| {
-                self.equation(equation, kind, scope, &mut names, &mut constraints);
+                self.equation(equation, kind, scope, &mut names);
             });
         }
-        let outputs = self.outputs(decl, &top);
+        self.constrained = true;
+        let nonideal = early.unwrap_or_else(|| forces(self));
+        let mut names = Names::default();
+        let outputs = self.reported(&decl.outputs, NoValue::Output, &top, &mut names);
+        let integrals = self.reported(&decl.integrals, NoValue::Integral, &top, &mut names);
         let starts = self.starts(decl, &top);
         let drawing = self.drawing(decl, &top);
         System {
@@ -224,8 +259,11 @@ impl<'m> Lowering<'m> {
             potential,
             nonideal,
             inertias: of_bodies.inertias,
-            constraints,
+            constraints: std::mem::take(&mut self.constraints),
             outputs,
+            integrals,
+            reaction: self.reaction_used,
+            unique: None,
             starts,
             drawing,
             hints: std::mem::take(&mut self.hints),
@@ -405,14 +443,7 @@ impl<'m> Lowering<'m> {
         out.map(|(i, values)| (i, self.total_of(&values))).collect()
     }
 
-    fn equation(
-        &mut self,
-        equation: &Equation,
-        kind: Kind,
-        scope: &Scope<'m>,
-        names: &mut Names,
-        out: &mut Vec<Constraint>,
-    ) {
+    fn equation(&mut self, equation: &Equation, kind: Kind, scope: &Scope<'m>, names: &mut Names) {
         let key = &equation.key;
         let Some(indices) = self.indices(&key.indices, scope) else {
             return;
@@ -421,6 +452,7 @@ impl<'m> Lowering<'m> {
             base: key.name.clone(),
             indices,
             components: Vec::new(),
+            row: None,
             unit_of: None,
         };
         let reason = match self.model.free(&key.name) {
@@ -442,8 +474,19 @@ impl<'m> Lowering<'m> {
             Kind::Nonholonomic => Place::Nonholonomic,
         };
         let env = Env::new(scope, place);
-        let mut terms = Vec::new();
-        self.chain(&equation.lhs, 1.0, &env, &mut terms);
+        let (mut terms, mut rows, mut force) = (Vec::new(), Vec::new(), None);
+        match &equation.lhs.kind {
+            ExprKind::Call(..) => {
+                let value = self.argument(&equation.lhs, &env);
+                if let Value::Joint(joint) = &value {
+                    rows.clone_from(&joint.names);
+                    force.clone_from(&joint.force);
+                }
+                let value = self.numbers(value, equation.lhs.loc);
+                self.term(&equation.lhs, value, 1.0, &mut terms);
+            }
+            _ => self.chain(&equation.lhs, 1.0, &env, &mut terms),
+        }
         match &equation.rhs {
             Some(rhs) => self.chain(rhs, -1.0, &env, &mut terms),
             None if self.is_joint(&equation.lhs) => {}
@@ -452,15 +495,18 @@ impl<'m> Lowering<'m> {
                 .error(equation.lhs.loc, "a constraint is an equation: `lhs = rhs`"),
         }
         let total = self.total(&terms, true);
-        for (components, phi) in self.components(&total) {
+        let (first, whole) = (self.constraints.len(), item.text());
+        for (k, (components, phi)) in self.components(&total).into_iter().enumerate() {
             item.components = components;
-            out.push(Constraint {
+            item.row = rows.get(k).copied();
+            self.constraints.push(Constraint {
                 item: item.clone(),
                 kind,
                 phi,
                 loc: key.loc,
             });
         }
+        self.know(whole, first, total.shape(), rows, force);
     }
 
     /// Whether `e` applies a joint, or a function of the declaration, which may be one.
@@ -482,10 +528,20 @@ impl<'m> Lowering<'m> {
         every(value.shape()).zip(numbers).collect()
     }
 
-    fn outputs(&mut self, decl: &Declaration, top: &Scope<'m>) -> Vec<OutputValue> {
+    /// Outputs or integrals.
+    fn reported(
+        &mut self,
+        blocks: &[Block<Output>],
+        result: NoValue,
+        top: &Scope<'m>,
+        names: &mut Names,
+    ) -> Vec<OutputValue> {
         let mut out: Vec<OutputValue> = Vec::new();
-        let mut names = Names::default();
-        top.unroll(&decl.outputs, self.diag, &mut |output, scope| {
+        let (what, place) = match result {
+            NoValue::Integral => ("integral", Place::Integral),
+            _ => ("output", Place::Output),
+        };
+        top.unroll(blocks, self.diag, &mut |output, scope| {
             let key = &output.key;
             let Some(indices) = self.indices(&key.indices, scope) else {
                 return;
@@ -494,15 +550,16 @@ impl<'m> Lowering<'m> {
                 base: key.name.clone(),
                 indices,
                 components: Vec::new(),
+                row: None,
                 unit_of: None,
             };
             let looped = !scope.variables.is_empty();
             let free = self.model.column(&key.name);
-            if let Err(reason) = free.and_then(|()| names.enter("output", &item, looped)) {
+            if let Err(reason) = free.and_then(|()| names.enter(what, &item, looped)) {
                 self.diag.error(key.loc, reason);
                 return;
             }
-            let value = self.value(&output.value, &Env::new(scope, Place::Output));
+            let value = self.value(&output.value, &Env::new(scope, place));
             for (components, value) in self.components(&value) {
                 item.components = components;
                 let text = item.text();

@@ -1,7 +1,7 @@
 //! Names, members, and what may stand where.
 
 use super::array::{MAX_ENTRIES, Value, describe};
-use super::{Binding, Env, Lowering, Place};
+use super::{Binding, Env, Lowering, NoValue, Place};
 use crate::diag::{Loc, suggest};
 use crate::expr::graph::{Id, Symbol};
 use crate::model::{Family, Name, Scope, block, indexed};
@@ -162,16 +162,22 @@ impl<'m> Lowering<'m> {
             return Value::Error;
         }
         match self.results.get(&text) {
-            Some(true) => {
+            Some(NoValue::Constraint) => {
                 return self.error(
                     name.span(),
-                    format!("`{text}` is a constraint: no expression can use it, and its multiplier and force are what is solved for"),
+                    format!("`{text}` is a constraint, which no expression can use; its force is `reaction({text})`, under `output`, `integral` and `nonideal`"),
                 );
             }
-            Some(false) => {
+            Some(NoValue::Output) => {
                 return self.error(
                     name.span(),
                     format!("`{text}` is an output, which no expression can use; declare its value by `let`"),
+                );
+            }
+            Some(NoValue::Integral) => {
+                return self.error(
+                    name.span(),
+                    format!("`{text}` is an integral, which no expression can use: it is no coordinate, and nothing depends on it"),
                 );
             }
             None => {}

@@ -3,6 +3,7 @@
 //! The first arguments are points of bodies; the constraint force acts on the body of the second, in the direction in which the row grows.
 
 use super::array::{Value, describe};
+use super::reactions::Pushed;
 use super::{Env, Lowering, Place};
 use crate::diag::{Loc, suggest};
 use crate::expr::diff::Gradient;
@@ -11,6 +12,7 @@ use crate::model::Scope;
 use crate::parse::{Expr, ExprKind, own};
 use proc_macro2::Ident;
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 /// What an argument is.
 #[derive(Clone, Copy, PartialEq)]
@@ -40,8 +42,8 @@ enum Home {
 
 /// What a part is good for.
 enum Meaning {
-    /// Rows, one after the other.
-    Rows(&'static [&'static str]),
+    /// Rows, one after the other, and the names of those of a joint that has several.
+    Rows(&'static [&'static str], &'static str),
     /// A term of V.
     Energy(&'static str),
     /// What has this velocity is pushed by this force.
@@ -69,54 +71,54 @@ macro_rules! parts {
 }
 
 parts! {
-    "pin" Plane (p: Point, q: Point) Rows(&["q - p"]);
-    "weld" Plane (p: Point, q: Point, angle: Number = "0") Rows(&["q - p", "q.angle - p.angle - angle"]);
+    "pin" Plane (p: Point, q: Point) Rows(&["q - p"], "x y");
+    "weld" Plane (p: Point, q: Point, angle: Number = "0") Rows(&["q - p", "q.angle - p.angle - angle"], "x y angle");
     "slider" Plane (p: Point, q: Point, d: Direction, angle: Number = "0")
-        Rows(&["inner(p.along(normal(d)), q - p)", "q.angle - p.angle - angle"]);
-    "slot" Plane (p: Point, q: Point, d: Direction) Rows(&["inner(p.along(normal(d)), q - p)"]);
-    "gear" Plane (a: Body, b: Body, r: Number, s: Number) Rows(&["r * a.angle + s * b.angle"]);
+        Rows(&["inner(p.along(normal(d)), q - p)", "q.angle - p.angle - angle"], "normal angle");
+    "slot" Plane (p: Point, q: Point, d: Direction) Rows(&["inner(p.along(normal(d)), q - p)"], "");
+    "gear" Plane (a: Body, b: Body, r: Number, s: Number) Rows(&["r * a.angle + s * b.angle"], "");
     "rack" Plane (p: Point, q: Point, d: Direction, r: Number)
-        Rows(&["inner(p.along(normalise(d)), q - p) + r * (q.angle - p.angle)"]);
+        Rows(&["inner(p.along(normalise(d)), q - p) + r * (q.angle - p.angle)"], "");
     "wheel" Plane (p: Point, q: Point, d: Direction, r: Number) Rows(&[
         "inner(p.along(normal(d)), q - p) - r",
         "inner(p.along(normalise(d)), q - p) + r * (q.angle - p.angle)",
-    ]);
-    "turn" Plane (a: Body, b: Body) Rows(&["b.angle - a.angle"]);
-    "rod" Both (p: Point, q: Point, l: Number) Rows(&["sq(q - p) - sq(l)"]);
-    "ball" Space (p: Point, q: Point) Rows(&["q - p"]);
+    ], "normal rolling");
+    "turn" Plane (a: Body, b: Body) Rows(&["b.angle - a.angle"], "");
+    "rod" Both (p: Point, q: Point, l: Number) Rows(&["sq(q - p) - sq(l)"], "");
+    "ball" Space (p: Point, q: Point) Rows(&["q - p"], "x y z");
     "hinge" Space (p: Point, q: Point, u: Direction, w: Direction = "u")
-        Rows(&["q - p", "inner(p.along(normals(u)[0]), q.along(normalise(w)))", "inner(p.along(normals(u)[1]), q.along(normalise(w)))"]);
+        Rows(&["q - p", "inner(p.along(normals(u)[0]), q.along(normalise(w)))", "inner(p.along(normals(u)[1]), q.along(normalise(w)))"], "x y z tilt0 tilt1");
     "universal" Space (p: Point, q: Point, u: Direction, w: Direction)
-        Rows(&["q - p", "inner(p.along(normalise(u)), q.along(normalise(w)))"]);
+        Rows(&["q - p", "inner(p.along(normalise(u)), q.along(normalise(w)))"], "x y z cross");
     "cylinder" Space (p: Point, q: Point, u: Direction, w: Direction = "u") Rows(&[
         "inner(p.along(normals(u)[0]), q - p)",
         "inner(p.along(normals(u)[1]), q - p)",
         "inner(p.along(normals(u)[0]), q.along(normalise(w)))",
         "inner(p.along(normals(u)[1]), q.along(normalise(w)))",
-    ]);
+    ], "n0 n1 tilt0 tilt1");
     "slider" Space (p: Point, q: Point, u: Direction, turn: Turn = "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]") Rows(&[
         "inner(p.along(normals(u)[0]), q - p)",
         "inner(p.along(normals(u)[1]), q - p)",
         "inner(p.along([1, 0, 0]), q.along(transpose(turn) * [0, 1, 0]))",
         "inner(p.along([0, 1, 0]), q.along(transpose(turn) * [0, 0, 1]))",
         "inner(p.along([0, 0, 1]), q.along(transpose(turn) * [1, 0, 0]))",
-    ]);
+    ], "n0 n1 xy yz zx");
     "weld" Space (p: Point, q: Point, turn: Turn = "[[1, 0, 0], [0, 1, 0], [0, 0, 1]]") Rows(&[
         "q - p",
         "inner(p.along([1, 0, 0]), q.along(transpose(turn) * [0, 1, 0]))",
         "inner(p.along([0, 1, 0]), q.along(transpose(turn) * [0, 0, 1]))",
         "inner(p.along([0, 0, 1]), q.along(transpose(turn) * [1, 0, 0]))",
-    ]);
+    ], "x y z xy yz zx");
     "drive" Space (a: Body, b: Body, u: Direction, angle: Number)
-        Rows(&["inner(a.along(cos(angle) * normals(u)[0] + sin(angle) * normals(u)[1]), b.along(normals(u)[1]))"]);
+        Rows(&["inner(a.along(cos(angle) * normals(u)[0] + sin(angle) * normals(u)[1]), b.along(normals(u)[1]))"], "");
     "screw" Space (p: Point, q: Point, u: Direction, lead: Number) Rows(&[
         "inner(p.along(normalise(u)), dot(q - p) - cross(p.omega, q - p) - lead / (2 * PI) * (q.omega - p.omega))",
-    ]);
-    "disc" Space (q: Point, u: Direction, r: Number) Rows(&["q[2] - r * sqrt(1 - sq(q.along(normalise(u))[2]))"]);
+    ], "");
+    "disc" Space (q: Point, u: Direction, r: Number) Rows(&["q[2] - r * sqrt(1 - sq(q.along(normalise(u))[2]))"], "");
     "rolls" Space (q: Point, u: Direction, r: Number) Rows(&[
         "inner([1, 0, 0], dot(q) + cross(q.omega, r / sqrt(1 - sq(q.along(normalise(u))[2])) * (q.along(normalise(u))[2] * q.along(normalise(u)) - [0, 0, 1])))",
         "inner([0, 1, 0], dot(q) + cross(q.omega, r / sqrt(1 - sq(q.along(normalise(u))[2])) * (q.along(normalise(u))[2] * q.along(normalise(u)) - [0, 0, 1])))",
-    ]);
+    ], "x y");
     "spring" Both (p: Point, q: Point, k: Number, l: Number) Energy("0.5 * k * sq(norm(q - p) - l)");
     "turning_spring" Plane (a: Body, b: Body, k: Number, angle: Number) Energy("0.5 * k * sq(b.angle - a.angle - angle)");
     "damper" Both (p: Point, q: Point, c: Number) Push("dot(norm(q - p))", "-c * dot(norm(q - p))");
@@ -147,7 +149,7 @@ impl Part {
 
     /// Whether it is a joint: rows, which may stand wherever equations do.
     pub(super) fn joins(&self) -> bool {
-        matches!(self.meaning, Meaning::Rows(_))
+        matches!(self.meaning, Meaning::Rows(..))
     }
 
     /// As it is written.
@@ -163,6 +165,15 @@ impl Part {
     }
 }
 
+/// The rows of a joint, which know their names.
+pub(super) struct Joint {
+    pub(super) rows: Value,
+    /// As many as there are rows; none where the only row goes by the name of the joint.
+    pub(super) names: Vec<&'static str>,
+    /// Of a joint between points.
+    pub(super) force: Option<Pushed>,
+}
+
 /// How all that acts is written.
 fn acting() -> String {
     let parts = PARTS.iter().filter(|part| !part.joins());
@@ -175,7 +186,7 @@ impl<'m> Lowering<'m> {
         let Some((part, inner)) = self.part_of(name, args, env) else {
             return Value::Error;
         };
-        let Meaning::Rows(texts) = part.meaning else {
+        let Meaning::Rows(texts, names) = part.meaning else {
             let message = format!("`{name}` acts with a force; it stands under `forces`");
             return self.error(name.span(), message);
         };
@@ -186,11 +197,28 @@ impl<'m> Lowering<'m> {
             shaped |= !value.shape().is_empty();
             rows.extend_from_slice(value.entries());
         }
-        let value = match rows[..] {
+        let rows = match rows[..] {
             [row] if !shaped => Value::Scalar(row),
             _ => Value::vector(rows),
         };
-        self.allowed_value(value, e.loc, env)
+        if self.allowed_value(rows.clone(), e.loc, env).is_error() {
+            return Value::Error;
+        }
+        let names: Vec<&str> = names.split_whitespace().collect();
+        debug_assert!(names.is_empty() || names.len() == rows.entries().len());
+        let frame = |name: &str| {
+            let mut given = inner.args.iter();
+            given.find_map(|(n, value)| match value {
+                Value::Point(point) if n == name => Some(point.body.clone()),
+                _ => None,
+            })
+        };
+        let second = frame("q");
+        let force = second.and_then(|second| {
+            let first = frame("p");
+            Pushed::between(first.as_deref(), &second, &self.graph)
+        });
+        Value::Joint(Rc::new(Joint { rows, names, force }))
     }
 
     /// Enters what an entry of `forces` means.
@@ -227,7 +255,7 @@ impl<'m> Lowering<'m> {
             return;
         };
         match part.meaning {
-            Meaning::Rows(_) => {
+            Meaning::Rows(..) => {
                 let message =
                     format!("`{name}` is a joint; it stands under `holonomic`: `name: {name}(…)`");
                 self.error(name.span(), message);

@@ -26,7 +26,13 @@ pub(crate) struct System {
     /// Holonomic ones first.
     pub(crate) constraints: Vec<Constraint>,
     pub(crate) outputs: Vec<OutputValue>,
+    /// What is integrated along with the motion.
+    pub(crate) integrals: Vec<OutputValue>,
+    /// Where the first reaction is used, if one is.
+    pub(crate) reaction: Option<Loc>,
     pub(crate) starts: Vec<StartValue>,
+    /// What reactions are multiplied by: 1, or not a number where they are not unique.
+    pub(crate) unique: Option<Id>,
     pub(crate) drawing: Drawing,
     /// Names that the modeller gave to values.
     pub(crate) hints: Map<Id, String>,
@@ -78,16 +84,20 @@ pub(crate) struct ConstraintRef {
     pub(crate) base: Ident,
     pub(crate) indices: Vec<i64>,
     pub(crate) components: Vec<usize>,
+    /// What a joint calls its row.
+    pub(crate) row: Option<&'static str>,
     /// The body whose orientation is kept normal by it, as written.
     pub(crate) unit_of: Option<String>,
 }
 
 impl ConstraintRef {
-    /// As shown: `link[3]`, `joint[0]`, `joint[2][1]`, `platform.unit`.
+    /// As shown: `link[3]`, `joint[0]`, `joint[2][1]`, `knee.x`, `platform.unit`.
     pub(crate) fn text(&self) -> String {
-        match &self.unit_of {
-            Some(body) => format!("{body}.unit"),
-            None => indexed(indexed(&self.base, &self.indices), &self.components),
+        let whole = indexed(&self.base, &self.indices);
+        match (&self.unit_of, self.row) {
+            (Some(body), _) => format!("{body}.unit"),
+            (None, Some(row)) => format!("{whole}.{row}"),
+            (None, None) => indexed(whole, &self.components),
         }
     }
 }

@@ -21,7 +21,7 @@ impl<'m> Lowering<'m> {
         let value = self.value(e, env);
         match value {
             Value::Scalar(id) => Some(id),
-            Value::Array(_) | Value::Body(_) | Value::Point(_) => {
+            Value::Array(_) | Value::Body(_) | Value::Point(_) | Value::Joint(_) => {
                 let found = describe(value.shape());
                 self.diag
                     .error(e.loc, format!("expected a number, found {found}"));
@@ -51,10 +51,11 @@ impl<'m> Lowering<'m> {
         self.numbers(value, e.loc)
     }
 
-    /// A value as numbers: of a point its place; a body has none.
+    /// A value as numbers: of a point its place, of a joint its rows; a body has none.
     pub(super) fn numbers(&mut self, value: Value, loc: Loc) -> Value {
         match value {
             Value::Point(point) => point.place.clone(),
+            Value::Joint(joint) => joint.rows.clone(),
             Value::Body(body) => {
                 let message = format!(
                     "`{body}` is a body; choose a point of it, `{body}.at([…])`, or what belongs to it, such as `{body}.omega`"
@@ -65,7 +66,7 @@ impl<'m> Lowering<'m> {
         }
     }
 
-    /// A value that may be a body, or a point of one.
+    /// A value that may be a body, a point of one, or a joint.
     pub(super) fn argument(&mut self, e: &Expr, env: &Env<'m>) -> Value {
         if self.depth >= MAX_DEPTH {
             return self.error(
@@ -292,14 +293,25 @@ impl<'m> Lowering<'m> {
             ExprKind::Neg(inner) => self.chain(inner, -sign, env, out),
             _ => {
                 let value = self.value(e, env);
-                match value {
-                    Value::Scalar(sum) if self.adds_up(e) => {
-                        let terms = self.graph.open(sign, sum).into_iter();
-                        out.extend(terms.map(|(c, id)| (c, Value::Scalar(id), e.loc)));
-                    }
-                    _ => out.push((sign, value, e.loc)),
-                }
+                self.term(e, value, sign, out);
             }
+        }
+    }
+
+    /// The `value` of `e` as a term of a sum.
+    pub(super) fn term(
+        &mut self,
+        e: &Expr,
+        value: Value,
+        sign: f64,
+        out: &mut Vec<(f64, Value, Loc)>,
+    ) {
+        match value {
+            Value::Scalar(sum) if self.adds_up(e) => {
+                let terms = self.graph.open(sign, sum).into_iter();
+                out.extend(terms.map(|(c, id)| (c, Value::Scalar(id), e.loc)));
+            }
+            _ => out.push((sign, value, e.loc)),
         }
     }
 

@@ -51,6 +51,22 @@ operations! {
     "rotx"(1, "a number"): |g, v| about(g, &v[0], 0);
     "roty"(1, "a number"): |g, v| about(g, &v[0], 1);
     "rotz"(1, "a number"): |g, v| about(g, &v[0], 2);
+    "friction"(2, "a velocity, which is a number or a vector, and a number"): |g, v| {
+        let &Value::Scalar(force) = &v[1] else {
+            return None;
+        };
+        let against = g.neg(force);
+        Some(match v[0].shape() {
+            [] => v[0].map(|id| {
+                let sign = g.call1(Func::Sign, id);
+                g.mul(against, sign)
+            }),
+            _ => {
+                let length = norm(g, &v[0])?;
+                v[0].map(|id| g.product(&[(against, 1), (id, 1), (length, -1)]))
+            }
+        })
+    };
     "transpose"(1, "a matrix"): |_, v| {
         let [rows, columns] = v[0].shape() else {
             return None;
@@ -74,13 +90,32 @@ fn inner(g: &mut Graph, u: &Value, v: &Value) -> Option<Id> {
     vectors.then(|| sum_of_products(pairs, g))
 }
 
-/// √(Σ vᵢ²); of a single component its magnitude.
+/// √(Σ vᵢ²); of a single component, or of one beside zeros, its magnitude, whose kink is known.
 fn norm(g: &mut Graph, v: &Value) -> Option<Id> {
     let squared = inner(g, v, v)?;
-    Some(match v.entries() {
-        [id] => g.call1(Func::Abs, *id),
+    let present = v.entries().iter().copied().filter(|id| !g.is_zero(*id));
+    let present: Vec<Id> = present.collect();
+    if let ([_, _, ..], Some(multiplier)) = (&present[..], common_multiplier(&present, g)) {
+        let direction = v.map(|id| g.div(id, multiplier));
+        let (size, length) = (g.call1(Func::Abs, multiplier), norm(g, &direction)?);
+        return Some(g.mul(size, length));
+    }
+    Some(match present[..] {
+        [id] => g.call1(Func::Abs, id),
         _ => g.call1(Func::Sqrt, squared),
     })
+}
+
+/// The multiplier that all these have as a factor: of a force in one direction it decides the sign.
+fn common_multiplier(ids: &[Id], g: &Graph) -> Option<Id> {
+    let multipliers = |id: &Id| -> Vec<Id> {
+        let factors = g.factors(*id).into_iter();
+        let simple = factors.filter(|(base, power)| *power == 1 && g.uses(*base).multiplier);
+        simple.map(|(base, _)| base).collect()
+    };
+    let (first, rest) = ids.split_first()?;
+    let shared = |id: &Id| rest.iter().all(|other| multipliers(other).contains(id));
+    multipliers(first).into_iter().find(shared)
 }
 
 /// u × v in space; its one component in the plane.

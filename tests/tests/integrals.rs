@@ -1,0 +1,337 @@
+//! What is integrated along with a motion: closed forms, energy balances, every method, and no trace in the motion.
+
+use std::ops::ControlFlow;
+
+use tests::{assert_all_close, assert_close};
+use ukcore::simulate::{CsvWriter, Direction, Record, Sample};
+use ukcore::{Error, Event, Mechanism, Method, Simulation, State};
+
+ukcore::multibody! {
+    /// A mass that swings on a spring, and integrals with kinks, jumps and a life of their own.
+    pub Oscillator {
+        params { m = 2.0, k = 8.0 }
+        coords { x }
+        mass { x: m }
+        potential { k * sq(x) / 2 }
+        output { force = -k * x }
+        integral {
+            /// Work of the spring.
+            work = -k * x * dot(x)
+            action = m * sq(dot(x))
+            path = abs(dot(x))
+            side = sign(x)
+            ripple[0] = sin(300 * t)
+            ripple[1] = t
+        }
+    }
+}
+
+/// x = cos 2t.
+fn oscillation(method: Method, tolerance: f64) -> Simulation {
+    let start = State {
+        t: 0.0,
+        q: vec![1.0],
+        v: vec![0.0],
+    };
+    Simulation::new(Oscillator::default())
+        .method(method)
+        .tolerance(tolerance)
+        .start(start)
+}
+
+/// ∫ |sin| from 0 to u.
+fn path(u: f64) -> f64 {
+    let whole = (u / std::f64::consts::PI).floor();
+    2.0 * whole + 1.0 - (u - whole * std::f64::consts::PI).cos()
+}
+
+/// ∫ sign(cos 2t).
+fn side(t: f64) -> f64 {
+    (2.0 * t).sin().asin() / 2.0
+}
+
+fn exact(t: f64) -> [f64; 6] {
+    [
+        4.0 - 4.0 * (2.0 * t).cos().powi(2),
+        4.0 * t - (4.0 * t).sin(),
+        path(2.0 * t),
+        side(t),
+        (1.0 - (300.0 * t).cos()) / 300.0,
+        t * t / 2.0,
+    ]
+}
+
+#[test]
+fn integrals_of_an_oscillation_are_their_closed_forms_by_every_method() {
+    for (method, tolerance, bound) in [
+        (Method::Dop853, 1e-10, 2e-8),
+        (Method::Dopri5, 1e-10, 2e-8),
+        (Method::Radau5, 1e-10, 2e-8),
+        (Method::Rattle { step: 2e-3 }, 1e-9, 2e-8),
+    ] {
+        let run = oscillation(method, tolerance)
+            .every(0.37)
+            .until(5.0)
+            .unwrap();
+        for s in run.samples() {
+            assert_all_close(
+                &format!("{method} {}", s.t),
+                s.integrals,
+                &exact(s.t),
+                bound,
+            );
+        }
+        let last = run.last().unwrap();
+        assert_eq!(last.t, 5.0);
+        let names = ["work", "action", "path", "side", "ripple[0]", "ripple[1]"];
+        for (name, value) in names.into_iter().zip(last.integrals) {
+            assert_eq!(run.integral(name).unwrap().last(), Some(value));
+        }
+    }
+    let ids = (
+        Oscillator::INT_ACTION,
+        Oscillator::INT_RIPPLE,
+        Oscillator::INTEGRALS[0].doc,
+    );
+    assert_eq!(ids, (1, [4, 5], "Work of the spring."));
+}
+
+/// A method by its step.
+type Stepping = fn(f64) -> Method;
+
+/// Errors fall with the step as those of the motion do: order 4 of RATTLE, and of the others their own.
+#[test]
+fn integrals_have_the_order_of_the_method() {
+    let error = |step: f64, method: Stepping| {
+        let simulation = oscillation(method(step), 1e-3).absolute_tolerance(1e3);
+        let simulation = match method(step) {
+            Method::Rattle { .. } => simulation,
+            _ => simulation.first_step(step).max_step(step),
+        };
+        let last = simulation.until(2.0).unwrap();
+        let off = |k: usize| last.last().unwrap().integrals[k] - exact(2.0)[k];
+        off(0).abs().max(off(1).abs())
+    };
+    let methods: [(Stepping, f64, f64); 4] = [
+        (|_| Method::Dop853, 0.4, 7.5),
+        (|_| Method::Dopri5, 0.1, 4.7),
+        (|_| Method::Radau5, 0.1, 4.7),
+        (|step| Method::Rattle { step }, 0.05, 3.7),
+    ];
+    for (method, step, order) in methods {
+        let [coarse, fine] = [step, step / 2.0].map(|step| error(step, method));
+        let found = (coarse / fine).log2();
+        assert!(
+            found >= order,
+            "{}: {coarse:e}, {fine:e}: order {found}",
+            method(step)
+        );
+    }
+}
+
+ukcore::multibody! {
+    /// The oscillator without integrals.
+    pub Bare {
+        params { m = 2.0, k = 8.0 }
+        coords { x }
+        mass { x: m }
+        potential { k * sq(x) / 2 }
+        output { force = -k * x }
+    }
+}
+
+#[test]
+fn integrals_leave_no_trace_in_the_motion() {
+    let start = State {
+        t: 0.0,
+        q: vec![1.0],
+        v: vec![0.0],
+    };
+    for method in [
+        Method::Dop853,
+        Method::Dopri5,
+        Method::Radau5,
+        Method::Rattle { step: 0.01 },
+    ] {
+        let with = oscillation(method, 1e-8).until(3.0).unwrap();
+        let without = Simulation::new(Bare::default())
+            .method(method)
+            .tolerance(1e-8);
+        let without = without.start(start.clone()).dense().until(3.0).unwrap();
+        assert_eq!(with.work(), without.work());
+        for (a, b) in with.samples().zip(without.samples()) {
+            assert_eq!((a.t, a.q, a.v, a.integrals.len()), (b.t, b.q, b.v, 6));
+            assert!(b.integrals.is_empty());
+        }
+    }
+    let [with, without] = [Oscillator::SPEC, Bare::SPEC].map(|spec| spec.structure.costs);
+    assert_eq!(
+        [with.dynamics, with.acceleration, with.correction],
+        [without.dynamics, without.acceleration, without.correction]
+    );
+}
+
+#[test]
+fn integrals_go_backward_stop_at_events_and_are_streamed() {
+    let back = oscillation(Method::Dop853, 1e-10)
+        .every(0.3)
+        .until(-1.5)
+        .unwrap();
+    for s in back.samples() {
+        let expected = [exact(-s.t)[0], -exact(-s.t)[1], -exact(-s.t)[2]];
+        assert_all_close("backward", &s.integrals[..3], &expected, 1e-8);
+    }
+    let event = || {
+        Event::new("rest", |_, _, v| v[0])
+            .direction(Direction::Rising)
+            .terminal()
+    };
+    let ended = oscillation(Method::Dop853, 1e-10)
+        .event(event())
+        .every(0.4)
+        .until(9.0)
+        .unwrap();
+    let last = ended.last().unwrap();
+    assert_close("rest", last.t, std::f64::consts::FRAC_PI_2, 1e-9);
+    assert_all_close("at rest", last.integrals, &exact(last.t), 1e-8);
+
+    let run = oscillation(Method::Dop853, 1e-10)
+        .every(0.4)
+        .until(2.0)
+        .unwrap();
+    let mut streamed = Vec::new();
+    let end = oscillation(Method::Dop853, 1e-10)
+        .every(0.4)
+        .stream(2.0, |record| {
+            if let Record::Sample(s) = record {
+                streamed.extend_from_slice(s.integrals);
+            }
+            ControlFlow::Continue(())
+        });
+    let kept: Vec<f64> = run.samples().flat_map(|s| s.integrals.to_vec()).collect();
+    assert_eq!(streamed, kept);
+    assert_eq!(
+        end.unwrap().last().unwrap().integrals,
+        run.last().unwrap().integrals
+    );
+    let mut csv = Vec::new();
+    run.write_csv(&mut csv).unwrap();
+    let csv = String::from_utf8(csv).unwrap();
+    let mut lines = csv.lines();
+    let head = "t,x,dot(x),force,work,action,path,side,ripple[0],ripple[1],energy,residual";
+    assert_eq!(lines.next(), Some(head));
+    let row = lines
+        .next_back()
+        .unwrap()
+        .split(',')
+        .map(|x| x.parse::<f64>().unwrap());
+    assert_eq!(
+        &row.collect::<Vec<_>>()[4..10],
+        run.last().unwrap().integrals
+    );
+    let mut csv = CsvWriter::new(Oscillator::default(), Vec::new()).unwrap();
+    csv.write(Sample::from(&run.last().unwrap().to_state()))
+        .unwrap();
+    let csv = String::from_utf8(csv.into_inner()).unwrap();
+    let bare = csv.lines().next_back().unwrap();
+    assert_eq!(
+        bare.split(',').filter(|x| x.is_empty()).count(),
+        6,
+        "{bare}"
+    );
+    let unknown = run.integral("wrok");
+    assert!(matches!(unknown, Err(Error::UnknownName { nearest: Some(n), .. }) if n == "work"));
+}
+
+ukcore::multibody! {
+    /// A crank with a motor, a damper in its pin, and a rod that pushes a rough piston against a spring.
+    pub Engine {
+        params { r = 0.3, l = 1.0, m = 1.2, j = 0.08, k = 30.0, c = 0.2, mu = 0.1, torque = 4.0, g = 9.81 }
+        bodies {
+            planar crank { mass: m, inertia: j, centre: [r / 2, 0] }
+            planar rod { mass: m, inertia: j, centre: [l / 2, 0] }
+            planar piston { mass: 2 * m, inertia: j }
+        }
+        gravity { [0, -g] }
+        let drive = torque * (1 + 0.5 * cos(crank.angle));
+        let drag = |v| friction(v, mu * norm(reaction(bore)));
+        holonomic {
+            main: pin(ground.at([0, 0]), crank.at([0, 0]))
+            big: pin(crank.at([r, 0]), rod.at([0, 0]))
+            small: pin(rod.at([l, 0]), piston.at([0, 0]))
+            bore: slider(ground.at([0, 0]), piston.at([0, 0]), [1, 0])
+        }
+        forces { torque(crank, drive), turning_damper(ground, crank, c) spring(ground.at([2, 0]), piston.at([0, 0]), k, 0.8) }
+        nonideal { piston.x: drag(dot(piston.x)) }
+        integral {
+            motor = drive * crank.omega
+            damper = c * sq(crank.omega)
+            rubbed = -drag(dot(piston.x)) * dot(piston.x)
+        }
+    }
+}
+
+#[test]
+fn work_and_losses_make_up_the_change_of_energy() {
+    let mut sketch = State {
+        t: 0.0,
+        q: vec![0.0; 9],
+        v: vec![0.0; 9],
+    };
+    sketch.q[Engine::CRANK_ANGLE] = 1.0;
+    sketch.v[Engine::CRANK_ANGLE] = 2.0;
+    sketch.q[Engine::PISTON_X] = 1.1;
+    let start = ukcore::assemble(Engine::default(), sketch, &["crank.angle"]).unwrap();
+    for method in [Method::Dop853, Method::Radau5] {
+        let run = Simulation::new(Engine::default())
+            .method(method)
+            .tolerance(1e-9);
+        let run = run.start(start.clone()).every(0.25).until(5.0).unwrap();
+        let energy = run.energy();
+        let mut most = [0.0_f64; 3];
+        for (s, now) in run.samples().zip(&energy) {
+            let [motor, damper, rubbed] = s.integrals.try_into().unwrap();
+            let change = now.total() - energy[0].total();
+            let most_now = [motor, damper, rubbed];
+            (0..3).for_each(|k| most[k] = most[k].max(most_now[k]));
+            assert_close(
+                &format!("{method} {}", s.t),
+                change,
+                motor - damper - rubbed,
+                1e-5,
+            );
+        }
+        // Each of them counts.
+        assert!(most.iter().all(|x| *x > 1.0), "{most:?}");
+    }
+}
+
+ukcore::multibody! {
+    /// An integrand that leaves its domain.
+    pub Domain { coords { x } mass { x: 1 } integral { root = sqrt(1 - x) } }
+}
+
+#[test]
+fn an_integrand_that_is_not_a_number_ends_the_run_by_name() {
+    let start = State {
+        t: 0.0,
+        q: vec![0.0],
+        v: vec![1.0],
+    };
+    let failure = Simulation::new(Domain::default())
+        .start(start)
+        .until(2.0)
+        .unwrap_err();
+    assert!(
+        failure.to_string().contains("integrand of root"),
+        "{failure}"
+    );
+    let reached = failure.trajectory.last().unwrap();
+    assert!(reached.t < 1.0 + 1e-9 && reached.t > 0.9, "{}", reached.t);
+    assert_close(
+        "root",
+        reached.integrals[0],
+        (1.0 - (1.0 - reached.t).max(0.0).powf(1.5)) / 1.5,
+        1e-8,
+    );
+}

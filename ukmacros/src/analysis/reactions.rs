@@ -1,0 +1,128 @@
+//! Multipliers of ideal constraint forces in expressions: what they are solved to, in place of their symbols.
+//!
+//! Zhao, Zhen & Chen 2013, eq. 8: the force of the constraints is Aᵀλ + (what of c they leave), with λ of the equations without c. So λ is
+//! known before c, and c may depend on it: M q̈ = Q + Aᵀλ, A q̈ = b is eliminated first, and its λ are values of the state like any others.
+//! Where the pivots are those of the equations with c, they are the same nodes, computed once.
+//!
+//! λ is unique where the rows of A are independent. Where the certificate of the elimination does not say so, or a row was left out, it is
+//! not a number, and so is what depends on it.
+
+use super::dynamics::Dynamics;
+use super::elimination::{Further, Straight, Task, eliminate, orders};
+use super::redundant::redundant;
+use super::regular::Regular;
+use super::switches::Switch;
+use crate::expr::{Func, Graph, Id, Map, Node, Symbol, System};
+
+/// Puts λ of the equations `held`, of which `regular` was made, in place of [`Symbol::Multiplier`] in c, in switching functions, outputs,
+/// integrals and pictures; `names` are those of coordinates and constraints. Nothing happens where none is used. Says so if λ cannot be solved for.
+pub(super) fn solve(
+    system: &mut System,
+    held: &mut Dynamics,
+    regular: &mut Regular,
+    switches: &mut [Switch],
+    names: &[String],
+) -> Result<(), String> {
+    let used = |g: &Graph, mut ids: Vec<&mut Id>| ids.iter_mut().any(|id| g.uses(**id).multiplier);
+    let (g, places) = places(system, held, regular, switches);
+    if !used(g, places) {
+        return Ok(());
+    }
+    let solved = multipliers(system, held, regular, names)?;
+    let (g, places) = self::places(system, held, regular, switches);
+    let roots: Vec<Id> = places.iter().map(|id| **id).collect();
+    let mut known: Map<Id, Id> = Map::default();
+    for id in g.reachable(&roots) {
+        let new = match *g.node(id) {
+            Node::Symbol(Symbol::Multiplier(row)) => solved[row],
+            _ if g.uses(id).multiplier => g.with_operands(id, |_, operand| known[&operand]),
+            _ => id,
+        };
+        known.insert(id, new);
+    }
+    for (place, root) in places.into_iter().zip(roots) {
+        *place = known[&root];
+    }
+    known.retain(|old, new| old != new);
+    system.carry_names(known);
+    Ok(())
+}
+
+/// All values that may depend on multipliers.
+fn places<'a>(
+    system: &'a mut System,
+    held: &'a mut Dynamics,
+    regular: &'a mut Regular,
+    switches: &'a mut [Switch],
+) -> (&'a mut Graph, Vec<&'a mut Id>) {
+    let reported = system.outputs.iter_mut().chain(&mut system.integrals);
+    let forces = held
+        .nonideal
+        .iter_mut()
+        .chain(&mut regular.dynamics.nonideal);
+    let drawn = system.drawing.shapes.iter_mut();
+    let drawn = drawn.flat_map(|shape| &mut shape.numbers);
+    let places = reported.map(|o| &mut o.value).chain(drawn).chain(forces);
+    let places = places.chain(switches.iter_mut().map(|s| &mut s.function));
+    (&mut system.graph, places.collect())
+}
+
+/// λ of each constraint without c, not a number where it is not unique.
+fn multipliers(
+    system: &mut System,
+    held: &Dynamics,
+    regular: &Regular,
+    names: &[String],
+) -> Result<Vec<Id>, String> {
+    if let Some(refusal) = regular.refusal(names) {
+        return Err(refusal);
+    }
+    let mut ideal = regular.dynamics.clone();
+    ideal.nonideal.fill(system.graph.zero());
+    let redundant = redundant(&ideal, &system.defaults, &system.graph);
+    let task = Task {
+        dynamics: &ideal,
+        weights: &regular.weights,
+        names,
+        own: (ideal.force.len(), ideal.rhs.len()),
+        further: Further::Nothing,
+        redundant: &redundant,
+        frames: &[],
+        multipliers: true,
+    };
+    let mut orders = orders(&task, &system.defaults, &system.graph)?;
+    orders.sort_by_key(|order| order.changes);
+    let mut elimination = Err("there is no order of elimination".to_owned());
+    for order in orders {
+        elimination = elimination.or_else(|_| eliminate(&task, order, &mut system.graph));
+    }
+    let elimination = elimination?;
+    let straight = Straight::new(elimination, held, &regular.met, system);
+    let g = &mut system.graph;
+    let one = g.one();
+    let minus = g.neg(one);
+    let unique = straight.elimination.unique(&straight.met, held, g);
+    // 1, or √−1.
+    let unique = match g.as_const(unique) == Some(1.0) {
+        true => one,
+        false => {
+            let sign = g.select(one, unique, one, minus);
+            g.call1(Func::Sqrt, sign)
+        }
+    };
+    system.unique = Some(unique);
+    let multipliers = straight
+        .elimination
+        .multipliers
+        .iter()
+        .zip(&system.constraints);
+    let multipliers = multipliers.map(|(id, constraint)| {
+        let value = g.mul(*id, unique);
+        let name = format!("reaction_{}", constraint.item.text());
+        if !g.operands(value).is_empty() {
+            system.inner_hints.entry(value).or_insert(name);
+        }
+        value
+    });
+    Ok(multipliers.collect())
+}
