@@ -52,6 +52,7 @@ fn used(decl: &Declaration) -> HashSet<String> {
         let parts = body.mass.iter().chain(&body.inertia).chain(&body.centre);
         (vec![&body.key], parts.collect())
     });
+    found.blocks(&decl.tree, |joint| (vec![&joint.key], vec![&joint.value]));
     found.lets(&decl.lets);
     if let Some(section) = &decl.mass {
         found.blocks(&section.blocks, |m| {

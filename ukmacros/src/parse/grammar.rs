@@ -5,7 +5,7 @@
 
 use super::expr::{Expr, Range, location};
 use super::item::{
-    Block, Body, Const, Coord, Declaration, Entry, Equation, Function, Key, Let, LetValue,
+    Block, Body, Const, Coord, Declaration, Entry, Equation, Function, Joint, Key, Let, LetValue,
     MassEntry, Output, Param, Section,
 };
 use super::nesting;
@@ -15,7 +15,7 @@ use quote::ToTokens as _;
 use syn::parse::ParseStream;
 use syn::{Token, braced, bracketed, parenthesized};
 
-const SECTIONS: &str = "const params coords bodies gravity let mass kinetic force forces potential dissipation holonomic nonholonomic nonideal output";
+const SECTIONS: &str = "const params coords bodies tree gravity let mass kinetic force forces potential dissipation holonomic nonholonomic nonideal output";
 
 /// Parses a declaration; `None` if not even its name could be read.
 pub(crate) fn parse(mut tokens: TokenStream, diag: &Diagnostics) -> Option<Declaration> {
@@ -52,6 +52,7 @@ fn declaration(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Declar
         params: Vec::new(),
         coords: Vec::new(),
         bodies: Vec::new(),
+        tree: Vec::new(),
         gravity: None,
         lets: Vec::new(),
         mass: None,
@@ -121,6 +122,7 @@ fn section(
         "params" => blocks(input, &mut out.params, diag, param_entry),
         "coords" => blocks(input, &mut out.coords, diag, coord_entry),
         "bodies" => blocks(input, &mut out.bodies, diag, body),
+        "tree" => blocks(input, &mut out.tree, diag, joint),
         "gravity" => present(input, keyword, &mut out.gravity, diag, term),
         "mass" => present(input, keyword, &mut out.mass, diag, mass_entry),
         "kinetic" => present(input, keyword, &mut out.kinetic, diag, term),
@@ -439,6 +441,26 @@ fn body(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Body> {
         }
     }
     Ok(out)
+}
+
+/// `elbow: hinge(p, q, u)`.
+fn joint(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Joint> {
+    let docs = docs(input, diag)?;
+    let key = key(input, diag)?;
+    if !input.peek(Token![:]) {
+        let message = format!("a joint needs a name: `name: pin(p, q)` (found `{}` first)", key.name);
+        return Err(syn::Error::new(key.name.span(), message));
+    }
+    let _: Token![:] = input.parse()?;
+    let value = match input.parse()? {
+        syn::Expr::Assign(e) => {
+            let message = "a joint of the tree says what is free, and has no `=`; equations go under `holonomic`";
+            diag.error(e.eq_token.span, message);
+            Expr::error(location(&e.left))
+        }
+        e => Expr::convert(e, diag),
+    };
+    Ok(Joint { docs, key, value })
 }
 
 fn let_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Let> {

@@ -18,6 +18,7 @@ pub(crate) struct Declaration {
     pub(crate) params: Vec<Block<Param>>,
     pub(crate) coords: Vec<Block<Coord>>,
     pub(crate) bodies: Vec<Block<Body>>,
+    pub(crate) tree: Vec<Block<Joint>>,
     pub(crate) gravity: Option<Section<Expr>>,
     pub(crate) lets: Vec<Block<Let>>,
     pub(crate) mass: Option<Section<MassEntry>>,
@@ -101,6 +102,13 @@ pub(crate) struct Body {
     pub(crate) mass: Option<Expr>,
     pub(crate) inertia: Option<Expr>,
     pub(crate) centre: Option<Expr>,
+}
+
+/// `elbow: hinge(upper.at([l, 0, 0]), fore.at([0, 0, 0]), u)`, whose coordinates are those of its second body.
+pub(crate) struct Joint {
+    pub(crate) docs: Vec<String>,
+    pub(crate) key: Key,
+    pub(crate) value: Expr,
 }
 
 /// `let thrust = …;`

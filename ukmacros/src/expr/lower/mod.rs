@@ -8,6 +8,7 @@ mod lets;
 mod names;
 mod parts;
 mod system;
+mod tree;
 mod value;
 mod vectors;
 
@@ -33,6 +34,7 @@ enum Place {
     Default,
     Let,
     Body,
+    Joint,
     Gravity,
     Mass,
     Kinetic,
@@ -95,6 +97,7 @@ pub(crate) fn lower(decl: &Declaration, model: &Model, diag: &Diagnostics) -> Sy
         depth: 0,
         outermost: None,
         oversized: false,
+        defaults: Vec::new(),
         known_params: 0,
         hints: HashMap::new(),
         unknown: HashSet::new(),
@@ -130,6 +133,8 @@ struct Lowering<'m> {
     outermost: Option<Loc>,
     /// An array that is too long was reported.
     oversized: bool,
+    /// Defaults of the parameters, once they are known.
+    defaults: Vec<f64>,
     /// Parameters whose default is known: those a default may use.
     known_params: usize,
     hints: HashMap<Id, String>,
@@ -162,6 +167,7 @@ impl<'m> Lowering<'m> {
         let top = Scope::new(self.model);
         let constants = self.constants(&top);
         let defaults = self.defaults();
+        self.defaults.clone_from(&defaults);
         self.declare_bodies(decl, &top);
         self.lower_lets(decl, &top);
 
@@ -263,12 +269,12 @@ impl<'m> Lowering<'m> {
         }
         let section = decl.kinetic.as_ref();
         let loc = section.map(|s| s.keyword.span().into());
-        let loc = loc.or(of_bodies.spatial)?;
+        let loc = loc.or(of_bodies.changing)?;
         let mut terms = of_bodies.turning.clone();
         for ((i, j), (m, declared)) in std::mem::take(mass) {
             let uses = self.graph.uses(m);
             if uses.coord || uses.time {
-                let message = "beside spatial bodies a mass that changes goes under `kinetic`, as its part of the kinetic energy";
+                let message = "beside spatial bodies and those of a tree a mass that changes goes under `kinetic`, as its part of the kinetic energy";
                 self.diag.error(declared, message);
             }
             let v = [i, j].map(|k| self.graph.symbol(Symbol::Velocity(k)));

@@ -4,8 +4,8 @@ use super::array::{MAX_ENTRIES, Value, describe};
 use super::{Binding, Env, Lowering, Place};
 use crate::diag::{Loc, suggest};
 use crate::expr::graph::{Id, Symbol};
-use crate::model::{Family, Name, Scope, block, indexed};
-use crate::parse::{Expr, Key};
+use crate::model::{Family, Field, Name, Scope, block, indexed};
+use crate::parse::{Expr, ExprKind, Key};
 use proc_macro2::Ident;
 use std::collections::BTreeMap;
 
@@ -40,6 +40,10 @@ impl<'m> Lowering<'m> {
         let text = name.to_string();
         match self.model.names.get(&text) {
             Some(Name::Body(f)) => self.body(name, *f, indices, env),
+            Some(Name::Joint) => {
+                let message = format!("`{text}` is a joint of the tree; {}", self.its_coordinates(&text));
+                self.error(name.span(), message)
+            }
             Some(Name::Param(f)) => {
                 self.members(name, indices, &self.model.params[*f], Symbol::Param, env)
             }
@@ -248,10 +252,7 @@ impl<'m> Lowering<'m> {
         let name = key.name.to_string();
         let family = match self.model.names.get(&name) {
             Some(Name::Coord(family)) => Some(*family),
-            Some(Name::Body(body)) => match self.of_body_named(*body, key) {
-                Some(family) => Some(family),
-                None => return None,
-            },
+            Some(Name::Body(_) | Name::Joint) => return self.of_owner(key, scope),
             _ => None,
         };
         let Some(family) = family else {
@@ -259,12 +260,7 @@ impl<'m> Lowering<'m> {
             if !self.unknown.insert(name.clone()) {
                 return None;
             }
-            let of_bodies = self
-                .model
-                .body_kinds
-                .first()
-                .map_or(usize::MAX, |k| k.first);
-            let coords = self.model.coords.iter().take(of_bodies);
+            let coords = self.model.coords.iter().take(self.model.plain);
             let coords: Vec<String> = coords.map(|f| f.name.to_string()).collect();
             let remedy = match coords.len() {
                 0 => "those of bodies are written `link.x`".to_owned(),
@@ -278,13 +274,7 @@ impl<'m> Lowering<'m> {
             );
             return None;
         };
-        if let (Some(field), false) = (
-            &key.field,
-            self.model
-                .names
-                .get(&name)
-                .is_some_and(|n| matches!(n, Name::Body(_))),
-        ) {
+        if let Some(field) = &key.field {
             let message = "no fields here; a coordinate is written by its name alone, such as `x`";
             self.diag.error(field.span(), message);
             return None;
@@ -293,27 +283,105 @@ impl<'m> Lowering<'m> {
         self.member(&key.name, &key.indices, family, scope)
     }
 
-    /// The family of the coordinate of bodies that `key` names.
-    fn of_body_named(&mut self, body: usize, key: &Key) -> Option<usize> {
-        let (kind, name) = (self.model.body_kinds[body], &key.name);
-        let names = kind.coordinates();
-        let list = names.join("`, `");
+    /// Positions in q of the coordinates of bodies, or of joints of the tree, that `key` names.
+    fn of_owner(&mut self, key: &Key, scope: &Scope<'m>) -> Option<(&'m [usize], &'m [usize])> {
+        let (model, name) = (self.model, key.name.to_string());
+        let body = match model.names.get(&name) {
+            Some(Name::Body(family)) => Some(model.body_kinds[*family].coordinates()),
+            _ => None,
+        };
+        let what = if body.is_some() { "body" } else { "joint" };
         let Some(field) = &key.field else {
-            let message = format!("`{name}` is a body; choose a coordinate of it: `{list}`");
+            let message = format!("`{name}` is a {what}; {}", self.its_coordinates(&name));
             self.diag.error(key.loc, message);
             return None;
         };
-        let place = names.iter().position(|n| field == n);
-        if place.is_none() {
-            let end = suggest(
-                &field.to_string(),
-                names.iter().copied(),
-                &format!("they are `{list}`"),
-            );
-            let message = format!("body `{name}` has no coordinate `{field}`{end}");
-            self.diag.error(field.span(), message);
+        let text = field.to_string();
+        let fields = model.fields.get(&name);
+        match fields.and_then(|fields| fields.get(text.as_str())) {
+            Some(Field::Family(family)) => {
+                self.member(&key.name, &key.indices, &model.coords[*family], scope)
+            }
+            Some(Field::Scattered(families)) => {
+                let chosen = self.indices(&key.indices, scope)?;
+                let places: Option<Vec<usize>> =
+                    chosen.iter().map(|i| usize::try_from(*i).ok()).collect();
+                let family = places.and_then(|places| families.get(&places));
+                if family.is_none() {
+                    let shown = indexed(&name, &chosen);
+                    let with = families.keys().map(|indices| indexed(&name, indices));
+                    let with = with.collect::<Vec<_>>().join("`, `");
+                    let message = format!("`{shown}` has no coordinate `{text}`; those that have it are `{with}`");
+                    self.diag.error(key.loc, message);
+                }
+                let family = &model.coords[*family?];
+                Some((&family.members[..], &family.shape[..]))
+            }
+            None if body.is_some_and(|names| names.contains(&text.as_str())) => {
+                let message = format!(
+                    "`{name}` hangs on a joint of the tree: its coordinates are those of the joint; what acts on it goes under `forces`"
+                );
+                self.diag.error(field.span(), message);
+                None
+            }
+            None => {
+                let names = body.into_iter().flatten().copied();
+                let names = names.chain(fields.into_iter().flat_map(|f| f.keys().copied()));
+                let remedy = match body {
+                    Some(names) => format!("they are `{}`", names.join("`, `")),
+                    None => self.its_coordinates(&name),
+                };
+                let end = suggest(&text, names, &remedy);
+                let message = format!("{what} `{name}` has no coordinate `{text}`{end}");
+                self.diag.error(field.span(), message);
+                None
+            }
         }
-        Some(kind.first + place?)
+    }
+
+    /// What coordinates the bodies or joints called `name` have, in words.
+    fn its_coordinates(&self, name: &str) -> String {
+        match (self.model.fields.get(name), self.model.names.get(name)) {
+            (Some(fields), Some(Name::Joint)) => {
+                let names = fields.keys().map(|field| format!("`{name}.{field}`"));
+                format!("its coordinates are {}", names.collect::<Vec<_>>().join(", "))
+            }
+            (Some(_), Some(Name::Body(family))) => {
+                let names = self.model.body_kinds[*family].coordinates().join("`, `");
+                format!("choose a coordinate of it: `{names}`")
+            }
+            (_, Some(Name::Joint)) => "it has no coordinates".to_owned(),
+            _ => "its coordinates are those of the joint that it hangs on".to_owned(),
+        }
+    }
+
+    /// `elbow.angle`, where `base` names a joint of the tree.
+    pub(super) fn of_joint(&mut self, base: &Expr, field: &Ident, env: &Env<'m>) -> Option<Value> {
+        let (name, indices) = match &base.kind {
+            ExprKind::Name(name) => (name, &[][..]),
+            ExprKind::Index(base, indices) => match &base.kind {
+                ExprKind::Name(name) => (name, &indices[..]),
+                _ => return None,
+            },
+            _ => return None,
+        };
+        let text = name.to_string();
+        let hidden = env.args.iter().any(|(n, _)| *n == text);
+        if hidden || !matches!(self.model.names.get(&text), Some(Name::Joint)) {
+            return None;
+        }
+        let key = Key {
+            name: name.clone(),
+            indices: indices.to_vec(),
+            field: Some(field.clone()),
+            loc: base.loc.to(field.span().into()),
+        };
+        let Some((positions, shape)) = self.of_owner(&key, &env.scope) else {
+            return Some(Value::Error);
+        };
+        let ids = positions.iter().map(|i| self.graph.symbol(Symbol::Coord(*i)));
+        let value = Value::new(shape, ids.collect());
+        Some(self.allowed_value(value, key.loc, env))
     }
 
     /// Position in q of the coordinate that `key` names.
@@ -375,6 +443,9 @@ impl<'m> Lowering<'m> {
                 Place::Body if !uses.constant() => {
                     Some("what a body consists of does not change: it depends on parameters only")
                 }
+                Place::Joint if !uses.constant() => Some(
+                    "where a joint of the tree sits does not change: it depends on parameters only; what changes goes under `holonomic`",
+                ),
                 Place::Gravity if uses.coord || uses.velocity => Some(
                     "gravity is one vector for all places, of parameters and `t`; a field that depends on the place goes under `potential`",
                 ),
