@@ -35,5 +35,6 @@ mod stability;
 mod stiff;
 mod streaming;
 mod switches;
+mod tree;
 mod vanishing;
 mod vectors;

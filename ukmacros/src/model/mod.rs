@@ -9,5 +9,7 @@ mod unused;
 pub(crate) use resolve::resolve;
 pub(crate) use scope::{Scope, arity};
 pub(crate) use tree::Step;
-pub(crate) use types::{BodyKind, Family, Field, Model, Name, Preset, Variable, block, every, indexed};
+pub(crate) use types::{
+    BodyKind, Family, Field, Model, Name, Preset, Variable, block, every, indexed,
+};
 pub(crate) use unused::{Unused, unused};

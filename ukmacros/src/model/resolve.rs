@@ -2,7 +2,9 @@
 
 use super::scope::{MAX_MEMBERS, Scope, index_functions};
 use super::tree;
-use super::types::{BodyKind, Element, Family, Field, Integer, Model, Name, Preset, every, indexed};
+use super::types::{
+    BodyKind, Element, Family, Field, Integer, Model, Name, Preset, every, indexed,
+};
 use crate::diag::{Diagnostics, Loc};
 use crate::parse::{Block, Declaration, Expr, Key};
 use proc_macro2::Ident;
@@ -363,22 +365,41 @@ fn coordinates(
         }
     }
     for name in &names {
-        let with = owners.iter().filter(|owner| owner.coordinates.contains(name));
+        let with = owners
+            .iter()
+            .filter(|owner| owner.coordinates.contains(name));
         let all: Vec<&Vec<usize>> = with.map(|owner| &owner.indices).collect();
         let mut enter = |name: String, shape: Vec<usize>| {
             let members = vec![0; shape.iter().product()];
             let (name, docs) = (Ident::new(&name, base.span()), docs.to_vec());
-            model.coords.push(Family { name, docs, shape, members });
+            model.coords.push(Family {
+                name,
+                docs,
+                shape,
+                members,
+            });
             model.coords.len() - 1
         };
         let field = match whole.clone().or_else(|| shape(&all)) {
             Some(shape) => Field::Family(enter(format!("{base}_{name}"), shape)),
-            None => Field::Scattered(all.into_iter().map(|indices| {
-                let indices_text: String = indices.iter().map(|i| format!("_{i}")).collect();
-                (indices.clone(), enter(format!("{base}{indices_text}_{name}"), Vec::new()))
-            }).collect()),
+            None => Field::Scattered(
+                all.into_iter()
+                    .map(|indices| {
+                        let indices_text: String =
+                            indices.iter().map(|i| format!("_{i}")).collect();
+                        (
+                            indices.clone(),
+                            enter(format!("{base}{indices_text}_{name}"), Vec::new()),
+                        )
+                    })
+                    .collect(),
+            ),
         };
-        model.fields.entry(base.to_string()).or_default().insert(name, field);
+        model
+            .fields
+            .entry(base.to_string())
+            .or_default()
+            .insert(name, field);
     }
     let mut places = Vec::new();
     for owner in owners {
@@ -410,7 +431,9 @@ fn shape(places: &[&Vec<usize>]) -> Option<Vec<usize>> {
     let sizes = (0..depth).map(|d| places.iter().map(|p| p[d] + 1).max().unwrap_or(0));
     let shape: Vec<usize> = sizes.collect();
     let distinct: HashSet<&&Vec<usize>> = places.iter().collect();
-    let size = shape.iter().try_fold(1, |size: usize, n| size.checked_mul(*n));
+    let size = shape
+        .iter()
+        .try_fold(1, |size: usize, n| size.checked_mul(*n));
     (distinct.len() == places.len() && size == Some(places.len())).then_some(shape)
 }
 

@@ -119,7 +119,19 @@ pub(super) fn joints(decl: &Declaration, model: &mut Model, diag: &Diagnostics) 
             let message = format!("`{call}` joins {other} bodies; {} {}", here, listed(Some(home)));
             diag.error(call.span(), message);
         }
-        let sound = child.filter(|_| fitting.is_some());
+        let shown = |end: Option<usize>| end.map_or("ground", |at| &model.body_elements[at].name);
+        let parent = match ends.0 {
+            Some(End::Body(parent)) => Some(parent),
+            _ => None,
+        };
+        let apart = parent.is_some_and(|parent| child.is_some_and(|child| spatial(parent) != spatial(child)));
+        if apart {
+            let names = (shown(parent), shown(child));
+            let kinds = if home { ("planar", "spatial") } else { ("spatial", "planar") };
+            let message = format!("`{}` is {} and `{}` is {}", names.0, kinds.0, names.1, kinds.1);
+            diag.error(args[0].loc, message);
+        }
+        let sound = child.filter(|_| fitting.is_some() && !apart);
         found.push(Joint {
             name: indexed(&joint.key.name, &indices),
             key: joint.key.name.clone(),
@@ -128,10 +140,7 @@ pub(super) fn joints(decl: &Declaration, model: &mut Model, diag: &Diagnostics) 
             kind: fitting.unwrap_or(&kind[0]),
             call,
             variables: scope.variables.clone(),
-            parent: match ends.0 {
-                Some(End::Body(parent)) => Some(parent),
-                _ => None,
-            },
+            parent,
             child: sound.filter(|_| ends.0.is_some()),
             args,
             first: 0,
@@ -144,15 +153,16 @@ pub(super) fn joints(decl: &Declaration, model: &mut Model, diag: &Diagnostics) 
         let again = names.contains(&joint.name);
         let reason = match lengths.get(&text) {
             None => model.free(&joint.key).err(),
-            Some(n) if *n != joint.indices.len() => {
-                Some(format!("`{text}` is declared with different numbers of indices; rename one"))
-            }
-            Some(_) if again && joint.indices.is_empty() && !joint.variables.is_empty() => {
-                Some(format!("`{text}` is declared twice; in a loop, index it: `{text}[i]`"))
-            }
-            Some(_) if again => {
-                Some(format!("`{}` is declared twice; names must be unique", joint.name))
-            }
+            Some(n) if *n != joint.indices.len() => Some(format!(
+                "`{text}` is declared with different numbers of indices; rename one"
+            )),
+            Some(_) if again && joint.indices.is_empty() && !joint.variables.is_empty() => Some(
+                format!("`{text}` is declared twice; in a loop, index it: `{text}[i]`"),
+            ),
+            Some(_) if again => Some(format!(
+                "`{}` is declared twice; names must be unique",
+                joint.name
+            )),
             Some(_) => None,
         };
         if let Some(reason) = reason {
@@ -221,7 +231,10 @@ fn circles(model: &mut Model, diag: &Diagnostics) {
 fn kind(e: &Expr, diag: &Diagnostics) -> Option<(Vec<&'static TreeJoint>, Ident, Vec<Expr>)> {
     let ExprKind::Call(name, args) = &e.kind else {
         if !matches!(e.kind, ExprKind::Error) {
-            let message = format!("a joint of the tree is written `name: pin(p, q)`; {}", listed(None));
+            let message = format!(
+                "a joint of the tree is written `name: pin(p, q)`; {}",
+                listed(None)
+            );
             diag.error(e.loc, message);
         }
         return None;
@@ -229,12 +242,21 @@ fn kind(e: &Expr, diag: &Diagnostics) -> Option<(Vec<&'static TreeJoint>, Ident,
     let kinds: Vec<&TreeJoint> = JOINTS.iter().filter(|joint| name == joint.name).collect();
     if kinds.is_empty() {
         let names = JOINTS.iter().map(|joint| joint.name);
-        let end = suggest(&name.to_string(), names, &format!("{}, others go under `holonomic`", listed(None)));
-        diag.error(name.span(), format!("no joint of the tree is called `{name}`{end}"));
+        let end = suggest(
+            &name.to_string(),
+            names,
+            &format!("{}, others go under `holonomic`", listed(None)),
+        );
+        diag.error(
+            name.span(),
+            format!("no joint of the tree is called `{name}`{end}"),
+        );
         return None;
     }
     if args.len() < 2 {
-        let message = format!("a joint of the tree joins points of two bodies: `{name}(arm.at(…), hand.at(…), …)`");
+        let message = format!(
+            "a joint of the tree joins points of two bodies: `{name}(arm.at(…), hand.at(…), …)`"
+        );
         diag.error(name.span(), message);
         return None;
     }
@@ -244,7 +266,10 @@ fn kind(e: &Expr, diag: &Diagnostics) -> Option<(Vec<&'static TreeJoint>, Ident,
 /// What joints of the tree there are, in words.
 fn listed(spatial: Option<bool>) -> String {
     let mut names: Vec<&str> = Vec::new();
-    for joint in JOINTS.iter().filter(|j| spatial.is_none_or(|s| s == j.spatial)) {
+    for joint in JOINTS
+        .iter()
+        .filter(|j| spatial.is_none_or(|s| s == j.spatial))
+    {
         if !names.contains(&joint.name) {
             names.push(joint.name);
         }
@@ -255,7 +280,8 @@ fn listed(spatial: Option<bool>) -> String {
 /// The body that the point `e`, written `body.at(p)`, belongs to.
 fn end(e: &Expr, scope: &Scope<'_>, model: &Model, diag: &Diagnostics) -> Option<End> {
     let form = || {
-        let message = "a joint of the tree names its bodies where it stands: `pin(arm.at(p), hand.at(q))`";
+        let message =
+            "a joint of the tree names its bodies where it stands: `pin(arm.at(p), hand.at(q))`";
         diag.error(e.loc, message);
         None
     };
@@ -290,7 +316,10 @@ fn end(e: &Expr, scope: &Scope<'_>, model: &Model, diag: &Diagnostics) -> Option
     if chosen.len() != family.shape.len() {
         let message = match family.shape.len() {
             0 => format!("`{text}` is one body; write it without an index"),
-            n => format!("bodies of `{text}` take {n} ind{}", if n == 1 { "ex" } else { "ices" }),
+            n => format!(
+                "bodies of `{text}` take {n} ind{}",
+                if n == 1 { "ex" } else { "ices" }
+            ),
         };
         diag.error(body.loc, message);
         return None;

@@ -448,7 +448,10 @@ fn joint(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Joint> {
     let docs = docs(input, diag)?;
     let key = key(input, diag)?;
     if !input.peek(Token![:]) {
-        let message = format!("a joint needs a name: `name: pin(p, q)` (found `{}` first)", key.name);
+        let message = format!(
+            "a joint needs a name: `name: pin(p, q)` (found `{}` first)",
+            key.name
+        );
         return Err(syn::Error::new(key.name.span(), message));
     }
     let _: Token![:] = input.parse()?;

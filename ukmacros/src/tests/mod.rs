@@ -12,6 +12,7 @@ mod limits;
 mod random;
 mod regular;
 mod speed;
+mod tree;
 mod vectors;
 mod verify;
 

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
 /// Pieces that declarations are made of, and some that they are not.
-const PIECES: [&str; 103] = [
+const PIECES: [&str; 109] = [
     "pub",
     "T",
     "{",
@@ -109,6 +109,12 @@ const PIECES: [&str; 103] = [
     "hinge(s.at([0, 0, 0]), ground.at([0, 0, 0]), [1, 0, m])",
     "spring(b.at([0, 0]), ground.at([0, 1]), 1, 1)",
     "torque(b, 1)",
+    "tree { c: pin(ground.at([0, 0]), b.at([0, 1])) }",
+    "tree",
+    "j: hinge(ground.at([0, 0, 0]), s.at([0, m, 0]), [1, 0, 0])",
+    "j[i]: slider(c[i].at([0, m]), b.at([x, 0]), [1, 0])",
+    "j.angle",
+    "j[0].slide: dot(j.angle)",
 ];
 
 /// A declaration that works, to be damaged.
@@ -131,6 +137,14 @@ const BODIES: &str = "pub T { const N: usize = 2; params { m[N] = [1.0, 2.0], l 
     foot: hinge(ground.at([0, 0, 0]), top.at([0, l, 0]), [0, 1, 0]) motor: turn(ground, link[0]) = sin(t) } forces { spring(link[1].at([l, 0]), \
     ground.at([1, 0]), 2, 1) torque(top, [0, t, 0]) } dissipation { sq(link[1].omega) } output { tip = dot(link[1].at([l, 0])), s = top.spin } }";
 
+/// One of a tree, to be damaged.
+const TREE: &str = "pub T { const N: usize = 2; params { l = 0.5, g = 9.81 } bodies { planar link[N] { mass: 1, inertia: 0.1, centre: [l / 2, 0] } \
+    for i in 0..3 { spatial top[i] { mass: 1, inertia: [1, 1, 1.5] } } } gravity { [0, -g, 0] } tree { knee[0]: pin(ground.at([0, 0]), link[0].at([0, 0])) \
+    knee[1]: slot(link[0].at([l, 0]), link[1].at([0, 0]), [1, l]); arm: hinge(ground.at([0, 0, 0]), top[0].at([0, l, 0]), [0, 1, 0]) \
+    hand: ball(top[0].at([0, 0, l]), top[1].at([0, l, 0])) screw: screw(top[1].at([0, 0, 0]), top[2].at([0, 0, 0]), [1, 0, 0], l) } \
+    holonomic { loop_: pin(link[1].at([l, 0]), ground.at([1, 0])) motor: arm.angle = sin(t) } force { knee[1].slide: -dot(knee[0].angle) } \
+    output { tip = dot(link[1].at([l, 0])), s = top[2].spin } }";
+
 fn survives(source: &str) {
     if let Ok(tokens) = source.parse::<proc_macro2::TokenStream>() {
         let (code, _) = crate::expand(tokens);
@@ -140,7 +154,7 @@ fn survives(source: &str) {
 
 #[test]
 fn the_whole_declarations_compile() {
-    for source in [WHOLE, VECTORS, BODIES] {
+    for source in [WHOLE, VECTORS, BODIES, TREE] {
         let (_, errors) = expand(source);
         assert!(errors.is_empty(), "{errors:?}");
     }
@@ -168,12 +182,14 @@ proptest! {
         survives(&format!("pub T {{ coords {{ x, y }} force {{ x: {} }} }}", text.join(" ")));
         survives(&format!("pub T {{ params {{ m = 1.0 }} coords {{ x }} mass {{ x: m }} bodies {{ planar b {{ mass: m, inertia: 1 }} spatial s {{ mass: m, \
             inertia: [1, 1, 1] }} }} forces {{ {} }} }}", text.join(" ")));
+        survives(&format!("pub T {{ params {{ m = 1.0 }} coords {{ x }} mass {{ x: m }} bodies {{ planar b {{ mass: m, inertia: 1 }} planar c[2] {{ mass: m, \
+            inertia: 1 }} spatial s {{ mass: m, inertia: [1, 1, 1] }} }} tree {{ {} }} }}", text.join(" ")));
         survives(&format!("pub T {{ const N: usize = 2; params {{ m = 1.0 }} coords {{ x, y, p[N][2] }} let next = |i| i + 1; force {{ p[0]: {} }} }}", text.join(" ")));
     }
 
     #[test]
     fn damaged_declarations(at in 0usize..900, length in 0usize..12, piece in 0usize..PIECES.len()) {
-        for whole in [WHOLE, VECTORS, BODIES] {
+        for whole in [WHOLE, VECTORS, BODIES, TREE] {
             let characters: Vec<char> = whole.chars().collect();
             let at = at.min(characters.len());
             let end = (at + length).min(characters.len());

@@ -494,7 +494,9 @@ impl<'m> Lowering<'m> {
         let quaternion = coordinates.iter().any(|c| name == c);
         let text = name.to_string();
         if quaternion {
-            let message = format!("`{frame}` hangs on a joint of the tree and has no quaternion; its orientation is `{frame}.axes`");
+            let message = format!(
+                "`{frame}` hangs on a joint of the tree and has no quaternion; its orientation is `{frame}.axes`"
+            );
             return self.error(name.span(), message);
         }
         let names = coordinates.iter().chain(&FIELDS).copied();

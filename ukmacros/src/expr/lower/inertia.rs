@@ -103,7 +103,13 @@ impl<'m> Lowering<'m> {
         }
         for joint in &self.model.joints {
             if joint.kind.coordinates.len() == 4 {
-                let unit = self.unit(&joint.key, &joint.name, &joint.indices, joint.first, joint.key.span().into());
+                let unit = self.unit(
+                    &joint.key,
+                    &joint.name,
+                    &joint.indices,
+                    joint.first,
+                    joint.key.span().into(),
+                );
                 out.units.push(unit);
             }
         }

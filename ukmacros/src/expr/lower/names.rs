@@ -41,7 +41,10 @@ impl<'m> Lowering<'m> {
         match self.model.names.get(&text) {
             Some(Name::Body(f)) => self.body(name, *f, indices, env),
             Some(Name::Joint) => {
-                let message = format!("`{text}` is a joint of the tree; {}", self.its_coordinates(&text));
+                let message = format!(
+                    "`{text}` is a joint of the tree; {}",
+                    self.its_coordinates(&text)
+                );
                 self.error(name.span(), message)
             }
             Some(Name::Param(f)) => {
@@ -300,7 +303,21 @@ impl<'m> Lowering<'m> {
         let fields = model.fields.get(&name);
         match fields.and_then(|fields| fields.get(text.as_str())) {
             Some(Field::Family(family)) => {
-                self.member(&key.name, &key.indices, &model.coords[*family], scope)
+                let chosen = self.indices(&key.indices, scope)?;
+                let family = &model.coords[*family];
+                let shown = indexed(&name, &chosen);
+                let owners = model.joints.iter().map(|joint| &joint.name);
+                let bodies = model.body_elements.iter().map(|body| &body.name);
+                let whole = family.shape.len() == chosen.len();
+                if whole
+                    && block(&family.shape, &chosen).is_err()
+                    && owners.chain(bodies).any(|owner| *owner == shown)
+                {
+                    let message = format!("`{shown}` has no coordinate `{text}`");
+                    self.diag.error(key.loc, message);
+                    return None;
+                }
+                self.member(&key.name, &key.indices, family, scope)
             }
             Some(Field::Scattered(families)) => {
                 let chosen = self.indices(&key.indices, scope)?;
@@ -309,9 +326,7 @@ impl<'m> Lowering<'m> {
                 let family = places.and_then(|places| families.get(&places));
                 if family.is_none() {
                     let shown = indexed(&name, &chosen);
-                    let with = families.keys().map(|indices| indexed(&name, indices));
-                    let with = with.collect::<Vec<_>>().join("`, `");
-                    let message = format!("`{shown}` has no coordinate `{text}`; those that have it are `{with}`");
+                    let message = format!("`{shown}` has no coordinate `{text}`");
                     self.diag.error(key.loc, message);
                 }
                 let family = &model.coords[*family?];
@@ -344,7 +359,10 @@ impl<'m> Lowering<'m> {
         match (self.model.fields.get(name), self.model.names.get(name)) {
             (Some(fields), Some(Name::Joint)) => {
                 let names = fields.keys().map(|field| format!("`{name}.{field}`"));
-                format!("its coordinates are {}", names.collect::<Vec<_>>().join(", "))
+                format!(
+                    "its coordinates are {}",
+                    names.collect::<Vec<_>>().join(", ")
+                )
             }
             (Some(_), Some(Name::Body(family))) => {
                 let names = self.model.body_kinds[*family].coordinates().join("`, `");
@@ -379,7 +397,9 @@ impl<'m> Lowering<'m> {
         let Some((positions, shape)) = self.of_owner(&key, &env.scope) else {
             return Some(Value::Error);
         };
-        let ids = positions.iter().map(|i| self.graph.symbol(Symbol::Coord(*i)));
+        let ids = positions
+            .iter()
+            .map(|i| self.graph.symbol(Symbol::Coord(*i)));
         let value = Value::new(shape, ids.collect());
         Some(self.allowed_value(value, key.loc, env))
     }

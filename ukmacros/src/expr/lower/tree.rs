@@ -3,7 +3,7 @@
 //! The velocities are in axes of each body, where those of the body before go into them with coefficients of one joint's coordinates: T
 //! written in them is what the elimination lifts.
 
-use super::array::{Value, describe, sum_of_products};
+use super::array::{Value, sum_of_products};
 use super::bodies::{Frame, Hung, Moving, Orientation, Point, turned, turning};
 use super::vectors::cross;
 use super::{Env, Lowering, Place};
@@ -157,7 +157,12 @@ impl<'m> Lowering<'m> {
     }
 
     /// The frame of the body at `position`, whose centre of mass is at `centre`, which hangs on the joint number `joint`.
-    pub(super) fn hung(&mut self, position: usize, joint: usize, centre: Vec<Id>) -> Option<Moving> {
+    pub(super) fn hung(
+        &mut self,
+        position: usize,
+        joint: usize,
+        centre: Vec<Id>,
+    ) -> Option<Moving> {
         let joint = &self.model.joints[joint];
         let body = &self.model.body_elements[position];
         let kind = self.model.body_kinds[body.family];
@@ -207,7 +212,14 @@ impl<'m> Lowering<'m> {
         moved.shift(&arm, &mut self.graph);
         let mut next = joint.first;
         for step in joint.kind.steps {
-            self.step(step, &mut next, &mut moved, &inner, joint.call.span().into(), &joint.args)?;
+            self.step(
+                step,
+                &mut next,
+                &mut moved,
+                &inner,
+                joint.call.span().into(),
+                &joint.args,
+            )?;
         }
         let name = &body.name;
         self.hint(&format!("{name}.axes"), &moved.axes);
@@ -323,13 +335,15 @@ impl<'m> Lowering<'m> {
         let unit = |i, j| if i == j { 1.0 } else { 0.0 };
         let mut off = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
         let orthonormal = off.all(|(i, j)| (inner(i, j) - unit(i, j)).abs() <= 1e-9);
-        let minor = |k: usize| m[3 + (k + 1) % 3] * m[6 + (k + 2) % 3] - m[3 + (k + 2) % 3] * m[6 + (k + 1) % 3];
+        let minor = |k: usize| {
+            m[3 + (k + 1) % 3] * m[6 + (k + 2) % 3] - m[3 + (k + 2) % 3] * m[6 + (k + 1) % 3]
+        };
         let right = n == 2 || (0..3).map(|k| m[k] * minor(k)).sum::<f64>() > 0.0;
         if orthonormal && right || m.iter().any(|x| !x.is_finite()) {
             return Some(());
         }
         let loc = args.last().map_or(args[0].loc, |arg| arg.loc);
-        let message = format!("`turn` turns axes of the second body to those of the first, which {} does not, as the parameters are", describe(turn.shape()));
+        let message = "`turn` of a joint of the tree is a rotation: its columns are unit vectors at right angles, right-handed";
         self.error(loc, message);
         None
     }
