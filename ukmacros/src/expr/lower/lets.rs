@@ -82,11 +82,7 @@ impl<'m> Lowering<'m> {
                 Vec::new()
             }
         };
-        let point = Point {
-            params: known,
-            ..Point::NOWHERE
-        };
-        let numbers = eval(&self.graph, &ids, &point);
+        let numbers = eval(&self.graph, &ids, &Point::of_parameters(known));
         if let Some(wrong) = numbers.iter().find(|x| !x.is_finite()) {
             self.finite_number(&format!("default of `{name}`"), *wrong, loc);
         }
