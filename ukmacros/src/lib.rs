@@ -348,10 +348,17 @@ pub fn multibody(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
 /// The pipeline.
 fn expand(input: TokenStream) -> (TokenStream, diag::Diagnostics) {
     let diag = diag::Diagnostics::default();
-    let Some(mut decl) = parse::parse(input, &diag) else {
+    let (table, source) = parse::split(input);
+    let Some(mut decl) = parse::parse(source.clone(), &diag) else {
         return (diag.to_tokens(), diag);
     };
-    let before = diag.len();
+    let handed = decl.part.then(|| emit::part(&decl, &source, &table));
+    if let Some(part) = model::missing(&decl, &table, &diag) {
+        return (emit::ask(&decl, part, &table, &source), diag);
+    }
+    let parsed = diag.len();
+    model::merge(&mut decl, &table, &diag);
+    let before = parsed;
     let model = model::resolve(&mut decl, expr::Func::all().map(|f| f.row().name), &diag);
     // Where names are missing because of an error, what follows from that is not reported.
     let quiet = diag::Diagnostics::default();
@@ -360,10 +367,13 @@ fn expand(input: TokenStream) -> (TokenStream, diag::Diagnostics) {
     let mut system = expr::lower(&decl, &model, heard);
     let constants = analysis::constants(&model, &system, heard);
     if let Some(analysis) = analysed(&decl, &model, &mut system, &diag) {
-        let code = emit::emit(&decl, &model, &system, &constants, &analysis);
+        let mut code = emit::emit(&decl, &model, &system, &constants, &analysis);
+        code.extend(handed);
         return (code, diag);
     }
+    diag.within(&model.shown, &decl.merged.places);
     let mut tokens = diag.to_tokens();
+    tokens.extend(handed);
     tokens.extend(emit::fallback(&decl, &model, &system, &constants));
     (tokens, diag)
 }

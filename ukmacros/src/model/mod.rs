@@ -1,13 +1,15 @@
 //! Syntax tree to names: constants, parameters, coordinates, and what loops run over.
 
+mod parts;
 mod resolve;
 mod scope;
 mod tree;
 mod types;
 mod unused;
 
+pub(crate) use parts::{merge, missing};
 pub(crate) use resolve::resolve;
-pub(crate) use scope::{Scope, arity};
+pub(crate) use scope::{Reported, Scope, arity};
 pub(crate) use tree::Step;
 pub(crate) use types::{
     BodyKind, Family, Field, Model, Name, Preset, Variable, block, every, indexed,

@@ -21,9 +21,9 @@ const RESERVED: [&str; 15] = [
 /// Columns of every run beside coordinates, velocities and outputs.
 const COLUMNS: [&str; 3] = ["t", "energy", "residual"];
 
-/// Resolves constants, parameters and coordinates. `functions` are the names of functions.
-pub(crate) fn resolve(
-    decl: &mut Declaration,
+/// A model with the constants of `decl` alone.
+fn constants(
+    decl: &Declaration,
     functions: impl Iterator<Item = &'static str>,
     diag: &Diagnostics,
 ) -> Model {
@@ -48,8 +48,10 @@ pub(crate) fn resolve(
         applications: Cell::new(0),
         too_many: Cell::new(None),
         reserved: functions.chain(RESERVED).collect(),
+        part_families: BTreeMap::new(),
+        shown: BTreeMap::new(),
     };
-    for constant in std::mem::take(&mut decl.consts) {
+    for constant in &decl.consts {
         let name = constant.name.to_string();
         let meaning = if constant.integer {
             let scope = Scope::new(&model);
@@ -77,9 +79,25 @@ pub(crate) fn resolve(
         };
         declare(&constant.name, meaning, &mut model, diag);
         if !constant.integer {
-            model.floats.push(constant);
+            model.floats.push(constant.clone());
         }
     }
+    model
+}
+
+/// The same without names that are reserved, for what is evaluated before all names are known.
+pub(super) fn bare(decl: &Declaration, diag: &Diagnostics) -> Model {
+    constants(decl, std::iter::empty(), diag)
+}
+
+/// Resolves constants, parameters and coordinates. `functions` are the names of functions.
+pub(crate) fn resolve(
+    decl: &mut Declaration,
+    functions: impl Iterator<Item = &'static str>,
+    diag: &Diagnostics,
+) -> Model {
+    let mut model = constants(decl, functions, diag);
+    parts(decl, &mut model, diag);
     members(&decl.params, Kind::Param, &mut model, diag, |param| {
         (&param.key, &param.docs, Some(&param.default))
     });
@@ -101,6 +119,21 @@ pub(crate) fn resolve(
         );
     }
     model
+}
+
+/// Enters the names of parts.
+fn parts(decl: &mut Declaration, model: &mut Model, diag: &Diagnostics) {
+    model.shown = std::mem::take(&mut decl.merged.shown);
+    model.part_families = std::mem::take(&mut decl.merged.families);
+    let places = &decl.merged.places;
+    for name in model.part_families.keys().cloned().collect::<Vec<_>>() {
+        let place = places.iter().find(|(_, shown)| {
+            let base = shown.split('[').next().unwrap_or_default();
+            base == name
+        });
+        let span = place.map_or(decl.name.span(), |(loc, _)| loc.start);
+        declare(&Ident::new(&name, span), Name::Part, model, diag);
+    }
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -271,9 +304,12 @@ fn add(found: Found, kind: Kind, model: &mut Model, diag: &Diagnostics) {
             members: Vec::new(),
         });
     }
-    families[family].members.push(elements.len());
+    let position = elements.len();
+    families[family].members.push(position);
+    let name = indexed(model.shown(&text), &found.indices);
+    let (_, elements) = model.lists(kind);
     elements.push(Element {
-        name: indexed(&text, &found.indices),
+        name,
         family,
         indices: found.indices,
         default: found.default,
@@ -455,6 +491,11 @@ impl Model {
             Kind::Coord => (&mut self.coords, &mut self.coord_elements),
             Kind::Body => (&mut self.bodies, &mut self.body_elements),
         }
+    }
+
+    /// How the `name` is shown.
+    pub(crate) fn shown<'a>(&'a self, name: &'a str) -> &'a str {
+        self.shown.get(name).map_or(name, String::as_str)
     }
 
     /// Whether `name` may still be declared; the reason if not.

@@ -1,6 +1,6 @@
 //! The tree: which bodies hang on which, by joints whose coordinates are theirs.
 
-use super::scope::Scope;
+use super::scope::{InPart, Scope};
 use super::types::{Model, Name, TreeJoint, Variable, block, indexed};
 use crate::diag::{Diagnostics, suggest};
 use crate::parse::{Declaration, Expr, ExprKind};
@@ -133,7 +133,7 @@ pub(super) fn joints(decl: &Declaration, model: &mut Model, diag: &Diagnostics) 
         }
         let sound = child.filter(|_| fitting.is_some() && !apart);
         found.push(Joint {
-            name: indexed(&joint.key.name, &indices),
+            name: indexed(model.shown(&joint.key.name.to_string()), &indices),
             key: joint.key.name.clone(),
             docs: joint.docs.clone(),
             indices,
@@ -290,14 +290,21 @@ fn end(e: &Expr, scope: &Scope<'_>, model: &Model, diag: &Diagnostics) -> Option
         ExprKind::Error => return None,
         _ => return form(),
     };
-    let (name, indices) = match &body.kind {
-        ExprKind::Name(name) => (name, &[][..]),
-        ExprKind::Index(base, indices) => match &base.kind {
-            ExprKind::Name(name) => (name, &indices[..]),
-            _ => return form(),
-        },
-        _ => return form(),
+    let Some(segments) = body.segments() else {
+        return form();
     };
+    let found = match scope.in_part(&segments, diag) {
+        Some(found) => found.ok()?,
+        None => InPart {
+            name: segments[0].0.clone(),
+            indices: segments[0].1.clone(),
+            used: 1,
+        },
+    };
+    if found.used != segments.len() {
+        return form();
+    }
+    let InPart { name, indices, .. } = found;
     let text = name.to_string();
     let Some(Name::Body(family)) = model.names.get(&text) else {
         if text == "ground" && indices.is_empty() && !model.names.contains_key(&text) {

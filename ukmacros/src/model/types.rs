@@ -39,6 +39,10 @@ pub(crate) struct Model {
     pub(crate) names: HashMap<String, Name>,
     /// Functions of integers, which indices may use.
     pub(crate) index_functions: HashMap<String, IndexFunction>,
+    /// Parts by their names, with the indices of their members.
+    pub(crate) part_families: BTreeMap<String, Vec<Vec<i64>>>,
+    /// How names of parts are shown.
+    pub(crate) shown: BTreeMap<String, String>,
     /// How often loops were repeated in all.
     pub(crate) repetitions: Cell<i64>,
     /// How often functions were applied in all.
@@ -81,6 +85,8 @@ pub(crate) enum Name {
     Body(usize),
     /// A joint of the tree, or a family of them.
     Joint,
+    /// A declaration within this one, or a family of them.
+    Part,
 }
 
 /// A coordinate of bodies or joints of one name.

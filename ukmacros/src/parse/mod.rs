@@ -4,9 +4,12 @@ mod expr;
 mod grammar;
 mod item;
 mod nesting;
+mod table;
 
 pub(crate) use expr::{BinaryOp, Expr, ExprKind, Range, own};
 pub(crate) use grammar::parse;
 pub(crate) use item::{
     Block, Body, Const, Declaration, Entry, Equation, Function, Key, Let, LetValue, MassEntry,
+    PartUse, Section,
 };
+pub(crate) use table::{Table, split};

@@ -164,7 +164,13 @@ fn unmark(marked: &str) -> (String, Vec<(LineColumn, LineColumn)>) {
 /// Expects exactly the errors that `marked` marks, in order, each with its message.
 #[track_caller]
 pub(super) fn check(marked: &str, messages: &[&str]) {
-    let (source, spans) = unmark(&format!("pub T {{ {marked} }}"));
+    check_after("", marked, messages);
+}
+
+/// The same of a declaration that stands after `before`.
+#[track_caller]
+pub(super) fn check_after(before: &str, marked: &str, messages: &[&str]) {
+    let (source, spans) = unmark(&format!("{before}pub T {{ {marked} }}"));
     let found = errors(&source);
     let shown: Vec<_> = found.iter().map(|f| f.message.as_str()).collect();
     assert_eq!(found.len(), messages.len(), "errors found: {shown:#?}");

@@ -296,6 +296,7 @@ impl<'m> Lowering<'m> {
         Constraint {
             item: ConstraintRef {
                 base: Ident::new(&format!("{name}_unit"), name.span()),
+                shown: owner.to_owned(),
                 indices: indices.filter_map(|i| i64::try_from(*i).ok()).collect(),
                 components: Vec::new(),
                 unit_of: Some(owner.to_owned()),

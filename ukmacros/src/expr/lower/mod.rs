@@ -35,6 +35,7 @@ enum Place {
     Let,
     Body,
     Joint,
+    Given,
     Gravity,
     Mass,
     Kinetic,
@@ -173,7 +174,10 @@ impl<'m> Lowering<'m> {
 
         let of_bodies = self.of_bodies(decl, &top, &defaults);
         let mut mass = self.mass(decl, &top);
-        if let (Some(_), Some(kinetic)) = (&decl.mass, &decl.kinetic) {
+        // Parts may have either.
+        if let (Some(_), Some(kinetic)) = (&decl.mass, &decl.kinetic)
+            && self.model.part_families.is_empty()
+        {
             self.diag.error(
                 kinetic.keyword.span(),
                 "`mass` and `kinetic` exclude each other: M follows from T; move the masses into `kinetic`",
@@ -412,6 +416,7 @@ impl<'m> Lowering<'m> {
         };
         let mut item = ConstraintRef {
             base: key.name.clone(),
+            shown: self.model.shown(&key.name.to_string()).to_owned(),
             indices,
             components: Vec::new(),
             unit_of: None,
@@ -485,6 +490,7 @@ impl<'m> Lowering<'m> {
             };
             let mut item = ConstraintRef {
                 base: key.name.clone(),
+                shown: self.model.shown(&key.name.to_string()).to_owned(),
                 indices,
                 components: Vec::new(),
                 unit_of: None,

@@ -2,10 +2,10 @@
 
 use super::array::{MAX_ENTRIES, Value, describe};
 use super::{Binding, Env, Lowering, Place};
-use crate::diag::{Loc, suggest};
+use crate::diag::{Diagnostics, Loc, suggest};
 use crate::expr::graph::{Id, Symbol};
-use crate::model::{Family, Field, Name, Scope, block, indexed};
-use crate::parse::{Expr, ExprKind, Key};
+use crate::model::{Family, Field, Name, Reported, Scope, block, indexed};
+use crate::parse::{Expr, Key};
 use proc_macro2::Ident;
 use std::collections::BTreeMap;
 
@@ -40,6 +40,12 @@ impl<'m> Lowering<'m> {
         let text = name.to_string();
         match self.model.names.get(&text) {
             Some(Name::Body(f)) => self.body(name, *f, indices, env),
+            Some(Name::Part) => {
+                let message = format!(
+                    "`{text}` is a part; choose what belongs to it, `{text}.name`, or of a family `{text}[0].name`"
+                );
+                self.error(name.span(), message)
+            }
             Some(Name::Joint) => {
                 let message = format!(
                     "`{text}` is a joint of the tree; {}",
@@ -253,6 +259,18 @@ impl<'m> Lowering<'m> {
         scope: &Scope<'m>,
     ) -> Option<(&'m [usize], &'m [usize])> {
         let name = key.name.to_string();
+        if matches!(self.model.names.get(&name), Some(Name::Part)) {
+            let mut segments = vec![(key.name.clone(), key.indices.clone())];
+            segments.extend(key.fields.iter().cloned());
+            let found = scope.in_part(&segments, self.diag)?.ok()?;
+            let key = Key {
+                name: found.name,
+                indices: found.indices,
+                fields: segments.split_off(found.used),
+                loc: key.loc,
+            };
+            return self.coordinates(&key, scope);
+        }
         let family = match self.model.names.get(&name) {
             Some(Name::Coord(family)) => Some(*family),
             Some(Name::Body(_) | Name::Joint) => return self.of_owner(key, scope),
@@ -277,7 +295,7 @@ impl<'m> Lowering<'m> {
             );
             return None;
         };
-        if let Some(field) = &key.field {
+        if let Some((field, _)) = key.fields.first() {
             let message = "no fields here; a coordinate is written by its name alone, such as `x`";
             self.diag.error(field.span(), message);
             return None;
@@ -294,18 +312,25 @@ impl<'m> Lowering<'m> {
             _ => None,
         };
         let what = if body.is_some() { "body" } else { "joint" };
-        let Some(field) = &key.field else {
+        let Some((field, behind)) = key.fields.first() else {
             let message = format!("`{name}` is a {what}; {}", self.its_coordinates(&name));
             self.diag.error(key.loc, message);
             return None;
         };
+        let surplus = behind.first().map(|index| index.loc);
+        let surplus = surplus.or(key.fields.get(1).map(|(name, _)| name.span().into()));
+        if let Some(loc) = surplus {
+            let message = "a coordinate is a number, and nothing follows it; indices stand behind the body or joint";
+            self.diag.error(loc, message);
+            return None;
+        }
         let text = field.to_string();
         let fields = model.fields.get(&name);
         match fields.and_then(|fields| fields.get(text.as_str())) {
             Some(Field::Family(family)) => {
                 let chosen = self.indices(&key.indices, scope)?;
                 let family = &model.coords[*family];
-                let shown = indexed(&name, &chosen);
+                let shown = indexed(model.shown(&name), &chosen);
                 let owners = model.joints.iter().map(|joint| &joint.name);
                 let bodies = model.body_elements.iter().map(|body| &body.name);
                 let whole = family.shape.len() == chosen.len();
@@ -373,14 +398,30 @@ impl<'m> Lowering<'m> {
         }
     }
 
+    /// What stands in a part, if that is where `e` leads.
+    pub(super) fn in_part(&mut self, e: &Expr, env: &Env<'m>) -> Option<Value> {
+        if self.model.part_families.is_empty() {
+            return None;
+        }
+        let segments = e.segments()?;
+        if env.args.iter().any(|(n, _)| segments[0].0 == n) {
+            return None;
+        }
+        match env.scope.in_part(&segments, self.diag)? {
+            Err(Reported) => Some(Value::Error),
+            Ok(found) if found.used == segments.len() => {
+                Some(self.name(&found.name, &found.indices, env))
+            }
+            Ok(_) => None,
+        }
+    }
+
     /// `elbow.angle`, where `base` names a joint of the tree.
     pub(super) fn of_joint(&mut self, base: &Expr, field: &Ident, env: &Env<'m>) -> Option<Value> {
-        let (name, indices) = match &base.kind {
-            ExprKind::Name(name) => (name, &[][..]),
-            ExprKind::Index(base, indices) => match &base.kind {
-                ExprKind::Name(name) => (name, &indices[..]),
-                _ => return None,
-            },
+        let segments = base.segments()?;
+        let (name, indices) = match env.scope.in_part(&segments, &Diagnostics::default()) {
+            Some(Ok(found)) if found.used == segments.len() => (found.name, found.indices),
+            None if segments.len() == 1 => segments[0].clone(),
             _ => return None,
         };
         let text = name.to_string();
@@ -389,9 +430,9 @@ impl<'m> Lowering<'m> {
             return None;
         }
         let key = Key {
-            name: name.clone(),
-            indices: indices.to_vec(),
-            field: Some(field.clone()),
+            name,
+            indices,
+            fields: vec![(field.clone(), Vec::new())],
             loc: base.loc.to(field.span().into()),
         };
         let Some((positions, shape)) = self.of_owner(&key, &env.scope) else {
@@ -465,6 +506,9 @@ impl<'m> Lowering<'m> {
                 }
                 Place::Joint if !uses.constant() => Some(
                     "where a joint of the tree sits does not change: it depends on parameters only; what changes goes under `holonomic`",
+                ),
+                Place::Given if !uses.constant() => Some(
+                    "a parameter of a part does not change with the motion: it depends on parameters only",
                 ),
                 Place::Gravity if uses.coord || uses.velocity => Some(
                     "gravity is one vector for all places, of parameters and `t`; a field that depends on the place goes under `potential`",

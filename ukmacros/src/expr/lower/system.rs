@@ -74,6 +74,8 @@ pub(crate) struct Constraint {
 #[derive(Clone)]
 pub(crate) struct ConstraintRef {
     pub(crate) base: Ident,
+    /// How that is shown.
+    pub(crate) shown: String,
     pub(crate) indices: Vec<i64>,
     pub(crate) components: Vec<usize>,
     /// The body whose orientation is kept normal by it, as written.
@@ -85,7 +87,7 @@ impl ConstraintRef {
     pub(crate) fn text(&self) -> String {
         match &self.unit_of {
             Some(body) => format!("{body}.unit"),
-            None => indexed(indexed(&self.base, &self.indices), &self.components),
+            None => indexed(indexed(&self.shown, &self.indices), &self.components),
         }
     }
 }
