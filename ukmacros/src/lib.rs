@@ -352,7 +352,6 @@ fn expand(input: TokenStream) -> (TokenStream, diag::Diagnostics) {
     let Some(mut decl) = parse::parse(source.clone(), &diag) else {
         return (diag.to_tokens(), diag);
     };
-    let handed = decl.part.then(|| emit::part(&decl, &source, &table));
     if let Some(part) = model::missing(&decl, &table, &diag) {
         return (emit::ask(&decl, part, &table, &source), diag);
     }
@@ -362,18 +361,23 @@ fn expand(input: TokenStream) -> (TokenStream, diag::Diagnostics) {
     let model = model::resolve(&mut decl, expr::Func::all().map(|f| f.row().name), &diag);
     // Where names are missing because of an error, what follows from that is not reported.
     let quiet = diag::Diagnostics::default();
-    let trusted = !diag.damaged() && diag.len() == before;
+    let faulty = decl.merged.faulty;
+    let trusted = !faulty && !diag.damaged() && diag.len() == before;
     let heard = if trusted { &diag } else { &quiet };
     let mut system = expr::lower(&decl, &model, heard);
     let constants = analysis::constants(&model, &system, heard);
-    if let Some(analysis) = analysed(&decl, &model, &mut system, &diag) {
+    let handed = |faulty| {
+        decl.part
+            .then(|| emit::part(&decl, &source, &table, faulty))
+    };
+    if !faulty && let Some(analysis) = analysed(&decl, &model, &mut system, &diag) {
         let mut code = emit::emit(&decl, &model, &system, &constants, &analysis);
-        code.extend(handed);
+        code.extend(handed(false));
         return (code, diag);
     }
     diag.within(&model.shown, &decl.merged.places);
     let mut tokens = diag.to_tokens();
-    tokens.extend(handed);
+    tokens.extend(handed(true));
     tokens.extend(emit::fallback(&decl, &model, &system, &constants));
     (tokens, diag)
 }

@@ -45,7 +45,7 @@ pub(crate) fn merge(decl: &mut Declaration, table: &Table, diag: &Diagnostics) {
         return;
     }
     let quiet = Diagnostics::default();
-    let model = bare(decl, &quiet);
+    let model = bare(decl, &Diagnostics::default());
     let mut members: Vec<Member> = Vec::new();
     for block in &parts {
         let looped = matches!(block, Block::For { .. });
@@ -144,10 +144,12 @@ pub(crate) fn merge(decl: &mut Declaration, table: &Table, diag: &Diagnostics) {
         let Some(known) = table.find(&member.part.path) else {
             continue;
         };
+        decl.merged.faulty |= known.faulty;
         let Some(mut inner) = crate::parse::parse(known.declaration.clone(), &quiet) else {
             continue;
         };
         merge(&mut inner, &Table::parse(known.parts.clone()), &quiet);
+        decl.merged.faulty |= inner.merged.faulty;
         if let (None, Some(_)) = (&decl.gravity, &inner.gravity) {
             let name = &member.part.name;
             let message = format!(
@@ -161,7 +163,7 @@ pub(crate) fn merge(decl: &mut Declaration, table: &Table, diag: &Diagnostics) {
         }
         take(decl, inner, member, &own, &mut common, &mut lets, diag);
     }
-    if !quiet.is_empty() && diag.is_empty() {
+    if !quiet.is_empty() && diag.is_empty() && !decl.merged.faulty {
         // What is wrong is told where it is declared.
         let part = members.first().map(|member| member.part.name.clone());
         if let Some(name) = part {

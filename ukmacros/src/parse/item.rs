@@ -140,6 +140,8 @@ pub(crate) struct Merged {
     pub(crate) families: BTreeMap<String, Vec<Vec<i64>>>,
     /// Where each is declared, and its name.
     pub(crate) places: Vec<(Loc, String)>,
+    /// There is an error in one, which is told where that is declared.
+    pub(crate) faulty: bool,
 }
 
 /// `let thrust = …;`

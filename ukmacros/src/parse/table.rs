@@ -1,6 +1,6 @@
 //! Declarations that others are made of, on their way: a macro sees its own input only, so the declaration of a part is asked for by a macro
 //! of the part's name, which calls this one again with the part's tokens before those of the declaration:
-//! `@parts [{path} {tokens} {parts of the part} …] declaration`.
+//! `@parts [{path} {tokens} {parts of the part} …] declaration`. Tokens in which there is an error, which is told, begin with `!`.
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
@@ -8,6 +8,8 @@ use proc_macro2::{Delimiter, TokenStream, TokenTree};
 #[derive(Clone)]
 pub(crate) struct Known {
     path: String,
+    /// There is an error in it, which is told.
+    pub(crate) faulty: bool,
     pub(crate) declaration: TokenStream,
     /// The declarations that it is made of.
     pub(crate) parts: TokenStream,
@@ -34,10 +36,16 @@ impl Table {
             _ => None,
         });
         let groups: Vec<TokenStream> = groups.collect();
-        let known = groups.chunks_exact(3).map(|three| Known {
-            path: text(&three[0]),
-            declaration: three[1].clone(),
-            parts: three[2].clone(),
+        let known = groups.chunks_exact(3).map(|three| {
+            let mut declaration = three[1].clone().into_iter().peekable();
+            let mark =
+                |tree: &TokenTree| matches!(tree, TokenTree::Punct(mark) if mark.as_char() == '!');
+            Known {
+                path: text(&three[0]),
+                faulty: declaration.next_if(mark).is_some(),
+                declaration: declaration.collect(),
+                parts: three[2].clone(),
+            }
         });
         Table {
             known: known.collect(),

@@ -162,6 +162,24 @@ fn parts_are_asked_for() {
     assert!(code.to_string().contains("macro_export"));
 }
 
+/// What is wrong in a part is told where that is declared, and only there.
+#[test]
+fn errors_of_a_part_are_told_once() {
+    let (code, errors) =
+        expand("#[ukcore(part)] pub P { bodies { planar a { mass: 1, inertia: no } } }");
+    assert!(
+        errors.len() == 1 && code.to_string().contains("{ ! #"),
+        "{code}"
+    );
+    let source = "@parts [{ P } { ! pub P { bodies { planar a { mass: 1, inertia: no } } } } { }] pub T { parts { p[3]: P } output { o = p[1].a.x } }";
+    let (code, errors) = expand(source);
+    let text = code.to_string();
+    assert!(
+        errors.is_empty() && text.contains("struct T") && text.contains("P_2_A_ANGLE"),
+        "{text}"
+    );
+}
+
 macro_rules! cases {
     ($($name:ident: $source:literal => $($message:literal),+;)*) => {
         $(#[test] fn $name() { check_after(LEG, $source, &[$($message),+]); })*
