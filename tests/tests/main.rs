@@ -23,6 +23,7 @@ mod mechanisms;
 mod orientations;
 mod paper_fish;
 mod paper_uchain;
+mod parts;
 mod passing;
 mod plan;
 mod projection;

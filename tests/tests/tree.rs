@@ -33,18 +33,19 @@ chain! {
     Turning, TurningOwn, 4,
     { for i in 0..N { spatial link[i] { mass: 1 + i, inertia: [0.5, 0.6 + 0.1 * i, 0.7, 0.02, -0.03, 0.04], centre: [0.1, -0.2 * i, 0.05] } } },
     {
-        hinge: hinge(link[0].at([0.3, 0.1, -0.2]), link[1].at([-0.2, 0.3, 0.1]), [1, 2, -2], [-0.5, 0.3, 1])
+        hinge: hinge(link[0].at([0.3, 0.1, -0.2]), link[1].at([r, 0.3, 0.1]), u, w)
         cross: universal(link[1].at([0.4, 0, 0.1]), link[2].at([0, 0.2, 0.1]), [1, 0.4, 0], [0.3, 1, 0.2])
         ball: ball(link[2].at([0, 0.5, 0.1]), link[3].at([0.1, 0.1, -0.4]))
     },
     {
         holonomic {
-            hinge: hinge(link[0].at([0.3, 0.1, -0.2]), link[1].at([-0.2, 0.3, 0.1]), [1, 2, -2], [-0.5, 0.3, 1])
+            hinge: hinge(link[0].at([0.3, 0.1, -0.2]), link[1].at([r, 0.3, 0.1]), u, w)
             cross: universal(link[1].at([0.4, 0, 0.1]), link[2].at([0, 0.2, 0.1]), [1, 0.4, 0], [0.3, 1, 0.2])
             ball: ball(link[2].at([0, 0.5, 0.1]), link[3].at([0.1, 0.1, -0.4]))
         }
     },
     {
+        params { u[3] = [1.0, 2.0, -2.0], w[3] = [-0.5, 0.3, 1.0], r = -0.2 }
         gravity { [0.3, 0, -9.81] }
         forces {
             spring(link[3].at([0, 0, 0.5]), ground.at([0, 1, 0]), 3, 0.4)

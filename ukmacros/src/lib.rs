@@ -53,6 +53,7 @@ use proc_macro2::TokenStream;
 /// | `coords` | `x[N]`, `p[N][3]`, `th` | coordinates q: scalars and families; inside a `for`, `x[i]` declares one member |
 /// | `bodies` | `planar link[i] { mass: m, inertia: j, centre: [a, 0] }` | [bodies](#bodies), which have coordinates, kinetic energy and weight |
 /// | `tree` | `knee: pin(thigh.at(p), shank.at(q))` | [joints of the tree](#joints-of-the-tree): the second body has no coordinates of its own, but those of the joint |
+/// | `parts` | `leg[6]: Leg { phase: 0.2 }` | [other declarations](#parts) within this one |
 /// | `gravity` | `[0, -g]` | the acceleration of free fall of all bodies, a vector of the plane or of space |
 /// | `let` | `let d = x - y;`, `let f = \|u, v\| u * v;`, `let { for i in 0..N { d[i] = … } }` | names for values, functions, families of values |
 /// | `mass` | `x: m`, `p: m`, `(x, y): m12` | entries of M(q, t), taken literally as in eq. 1; entries for one place add up; a family has one mass for all members, or a vector of them |
@@ -257,6 +258,51 @@ use proc_macro2::TokenStream;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
+/// # Parts
+///
+/// A declaration that says `#[ukcore(part)]` may be part of others, any number of times, in its module, its crate, and, where its type is
+/// `pub`, in other crates. It is a mechanism by itself all the same. `use` brings it into scope with its type.
+///
+/// ```
+/// mod legs {
+///     ukcore::multibody! {
+///         /// Two bars with a spring in the knee.
+///         #[ukcore(part)]
+///         pub Leg {
+///             params { l = 0.5, m = 1.0, k = 3.0 }
+///             bodies { planar bar[2] { mass: m, inertia: m * sq(l) / 12.0, centre: [l / 2.0, 0] } }
+///             tree { knee: pin(bar[0].at([l, 0]), bar[1].at([0, 0])) }
+///             forces { turning_spring(bar[0], bar[1], k, 0.4) }
+///             output { toe = bar[1].at([l, 0]) }
+///         }
+///     }
+/// }
+/// use legs::Leg;
+///
+/// ukcore::multibody! {
+///     /// A trunk on six of them; y points up.
+///     pub Walker {
+///         params { size = 0.4, g = 9.81 }
+///         bodies { planar trunk { mass: 5, inertia: 1 } }
+///         gravity { [0, -g] }
+///         parts { for i in 0..6 { leg[i]: Leg { l: size, m: 1 + i / 10.0 } } }
+///         tree { for i in 0..6 { hip[i]: pin(trunk.at([i / 5.0, 0]), leg[i].bar[0].at([0, 0])) } }
+///         force { leg[2].knee.angle: -0.3 * dot(leg[2].knee.angle) }
+///         output { reach = norm(leg[5].bar[1].at([leg[5].l, 0]) - trunk.centre) }
+///     }
+/// }
+/// assert_eq!((Walker::default().leg_k, Walker::LEG_5_KNEE_ANGLE), (3.0, 14));
+/// ```
+///
+/// All sections of a part are taken into the whole, under the names of the part: `leg[2].bar[0].at(p)` is a point of a body, `leg[2].knee`
+/// the name of a joint or a constraint, `leg[2].l` a parameter, and so on for coordinates, constants and what `let` declares, but for
+/// functions. Coordinates, rows and outputs are shown under these names; constants of the type are `T::LEG_2_KNEE_ANGLE`, fields `leg_k`.
+///
+/// In braces parameters of the part are given, as expressions of those of the whole: a number for all of a family, or a vector. `{ l }` is
+/// short for `{ l: l }`. A parameter whose default uses one that is given follows it. **What is not given becomes a parameter of the whole**
+/// with the default it has, one for all members of a family: `leg_k` above. `gravity` acts on all bodies: that of the whole replaces those
+/// of parts, and must be there if they have one. A part may have parts; what they leave open is given as `{ foot_mass: 1 }`.
+///
 /// # What acts on bodies
 ///
 /// | entry of `forces` | meaning |
@@ -319,7 +365,7 @@ use proc_macro2::TokenStream;
 /// # Grammar
 ///
 /// ```text
-/// declaration = docs, ["#[ukcore(crate = path)]"], {"#[allow(lints)]"}, [vis], NAME, "{", { section }, "}" ;
+/// declaration = docs, ["#[ukcore(crate = path)]"], ["#[ukcore(part)]"], {"#[allow(lints)]"}, [vis], NAME, "{", { section }, "}" ;
 /// section     = "const", NAME, ":", ("usize" | "f64"), "=", expr, ";"
 ///             | "let", NAME, "=", (expr | function), ";"
 ///             | "let", block(key, "=", (expr | function))
@@ -327,6 +373,7 @@ use proc_macro2::TokenStream;
 ///             | "coords", block(docs, key)
 ///             | "bodies", block(docs, ("planar" | "spatial"), key, "{", { ("mass" | "inertia" | "centre"), ":", expr, [","] }, "}")
 ///             | "tree", block(docs, key, ":", expr)
+///             | "parts", block(key, ":", path, ["{", { NAME, [":", expr], [","] }, "}"])
 ///             | "mass", block((place | "(", place, ",", place, ")"), ":", expr)
 ///             | ("gravity" | "kinetic" | "potential" | "dissipation" | "forces"), block(expr)
 ///             | ("force" | "nonideal"), block(place, ":", expr)
@@ -334,7 +381,7 @@ use proc_macro2::TokenStream;
 ///             | "output", block(docs, key, "=", expr) ;
 /// block(e)    = "{", { (e | "for", NAME, "in", expr, "..", expr, "{", { e }, "}"), ["," | ";"] }, "}" ;
 /// key         = NAME, { "[", expr, "]" } ;
-/// place       = key, [".", NAME] ;
+/// place       = key, { ".", key } ;
 /// function    = "|", NAME, { ",", NAME }, "|", expr ;
 /// ```
 ///
