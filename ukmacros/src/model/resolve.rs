@@ -493,6 +493,19 @@ impl Model {
         }
     }
 
+    /// The positions in q of the first coordinates of all quaternions: of bodies, and of joints of the tree.
+    pub(crate) fn quaternions(&self) -> impl Iterator<Item = usize> {
+        let bodies = self.body_elements.iter().zip(&self.own);
+        let spatial = bodies.filter(|(body, _)| self.body_kinds[body.family].spatial);
+        let joints = self
+            .joints
+            .iter()
+            .filter(|joint| joint.kind.coordinates.len() == 4);
+        spatial
+            .filter_map(|(_, own)| Some((*own)? + 3))
+            .chain(joints.map(|joint| joint.first))
+    }
+
     /// How the `name` is shown.
     pub(crate) fn shown<'a>(&'a self, name: &'a str) -> &'a str {
         self.shown.get(name).map_or(name, String::as_str)

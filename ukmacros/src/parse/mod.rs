@@ -9,7 +9,7 @@ mod table;
 pub(crate) use expr::{BinaryOp, Expr, ExprKind, Range, own};
 pub(crate) use grammar::parse;
 pub(crate) use item::{
-    Block, Body, Const, Declaration, Entry, Equation, Function, Key, Let, LetValue, MassEntry,
-    PartUse, Section,
+    Block, Body, Const, Declaration, Entry, Equation, Function, Guess, Key, Let, LetValue,
+    MassEntry, PartUse, Section, Start,
 };
 pub(crate) use table::{Table, split};

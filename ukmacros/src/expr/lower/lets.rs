@@ -29,7 +29,7 @@ impl<'m> Lowering<'m> {
     }
 
     /// Reports `what` if its `value` is not finite.
-    fn finite_number(&self, what: &str, value: f64, loc: Loc) {
+    pub(super) fn finite_number(&self, what: &str, value: f64, loc: Loc) {
         if !value.is_finite() {
             self.diag
                 .error(loc, format!("{what} is not a finite number"));

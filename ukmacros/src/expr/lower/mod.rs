@@ -7,12 +7,13 @@ mod inertia;
 mod lets;
 mod names;
 mod parts;
+mod starts;
 mod system;
 mod tree;
 mod value;
 mod vectors;
 
-pub(crate) use system::{Constraint, ConstraintRef, Kind, OutputValue, System};
+pub(crate) use system::{Constraint, ConstraintRef, Kind, OutputValue, StartValue, System};
 #[cfg(test)]
 pub(crate) use vectors::vocabulary;
 
@@ -45,6 +46,7 @@ enum Place {
     Nonholonomic,
     Nonideal,
     Output,
+    Start,
 }
 
 enum Binding {
@@ -213,6 +215,7 @@ impl<'m> Lowering<'m> {
             });
         }
         let outputs = self.outputs(decl, &top);
+        let starts = self.starts(decl, &top);
         System {
             graph: std::mem::take(&mut self.graph),
             constants,
@@ -225,6 +228,7 @@ impl<'m> Lowering<'m> {
             inertias: of_bodies.inertias,
             constraints,
             outputs,
+            starts,
             hints: std::mem::take(&mut self.hints),
             inner_hints: HashMap::new(),
         }

@@ -510,6 +510,9 @@ impl<'m> Lowering<'m> {
                 Place::Given if !uses.constant() => Some(
                     "a parameter of a part does not change with the motion: it depends on parameters only",
                 ),
+                Place::Start if !uses.constant() => {
+                    Some("a start is given by parameters and its options")
+                }
                 Place::Gravity if uses.coord || uses.velocity => Some(
                     "gravity is one vector for all places, of parameters and `t`; a field that depends on the place goes under `potential`",
                 ),
