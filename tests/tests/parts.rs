@@ -37,6 +37,11 @@ ukcore::multibody! {
         }
         force { tail.s: 0.3 * trunk.angle, trunk.angle: 0.3 * tail.s, leg[1].bar[0].angle: t }
         output { height = trunk.y + leg[0].toe[1] }
+        start standing(height = 1.0) {
+            trunk.y = height;
+            for i in 0..2 { leg[i].bar[0].angle near 3.7; leg[i].bar[1].angle near 5.7 }
+            dot(tail.s) = 0.2
+        }
     }
 }
 
@@ -113,6 +118,24 @@ fn a_mechanism_of_parts_is_the_one_written_out() {
             1e-11 * scale,
         );
     }
+}
+
+#[test]
+fn starts_name_what_stands_in_parts() {
+    let start = Walker::default()
+        .start("standing", &[("height", 0.9)].into())
+        .expect("a start");
+    let at = |i: usize| start.q[i];
+    assert_eq!((at(Walker::TRUNK_Y), start.v[Walker::TAIL_S]), (0.9, 0.2));
+    assert!(
+        (at(Walker::LEG_0_BAR_ANGLE[0]) - 3.7).abs() < 0.6,
+        "{start:?}"
+    );
+    let run = Simulation::new(Walker::default())
+        .tolerance(1e-9)
+        .start(start)
+        .until(0.5);
+    assert!(run.is_ok(), "{run:?}");
 }
 
 /// A part is a mechanism by itself, too.
