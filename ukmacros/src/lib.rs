@@ -302,7 +302,8 @@ use proc_macro2::TokenStream;
 /// In braces parameters of the part are given, as expressions of those of the whole: a number for all of a family, or a vector. `{ l }` is
 /// short for `{ l: l }`. A parameter whose default uses one that is given follows it. **What is not given becomes a parameter of the whole**
 /// with the default it has, one for all members of a family: `leg_k` above. `gravity` acts on all bodies: that of the whole replaces those
-/// of parts, and must be there if they have one. A part may have parts; what they leave open is given as `{ foot_mass: 1 }`.
+/// of parts, and must be there if they have one. A part may have parts; what they leave open is given as `{ foot_mass: 1 }`. Its
+/// starts are its own.
 ///
 /// # What acts on bodies
 ///

@@ -1,6 +1,7 @@
 //! Syntax tree to names: constants, parameters, coordinates, and what loops run over.
 
 mod parts;
+mod renaming;
 mod resolve;
 mod scope;
 mod tree;

@@ -1,13 +1,15 @@
 //! Declarations within declarations: what stands in a part is taken into the whole, under names of its own, once for each of its members.
 
+use super::renaming::{Renaming, bound, section, uses};
 use super::resolve::bare;
-use super::types::{Variable, indexed};
+use super::types::{Model, Variable, every, indexed};
 use crate::diag::{Diagnostics, suggest};
-use crate::parse::{
-    Block, Declaration, Expr, ExprKind, Key, Let, LetValue, PartUse, Range, Section, Table,
-};
-use proc_macro2::{Ident, Span};
+use crate::parse::{Block, Declaration, Key, Let, LetValue, PartUse, Table, parse};
 use std::collections::{HashMap, HashSet};
+use std::rc::Rc;
+
+/// More members of parts would keep the compiler busy.
+const MOST: usize = 1_000;
 
 /// A member of a part, with the loop variables around it.
 struct Member {
@@ -45,11 +47,63 @@ pub(crate) fn merge(decl: &mut Declaration, table: &Table, diag: &Diagnostics) {
         return;
     }
     let quiet = Diagnostics::default();
-    let model = bare(decl, &Diagnostics::default());
+    let members = members(&parts, &bare(decl, &quiet), diag);
+    let inside = Diagnostics::default();
+    let mut kinds: HashMap<String, String> = HashMap::new();
+    let mut whole = Whole {
+        own: Rc::new(own(decl)),
+        common: HashSet::new(),
+        lets: Vec::new(),
+        decl,
+    };
+    for member in &members {
+        if let Err(reason) = whole.enter(member, &mut kinds) {
+            diag.error(member.part.key.loc, reason);
+            continue;
+        }
+        let Some(known) = table.find(&member.part.path) else {
+            continue;
+        };
+        whole.decl.merged.faulty |= known.faulty;
+        let Some(mut inner) = parse(known.declaration.clone(), &inside) else {
+            continue;
+        };
+        merge(&mut inner, &Table::parse(known.parts.clone()), &inside);
+        whole.decl.merged.faulty |= inner.merged.faulty;
+        let (name, before) = (&member.part.name, diag.len());
+        if let (None, Some(_)) = (&whole.decl.gravity, &inner.gravity) {
+            let message = format!(
+                "`{name}` has `gravity`, and this declaration, of which it is a part, has none; give it, for all bodies"
+            );
+            diag.error(name.span(), message);
+        }
+        known_parameters(&member.part, &inner, diag);
+        if diag.len() == before {
+            whole.take(inner, member, diag);
+        }
+        // What is wrong with one is wrong with all.
+        if diag.len() > before {
+            break;
+        }
+    }
+    if let Some(member) = members.first()
+        && !inside.is_empty()
+        && !whole.decl.merged.faulty
+    {
+        let message = format!("`{}`, or another part, is in error", member.part.name);
+        diag.damage(member.part.name.span(), message);
+    }
+    let Whole { decl, lets, .. } = whole;
+    let at = decl.before_parts.min(decl.lets.len());
+    decl.lets.splice(at..at, lets);
+}
+
+/// The members of all parts, in their order.
+fn members(parts: &[Block<PartUse>], model: &Model, diag: &Diagnostics) -> Vec<Member> {
     let mut members: Vec<Member> = Vec::new();
-    for block in &parts {
+    for block in parts {
         let looped = matches!(block, Block::For { .. });
-        super::Scope::new(&model).unroll(std::slice::from_ref(block), diag, &mut |part, scope| {
+        super::Scope::new(model).unroll(std::slice::from_ref(block), diag, &mut |part, scope| {
             let numbers = part.key.indices.iter().map(|i| scope.integer(i, diag));
             let Some(numbers) = numbers.collect::<Option<Vec<i64>>>() else {
                 return;
@@ -67,14 +121,14 @@ pub(crate) fn merge(decl: &mut Declaration, table: &Table, diag: &Diagnostics) {
                 diag.error(part.key.loc, message);
                 return;
             };
-            let every = super::types::every(&shape).map(|indices| match looped {
+            let all = every(&shape).map(|indices| match looped {
                 true => numbers.clone(),
                 false => indices
                     .iter()
                     .filter_map(|i| i64::try_from(*i).ok())
                     .collect(),
             });
-            for indices in every {
+            for indices in all {
                 members.push(Member {
                     part: part.clone(),
                     indices,
@@ -90,32 +144,74 @@ pub(crate) fn merge(decl: &mut Declaration, table: &Table, diag: &Diagnostics) {
             }
         });
     }
-    let mut own: HashSet<String> = HashSet::new();
-    for block in &decl.lets {
-        block.each(&mut |binding| {
-            own.extend([binding.key.name.to_string()]);
-        });
+    members
+}
+
+/// What `decl` declares by `let`, and the ground if it declares one: these may have names of the vocabulary, which parts mean otherwise.
+fn own(decl: &Declaration) -> HashSet<String> {
+    let (mut own, mut declared) = (HashSet::new(), Vec::new());
+    names(&decl.params, |param| &param.key, &mut declared);
+    names(&decl.coords, |coord| &coord.key, &mut declared);
+    names(&decl.bodies, |body| &body.key, &mut declared);
+    own.extend(declared.into_iter().filter(|name| name == "ground"));
+    decl.lets
+        .iter()
+        .for_each(|block| block.each(&mut |binding| own.extend([binding.key.name.to_string()])));
+    own
+}
+
+/// Adds the names of the `key`s of all entries.
+fn names<T>(blocks: &[Block<T>], key: impl Fn(&T) -> &Key, out: &mut Vec<String>) {
+    for block in blocks {
+        block.each(&mut |entry| out.push(key(entry).name.to_string()));
     }
-    let mut grounds = false;
-    let mut ground = |key: &Key| grounds |= key.name == "ground";
-    decl.params
-        .iter()
-        .for_each(|b| b.each(&mut |param| ground(&param.key)));
-    decl.coords
-        .iter()
-        .for_each(|b| b.each(&mut |coord| ground(&coord.key)));
-    decl.bodies
-        .iter()
-        .for_each(|b| b.each(&mut |body| ground(&body.key)));
-    own.extend(grounds.then(|| "ground".to_owned()));
-    let mut kinds: HashMap<String, String> = HashMap::new();
-    let mut lets = Vec::new();
-    // What all members of a part have together is declared once.
-    let mut common: HashSet<String> = HashSet::new();
-    for member in &members {
+}
+
+/// A declaration that parts are taken into.
+struct Whole<'w> {
+    decl: &'w mut Declaration,
+    /// Names that parts may mean otherwise.
+    own: Rc<HashSet<String>>,
+    /// What all members of a part have together and is there already.
+    common: HashSet<String>,
+    /// What is declared by `let` in parts, or given to them.
+    lets: Vec<Block<Let>>,
+}
+
+impl Member {
+    /// What names in it begin with.
+    fn prefix(&self) -> String {
+        let base = self.part.key.name.to_string();
+        self.indices
+            .iter()
+            .fold(base, |name, i| format!("{name}_{i}"))
+    }
+
+    /// The names of parameters of `inner`, which it is, that are given, or follow those that are.
+    fn fixed(&self, inner: &Declaration) -> HashSet<String> {
+        let given = self.part.given.iter();
+        let mut fixed: HashSet<String> = given.map(|(name, _)| name.to_string()).collect();
+        for block in &inner.params {
+            block.each(&mut |param| {
+                if uses(&param.default, &fixed) {
+                    fixed.insert(param.key.name.to_string());
+                }
+            });
+        }
+        fixed
+    }
+}
+
+impl Whole<'_> {
+    /// Enters the name of a member; the reason if it is taken. `kinds` are the declarations that parts so far are.
+    fn enter(
+        &mut self,
+        member: &Member,
+        kinds: &mut HashMap<String, String>,
+    ) -> Result<(), String> {
         let base = member.part.key.name.to_string();
         let path: String = member.part.path.to_string().split_whitespace().collect();
-        let families = decl.merged.families.entry(base.clone()).or_default();
+        let families = self.decl.merged.families.entry(base.clone()).or_default();
         let reason = match kinds.get(&base) {
             Some(kind) if *kind != path => Some(format!(
                 "`{base}` is declared as `{kind}` and as `{path}`; rename one"
@@ -136,49 +232,220 @@ pub(crate) fn merge(decl: &mut Declaration, table: &Table, diag: &Diagnostics) {
             _ => None,
         };
         if let Some(reason) = reason {
-            diag.error(member.part.key.loc, reason);
-            continue;
+            return Err(reason);
         }
         families.push(member.indices.clone());
         kinds.insert(base, path);
-        let Some(known) = table.find(&member.part.path) else {
-            continue;
-        };
-        decl.merged.faulty |= known.faulty;
-        let Some(mut inner) = crate::parse::parse(known.declaration.clone(), &quiet) else {
-            continue;
-        };
-        merge(&mut inner, &Table::parse(known.parts.clone()), &quiet);
-        decl.merged.faulty |= inner.merged.faulty;
-        if let (None, Some(_)) = (&decl.gravity, &inner.gravity) {
-            let name = &member.part.name;
-            let message = format!(
-                "`{name}` has `gravity`, and this declaration, of which it is a part, has none; give it, for all bodies"
-            );
-            diag.error(member.part.name.span(), message);
-            return;
-        }
-        if !known_parameters(&member.part, &inner, diag) {
-            return;
-        }
-        take(decl, inner, member, &own, &mut common, &mut lets, diag);
+        Ok(())
     }
-    if !quiet.is_empty() && diag.is_empty() && !decl.merged.faulty {
-        // What is wrong is told where it is declared.
-        let part = members.first().map(|member| member.part.name.clone());
-        if let Some(name) = part {
-            diag.damage(
-                name.span(),
-                format!("`{name}`, or another part, is in error where it is declared"),
-            );
-        }
-    }
-    let at = decl.before_parts.min(decl.lets.len());
-    decl.lets.splice(at..at, lets);
-}
 
-/// More members of parts would keep the compiler busy.
-const MOST: usize = 1_000;
+    /// Takes the part `inner` in as this member.
+    fn take(&mut self, mut inner: Declaration, member: &Member, diag: &Diagnostics) {
+        let fixed = member.fixed(&inner);
+        let names = self.names(&inner, member, &fixed);
+        let span = member.part.key.name.span();
+        let mut renaming = Renaming::new(names, self.own.clone(), span);
+        self.values(&mut inner, member, &fixed, &mut renaming);
+        self.bodies(&mut inner, &mut renaming);
+        self.equations(inner, &member.prefix(), &mut renaming);
+        if let Some(name) = &renaming.clash {
+            let kind = &member.part.name;
+            let message = format!(
+                "this declares `{name}`, which `{kind}` uses with the meaning that it has everywhere; rename it"
+            );
+            diag.error(kind.span(), message);
+        }
+    }
+
+    /// What names in `inner` become.
+    fn names(
+        &mut self,
+        inner: &Declaration,
+        member: &Member,
+        fixed: &HashSet<String>,
+    ) -> HashMap<String, String> {
+        let (base, prefix) = (member.part.key.name.to_string(), member.prefix());
+        let shown = indexed(&base, &member.indices);
+        let merged = &mut self.decl.merged;
+        let mut enter = |name: &str, shared: bool| {
+            let own = inner.merged.shown.get(name).map_or(name, String::as_str);
+            let (full, text) = match shared {
+                true => (format!("{base}_{name}"), format!("{base}.{own}")),
+                false => (format!("{prefix}_{name}"), format!("{shown}.{own}")),
+            };
+            merged.shown.insert(full.clone(), text);
+            full
+        };
+        // Constraints and outputs have names of their own.
+        let mut results = Vec::new();
+        names(&inner.holonomic, |c| &c.key, &mut results);
+        names(&inner.nonholonomic, |c| &c.key, &mut results);
+        names(&inner.outputs, |output| &output.key, &mut results);
+        results.iter().for_each(|name| drop(enter(name, false)));
+        let mut params = Vec::new();
+        names(&inner.params, |param| &param.key, &mut params);
+        let mut others = Vec::new();
+        names(&inner.coords, |coord| &coord.key, &mut others);
+        names(&inner.bodies, |body| &body.key, &mut others);
+        names(&inner.tree, |joint| &joint.key, &mut others);
+        names(&inner.lets, |binding| &binding.key, &mut others);
+        others.extend(inner.merged.families.keys().cloned());
+        let consts = inner
+            .consts
+            .iter()
+            .map(|constant| constant.name.to_string());
+        let shared = consts.map(|name| (name, true));
+        let params = params.into_iter().map(|name| {
+            let shared = !fixed.contains(&name);
+            (name, shared)
+        });
+        let all = shared
+            .chain(params)
+            .chain(others.into_iter().map(|name| (name, false)));
+        let names = all.map(|(name, shared)| {
+            let full = enter(&name, shared);
+            (name, full)
+        });
+        let names = names.collect();
+        for (name, indices) in &inner.merged.families {
+            let name = format!("{prefix}_{name}");
+            merged.families.insert(name, indices.clone());
+        }
+        merged
+            .places
+            .push((member.part.key.name.span().into(), shown));
+        names
+    }
+
+    /// Takes constants and parameters: what is given as values.
+    fn values(
+        &mut self,
+        inner: &mut Declaration,
+        member: &Member,
+        fixed: &HashSet<String>,
+        r: &mut Renaming,
+    ) {
+        for mut constant in std::mem::take(&mut inner.consts) {
+            r.name(&mut constant.name);
+            r.expr(&mut constant.value);
+            if self.common.insert(constant.name.to_string()) {
+                self.decl.consts.push(constant);
+            }
+        }
+        for block in std::mem::take(&mut inner.params) {
+            let mut param = match block {
+                Block::One(param) => param,
+                block => {
+                    let mut blocks = vec![block];
+                    r.blocks(&mut blocks, &mut |r, param| {
+                        r.key(&mut param.key);
+                        r.expr(&mut param.default);
+                    });
+                    let mut first = String::new();
+                    blocks[0].each(&mut |param| first = param.key.name.to_string());
+                    if self.common.insert(first) {
+                        self.decl.params.extend(blocks);
+                    }
+                    continue;
+                }
+            };
+            let name = param.key.name.to_string();
+            r.key(&mut param.key);
+            r.expr(&mut param.default);
+            if fixed.contains(&name) {
+                let given = member.part.given.iter().find(|(n, _)| *n == name);
+                let value = given.map_or(&param.default, |(_, value)| value).clone();
+                let sizes = std::mem::take(&mut param.key.indices);
+                let binding = Let {
+                    key: param.key,
+                    given: Some(sizes),
+                    value: LetValue::Value(value),
+                };
+                // The sizes are the part's, the value that of the loops around.
+                self.lets.push(bound(binding, &member.variables, r.span));
+            } else if self.common.insert(param.key.name.to_string()) {
+                self.decl.params.push(Block::One(param));
+            }
+        }
+    }
+
+    /// Takes what is declared by `let`, coordinates, bodies and joints.
+    fn bodies(&mut self, inner: &mut Declaration, r: &mut Renaming) {
+        r.blocks(&mut inner.lets, &mut |r, binding| {
+            r.key(&mut binding.key);
+            match &mut binding.value {
+                LetValue::Value(value) => r.expr(value),
+                LetValue::Function(function) => r.function(function),
+            }
+            if let Some(sizes) = &mut binding.given {
+                sizes.iter_mut().for_each(|size| r.expr(size));
+            }
+        });
+        self.lets.append(&mut inner.lets);
+        r.blocks(&mut inner.coords, &mut |r, coord| r.key(&mut coord.key));
+        self.decl.coords.append(&mut inner.coords);
+        r.blocks(&mut inner.bodies, &mut |r, body| {
+            r.key(&mut body.key);
+            let consists = [&mut body.mass, &mut body.inertia, &mut body.centre];
+            consists.into_iter().flatten().for_each(|e| r.expr(e));
+        });
+        self.decl.bodies.append(&mut inner.bodies);
+        r.blocks(&mut inner.tree, &mut |r, joint| {
+            r.key(&mut joint.key);
+            r.expr(&mut joint.value);
+        });
+        self.decl.tree.append(&mut inner.tree);
+    }
+
+    /// Takes all other sections.
+    fn equations(&mut self, mut inner: Declaration, prefix: &str, r: &mut Renaming) {
+        let pairs = [
+            (&mut self.decl.kinetic, inner.kinetic),
+            (&mut self.decl.potential, inner.potential),
+            (&mut self.decl.dissipation, inner.dissipation),
+        ];
+        for (to, from) in pairs {
+            section(to, from, r, &mut |r, e| r.expr(e));
+        }
+        section(&mut self.decl.mass, inner.mass, r, &mut |r, entry| {
+            r.key(&mut entry.key);
+            entry.other.iter_mut().for_each(|key| r.key(key));
+            r.expr(&mut entry.value);
+        });
+        section(
+            &mut self.decl.nonideal,
+            inner.nonideal,
+            r,
+            &mut |r, entry| {
+                r.key(&mut entry.key);
+                r.expr(&mut entry.value);
+            },
+        );
+        r.blocks(&mut inner.force, &mut |r, entry| {
+            r.key(&mut entry.key);
+            r.expr(&mut entry.value);
+        });
+        self.decl.force.extend(inner.force);
+        r.blocks(&mut inner.forces, &mut |r, e| r.expr(e));
+        self.decl.forces.extend(inner.forces);
+        for (to, mut from) in [
+            (&mut self.decl.holonomic, inner.holonomic),
+            (&mut self.decl.nonholonomic, inner.nonholonomic),
+        ] {
+            r.blocks(&mut from, &mut |r, equation| {
+                r.result(&mut equation.key, prefix);
+                r.expr(&mut equation.lhs);
+                equation.rhs.iter_mut().for_each(|e| r.expr(e));
+            });
+            to.extend(from);
+        }
+        r.blocks(&mut inner.outputs, &mut |r, output| {
+            r.result(&mut output.key, prefix);
+            r.expr(&mut output.value);
+        });
+        self.decl.outputs.extend(inner.outputs);
+    }
+}
 
 /// Whether what is given to a part are parameters of it; reports what is not.
 fn known_parameters(part: &PartUse, inner: &Declaration, diag: &Diagnostics) -> bool {
@@ -218,388 +485,4 @@ fn known_parameters(part: &PartUse, inner: &Declaration, diag: &Diagnostics) -> 
         return false;
     }
     true
-}
-
-/// Takes the part `inner` into `decl` as this member.
-fn take(
-    decl: &mut Declaration,
-    mut inner: Declaration,
-    member: &Member,
-    own: &HashSet<String>,
-    common: &mut HashSet<String>,
-    lets: &mut Vec<Block<Let>>,
-    diag: &Diagnostics,
-) {
-    let span = member.part.key.name.span();
-    let base = member.part.key.name.to_string();
-    let prefix: String = member
-        .indices
-        .iter()
-        .fold(base.clone(), |name, i| format!("{name}_{i}"));
-    let shown = indexed(&base, &member.indices);
-    // Defaults that use what is given are values as well.
-    let mut fixed: HashSet<String> = member
-        .part
-        .given
-        .iter()
-        .map(|(n, _)| n.to_string())
-        .collect();
-    for block in &inner.params {
-        block.each(&mut |param| {
-            if uses(&param.default, &fixed) {
-                fixed.insert(param.key.name.to_string());
-            }
-        });
-    }
-    let merged = &mut decl.merged;
-    let mut enter = |name: &str, shared: bool| {
-        let own = inner.merged.shown.get(name).map_or(name, String::as_str);
-        let (full, text) = match shared {
-            true => (format!("{base}_{name}"), format!("{base}.{own}")),
-            false => (format!("{prefix}_{name}"), format!("{shown}.{own}")),
-        };
-        merged.shown.insert(full.clone(), text);
-        full
-    };
-    let mut names: HashMap<String, String> = HashMap::new();
-    for constant in &inner.consts {
-        let text = constant.name.to_string();
-        names.insert(text.clone(), enter(&text, true));
-    }
-    for block in &inner.params {
-        block.each(&mut |param| {
-            let text = param.key.name.to_string();
-            names.insert(text.clone(), enter(&text, !fixed.contains(&text)));
-        });
-    }
-    let mut others: Vec<String> = Vec::new();
-    inner
-        .coords
-        .iter()
-        .for_each(|b| b.each(&mut |c| others.push(c.key.name.to_string())));
-    inner
-        .bodies
-        .iter()
-        .for_each(|b| b.each(&mut |c| others.push(c.key.name.to_string())));
-    inner
-        .tree
-        .iter()
-        .for_each(|b| b.each(&mut |c| others.push(c.key.name.to_string())));
-    inner
-        .lets
-        .iter()
-        .for_each(|b| b.each(&mut |c| others.push(c.key.name.to_string())));
-    others.extend(inner.merged.families.keys().cloned());
-    for text in others {
-        names.insert(text.clone(), enter(&text, false));
-    }
-    // These have names of their own.
-    let mut results: Vec<String> = Vec::new();
-    inner
-        .holonomic
-        .iter()
-        .chain(&inner.nonholonomic)
-        .for_each(|b| b.each(&mut |c| results.push(c.key.name.to_string())));
-    inner
-        .outputs
-        .iter()
-        .for_each(|b| b.each(&mut |c| results.push(c.key.name.to_string())));
-    for text in results {
-        enter(&text, false);
-    }
-    for (name, indices) in &inner.merged.families {
-        merged
-            .families
-            .insert(format!("{prefix}_{name}"), indices.clone());
-    }
-    merged.places.push((span.into(), shown));
-    let r = &mut Renaming {
-        names,
-        hidden: Vec::new(),
-        own,
-        clash: None,
-        span,
-    };
-    for mut constant in inner.consts {
-        r.name(&mut constant.name);
-        r.expr(&mut constant.value);
-        if common.insert(constant.name.to_string()) {
-            decl.consts.push(constant);
-        }
-    }
-    for block in inner.params {
-        let mut param = match block {
-            Block::One(param) => param,
-            block => {
-                let mut blocks = vec![block];
-                r.blocks(&mut blocks, &mut |r, param| {
-                    r.key(&mut param.key);
-                    r.expr(&mut param.default);
-                });
-                let mut first = String::new();
-                blocks[0].each(&mut |param| first = param.key.name.to_string());
-                if common.insert(first) {
-                    decl.params.extend(blocks);
-                }
-                continue;
-            }
-        };
-        let name = param.key.name.to_string();
-        r.key(&mut param.key);
-        r.expr(&mut param.default);
-        if fixed.contains(&name) {
-            let given = member.part.given.iter().find(|(n, _)| *n == name);
-            let value = given.map_or(&param.default, |(_, value)| value).clone();
-            let sizes = std::mem::take(&mut param.key.indices);
-            let binding = Let {
-                key: param.key,
-                given: Some(sizes),
-                value: LetValue::Value(value),
-            };
-            // The sizes are the part's, the value that of the loops around.
-            lets.push(bound(binding, &member.variables, span));
-        } else if common.insert(param.key.name.to_string()) {
-            decl.params.push(Block::One(param));
-        }
-    }
-    r.blocks(&mut inner.lets, &mut |r, binding| {
-        r.key(&mut binding.key);
-        match &mut binding.value {
-            LetValue::Value(value) => r.expr(value),
-            LetValue::Function(function) => {
-                let args = function.args.iter().map(Ident::to_string);
-                r.hidden.extend(args);
-                r.expr(&mut function.body);
-                r.hidden.clear();
-            }
-        }
-        if let Some(sizes) = &mut binding.given {
-            sizes.iter_mut().for_each(|size| r.expr(size));
-        }
-    });
-    lets.extend(inner.lets);
-    r.blocks(&mut inner.coords, &mut |r, coord| r.key(&mut coord.key));
-    decl.coords.extend(inner.coords);
-    r.blocks(&mut inner.bodies, &mut |r, body| {
-        r.key(&mut body.key);
-        let consists = [&mut body.mass, &mut body.inertia, &mut body.centre];
-        consists.into_iter().flatten().for_each(|e| r.expr(e));
-    });
-    decl.bodies.extend(inner.bodies);
-    r.blocks(&mut inner.tree, &mut |r, joint| {
-        r.key(&mut joint.key);
-        r.expr(&mut joint.value);
-    });
-    decl.tree.extend(inner.tree);
-    let pairs = [
-        (&mut decl.kinetic, inner.kinetic),
-        (&mut decl.potential, inner.potential),
-        (&mut decl.dissipation, inner.dissipation),
-    ];
-    for (to, from) in pairs {
-        section(to, from, r, &mut |r, e| r.expr(e));
-    }
-    section(&mut decl.mass, inner.mass, r, &mut |r, entry| {
-        r.key(&mut entry.key);
-        entry.other.iter_mut().for_each(|key| r.key(key));
-        r.expr(&mut entry.value);
-    });
-    section(&mut decl.nonideal, inner.nonideal, r, &mut |r, entry| {
-        r.key(&mut entry.key);
-        r.expr(&mut entry.value);
-    });
-    r.blocks(&mut inner.force, &mut |r, entry| {
-        r.key(&mut entry.key);
-        r.expr(&mut entry.value);
-    });
-    decl.force.extend(inner.force);
-    r.blocks(&mut inner.forces, &mut |r, e| r.expr(e));
-    decl.forces.extend(inner.forces);
-    for (to, mut from) in [
-        (&mut decl.holonomic, inner.holonomic),
-        (&mut decl.nonholonomic, inner.nonholonomic),
-    ] {
-        r.blocks(&mut from, &mut |r, equation| {
-            r.result(&mut equation.key, &prefix);
-            r.expr(&mut equation.lhs);
-            equation.rhs.iter_mut().for_each(|e| r.expr(e));
-        });
-        to.extend(from);
-    }
-    r.blocks(&mut inner.outputs, &mut |r, output| {
-        r.result(&mut output.key, &prefix);
-        r.expr(&mut output.value);
-    });
-    decl.outputs.extend(inner.outputs);
-    if let Some(name) = &r.clash {
-        let kind = &member.part.name;
-        let message = format!(
-            "this declares `{name}`, which `{kind}` uses with the meaning that it has everywhere; rename it"
-        );
-        diag.error(member.part.name.span(), message);
-    }
-}
-
-/// Adds the entries of a part's section to the section of the whole.
-fn section<T>(
-    to: &mut Option<Section<T>>,
-    from: Option<Section<T>>,
-    r: &mut Renaming<'_>,
-    each: &mut dyn FnMut(&mut Renaming<'_>, &mut T),
-) {
-    let Some(mut from) = from else {
-        return;
-    };
-    r.blocks(&mut from.blocks, each);
-    let keyword = Ident::new(&from.keyword.to_string(), r.span);
-    let section = to.get_or_insert(Section {
-        keyword,
-        blocks: Vec::new(),
-    });
-    section.blocks.extend(from.blocks);
-}
-
-/// `binding` where the loop variables have these values.
-fn bound(binding: Let, variables: &[Variable], span: Span) -> Block<Let> {
-    let mut block = Block::One(binding);
-    for (name, value) in variables.iter().rev() {
-        let Some(value) = value else {
-            continue;
-        };
-        let int = |n: i64| {
-            Box::new(Expr {
-                loc: span.into(),
-                kind: ExprKind::Int(n),
-            })
-        };
-        block = Block::For {
-            var: Ident::new(name, span),
-            range: Range {
-                from: int(*value),
-                to: int(value.saturating_add(1)),
-                inclusive: false,
-            },
-            body: vec![block],
-        };
-    }
-    block
-}
-
-/// Whether `e` uses one of these names.
-fn uses(e: &Expr, names: &HashSet<String>) -> bool {
-    let mut found = false;
-    e.names(&mut |name| found |= names.contains(&name.to_string()));
-    found
-}
-
-/// Names of a part that become those of the whole, at the place where the part is declared.
-struct Renaming<'d> {
-    names: HashMap<String, String>,
-    /// Arguments of the functions around.
-    hidden: Vec<String>,
-    /// What the whole declares by `let`, and the ground if it declares one: names of the vocabulary that the part means otherwise.
-    own: &'d HashSet<String>,
-    /// One of these that the part uses.
-    clash: Option<String>,
-    span: Span,
-}
-
-impl Renaming<'_> {
-    fn name(&mut self, name: &mut Ident) {
-        let text = name.to_string();
-        let hidden = self.hidden.contains(&text);
-        let new = self.names.get(&text).filter(|_| !hidden);
-        *name = match new {
-            Some(new) => Ident::new(new, self.span),
-            None => {
-                if !hidden && self.own.contains(&text) {
-                    self.clash = self.clash.take().or(Some(text));
-                }
-                let mut same = name.clone();
-                same.set_span(self.span);
-                same
-            }
-        };
-    }
-
-    fn key(&mut self, key: &mut Key) {
-        self.name(&mut key.name);
-        self.exprs(&mut key.indices);
-        for (name, indices) in &mut key.fields {
-            name.set_span(self.span);
-            self.exprs(indices);
-        }
-        key.loc = self.span.into();
-    }
-
-    /// The name of a constraint or an output.
-    fn result(&mut self, key: &mut Key, prefix: &str) {
-        let text = format!("{prefix}_{}", key.name);
-        self.key(key);
-        key.name = Ident::new(&text, self.span);
-    }
-
-    fn exprs(&mut self, list: &mut [Expr]) {
-        list.iter_mut().for_each(|e| self.expr(e));
-    }
-
-    fn expr(&mut self, e: &mut Expr) {
-        e.loc = self.span.into();
-        match &mut e.kind {
-            ExprKind::Int(_) | ExprKind::Float(_) | ExprKind::Error => {}
-            ExprKind::Name(name) => self.name(name),
-            ExprKind::Index(base, indices) => {
-                self.expr(base);
-                self.exprs(indices);
-            }
-            ExprKind::Field(base, name) => {
-                self.expr(base);
-                name.set_span(self.span);
-            }
-            ExprKind::Neg(inner) | ExprKind::Group(inner) => self.expr(inner),
-            ExprKind::Chain(first, rest) => {
-                self.expr(first);
-                rest.iter_mut().for_each(|(_, operand)| self.expr(operand));
-            }
-            ExprKind::Call(name, args) => {
-                // Arguments hide values, not functions.
-                let hidden = std::mem::take(&mut self.hidden);
-                self.name(name);
-                self.hidden = hidden;
-                self.exprs(args);
-            }
-            ExprKind::Vector(components) => self.exprs(components),
-            ExprKind::Sum { var, range, body } => {
-                self.range(range);
-                var.set_span(self.span);
-                self.hidden.push(var.to_string());
-                self.expr(body);
-                self.hidden.pop();
-            }
-        }
-    }
-
-    fn range(&mut self, range: &mut Range) {
-        self.expr(&mut range.from);
-        self.expr(&mut range.to);
-    }
-
-    fn blocks<T>(&mut self, blocks: &mut [Block<T>], each: &mut dyn FnMut(&mut Self, &mut T)) {
-        for block in blocks {
-            match block {
-                Block::One(entry) => each(self, entry),
-                Block::For { var, range, body } => {
-                    self.range(range);
-                    let text = var.to_string();
-                    *var = Ident::new(&format!("{text}_of_part"), self.span);
-                    let before = self.names.insert(text.clone(), var.to_string());
-                    self.blocks(body, each);
-                    match before {
-                        Some(before) => self.names.insert(text, before),
-                        None => self.names.remove(&text),
-                    };
-                }
-            }
-        }
-    }
 }

@@ -83,8 +83,8 @@ enum End {
     Body(usize),
 }
 
-/// Enters the joints of the tree, with the bodies that hang on them.
-pub(super) fn joints(decl: &Declaration, model: &mut Model, diag: &Diagnostics) {
+/// The joints as declared, with what they join.
+fn declared(decl: &Declaration, model: &Model, diag: &Diagnostics) -> Vec<Joint> {
     let mut found: Vec<Joint> = Vec::new();
     Scope::new(model).unroll(&decl.tree, diag, &mut |joint, scope| {
         let indices = joint.key.indices.iter().map(|index| {
@@ -146,9 +146,14 @@ pub(super) fn joints(decl: &Declaration, model: &mut Model, diag: &Diagnostics) 
             first: 0,
         });
     });
+    found
+}
+
+/// Enters the joints of the tree, with the bodies that hang on them.
+pub(super) fn joints(decl: &Declaration, model: &mut Model, diag: &Diagnostics) {
     let mut names: HashSet<String> = HashSet::new();
     let mut lengths: HashMap<String, usize> = HashMap::new();
-    for joint in found {
+    for joint in declared(decl, model, diag) {
         let text = joint.key.to_string();
         let again = names.contains(&joint.name);
         let reason = match lengths.get(&text) {

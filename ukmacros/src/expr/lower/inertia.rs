@@ -1,6 +1,7 @@
 //! What bodies have by themselves: kinetic energy, weight, and unit quaternions.
 
 use super::array::{Value, describe};
+use super::bodies::Frame;
 use super::system::{Constraint, ConstraintRef, Kind};
 use super::{Env, Lowering, Place};
 use crate::diag::Loc;
@@ -83,22 +84,10 @@ impl<'m> Lowering<'m> {
                     }
                 }
             }
-            if let Some((gravity, e)) = &gravity {
-                let dimension = if spatial { 3 } else { 2 };
-                if gravity.entries().len() < dimension {
-                    let message = format!(
-                        "expected {}, found {}: `{frame}` is spatial",
-                        describe(&[3]),
-                        describe(gravity.shape())
-                    );
-                    self.error(*e, message);
-                    break;
-                }
-                let centre = frame.centre(&mut self.graph);
-                for (g, x) in gravity.entries().iter().zip(centre.entries()) {
-                    let term = self.graph.product(&[(mass, 1), (*g, 1), (*x, 1)]);
-                    out.potential.push((-1.0, term));
-                }
+            if let Some((gravity, e)) = &gravity
+                && !self.weigh(&frame, mass, gravity, *e, &mut out)
+            {
+                break;
             }
         }
         for joint in &self.model.joints {
@@ -116,6 +105,32 @@ impl<'m> Lowering<'m> {
         out.diagonal.retain(|(_, m, _)| !self.graph.is_zero(*m));
         out.potential.retain(|(_, id)| !self.graph.is_zero(*id));
         out
+    }
+
+    /// Enters the weight of a body; reports it, and returns false, if `gravity`, at `loc`, is too short for it.
+    fn weigh(
+        &mut self,
+        frame: &Frame,
+        mass: Id,
+        gravity: &Value,
+        loc: Loc,
+        out: &mut OfBodies,
+    ) -> bool {
+        if gravity.entries().len() < frame.dimension().unwrap_or(0) {
+            let message = format!(
+                "expected {}, found {}: `{frame}` is spatial",
+                describe(&[3]),
+                describe(gravity.shape())
+            );
+            self.error(loc, message);
+            return false;
+        }
+        let centre = frame.centre(&mut self.graph);
+        for (g, x) in gravity.entries().iter().zip(centre.entries()) {
+            let term = self.graph.product(&[(mass, 1), (*g, 1), (*x, 1)]);
+            out.potential.push((-1.0, term));
+        }
+        true
     }
 
     /// The vector that `gravity` gives, with its place.
