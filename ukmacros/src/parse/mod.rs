@@ -10,6 +10,6 @@ pub(crate) use expr::{BinaryOp, Expr, ExprKind, Range, own};
 pub(crate) use grammar::parse;
 pub(crate) use item::{
     Block, Body, Const, Declaration, Entry, Equation, Function, Guess, Key, Let, LetValue,
-    MassEntry, PartUse, Section, Start,
+    MassEntry, PartUse, Section, Shape, Start,
 };
 pub(crate) use table::{Table, split};

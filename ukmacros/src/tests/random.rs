@@ -156,7 +156,7 @@ const PARTS: &str = "@parts [{ Leg } { pub Leg { const N: usize = 2; params { l 
     output { tip = tip + sum(0..N, |i| m[i]) * [1, 0] } } } { }] pub T { params { size = 0.7 } bodies { planar trunk { mass: 1, inertia: 1 } } \
     parts { for i in 0..2 { leg[i]: Leg { l: size + i / 10.0 } } tail: Leg } tree { for i in 0..2 { hip[i]: pin(trunk.at([i, 0]), leg[i].shin[0].at([0, 0])) } } \
     force { leg[1].knee.angle: 1.0, tail.shin[0].x: leg[0].m[1] } output { reach = norm(leg[1].tip - trunk.centre) + tail.l } \
-    start s(a = 1.0) { leg[0].knee.angle = a; hip[1].angle near 2; dot(tail.shin[1].x) = 1 } }";
+    start s(a = 1.0) { leg[0].knee.angle = a; hip[1].angle near 2; dot(tail.shin[0].x) = 1 } }";
 
 fn survives(source: &str) {
     if let Ok(tokens) = source.parse::<proc_macro2::TokenStream>() {

@@ -85,6 +85,12 @@ impl Frame {
         Some(if moving.kind.spatial { 3 } else { 2 })
     }
 
+    /// Where its centre of mass is, in axes of the ground; nothing for the ground.
+    pub(super) fn middle(&self, g: &mut Graph) -> Option<Vec<Id>> {
+        let centre = Value::vector(self.moving.as_ref()?.centre.clone());
+        Some(self.at(&centre, g).entries().to_vec())
+    }
+
     /// Where the point `p` of its frame is, in axes of the ground.
     pub(super) fn at(&self, p: &Value, g: &mut Graph) -> Value {
         let Some(moving) = &self.moving else {
@@ -349,10 +355,19 @@ impl<'m> Lowering<'m> {
             }),
         };
         if let (Some(Some(declared)), Some(moving)) = (self.bodies.get_mut(position), moving) {
-            declared.frame = Some(Rc::new(Frame {
+            let hangs = Value::vector(moving.place.clone());
+            let frame = Rc::new(Frame {
                 name: element.name.clone(),
                 moving: Some(moving),
-            }));
+            });
+            declared.frame = Some(frame.clone());
+            if self.model.hung[position].is_some() {
+                let point = Point {
+                    body: frame,
+                    place: hangs,
+                };
+                self.note("tree", &[Value::Point(Rc::new(point))]);
+            }
         }
     }
 

@@ -302,7 +302,9 @@ impl<'m> Lowering<'m> {
         env: &Env<'m>,
     ) -> Option<(&'static Part, Env<'m>)> {
         let values: Vec<Value> = args.iter().map(|a| self.argument(a, env)).collect();
-        self.part_with(name, args, values)
+        let found = self.part_with(name, args, &values)?;
+        self.note(found.0.name, &values);
+        Some(found)
     }
 
     /// The part that is meant where its arguments have these values, and these by their names.
@@ -310,7 +312,7 @@ impl<'m> Lowering<'m> {
         &mut self,
         name: &Ident,
         args: &[Expr],
-        values: Vec<Value>,
+        values: &[Value],
     ) -> Option<(&'static Part, Env<'m>)> {
         if values.iter().any(Value::is_error) {
             return None;

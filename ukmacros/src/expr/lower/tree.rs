@@ -201,7 +201,8 @@ impl<'m> Lowering<'m> {
         }
         let (from, reference) = (values[0].entries().to_vec(), values[1].entries().to_vec());
         values.extend(joint.args[2..].iter().map(|arg| self.argument(arg, &env)));
-        let (_, inner) = self.part_with(&joint.call, &joint.args, values)?;
+        let (_, inner) = self.part_with(&joint.call, &joint.args, &values)?;
+        let from_place = carrier.at(&Value::vector(from.clone()), &mut self.graph);
         let mut moved = carrier.moved(dimension, &mut self.graph);
         let start = match &carrier.moving {
             Some(moving) => moving.reference.clone(),
@@ -221,6 +222,13 @@ impl<'m> Lowering<'m> {
                 &joint.args,
             )?;
         }
+        self.note(
+            joint.kind.name,
+            &[Value::Point(Rc::new(Point {
+                body: carrier.clone(),
+                place: from_place,
+            }))],
+        );
         let name = &body.name;
         self.hint(&format!("{name}.axes"), &moved.axes);
         self.hint(&format!("{name}.spin"), &moved.omega);
