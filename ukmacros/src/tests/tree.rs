@@ -85,6 +85,22 @@ fn coordinates_of_bodies_and_joints_stand_in_order() {
     );
 }
 
+/// Bodies of the tree are drawn from joint to joint, as others are.
+#[test]
+fn pictures_know_joints_of_the_tree() {
+    let bodies = "pub T { bodies { planar a { mass: 1, inertia: 1 } planar b { mass: 1, inertia: 1, centre: [0.5, 0] } }";
+    let joints =
+        "{ c: pin(ground.at([0, 0]), a.at([0, 0])), d: pin(a.at([1, 0]), b.at([0, 0])) } }";
+    let kinds = |section: &str| {
+        let (system, _) = system(&format!("{bodies} {section} {joints}"));
+        let shapes = system.drawing.shapes.iter();
+        let kinds = shapes.map(|shape| (format!("{:?}", shape.kind), shape.numbers.len()));
+        kinds.collect::<Vec<_>>()
+    };
+    assert_eq!(kinds("tree"), kinds("holonomic"));
+    assert_eq!(kinds("tree").len(), 3);
+}
+
 macro_rules! cases {
     ($($name:ident: $source:literal => $($message:literal),+;)*) => {
         $(#[test] fn $name() { check_errors($source, &[$($message),+]); })*
