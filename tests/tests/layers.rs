@@ -154,6 +154,8 @@ fn ukcore() {
             "explain",
             "model",
             "linearise",
+            "modes",
+            "equilibrium",
             "integrate",
             "events",
             "trajectory",

@@ -10,7 +10,8 @@
 //! - [`Simulation`]: adaptive integration with projection, events, dense output and named CSV; `Ensemble` (feature `ensemble`): many
 //!   motions at once, in
 //!   lanes and on all cores.
-//! - [`Linearisation`]: exact derivatives of the accelerations. [`lanes`]: several mechanisms at once, in the lanes of wide numbers.
+//! - [`Linearisation`]: exact derivatives of the accelerations. [`equilibrium`](equilibrium()): where a mechanism rests; [`modes`](modes()):
+//!   how it vibrates. [`lanes`]: several mechanisms at once, in the lanes of wide numbers.
 //! - [`equations`]: the formulas as printed. [`spec`] and [`plan`]: what the compiler knows about a mechanism, and decided. [`model`]: what
 //!   a mechanism may
 //!   say of itself besides.
@@ -30,6 +31,7 @@ pub mod assemble;
 mod dense;
 pub mod diagnose;
 pub mod equations;
+mod equilibrium;
 mod error;
 mod events;
 pub mod explain;
@@ -43,6 +45,7 @@ pub mod manifold;
 pub mod mechanism;
 mod metric;
 pub mod model;
+mod modes;
 mod noise;
 pub mod numbers;
 mod pinv;
@@ -59,10 +62,12 @@ mod trajectory;
 mod zero;
 
 pub use assemble::{State, assemble};
+pub use equilibrium::{Equilibrium, equilibrium};
 pub use error::Error;
 pub use linearise::Linearisation;
 pub use manifold::Stabilisation;
 pub use mechanism::{Mechanism, Prepared};
+pub use modes::{Mode, modes};
 #[cfg(feature = "ensemble")]
 pub use simulate::Ensemble;
 pub use simulate::{Event, Failure, Method, Simulation, Trajectory};

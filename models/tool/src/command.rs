@@ -13,6 +13,7 @@ use crate::animate::{AnimateArgs, animate};
 use crate::explain::{ExplainArgs, explain};
 use crate::failure::Failure;
 use crate::list::list;
+use crate::modes::{ModesArgs, modes};
 use crate::report::{ReportArgs, report};
 use crate::run::{RunArgs, run};
 
@@ -30,6 +31,8 @@ pub enum Command {
     Run(RunArgs),
     /// Show the motion of a model: a page that opens from disk, with its picture to play, energy and constraint residual
     Animate(AnimateArgs),
+    /// Show where a model rests next to its start, and how it vibrates there: frequencies, growth, shapes
+    Modes(ModesArgs),
     /// Show what is known about a model: M, Q, A, b, rank, degrees of freedom, how its motion is computed; or the emitted code
     Explain(ExplainArgs),
     /// Measure error against run time, for each method, formula and stabilisation, and say which to take for which accuracy
@@ -46,6 +49,7 @@ impl Command {
             Command::List => list(models),
             Command::Run(args) => run(models, args),
             Command::Animate(args) => animate(models, args),
+            Command::Modes(args) => modes(models, args),
             Command::Explain(args) => explain(models, args),
             Command::Report(args) => report(models, args),
         }

@@ -239,3 +239,26 @@ fn browsed(page: &Path) -> Option<String> {
         .find_map(run)?;
     Some(String::from_utf8_lossy(&shown.stdout).into_owned())
 }
+
+/// About the hanging position (M + m) s̈ + m l θ̈ + k s = 0 and s̈ + l θ̈ + g θ = 0.
+#[test]
+fn its_modes_are_told() {
+    let told = output("modes cart");
+    assert!(told.starts_with("cart rests, stable, at\n"), "{told}");
+    let (big, m, l, k, g) = (2.0, 1.0, 0.5, 40.0, 9.81);
+    // M l ω⁴ − ((M + m) g + k l) ω² + k g = 0.
+    let (a, b, c): (f64, f64, f64) = (big * l, (big + m) * g + k * l, k * g);
+    let root = (b * b - 4.0 * a * c).sqrt();
+    let expected = [b - root, b + root].map(|x| (x / (2.0 * a)).sqrt());
+    let lines = told.lines().filter_map(|line| line.split_once(" rad/s"));
+    let found: Vec<f64> = lines.map(|(x, _)| x.parse().expect("a number")).collect();
+    assert_eq!(found.len(), 2, "{told}");
+    for (found, expected) in found.iter().zip(expected) {
+        assert!((found - expected).abs() < 1e-6, "{told}");
+    }
+    fails(
+        "modes cart --steady",
+        1,
+        "is neither a rest position nor a steady motion",
+    );
+}

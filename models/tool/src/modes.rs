@@ -1,0 +1,117 @@
+//! The command `modes`: where a mechanism rests, and how it vibrates there.
+
+use std::f64::consts::TAU;
+use std::io::{self, Write};
+
+use clap::Args;
+use ukcore::model::Entry;
+use ukcore::{Mode, State, equilibrium, modes as modes_of};
+
+use crate::failure::Failure;
+use crate::numbers::{full, width};
+use crate::output;
+use crate::scene::{Ready, Scene};
+
+/// The arguments of `modes`.
+#[derive(Debug, Args)]
+pub struct ModesArgs {
+    /// The mechanism, and where the search begins
+    #[command(flatten)]
+    pub scene: Scene,
+    /// Take the start itself, a rest position or a steady motion, instead of the rest position next to it
+    #[arg(long)]
+    pub steady: bool,
+}
+
+/// Coordinates of a shape that move less than this part of the one that moves most are not shown.
+const STILL: f64 = 1e-6;
+
+/// Prints the rest position next to the start, and its modes, slowest first.
+///
+/// # Errors
+/// [`Failure::Usage`] for what is wrong with the command line; [`Failure::Failed`] where there is no rest position, or no linear motion about
+/// it.
+pub fn modes(models: &[Entry], args: &ModesArgs) -> Result<(), Failure> {
+    let ready = args.scene.ready(models)?;
+    let failed = |error: ukcore::Error| Failure::Failed(error.to_string());
+    let (state, stable) = if args.steady {
+        (ready.state.clone(), None)
+    } else {
+        let found = equilibrium(&ready.mechanism, &ready.state, &[]).map_err(failed)?;
+        (found.state, Some(found.stable))
+    };
+    let found = modes_of(&ready.mechanism, &state).map_err(failed)?;
+    output::to_stdout(|out| {
+        place(out, &ready, &state, stable)?;
+        found.iter().try_for_each(|mode| show(out, &ready, mode))
+    })
+}
+
+fn place(
+    out: &mut dyn Write,
+    ready: &Ready<'_>,
+    state: &State,
+    stable: Option<bool>,
+) -> io::Result<()> {
+    let id = &ready.entry.id;
+    match stable {
+        Some(true) => writeln!(out, "{id} rests, stable, at")?,
+        Some(false) => writeln!(out, "{id} rests, not stable, at")?,
+        None => writeln!(out, "{id} as in `{}`", ready.start)?,
+    }
+    let names = ready.mechanism.spec().coords;
+    let wide = width(names.iter().copied());
+    let largest = |values: &[f64]| values.iter().fold(0.0, |s: f64, x| s.max(x.abs()));
+    let (size, speed) = (largest(&state.q), largest(&state.v));
+    for ((name, q), v) in names.iter().zip(&state.q).zip(&state.v) {
+        let rate = if *v == 0.0 {
+            String::new()
+        } else {
+            format!("   dot {}", number(*v, speed))
+        };
+        writeln!(out, "  {name:<wide$}  {}{rate}", number(*q, size))?;
+    }
+    writeln!(out)
+}
+
+fn show(out: &mut dyn Write, ready: &Ready<'_>, mode: &Mode) -> io::Result<()> {
+    let Mode {
+        growth, frequency, ..
+    } = *mode;
+    let size = growth.hypot(frequency);
+    let growing = format!("growth {} 1/s", number(growth, size));
+    if frequency > 0.0 {
+        let (hertz, damping) = (number(frequency / TAU, 0.0), number(mode.damping(), 1.0));
+        let frequency = number(frequency, 0.0);
+        writeln!(
+            out,
+            "{frequency} rad/s ({hertz} Hz), {growing}, damping ratio {damping}"
+        )?;
+    } else {
+        writeln!(out, "{growing}")?;
+    }
+    let names = ready.mechanism.spec().coords;
+    let parts = names.iter().zip(&mode.shape);
+    let parts = parts.filter(|(_, [re, im])| re.hypot(*im) > STILL);
+    let parts = parts.map(|(name, [re, im])| match im.abs() > STILL {
+        true => format!(
+            "{name} {} {}{}i",
+            number(*re, 1.0),
+            if *im < 0.0 { "- " } else { "+ " },
+            number(im.abs(), 1.0)
+        ),
+        false => format!("{name} {}", number(*re, 1.0)),
+    });
+    writeln!(out, "  {}", parts.collect::<Vec<_>>().join(", "))
+}
+
+/// Seven digits; 0 for what is rounding beside `size`.
+fn number(x: f64, size: f64) -> String {
+    if x.abs() <= ROUNDING * size {
+        return "0".to_owned();
+    }
+    full(format!("{x:.6e}").parse().unwrap_or(x))
+}
+
+/// A number below this part of others of its kind is rounding.
+const ROUNDING: f64 = 1e-12;

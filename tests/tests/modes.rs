@@ -1,0 +1,173 @@
+//! Modes about rest positions and steady motions, against closed forms.
+
+use tests::{assert_all_close, assert_close};
+use ukcore::{Error, Mechanism, Mode, State, modes};
+
+ukcore::multibody! {
+    /// Masses in a row between two walls, with springs between neighbours.
+    pub Row {
+        const N: usize = 6;
+        params { m = 0.7, k = 30.0, c = 0.0 }
+        coords { x[N] }
+        mass { x: m }
+        potential { 0.5 * k * sq(x[0]), 0.5 * k * sq(x[N - 1]) for i in 1..N { 0.5 * k * sq(x[i] - x[i - 1]) } }
+        dissipation { for i in 0..N { 0.5 * c * sq(dot(x[i])) } }
+    }
+}
+
+ukcore::multibody! {
+    /// Two points on rods, the second rod declared `again`, with a turn of the first as an angle; y points up.
+    pub Double {
+        params { m = 1.3, l = 0.8, g = 9.81, c = 0.0 }
+        coords { x1, y1, x2, y2, turn }
+        mass { x1: m, y1: m, x2: m, y2: m }
+        potential { m * g * (y1 + y2) }
+        dissipation { 0.5 * c * (sq(dot(x1)) + sq(dot(y1))), 0.5 * c * (sq(dot(x2)) + sq(dot(y2))) }
+        holonomic {
+            upper: sq(x1) + sq(y1) = sq(l)
+            lower: sq(x2 - x1) + sq(y2 - y1) = sq(l)
+            again: 2.0 * (sq(x2 - x1) + sq(y2 - y1)) = 2.0 * sq(l)
+            angle: x1 * cos(turn) = -y1 * sin(turn)
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// Chaplygin's sleigh: a blade, and the centre of mass a before it.
+    pub Sleigh {
+        params { m = 2.0, j = 0.3, a = 0.4 }
+        coords { x, y, th }
+        let centre = [x, y] + a * [cos(th), sin(th)];
+        kinetic { 0.5 * m * sq(dot(centre)), 0.5 * j * sq(dot(th)) }
+        nonholonomic { blade: dot(x) * sin(th) = dot(y) * cos(th) }
+    }
+}
+
+fn rest(q: &[f64]) -> State {
+    State {
+        t: 0.0,
+        q: q.to_vec(),
+        v: vec![0.0; q.len()],
+    }
+}
+
+fn frequencies(modes: &[Mode]) -> Vec<f64> {
+    modes.iter().map(|mode| mode.frequency).collect()
+}
+
+/// ω_k = 2 √(k/m) sin(k π/(2 (N + 1))), with the shape sin(i k π/(N + 1)).
+#[test]
+fn a_row_of_masses_has_its_closed_form() {
+    let row = Row::default();
+    let found = modes(&row, &rest(&[0.0; Row::N])).expect("at rest");
+    let count = Row::N + 1;
+    let angle = |k: usize| std::f64::consts::PI * k as f64 / count as f64;
+    let expected: Vec<f64> = (1..count)
+        .map(|k| 2.0 * (row.k / row.m).sqrt() * (0.5 * angle(k)).sin())
+        .collect();
+    assert_all_close("frequencies", &frequencies(&found), &expected, 1e-12);
+    for (mode, k) in found.iter().zip(1..) {
+        assert_close("growth", mode.growth, 0.0, 1e-12);
+        let shape = |i: usize| ((i + 1) as f64 * angle(k)).sin();
+        let leader = Row::SPEC.coords.iter().position(|c| *c == mode.leader);
+        let most = shape(leader.expect("a coordinate"));
+        for (i, [re, im]) in mode.shape.iter().enumerate() {
+            assert_close("shape", *re, shape(i) / most, 1e-10);
+            assert_close("phase", *im, 0.0, 1e-10);
+        }
+    }
+}
+
+/// c on each mass: growth −c/2m, and √(ω² − (c/2m)²).
+#[test]
+fn damping_is_told() {
+    let row = Row {
+        c: 1.1,
+        ..Row::default()
+    };
+    let found = modes(&row, &rest(&[0.0; Row::N])).expect("at rest");
+    let free = modes(Row::default(), &rest(&[0.0; Row::N])).expect("at rest");
+    let decay = 0.5 * row.c / row.m;
+    for (mode, free) in found.iter().zip(&free) {
+        assert_close("growth", mode.growth, -decay, 1e-12);
+        let frequency = (free.frequency.powi(2) - decay * decay).sqrt();
+        assert_close("frequency", mode.frequency, frequency, 1e-12);
+        assert_close("damping", mode.damping(), decay / free.frequency, 1e-12);
+    }
+    // More than critical: two ways to die away for each of the slow ones.
+    let stiff = Row {
+        c: 40.0,
+        ..Row::default()
+    };
+    let found = modes(&stiff, &rest(&[0.0; Row::N])).expect("at rest");
+    let over = found.iter().filter(|mode| mode.frequency == 0.0).count();
+    assert_eq!(found.len() + found.len() - over, 2 * Row::N);
+    assert!(
+        over > 0 && found.iter().all(|mode| mode.growth < 0.0),
+        "{found:?}"
+    );
+}
+
+/// ω² = (2 ± √2) g/l, hanging; standing on end both grow. Neither the rods nor the row too many add anything.
+#[test]
+fn constraints_have_no_modes_of_their_own() {
+    let double = Double::default();
+    let w = |sign: f64| ((2.0 + sign * 2.0_f64.sqrt()) * double.g / double.l).sqrt();
+    let l = double.l;
+    let hanging = modes(&double, &rest(&[0.0, -l, 0.0, -2.0 * l, 0.0])).expect("at rest");
+    assert_all_close(
+        "frequencies",
+        &frequencies(&hanging),
+        &[w(-1.0), w(1.0)],
+        1e-11,
+    );
+    // The angle of the upper rod moves with its end.
+    let [x1, turn] = [Double::X1, Double::TURN].map(|j| hanging[0].shape[j][0]);
+    assert_close("turn", turn, x1 / l, 1e-10);
+    let standing = modes(&double, &rest(&[0.0, l, 0.0, 2.0 * l, 0.0])).expect("at rest");
+    let growths: Vec<f64> = standing.iter().map(|mode| mode.growth).collect();
+    assert_all_close(
+        "growth",
+        &growths,
+        &[-w(1.0), -w(-1.0), w(-1.0), w(1.0)],
+        1e-11,
+    );
+    assert!(standing.iter().all(|mode| mode.frequency == 0.0));
+}
+
+/// Running straight at u, a turn dies away as exp(−m a u t/(j + m a²)): it grows where the centre of mass is behind the blade.
+#[test]
+fn a_sleigh_runs_straight_with_its_weight_in_front() {
+    for u in [-3.0, 0.5, 2.0] {
+        let sleigh = Sleigh::default();
+        let state = State {
+            t: 0.0,
+            q: vec![1.0, 2.0, 0.0],
+            v: vec![u, 0.0, 0.0],
+        };
+        let found = modes(&sleigh, &state).expect("steady");
+        let (m, j, a) = (sleigh.m, sleigh.j, sleigh.a);
+        let growth = -m * a * u / (j + m * a * a);
+        let near = |mode: &&Mode| (mode.growth - growth).abs() < 1e-10 && mode.frequency == 0.0;
+        assert_eq!(found.iter().filter(near).count(), 1, "{found:?}");
+        // Five freedoms of position and velocity; all else are places, headings and speeds that stay.
+        let still = |mode: &&Mode| mode.growth.hypot(mode.frequency) < 1e-6;
+        let eigenvalues = |mode: &Mode| if mode.frequency > 0.0 { 2 } else { 1 };
+        let zeros: usize = found.iter().filter(still).map(eigenvalues).sum();
+        assert_eq!(zeros, 4, "{found:?}");
+    }
+}
+
+#[test]
+fn what_does_not_stay_has_no_modes() {
+    let double = Double::default();
+    let l = double.l;
+    let aslant = rest(&[0.6 * l, -0.8 * l, 0.6 * l, -1.8 * l, 0.6_f64.asin()]);
+    let Err(Error::InvalidSetting { what, reason }) = modes(&double, &aslant) else {
+        panic!("it falls")
+    };
+    assert_eq!(what, "state");
+    assert!(reason.contains("accelerates by"), "{reason}");
+    ukcore::multibody! { Falling { coords { y } mass { y: 1.0 } potential { 9.81 * y } } }
+    assert!(modes(Falling::default(), &rest(&[0.0])).is_err());
+}

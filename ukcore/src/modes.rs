@@ -1,0 +1,209 @@
+//! How a mechanism vibrates about a rest position, or a steady motion: eigenvalues of its linearised motion, in the tangent space of the
+//! constraints.
+//!
+//! A deviation (δq, δq̇) moves as d/dt (δq, δq̇) = F (δq, δq̇), F = [0 1; ∂q̈/∂q ∂q̈/∂q̇], and stays on the constraints if it is there:
+//! A δq = 0 of the holonomic ones, and ∂φ̇/∂q δq + A δq̇ = 0 of all. With an orthonormal basis Z of such deviations F Z = Z R, and the
+//! eigenvalues of R = Zᵀ F Z are those of the mechanism alone: n coordinates bound by constraints have no eigenvalues of their own.
+//! Coordinates are measured by the root of their inertia, so that metres and radians are comparable.
+
+use nalgebra::{Complex, DMatrix, DVector};
+
+use crate::assemble::State;
+use crate::error::Error;
+use crate::linearise::Linearisation;
+use crate::mechanism::Prepared;
+use crate::scalar::Dual;
+use crate::solver::{Solver, SolverOptions};
+
+/// Rows of constraints, each of length 1, that keep less beside the others follow from them.
+const INDEPENDENT: f64 = 1e-9;
+/// An acceleration below this share of the parts that the largest one is the sum of is rounding, or what is left of a rest position that was
+/// found by iteration.
+const REST: f64 = 1e-9;
+
+/// A mode: deviations that grow by exp((`growth` + i `frequency`) t) without changing their shape.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mode {
+    /// Real part of its eigenvalue, 1/s: negative for a mode that dies away.
+    pub growth: f64,
+    /// Imaginary part, rad/s, not negative: of two conjugate eigenvalues one mode tells.
+    pub frequency: f64,
+    /// Deviation of each coordinate, real and imaginary part, in its own unit: relative to that of [`leader`](Mode::leader), which is 1.
+    pub shape: Vec<[f64; 2]>,
+    /// The coordinate that moves most, measured by the root of its inertia.
+    pub leader: &'static str,
+}
+
+impl Mode {
+    /// The damping ratio −`growth`/|eigenvalue|: 0 for a vibration that lasts, 1 for one that only dies away; 0 for an eigenvalue of 0.
+    #[must_use]
+    pub fn damping(&self) -> f64 {
+        let size = self.growth.hypot(self.frequency);
+        if size > 0.0 { -self.growth / size } else { 0.0 }
+    }
+}
+
+/// The modes of `mechanism` about `state`, slowest first: by frequency, then by growth. There are as many eigenvalues as the mechanism has
+/// freedoms of position and of velocity: vibrations give two each. An eigenvalue of 0, as of a body that nothing holds, comes double and is
+/// known to the root of rounding.
+///
+/// # Errors
+/// - [`Error::InvalidSetting`] where `state` is neither a rest position nor a steady motion: a coordinate accelerates.
+/// - What [`Linearisation::at`] reports.
+pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>, Error> {
+    let mech: Prepared = mechanism.into();
+    let found = Linearisation::at(&mech, state)?;
+    let n = mech.spec().n();
+    let units = units(&mech, state);
+    steady(&mech, &found, state, &units)?;
+    let tangent = tangent(&mech, state, &units);
+    let mut flow = DMatrix::zeros(2 * n, 2 * n);
+    for i in 0..n {
+        flow[(i, n + i)] = 1.0;
+        for j in 0..n {
+            let scale = units[j] / units[i];
+            flow[(n + i, j)] = scale * found.by_position[j * n + i];
+            flow[(n + i, n + j)] = scale * found.by_velocity[j * n + i];
+        }
+    }
+    let reduced = tangent.tr_mul(&(flow * &tangent));
+    let values = reduced.complex_eigenvalues();
+    let told = values.iter().filter(|z| z.im >= 0.0);
+    let mut modes: Vec<Mode> = told
+        .map(|value| {
+            let part = eigenvector(&reduced, *value);
+            let shape = tangent.rows(0, n).map(|x| Complex::new(x, 0.0)) * part;
+            let leader = shape.icamax();
+            let most = shape[leader] * units[leader];
+            let relative = |(x, unit): (&Complex<f64>, &f64)| {
+                let share = x * *unit / most;
+                [share.re, share.im]
+            };
+            Mode {
+                growth: value.re,
+                frequency: value.im,
+                shape: shape.iter().zip(units.iter()).map(relative).collect(),
+                leader: mech.spec().coords[leader],
+            }
+        })
+        .collect();
+    modes.sort_by(|a, b| {
+        let by_frequency = a.frequency.total_cmp(&b.frequency);
+        by_frequency.then(a.growth.total_cmp(&b.growth))
+    });
+    Ok(modes)
+}
+
+/// What the coordinates of `mech` are measured by: 1/√M_jj; 1 where there is no inertia.
+pub(crate) fn units(mech: &Prepared, state: &State) -> DVector<f64> {
+    let n = mech.spec().n();
+    let mut mass = vec![0.0; n * n];
+    mech.mass_matrix(state.t, &state.q, &mut mass);
+    DVector::from_fn(n, |j, _| match mass[j * n + j] {
+        m if m > 0.0 => m.sqrt().recip(),
+        _ => 1.0,
+    })
+}
+
+/// An orthonormal basis of what all `rows` are at right angles to, measured by `units`, in columns.
+pub(crate) fn null_space(mut rows: DMatrix<f64>, units: &DVector<f64>) -> DMatrix<f64> {
+    let n = rows.ncols();
+    for (k, mut column) in rows.column_iter_mut().enumerate() {
+        column *= units[k % units.len()];
+    }
+    for mut row in rows.row_iter_mut() {
+        let length = row.norm();
+        if length > 0.0 {
+            row /= length;
+        }
+    }
+    let decomposed = rows.transpose().col_piv_qr();
+    let diagonal = decomposed.r().diagonal();
+    let rank = diagonal.iter().filter(|x| x.abs() > INDEPENDENT).count();
+    let mut turned = DMatrix::identity(n, n);
+    decomposed.q_tr_mul(&mut turned);
+    turned.rows(rank, n - rank).transpose()
+}
+
+/// Whether no coordinate accelerates, beside what accelerations here are made up of.
+fn steady(
+    mech: &Prepared,
+    found: &Linearisation,
+    state: &State,
+    units: &DVector<f64>,
+) -> Result<(), Error> {
+    let n = mech.spec().n();
+    let parts = |i: usize, columns: &[f64], by: &[f64]| -> f64 {
+        let products = by.iter().enumerate().map(|(j, x)| x * columns[j * n + i]);
+        products.map(f64::abs).sum()
+    };
+    let sizes = (0..n).map(|i| {
+        let by_position = parts(i, &found.by_position, &state.q);
+        (by_position + parts(i, &found.by_velocity, &state.v)) / units[i]
+    });
+    // Forces of constraints balance others.
+    let solved = Solver::new(mech, SolverOptions::default()).solve(state.t, &state.q, &state.v)?;
+    let ideal = solved.ideal_force.iter().zip(units.iter());
+    let ideal = ideal.map(|(force, unit)| (force * unit).abs());
+    let size = sizes.chain(ideal).fold(0.0, f64::max);
+    let accelerations = found.acceleration.iter().zip(units.iter());
+    for (i, (a, unit)) in accelerations.enumerate() {
+        if (a / unit).abs() > REST * size {
+            let name = mech.spec().coords[i];
+            return Err(Error::InvalidSetting {
+                what: "state",
+                reason: format!(
+                    "is neither a rest position nor a steady motion: `{name}` accelerates by {a:.3e}; modes are those of states that stay"
+                ),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// An orthonormal basis of the deviations that meet the constraints, in `units`.
+fn tangent(mech: &Prepared, state: &State, units: &DVector<f64>) -> DMatrix<f64> {
+    let spec = mech.spec();
+    let (n, m, h) = (spec.n(), spec.m(), spec.holonomic);
+    let mut rows = DMatrix::zeros(h + m, 2 * n);
+    let mut jacobian = vec![0.0; m * n];
+    mech.jacobian(state.t, &state.q, &state.v, &mut jacobian);
+    let jacobian = DMatrix::from_vec(m, n, jacobian);
+    rows.view_mut((0, 0), (h, n))
+        .copy_from(&jacobian.rows(0, h));
+    rows.view_mut((h, n), (m, n)).copy_from(&jacobian);
+    let dual = mech.dual();
+    let fixed = |x: &f64| Dual::new(*x, 0.0);
+    let mut q: Vec<Dual> = state.q.iter().map(fixed).collect();
+    let v: Vec<Dual> = state.v.iter().map(fixed).collect();
+    let mut rate = vec![Dual::new(0.0, 0.0); m];
+    for j in 0..n {
+        q[j].eps = 1.0;
+        dual.residual_rate(Dual::new(state.t, 0.0), &q, &v, &mut rate);
+        q[j].eps = 0.0;
+        for (row, rate) in rate.iter().enumerate() {
+            rows[(h + row, j)] = rate.eps;
+        }
+    }
+    null_space(rows, units)
+}
+
+/// The eigenvector of the eigenvalue `value`, of length 1, by inverse iteration.
+fn eigenvector(matrix: &DMatrix<f64>, value: Complex<f64>) -> DVector<Complex<f64>> {
+    let n = matrix.nrows();
+    // Beside the eigenvalue, by what rounding leaves unknown of it, so that nothing is divided by 0.
+    let aside = f64::EPSILON * matrix.norm().max(f64::MIN_POSITIVE) * 8.0;
+    let mut shifted = matrix.map(|x| Complex::new(x, 0.0));
+    for k in 0..n {
+        shifted[(k, k)] -= value + aside;
+    }
+    let solver = shifted.lu();
+    // Not at a right angle to any eigenvector that has a name.
+    let mut vector = DVector::from_fn(n, |k, _| Complex::new(1.0 + (k as f64).sin(), 0.0));
+    for _ in 0..3 {
+        if let Some(next) = solver.solve(&vector) {
+            vector = next.unscale(next.norm());
+        }
+    }
+    vector
+}
