@@ -3,6 +3,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod leg;
 mod machines;
 mod oracle;
 mod random;

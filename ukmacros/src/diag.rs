@@ -2,6 +2,7 @@
 
 use proc_macro2::{Delimiter, Group, Ident, Literal, Punct, Spacing, Span, TokenStream, TokenTree};
 use std::cell::{Cell, RefCell};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The source range of something: its first and its last token (stable Rust cannot join spans).
 #[derive(Clone, Copy, Debug)]
@@ -99,6 +100,36 @@ impl Diagnostics {
         let mut found = self.found.borrow_mut();
         found.truncate(from + 1);
         found.iter_mut().skip(from).for_each(|d| d.loc = loc);
+    }
+
+    /// Shows names as `shown` has them. Of the errors at one of these `places`, each with what it is, the first is left: what is wrong in a part
+    /// is wrong in all its members.
+    pub(crate) fn within(&self, shown: &BTreeMap<String, String>, places: &[(Loc, String)]) {
+        let place = |l: &Loc| format!("{:?} {:?}", l.start, l.end);
+        let places: BTreeMap<String, &str> = places
+            .iter()
+            .rev()
+            .map(|(l, name)| (place(l), name.as_str()))
+            .collect();
+        let mut told = BTreeSet::new();
+        self.found.borrow_mut().retain_mut(|d| {
+            let Diagnostic { loc, message } = d;
+            let mut text = String::new();
+            for word in message.split_inclusive(|c: char| !(c.is_alphanumeric() || c == '_')) {
+                let name = word.trim_end_matches(|c: char| !(c.is_alphanumeric() || c == '_'));
+                text += shown.get(name).map_or(name, String::as_str);
+                text += &word[name.len()..];
+            }
+            *message = text;
+            let Some(part) = places.get(&place(loc)) else {
+                return true;
+            };
+            let base = part.split('[').next().unwrap_or_default();
+            if !message.contains(&format!("`{base}")) {
+                *message = format!("in part `{base}`: {message}");
+            }
+            told.insert(place(loc))
+        });
     }
 
     pub(crate) fn is_empty(&self) -> bool {

@@ -52,6 +52,8 @@ use proc_macro2::TokenStream;
 /// | `params` | `m = 1.0`, `k[N] = 2.0`, `r[2][3] = [[1, 0, 0], [0, 1, 0]]` | parameters with defaults, a family's one for all members or one for each; public `f64` fields (arrays for families), changeable at run time |
 /// | `coords` | `x[N]`, `p[N][3]`, `th` | coordinates q: scalars and families; inside a `for`, `x[i]` declares one member |
 /// | `bodies` | `planar link[i] { mass: m, inertia: j, centre: [a, 0] }` | [bodies](#bodies), which have coordinates, kinetic energy and weight |
+/// | `tree` | `knee: pin(thigh.at(p), shank.at(q))` | [joints of the tree](#joints-of-the-tree): the second body has no coordinates of its own, but those of the joint |
+/// | `parts` | `leg[6]: Leg { phase: 0.2 }` | [other declarations](#parts) within this one |
 /// | `gravity` | `[0, -g]` | the acceleration of free fall of all bodies, a vector of the plane or of space |
 /// | `let` | `let d = x - y;`, `let f = \|u, v\| u * v;`, `let { for i in 0..N { d[i] = … } }` | names for values, functions, families of values |
 /// | `mass` | `x: m`, `p: m`, `(x, y): m12` | entries of M(q, t), taken literally as in eq. 1; entries for one place add up; a family has one mass for all members, or a vector of them |
@@ -213,6 +215,101 @@ use proc_macro2::TokenStream;
 /// Rows of directions at right angles are met, too, where a body is turned over; the nearest state to the guess decides. A function of the
 /// declaration may be a joint, too: with `let hook = |p, q| pin(p, q + [0, h]);`, `c: hook(p, q)` is one.
 ///
+/// # Joints of the tree
+///
+/// The same joint under `tree` instead of `holonomic` gives no rows. Its second body *hangs* on it: it has no coordinates of its own, and its
+/// place, orientation and velocities follow from those of the first body, or the ground, and from the coordinates that the joint has. For
+/// everything else it is a body as others are. Moving a joint from one section to the other is all that changes; what closes a loop stays
+/// under `holonomic`, and so does a motor: `motor: knee.angle = w * t`. Each body hangs on one joint at most, and not on itself by others.
+/// The coordinates of joints follow those of bodies in q:
+///
+/// | joint | coordinates | meaning |
+/// | --- | --- | --- |
+/// | `knee: pin(p, q)` | `knee.angle` | the angle of the second body less that of the first |
+/// | `slider(p, q, d, [angle])` | `.slide` | the way of q from p along d |
+/// | `slot(p, q, d)` | `.slide`, `.angle` | both |
+/// | `hinge(p, q, u, [w])` | `.angle` | right-handed about u, 0 where `normals(u)` of the first body are `normals(w)` of the second |
+/// | `cylinder(p, q, u, [w])` | `.slide`, `.angle` | the way of q from p along u, and the angle |
+/// | `screw(p, q, u, lead)` | `.angle` | q is lead/2π times the angle away from p along u |
+/// | `slider(p, q, u, [turn])` | `.slide` | the way of q from p along u |
+/// | `universal(p, q, u, w)` | `.first`, `.second` | the angles about u of the first body and w of the second. At 0 axes of both agree, if u and w are at right angles; if not, w is brought to a right angle with u in their plane |
+/// | `ball(p, q)` | `.e0` to `.e3` | the unit quaternion that turns axes of the second body from those of the first, with the constraint `.unit`; a guess of a start needs e₀ = 1, say |
+/// | `weld(p, q, …)` | none | |
+///
+/// Constants of the type are `T::KNEE_ANGLE`, arrays where the joints that have the coordinate make up a family with indices 0, 1, 2, …, else
+/// `T::KNEE_2_ANGLE`. Points are written where the joint stands, `body.at(p)`, of vectors that do not change. A body that hangs has no
+/// quaternion to name, nor entries of `force`: those are its joint's, or `torque(body, M)`. Its kinetic energy is written in velocities in
+/// its own axes, each by those of the body before: what elimination makes of that grows in proportion to the bodies.
+///
+/// ```
+/// use ukcore::{Simulation, State};
+///
+/// ukcore::multibody! {
+///     /// An arm of two hinges, the second driven; z points up.
+///     pub Arm {
+///         params { l = 0.5, g = 9.81 }
+///         bodies { for i in 0..2 { spatial link[i] { mass: 1, inertia: [0.01, 0.03, 0.03], centre: [l / 2.0, 0, 0] } } }
+///         gravity { [0, 0, -g] }
+///         tree {
+///             shoulder: hinge(ground.at([0, 0, 0]), link[0].at([0, 0, 0]), [0, 1, 0])
+///             elbow: hinge(link[0].at([l, 0, 0]), link[1].at([0, 0, 0]), [0, 1, 0])
+///         }
+///         force { elbow.angle: 2.0 - 0.3 * dot(elbow.angle) }
+///         output { hand = link[1].at([l, 0, 0]) }
+///     }
+/// }
+/// let start = State { t: 0.0, q: vec![0.0; 2], v: vec![0.0; 2] };
+/// let run = Simulation::new(Arm::default()).start(start).until(0.5)?;
+/// assert_eq!((Arm::SHOULDER_ANGLE, Arm::ELBOW_ANGLE), (0, 1));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Parts
+///
+/// A declaration that says `#[ukcore(part)]` may be part of others, any number of times, in its module, its crate, and, where its type is
+/// `pub`, in other crates. It is a mechanism by itself all the same. `use` brings it into scope with its type.
+///
+/// ```
+/// mod legs {
+///     ukcore::multibody! {
+///         /// Two bars with a spring in the knee.
+///         #[ukcore(part)]
+///         pub Leg {
+///             params { l = 0.5, m = 1.0, k = 3.0 }
+///             bodies { planar bar[2] { mass: m, inertia: m * sq(l) / 12.0, centre: [l / 2.0, 0] } }
+///             tree { knee: pin(bar[0].at([l, 0]), bar[1].at([0, 0])) }
+///             forces { turning_spring(bar[0], bar[1], k, 0.4) }
+///             output { toe = bar[1].at([l, 0]) }
+///         }
+///     }
+/// }
+/// use legs::Leg;
+///
+/// ukcore::multibody! {
+///     /// A trunk on six of them; y points up.
+///     pub Walker {
+///         params { size = 0.4, g = 9.81 }
+///         bodies { planar trunk { mass: 5, inertia: 1 } }
+///         gravity { [0, -g] }
+///         parts { for i in 0..6 { leg[i]: Leg { l: size, m: 1 + i / 10.0 } } }
+///         tree { for i in 0..6 { hip[i]: pin(trunk.at([i / 5.0, 0]), leg[i].bar[0].at([0, 0])) } }
+///         force { leg[2].knee.angle: -0.3 * dot(leg[2].knee.angle) }
+///         output { reach = norm(leg[5].bar[1].at([leg[5].l, 0]) - trunk.centre) }
+///     }
+/// }
+/// assert_eq!((Walker::default().leg_k, Walker::LEG_5_KNEE_ANGLE), (3.0, 14));
+/// ```
+///
+/// All sections of a part are taken into the whole, under the names of the part: `leg[2].bar[0].at(p)` is a point of a body, `leg[2].knee`
+/// the name of a joint or a constraint, `leg[2].l` a parameter, and so on for coordinates, constants and what `let` declares, but for
+/// functions. Coordinates, rows and outputs are shown under these names; constants of the type are `T::LEG_2_KNEE_ANGLE`, fields `leg_k`.
+///
+/// In braces parameters of the part are given, as expressions of those of the whole: a number for all of a family, or a vector. `{ l }` is
+/// short for `{ l: l }`. A parameter whose default uses one that is given follows it. **What is not given becomes a parameter of the whole**
+/// with the default it has, one for all members of a family: `leg_k` above. `gravity` acts on all bodies: that of the whole replaces those
+/// of parts, and must be there if they have one. A part may have parts; what they leave open is given as `{ foot_mass: 1 }`. Its
+/// starts are its own.
+///
 /// # What acts on bodies
 ///
 /// | entry of `forces` | meaning |
@@ -336,13 +433,15 @@ use proc_macro2::TokenStream;
 /// # Grammar
 ///
 /// ```text
-/// declaration = docs, ["#[ukcore(crate = path)]"], {"#[allow(lints)]"}, [vis], NAME, "{", { section }, "}" ;
+/// declaration = docs, ["#[ukcore(crate = path)]"], ["#[ukcore(part)]"], {"#[allow(lints)]"}, [vis], NAME, "{", { section }, "}" ;
 /// section     = "const", NAME, ":", ("usize" | "f64"), "=", expr, ";"
 ///             | "let", NAME, "=", (expr | function), ";"
 ///             | "let", block(key, "=", (expr | function))
 ///             | "params", block(docs, key, "=", expr)
 ///             | "coords", block(docs, key)
 ///             | "bodies", block(docs, ("planar" | "spatial"), key, "{", { ("mass" | "inertia" | "centre"), ":", expr, [","] }, "}")
+///             | "tree", block(docs, key, ":", expr)
+///             | "parts", block(key, ":", path, ["{", { NAME, [":", expr], [","] }, "}"])
 ///             | "mass", block((place | "(", place, ",", place, ")"), ":", expr)
 ///             | ("gravity" | "kinetic" | "potential" | "dissipation" | "forces"), block(expr)
 ///             | ("force" | "nonideal"), block(place, ":", expr)
@@ -350,7 +449,7 @@ use proc_macro2::TokenStream;
 ///             | ("output" | "integral"), block(docs, key, "=", expr) ;
 /// block(e)    = "{", { (e | "for", NAME, "in", expr, "..", expr, "{", { e }, "}"), ["," | ";"] }, "}" ;
 /// key         = NAME, { "[", expr, "]" } ;
-/// place       = key, [".", NAME] ;
+/// place       = key, { ".", key } ;
 /// function    = "|", NAME, { ",", NAME }, "|", expr ;
 /// ```
 ///
@@ -439,22 +538,36 @@ pub fn multibody(input: proc_macro::TokenStream) -> proc_macro::TokenStream {
 /// The pipeline.
 fn expand(input: TokenStream) -> (TokenStream, diag::Diagnostics) {
     let diag = diag::Diagnostics::default();
-    let Some(mut decl) = parse::parse(input, &diag) else {
+    let (table, source) = parse::split(input);
+    let Some(mut decl) = parse::parse(source.clone(), &diag) else {
         return (diag.to_tokens(), diag);
     };
-    let before = diag.len();
+    if let Some(part) = model::missing(&decl, &table, &diag) {
+        return (emit::ask(&decl, part, &table, &source), diag);
+    }
+    let parsed = diag.len();
+    model::merge(&mut decl, &table, &diag);
+    let before = parsed;
     let model = model::resolve(&mut decl, expr::Func::all().map(|f| f.row().name), &diag);
     // Where names are missing because of an error, what follows from that is not reported.
     let quiet = diag::Diagnostics::default();
-    let trusted = !diag.damaged() && diag.len() == before;
+    let faulty = decl.merged.faulty;
+    let trusted = !faulty && !diag.damaged() && diag.len() == before;
     let heard = if trusted { &diag } else { &quiet };
     let mut system = expr::lower(&decl, &model, heard);
     let constants = analysis::constants(&model, &system, heard);
-    if let Some(analysis) = analysed(&decl, &model, &mut system, &diag) {
-        let code = emit::emit(&decl, &model, &system, &constants, &analysis);
+    let handed = |faulty| {
+        decl.part
+            .then(|| emit::part(&decl, &source, &table, faulty))
+    };
+    if !faulty && let Some(analysis) = analysed(&decl, &model, &mut system, &diag) {
+        let mut code = emit::emit(&decl, &model, &system, &constants, &analysis);
+        code.extend(handed(false));
         return (code, diag);
     }
+    diag.within(&model.shown, &decl.merged.places);
     let mut tokens = diag.to_tokens();
+    tokens.extend(handed(true));
     tokens.extend(emit::fallback(&decl, &model, &system, &constants));
     (tokens, diag)
 }

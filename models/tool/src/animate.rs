@@ -120,7 +120,7 @@ fn kind(kind: ShapeKind) -> &'static str {
 
 impl Data<'_> {
     fn add(&mut self, mechanism: &Prepared, sample: Sample<'_>) {
-        let Sample { t, q, v } = sample;
+        let Sample { t, q, v, .. } = sample;
         let mut numbers = vec![0.0; mechanism.spec().drawing.numbers()];
         mechanism.drawing(t, q, v, &mut numbers);
         let energy = mechanism.energy(t, q, v);

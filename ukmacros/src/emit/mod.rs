@@ -7,10 +7,12 @@ mod functions;
 mod item;
 mod listing;
 mod names;
+mod part;
 mod spec;
 mod unused;
 
 pub(crate) use fallback::fallback;
+pub(crate) use part::{ask, part};
 
 use crate::analysis::{Analysis, Constant};
 use crate::expr::System;
@@ -35,7 +37,7 @@ pub(crate) fn emit(
     let parameters = item::parameters(model);
     let functions = functions::functions(system, model, analysis);
     let implementation = implementation(decl, &quote! { #spec #parameters #functions });
-    let unused = unused::unused(decl);
+    let unused = unused::unused(decl, model);
     quote! { #item #constants #implementation #unused }
 }
 

@@ -1,17 +1,17 @@
 //! Names that nothing uses, as items that nothing uses: the compiler warns of them in its own words, at their place.
 
-use crate::model::{Unused, unused as names};
+use crate::model::{Model, Unused, unused as names};
 use crate::parse::Declaration;
 use proc_macro2::TokenStream;
 use quote::{quote, quote_spanned};
 
 /// Items with the names of unused parameters and of unused values and functions declared by `let`, on which the lint `dead_code` works.
-pub(super) fn unused(decl: &Declaration) -> TokenStream {
+pub(super) fn unused(decl: &Declaration, model: &Model) -> TokenStream {
     let Unused {
         params,
         values,
         functions,
-    } = names(decl);
+    } = names(decl, model);
     if params.is_empty() && values.is_empty() && functions.is_empty() {
         return TokenStream::new();
     }

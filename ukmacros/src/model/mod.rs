@@ -1,11 +1,18 @@
 //! Syntax tree to names: constants, parameters, coordinates, and what loops run over.
 
+mod parts;
+mod renaming;
 mod resolve;
 mod scope;
+mod tree;
 mod types;
 mod unused;
 
+pub(crate) use parts::{merge, missing};
 pub(crate) use resolve::resolve;
-pub(crate) use scope::{Scope, arity};
-pub(crate) use types::{BodyKind, Family, Model, Name, Preset, Variable, block, every, indexed};
+pub(crate) use scope::{Reported, Scope, arity};
+pub(crate) use tree::Step;
+pub(crate) use types::{
+    BodyKind, Family, Field, Model, Name, Preset, Variable, block, every, indexed,
+};
 pub(crate) use unused::{Unused, unused, uses};

@@ -1,12 +1,15 @@
 //! Integer constants, families, loops; duplicates and reserved names.
 
 use super::scope::{MAX_MEMBERS, Scope, index_functions};
-use super::types::{BodyKind, Element, Family, Integer, Model, Name, Preset, every, indexed};
+use super::tree;
+use super::types::{
+    BodyKind, Element, Family, Field, Integer, Model, Name, Preset, every, indexed,
+};
 use crate::diag::{Diagnostics, Loc};
 use crate::parse::{Block, Declaration, Expr, Key};
 use proc_macro2::Ident;
 use std::cell::Cell;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::Rc;
 
 /// Names with a fixed meaning, beside those of functions.
@@ -18,9 +21,9 @@ const RESERVED: [&str; 15] = [
 /// Columns of every run beside coordinates, velocities and outputs.
 const COLUMNS: [&str; 3] = ["t", "energy", "residual"];
 
-/// Resolves constants, parameters and coordinates. `functions` are the names of functions.
-pub(crate) fn resolve(
-    decl: &mut Declaration,
+/// A model with the constants of `decl` alone.
+fn constants(
+    decl: &Declaration,
     functions: impl Iterator<Item = &'static str>,
     diag: &Diagnostics,
 ) -> Model {
@@ -32,6 +35,11 @@ pub(crate) fn resolve(
         bodies: Vec::new(),
         body_kinds: Vec::new(),
         body_elements: Vec::new(),
+        joints: Vec::new(),
+        hung: Vec::new(),
+        own: Vec::new(),
+        fields: HashMap::new(),
+        plain: 0,
         param_elements: Vec::new(),
         coord_elements: Vec::new(),
         names: HashMap::new(),
@@ -40,8 +48,10 @@ pub(crate) fn resolve(
         applications: Cell::new(0),
         too_many: Cell::new(None),
         reserved: functions.chain(RESERVED).collect(),
+        part_families: BTreeMap::new(),
+        shown: BTreeMap::new(),
     };
-    for constant in std::mem::take(&mut decl.consts) {
+    for constant in &decl.consts {
         let name = constant.name.to_string();
         let meaning = if constant.integer {
             let scope = Scope::new(&model);
@@ -69,9 +79,25 @@ pub(crate) fn resolve(
         };
         declare(&constant.name, meaning, &mut model, diag);
         if !constant.integer {
-            model.floats.push(constant);
+            model.floats.push(constant.clone());
         }
     }
+    model
+}
+
+/// The same without names that are reserved, for what is evaluated before all names are known.
+pub(super) fn bare(decl: &Declaration, diag: &Diagnostics) -> Model {
+    constants(decl, std::iter::empty(), diag)
+}
+
+/// Resolves constants, parameters and coordinates. `functions` are the names of functions.
+pub(crate) fn resolve(
+    decl: &mut Declaration,
+    functions: impl Iterator<Item = &'static str>,
+    diag: &Diagnostics,
+) -> Model {
+    let mut model = constants(decl, functions, diag);
+    parts(decl, &mut model, diag);
     members(&decl.params, Kind::Param, &mut model, diag, |param| {
         (&param.key, &param.docs, Some(&param.default))
     });
@@ -93,6 +119,21 @@ pub(crate) fn resolve(
         );
     }
     model
+}
+
+/// Enters the names of parts.
+fn parts(decl: &mut Declaration, model: &mut Model, diag: &Diagnostics) {
+    model.shown = std::mem::take(&mut decl.merged.shown);
+    model.part_families = std::mem::take(&mut decl.merged.families);
+    let places = &decl.merged.places;
+    for name in model.part_families.keys().cloned().collect::<Vec<_>>() {
+        let place = places.iter().find(|(_, shown)| {
+            let base = shown.split('[').next().unwrap_or_default();
+            base == name
+        });
+        let span = place.map_or(decl.name.span(), |(loc, _)| loc.start);
+        declare(&Ident::new(&name, span), Name::Part, model, diag);
+    }
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -263,16 +304,19 @@ fn add(found: Found, kind: Kind, model: &mut Model, diag: &Diagnostics) {
             members: Vec::new(),
         });
     }
-    families[family].members.push(elements.len());
+    let position = elements.len();
+    families[family].members.push(position);
+    let name = indexed(model.shown(&text), &found.indices);
+    let (_, elements) = model.lists(kind);
     elements.push(Element {
-        name: indexed(&text, &found.indices),
+        name,
         family,
         indices: found.indices,
         default: found.default,
     });
 }
 
-/// Gives each body its coordinates, those of one after those of another. There were `before` errors before bodies were read.
+/// Enters the bodies and the joints of the tree with their coordinates. There were `before` errors before bodies were read.
 fn bodies(decl: &Declaration, model: &mut Model, diag: &Diagnostics, before: usize) {
     let mut kinds: HashMap<String, bool> = HashMap::new();
     for block in &decl.bodies {
@@ -287,34 +331,146 @@ fn bodies(decl: &Declaration, model: &mut Model, diag: &Diagnostics, before: usi
         });
     }
     for family in &model.bodies {
-        let kind = BodyKind {
-            spatial: kinds[&family.name.to_string()],
-            first: model.coords.len(),
-        };
-        for name in kind.coordinates() {
-            let own = format!("{}_{name}", family.name);
-            model.coords.push(Family {
-                name: Ident::new(&own, family.name.span()),
-                docs: family.docs.clone(),
-                shape: family.shape.clone(),
-                members: Vec::new(),
-            });
-        }
-        for member in &family.members {
-            let body = &model.body_elements[*member];
-            for (name, family) in kind.coordinates().iter().zip(kind.first..) {
-                let position = model.coord_elements.len();
-                model.coords[family].members.push(position);
-                model.coord_elements.push(Element {
-                    name: format!("{}.{name}", body.name),
-                    family,
-                    indices: body.indices.clone(),
-                    default: None,
-                });
-            }
-        }
-        model.body_kinds.push(kind);
+        let spatial = kinds[&family.name.to_string()];
+        model.body_kinds.push(BodyKind { spatial });
     }
+    model.plain = model.coords.len();
+    model.hung = vec![None; model.body_elements.len()];
+    model.own = vec![None; model.body_elements.len()];
+    tree::joints(decl, model, diag);
+    for (f, kind) in model.body_kinds.clone().into_iter().enumerate() {
+        let family = &model.bodies[f];
+        let free = family.members.iter().copied();
+        let free: Vec<usize> = free.filter(|at| model.hung[*at].is_none()).collect();
+        let owners = free.iter().map(|at| Owner {
+            name: model.body_elements[*at].name.clone(),
+            indices: model.body_elements[*at].indices.clone(),
+            coordinates: kind.coordinates(),
+        });
+        let owners: Vec<Owner> = owners.collect();
+        let (name, docs) = (family.name.clone(), family.docs.clone());
+        let whole = (free.len() == family.members.len()).then(|| family.shape.clone());
+        let places = coordinates(&name, &docs, &owners, whole, model);
+        for (at, place) in free.into_iter().zip(places) {
+            model.own[at] = Some(place);
+        }
+    }
+    let mut entered: Vec<bool> = vec![false; model.joints.len()];
+    for first in 0..model.joints.len() {
+        if entered[first] {
+            continue;
+        }
+        let key = model.joints[first].key.clone();
+        let same: Vec<usize> = (first..entered.len())
+            .filter(|at| model.joints[*at].key == key)
+            .collect();
+        let owners = same.iter().map(|at| Owner {
+            name: model.joints[*at].name.clone(),
+            indices: model.joints[*at].indices.clone(),
+            coordinates: model.joints[*at].kind.coordinates,
+        });
+        let docs = model.joints[first].docs.clone();
+        let places = coordinates(&key, &docs, &owners.collect::<Vec<_>>(), None, model);
+        for (at, place) in same.into_iter().zip(places) {
+            entered[at] = true;
+            model.joints[at].first = place;
+        }
+    }
+}
+
+/// A body or a joint, of which coordinates are.
+struct Owner {
+    name: String,
+    indices: Vec<usize>,
+    coordinates: &'static [&'static str],
+}
+
+/// Enters the coordinates of all owners called `base`, those of one after those of another; returns the position of each one's first.
+/// They are `whole` where they are all that an array of this shape has.
+fn coordinates(
+    base: &Ident,
+    docs: &[String],
+    owners: &[Owner],
+    whole: Option<Vec<usize>>,
+    model: &mut Model,
+) -> Vec<usize> {
+    let mut names: Vec<&'static str> = Vec::new();
+    for name in owners.iter().flat_map(|owner| owner.coordinates) {
+        if !names.contains(name) {
+            names.push(name);
+        }
+    }
+    for name in &names {
+        let with = owners
+            .iter()
+            .filter(|owner| owner.coordinates.contains(name));
+        let all: Vec<&Vec<usize>> = with.map(|owner| &owner.indices).collect();
+        let mut enter = |name: String, shape: Vec<usize>| {
+            let members = vec![0; shape.iter().product()];
+            let (name, docs) = (Ident::new(&name, base.span()), docs.to_vec());
+            model.coords.push(Family {
+                name,
+                docs,
+                shape,
+                members,
+            });
+            model.coords.len() - 1
+        };
+        let field = match whole.clone().or_else(|| shape(&all)) {
+            Some(shape) => Field::Family(enter(format!("{base}_{name}"), shape)),
+            None => Field::Scattered(
+                all.into_iter()
+                    .map(|indices| {
+                        let indices_text: String =
+                            indices.iter().map(|i| format!("_{i}")).collect();
+                        (
+                            indices.clone(),
+                            enter(format!("{base}{indices_text}_{name}"), Vec::new()),
+                        )
+                    })
+                    .collect(),
+            ),
+        };
+        model
+            .fields
+            .entry(base.to_string())
+            .or_default()
+            .insert(name, field);
+    }
+    let mut places = Vec::new();
+    for owner in owners {
+        places.push(model.coord_elements.len());
+        for name in owner.coordinates {
+            let position = model.coord_elements.len();
+            let (family, indices) = match &model.fields[&base.to_string()][name] {
+                Field::Family(family) => (*family, owner.indices.clone()),
+                Field::Scattered(families) => (families[&owner.indices], Vec::new()),
+            };
+            let element = Element {
+                name: format!("{}.{name}", owner.name),
+                family,
+                indices,
+                default: None,
+            };
+            let of_family = &mut model.coords[family];
+            let place = element.place(&of_family.shape);
+            of_family.members[place] = position;
+            model.coord_elements.push(element);
+        }
+    }
+    places
+}
+
+/// The shape of an array that has these places, each once.
+fn shape(places: &[&Vec<usize>]) -> Option<Vec<usize>> {
+    let depth = places.first()?.len();
+    let sizes = (0..depth).map(|d| places.iter().map(|p| p[d] + 1).max().unwrap_or(0));
+    let shape: Vec<usize> = sizes.collect();
+    let distinct: HashSet<&&Vec<usize>> = places.iter().collect();
+    let size = shape
+        .iter()
+        .try_fold(1, |size: usize, n| size.checked_mul(*n));
+    (distinct.len() == places.len() && size == Some(places.len())).then_some(shape)
 }
 
 /// Enters a name; reports and returns false if it is taken.
@@ -335,6 +491,24 @@ impl Model {
             Kind::Coord => (&mut self.coords, &mut self.coord_elements),
             Kind::Body => (&mut self.bodies, &mut self.body_elements),
         }
+    }
+
+    /// The positions in q of the first coordinates of all quaternions: of bodies, and of joints of the tree.
+    pub(crate) fn quaternions(&self) -> impl Iterator<Item = usize> {
+        let bodies = self.body_elements.iter().zip(&self.own);
+        let spatial = bodies.filter(|(body, _)| self.body_kinds[body.family].spatial);
+        let joints = self
+            .joints
+            .iter()
+            .filter(|joint| joint.kind.coordinates.len() == 4);
+        spatial
+            .filter_map(|(_, own)| Some((*own)? + 3))
+            .chain(joints.map(|joint| joint.first))
+    }
+
+    /// How the `name` is shown.
+    pub(crate) fn shown<'a>(&'a self, name: &'a str) -> &'a str {
+        self.shown.get(name).map_or(name, String::as_str)
     }
 
     /// Whether `name` may still be declared; the reason if not.

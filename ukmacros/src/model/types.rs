@@ -1,5 +1,6 @@
 //! A declaration whose names are known.
 
+use super::tree::{Joint, Step};
 use crate::diag::Loc;
 use crate::parse::{Const, Expr};
 use proc_macro2::Ident;
@@ -18,6 +19,16 @@ pub(crate) struct Model {
     pub(crate) bodies: Vec<Family>,
     /// What each of `bodies` is.
     pub(crate) body_kinds: Vec<BodyKind>,
+    /// Joints of the tree.
+    pub(crate) joints: Vec<Joint>,
+    /// Of each of `body_elements`, the joint that it hangs on.
+    pub(crate) hung: Vec<Option<usize>>,
+    /// Of each of `body_elements`, the position in q of the first of its own coordinates, which one that hangs on a joint has not.
+    pub(crate) own: Vec<Option<usize>>,
+    /// What follows a dot: of bodies and joints of the tree their coordinates, by the name before the dot, and their own.
+    pub(crate) fields: HashMap<String, BTreeMap<&'static str, Field>>,
+    /// How many of `coords` are declared as such.
+    pub(crate) plain: usize,
     /// Members of `params`, in order.
     pub(crate) param_elements: Vec<Element>,
     /// Members of `bodies`.
@@ -28,6 +39,10 @@ pub(crate) struct Model {
     pub(crate) names: HashMap<String, Name>,
     /// Functions of integers, which indices may use.
     pub(crate) index_functions: HashMap<String, IndexFunction>,
+    /// Parts by their names, with the indices of their members.
+    pub(crate) part_families: BTreeMap<String, Vec<Vec<i64>>>,
+    /// How names of parts are shown.
+    pub(crate) shown: BTreeMap<String, String>,
     /// How often loops were repeated in all.
     pub(crate) repetitions: Cell<i64>,
     /// How often functions were applied in all.
@@ -68,6 +83,27 @@ pub(crate) enum Name {
     Coord(usize),
     /// Index into [`Model::bodies`].
     Body(usize),
+    /// A joint of the tree, or a family of them.
+    Joint,
+    /// A declaration within this one, or a family of them.
+    Part,
+}
+
+/// A coordinate of bodies or joints of one name.
+pub(crate) enum Field {
+    /// Index into [`Model::coords`].
+    Family(usize),
+    /// The same by indices, where those of all are no array.
+    Scattered(BTreeMap<Vec<usize>, usize>),
+}
+
+/// A kind of joint of the tree.
+pub(crate) struct TreeJoint {
+    pub(crate) name: &'static str,
+    pub(crate) spatial: bool,
+    pub(crate) coordinates: &'static [&'static str],
+    /// From the first body to the second.
+    pub(crate) steps: &'static [Step],
 }
 
 /// A scalar `m`, or a family `x[0]`, `x[1]`, …, `p[0][0]`, `p[0][1]`, ….
@@ -84,8 +120,6 @@ pub(crate) struct Family {
 #[derive(Clone, Copy)]
 pub(crate) struct BodyKind {
     pub(crate) spatial: bool,
-    /// Place in [`Model::coords`] of the first of their coordinates, which are families of their own.
-    pub(crate) first: usize,
 }
 
 impl BodyKind {

@@ -1,5 +1,6 @@
 //! What is declared under `params` or by `let`, and named nowhere.
 
+use super::types::Model;
 use crate::parse::{Block, Declaration, Expr, ExprKind, Key, Let, LetValue};
 use proc_macro2::Ident;
 use std::collections::HashSet;
@@ -15,12 +16,14 @@ pub(crate) struct Unused<'d> {
 }
 
 /// The names that are declared and not used.
-pub(crate) fn unused(decl: &Declaration) -> Unused<'_> {
+pub(crate) fn unused<'d>(decl: &'d Declaration, model: &Model) -> Unused<'d> {
     let used = used(decl);
     let mut seen = HashSet::new();
     let mut idle = |name: &Ident| {
         let text = name.to_string();
-        !used.contains(&text) && !text.starts_with('_') && seen.insert(text)
+        // What parts declare is told where they are declared.
+        let own = !text.starts_with('_') && !model.shown.contains_key(&text);
+        own && !used.contains(&text) && seen.insert(text)
     };
     let mut out = Unused::default();
     for block in &decl.params {
@@ -57,6 +60,7 @@ fn used(decl: &Declaration) -> HashSet<String> {
         let parts = body.mass.iter().chain(&body.inertia).chain(&body.centre);
         (vec![&body.key], parts.collect())
     });
+    found.blocks(&decl.tree, |joint| (vec![&joint.key], vec![&joint.value]));
     found.lets(&decl.lets);
     if let Some(section) = &decl.mass {
         found.blocks(&section.blocks, |m| {

@@ -94,6 +94,62 @@ impl Expr {
         Expr { loc, kind }
     }
 
+    /// `name`.
+    pub(super) fn name(name: Ident) -> Self {
+        Expr {
+            loc: name.span().into(),
+            kind: ExprKind::Name(name),
+        }
+    }
+
+    /// `leg[2].foot[0].x` as names with their indices; nothing if it has another form.
+    pub(crate) fn segments(&self) -> Option<Vec<(Ident, Vec<Expr>)>> {
+        match &self.kind {
+            ExprKind::Name(name) => Some(vec![(name.clone(), Vec::new())]),
+            ExprKind::Field(base, name) => {
+                let mut segments = base.segments()?;
+                segments.push((name.clone(), Vec::new()));
+                Some(segments)
+            }
+            ExprKind::Index(base, indices) => {
+                let mut segments = base.segments()?;
+                segments.last_mut()?.1.extend(indices.iter().cloned());
+                Some(segments)
+            }
+            _ => None,
+        }
+    }
+
+    /// Visits all names in it, of values and of functions.
+    pub(crate) fn names(&self, visit: &mut dyn FnMut(&Ident)) {
+        let mut all = |list: &[Expr]| list.iter().for_each(|e| e.names(visit));
+        match &self.kind {
+            ExprKind::Int(_) | ExprKind::Float(_) | ExprKind::Error => {}
+            ExprKind::Name(name) => visit(name),
+            ExprKind::Index(base, indices) => {
+                all(indices);
+                base.names(visit);
+            }
+            ExprKind::Field(inner, _) | ExprKind::Neg(inner) | ExprKind::Group(inner) => {
+                inner.names(visit);
+            }
+            ExprKind::Chain(first, rest) => {
+                first.names(visit);
+                rest.iter().for_each(|(_, operand)| operand.names(visit));
+            }
+            ExprKind::Call(name, args) => {
+                all(args);
+                visit(name);
+            }
+            ExprKind::Vector(components) => all(components),
+            ExprKind::Sum { range, body, .. } => {
+                range.from.names(visit);
+                range.to.names(visit);
+                body.names(visit);
+            }
+        }
+    }
+
     /// What stands for an expression that is reported already.
     pub(crate) fn error(loc: Loc) -> Self {
         Expr {

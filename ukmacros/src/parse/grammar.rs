@@ -5,8 +5,8 @@
 
 use super::expr::{Expr, Range, location};
 use super::item::{
-    Block, Body, Const, Coord, Declaration, Entry, Equation, Function, Guess, Key, Let, LetValue,
-    MassEntry, Output, Param, Section, Shape, Start, StartOption,
+    Block, Body, Const, Coord, Declaration, Entry, Equation, Function, Guess, Joint, Key, Let,
+    LetValue, MassEntry, Merged, Output, Param, PartUse, Section, Shape, Start, StartOption,
 };
 use super::nesting;
 use crate::diag::{Diagnostics, Loc, suggest};
@@ -15,7 +15,7 @@ use quote::ToTokens as _;
 use syn::parse::ParseStream;
 use syn::{Token, braced, bracketed, parenthesized};
 
-const SECTIONS: &str = "const params coords bodies gravity let mass kinetic force forces potential dissipation holonomic nonholonomic nonideal output integral start draw";
+const SECTIONS: &str = "const params coords bodies tree parts gravity let mass kinetic force forces potential dissipation holonomic nonholonomic nonideal output integral start draw";
 
 /// Parses a declaration; `None` if not even its name could be read.
 pub(crate) fn parse(mut tokens: TokenStream, diag: &Diagnostics) -> Option<Declaration> {
@@ -42,6 +42,7 @@ fn declaration(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Declar
         docs,
         runtime,
         lints,
+        part,
     } = attributes(input, diag)?;
     let vis: syn::Visibility = input.parse()?;
     let _: Option<Token![struct]> = input.parse()?;
@@ -50,12 +51,17 @@ fn declaration(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Declar
         docs,
         runtime,
         lints,
+        part,
         vis: vis.to_token_stream(),
         name,
         consts: Vec::new(),
         params: Vec::new(),
         coords: Vec::new(),
         bodies: Vec::new(),
+        tree: Vec::new(),
+        parts: Vec::new(),
+        before_parts: 0,
+        merged: Merged::default(),
         gravity: None,
         lets: Vec::new(),
         mass: None,
@@ -133,6 +139,11 @@ fn section(
         "params" => blocks(input, &mut out.params, diag, param_entry),
         "coords" => blocks(input, &mut out.coords, diag, coord_entry),
         "bodies" => blocks(input, &mut out.bodies, diag, body),
+        "parts" => {
+            out.before_parts = out.lets.len();
+            blocks(input, &mut out.parts, diag, part)
+        }
+        "tree" => blocks(input, &mut out.tree, diag, joint),
         "gravity" => present(input, keyword, &mut out.gravity, diag, term),
         "mass" => present(input, keyword, &mut out.mass, diag, mass_entry),
         "kinetic" => present(input, keyword, &mut out.kinetic, diag, term),
@@ -182,11 +193,14 @@ struct Attributes {
     runtime: Option<TokenStream>,
     /// `#[allow(…)]`, as written.
     lints: TokenStream,
+    /// `#[ukcore(part)]` is among them.
+    part: bool,
 }
 
 /// Doc comments, and before a declaration the path of the crate `ukcore` and the lints allowed.
 fn attributes(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Attributes> {
     let (mut docs, mut runtime, mut lints) = (Vec::new(), None, TokenStream::new());
+    let mut part = false;
     for attribute in input.call(syn::Attribute::parse_outer)? {
         match &attribute.meta {
             syn::Meta::NameValue(syn::MetaNameValue {
@@ -201,6 +215,10 @@ fn attributes(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Attribu
                 docs.extend(text.value().lines().map(|l| l.trim().to_owned()));
             }
             syn::Meta::List(list) if list.path.is_ident("ukcore") => {
+                if list.parse_args::<Ident>().is_ok_and(|word| word == "part") {
+                    part = true;
+                    continue;
+                }
                 let named = |input: ParseStream<'_>| {
                     let _: Token![crate] = input.parse()?;
                     let _: Token![=] = input.parse()?;
@@ -210,7 +228,7 @@ fn attributes(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Attribu
                     Ok(path) => runtime = Some(path.to_token_stream()),
                     Err(_) => diag.error(
                         Loc::of(&attribute.meta),
-                        "this attribute is written `#[ukcore(crate = my::path::to::ukcore)]`",
+                        "this attribute is written `#[ukcore(part)]` or `#[ukcore(crate = my::path::to::ukcore)]`",
                     ),
                 }
             }
@@ -224,6 +242,7 @@ fn attributes(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Attribu
         docs,
         runtime,
         lints,
+        part,
     })
 }
 
@@ -234,8 +253,10 @@ fn docs(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Vec<String>> 
         docs,
         runtime,
         lints,
+        part,
     } = attributes(input, diag)?;
     let misplaced = [
+        (part, "#[ukcore(part)]"),
         (runtime.is_some(), "#[ukcore(crate = …)]"),
         (!lints.is_empty(), "#[allow(…)]"),
     ];
@@ -295,19 +316,21 @@ fn key(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Key> {
     Ok(Key {
         name,
         indices,
-        field: None,
+        fields: Vec::new(),
         loc,
     })
 }
 
-/// The name of coordinates: a key, or `link[i].angle` of a body.
+/// The name of coordinates: a key, or `link[i].angle` of a body, or `leg[i].knee.angle` of a part's.
 fn coordinates(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Key> {
     let mut key = key(input, diag)?;
-    if input.peek(Token![.]) {
+    while input.peek(Token![.]) {
         let _: Token![.] = input.parse()?;
-        let field: Ident = input.parse()?;
-        key.loc.end = field.span();
-        key.field = Some(field);
+        let Key {
+            name, indices, loc, ..
+        } = self::key(input, diag)?;
+        key.loc.end = loc.end;
+        key.fields.push((name, indices));
     }
     Ok(key)
 }
@@ -462,6 +485,70 @@ fn body(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Body> {
     Ok(out)
 }
 
+/// `leg[6]: legs::Leg { phase: 0.1 }`.
+fn part(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<PartUse> {
+    docs(input, diag)?;
+    let key = key(input, diag)?;
+    if !input.peek(Token![:]) {
+        let message = format!(
+            "a part needs the type that it is: `{0}: Leg` or `{0}: Leg {{ mass: m }}`",
+            key.name
+        );
+        return Err(syn::Error::new(key.name.span(), message));
+    }
+    let _: Token![:] = input.parse()?;
+    let path = input.call(syn::Path::parse_mod_style)?;
+    let name = path.segments.last().map(|segment| segment.ident.clone());
+    let mut out = PartUse {
+        name: name.unwrap_or_else(|| key.name.clone()),
+        path: path.to_token_stream(),
+        key,
+        given: Vec::new(),
+    };
+    if input.peek(syn::token::Brace) {
+        let given;
+        braced!(given in input);
+        while !given.is_empty() {
+            let name: Ident = given.parse()?;
+            let value = match given.parse::<Option<Token![:]>>()? {
+                Some(_) => expression(&given, diag)?,
+                // As in Rust, `{ mass }` is short for `{ mass: mass }`.
+                None => Expr::name(name.clone()),
+            };
+            let _: Option<Token![,]> = given.parse()?;
+            if out.given.iter().any(|(n, _)| *n == name) {
+                diag.error(name.span(), format!("`{name}` is given twice; remove one"));
+                continue;
+            }
+            out.given.push((name, value));
+        }
+    }
+    Ok(out)
+}
+
+/// `elbow: hinge(p, q, u)`.
+fn joint(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Joint> {
+    let docs = docs(input, diag)?;
+    let key = key(input, diag)?;
+    if !input.peek(Token![:]) {
+        let message = format!(
+            "a joint needs a name: `name: pin(p, q)` (found `{}` first)",
+            key.name
+        );
+        return Err(syn::Error::new(key.name.span(), message));
+    }
+    let _: Token![:] = input.parse()?;
+    let value = match input.parse()? {
+        syn::Expr::Assign(e) => {
+            let message = "a joint of the tree says what is free, and has no `=`; equations go under `holonomic`";
+            diag.error(e.eq_token.span, message);
+            Expr::error(location(&e.left))
+        }
+        e => Expr::convert(e, diag),
+    };
+    Ok(Joint { docs, key, value })
+}
+
 fn let_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Let> {
     let key = key(input, diag)?;
     let _: Token![=] = input.parse()?;
@@ -487,7 +574,11 @@ fn let_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Let> {
         }
         value => LetValue::Value(Expr::convert(value, diag)),
     };
-    Ok(Let { key, value })
+    Ok(Let {
+        key,
+        given: None,
+        value,
+    })
 }
 
 fn mass_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<MassEntry> {

@@ -3,6 +3,7 @@
 use super::expr::{Expr, Range};
 use crate::diag::Loc;
 use proc_macro2::{Ident, TokenStream};
+use std::collections::BTreeMap;
 
 /// A whole declaration.
 pub(crate) struct Declaration {
@@ -11,6 +12,8 @@ pub(crate) struct Declaration {
     pub(crate) runtime: Option<TokenStream>,
     /// `#[allow(…)]` of what the declaration becomes, as written.
     pub(crate) lints: TokenStream,
+    /// It may be a part of others: `#[ukcore(part)]`.
+    pub(crate) part: bool,
     /// Visibility, as written.
     pub(crate) vis: TokenStream,
     pub(crate) name: Ident,
@@ -18,6 +21,12 @@ pub(crate) struct Declaration {
     pub(crate) params: Vec<Block<Param>>,
     pub(crate) coords: Vec<Block<Coord>>,
     pub(crate) bodies: Vec<Block<Body>>,
+    pub(crate) tree: Vec<Block<Joint>>,
+    pub(crate) parts: Vec<Block<PartUse>>,
+    /// How many of `lets` stand before its parts.
+    pub(crate) before_parts: usize,
+    /// What parts became of it.
+    pub(crate) merged: Merged,
     pub(crate) gravity: Option<Section<Expr>>,
     pub(crate) lets: Vec<Block<Let>>,
     pub(crate) mass: Option<Section<MassEntry>>,
@@ -62,6 +71,7 @@ impl<T> Block<T> {
 }
 
 /// `const N: usize = 17;`
+#[derive(Clone)]
 pub(crate) struct Const {
     pub(crate) docs: Vec<String>,
     pub(crate) name: Ident,
@@ -75,8 +85,8 @@ pub(crate) struct Const {
 pub(crate) struct Key {
     pub(crate) name: Ident,
     pub(crate) indices: Vec<Expr>,
-    /// What follows a dot.
-    pub(crate) field: Option<Ident>,
+    /// What follows dots, with indices.
+    pub(crate) fields: Vec<(Ident, Vec<Expr>)>,
     /// From the name to the last token.
     pub(crate) loc: Loc,
 }
@@ -106,9 +116,42 @@ pub(crate) struct Body {
     pub(crate) centre: Option<Expr>,
 }
 
+/// `elbow: hinge(upper.at([l, 0, 0]), fore.at([0, 0, 0]), u)`, whose coordinates are those of its second body.
+pub(crate) struct Joint {
+    pub(crate) docs: Vec<String>,
+    pub(crate) key: Key,
+    pub(crate) value: Expr,
+}
+
+/// `leg[6]: Leg { phase: 0.1 }`, a declaration within this one.
+#[derive(Clone)]
+pub(crate) struct PartUse {
+    pub(crate) key: Key,
+    /// Where its type is, and what it is called there.
+    pub(crate) path: TokenStream,
+    pub(crate) name: Ident,
+    /// Parameters with their values.
+    pub(crate) given: Vec<(Ident, Expr)>,
+}
+
+/// The declarations that became part of one.
+#[derive(Default)]
+pub(crate) struct Merged {
+    /// Names in them by those that they have now, as they are shown: `leg[2].knee` for `leg_2_knee`.
+    pub(crate) shown: BTreeMap<String, String>,
+    /// Parts by their names, with the indices of their members.
+    pub(crate) families: BTreeMap<String, Vec<Vec<i64>>>,
+    /// Where each is declared, and its name.
+    pub(crate) places: Vec<(Loc, String)>,
+    /// There is an error in one, which is told where that is declared.
+    pub(crate) faulty: bool,
+}
+
 /// `let thrust = …;`
 pub(crate) struct Let {
     pub(crate) key: Key,
+    /// It is a parameter of a part, of this size, each of which is declared where the part is.
+    pub(crate) given: Option<Vec<Expr>>,
     pub(crate) value: LetValue,
 }
 

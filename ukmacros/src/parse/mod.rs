@@ -4,10 +4,12 @@ mod expr;
 mod grammar;
 mod item;
 mod nesting;
+mod table;
 
 pub(crate) use expr::{BinaryOp, Expr, ExprKind, Range, own};
 pub(crate) use grammar::parse;
 pub(crate) use item::{
     Block, Body, Const, Declaration, Entry, Equation, Function, Guess, Key, Let, LetValue,
-    MassEntry, Output, Shape, Start,
+    MassEntry, Output, PartUse, Section, Shape, Start,
 };
+pub(crate) use table::{Table, split};

@@ -101,10 +101,11 @@ fn spatial_joints_are_equations() {
 
 #[test]
 fn what_acts_is_energies_and_generalised_forces() {
+    // Pictures differ: only joints and what acts tell where bodies are joined.
     let both = |entries: &str, sections: &str| {
         check(
-            &format!("{PLANE} forces {{ {entries} }}"),
-            &format!("{PLANE} {sections}"),
+            &format!("{PLANE} forces {{ {entries} }} draw {{ }}"),
+            &format!("{PLANE} {sections} draw {{ }}"),
         );
     };
     both(
@@ -182,8 +183,12 @@ fn bodies_cost_what_coordinates_by_hand_cost() {
 fn bodies_have_names_arguments_and_indices() {
     let head = "params { l = 2.0 } bodies { for i in 0..2 { for j in 0..2 { planar leg[i][j] { mass: 1 + i, inertia: 1 + j } } } planar a { \
         mass: 1, inertia: 1 } }";
-    let same =
-        |short: &str, long: &str| check(&format!("{head} {short}"), &format!("{head} {long}"));
+    let same = |short: &str, long: &str| {
+        check(
+            &format!("{head} {short} draw {{ }}"),
+            &format!("{head} {long} draw {{ }}"),
+        )
+    };
     let long = "holonomic { c: pin(a.at([0, 0]), leg[1][0].at([l, 0])) }";
     same(
         "let tip = |i, j| leg[i][j].at([l, 0]); holonomic { c: pin(a.at([0, 0]), tip(1, 0)) }",

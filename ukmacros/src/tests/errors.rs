@@ -164,7 +164,13 @@ fn unmark(marked: &str) -> (String, Vec<(LineColumn, LineColumn)>) {
 /// Expects exactly the errors that `marked` marks, in order, each with its message.
 #[track_caller]
 pub(super) fn check(marked: &str, messages: &[&str]) {
-    let (source, spans) = unmark(&format!("pub T {{ {marked} }}"));
+    check_after("", marked, messages);
+}
+
+/// The same of a declaration that stands after `before`.
+#[track_caller]
+pub(super) fn check_after(before: &str, marked: &str, messages: &[&str]) {
+    let (source, spans) = unmark(&format!("{before}pub T {{ {marked} }}"));
     let found = errors(&source);
     let shown: Vec<_> = found.iter().map(|f| f.message.as_str()).collect();
     assert_eq!(found.len(), messages.len(), "errors found: {shown:#?}");
@@ -259,7 +265,7 @@ cases! {
     type_of_an_argument: "coords { x } let f = |«a: f64»| a; mass { x: 1.0 } force { x: f(x) }" => "an argument is a plain name";
     attribute: "coords { #[«inline»] x } mass { x: 1.0 }" => "only doc comments are allowed here";
     lint_of_an_entry: "coords { «#»[allow(dead_code)] x } mass { x: 1.0 }" => "`#[allow(…)]` stands before the whole declaration";
-    crate_without_path: "#[«ukcore(runtime)»] coords { x } mass { x: 1.0 }" => "this attribute is written `#[ukcore(crate = my::path::to::ukcore)]`";
+    crate_without_path: "#[«ukcore(runtime)»] coords { x } mass { x: 1.0 }" => "this attribute is written `#[ukcore(part)]` or `#[ukcore(crate = my::path::to::ukcore)]`";
     crate_of_an_entry: "coords { «#»[ukcore(crate = a)] x } mass { x: 1.0 }" => "stands before the whole declaration";
     open_range: "coords { x[3] } mass { for i in «0..» { x[i]: 1.0 } }" => "a range needs both ends";
     no_range: "coords { x[3] } mass { for i in «3» { x[i]: 1.0 } }" => "expected a range such as `0..N`";

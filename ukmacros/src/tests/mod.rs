@@ -9,9 +9,11 @@ mod errors;
 mod facts;
 mod golden;
 mod limits;
+mod parts;
 mod random;
 mod regular;
 mod speed;
+mod tree;
 mod vectors;
 mod verify;
 
@@ -32,7 +34,9 @@ fn expand(source: &str) -> (TokenStream, Vec<Diagnostic>) {
 /// A declaration without errors, its names and its equations.
 fn lowered(tokens: TokenStream) -> (Declaration, Model, System) {
     let diag = Diagnostics::default();
+    let (table, tokens) = crate::parse::split(tokens);
     let mut declaration = crate::parse::parse(tokens, &diag).expect("a declaration");
+    crate::model::merge(&mut declaration, &table, &diag);
     let functions = crate::expr::Func::all().map(|f| f.row().name);
     let model = crate::model::resolve(&mut declaration, functions, &diag);
     let system = crate::expr::lower(&declaration, &model, &diag);

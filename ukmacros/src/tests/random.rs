@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
 /// Pieces that declarations are made of, and some that they are not.
-const PIECES: [&str; 106] = [
+const PIECES: [&str; 117] = [
     "pub",
     "T",
     "{",
@@ -112,6 +112,17 @@ const PIECES: [&str; 106] = [
     "hinge(s.at([0, 0, 0]), ground.at([0, 0, 0]), [1, 0, m])",
     "spring(b.at([0, 0]), ground.at([0, 1]), 1, 1)",
     "torque(b, 1)",
+    "tree { c: pin(ground.at([0, 0]), b.at([0, 1])) }",
+    "tree",
+    "j: hinge(ground.at([0, 0, 0]), s.at([0, m, 0]), [1, 0, 0])",
+    "j[i]: slider(c[i].at([0, m]), b.at([x, 0]), [1, 0])",
+    "j.angle",
+    "j[0].slide: dot(j.angle)",
+    "parts { leg[2]: Leg { l: m } }",
+    "leg[1].shin[0]",
+    "leg[0].shin[1].angle: leg[1].tip[0]",
+    "@parts [{ Leg } { pub Leg { params { l = 1.0 } bodies { planar shin[2] { mass: l, inertia: 1 } } let tip = shin[0].at([l, 0]); } } { }]",
+    "#[ukcore(part)]",
 ];
 
 /// A declaration that works, to be damaged.
@@ -135,6 +146,22 @@ const BODIES: &str = "pub T { const N: usize = 2; params { m[N] = [1.0, 2.0], l 
     ground.at([1, 0]), 2, 1) torque(top, [0, t, 0]) } dissipation { sq(link[1].omega) } nonideal { link[0].angle: friction(link[0].omega, norm(reaction(o)) + abs(reaction(motor))) } \
     output { tip = dot(link[1].at([l, 0])), s = top.spin, f = reaction(knee[0]), d = reaction(foot.tilt0) } integral { w = reaction(motor) * t } }";
 
+/// One of a tree, to be damaged.
+const TREE: &str = "pub T { const N: usize = 2; params { l = 0.5, g = 9.81 } bodies { planar link[N] { mass: 1, inertia: 0.1, centre: [l / 2, 0] } \
+    for i in 0..3 { spatial top[i] { mass: 1, inertia: [1, 1, 1.5] } } } gravity { [0, -g, 0] } tree { knee[0]: pin(ground.at([0, 0]), link[0].at([0, 0])) \
+    knee[1]: slot(link[0].at([l, 0]), link[1].at([0, 0]), [1, l]); arm: hinge(ground.at([0, 0, 0]), top[0].at([0, l, 0]), [0, 1, 0]) \
+    hand: ball(top[0].at([0, 0, l]), top[1].at([0, l, 0])) screw: screw(top[1].at([0, 0, 0]), top[2].at([0, 0, 0]), [1, 0, 0], l) } \
+    holonomic { loop_: pin(link[1].at([l, 0]), ground.at([1, 0])) motor: arm.angle = sin(t) } force { knee[1].slide: -dot(knee[0].angle) } \
+    output { tip = dot(link[1].at([l, 0])), s = top[2].spin } }";
+
+/// One of parts, to be damaged.
+const PARTS: &str = "@parts [{ Leg } { pub Leg { const N: usize = 2; params { l = 0.5, m[2] = [1.0, 2.0], k = 2 * l } bodies { for i in 0..N { \
+    planar shin[i] { mass: m[i], inertia: 0.1 } } } let tip = shin[1].at([l, 0]); tree { knee: pin(shin[0].at([l, 0]), shin[1].at([0, 0])) } \
+    output { tip = tip + sum(0..N, |i| m[i]) * [1, 0] } } } { }] pub T { params { size = 0.7 } bodies { planar trunk { mass: 1, inertia: 1 } } \
+    parts { for i in 0..2 { leg[i]: Leg { l: size + i / 10.0 } } tail: Leg } tree { for i in 0..2 { hip[i]: pin(trunk.at([i, 0]), leg[i].shin[0].at([0, 0])) } } \
+    force { leg[1].knee.angle: 1.0, tail.shin[0].x: leg[0].m[1] } output { reach = norm(leg[1].tip - trunk.centre) + tail.l } \
+    start s(a = 1.0) { leg[0].knee.angle = a; hip[1].angle near 2; dot(tail.shin[0].x) = 1 } }";
+
 fn survives(source: &str) {
     if let Ok(tokens) = source.parse::<proc_macro2::TokenStream>() {
         let (code, _) = crate::expand(tokens);
@@ -144,7 +171,7 @@ fn survives(source: &str) {
 
 #[test]
 fn the_whole_declarations_compile() {
-    for source in [WHOLE, VECTORS, BODIES] {
+    for source in [WHOLE, VECTORS, BODIES, TREE, PARTS] {
         let (_, errors) = expand(source);
         assert!(errors.is_empty(), "{errors:?}");
     }
@@ -168,16 +195,19 @@ proptest! {
         let text: Vec<&str> = picks.iter().map(|i| PIECES[*i]).collect();
         survives(&text.join(" "));
         survives(&format!("pub T {{ {} }}", text.join(" ")));
+        survives(&format!("{} pub T {{ parts {{ leg[2]: Leg }} {} }}", PIECES[112], text.join(" ")));
         survives(&format!("pub T {{ coords {{ x, y }} mass {{ x: 1.0, y: 1.0 }} holonomic {{ {} }} }}", text.join(" ")));
         survives(&format!("pub T {{ coords {{ x, y }} force {{ x: {} }} }}", text.join(" ")));
         survives(&format!("pub T {{ params {{ m = 1.0 }} coords {{ x }} mass {{ x: m }} bodies {{ planar b {{ mass: m, inertia: 1 }} spatial s {{ mass: m, \
             inertia: [1, 1, 1] }} }} forces {{ {} }} }}", text.join(" ")));
+        survives(&format!("pub T {{ params {{ m = 1.0 }} coords {{ x }} mass {{ x: m }} bodies {{ planar b {{ mass: m, inertia: 1 }} planar c[2] {{ mass: m, \
+            inertia: 1 }} spatial s {{ mass: m, inertia: [1, 1, 1] }} }} tree {{ {} }} }}", text.join(" ")));
         survives(&format!("pub T {{ const N: usize = 2; params {{ m = 1.0 }} coords {{ x, y, p[N][2] }} let next = |i| i + 1; force {{ p[0]: {} }} }}", text.join(" ")));
     }
 
     #[test]
     fn damaged_declarations(at in 0usize..900, length in 0usize..12, piece in 0usize..PIECES.len()) {
-        for whole in [WHOLE, VECTORS, BODIES] {
+        for whole in [WHOLE, VECTORS, BODIES, TREE, PARTS] {
             let characters: Vec<char> = whole.chars().collect();
             let at = at.min(characters.len());
             let end = (at + length).min(characters.len());

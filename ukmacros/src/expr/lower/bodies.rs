@@ -2,7 +2,7 @@
 //!
 //! The coordinates of a body are the place of its centre of mass and its orientation: so its mass matrix, where it is planar, is diagonal
 //! and constant, and points of it depend on the place with coefficients 1. Points and directions are given in the body's frame, whose
-//! origin is where its `centre` says that the centre of mass is not.
+//! origin is where its `centre` says that the centre of mass is not. A body that hangs on a joint of the tree has none (see `tree`).
 
 use super::array::{Value, describe, sum_of_products};
 use super::{Env, Lowering, Place};
@@ -19,17 +19,40 @@ use std::rc::Rc;
 /// A body, or the ground.
 pub(super) struct Frame {
     /// As written: `link[3]`, `ground`.
-    name: String,
+    pub(super) name: String,
     /// Nothing for the ground, whose frame is that of the coordinates.
-    moving: Option<Moving>,
+    pub(super) moving: Option<Moving>,
 }
 
-struct Moving {
-    kind: BodyKind,
-    /// In the order of [`BodyKind::coordinates`].
-    coordinates: Vec<Id>,
+pub(super) struct Moving {
+    pub(super) kind: BodyKind,
     /// The centre of mass in the body's frame.
-    centre: Vec<Id>,
+    pub(super) centre: Vec<Id>,
+    /// A point in the body's frame: the centre of mass, or where it hangs on a joint.
+    pub(super) reference: Vec<Id>,
+    /// Where that point is, in axes of the ground.
+    pub(super) place: Vec<Id>,
+    pub(super) orientation: Orientation,
+}
+
+/// How a body is turned.
+pub(super) enum Orientation {
+    /// By coordinates of its own, the angle or the quaternion.
+    Own(Vec<Id>),
+    /// As a joint of the tree has it.
+    Hung(Hung),
+}
+
+/// What follows from the body before and the coordinates of the joint between.
+pub(super) struct Hung {
+    /// The matrix that turns vectors from the body's axes to those of the ground, by rows.
+    pub(super) axes: Vec<Id>,
+    /// In the plane, the angle from the ground.
+    pub(super) angle: Id,
+    /// The angular velocity in axes of the body, one number in the plane.
+    pub(super) omega: Vec<Id>,
+    /// The velocity of the reference, in axes of the body.
+    pub(super) velocity: Vec<Id>,
 }
 
 /// A point of a body.
@@ -45,6 +68,8 @@ pub(super) struct Declared {
     pub(super) variables: Vec<Variable>,
     /// Its frame, once it is used.
     pub(super) frame: Option<Rc<Frame>>,
+    /// Its frame is being made.
+    pending: bool,
 }
 
 impl fmt::Display for Frame {
@@ -60,28 +85,45 @@ impl Frame {
         Some(if moving.kind.spatial { 3 } else { 2 })
     }
 
-    /// Where its centre of mass is, in axes of the ground; nothing for the ground.
-    pub(super) fn middle(&self, g: &mut Graph) -> Option<Vec<Id>> {
-        let centre = Value::vector(self.moving.as_ref()?.centre.clone());
-        Some(self.at(&centre, g).entries().to_vec())
-    }
-
     /// Where the point `p` of its frame is, in axes of the ground.
     pub(super) fn at(&self, p: &Value, g: &mut Graph) -> Value {
         let Some(moving) = &self.moving else {
             return p.clone();
         };
-        let arms = p.entries().iter().zip(&moving.centre);
+        let arms = p.entries().iter().zip(&moving.reference);
         let arms: Vec<Id> = arms.map(|(p, c)| g.sub(*p, *c)).collect();
         let rows = moving.rotation(g);
-        let rows = rows.chunks(arms.len()).zip(&moving.coordinates);
-        let sums = rows.map(|(row, centre)| {
-            let mut terms = vec![(1.0, *centre)];
+        let rows = rows.chunks(arms.len()).zip(&moving.place);
+        let sums = rows.map(|(row, place)| {
+            let mut terms = vec![(1.0, *place)];
             let products = row.iter().zip(&arms);
             terms.extend(products.map(|(a, b)| (1.0, g.mul(*a, *b))));
             g.sum(&terms)
         });
         Value::vector(sums.collect())
+    }
+
+    /// Where its centre of mass is; nothing of the ground.
+    pub(super) fn centre(&self, g: &mut Graph) -> Value {
+        match &self.moving {
+            Some(moving) if matches!(moving.orientation, Orientation::Own(_)) => {
+                Value::vector(moving.place.clone())
+            }
+            Some(moving) => self.at(&Value::vector(moving.centre.clone()), g),
+            None => Value::vector(Vec::new()),
+        }
+    }
+
+    /// The coordinate called `name`, or what it would be if it had its own.
+    fn coordinate(&self, name: &str, g: &mut Graph) -> Option<Id> {
+        let moving = self.moving.as_ref()?;
+        let k = moving.kind.coordinates().iter().position(|c| *c == name)?;
+        match (&moving.orientation, self.dimension()?) {
+            (Orientation::Own(own), _) => moving.place.iter().chain(own).nth(k).copied(),
+            (Orientation::Hung(_), n) if k < n => self.centre(g).entries().get(k).copied(),
+            (Orientation::Hung(hung), 2) => Some(hung.angle),
+            _ => None,
+        }
     }
 
     /// The direction `d` of its frame in axes of the ground.
@@ -98,52 +140,71 @@ impl Frame {
 
 impl Moving {
     /// The matrix that turns vectors from its axes to those of the ground, by rows.
-    fn rotation(&self, g: &mut Graph) -> Vec<Id> {
-        if !self.kind.spatial {
-            let angle = self.coordinates[2];
-            let (c, s) = (g.call1(Func::Cos, angle), g.call1(Func::Sin, angle));
-            return vec![c, g.neg(s), s, c];
+    pub(super) fn rotation(&self, g: &mut Graph) -> Vec<Id> {
+        match &self.orientation {
+            Orientation::Hung(hung) => hung.axes.clone(),
+            Orientation::Own(own) => turned(own, g),
         }
-        let e = &self.coordinates[3..];
-        let one = g.one();
-        let mut entries = Vec::with_capacity(9);
-        for i in 1..4 {
-            for j in 1..4 {
-                // 1 − 2 (eₖ² + eₗ²) on the diagonal, 2 (eᵢ eⱼ ∓ e₀ eₖ) beside it.
-                let k = if i == j { i % 3 + 1 } else { 6 - i - j };
-                let entry = if i == j {
-                    let (a, b) = (g.square(e[k]), g.square(e[6 - i - k]));
-                    g.sum(&[(1.0, one), (-2.0, a), (-2.0, b)])
-                } else {
-                    let sign = if j % 3 + 1 == i { 1.0 } else { -1.0 };
-                    let (a, b) = (g.mul(e[i], e[j]), g.mul(e[0], e[k]));
-                    g.sum(&[(2.0, a), (2.0 * sign, b)])
-                };
-                entries.push(entry);
-            }
-        }
-        entries
     }
 
     /// Its angular velocity: about the axis out of the plane, or a vector in axes of the ground or its own.
-    fn omega(&self, own: bool, g: &mut Graph) -> Value {
-        let mut total = Derivative::total();
-        let mut rate = |id: Id| total.of(id, g);
-        if !self.kind.spatial {
-            return Value::Scalar(rate(self.coordinates[2]));
+    pub(super) fn omega(&self, own: bool, g: &mut Graph) -> Value {
+        match &self.orientation {
+            Orientation::Own(coordinates) => turning(coordinates, own, g),
+            Orientation::Hung(hung) if own || !self.kind.spatial => match hung.omega[..] {
+                [rate] => Value::Scalar(rate),
+                _ => Value::vector(hung.omega.clone()),
+            },
+            Orientation::Hung(hung) => {
+                let axes = Value::new(&[3, 3], hung.axes.clone());
+                axes.times(&Value::vector(hung.omega.clone()), g)
+            }
         }
-        let e = self.coordinates[3..].to_vec();
-        let v: Vec<Id> = e.iter().map(|id| rate(*id)).collect();
-        // 2 (e₀ ė − ė₀ e ± e × ė)
-        let sign = if own { -2.0 } else { 2.0 };
-        let component = |k: usize| {
-            let (i, j) = (k % 3 + 1, (k + 1) % 3 + 1);
-            let terms = [(2.0, 0, k), (-2.0, k, 0), (sign, i, j), (-sign, j, i)];
-            let terms = terms.map(|(c, a, b)| (c, g.mul(e[a], v[b])));
-            g.sum(&terms)
-        };
-        Value::vector((1..4).map(component).collect())
     }
+}
+
+/// The matrix by rows that turns vectors as an angle does, or a unit quaternion.
+pub(super) fn turned(own: &[Id], g: &mut Graph) -> Vec<Id> {
+    if let [angle] = *own {
+        let (c, s) = (g.call1(Func::Cos, angle), g.call1(Func::Sin, angle));
+        return vec![c, g.neg(s), s, c];
+    }
+    let (e, one) = (own, g.one());
+    let mut entries = Vec::with_capacity(9);
+    for i in 1..4 {
+        for j in 1..4 {
+            // 1 − 2 (eₖ² + eₗ²) on the diagonal, 2 (eᵢ eⱼ ∓ e₀ eₖ) beside it.
+            let k = if i == j { i % 3 + 1 } else { 6 - i - j };
+            let entry = if i == j {
+                let (a, b) = (g.square(e[k]), g.square(e[6 - i - k]));
+                g.sum(&[(1.0, one), (-2.0, a), (-2.0, b)])
+            } else {
+                let sign = if j % 3 + 1 == i { 1.0 } else { -1.0 };
+                let (a, b) = (g.mul(e[i], e[j]), g.mul(e[0], e[k]));
+                g.sum(&[(2.0, a), (2.0 * sign, b)])
+            };
+            entries.push(entry);
+        }
+    }
+    entries
+}
+
+/// The angular velocity of what is turned as an angle says, or a unit quaternion: in the axes before the turn, or its `own` after it.
+pub(super) fn turning(e: &[Id], own: bool, g: &mut Graph) -> Value {
+    let mut total = Derivative::total();
+    let v: Vec<Id> = e.iter().map(|id| total.of(*id, g)).collect();
+    if let [rate] = v[..] {
+        return Value::Scalar(rate);
+    }
+    // 2 (e₀ ė − ė₀ e ± e × ė)
+    let sign = if own { -2.0 } else { 2.0 };
+    let component = |k: usize| {
+        let (i, j) = (k % 3 + 1, (k + 1) % 3 + 1);
+        let terms = [(2.0, 0, k), (-2.0, k, 0), (sign, i, j), (-sign, j, i)];
+        let terms = terms.map(|(c, a, b)| (c, g.mul(e[a], v[b])));
+        g.sum(&terms)
+    };
+    Value::vector((1..4).map(component).collect())
 }
 
 /// What of a body is no coordinate.
@@ -177,6 +238,7 @@ impl<'m> Lowering<'m> {
                     body: body.clone(),
                     variables: scope.variables.clone(),
                     frame: None,
+                    pending: false,
                 });
             }
         });
@@ -212,14 +274,17 @@ impl<'m> Lowering<'m> {
         };
         debug_assert!(shape.is_empty(), "one body has no shape");
         // What depends on coordinates may not stand everywhere.
-        let kind = self.model.body_kinds[family];
-        let first = self.model.coords[kind.first].members
-            [self.model.body_elements[*position].place(&bodies.shape)];
-        if self
-            .allowed(Symbol::Coord(first), name.span(), env)
-            .is_error()
+        if let Some(first) = self.moves_by(*position)
+            && self
+                .allowed(Symbol::Coord(first), name.span(), env)
+                .is_error()
         {
             return Value::Error;
+        }
+        let declared = self.bodies.get(*position).and_then(Option::as_ref);
+        if declared.is_some_and(|declared| declared.pending) {
+            let message = format!("where `{name}` sits cannot depend on `{name}` itself");
+            return self.error(name.span(), message);
         }
         self.frame(*position).map_or(Value::Error, Value::Body)
     }
@@ -230,33 +295,74 @@ impl<'m> Lowering<'m> {
         if let Some(frame) = &declared.frame {
             return Some(frame.clone());
         }
+        // Those that it hangs on come first.
+        let mut chain = vec![position];
+        while let Some(joint) = self.model.hung[chain[chain.len() - 1]]
+            && let Some(parent) = self.model.joints[joint].parent
+            && self.bodies[parent].as_ref()?.frame.is_none()
+        {
+            chain.push(parent);
+        }
+        for body in chain.into_iter().rev() {
+            self.pending(body, true);
+            self.place(body);
+            self.pending(body, false);
+        }
+        self.bodies[position].as_ref()?.frame.clone()
+    }
+
+    fn pending(&mut self, position: usize, pending: bool) {
+        if let Some(Some(declared)) = self.bodies.get_mut(position) {
+            declared.pending = pending;
+        }
+    }
+
+    /// Makes the frame of the body at `position`, which hangs on none, or on one whose frame is known.
+    fn place(&mut self, position: usize) {
+        let Some(declared) = &self.bodies[position] else {
+            return;
+        };
         let (centre, variables) = (declared.body.centre.clone(), declared.variables.clone());
         let element = &self.model.body_elements[position];
         let kind = self.model.body_kinds[element.family];
-        let place = element.place(&self.model.bodies[element.family].shape);
-        let symbols = (0..kind.coordinates().len())
-            .map(|k| Symbol::Coord(self.model.coords[kind.first + k].members[place]));
-        let coordinates: Vec<Id> = symbols.map(|s| self.graph.symbol(s)).collect();
         let dimension = if kind.spatial { 3 } else { 2 };
-        let mut own = vec![self.graph.zero(); dimension];
+        let mut own: Vec<Id> = Vec::new();
+        if let Some(first) = self.model.own[position] {
+            let symbols = (first..).take(kind.coordinates().len()).map(Symbol::Coord);
+            own.extend(symbols.map(|s| self.graph.symbol(s)));
+        }
+        let mut c = vec![self.graph.zero(); dimension];
         if let Some(e) = centre {
             let value = self.part_of_body(&e, &variables);
             if let Some(entries) = self.of_shape(&value, &[dimension], e.loc) {
-                own = entries;
+                c = entries;
             }
         }
-        let frame = Rc::new(Frame {
-            name: element.name.clone(),
-            moving: Some(Moving {
+        let moving = match self.model.hung[position] {
+            Some(joint) => self.hung(position, joint, c),
+            None => Some(Moving {
                 kind,
-                coordinates,
-                centre: own,
+                reference: c.clone(),
+                centre: c,
+                orientation: Orientation::Own(own.split_off(dimension)),
+                place: own,
             }),
-        });
-        if let Some(Some(declared)) = self.bodies.get_mut(position) {
+        };
+        if let (Some(Some(declared)), Some(moving)) = (self.bodies.get_mut(position), moving) {
+            let hangs = Value::vector(moving.place.clone());
+            let frame = Rc::new(Frame {
+                name: element.name.clone(),
+                moving: Some(moving),
+            });
             declared.frame = Some(frame.clone());
+            if self.model.hung[position].is_some() {
+                let point = Point {
+                    body: frame,
+                    place: hangs,
+                };
+                self.note("tree", &[Value::Point(Rc::new(point))]);
+            }
         }
-        Some(frame)
     }
 
     /// What a body consists of.
@@ -342,6 +448,9 @@ impl<'m> Lowering<'m> {
 
     /// `body.angle`.
     pub(super) fn field(&mut self, base: &Expr, name: &Ident, env: &Env<'m>) -> Value {
+        if let Some(value) = self.of_joint(base, name, env) {
+            return value;
+        }
         let value = match &base.kind {
             // Nothing declared here, perhaps a struct of Rust.
             ExprKind::Name(base) if !self.is_known(base, env) => None,
@@ -374,27 +483,38 @@ impl<'m> Lowering<'m> {
                 ),
             };
         };
-        let coordinates = moving.kind.coordinates();
         let dimension = frame.dimension().unwrap_or_default();
         let value = match text.as_str() {
             "omega" => moving.omega(false, &mut self.graph),
-            "centre" => Value::vector(moving.coordinates[..dimension].to_vec()),
+            "centre" => frame.centre(&mut self.graph),
             "axes" => Value::new(&[dimension, dimension], moving.rotation(&mut self.graph)),
             "spin" if moving.kind.spatial => self.spin(&frame),
-            text => match coordinates.iter().position(|c| *c == text) {
-                Some(k) => Value::Scalar(moving.coordinates[k]),
-                None => {
-                    let names = coordinates.iter().chain(&FIELDS).copied();
-                    let remedy = format!(
-                        "it has `{}`, `at` and `along`",
-                        names.clone().collect::<Vec<_>>().join("`, `")
-                    );
-                    let end = suggest(text, names, &remedy);
-                    return self.error(name.span(), format!("body `{frame}` has no `{text}`{end}"));
-                }
+            text => match frame.coordinate(text, &mut self.graph) {
+                Some(id) => Value::Scalar(id),
+                None => return self.no_field(&frame, moving, name),
             },
         };
         self.allowed_value(value, name.span().into(), env)
+    }
+
+    /// Reports that a body has nothing of this `name`.
+    fn no_field(&mut self, frame: &Frame, moving: &Moving, name: &Ident) -> Value {
+        let coordinates = moving.kind.coordinates();
+        let quaternion = coordinates.iter().any(|c| name == c);
+        let text = name.to_string();
+        if quaternion {
+            let message = format!(
+                "`{frame}` hangs on a joint of the tree and has no quaternion; its orientation is `{frame}.axes`"
+            );
+            return self.error(name.span(), message);
+        }
+        let names = coordinates.iter().chain(&FIELDS).copied();
+        let remedy = format!(
+            "it has `{}`, `at` and `along`",
+            names.clone().collect::<Vec<_>>().join("`, `")
+        );
+        let end = suggest(&text, names, &remedy);
+        self.error(name.span(), format!("body `{frame}` has no `{text}`{end}"))
     }
 
     /// The angular velocity of a spatial body in its own axes, in which its inertia is constant.
@@ -403,18 +523,11 @@ impl<'m> Lowering<'m> {
             return Value::Scalar(self.graph.zero());
         };
         let spin = moving.omega(true, &mut self.graph);
-        // The graph keeps the factor 2 apart.
-        let halves = spin.map(|id| self.graph.unscaled(id).1);
-        self.hint(&format!("{frame}.half_spin"), &halves);
+        if let Orientation::Own(_) = moving.orientation {
+            // The graph keeps the factor 2 apart.
+            let halves = spin.map(|id| self.graph.unscaled(id).1);
+            self.hint(&format!("{frame}.half_spin"), &halves);
+        }
         spin
-    }
-}
-
-impl Frame {
-    /// Its coordinates, in the order of [`BodyKind::coordinates`].
-    pub(super) fn coordinates(&self) -> &[Id] {
-        self.moving
-            .as_ref()
-            .map_or(&[], |moving| &moving.coordinates)
     }
 }

@@ -150,9 +150,7 @@ impl<'m> Lowering<'m> {
             .filter_map(|body| body.frame.clone());
         let frames: Vec<Rc<Frame>> = frames.collect();
         for frame in frames {
-            let Some(centre) = frame.middle(&mut self.graph) else {
-                continue;
-            };
+            let centre = frame.centre(&mut self.graph).entries().to_vec();
             let mut points: Vec<Vec<Id>> = Vec::new();
             for point in between.iter().flat_map(|joint| &joint.points) {
                 let place = at(point);

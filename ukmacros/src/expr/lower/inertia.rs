@@ -1,11 +1,12 @@
 //! What bodies have by themselves: kinetic energy, weight, and unit quaternions.
 
 use super::array::{Value, describe};
+use super::bodies::Frame;
 use super::system::{Constraint, ConstraintRef, Kind};
 use super::{Env, Lowering, Place};
 use crate::diag::Loc;
 use crate::expr::eval::{Point, eval};
-use crate::expr::graph::{Id, Node, Symbol};
+use crate::expr::graph::{Id, Symbol};
 use crate::model::{Scope, Variable};
 use crate::parse::{Body, Declaration, Expr};
 use proc_macro2::Ident;
@@ -15,10 +16,10 @@ use proc_macro2::Ident;
 pub(super) struct OfBodies {
     /// Coordinates with their masses, and where these are declared.
     pub(super) diagonal: Vec<(usize, Id, Loc)>,
-    /// Terms of the kinetic energy of turning in space.
+    /// Terms of the kinetic energy, but for those of `diagonal`.
     pub(super) turning: Vec<(f64, Id)>,
-    /// Where the first spatial body is declared.
-    pub(super) spatial: Option<Loc>,
+    /// Where the first body is declared whose part of M changes.
+    pub(super) changing: Option<Loc>,
     pub(super) potential: Vec<(f64, Id)>,
     pub(super) units: Vec<Constraint>,
     /// [`System::inertias`](super::System::inertias).
@@ -45,58 +46,91 @@ impl<'m> Lowering<'m> {
                 continue;
             };
             let loc = body.key.loc;
-            let symbols = frame
-                .coordinates()
-                .iter()
-                .map(|id| match self.graph.node(*id) {
-                    Node::Symbol(Symbol::Coord(i)) => *i,
-                    _ => 0,
-                });
-            let coordinates: Vec<usize> = symbols.collect();
             let mass = self.mass_of(&body, &variables, defaults);
             let spatial = frame.dimension() == Some(3);
+            if let Some(energy) = self.hung_energy(&frame, mass) {
+                out.changing = out.changing.or(Some(loc));
+                out.turning.extend(energy);
+            }
+            let own = self.model.own[position];
             if spatial {
-                out.spatial = out.spatial.or(Some(loc));
+                out.changing = out.changing.or(Some(loc));
                 self.needs(&body);
-                let place = coordinates[..3].iter();
-                out.diagonal.extend(place.map(|i| (*i, mass, loc)));
+                let places = own.map_or(0..0, |first| first..first + 3);
+                out.diagonal.extend(places.map(|i| (i, mass, loc)));
                 let spin = self.spin(&frame);
                 let inertia = self.turning(&body, &variables, &spin, defaults, &mut out.turning);
                 let given = inertia.map(|rows| [vec![mass], rows].concat());
                 out.inertias
                     .extend(given.map(|given| (frame.to_string(), given)));
-                let unit = self.unit(position, &body.key.name, frame.coordinates(), loc);
-                out.units.push(unit);
+                if let Some(first) = own {
+                    let name = body.key.name.clone();
+                    let at = &self.model.body_elements[position];
+                    let unit = self.unit(&name, &at.name, &at.indices, first + 3, loc);
+                    out.units.push(unit);
+                }
             } else {
                 let inertia = self.inertia_of(&body, &variables, defaults);
-                let masses = coordinates.iter().zip([mass, mass, inertia]);
-                out.diagonal.extend(masses.map(|(i, m)| (*i, m, loc)));
+                match own {
+                    Some(first) => out.diagonal.extend(
+                        (first..)
+                            .zip([mass, mass, inertia])
+                            .map(|(i, m)| (i, m, loc)),
+                    ),
+                    None => {
+                        let rate = self.rate(&frame);
+                        let square = self.graph.square(rate);
+                        out.turning.push((0.5, self.graph.mul(inertia, square)));
+                    }
+                }
             }
-            if let Some((gravity, e)) = &gravity {
-                let dimension = if spatial { 3 } else { 2 };
-                if gravity.entries().len() < dimension {
-                    let message = format!(
-                        "expected {}, found {}: `{frame}` is spatial",
-                        describe(&[3]),
-                        describe(gravity.shape())
-                    );
-                    self.error(*e, message);
-                    break;
-                }
-                for (g, x) in gravity
-                    .entries()
-                    .iter()
-                    .zip(frame.coordinates())
-                    .take(dimension)
-                {
-                    let term = self.graph.product(&[(mass, 1), (*g, 1), (*x, 1)]);
-                    out.potential.push((-1.0, term));
-                }
+            if let Some((gravity, e)) = &gravity
+                && !self.weigh(&frame, mass, gravity, *e, &mut out)
+            {
+                break;
+            }
+        }
+        for joint in &self.model.joints {
+            if joint.kind.coordinates.len() == 4 {
+                let unit = self.unit(
+                    &joint.key,
+                    &joint.name,
+                    &joint.indices,
+                    joint.first,
+                    joint.key.span().into(),
+                );
+                out.units.push(unit);
             }
         }
         out.diagonal.retain(|(_, m, _)| !self.graph.is_zero(*m));
         out.potential.retain(|(_, id)| !self.graph.is_zero(*id));
         out
+    }
+
+    /// Enters the weight of a body; reports it, and returns false, if `gravity`, at `loc`, is too short for it.
+    fn weigh(
+        &mut self,
+        frame: &Frame,
+        mass: Id,
+        gravity: &Value,
+        loc: Loc,
+        out: &mut OfBodies,
+    ) -> bool {
+        if gravity.entries().len() < frame.dimension().unwrap_or(0) {
+            let message = format!(
+                "expected {}, found {}: `{frame}` is spatial",
+                describe(&[3]),
+                describe(gravity.shape())
+            );
+            self.error(loc, message);
+            return false;
+        }
+        let centre = frame.centre(&mut self.graph);
+        for (g, x) in gravity.entries().iter().zip(centre.entries()) {
+            let term = self.graph.product(&[(mass, 1), (*g, 1), (*x, 1)]);
+            out.potential.push((-1.0, term));
+        }
+        true
     }
 
     /// The vector that `gravity` gives, with its place.
@@ -258,24 +292,30 @@ impl<'m> Lowering<'m> {
         Some(vec![xx, xy, xz, yx, yy, yz, zx, zy, zz])
     }
 
-    /// The row that keeps the quaternion of the body at `position` a unit.
-    fn unit(&mut self, position: usize, name: &Ident, coordinates: &[Id], loc: Loc) -> Constraint {
-        let body = &self.model.body_elements[position];
-        let indices = body.indices.iter();
+    /// The row that keeps the quaternion whose coordinates begin at `first` a unit: that of `owner`, called `name` with `indices`.
+    fn unit(
+        &mut self,
+        name: &Ident,
+        owner: &str,
+        indices: &[usize],
+        first: usize,
+        loc: Loc,
+    ) -> Constraint {
+        let indices = indices.iter();
         let mut terms = vec![(-1.0, self.graph.one())];
-        terms.extend(
-            coordinates[3..]
-                .iter()
-                .map(|e| (1.0, self.graph.square(*e))),
-        );
+        for i in first..first + 4 {
+            let e = self.graph.symbol(Symbol::Coord(i));
+            terms.push((1.0, self.graph.square(e)));
+        }
         let phi = self.graph.sum(&terms);
         Constraint {
             item: ConstraintRef {
                 base: Ident::new(&format!("{name}_unit"), name.span()),
+                shown: owner.to_owned(),
                 indices: indices.filter_map(|i| i64::try_from(*i).ok()).collect(),
                 components: Vec::new(),
                 row: None,
-                unit_of: Some(body.name.clone()),
+                unit_of: Some(owner.to_owned()),
             },
             kind: Kind::Holonomic,
             phi,

@@ -6,7 +6,7 @@ use crate::diag::Loc;
 use crate::expr::eval::{Point, eval};
 use crate::expr::graph::Id;
 use crate::model::{Preset, Scope, every, indexed};
-use crate::parse::{Declaration, Function, Let, LetValue};
+use crate::parse::{Declaration, Expr, Function, Let, LetValue};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
@@ -147,8 +147,11 @@ impl<'m> Lowering<'m> {
                 "a function cannot be indexed; pass the index as an argument",
             ),
             LetValue::Value(e) => {
-                let value = self.argument(e, &Env::new(scope, Place::Let));
-                let shown = indexed(&name, &indices);
+                let value = match &binding.given {
+                    Some(sizes) => self.given(e, sizes, scope),
+                    None => self.argument(e, &Env::new(scope, Place::Let)),
+                };
+                let shown = indexed(self.model.shown(&name), &indices);
                 self.hint(&shown, &value);
                 if indices.is_empty() {
                     self.lets.insert(name, Binding::Value(value));
@@ -160,6 +163,27 @@ impl<'m> Lowering<'m> {
                     members.insert(indices, value);
                 }
             }
+        }
+    }
+
+    /// What is given to a part for a parameter of these sizes: numbers for all of it, or one.
+    fn given(&mut self, e: &Expr, sizes: &[Expr], scope: &Scope<'m>) -> Value {
+        let value = self.value(e, &Env::new(scope, Place::Given));
+        let sizes = sizes.iter().map(|size| {
+            let n = scope.integer(size, self.diag)?;
+            usize::try_from(n).ok()
+        });
+        let Some(shape) = sizes.collect::<Option<Vec<usize>>>() else {
+            return Value::Error;
+        };
+        match value {
+            Value::Scalar(id) if !shape.is_empty() => {
+                Value::new(&shape, vec![id; shape.iter().product()])
+            }
+            value => match self.of_shape(&value, &shape, e.loc) {
+                Some(entries) => Value::new(&shape, entries),
+                None => Value::Error,
+            },
         }
     }
 

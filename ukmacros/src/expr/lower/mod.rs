@@ -11,6 +11,7 @@ mod parts;
 mod reactions;
 mod starts;
 mod system;
+mod tree;
 mod value;
 mod vectors;
 
@@ -42,6 +43,8 @@ enum Place {
     Default,
     Let,
     Body,
+    Joint,
+    Given,
     Gravity,
     Mass,
     Kinetic,
@@ -114,6 +117,7 @@ pub(crate) fn lower(decl: &Declaration, model: &Model, diag: &Diagnostics) -> Sy
         depth: 0,
         outermost: None,
         oversized: false,
+        defaults: Vec::new(),
         known_params: 0,
         hints: Map::default(),
         unknown: HashSet::new(),
@@ -158,6 +162,8 @@ struct Lowering<'m> {
     outermost: Option<Loc>,
     /// An array that is too long was reported.
     oversized: bool,
+    /// Defaults of the parameters, once they are known.
+    defaults: Vec<f64>,
     /// Parameters whose default is known: those a default may use.
     known_params: usize,
     hints: Map<Id, String>,
@@ -199,12 +205,16 @@ impl<'m> Lowering<'m> {
         let top = Scope::new(self.model);
         let constants = self.constants(&top);
         let defaults = self.defaults();
+        self.defaults.clone_from(&defaults);
         self.declare_bodies(decl, &top);
         self.lower_lets(decl, &top);
 
         let of_bodies = self.of_bodies(decl, &top, &defaults);
         let mut mass = self.mass(decl, &top);
-        if let (Some(_), Some(kinetic)) = (&decl.mass, &decl.kinetic) {
+        // Parts may have either.
+        if let (Some(_), Some(kinetic)) = (&decl.mass, &decl.kinetic)
+            && self.model.part_families.is_empty()
+        {
             self.diag.error(
                 kinetic.keyword.span(),
                 "`mass` and `kinetic` exclude each other: M follows from T; move the masses into `kinetic`",
@@ -314,12 +324,12 @@ impl<'m> Lowering<'m> {
         }
         let section = decl.kinetic.as_ref();
         let loc = section.map(|s| s.keyword.span().into());
-        let loc = loc.or(of_bodies.spatial)?;
+        let loc = loc.or(of_bodies.changing)?;
         let mut terms = of_bodies.turning.clone();
         for ((i, j), (m, declared)) in std::mem::take(mass) {
             let uses = self.graph.uses(m);
             if uses.coord || uses.time {
-                let message = "beside spatial bodies a mass that changes goes under `kinetic`, as its part of the kinetic energy";
+                let message = "beside spatial bodies and those of a tree a mass that changes goes under `kinetic`, as its part of the kinetic energy";
                 self.diag.error(declared, message);
             }
             let v = [i, j].map(|k| self.graph.symbol(Symbol::Velocity(k)));
@@ -450,6 +460,7 @@ impl<'m> Lowering<'m> {
         };
         let mut item = ConstraintRef {
             base: key.name.clone(),
+            shown: self.model.shown(&key.name.to_string()).to_owned(),
             indices,
             components: Vec::new(),
             row: None,
@@ -548,6 +559,7 @@ impl<'m> Lowering<'m> {
             };
             let mut item = ConstraintRef {
                 base: key.name.clone(),
+                shown: self.model.shown(&key.name.to_string()).to_owned(),
                 indices,
                 components: Vec::new(),
                 row: None,

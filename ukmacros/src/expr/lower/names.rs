@@ -2,9 +2,9 @@
 
 use super::array::{MAX_ENTRIES, Value, describe};
 use super::{Binding, Env, Lowering, NoValue, Place};
-use crate::diag::{Loc, suggest};
+use crate::diag::{Diagnostics, Loc, suggest};
 use crate::expr::graph::{Id, Symbol};
-use crate::model::{Family, Name, Scope, block, indexed};
+use crate::model::{Family, Field, Name, Reported, Scope, block, indexed};
 use crate::parse::{Expr, Key};
 use proc_macro2::Ident;
 use std::collections::BTreeMap;
@@ -40,6 +40,19 @@ impl<'m> Lowering<'m> {
         let text = name.to_string();
         match self.model.names.get(&text) {
             Some(Name::Body(f)) => self.body(name, *f, indices, env),
+            Some(Name::Part) => {
+                let message = format!(
+                    "`{text}` is a part; choose what belongs to it, `{text}.name`, or of a family `{text}[0].name`"
+                );
+                self.error(name.span(), message)
+            }
+            Some(Name::Joint) => {
+                let message = format!(
+                    "`{text}` is a joint of the tree; {}",
+                    self.its_coordinates(&text)
+                );
+                self.error(name.span(), message)
+            }
             Some(Name::Param(f)) => {
                 self.members(name, indices, &self.model.params[*f], Symbol::Param, env)
             }
@@ -252,12 +265,21 @@ impl<'m> Lowering<'m> {
         scope: &Scope<'m>,
     ) -> Option<(&'m [usize], &'m [usize])> {
         let name = key.name.to_string();
+        if matches!(self.model.names.get(&name), Some(Name::Part)) {
+            let mut segments = vec![(key.name.clone(), key.indices.clone())];
+            segments.extend(key.fields.iter().cloned());
+            let found = scope.in_part(&segments, self.diag)?.ok()?;
+            let key = Key {
+                name: found.name,
+                indices: found.indices,
+                fields: segments.split_off(found.used),
+                loc: key.loc,
+            };
+            return self.coordinates(&key, scope);
+        }
         let family = match self.model.names.get(&name) {
             Some(Name::Coord(family)) => Some(*family),
-            Some(Name::Body(body)) => match self.of_body_named(*body, key) {
-                Some(family) => Some(family),
-                None => return None,
-            },
+            Some(Name::Body(_) | Name::Joint) => return self.of_owner(key, scope),
             _ => None,
         };
         let Some(family) = family else {
@@ -265,12 +287,7 @@ impl<'m> Lowering<'m> {
             if !self.unknown.insert(name.clone()) {
                 return None;
             }
-            let of_bodies = self
-                .model
-                .body_kinds
-                .first()
-                .map_or(usize::MAX, |k| k.first);
-            let coords = self.model.coords.iter().take(of_bodies);
+            let coords = self.model.coords.iter().take(self.model.plain);
             let coords: Vec<String> = coords.map(|f| f.name.to_string()).collect();
             let remedy = match coords.len() {
                 0 => "those of bodies are written `link.x`".to_owned(),
@@ -284,13 +301,7 @@ impl<'m> Lowering<'m> {
             );
             return None;
         };
-        if let (Some(field), false) = (
-            &key.field,
-            self.model
-                .names
-                .get(&name)
-                .is_some_and(|n| matches!(n, Name::Body(_))),
-        ) {
+        if let Some((field, _)) = key.fields.first() {
             let message = "no fields here; a coordinate is written by its name alone, such as `x`";
             self.diag.error(field.span(), message);
             return None;
@@ -299,27 +310,145 @@ impl<'m> Lowering<'m> {
         self.member(&key.name, &key.indices, family, scope)
     }
 
-    /// The family of the coordinate of bodies that `key` names.
-    fn of_body_named(&mut self, body: usize, key: &Key) -> Option<usize> {
-        let (kind, name) = (self.model.body_kinds[body], &key.name);
-        let names = kind.coordinates();
-        let list = names.join("`, `");
-        let Some(field) = &key.field else {
-            let message = format!("`{name}` is a body; choose a coordinate of it: `{list}`");
+    /// Positions in q of the coordinates of bodies, or of joints of the tree, that `key` names.
+    fn of_owner(&mut self, key: &Key, scope: &Scope<'m>) -> Option<(&'m [usize], &'m [usize])> {
+        let (model, name) = (self.model, key.name.to_string());
+        let body = match model.names.get(&name) {
+            Some(Name::Body(family)) => Some(model.body_kinds[*family].coordinates()),
+            _ => None,
+        };
+        let what = if body.is_some() { "body" } else { "joint" };
+        let Some((field, behind)) = key.fields.first() else {
+            let message = format!("`{name}` is a {what}; {}", self.its_coordinates(&name));
             self.diag.error(key.loc, message);
             return None;
         };
-        let place = names.iter().position(|n| field == n);
-        if place.is_none() {
-            let end = suggest(
-                &field.to_string(),
-                names.iter().copied(),
-                &format!("they are `{list}`"),
-            );
-            let message = format!("body `{name}` has no coordinate `{field}`{end}");
-            self.diag.error(field.span(), message);
+        let surplus = behind.first().map(|index| index.loc);
+        let surplus = surplus.or(key.fields.get(1).map(|(name, _)| name.span().into()));
+        if let Some(loc) = surplus {
+            let message = "a coordinate is a number, and nothing follows it; indices stand behind the body or joint";
+            self.diag.error(loc, message);
+            return None;
         }
-        Some(kind.first + place?)
+        let text = field.to_string();
+        let fields = model.fields.get(&name);
+        match fields.and_then(|fields| fields.get(text.as_str())) {
+            Some(Field::Family(family)) => {
+                let chosen = self.indices(&key.indices, scope)?;
+                let family = &model.coords[*family];
+                let shown = indexed(model.shown(&name), &chosen);
+                let owners = model.joints.iter().map(|joint| &joint.name);
+                let bodies = model.body_elements.iter().map(|body| &body.name);
+                let whole = family.shape.len() == chosen.len();
+                if whole
+                    && block(&family.shape, &chosen).is_err()
+                    && owners.chain(bodies).any(|owner| *owner == shown)
+                {
+                    let message = format!("`{shown}` has no coordinate `{text}`");
+                    self.diag.error(key.loc, message);
+                    return None;
+                }
+                self.member(&key.name, &key.indices, family, scope)
+            }
+            Some(Field::Scattered(families)) => {
+                let chosen = self.indices(&key.indices, scope)?;
+                let places: Option<Vec<usize>> =
+                    chosen.iter().map(|i| usize::try_from(*i).ok()).collect();
+                let family = places.and_then(|places| families.get(&places));
+                if family.is_none() {
+                    let shown = indexed(&name, &chosen);
+                    let message = format!("`{shown}` has no coordinate `{text}`");
+                    self.diag.error(key.loc, message);
+                }
+                let family = &model.coords[*family?];
+                Some((&family.members[..], &family.shape[..]))
+            }
+            None if body.is_some_and(|names| names.contains(&text.as_str())) => {
+                let message = format!(
+                    "`{name}` hangs on a joint of the tree: its coordinates are those of the joint; what acts on it goes under `forces`"
+                );
+                self.diag.error(field.span(), message);
+                None
+            }
+            None => {
+                let names = body.into_iter().flatten().copied();
+                let names = names.chain(fields.into_iter().flat_map(|f| f.keys().copied()));
+                let remedy = match body {
+                    Some(names) => format!("they are `{}`", names.join("`, `")),
+                    None => self.its_coordinates(&name),
+                };
+                let end = suggest(&text, names, &remedy);
+                let message = format!("{what} `{name}` has no coordinate `{text}`{end}");
+                self.diag.error(field.span(), message);
+                None
+            }
+        }
+    }
+
+    /// What coordinates the bodies or joints called `name` have, in words.
+    fn its_coordinates(&self, name: &str) -> String {
+        match (self.model.fields.get(name), self.model.names.get(name)) {
+            (Some(fields), Some(Name::Joint)) => {
+                let names = fields.keys().map(|field| format!("`{name}.{field}`"));
+                format!(
+                    "its coordinates are {}",
+                    names.collect::<Vec<_>>().join(", ")
+                )
+            }
+            (Some(_), Some(Name::Body(family))) => {
+                let names = self.model.body_kinds[*family].coordinates().join("`, `");
+                format!("choose a coordinate of it: `{names}`")
+            }
+            (_, Some(Name::Joint)) => "it has no coordinates".to_owned(),
+            _ => "its coordinates are those of the joint that it hangs on".to_owned(),
+        }
+    }
+
+    /// What stands in a part, if that is where `e` leads.
+    pub(super) fn in_part(&mut self, e: &Expr, env: &Env<'m>) -> Option<Value> {
+        if self.model.part_families.is_empty() {
+            return None;
+        }
+        let segments = e.segments()?;
+        if env.args.iter().any(|(n, _)| segments[0].0 == n) {
+            return None;
+        }
+        match env.scope.in_part(&segments, self.diag)? {
+            Err(Reported) => Some(Value::Error),
+            Ok(found) if found.used == segments.len() => {
+                Some(self.name(&found.name, &found.indices, env))
+            }
+            Ok(_) => None,
+        }
+    }
+
+    /// `elbow.angle`, where `base` names a joint of the tree.
+    pub(super) fn of_joint(&mut self, base: &Expr, field: &Ident, env: &Env<'m>) -> Option<Value> {
+        let segments = base.segments()?;
+        let (name, indices) = match env.scope.in_part(&segments, &Diagnostics::default()) {
+            Some(Ok(found)) if found.used == segments.len() => (found.name, found.indices),
+            None if segments.len() == 1 => segments[0].clone(),
+            _ => return None,
+        };
+        let text = name.to_string();
+        let hidden = env.args.iter().any(|(n, _)| *n == text);
+        if hidden || !matches!(self.model.names.get(&text), Some(Name::Joint)) {
+            return None;
+        }
+        let key = Key {
+            name,
+            indices,
+            fields: vec![(field.clone(), Vec::new())],
+            loc: base.loc.to(field.span().into()),
+        };
+        let Some((positions, shape)) = self.of_owner(&key, &env.scope) else {
+            return Some(Value::Error);
+        };
+        let ids = positions
+            .iter()
+            .map(|i| self.graph.symbol(Symbol::Coord(*i)));
+        let value = Value::new(shape, ids.collect());
+        Some(self.allowed_value(value, key.loc, env))
     }
 
     /// Position in q of the coordinate that `key` names.
@@ -381,6 +510,12 @@ impl<'m> Lowering<'m> {
                 Place::Body if !uses.constant() => {
                     Some("what a body consists of does not change: it depends on parameters only")
                 }
+                Place::Joint if !uses.constant() => Some(
+                    "where a joint of the tree sits does not change: it depends on parameters only; what changes goes under `holonomic`",
+                ),
+                Place::Given if !uses.constant() => Some(
+                    "a parameter of a part does not change with the motion: it depends on parameters only",
+                ),
                 Place::Start if !uses.constant() => {
                     Some("a start is given by parameters and its options")
                 }

@@ -307,7 +307,7 @@ impl<'m> Lowering<'m> {
     }
 
     /// The value of a text of the table; what is wrong with it is wrong with what stands at `loc`.
-    fn written(&mut self, text: &str, loc: Loc, env: &Env<'m>) -> Value {
+    pub(super) fn written(&mut self, text: &str, loc: Loc, env: &Env<'m>) -> Value {
         let e = own(text);
         let before = self.diag.len();
         self.written = true;
@@ -330,6 +330,18 @@ impl<'m> Lowering<'m> {
         env: &Env<'m>,
     ) -> Option<(&'static Part, Env<'m>)> {
         let values: Vec<Value> = args.iter().map(|a| self.argument(a, env)).collect();
+        let found = self.part_with(name, args, &values)?;
+        self.note(found.0.name, &values);
+        Some(found)
+    }
+
+    /// The part that is meant where its arguments have these values, and these by their names.
+    pub(super) fn part_with(
+        &mut self,
+        name: &Ident,
+        args: &[Expr],
+        values: &[Value],
+    ) -> Option<(&'static Part, Env<'m>)> {
         if values.iter().any(Value::is_error) {
             return None;
         }
@@ -380,7 +392,6 @@ impl<'m> Lowering<'m> {
             self.error(name.span(), message);
             return None;
         };
-        self.note(part.name, &values);
         let dimension = dimension.unwrap_or(2);
         let mut inner = Env {
             scope: Scope::new(self.model),

@@ -35,11 +35,15 @@ impl Pushed {
     /// Of a joint between points of `first` and `second`, unless both are of the ground.
     pub(super) fn between(first: Option<&Frame>, second: &Frame, g: &Graph) -> Option<Self> {
         let of = |frame: &Frame, sign: f64| {
-            let place = frame.coordinates().iter().take(frame.dimension()?);
-            let place = place.map(|id| match g.node(*id) {
-                Node::Symbol(Symbol::Coord(i)) => Some(*i),
-                _ => None,
-            });
+            let place = frame
+                .moving
+                .as_ref()?
+                .place
+                .iter()
+                .map(|id| match g.node(*id) {
+                    Node::Symbol(Symbol::Coord(i)) => Some(*i),
+                    _ => None,
+                });
             let centre = place.collect::<Option<Vec<usize>>>();
             let centre = centre.unwrap_or_default();
             Some(Pushed { centre, sign })
@@ -78,28 +82,29 @@ impl<'m> Lowering<'m> {
         let [arg] = args else {
             return self.arity(name, 1, args.len());
         };
-        let (arg, row) = match &arg.kind {
-            ExprKind::Field(inner, row) => (&**inner, Some(row)),
-            _ => (arg, None),
-        };
-        let (constraint, indices) = match &arg.kind {
-            ExprKind::Name(constraint) => (constraint, &[][..]),
-            ExprKind::Index(base, indices) => match &base.kind {
-                ExprKind::Name(constraint) => (constraint, &indices[..]),
-                _ => return self.no_constraint(arg),
-            },
-            ExprKind::Error => return Value::Error,
-            _ => return self.no_constraint(arg),
-        };
         let open = [Place::Output, Place::Integral, Place::Nonideal].contains(&env.place);
         if !self.constrained || !(open || self.applying()) {
             let message = "reactions follow from all other equations: `reaction` stands under `output`, `integral` and `nonideal`, and in functions used there";
             return self.error_once(name, message);
         }
-        let Some(chosen) = self.indices(indices, &env.scope) else {
+        if matches!(arg.kind, ExprKind::Error) {
             return Value::Error;
+        }
+        let before = self.diag.len();
+        // A field is a row of a joint, or what belongs to a part.
+        let whole = self.shown_path(arg, env);
+        let (text, row) = match (&whole, &arg.kind) {
+            (Some(text), ExprKind::Field(inner, row)) if !self.known.contains_key(text) => {
+                (self.shown_path(inner, env), Some(row))
+            }
+            _ => (whole, None),
         };
-        let text = indexed(constraint, &chosen);
+        let (Some(text), Some(constraint)) = (text, root(arg)) else {
+            return match self.diag.len() == before {
+                true => self.no_constraint(arg),
+                false => Value::Error,
+            };
+        };
         if !self.known.contains_key(&text) {
             return self.unknown_constraint(arg, constraint, &text);
         }
@@ -107,6 +112,21 @@ impl<'m> Lowering<'m> {
         match row {
             None => self.whole(&text, arg),
             Some(row) => self.of_row(&text, row),
+        }
+    }
+
+    /// A name with indices and fields as it is shown: `leg[2].knee`; nothing for what is none.
+    fn shown_path(&self, e: &Expr, env: &Env<'m>) -> Option<String> {
+        match &e.kind {
+            ExprKind::Name(name) => Some(self.model.shown(&name.to_string()).to_owned()),
+            ExprKind::Index(base, indices) => {
+                let base = self.shown_path(base, env)?;
+                Some(indexed(base, &self.indices(indices, &env.scope)?))
+            }
+            ExprKind::Field(inner, field) => {
+                Some(format!("{}.{field}", self.shown_path(inner, env)?))
+            }
+            _ => None,
         }
     }
 
@@ -199,6 +219,15 @@ impl<'m> Lowering<'m> {
             }
         };
         self.error(row.span(), message)
+    }
+}
+
+/// The name that a path begins with.
+fn root(e: &Expr) -> Option<&Ident> {
+    match &e.kind {
+        ExprKind::Name(name) => Some(name),
+        ExprKind::Index(inner, _) | ExprKind::Field(inner, _) => root(inner),
+        _ => None,
     }
 }
 

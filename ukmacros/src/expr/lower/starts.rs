@@ -103,23 +103,21 @@ impl<'m> Lowering<'m> {
         }
     }
 
-    /// Spatial bodies of which nothing is said are near the orientation in which their axes are those of the ground.
+    /// Spatial bodies of which nothing is said are near the orientation in which their axes are those of the ground, and where they hang on a
+    /// spherical joint, those of the body before.
     fn upright(&mut self, out: &mut Vec<GuessValue>) {
         let one = self.graph.one();
-        for kind in self.model.body_kinds.iter().filter(|kind| kind.spatial) {
-            let families = &self.model.coords[kind.first + 3..kind.first + 7];
-            for (member, coordinate) in families[0].members.iter().enumerate() {
-                let own: Vec<usize> = families.iter().map(|f| f.members[member]).collect();
-                if out.iter().any(|g| !g.rate && own.contains(&g.coordinate)) {
-                    continue;
-                }
-                out.push(GuessValue {
-                    coordinate: *coordinate,
-                    rate: false,
-                    held: false,
-                    value: one,
-                });
+        for first in self.model.quaternions() {
+            let own = first..first + 4;
+            if out.iter().any(|g| !g.rate && own.contains(&g.coordinate)) {
+                continue;
             }
+            out.push(GuessValue {
+                coordinate: first,
+                rate: false,
+                held: false,
+                value: one,
+            });
         }
     }
 }

@@ -82,6 +82,8 @@ pub(crate) struct Constraint {
 #[derive(Clone)]
 pub(crate) struct ConstraintRef {
     pub(crate) base: Ident,
+    /// How that is shown.
+    pub(crate) shown: String,
     pub(crate) indices: Vec<i64>,
     pub(crate) components: Vec<usize>,
     /// What a joint calls its row.
@@ -93,7 +95,7 @@ pub(crate) struct ConstraintRef {
 impl ConstraintRef {
     /// As shown: `link[3]`, `joint[0]`, `joint[2][1]`, `knee.x`, `platform.unit`.
     pub(crate) fn text(&self) -> String {
-        let whole = indexed(&self.base, &self.indices);
+        let whole = indexed(&self.shown, &self.indices);
         match (&self.unit_of, self.row) {
             (Some(body), _) => format!("{body}.unit"),
             (None, Some(row)) => format!("{whole}.{row}"),

@@ -81,6 +81,11 @@ impl<'m> Lowering<'m> {
     }
 
     fn value_of(&mut self, e: &Expr, env: &Env<'m>) -> Value {
+        if let ExprKind::Field(..) | ExprKind::Index(..) = &e.kind
+            && let Some(value) = self.in_part(e, env)
+        {
+            return value;
+        }
         match &e.kind {
             ExprKind::Error => Value::Error,
             #[allow(

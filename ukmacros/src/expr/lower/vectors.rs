@@ -119,7 +119,7 @@ fn common_multiplier(ids: &[Id], g: &Graph) -> Option<Id> {
 }
 
 /// u × v in space; its one component in the plane.
-fn cross(g: &mut Graph, u: &Value, v: &Value) -> Option<Value> {
+pub(super) fn cross(g: &mut Graph, u: &Value, v: &Value) -> Option<Value> {
     let mut minor = |i: usize, j: usize| {
         let (u, v) = (u.entries(), v.entries());
         let (plus, minus) = (g.mul(u[i], v[j]), g.mul(u[j], v[i]));

@@ -1,0 +1,208 @@
+//! Declarations within declarations: the whole is what it would be if all stood in it, and mistakes are told where the part is declared.
+
+use super::errors::check_after;
+use super::{expand, system};
+use crate::expr::{Id, Point, eval};
+
+const LEG: &str = "@parts [{ Leg } { pub Leg { const N: usize = 2; params { l = 0.5, m[2] = [1.0, 2.0], k = 2 * l } \
+    bodies { for i in 0..N { planar shin[i] { mass: m[i], inertia: 0.1, centre: [l / 2, 0] } } } gravity { [0, -1] } \
+    let tip = shin[1].at([l, 0]); let turn = |i, a| a * shin[i].along([1, 0]); \
+    holonomic { knee: pin(shin[0].at([l, 0]), shin[1].at([0, 0])) } forces { turning_spring(shin[0], shin[1], k, 0) } \
+    output { tip = tip + turn(0, 0.1) } } } { }]";
+
+#[test]
+fn parts_are_what_stands_in_them() {
+    let (parts, model) = system(&format!(
+        "{LEG} pub Walker {{ params {{ size = 0.7, m = 3.0 }} bodies {{ planar trunk {{ mass: m, inertia: 1 }} }} gravity {{ [0, -9.81] }} \
+         parts {{ for i in 0..2 {{ leg[i]: Leg {{ l: size + i / 10.0 }} }} tail: Leg }} \
+         holonomic {{ for i in 0..2 {{ hip[i]: pin(trunk.at([i, 0]), leg[i].shin[0].at([0, 0])) }} base: pin(trunk.at([0, 1]), tail.shin[0].at([0, 0])) }} \
+         force {{ leg[1].shin[0].angle: 1.0, tail.shin[1].x: leg[0].m[1] }} output {{ reach = norm(leg[1].tip - trunk.centre) + tail.l }} }}"
+    ));
+    let (whole, same) = system(
+        "pub Walker { params { size = 0.7, m = 3.0, lm[2] = [1.0, 2.0], tl = 0.5, tm[2] = [1.0, 2.0], tk = 2 * tl } bodies { planar trunk { mass: m, inertia: 1 } \
+         for i in 0..2 { planar a[i] { mass: lm[i], inertia: 0.1, centre: [size / 2, 0] } } \
+         for i in 0..2 { planar b[i] { mass: lm[i], inertia: 0.1, centre: [(size + 0.1) / 2, 0] } } \
+         for i in 0..2 { planar c[i] { mass: tm[i], inertia: 0.1, centre: [tl / 2, 0] } } } gravity { [0, -9.81] } \
+         holonomic { hip0: pin(trunk.at([0, 0]), a[0].at([0, 0])) hip1: pin(trunk.at([1, 0]), b[0].at([0, 0])) base: pin(trunk.at([0, 1]), c[0].at([0, 0])) \
+         k0: pin(a[0].at([size, 0]), a[1].at([0, 0])) k1: pin(b[0].at([size + 0.1, 0]), b[1].at([0, 0])) k2: pin(c[0].at([tl, 0]), c[1].at([0, 0])) } \
+         forces { turning_spring(a[0], a[1], 2 * size, 0) turning_spring(b[0], b[1], 2 * (size + 0.1), 0) turning_spring(c[0], c[1], tk, 0) } \
+         force { b[0].angle: 1.0, c[1].x: lm[1] } output { reach = norm(b[1].at([size + 0.1, 0]) - trunk.centre) + tl, \
+         ta = a[1].at([size, 0]) + 0.1 * a[0].along([1, 0]), tb = b[1].at([size + 0.1, 0]) + 0.1 * b[0].along([1, 0]), tc = c[1].at([tl, 0]) + 0.1 * c[0].along([1, 0]) } }",
+    );
+    let n = model.coord_elements.len();
+    assert_eq!(n, same.coord_elements.len());
+    let (q, v): (Vec<f64>, Vec<f64>) = (0..n)
+        .map(|i| 1.7 * i as f64)
+        .map(|x| (x.sin(), x.cos()))
+        .unzip();
+    let values = |system: &crate::expr::System| -> Vec<f64> {
+        let mut ids: Vec<Id> = system.constraints.iter().map(|c| c.phi).collect();
+        ids.extend(system.potential);
+        ids.extend(system.mass.values().map(|(m, _)| *m));
+        ids.extend(system.force.values());
+        ids.extend(system.outputs.iter().map(|o| o.value));
+        let point = Point {
+            t: 0.3,
+            q: &q,
+            v: &v,
+            params: &system.defaults,
+            ..Point::NOWHERE
+        };
+        eval(&system.graph, &ids, &point)
+    };
+    let (found, expected) = (values(&parts), values(&whole));
+    assert_eq!(found.len(), expected.len());
+    for (a, b) in found.iter().zip(&expected) {
+        assert!((a - b).abs() < 1e-13, "{found:?} is not {expected:?}");
+    }
+    let names: Vec<&str> = model
+        .coord_elements
+        .iter()
+        .map(|c| c.name.as_str())
+        .collect();
+    assert_eq!(
+        names[3..7],
+        [
+            "leg[0].shin[0].x",
+            "leg[0].shin[0].y",
+            "leg[0].shin[0].angle",
+            "leg[0].shin[1].x"
+        ]
+    );
+    assert_eq!(names[15], "tail.shin[0].x");
+    let rows: Vec<String> = parts.constraints.iter().map(|c| c.item.text()).collect();
+    assert_eq!(
+        rows[6..],
+        [
+            "leg[0].knee[0]",
+            "leg[0].knee[1]",
+            "leg[1].knee[0]",
+            "leg[1].knee[1]",
+            "tail.knee[0]",
+            "tail.knee[1]"
+        ]
+    );
+    let params: Vec<&str> = model
+        .param_elements
+        .iter()
+        .map(|p| p.name.as_str())
+        .collect();
+    assert_eq!(
+        params,
+        [
+            "size",
+            "m",
+            "leg.m[0]",
+            "leg.m[1]",
+            "tail.l",
+            "tail.m[0]",
+            "tail.m[1]",
+            "tail.k"
+        ]
+    );
+}
+
+#[test]
+fn parts_have_parts() {
+    let source = "@parts [{ Leg } { pub Leg { params { l = 0.5 } bodies { planar shin { mass: 1, inertia: 0.1 } } parts { foot[2]: crate::Foot { r: l / 3 } } \
+        holonomic { for i in 0..2 { ankle[i]: pin(shin.at([l, i]), foot[i].sole.at([0, 0])) } } } } \
+        { { crate::Foot } { pub Foot { params { r = 0.1, c = 2.0 } bodies { planar sole { mass: 1, inertia: r * c } } output { o = sole.x } } } { } }] \
+        pub T { params { l = 0.9 } parts { leg[2]: Leg { l } } output { o = leg[1].foot[0].sole.angle, r = leg[0].foot[1].r } force { leg[1].foot[0].sole.angle: 1 } }";
+    let (system, model) = system(source);
+    let names: Vec<&str> = model
+        .coord_elements
+        .iter()
+        .map(|c| c.name.as_str())
+        .collect();
+    assert_eq!(
+        names[..4],
+        [
+            "leg[0].shin.x",
+            "leg[0].shin.y",
+            "leg[0].shin.angle",
+            "leg[0].foot[0].sole.x"
+        ]
+    );
+    let params: Vec<&str> = model
+        .param_elements
+        .iter()
+        .map(|p| p.name.as_str())
+        .collect();
+    assert_eq!(params, ["l", "leg.foot.c"]);
+    assert_eq!(system.force.keys().copied().collect::<Vec<_>>(), [14]);
+    let point = Point {
+        params: &system.defaults,
+        ..Point::NOWHERE
+    };
+    let r = system
+        .outputs
+        .iter()
+        .find(|o| o.item.text() == "r")
+        .expect("an output");
+    assert!((eval(&system.graph, &[r.value], &point)[0] - 0.3).abs() < 1e-15);
+}
+
+/// What is not known yet is asked for, with what is.
+#[test]
+fn parts_are_asked_for() {
+    let (code, errors) = expand("pub T { parts { leg[2]: legs::Leg } }");
+    assert!(errors.is_empty());
+    let asked = "legs :: Leg ! { (:: ukcore :: multibody) (legs :: Leg) [] pub T { parts { leg [2] : legs :: Leg } } }";
+    let plain = |text: &str| -> String { text.split_whitespace().collect() };
+    assert_eq!(plain(&code.to_string()), plain(asked));
+    let (code, _) =
+        expand("#[ukcore(part)] pub(crate) Leg { bodies { planar a { mass: 1, inertia: 1 } } }");
+    let text = code.to_string();
+    assert!(
+        text.contains("macro_rules ! __part_Leg_") && !text.contains("macro_export"),
+        "{text}"
+    );
+    let (code, _) =
+        expand("#[ukcore(part)] pub Leg { bodies { planar a { mass: 1, inertia: 1 } } }");
+    assert!(code.to_string().contains("macro_export"));
+}
+
+/// What is wrong in a part is told where that is declared, and only there.
+#[test]
+fn errors_of_a_part_are_told_once() {
+    let (code, errors) =
+        expand("#[ukcore(part)] pub P { bodies { planar a { mass: 1, inertia: no } } }");
+    assert!(
+        errors.len() == 1 && code.to_string().contains("{ ! #"),
+        "{code}"
+    );
+    let source = "@parts [{ P } { ! pub P { bodies { planar a { mass: 1, inertia: no } } } } { }] pub T { parts { p[3]: P } output { o = p[1].a.x } }";
+    let (code, errors) = expand(source);
+    let text = code.to_string();
+    assert!(
+        errors.is_empty() && text.contains("struct T") && text.contains("P_2_A_ANGLE"),
+        "{text}"
+    );
+}
+
+macro_rules! cases {
+    ($($name:ident: $source:literal => $($message:literal),+;)*) => {
+        $(#[test] fn $name() { check_after(LEG, $source, &[$($message),+]); })*
+    };
+}
+
+cases! {
+    unknown_parameter: "gravity { [0, -1] } parts { leg: Leg { «size»: 1 } }" => "`Leg` has no parameter `size`; they are `l`, `m`, `k`";
+    constant_given: "gravity { [0, -1] } parts { leg: Leg { «N»: 1 } }" => "`N` is a constant of `Leg`, the same in all parts";
+    given_twice: "gravity { [0, -1] } parts { leg: Leg { l: 1, «l»: 2 } }" => "`l` is given twice";
+    given_that_moves: "gravity { [0, -1] } parts { leg: Leg { l: «t» } }" => "a parameter of a part does not change with the motion";
+    given_of_a_shape: "gravity { [0, -1] } parts { leg: Leg { m: «[1, 2, 3]» } }" => "expected a vector of 2, found a vector of 3";
+    given_unknown: "gravity { [0, -1] } parts { leg: Leg { m: «mass» } }" => "unknown name `mass`";
+    no_type: "parts { «leg» }" => "a part needs the type that it is: `leg: Leg`";
+    in_itself: "parts { leg: «T» }" => "`T` cannot be a part of itself";
+    no_gravity: "parts { leg: «Leg» }" => "`Leg` has `gravity`, and this declaration, of which it is a part, has none";
+    part_twice: "gravity { [0, -1] } parts { leg: Leg, «leg»: Leg }" => "`leg` is declared twice";
+    part_and_coordinate: "gravity { [0, -1] } coords { «leg» } mass { leg: 1 } parts { leg: Leg }" => "`leg` is declared twice";
+    part_as_a_value: "gravity { [0, -1] } parts { leg[2]: Leg } output { o = «leg»[1] }" => "`leg[1]` is a part; choose what belongs to it";
+    parts_as_a_value: "gravity { [0, -1] } parts { leg[2]: Leg } output { o = «leg» }" => "`leg` is a part; choose what belongs to it";
+    no_such_part: "gravity { [0, -1] } parts { leg[2]: Leg } output { o = «leg»[2].tip }" => "there is no part `leg[2]`; there are `leg[0]`, `leg[1]`";
+    nothing_in_the_part: "gravity { [0, -1] } parts { leg[2]: Leg } output { o = leg[1].«tap» }" => "part `leg[1]` has no `tap`; did you mean `tip`?";
+    vocabulary_declared: "gravity { [0, -1] } let pin = |p, q| p - q; parts { leg: «Leg» } output { o = pin(leg.tip, [0, 0]) }" => "this declares `pin`, which `Leg` uses";
+    name_of_a_part_taken: "gravity { [0, -1] } parts { «leg»: Leg } coords { leg_tip } mass { leg_tip: 1 }" => "`leg.tip` is declared twice";
+    wrong_in_the_whole: "gravity { [0, -1] } params { m = 0.0 } parts { «leg»[2]: Leg { l: m, m: -1 } }" => "in part `leg`: the mass of a body must not be negative";
+}
