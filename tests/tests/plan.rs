@@ -57,6 +57,7 @@ fn fill_is_what_elimination_fills() {
                     Pivot::Prescribed(i, row)
                     | Pivot::Massless(i, row)
                     | Pivot::Substituted(i, row) => vec![i, n + row],
+                    Pivot::Turned(_, j, row) => vec![j, n + row],
                     Pivot::Coordinate(i) => vec![i],
                     Pivot::Constraint(row) => vec![n + row],
                 };

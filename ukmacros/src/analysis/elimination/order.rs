@@ -18,6 +18,7 @@ pub(crate) struct Order {
 }
 
 impl Order {
+    pub(crate) fn first(&self) -> &Pivoting { &self.pivots[0] }
     /// The positions of those constraints in `rows` that are eliminated alone; coordinates are `n`.
     pub(super) fn alone(&self, n: usize, rows: &BTreeSet<usize>) -> BTreeSet<usize> {
         let alone = self.pivots.iter().filter_map(|pivot| match *pivot {
@@ -31,6 +32,7 @@ impl Order {
     pub(super) fn pairs(&self) -> BTreeSet<(usize, usize)> {
         let pairs = self.pivots.iter().filter_map(|pivot| match pivot {
             Pivoting::Pair(pair) => Some((pair.coordinate, pair.constraint)),
+            Pivoting::Rotation(rotation) => Some((rotation.coordinates[1], rotation.constraint)),
             Pivoting::Single(_) => None,
         });
         pairs.collect()
@@ -49,14 +51,26 @@ pub(super) enum Taste {
     Roots,
     /// The same with what was declared last first: of velocities that are given by each other the last, and each joint once it can be.
     Last,
+    /// As multipliers, after what is alone with a constraint in pairs is turned: see [`super::rotation`].
+    Freedoms,
 }
 
 impl Taste {
-    pub(super) const ALL: [Taste; 4] =
-        [Taste::Multipliers, Taste::Leaves, Taste::Roots, Taste::Last];
+    pub(super) const ALL: [Taste; 5] = [
+        Taste::Multipliers,
+        Taste::Leaves,
+        Taste::Roots,
+        Taste::Last,
+        Taste::Freedoms,
+    ];
+
+    /// Whether coordinates with inertia are taken together with constraints that contain others.
+    fn substitutes(self) -> bool {
+        !matches!(self, Taste::Multipliers | Taste::Freedoms)
+    }
 
     fn takes(self, pair: &Pair) -> bool {
-        self != Taste::Multipliers || !pair.massive || pair.alone
+        self.substitutes() || !pair.massive || pair.alone
     }
 }
 
@@ -64,6 +78,12 @@ impl Taste {
 pub(super) fn order(taste: Taste, mut pattern: Pattern, names: &[String]) -> Result<Order, String> {
     let mut ready: BTreeSet<Key> = BTreeSet::new();
     let (mut pivots, mut entries, mut changes) = (Vec::new(), 0, 0);
+    if taste == Taste::Freedoms {
+        (pivots, changes) = rotations(&mut pattern);
+        if pivots.is_empty() {
+            return Err("no constraint contains two coordinates alone".to_owned());
+        }
+    }
     loop {
         if ready.is_empty() {
             // At first; and where what was held back has been let go by an elimination farther off.
@@ -122,6 +142,41 @@ pub(super) fn order(taste: Taste, mut pattern: Pattern, names: &[String]) -> Res
     }
 }
 
+/// All rotations that there are, those that change least first, and of these what waits least; and how many entries they change.
+fn rotations(pattern: &mut Pattern) -> (Vec<Pivoting>, usize) {
+    let mut ready: BTreeSet<([usize; 2], usize)> = BTreeSet::new();
+    let mut known: Vec<Option<[usize; 2]>> = Vec::new();
+    let mut open: BTreeSet<usize> = pattern.left().collect();
+    let (mut pivots, mut changes) = (Vec::new(), 0);
+    loop {
+        for c in open {
+            known.resize(known.len().max(c + 1), None);
+            let rotation = pattern.rotation(c);
+            let key = rotation.map(|r| [pattern.changed_by_rotation(r), pattern.waits(r)]);
+            if key != known[c] {
+                if let Some(key) = known[c] {
+                    ready.remove(&(key, c));
+                }
+                ready.extend(key.map(|key| (key, c)));
+                known[c] = key;
+            }
+        }
+        let Some((key, c)) = ready.pop_first() else {
+            return (pivots, changes);
+        };
+        known[c] = None;
+        let Some(rotation) = pattern.rotation(c) else {
+            return (pivots, changes);
+        };
+        changes += key[0];
+        pattern.turn(rotation);
+        pivots.push(Pivoting::Rotation(rotation));
+        let [place, _] = rotation.coordinates;
+        let near = pattern.near(place).chain([place]);
+        open = near.flat_map(|k| pattern.near(k)).collect();
+    }
+}
+
 /// What is compared, and what it is of: a coordinate or constraint alone, or a coordinate with a constraint.
 type Key = ([usize; 5], usize, Option<usize>);
 
@@ -154,7 +209,7 @@ fn keys(of: &BTreeSet<usize>, taste: Taste, pattern: &Pattern) -> Vec<Key> {
         pairs.retain(|pair| taste.takes(pair));
         keys.extend(pairs.iter().map(|pair| pair_key(pair, taste, pattern)));
         // A coordinate that is eliminated alone takes the fixed pivots of its constraints with it.
-        let kept = taste != Taste::Multipliers
+        let kept = taste.substitutes()
             && pattern.is_coordinate(k)
             && pattern.constraints_on(k).any(|c| pattern.has_pair(c));
         if pattern.is_definite(k) && !kept {
@@ -182,7 +237,7 @@ fn pair_key(pair: &Pair, taste: Taste, pattern: &Pattern) -> Key {
     let changed = changed_by_pair(pair, pattern);
     let rank = match taste {
         // All before what is eliminated alone.
-        Taste::Multipliers => [0, coordinate, pattern.neighbours(constraint), 0, 0],
+        Taste::Multipliers | Taste::Freedoms => [0, coordinate, pattern.neighbours(constraint), 0, 0],
         Taste::Leaves => {
             let others = pattern.constraints_on(coordinate).count() - 1;
             [others, pattern.filled_by_pair(pair), changed, 0, 0]
@@ -201,7 +256,7 @@ fn pair_key(pair: &Pair, taste: Taste, pattern: &Pattern) -> Key {
 fn single_key(k: usize, taste: Taste, pattern: &Pattern) -> Key {
     let (size, changed) = (pattern.neighbours(k), changed_by(k, pattern));
     let [a, b, c] = match taste {
-        Taste::Multipliers => [1, usize::from(!pattern.shares_no_inertia(k)), size],
+        Taste::Multipliers | Taste::Freedoms => [1, usize::from(!pattern.shares_no_inertia(k)), size],
         Taste::Leaves => [0, pattern.filled_by(k), changed],
         Taste::Roots => [changed, 1, 0],
         Taste::Last => [0, 0, changed],
