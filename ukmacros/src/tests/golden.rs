@@ -166,3 +166,5 @@ fn expansions() {
         std::fs::write(directory.join(format!("{name}.rs")), text).expect("can write");
     }
 }
+
+pub(super) fn code_of(source: &str) -> String { formatted(expansion(&source.parse().expect("tokens"))) }

@@ -192,7 +192,7 @@ impl Pattern {
     }
 
     /// Neighbours of the coordinates that are turned.
-    fn around(&self, rotation: Rotation) -> BTreeSet<usize> {
+    pub(super) fn around(&self, rotation: Rotation) -> BTreeSet<usize> {
         let of = rotation.coordinates;
         let near = of.iter().flat_map(|i| &self.near[*i]).copied();
         let taken = |k: &usize| of.contains(k) || *k == rotation.constraint;
