@@ -101,7 +101,6 @@ pub(super) fn choose(
             Err(text) => drop(refusal.get_or_insert(text)),
         }
     }
-    for (g, at, o) in &ways { eprintln!("way {g} {at} {} {:?}", o.changes, o.first()); }
     let least = ways.iter().map(|(guess, ..)| *guess).min().unwrap_or(0);
     ways.retain(|(guess, ..)| 4 * guess <= 5 * least);
     let base = (ways.len() > 1).then(|| Nodes::copy(system));
@@ -114,7 +113,6 @@ pub(super) fn choose(
         let straight = match eliminate(&tasks[at], order, &mut system.graph) {
             Ok(elimination) => Straight::new(elimination, held, &regular.met, system),
             Err(text) => {
-                eprintln!("err {text}");
                 refusal.get_or_insert(text);
                 continue;
             }
@@ -129,7 +127,6 @@ pub(super) fn choose(
                 solve.velocities = variant.names[further].to_vec();
             }
         }
-        eprintln!("work {at} {}", work(&chosen));
         let better = |(known, _): &(Chosen, Nodes)| work(&chosen) < work(known);
         if best.as_ref().is_none_or(better) {
             best = Some((chosen, Nodes::taken(system)));

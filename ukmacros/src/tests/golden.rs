@@ -166,5 +166,3 @@ fn expansions() {
         std::fs::write(directory.join(format!("{name}.rs")), text).expect("can write");
     }
 }
-
-pub(super) fn code_of(source: &str) -> String { formatted(expansion(&source.parse().expect("tokens"))) }

@@ -65,9 +65,6 @@ fn work() {
         ] {
             println!("{path}: {what} {:?}", of.counts());
         }
-        if std::env::var("CODE").is_ok() {
-            std::fs::write(format!("{path}.rs"), super::golden::code_of(&source)).expect("written");
-        }
         println!("{path}: {time:.2} s, {:?}", analysis.solve.err());
     }
 }

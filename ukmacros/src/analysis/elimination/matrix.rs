@@ -1,7 +1,7 @@
 //! K with symbolic entries, eliminated in a given order.
 
 use super::dropping::reciprocal;
-use super::rotation::Turned;
+use super::rotation::{Turned, apart};
 use super::{Divisor, Pair, Pivoting};
 use crate::analysis::dynamics::Dynamics;
 use crate::expr::{Graph, Id};
@@ -27,6 +27,8 @@ pub(super) struct Matrix {
     droppable: BTreeSet<usize>,
     /// Of what took the place of two coordinates, how many rotations before it were not scaled.
     pub(super) turned: Vec<Option<usize>>,
+    /// Whether what stands for different coordinates shares little inertia, whatever the state.
+    pub(super) apart: bool,
 }
 
 /// An update d − p²/(N/D) of a diagonal that is not yet divided by N.
@@ -77,6 +79,29 @@ impl Entry {
     /// The value as an open sum, to be part of others.
     pub(super) fn open(&self, g: &mut Graph) -> Id {
         g.factored_sum(&[&self.gram[..], &self.schur].concat())
+    }
+
+    /// The value, with terms collected that have a factor in common: two rods at one joint have a difference of its coordinates.
+    pub(super) fn collected(&self, g: &mut Graph) -> Id {
+        let terms = [&self.gram[..], &self.schur].concat();
+        let mut by_factor: BTreeMap<Id, Vec<(f64, Id)>> = BTreeMap::new();
+        let mut rest = Vec::new();
+        for (c, term) in terms {
+            let (k, inner) = g.unscaled(term);
+            match g.factors(inner)[..] {
+                [(one, 1), (other, 1)] => {
+                    let known = by_factor.contains_key(&other);
+                    let (by, of) = if known { (other, one) } else { (one, other) };
+                    by_factor.entry(by).or_default().push((c * k, of));
+                }
+                _ => rest.push((c, term)),
+            }
+        }
+        for (by, of) in by_factor {
+            let sum = g.sum(&of);
+            rest.push((1.0, g.mul(by, sum)));
+        }
+        g.factored_sum(&rest)
     }
 
     /// What a diagonal could be: what it started from.
@@ -250,6 +275,7 @@ impl Matrix {
             turn,
             droppable,
             turned: vec![None; n],
+            apart: apart(&d.mass, g),
         }
     }
 

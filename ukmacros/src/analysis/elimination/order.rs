@@ -18,7 +18,6 @@ pub(crate) struct Order {
 }
 
 impl Order {
-    pub(crate) fn first(&self) -> &Pivoting { &self.pivots[0] }
     /// The positions of those constraints in `rows` that are eliminated alone; coordinates are `n`.
     pub(super) fn alone(&self, n: usize, rows: &BTreeSet<usize>) -> BTreeSet<usize> {
         let alone = self.pivots.iter().filter_map(|pivot| match *pivot {
@@ -196,7 +195,10 @@ fn late(found: &[(Rotation, bool, BTreeSet<usize>)]) -> Vec<Pivoting> {
         let Some(rotation) = first.remove(i) else {
             return;
         };
-        rotation.coordinates.iter().for_each(|i| drop(first.remove(i)));
+        rotation
+            .coordinates
+            .iter()
+            .for_each(|i| drop(first.remove(i)));
         pivots.push(Pivoting::Rotation(rotation));
     };
     for (rotation, _, around) in found.iter().filter(|(_, waits, _)| *waits) {
@@ -270,7 +272,9 @@ fn pair_key(pair: &Pair, taste: Taste, pattern: &Pattern) -> Key {
     let changed = changed_by_pair(pair, pattern);
     let rank = match taste {
         // All before what is eliminated alone.
-        Taste::Multipliers | Taste::Freedoms => [0, coordinate, pattern.neighbours(constraint), 0, 0],
+        Taste::Multipliers | Taste::Freedoms => {
+            [0, coordinate, pattern.neighbours(constraint), 0, 0]
+        }
         Taste::Leaves => {
             let others = pattern.constraints_on(coordinate).count() - 1;
             [others, pattern.filled_by_pair(pair), changed, 0, 0]
@@ -289,7 +293,9 @@ fn pair_key(pair: &Pair, taste: Taste, pattern: &Pattern) -> Key {
 fn single_key(k: usize, taste: Taste, pattern: &Pattern) -> Key {
     let (size, changed) = (pattern.neighbours(k), changed_by(k, pattern));
     let [a, b, c] = match taste {
-        Taste::Multipliers | Taste::Freedoms => [1, usize::from(!pattern.shares_no_inertia(k)), size],
+        Taste::Multipliers | Taste::Freedoms => {
+            [1, usize::from(!pattern.shares_no_inertia(k)), size]
+        }
         Taste::Leaves => [0, pattern.filled_by(k), changed],
         Taste::Roots => [changed, 1, 0],
         Taste::Last => [0, 0, changed],

@@ -162,7 +162,12 @@ impl Pattern {
         // What was turned is no longer as large as it was declared.
         let near = self.near[constraint].iter().chain([&coordinate]);
         let straight = near.into_iter().all(|i| !self.turned.contains_key(i));
-        let fits = free && straight && certain && size > 0.0 && size.is_finite() && size >= SMALL * largest;
+        let fits = free
+            && straight
+            && certain
+            && size > 0.0
+            && size.is_finite()
+            && size >= SMALL * largest;
         fits.then(|| Pair {
             coordinate,
             constraint,

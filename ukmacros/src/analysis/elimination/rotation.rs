@@ -20,15 +20,36 @@
 //! is left. For diagonal M what is left of M is diagonal, so that d/G is the squared distance of the row from the rows before. By Cauchy
 //! and Schwarz (a₁ t₁ + a₂ t₂)² ≤ (a₁²/m₁ + a₂²/m₂) D, term by term too: rounding of what a row has of w, relative to its terms, is rounding
 //! relative to √(G D), and D, which a small coefficient on a heavy coordinate may make up, is known where d/G is not small. Where the
-//! two share inertia, m₁ m₂ − m₁₂² has to keep a share of m₁ m₂, and d is taken with m₁ m₂ in its place, which is less.
+//! two share inertia, m₁ m₂ − m₁₂² has to keep a share of m₁ m₂, and d is taken with m₁ m₂ in its place, which is less. That it does need
+//! not be checked where M is of numbers, and each row of |M_ij|/√(M_ii M_jj) beside its diagonal adds up to δ ≤ [`APART`]: what stands for
+//! different coordinates has no coordinate in common, so that |m₁₂| ≤ δ/(1 − δ) √(m₁ m₂).
 
 use super::matrix::{Entry, Matrix};
 use super::{Divisor, SAFE_SHARE};
 use crate::expr::{Graph, Id};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Longest chain of rotations whose t are not scaled: coefficients are products of as many, and inertia of their squares.
 const CHAIN: usize = 8;
+
+/// See the module.
+const APART: f64 = 0.4;
+
+/// Whether no two of any combinations of different coordinates share much of their inertia: see [`APART`].
+pub(super) fn apart(mass: &BTreeMap<(usize, usize), Id>, g: &Graph) -> bool {
+    let number = |i: usize, j: usize| mass.get(&(i, j)).and_then(|m| g.as_const(*m));
+    let mut shares: BTreeMap<usize, f64> = BTreeMap::new();
+    for (i, j) in mass.keys().filter(|(i, j)| i != j) {
+        let (Some(m), Some(a), Some(b)) = (number(*i, *j), number(*i, *i), number(*j, *j)) else {
+            return false;
+        };
+        let share = m.abs() / (a * b).sqrt();
+        for k in [i, j] {
+            *shares.entry(*k).or_default() += share;
+        }
+    }
+    shares.values().all(|share| *share <= APART)
+}
 
 /// Two coordinates that are alone in a constraint. The freedom that it leaves takes the place of the first.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,8 +61,9 @@ pub(crate) struct Rotation {
 /// What a rotation does to right-hand sides, and to solutions.
 pub(super) struct Turned {
     pub(super) rotation: Rotation,
-    /// n.
+    /// n D, and 1/D; n and 1 where n is computed in any case.
     normal: [Id; 2],
+    inverse: Id,
     /// t.
     pub(super) tangent: [Id; 2],
     /// The neighbours of the two, with their entries for them.
@@ -51,8 +73,10 @@ pub(super) struct Turned {
 impl Turned {
     /// b n.
     pub(super) fn along(&self, b: Id, g: &mut Graph) -> [Id; 2] {
+        let share = g.mul(self.inverse, b);
+        let share = held(share, g);
         self.normal.map(|n| {
-            let along = g.mul(n, b);
+            let along = g.mul(n, share);
             held(along, g)
         })
     }
@@ -118,7 +142,10 @@ impl Matrix {
         });
         let block = Block {
             own: of.map(|i| self.entry(i, i).open(g)),
-            shared: self.entry(of[0], of[1]).open(g),
+            shared: {
+                let shared = self.entry(of[0], of[1]).open(g);
+                g.hold_whole(shared)
+            },
         };
         let (length, adjugate) = (dot(a, a, g), block.adjugate(a, g));
         // Not a sum of products with m, where m is a factor of all of it.
@@ -135,13 +162,6 @@ impl Matrix {
         hints.push((pivot, format!("pivot_{}", names[c])));
         let divisors = self.checks(rotation, a, &block, pivot, names, g)?;
         self.count_in(rotation, &block, g);
-        let normal = adjugate.map(|x| {
-            let n = g.div(x, pivot);
-            held(n, g)
-        });
-        for (i, n) in of.into_iter().zip(normal) {
-            hints.push((n, format!("{}_by_{}", names[i], names[c])));
-        }
         let [one, other] = of.map(|i| self.turned[i]);
         let depth = 1 + one.unwrap_or(0) + other.unwrap_or(0);
         let scaled = (one, other) == (None, None) || depth > CHAIN;
@@ -155,12 +175,21 @@ impl Matrix {
             let t = g.mul(t, scale);
             held(t, g)
         });
+        // Between coordinates as declared, of one inertia, n is t turned back.
+        let (normal, inverse) = match scaled && block.is_round(g) {
+            true => ([g.neg(tangent[1]), tangent[0]], g.one()),
+            false => (adjugate, g.pow(pivot, -1)),
+        };
+        for (i, t) in of.into_iter().rev().zip(tangent) {
+            hints.push((g.unscaled(t).1, format!("{}_by_{}", names[i], names[c])));
+        }
         let inertia = g.product(&[(pivot, 1), (scale, 2)]);
         let inertia = held(inertia, g);
         let touched = self.turn(rotation, tangent, inertia, g);
         let turned = Turned {
             rotation,
             normal,
+            inverse,
             tangent,
             touched,
         };
@@ -180,7 +209,7 @@ impl Matrix {
         let (of, c) = (rotation.coordinates, rotation.constraint);
         let mut divisors = Vec::new();
         let apart = g.mul(block.own[0], block.own[1]);
-        if !g.is_zero(block.shared) {
+        if !g.is_zero(block.shared) && !self.apart {
             let square = g.square(block.shared);
             let determinant = g.factored_sum(&[(1.0, apart), (-1.0, square)]);
             match (g.as_const(determinant), g.as_const(apart)) {
@@ -250,7 +279,10 @@ impl Matrix {
             let with = of.map(|i| self.entry(r, i).open(g));
             touched.push((r, with));
             let left = dot(with, tangent, g);
-            let left = held(left, g);
+            let left = match r < self.n && self.turned[r].is_some() {
+                true => g.hold_whole(left),
+                false => held(left, g),
+            };
             if g.is_zero(left) {
                 self.remove(r, place);
                 continue;

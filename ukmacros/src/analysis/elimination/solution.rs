@@ -115,7 +115,7 @@ impl Forward {
             constraint,
         } = turned.rotation;
         let force = of.map(|i| self.entries[i].open(g));
-        let right = self.value(constraint, g);
+        let right = self.entries[constraint].collected(g);
         self.rights.push(Some(right));
         let along = turned.along(right, g);
         for (r, with) in &turned.touched {
@@ -153,7 +153,9 @@ impl Forward {
                     let of = turned.rotation.coordinates;
                     let freedom = solution[of[0]].ok_or("a freedom was left over")?;
                     let both = turned.solved(right, freedom, g);
-                    of.into_iter().zip(both).for_each(|(i, x)| solution[i] = Some(x));
+                    of.into_iter()
+                        .zip(both)
+                        .for_each(|(i, x)| solution[i] = Some(x));
                     continue;
                 }
             };
