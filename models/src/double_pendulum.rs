@@ -90,7 +90,7 @@ impl Model for DoublePendulum {
     }
 
     fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let [from1, from2, rate1, rate2] = Chosen::of::<Self>(name, options)?.values();
+        let [from1, from2, rate1, rate2] = Chosen::among(Self::starts(), name, options)?.values();
         positive("l1", self.l1)?;
         positive("l2", self.l2)?;
         let (q, v) = self.at_angles([from1, from2], [rate1, rate2]);

@@ -60,7 +60,7 @@ impl Model for DoublePendulumAngles {
     }
 
     fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let [from1, from2, rate1, rate2] = Chosen::of::<Self>(name, options)?.values();
+        let [from1, from2, rate1, rate2] = Chosen::among(Self::starts(), name, options)?.values();
         positive("l1", self.l1)?;
         positive("l2", self.l2)?;
         Ok(State {

@@ -130,7 +130,7 @@ impl Model for FishRobot {
     }
 
     fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let [x, y, angle] = Chosen::of::<Self>(name, options)?.values();
+        let [x, y, angle] = Chosen::among(Self::starts(), name, options)?.values();
         Ok(self.follow(0.0, [x, y, angle], [0.0; 3]))
     }
 

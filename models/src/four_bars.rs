@@ -73,7 +73,7 @@ impl Model for FourBars {
     }
 
     fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let [speed] = Chosen::of::<Self>(name, options)?.values();
+        let [speed] = Chosen::among(Self::starts(), name, options)?.values();
         positive("l", self.l)?;
         let mut q = vec![self.l; 2 * TOPS];
         let mut v = vec![0.0; 2 * TOPS];

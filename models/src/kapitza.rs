@@ -86,7 +86,7 @@ impl Model for KapitzaPendulum {
     }
 
     fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let start = Chosen::of::<Self>(name, options)?;
+        let start = Chosen::among(Self::starts(), name, options)?;
         let [from, rate] = start.values();
         positive("l", self.l)?;
         let (angle, rate) = if start.spec.name == "hanging" {

@@ -73,7 +73,7 @@ impl Model for KnifeEdge {
     }
 
     fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let [turn, glide, heading] = Chosen::of::<Self>(name, options)?.values();
+        let [turn, glide, heading] = Chosen::among(Self::starts(), name, options)?.values();
         let (sin, cos) = heading.sin_cos();
         Ok(State {
             t: 0.0,

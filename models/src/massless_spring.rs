@@ -62,7 +62,7 @@ impl Model for MasslessSpring {
     }
 
     fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let [pull, speed] = Chosen::of::<Self>(name, options)?.values();
+        let [pull, speed] = Chosen::among(Self::starts(), name, options)?.values();
         positive("k1", self.k1)?;
         positive("k2", self.k2)?;
         let ratio = self.ratio();

@@ -67,7 +67,7 @@ impl Model for Pendulum {
     }
 
     fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let [angle, rate] = Chosen::of::<Self>(name, options)?.values();
+        let [angle, rate] = Chosen::among(Self::starts(), name, options)?.values();
         positive("l", self.l)?;
         let (q, v) = self.at_angle(angle, rate);
         Ok(State {

@@ -77,7 +77,7 @@ impl Model for RigidBody {
     }
 
     fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let spin = Chosen::of::<Self>(name, options)?.values();
+        let spin = Chosen::among(Self::starts(), name, options)?.values();
         let q = [1.0, 0.0, 0.0, 0.0];
         Ok(State {
             t: 0.0,

@@ -63,7 +63,7 @@ impl Model for RoughBlock {
     }
 
     fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let [kick] = Chosen::of::<Self>(name, options)?.values();
+        let [kick] = Chosen::among(Self::starts(), name, options)?.values();
         let repose = self.slope.tan();
         if !(self.mu >= 0.0 && self.mu < repose) {
             let reason = format!(

@@ -90,7 +90,7 @@ impl Model for SliderCrank {
     }
 
     fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let [angle, speed] = Chosen::of::<Self>(name, options)?.values();
+        let [angle, speed] = Chosen::among(Self::starts(), name, options)?.values();
         positive("r", self.r)?;
         positive("l", self.l)?;
         self.at_crank(angle, speed).ok_or_else(|| Error::InvalidSetting {

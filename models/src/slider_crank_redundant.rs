@@ -76,7 +76,7 @@ impl Model for SliderCrankRedundant {
     }
 
     fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        Chosen::of::<Self>(name, options)?;
+        Chosen::among(Self::starts(), name, options)?;
         self.without_redundancy().start(name, options)
     }
 

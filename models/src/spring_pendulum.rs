@@ -65,7 +65,7 @@ impl Model for SpringPendulum {
     }
 
     fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let [angle, rate, stretch] = Chosen::of::<Self>(name, options)?.values();
+        let [angle, rate, stretch] = Chosen::among(Self::starts(), name, options)?.values();
         positive("l", self.l)?;
         positive("k", self.k)?;
         let (sin, cos) = angle.sin_cos();

@@ -109,7 +109,7 @@ impl Model for UChain {
     }
 
     fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let start = Chosen::of::<Self>(name, options)?;
+        let start = Chosen::among(Self::starts(), name, options)?;
         let [x0] = start.values();
         positive("l", self.l)?;
         let span = x0 / self.l;

@@ -32,6 +32,7 @@ mod redundant_loop;
 mod registry;
 mod rows_in_time;
 mod stability;
+mod starts;
 mod stiff;
 mod streaming;
 mod switches;

@@ -105,37 +105,78 @@ pub fn assemble(
     hold: &[&str],
 ) -> Result<State, Error> {
     let mech: Prepared = mechanism.into();
-    guess.check(&mech)?;
-    diagnose::inertias(&mech)?;
-    let spec = mech.spec();
     let mut held = Vec::new();
     for name in hold {
-        held.extend(spec.coordinate_indices(name)?);
+        held.extend(mech.spec().coordinate_indices(name)?);
     }
-    held.sort_unstable();
-    held.dedup();
-    search(&mech, &guess, &held).map_err(|error| blame(&mech, &guess, &held, error))
+    assembled(&mech, &guess, Held::both(held))
 }
 
-fn search(mech: &Prepared, guess: &State, held: &[usize]) -> Result<State, Error> {
-    let mut search = Search::new(mech, guess, held);
+/// Coordinates that keep their value, and those that keep their velocity.
+#[derive(Default, Clone)]
+pub(crate) struct Held {
+    pub(crate) positions: Vec<usize>,
+    pub(crate) velocities: Vec<usize>,
+}
+
+impl Held {
+    fn both(mut coordinates: Vec<usize>) -> Self {
+        coordinates.sort_unstable();
+        coordinates.dedup();
+        Held {
+            positions: coordinates.clone(),
+            velocities: coordinates,
+        }
+    }
+
+    /// All that keep anything, each once.
+    fn all(&self) -> Vec<usize> {
+        let mut all = [&self.positions[..], &self.velocities].concat();
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+
+    /// These without coordinate `j`.
+    fn without(&self, j: usize) -> Self {
+        let others = |held: &[usize]| held.iter().copied().filter(|k| *k != j).collect();
+        Held {
+            positions: others(&self.positions),
+            velocities: others(&self.velocities),
+        }
+    }
+}
+
+/// [`assemble`] with coordinates held by their positions.
+///
+/// # Errors
+/// Those of [`assemble`], but for names.
+pub(crate) fn assembled(mech: &Prepared, guess: &State, held: Held) -> Result<State, Error> {
+    guess.check(mech)?;
+    diagnose::inertias(mech)?;
+    search(mech, guess, &held).map_err(|error| blame(mech, guess, &held, error))
+}
+
+fn search(mech: &Prepared, guess: &State, held: &Held) -> Result<State, Error> {
+    let mut search = Search::new(mech, guess, &held.positions);
     let q = search.find(&At::new(mech, Level::Position, guess.t, &guess.v), &guess.q)?;
+    if held.velocities != held.positions {
+        search = Search::new(mech, guess, &held.velocities);
+    }
     let v = search.find(&At::new(mech, Level::Velocity, guess.t, &q), &guess.v)?;
     Ok(State { t: guess.t, q, v })
 }
 
 /// `error` with the held coordinates that cause it: those that help if let go alone; if none does, all, provided that letting all go helps.
-fn blame(mech: &Prepared, guess: &State, held: &[usize], mut error: Error) -> Error {
+fn blame(mech: &Prepared, guess: &State, held: &Held, mut error: Error) -> Error {
+    let all = held.all();
     if let Error::NotAssembled { held: cause, .. } = &mut error
-        && !held.is_empty()
-        && search(mech, guess, &[]).is_ok()
+        && !all.is_empty()
+        && search(mech, guess, &Held::default()).is_ok()
     {
-        let mut blamed = held.to_vec();
-        blamed.retain(|j| {
-            let others: Vec<usize> = held.iter().copied().filter(|other| other != j).collect();
-            search(mech, guess, &others).is_ok()
-        });
-        let blamed = if blamed.is_empty() { held } else { &blamed };
+        let mut blamed = all.clone();
+        blamed.retain(|j| search(mech, guess, &held.without(*j)).is_ok());
+        let blamed = if blamed.is_empty() { all } else { blamed };
         let names = blamed.iter().map(|&j| mech.spec().coords[j].to_owned());
         cause.extend(names);
     }

@@ -54,6 +54,7 @@ mod scan;
 pub mod simulate;
 pub mod solver;
 pub mod spec;
+mod start;
 mod trajectory;
 mod zero;
 
@@ -61,11 +62,18 @@ pub use assemble::{State, assemble};
 pub use error::Error;
 pub use linearise::Linearisation;
 pub use manifold::Stabilisation;
-#[doc(hidden)]
-pub use mechanism::emitted;
 pub use mechanism::{Mechanism, Prepared};
 #[cfg(feature = "ensemble")]
 pub use simulate::Ensemble;
 pub use simulate::{Event, Failure, Method, Simulation, Trajectory};
 pub use solver::{Solution, Solver, SolverOptions};
 pub use ukmacros::multibody;
+
+/// What emitted code calls. Not for other use.
+#[doc(hidden)]
+pub mod emitted {
+    pub use crate::assemble::State;
+    pub use crate::error::Error;
+    pub use crate::mechanism::emitted::*;
+    pub use crate::start::StartOptions;
+}

@@ -13,7 +13,7 @@ mod prepared;
 pub use prepared::Prepared;
 pub(crate) use prepared::{Dynamics, Equations};
 
-use crate::spec::Spec;
+use crate::spec::{Guess, Spec};
 
 /// A declared mechanism: its parameters (`self`), what is known about it (`SPEC`), and its equations as straight-line code.
 ///
@@ -59,6 +59,12 @@ pub trait Mechanism: Clone + Default + Into<Prepared> + Send + Sync + 'static {
     /// inertia about the centre of mass by rows.
     fn inertias(given: &[f64], each: &mut dyn FnMut(&'static str, &[f64])) {
         let _ = (given, each);
+    }
+
+    /// Calls `each` with all that start number `start` (order of `SPEC.starts`) says, by the parameters (order of `SPEC.params`) and behind
+    /// them the options of the start.
+    fn guess(start: usize, given: &[f64], each: &mut dyn FnMut(Guess)) {
+        let _ = (start, given, each);
     }
 
     /// The functions at whose zeros abs, sign, min or max change their branch, `SPEC.switches`, as they are: held branches do not count.

@@ -3,15 +3,16 @@
 //! [`Model`] is a trait of defaults: a name, start states with options, a duration, motions that are known otherwise. [`Entry`] carries any
 //! mechanism, with what it says or without, under a name; a slice of entries is a registry.
 
-use std::collections::BTreeMap;
 use std::fmt;
 use std::marker::PhantomData;
 
 use crate::assemble::State;
 use crate::error::Error;
 use crate::mechanism::{Mechanism, Prepared};
+pub use crate::spec::{StartOption, StartSpec};
+pub use crate::start::{Chosen, StartOptions};
 
-/// What a mechanism says of itself beyond its equations. Everything has a default; what is given serves the tools.
+/// What a mechanism says of itself beyond its declaration. Everything has a default; what is given serves the tools.
 pub trait Model: Mechanism {
     /// Name on the command line, such as `"uchain"`; if empty, the name of the type as [`kebab_case`].
     const ID: &'static str = "";
@@ -22,25 +23,21 @@ pub trait Model: Mechanism {
         first_line(Self::SPEC.doc)
     }
 
-    /// The start states on offer; the first is the default. Where there is none, a start is [assembled](crate::assemble()) from a guess.
+    /// The start states on offer, those declared if not given; the first is the default. Where there is none, a start is
+    /// [assembled](crate::assemble()) from a guess.
     #[must_use]
     fn starts() -> &'static [StartSpec] {
-        &[]
+        Self::SPEC.starts
     }
 
-    /// The start state called `name`, on all constraints, for the parameters of `self`. It takes the options by [`Chosen::of`].
+    /// The start state called `name`, on all constraints, for the parameters of `self`: the declared one, by [`Prepared::start`], if not
+    /// given. What is given takes the options by [`Chosen::among`].
     ///
     /// # Errors
     /// [`Error::UnknownName`] for an unknown start or option, [`Error::InvalidSetting`] for a value with which the mechanism cannot
-    /// be put together.
+    /// be put together, what [`Prepared::start`] reports.
     fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        Chosen::of::<Self>(name, options)?;
-        let reason =
-            format!("`{name}` is in the list of starts, but `Model::start` does not make it");
-        Err(Error::InvalidSetting {
-            what: "start",
-            reason,
-        })
+        self.prepared().start(name, options)
     }
 
     /// Duration of a typical run, s.
@@ -75,108 +72,6 @@ pub trait Model: Mechanism {
 
 /// Duration of a run, s, where a model gives none.
 const DURATION: f64 = 10.0;
-
-/// A start state on offer.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StartSpec {
-    /// Name on the command line.
-    pub name: &'static str,
-    /// What it is, in one line.
-    pub doc: &'static str,
-    /// Its options.
-    pub options: &'static [StartOption],
-}
-
-/// An option of a start state. No option is called like a parameter of its model.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StartOption {
-    /// Name on the command line.
-    pub name: &'static str,
-    /// What it is, in one line.
-    pub doc: &'static str,
-    /// Its value where none is given.
-    pub default: f64,
-    /// Its unit, such as `"m"`; empty for a plain number.
-    pub unit: &'static str,
-}
-
-/// Values for the options of a start; what is absent has its default.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct StartOptions {
-    values: BTreeMap<String, f64>,
-}
-
-impl StartOptions {
-    /// No option given: all defaults.
-    #[must_use]
-    pub fn new() -> Self {
-        StartOptions::default()
-    }
-
-    /// These options and `name` = `value`.
-    #[must_use]
-    pub fn with(mut self, name: &str, value: f64) -> Self {
-        self.set(name, value);
-        self
-    }
-
-    /// Gives the option `name` the value `value`, in the unit of its [`StartOption`].
-    pub fn set(&mut self, name: &str, value: f64) {
-        self.values.insert(name.to_owned(), value);
-    }
-
-    /// The value given for `name`, if any.
-    #[must_use]
-    pub fn get(&self, name: &str) -> Option<f64> {
-        self.values.get(name).copied()
-    }
-
-    /// Names and values given, by name.
-    pub fn iter(&self) -> impl Iterator<Item = (&str, f64)> {
-        self.values
-            .iter()
-            .map(|(name, &value)| (name.as_str(), value))
-    }
-}
-
-/// A start of a model with the values of all its options: what an implementation of [`Model::start`] begins with.
-#[derive(Debug, Clone)]
-pub struct Chosen {
-    /// The start.
-    pub spec: &'static StartSpec,
-    values: Vec<f64>,
-}
-
-impl Chosen {
-    /// The start `name` of the model `M` with `options`.
-    ///
-    /// # Errors
-    /// [`Error::UnknownName`] with the nearest name, [`Error::NonFinite`] for a value that is not finite.
-    pub fn of<M: Model>(name: &str, options: &StartOptions) -> Result<Self, Error> {
-        let spec = M::starts().iter().find(|s| s.name == name).ok_or_else(|| {
-            Error::unknown_name("start", name, &mut M::starts().iter().map(|s| s.name))
-        })?;
-        for (name, value) in options.iter() {
-            if !spec.options.iter().any(|o| o.name == name) {
-                let mut known = spec.options.iter().map(|o| o.name);
-                return Err(Error::unknown_name("start option", name, &mut known));
-            }
-            if !value.is_finite() {
-                let what = vec![format!("start option {name}")];
-                return Err(Error::NonFinite { what });
-            }
-        }
-        let value = |o: &StartOption| options.get(o.name).unwrap_or(o.default);
-        let values = spec.options.iter().map(value).collect();
-        Ok(Chosen { spec, values })
-    }
-
-    /// Values of the first `K` options, in declared order; 0 for those that the start has not.
-    #[must_use]
-    pub fn values<const K: usize>(&self) -> [f64; K] {
-        std::array::from_fn(|i| self.values.get(i).copied().unwrap_or(0.0))
-    }
-}
 
 /// Checks a length or another value that only a positive number makes sense of, for [`Model::start`].
 ///
@@ -248,7 +143,7 @@ pub struct Entry {
     pub variations: &'static [&'static [(&'static str, f64)]],
     /// The emitted functions: name and text.
     pub code: &'static [(&'static str, &'static str)],
-    start: Option<Start>,
+    start: Start,
     references: fn() -> Vec<Reference>,
 }
 
@@ -274,7 +169,7 @@ impl Entry {
             starts: M::starts(),
             duration: M::duration(),
             variations: M::variations(),
-            start: Some(start),
+            start,
             references: M::references,
             ..named
         }
@@ -287,11 +182,11 @@ impl Entry {
             id: kebab_case(M::SPEC.name),
             summary: first_line(M::SPEC.doc),
             mechanism: M::default().prepared(),
-            starts: &[],
+            starts: M::SPEC.starts,
             duration: DURATION,
             variations: &[],
             code: M::CODE,
-            start: None,
+            start: Prepared::start,
             references: Vec::new,
         }
     }
@@ -299,17 +194,14 @@ impl Entry {
     /// The start called `name`, for the parameters of `mechanism`, which is this one with other values.
     ///
     /// # Errors
-    /// What [`Model::start`] reports; [`Error::UnknownName`] where nothing but equations is known of the mechanism.
+    /// What [`Model::start`] reports.
     pub fn start(
         &self,
         mechanism: &Prepared,
         name: &str,
         options: &StartOptions,
     ) -> Result<State, Error> {
-        match self.start {
-            Some(start) => start(mechanism, name, options),
-            None => Err(Error::unknown_name("start", name, &mut std::iter::empty())),
-        }
+        (self.start)(mechanism, name, options)
     }
 
     /// [`Model::references`].

@@ -21,6 +21,8 @@ pub struct Spec {
     pub holonomic: usize,
     /// Outputs, in declared order.
     pub outputs: &'static [OutputSpec],
+    /// The declared starts, in their order.
+    pub starts: &'static [StartSpec],
     /// Where the equations of motion have kinks or jumps, in the order of `Mechanism::switching`.
     pub switches: &'static [SwitchSpec],
     /// What the compiler found out.
@@ -47,6 +49,43 @@ pub struct OutputSpec {
     pub name: &'static str,
     /// Doc comment; empty if none.
     pub doc: &'static str,
+}
+
+/// A start state on offer: declared, or made by a `Model`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StartSpec {
+    /// Name on the command line.
+    pub name: &'static str,
+    /// What it is, in one line.
+    pub doc: &'static str,
+    /// Its options.
+    pub options: &'static [StartOption],
+}
+
+/// An option of a start state. No option is called like a parameter of its model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StartOption {
+    /// Name on the command line.
+    pub name: &'static str,
+    /// What it is, in one line.
+    pub doc: &'static str,
+    /// Its value where none is given.
+    pub default: f64,
+    /// Its unit, such as `"m"`; empty for a plain number, and where the doc comment names it (`/// Angle of the crank, rad`).
+    pub unit: &'static str,
+}
+
+/// What a declared start says of a coordinate or of its velocity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Guess {
+    /// The coordinate, in the order of [`Spec::coords`].
+    pub coordinate: usize,
+    /// Whether it is the coordinate's velocity.
+    pub rate: bool,
+    /// Whether it keeps its value where the start is assembled.
+    pub held: bool,
+    /// Its value.
+    pub value: f64,
 }
 
 /// A switch: a function g(t, q, q̇) at whose zeros abs, sign, min or max change their branch. abs(u) and sign(u) turn at the zeros of u,
@@ -341,6 +380,7 @@ impl Spec {
         constraints: &[],
         holonomic: 0,
         outputs: &[],
+        starts: &[],
         switches: &[],
         structure: Structure::EMPTY,
         equations: Equations::NONE,

@@ -156,6 +156,7 @@ const _: () = {
                     doc: "Angular velocity, rad/s",
                 },
             ],
+            starts: &[],
             switches: &[],
             structure: ukcore::Structure {
                 straight_line: true,

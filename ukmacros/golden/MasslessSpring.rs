@@ -139,6 +139,7 @@ const _: () = {
                     doc: "Force that the springs transmit, N",
                 },
             ],
+            starts: &[],
             switches: &[],
             structure: ukcore::Structure {
                 straight_line: true,

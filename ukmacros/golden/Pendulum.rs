@@ -145,6 +145,7 @@ const _: () = {
                     doc: "Tension of the rod, N",
                 },
             ],
+            starts: &[],
             switches: &[],
             structure: ukcore::Structure {
                 straight_line: true,

@@ -183,6 +183,7 @@ const _: () = {
                     doc: "Friction, positive down the slope, N",
                 },
             ],
+            starts: &[],
             switches: &[
                 ukcore::SwitchSpec {
                     function: "speed_down",

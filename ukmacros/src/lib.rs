@@ -64,6 +64,7 @@ use proc_macro2::TokenStream;
 /// | `nonholonomic` | `blade: dot(x) * sin(th) = dot(y) * cos(th)` | φ(q, q̇, t) = 0 (eq. 4), linear in q̇ or not |
 /// | `nonideal` | `x: -mu * n * sign(dot(x))` | the force c of eq. 8, which may do work in virtual displacements; entries as of `force` |
 /// | `output` | `fall = y[0]` | quantities to report, of q, q̇, t |
+/// | `start` | `released(angle = 0.5) { th = angle; x near 1.0; dot(th) = 0.0 }` | a [start](#starts); there may be several |
 ///
 /// # Expressions
 ///
@@ -286,6 +287,48 @@ use proc_macro2::TokenStream;
 /// place       = key, [".", NAME] ;
 /// function    = "|", NAME, { ",", NAME }, "|", expr ;
 /// ```
+///
+/// # Starts
+///
+/// `start name(option = 1.0, …) { … }` says where a motion begins, by parameters and the options of the start, which are called like no
+/// parameter. `x = value` holds a coordinate and `dot(x) = value` its velocity; `x near value` is a guess, from which the constraints may
+/// move it. All else is near 0, a spatial body near the orientation in which its axes are those of the ground. The state nearest to that, in
+/// the mass metric, which satisfies all constraints is the start: with several branches it is the one that the guesses are near.
+///
+/// ```
+/// ukcore::multibody! {
+///     /// A crank with a rod that slides through a fixed eye; y points up.
+///     pub Crank {
+///         params { r = 0.3, eye = 1.0, g = 9.81 }
+///         coords { crank, rod, x, y }
+///         mass { crank: 0.1, rod: 0.2, x: 1.0, y: 1.0 }
+///         potential { g * y }
+///         holonomic {
+///             pin: [x, y] = r * [cos(crank), sin(crank)],
+///             eye_line: (eye - x) * sin(rod) = -y * cos(rod),
+///         }
+///         /// crank at an angle, turning
+///         start turning(
+///             /// Angle of the crank, rad
+///             angle = 0.5,
+///             /// Its angular velocity, rad/s
+///             speed = 2.0,
+///         ) {
+///             crank = angle;
+///             dot(crank) = speed;
+///             rod near 0.0
+///         }
+///     }
+/// }
+/// # fn main() -> Result<(), ukcore::Error> {
+/// let start = Crank::default().start("turning", &[("angle", 1.0)].into())?;
+/// assert_eq!((start.q[Crank::CRANK], start.v[Crank::CRANK]), (1.0, 2.0));
+/// assert!((start.q[Crank::Y] - 0.3 * 1.0_f64.sin()).abs() < 1e-15);
+/// # Ok(())
+/// # }
+/// ```
+///
+/// `T::SPEC.starts` lists them; programs made by `uktool::main!` take them by `--start`, and options by `--set`.
 ///
 /// `expr` is Rust's expression grammar. Errors point at the token at fault; after an error the type still exists, so that one mistake gives
 /// one message.

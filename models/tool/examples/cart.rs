@@ -8,7 +8,16 @@ ukcore::multibody! {
         mass { s: big, x: m, y: m }
         potential { 0.5 * k * sq(s), m * g * y }
         holonomic { rod: sq(x - s) + sq(y) = sq(l) }
-        output { angle = atan2(x - s, -y) }
+        output { swing = atan2(x - s, -y) }
+        /// let go with the cart at rest
+        start released(
+            /// Angle of the rod from the vertical, rad
+            angle = 0.9,
+        ) {
+            s = 0.0;
+            x near l * sin(angle);
+            y near -l * cos(angle)
+        }
     }
 }
 

@@ -29,7 +29,8 @@ fn entry(out: &mut dyn Write, model: &Entry, wide: usize) -> io::Result<()> {
         writeln!(out, "    start {}{default}: {}", start.name, start.doc)?;
         for option in start.options {
             let value = short(option.default, 6);
-            let setting = format!("{} = {value} {}", option.name, option.unit);
+            let unit = units::of_option(option).unwrap_or_default();
+            let setting = format!("{} = {value} {unit}", option.name);
             writeln!(out, "        {:<24}{}", setting.trim_end(), option.doc)?;
         }
     }

@@ -127,7 +127,7 @@ impl Start {
                 value.map_err(|e| Failure::Usage(format!("`{name}`: {e}")))
             };
             if let Some(option) = offered.iter().find(|o| o.name == *name) {
-                options.set(name, in_unit(Some(option.unit))?);
+                options.set(name, in_unit(units::of_option(option))?);
             } else if let Some(doc) = parameter_doc(mechanism.spec(), name) {
                 mechanism.set(name, in_unit(units::unit_in(doc))?)?;
             } else {

@@ -8,6 +8,7 @@
 use std::f64::consts::PI;
 
 use ukcore::Error;
+use ukcore::model::StartOption;
 
 /// Exponents of kilogram, metre, second and radian. The radian counts, so that an angle is not taken for a number.
 type Dimension = [i32; 4];
@@ -132,6 +133,13 @@ pub fn unit_in(doc: &str) -> Option<&str> {
     ];
     let mut words = places.into_iter().flatten().map(str::trim);
     words.find(|word| unit(word).is_some())
+}
+
+/// The unit of an option of a start: its own, or the one that its doc comment names.
+#[must_use]
+pub fn of_option(option: &StartOption) -> Option<&'static str> {
+    let own = Some(option.unit).filter(|unit| !unit.is_empty());
+    own.or_else(|| unit_in(option.doc))
 }
 
 /// Splits `NAME=VALUE`.

@@ -46,17 +46,20 @@ fn fails(args: &str, code: i32, message: &str) {
 const GUESS: &str = "--guess x=0.4 --guess y=-0.2 --hold s";
 
 #[test]
-fn a_mechanism_is_listed_with_what_a_guess_can_name() {
+fn a_mechanism_is_listed_with_its_starts() {
     let list = output("list");
     assert!(
         list.starts_with(
             "cart  A cart on a spring with a pendulum hanging from it; y points up.\n"
         )
     );
-    assert!(
-        list.contains("guess      s, x, y\n") && list.contains("parameters big = 2, m = 1,"),
-        "{list}"
-    );
+    for part in [
+        "start released (default): let go with the cart at rest\n",
+        "angle = 0.9 rad         Angle of the rod from the vertical, rad\n",
+        "parameters big = 2, m = 1,",
+    ] {
+        assert!(list.contains(part), "{part} in {list}");
+    }
     fails(
         "run crat",
         2,
@@ -71,7 +74,7 @@ fn its_start_is_assembled_and_its_motion_printed() {
     let mut lines = csv.lines();
     assert_eq!(
         lines.next(),
-        Some("t,s,x,y,dot(s),dot(x),dot(y),angle,energy,residual")
+        Some("t,s,x,y,dot(s),dot(x),dot(y),swing,energy,residual")
     );
     // As the library computes it: the nearest state on the rod, with the cart held.
     let start = lines.next().expect("a row");
@@ -97,15 +100,31 @@ fn its_start_is_assembled_and_its_motion_printed() {
         "no coordinate is called `u`",
     );
     fails(
-        "run cart --hold s,x,y",
+        "run cart --guess x=9 --hold s,x,y",
         1,
         "`--guess NAME=VALUE` gives one, of s, x, y",
     );
-    fails(
-        "run cart --start rest",
-        2,
-        "no start is called `rest`; there is none",
+    fails("run cart --start rest", 2, "no start is called `rest`");
+}
+
+#[test]
+fn a_declared_start_takes_its_options() {
+    let csv = output("run cart --set angle=30deg --set l=2 --until 0.1 --csv -");
+    let row = csv.lines().nth(1).expect("a row");
+    let numbers: Vec<f64> = row
+        .split(',')
+        .map(|x| x.parse().expect("a number"))
+        .collect();
+    let [t, s, x, y, ..] = numbers[..] else {
+        panic!("columns: {row}")
+    };
+    assert_eq!((t, s), (0.0, 0.0));
+    assert!(
+        (x - 1.0).abs() < 1e-15 && (y + 3.0_f64.sqrt()).abs() < 1e-15,
+        "{row}"
     );
+    fails("run cart --set angle=3m", 2, "`angle`: ");
+    fails("run cart --set angel=3", 2, "did you mean `angle`?");
 }
 
 #[test]
@@ -141,7 +160,10 @@ fn it_is_measured() {
         assert!(Path::new(&place).join(file).is_file(), "{file}");
     }
     fails(
-        &format!("report cart --hold s,x,y --out {}", place.display()),
+        &format!(
+            "report cart --guess x=9 --hold s,x,y --out {}",
+            place.display()
+        ),
         1,
         "`--guess NAME=VALUE` gives one, of s, x, y",
     );

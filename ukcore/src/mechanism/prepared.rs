@@ -13,7 +13,7 @@ use crate::mechanism::{Branch, Energy, Mechanism, Terms};
 use crate::plan::Plan;
 use crate::rounding::Rounded;
 use crate::scalar::{Dual, Scalar};
-use crate::spec::Spec;
+use crate::spec::{Guess, Spec};
 
 /// The equations of motion and the constraints, in numbers `S`.
 pub trait Equations<S>: Send + Sync + 'static {
@@ -67,6 +67,8 @@ pub trait Face: Send + Sync + 'static {
     fn id(&self) -> TypeId;
     /// [`Mechanism::inertias`].
     fn inertias(&self, given: &[f64], each: &mut dyn FnMut(&'static str, &[f64]));
+    /// [`Mechanism::guess`].
+    fn guess(&self, start: usize, given: &[f64], each: &mut dyn FnMut(Guess));
     /// In numbers that carry a derivative.
     fn dual(&self) -> &'static dyn Dynamics<Dual>;
     /// In numbers that add up their rounding.
@@ -85,6 +87,9 @@ impl<M: Mechanism> Face for Of<M> {
     }
     fn inertias(&self, given: &[f64], each: &mut dyn FnMut(&'static str, &[f64])) {
         M::inertias(given, each);
+    }
+    fn guess(&self, start: usize, given: &[f64], each: &mut dyn FnMut(Guess)) {
+        M::guess(start, given, each);
     }
     fn dual(&self) -> &'static dyn Dynamics<Dual> {
         &Of::<M>(PhantomData)
@@ -326,6 +331,12 @@ impl Prepared {
     /// Calls `each` with the name of each spatial body, its mass and its inertia by rows; see [`Mechanism::inertias`].
     pub(crate) fn inertias(&self, each: &mut dyn FnMut(&'static str, &[f64])) {
         self.code.face().inertias(&self.given, each);
+    }
+
+    /// Calls `each` with all that start number `start` says with these values of its options; see [`Mechanism::guess`].
+    pub(crate) fn guess(&self, start: usize, options: &[f64], each: &mut dyn FnMut(Guess)) {
+        let given = [&self.given, options].concat();
+        self.code.face().guess(start, &given, each);
     }
 
     /// What the compiler decided about this mechanism, with reasons, costs and the sparsity of its equations: print it.

@@ -3,14 +3,14 @@
 use super::cost::{Costs, cost, costs};
 use super::dynamics::Dynamics;
 use super::elimination::{Further, Solve, Straight, Task, eliminate, orders};
-use super::functions::{Function, Role, functions};
+use super::functions::{Function, functions};
 use super::hoist::{Hoisted, hoist};
 use super::hub::{Divided, divided};
 use super::redundant::redundant;
 use super::regular::Regular;
 use super::switches::Switch;
 use crate::expr::{Graph, Id, System};
-use std::collections::{BTreeSet, HashMap};
+use std::collections::HashMap;
 
 /// The equations as they are emitted.
 pub(super) struct Chosen {
@@ -71,16 +71,13 @@ pub(super) fn choose(
     names: &[String],
 ) -> Chosen {
     let own = (held.force.len(), held.rhs.len());
-    let mut refusal = regular.refusal(names);
-    let variants = match refusal {
-        Some(_) => Vec::new(),
-        None => variants(system, held, regular, names),
-    };
-    let rows: Vec<usize> = (0..own.1).collect();
-    let redundant = match refusal {
-        Some(_) => BTreeSet::new(),
-        None => redundant(&regular.dynamics, &rows, &system.defaults, &system.graph),
-    };
+    if let Some(refusal) = regular.refusal(names) {
+        return emitted(system, held, Err(refusal), switches, names);
+    }
+    let variants = variants(system, held, regular, names);
+    let redundant = redundant(&regular.dynamics, &system.defaults, &system.graph);
+    // Why the first way that does not go does not.
+    let mut refusal = None;
     let tasks = variants.iter().map(|variant| Task {
         dynamics: &variant.dynamics,
         weights: &regular.weights,
@@ -127,6 +124,7 @@ pub(super) fn choose(
                 solve.velocities = variant.names[further].to_vec();
             }
         }
+        let work = |chosen: &Chosen| chosen.costs.acceleration.work();
         let better = |(known, _): &(Chosen, Nodes)| work(&chosen) < work(known);
         if best.as_ref().is_none_or(better) {
             best = Some((chosen, Nodes::taken(system)));
@@ -148,15 +146,6 @@ fn given(d: &Dynamics, g: &Graph) -> usize {
     let matrices = d.mass.values().chain(d.jacobian.values());
     let all: Vec<Id> = matrices.chain(&d.force).chain(&d.rhs).copied().collect();
     cost(g, &all).work()
-}
-
-/// Operations of one evaluation.
-fn work(chosen: &Chosen) -> usize {
-    let functions = chosen.functions.iter();
-    let mut acceleration = functions.filter(|f| f.role == Role::Acceleration);
-    acceleration
-        .next()
-        .map_or(usize::MAX, |f| f.operations.work())
 }
 
 /// The systems that are worth a try: the equations themselves, with the velocities that the kinetic energy is written in, with copies of hubs.

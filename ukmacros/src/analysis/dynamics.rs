@@ -31,6 +31,13 @@ pub(crate) struct Dynamics {
 }
 
 impl Dynamics {
+    /// Adds `more` coordinates and as many constraints, with `zero` in all of their equations.
+    pub(super) fn widen(&mut self, more: usize, zero: Id) {
+        for vector in [&mut self.force, &mut self.nonideal, &mut self.rhs] {
+            vector.resize(vector.len() + more, zero);
+        }
+    }
+
     /// All values, in a fixed order.
     pub(crate) fn values_mut(&mut self) -> impl Iterator<Item = &mut Id> {
         let (equations, energies) = self.parts_mut();
@@ -73,11 +80,8 @@ pub(crate) fn derive(system: &mut System, n: usize) -> Dynamics {
     mass.retain(|_, m| !g.is_zero(*m));
     let mut lifted = None;
     let kinetic = match system.kinetic {
-        Some((t, _)) => t,
-        None => half_square(&mass, g),
-    };
-    match system.kinetic {
         Some((t, _)) => {
+            // What is not taken leaves no trace: the order of nodes is that of terms.
             let mut with = g.clone();
             lifted = lift(t, &mut with);
             if lifted.is_some() {
@@ -92,12 +96,15 @@ pub(crate) fn derive(system: &mut System, n: usize) -> Dynamics {
                 (lift.mass(g), lift.generalised(n, g))
             });
             (mass, force) = cheaper(own, direct, g);
+            t
         }
         None => {
+            let kinetic = half_square(&mass, g);
             let slopes = slopes(potential, n, g);
             force = less(&force, &slopes, g);
+            kinetic
         }
-    }
+    };
     let mut nonideal = vec![zero; n];
     for (i, c) in system.nonideal.iter().flatten() {
         nonideal[*i] = *c;

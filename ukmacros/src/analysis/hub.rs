@@ -53,9 +53,7 @@ pub(super) fn divided(d: &Dynamics, g: &mut Graph) -> Option<Divided> {
             let (copy, tie) = (n + found.copies.len(), m + found.copies.len());
             found.copies.push(hub);
             of.mass.insert((copy, copy), inertia);
-            of.force.push(zero);
-            of.nonideal.push(zero);
-            of.rhs.push(zero);
+            of.widen(1, zero);
             of.jacobian.insert((tie, before), one);
             of.jacobian.insert((tie, copy), minus);
             for row in rows {

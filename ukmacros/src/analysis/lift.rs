@@ -48,7 +48,7 @@ pub(super) fn lift(kinetic: Id, g: &mut Graph) -> Option<Lift> {
     if degree(kinetic) != 2 {
         return None;
     }
-    let mut inertia: BTreeMap<(Unknown, Unknown), Vec<(f64, Id)>> = BTreeMap::new();
+    let mut inertia: Terms<(Unknown, Unknown)> = Terms::new();
     let mut open = vec![(g.one(), kinetic)];
     while let Some((weight, id)) = open.pop() {
         match g.node(id).clone() {
@@ -61,10 +61,7 @@ pub(super) fn lift(kinetic: Id, g: &mut Graph) -> Option<Lift> {
             Node::Scale(c, inner) => open.push((g.scale(c.get(), weight), inner)),
             Node::Held(inner) => open.push((weight, inner)),
             Node::Product(factors) => {
-                let moving = |(f, _): &(Id, i32)| g.uses(*f).velocity;
-                let (moving, mut rest): (Vec<_>, Vec<_>) = factors.into_iter().partition(moving);
-                rest.push((weight, 1));
-                let weight = g.product(&rest);
+                let (moving, weight) = moving(factors, weight, g);
                 let (one, other) = match moving[..] {
                     [(quadratic, 1)] => {
                         open.push((weight, quadratic));
@@ -135,6 +132,14 @@ fn degrees(root: Id, g: &Graph) -> HashMap<Id, u32> {
     degrees
 }
 
+/// Those factors that contain velocities, and the product of the others with `weight`.
+fn moving(factors: Vec<(Id, i32)>, weight: Id, g: &mut Graph) -> (Vec<(Id, i32)>, Id) {
+    let moves = |(f, _): &(Id, i32)| g.uses(*f).velocity;
+    let (moving, mut rest): (Vec<_>, Vec<_>) = factors.into_iter().partition(moves);
+    rest.push((weight, 1));
+    (moving, g.product(&rest))
+}
+
 /// `id`, linear in q̇, as a multiple of an unknown; nothing if it is linear by anything else than arithmetic.
 fn unknown(id: Id, g: &mut Graph) -> Option<(Id, Unknown)> {
     let (mut factor, mut id) = (g.one(), id);
@@ -145,13 +150,11 @@ fn unknown(id: Id, g: &mut Graph) -> Option<(Id, Unknown)> {
             Node::Scale(c, inner) => (factor, id) = (g.scale(c.get(), factor), inner),
             Node::Held(inner) => id = inner,
             Node::Product(factors) => {
-                let moving = |(f, _): &(Id, i32)| g.uses(*f).velocity;
-                let (moving, mut rest): (Vec<_>, Vec<_>) = factors.into_iter().partition(moving);
+                let (moving, rest) = moving(factors, factor, g);
                 let [(inner, 1)] = moving[..] else {
                     return None;
                 };
-                rest.push((factor, 1));
-                (factor, id) = (g.product(&rest), inner);
+                (factor, id) = (rest, inner);
             }
             _ => return None,
         }
@@ -166,7 +169,7 @@ fn definition(id: Id, g: &mut Graph) -> Option<BTreeMap<Unknown, Id>> {
     if rest.get() != 0.0 {
         return None;
     }
-    let mut definition: BTreeMap<Unknown, Vec<(f64, Id)>> = BTreeMap::new();
+    let mut definition: Terms<Unknown> = Terms::new();
     for (k, term) in terms {
         let (factor, unknown) = unknown(term, g)?;
         definition
@@ -178,7 +181,7 @@ fn definition(id: Id, g: &mut Graph) -> Option<BTreeMap<Unknown, Id>> {
 }
 
 /// The sums that are not zero.
-fn summed<K: Ord>(terms: BTreeMap<K, Vec<(f64, Id)>>, g: &mut Graph) -> BTreeMap<K, Id> {
+fn summed<K: Ord>(terms: Terms<K>, g: &mut Graph) -> BTreeMap<K, Id> {
     let terms = terms.into_iter();
     let mut sums: BTreeMap<K, Id> = terms
         .map(|(at, terms)| (at, g.factored_sum(&terms)))
@@ -187,8 +190,8 @@ fn summed<K: Ord>(terms: BTreeMap<K, Vec<(f64, Id)>>, g: &mut Graph) -> BTreeMap
     sums
 }
 
-/// Terms of a sum for each unknown.
-type Terms = BTreeMap<Unknown, Vec<(f64, Id)>>;
+/// Terms of a sum for each unknown, or for what else there is a sum of.
+type Terms<K> = BTreeMap<K, Vec<(f64, Id)>>;
 
 impl Unknown {
     fn value(self, g: &mut Graph) -> Id {
@@ -214,7 +217,7 @@ impl Lift {
     }
 
     /// Carries what acts on the y over to what they are given by, last y first: x_k += Σ c_lk x_l.
-    fn carried(&self, mut terms: Terms, g: &mut Graph) -> BTreeMap<Unknown, Id> {
+    fn carried(&self, mut terms: Terms<Unknown>, g: &mut Graph) -> BTreeMap<Unknown, Id> {
         let mut carried = BTreeMap::new();
         for (id, definition) in self.definitions.iter().rev() {
             let own = terms.remove(&Unknown::Velocity(*id)).unwrap_or_default();
@@ -232,8 +235,8 @@ impl Lift {
         carried
     }
 
-    /// D x for each unknown, as terms.
-    fn momenta(&self, x: &BTreeMap<Unknown, Id>, g: &mut Graph) -> Terms {
+    /// k D x for each unknown, as terms.
+    fn momenta(&self, k: f64, x: &BTreeMap<Unknown, Id>, g: &mut Graph) -> Terms<Unknown> {
         let mut terms = Terms::new();
         let zero = g.zero();
         let at = |unknown: &Unknown| x.get(unknown).copied().unwrap_or(zero);
@@ -241,7 +244,7 @@ impl Lift {
             for (to, from) in [(a, b), (b, a)] {
                 let term = g.mul(*inertia, at(from));
                 if !g.is_zero(term) {
-                    terms.entry(*to).or_default().push((1.0, term));
+                    terms.entry(*to).or_default().push((k, term));
                 }
                 if a == b {
                     break;
@@ -267,7 +270,7 @@ impl Lift {
         for unknown in unknowns {
             values.insert(unknown, unknown.value(g));
         }
-        let momenta = self.momenta(&values, g);
+        let momenta = self.momenta(1.0, &values, g);
         let lambda = self.carried(momenta, g);
         // u̇ at q̈ = 0, first y first.
         let mut rates: BTreeMap<Unknown, Id> = BTreeMap::new();
@@ -283,15 +286,10 @@ impl Lift {
             let rate = g.factored_sum(&terms);
             rates.insert(Unknown::Velocity(*id), rate);
         }
-        let mut forces = Terms::new();
-        for (of, terms) in self.momenta(&rates, g) {
-            let terms = terms.into_iter().map(|(k, term)| (-k, term));
-            forces.entry(of).or_default().extend(terms);
-        }
         let mut changes = Changes {
             total,
             partials: BTreeMap::new(),
-            forces,
+            forces: self.momenta(-1.0, &rates, g),
         };
         for (id, definition) in &self.definitions {
             let weight = lambda[&Unknown::Velocity(*id)];
@@ -316,7 +314,7 @@ impl Lift {
     /// Q, per coordinate.
     pub(super) fn generalised(&self, n: usize, g: &mut Graph) -> Vec<Id> {
         let forces = self.force.iter().map(|(of, f)| (*of, vec![(1.0, *f)]));
-        let mut forces: Terms = forces.collect();
+        let mut forces: Terms<Unknown> = forces.collect();
         for (i, applied) in self.applied.iter().enumerate() {
             let terms = forces.entry(Unknown::Coordinate(i)).or_default();
             terms.extend(g.open(1.0, *applied));
@@ -329,16 +327,17 @@ impl Lift {
 
     /// M: the y substituted by what they are given by, last y first.
     pub(super) fn mass(&self, g: &mut Graph) -> BTreeMap<(usize, usize), Id> {
-        let mut rows: BTreeMap<Unknown, BTreeMap<Unknown, Vec<(f64, Id)>>> = BTreeMap::new();
-        let add = |rows: &mut BTreeMap<Unknown, Terms>, a: Unknown, b: Unknown, term: Id| {
-            // At the later one.
-            let (a, b) = (a.max(b), a.min(b));
-            rows.entry(a)
-                .or_default()
-                .entry(b)
-                .or_default()
-                .push((1.0, term));
-        };
+        let mut rows: BTreeMap<Unknown, Terms<Unknown>> = BTreeMap::new();
+        let add =
+            |rows: &mut BTreeMap<Unknown, Terms<Unknown>>, a: Unknown, b: Unknown, term: Id| {
+                // At the later one.
+                let (a, b) = (a.max(b), a.min(b));
+                rows.entry(a)
+                    .or_default()
+                    .entry(b)
+                    .or_default()
+                    .push((1.0, term));
+            };
         for ((a, b), inertia) in &self.inertia {
             add(&mut rows, *a, *b, *inertia);
         }
@@ -397,6 +396,7 @@ impl Lift {
             Unknown::Velocity(id) => places[id],
         };
         let mut extended = d.clone();
+        extended.widen(places.len(), zero);
         extended.mass = BTreeMap::new();
         for ((a, b), inertia) in &self.inertia {
             let (a, b) = (place(a), place(b));
@@ -417,8 +417,6 @@ impl Lift {
             terms.extend(g.open(1.0, *force));
             *all = g.sum(&terms);
         }
-        extended.nonideal.resize(n + places.len(), zero);
-        extended.rhs.resize(m + places.len(), zero);
         for (k, definition) in self.definitions.values().enumerate() {
             extended.jacobian.insert((m + k, n + k), minus);
             let entries = definition.iter();
@@ -434,7 +432,7 @@ impl Lift {
 struct Changes {
     total: Derivative,
     partials: BTreeMap<usize, Derivative>,
-    forces: Terms,
+    forces: Terms<Unknown>,
 }
 
 impl Changes {

@@ -2,7 +2,7 @@
 //!
 //! From random states the constraints are approached by Levenberg's and Marquardt's method with a damping of the order of what is left
 //! of them squared. That converges quadratically where constraints imply each other, too (Yamashita & Fukushima 2001), and slowly to
-//! positions that are singular alone. At some states so found, the rows of A are gone through in the order of the elimination: one that
+//! positions that are singular alone. At some states so found, the rows of A are gone through as declared: one that
 //! keeps nothing beside those before it is redundant, with all that take part in what it is made up of. A row that keeps a little tells
 //! of a singular position nearby, and such a state tells nothing.
 //!
@@ -33,19 +33,12 @@ const MANY: usize = 4;
 /// Nodes evaluated and entries computed at most: some ten milliseconds without optimisation.
 const WORK: usize = 600_000;
 
-/// The constraints that follow from others, with these others: which of them is the one too many may change along a motion. They are
-/// gone through in `order`.
-pub(super) fn redundant(
-    d: &Dynamics,
-    order: &[usize],
-    defaults: &[f64],
-    g: &Graph,
-) -> BTreeSet<usize> {
+/// The constraints that follow from others, with these others: which of them is the one too many may change along a motion.
+pub(super) fn redundant(d: &Dynamics, defaults: &[f64], g: &Graph) -> BTreeSet<usize> {
     let n = d.force.len();
     let mut search = Search {
         position: Level::new(d, &d.phi, g),
         velocity: Level::new(d, &d.rate, g),
-        order,
         left: WORK,
     };
     let mut random = Random::new(3);
@@ -115,14 +108,13 @@ impl Level {
     }
 }
 
-struct Search<'a> {
+struct Search {
     position: Level,
     velocity: Level,
-    order: &'a [usize],
     left: usize,
 }
 
-impl Search<'_> {
+impl Search {
     /// The constraints that follow from others at the state on the constraints that is reached from `probe`; `None` if none is, or it
     /// is near a singular position.
     fn at(&mut self, mut probe: Probe<'_>, g: &Graph) -> Option<BTreeSet<usize>> {
@@ -169,9 +161,9 @@ impl Search<'_> {
         let mut basis: Vec<Vec<f64>> = Vec::new();
         let mut dependent = BTreeSet::new();
         let n = place.rows.iter().flatten().map(|(i, _)| i + 1).max()?;
-        for row in self.order {
+        for (row, entries) in place.rows.iter().enumerate() {
             let mut rest = vec![0.0; n + place.rows.len()];
-            place.rows[*row].iter().for_each(|(i, a)| rest[*i] = *a);
+            entries.iter().for_each(|(i, a)| rest[*i] = *a);
             rest[n + row] = 1.0;
             self.left = self.left.checked_sub(basis.len() * rest.len())?;
             // Twice, for rounding.

@@ -175,7 +175,7 @@ impl Writer<'_> {
         let used: HashSet<Symbol> = program.needed.iter().filter_map(symbol).collect();
         let mut out = TokenStream::new();
         let n = model.coord_elements.len();
-        let params = model.param_elements.len();
+        let params = model.param_elements.len() + prepared.options.len();
         let all = |n: usize, symbol: fn(usize) -> Symbol| (0..n).map(symbol).collect::<Vec<_>>();
         for (text, symbols) in [
             ("given", all(params, Symbol::Param)),

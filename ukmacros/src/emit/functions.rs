@@ -16,7 +16,15 @@ pub(super) fn functions(system: &System, model: &Model, analysis: &Analysis) -> 
     for function in &analysis.functions {
         let (role, operations) = (function.role, function.operations);
         let signature = signature(role);
-        let statements = statements(function, system, model, analysis);
+        let slots = match role {
+            Role::Prepare => Slots::default(),
+            _ => Slots {
+                values: &analysis.prepared,
+                switches: &analysis.switching,
+                ..Slots::default()
+            },
+        };
+        let statements = statements(function, system, model, slots);
         let (name, text) = (role.name(), format!("{signature} {{ {statements} }}"));
         texts.extend(quote! { (#name, #text), });
         let counted = [Role::Dynamics, Role::Acceleration].contains(&role);
@@ -29,42 +37,88 @@ pub(super) fn functions(system: &System, model: &Model, analysis: &Analysis) -> 
         });
         functions.extend(quote! { #counts #signature { #statements } });
     }
-    let inertias = inertias(system, model, analysis);
+    let inertias = inertias(system, model);
+    let guesses = guesses(system, model);
     quote! {
         const CODE: &'static [(&'static str, &'static str)] = &[#texts];
         #functions
         #inertias
+        #guesses
     }
 }
 
 /// The masses and inertias of spatial bodies, if there are any.
-fn inertias(system: &System, model: &Model, analysis: &Analysis) -> Option<TokenStream> {
+fn inertias(system: &System, model: &Model) -> Option<TokenStream> {
     let (names, ids): (Vec<&String>, Vec<&Vec<Id>>) = system
         .inertias
         .iter()
         .map(|(name, ids)| (name, ids))
         .unzip();
-    let function = of_parameters(
-        system,
-        &ids.into_iter().flatten().copied().collect::<Vec<Id>>(),
-    );
-    let count = Literal::usize_unsuffixed(function.roots.len());
-    let (signature, statements) = (
-        signature(function.role),
-        statements(&function, system, model, analysis),
-    );
+    let ids: Vec<Id> = ids.into_iter().flatten().copied().collect();
+    let numbers = numbers(&ids, &[], system, model);
     (!names.is_empty()).then(|| {
         quote! {
             fn inertias(given: &[f64], each: &mut dyn ::core::ops::FnMut(&'static str, &[f64])) {
-                #signature { #statements }
-                let mut numbers = [0.0; #count];
-                prepare(given, &mut numbers);
+                #numbers
                 for (name, numbers) in [#(#names),*].into_iter().zip(numbers.chunks(10)) {
                     each(name, numbers);
                 }
             }
         }
     })
+}
+
+/// Where coordinates and velocities are at each start, if there are any.
+fn guesses(system: &System, model: &Model) -> Option<TokenStream> {
+    let starts = system.starts.iter().enumerate().map(|(k, start)| {
+        let k = Literal::usize_unsuffixed(k);
+        let ids: Vec<Id> = start.guesses.iter().map(|guess| guess.value).collect();
+        let options: Vec<String> = start.options.iter().map(|o| o.name.clone()).collect();
+        let numbers = numbers(&ids, &options, system, model);
+        let guesses = start.guesses.iter().map(|guess| {
+            let (rate, held) = (guess.rate, guess.held);
+            let coordinate = Literal::usize_unsuffixed(guess.coordinate);
+            quote! { (#coordinate, #rate, #held) }
+        });
+        quote! {
+            #k => {
+                #numbers
+                let places: &[(usize, bool, bool)] = &[#(#guesses),*];
+                for ((coordinate, rate, held), value) in places.iter().zip(numbers) {
+                    each(ukcore::Guess { coordinate: *coordinate, rate: *rate, held: *held, value });
+                }
+            }
+        }
+    });
+    (!system.starts.is_empty()).then(|| {
+        quote! {
+            fn guess(start: usize, given: &[f64], each: &mut dyn ::core::ops::FnMut(ukcore::Guess)) {
+                match start {
+                    #(#starts)*
+                    _ => {}
+                }
+            }
+        }
+    })
+}
+
+/// `numbers`, the values of `ids` by what is `given`: parameters, then `options`.
+fn numbers(ids: &[Id], options: &[String], system: &System, model: &Model) -> TokenStream {
+    let function = of_parameters(system, ids);
+    let (count, signature) = (
+        Literal::usize_unsuffixed(ids.len()),
+        signature(function.role),
+    );
+    let slots = Slots {
+        options,
+        ..Slots::default()
+    };
+    let statements = statements(&function, system, model, slots);
+    quote! {
+        #signature { #statements }
+        let mut numbers = [0.0; #count];
+        prepare(given, &mut numbers);
+    }
 }
 
 /// `fn name<S: ukcore::Scalar>(…) -> …`.
@@ -96,16 +150,9 @@ fn statements(
     function: &Function,
     system: &System,
     model: &Model,
-    analysis: &Analysis,
+    prepared: Slots<'_>,
 ) -> TokenStream {
     let role = function.role;
-    let prepared = match role {
-        Role::Prepare => Slots::default(),
-        _ => Slots {
-            values: &analysis.prepared,
-            switches: &analysis.switching,
-        },
-    };
     let slices = function.slices.iter();
     // There may be nothing to prepare.
     let slices = slices.filter(|(_, len)| role != Role::Prepare || *len > 0);

@@ -64,6 +64,42 @@ pub(super) fn item(
     }
 }
 
+/// How the declared starts are called, if there are any.
+pub(super) fn start(decl: &Declaration) -> Option<TokenStream> {
+    let name = &decl.name;
+    let starts = decl.starts.iter().map(|start| {
+        let options = start.options.iter().map(|o| format!("`{}`", o.name));
+        let options: Vec<String> = options.collect();
+        let taking = match options.is_empty() {
+            true => String::new(),
+            false => format!(" ({})", options.join(", ")),
+        };
+        format!("- `\"{}\"`{taking}: {}", start.name, start.docs.join(" "))
+    });
+    let list: Vec<String> = starts.collect();
+    let docs = doc(&format!(
+        "The declared start called `name`, with these options, as `Prepared::start` assembles it:\n{}\n\n\
+         # Errors\nUnknown names; values that are not finite; options for which nothing satisfies the constraints.",
+        list.join("\n")
+    ));
+    (!list.is_empty()).then(|| {
+        quote! {
+            #[automatically_derived]
+            impl #name {
+                #docs
+                #[allow(dead_code)]
+                pub fn start(
+                    &self,
+                    name: &str,
+                    options: &ukcore::StartOptions,
+                ) -> ::core::result::Result<ukcore::State, ukcore::Error> {
+                    ukcore::Prepared::from(self).start(name, options)
+                }
+            }
+        }
+    })
+}
+
 /// The type of a family of this shape, and its value: arrays of arrays of `numbers`.
 fn nested(shape: &[usize], mut numbers: Vec<TokenStream>) -> (TokenStream, TokenStream) {
     let mut ty = quote! { f64 };

@@ -139,7 +139,7 @@ fn prepared_names(system: &System, model: &Model, prepared: &[Id]) -> Vec<String
     let hints = system.all_hints();
     let slots = Slots {
         values: prepared,
-        switches: &[],
+        ..Slots::default()
     };
     let namer = Namer::new(&system.graph, model, constraints, &hints, slots);
     let symbols = (0..prepared.len()).map(Symbol::Prepared);

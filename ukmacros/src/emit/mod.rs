@@ -42,6 +42,7 @@ pub(crate) fn emit(
 /// `impl Mechanism` with these `members`, where `ukcore` is known by that name, whatever it is called in the user's crate.
 fn implementation(decl: &Declaration, members: &TokenStream) -> TokenStream {
     let name = &decl.name;
+    let start = item::start(decl);
     let runtime = decl.runtime.clone().unwrap_or_else(|| quote! { ::ukcore });
     quote! {
         const _: () = {
@@ -55,6 +56,7 @@ fn implementation(decl: &Declaration, members: &TokenStream) -> TokenStream {
             #[automatically_derived]
             #[allow(unused_variables, clippy::all, clippy::pedantic)]
             impl ukcore::Mechanism for #name { #members }
+            #start
         };
     }
 }

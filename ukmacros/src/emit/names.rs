@@ -40,6 +40,8 @@ pub(super) struct Slots<'a> {
     pub(super) values: &'a [Id],
     /// Switching functions, for the branches that they are held in.
     pub(super) switches: &'a [Id],
+    /// Names of what is given behind the parameters.
+    pub(super) options: &'a [String],
 }
 
 impl Slots<'_> {
@@ -94,6 +96,9 @@ impl<'a> Namer<'a> {
         }
         for (i, parameter) in model.param_elements.iter().enumerate() {
             enter(Symbol::Param(i), &parameter.name);
+        }
+        for (k, option) in prepared.options.iter().enumerate() {
+            enter(Symbol::Param(model.param_elements.len() + k), option);
         }
         for (i, value) in prepared.values.iter().enumerate() {
             let name = match (graph.node(*value), hints.get(value)) {

@@ -6,7 +6,7 @@ use crate::analysis::Switch;
 use crate::analysis::{
     Analysis, Costs, Operations, Pair, Pivoting, Rotation, SAFE_SHARE, Solve, Structure,
 };
-use crate::expr::{Kind, System};
+use crate::expr::{Kind, StartValue, System};
 use crate::model::Model;
 use crate::parse::Declaration;
 use proc_macro2::{Literal, TokenStream};
@@ -41,6 +41,7 @@ pub(super) fn spec(
         let (name, docs) = (o.item.text(), o.docs.join(" "));
         quote! { ukcore::OutputSpec { name: #name, doc: #docs } }
     });
+    let starts = system.starts.iter().map(start);
     let prepared = listing.prepared.iter().map(|(n, t)| quote! { (#n, #t) });
     let switches = listing.switches.iter().zip(&analysis.switches);
     let switches = switches.map(|((function, terms), Switch { length, .. })| {
@@ -58,11 +59,21 @@ pub(super) fn spec(
             constraints: &[#(#constraints),*],
             holonomic: #holonomic,
             outputs: &[#(#outputs),*],
+            starts: &[#(#starts),*],
             switches: &[#(#switches),*],
             structure: #structure,
             equations: #equations,
         };
     }
+}
+
+fn start(start: &StartValue) -> TokenStream {
+    let (name, doc) = (&start.name, start.docs.join(" "));
+    let options = start.options.iter().map(|option| {
+        let (name, doc, default) = (&option.name, option.docs.join(" "), float(option.default));
+        quote! { ukcore::StartOption { name: #name, doc: #doc, default: #default, unit: "" } }
+    });
+    quote! { ukcore::StartSpec { name: #name, doc: #doc, options: &[#(#options),*] } }
 }
 
 fn number(n: usize) -> Literal {

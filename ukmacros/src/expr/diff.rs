@@ -111,12 +111,9 @@ impl Adjoint {
                 adjoint.0.insert(symbol, slope);
                 continue;
             }
-            for (operand, local) in locals(id, g) {
+            for (operand, k, value) in locals(id, g) {
                 if moving(operand, g) {
-                    let (k, term) = match local {
-                        Local::Number(k) => (k, slope),
-                        Local::Value(k, value) => (k, g.mul(slope, value)),
-                    };
+                    let term = g.mul(slope, value);
                     slopes.entry(operand).or_default().push((k, term));
                 }
             }
@@ -130,24 +127,17 @@ impl Adjoint {
     }
 }
 
-/// The derivative of a node by an operand: a number, or a number of times a value.
-enum Local {
-    Number(f64),
-    Value(f64, Id),
-}
-
-/// The derivatives of a node by its operands.
-fn locals(id: Id, g: &mut Graph) -> Vec<(Id, Local)> {
+/// The derivatives of a node by its operands: each a number of times a value.
+fn locals(id: Id, g: &mut Graph) -> Vec<(Id, f64, Id)> {
+    let (one, zero) = (g.one(), g.zero());
     match g.node(id).clone() {
         Node::Const(_) | Node::Symbol(_) => Vec::new(),
         Node::Sum(_, terms) => {
             let terms = terms.into_iter();
-            terms
-                .map(|(k, term)| (term, Local::Number(k.get())))
-                .collect()
+            terms.map(|(k, term)| (term, k.get(), one)).collect()
         }
-        Node::Scale(k, inner) => vec![(inner, Local::Number(k.get()))],
-        Node::Held(inner) => vec![(inner, Local::Number(1.0))],
+        Node::Scale(k, inner) => vec![(inner, k.get(), one)],
+        Node::Held(inner) => vec![(inner, 1.0, one)],
         Node::Product(factors) => {
             let without = |k: usize| {
                 let mut rest = factors.clone();
@@ -156,32 +146,22 @@ fn locals(id: Id, g: &mut Graph) -> Vec<(Id, Local)> {
             };
             let locals = factors.iter().enumerate().map(|(k, (base, exponent))| {
                 let rest = g.product(&without(k));
-                (*base, Local::Value(f64::from(*exponent), rest))
+                (*base, f64::from(*exponent), rest)
             });
             locals.collect()
         }
-        Node::Call(func, args) => {
-            let (one, zero) = (g.one(), g.zero());
-            match (&func.row().form, &args[..]) {
-                (Form::One { slope, .. }, [u]) => {
-                    let slope = slope(g, *u, id);
-                    vec![(*u, Local::Value(1.0, slope))]
-                }
-                (Form::Two { derivative, .. }, [u, w]) => {
-                    let by_u = derivative(g, (*u, one), (*w, zero), id);
-                    let by_w = derivative(g, (*u, zero), (*w, one), id);
-                    vec![(*u, Local::Value(1.0, by_u)), (*w, Local::Value(1.0, by_w))]
-                }
-                _ => Vec::new(),
+        Node::Call(func, args) => match (&func.row().form, &args[..]) {
+            (Form::One { slope, .. }, [u]) => vec![(*u, 1.0, slope(g, *u, id))],
+            (Form::Two { derivative, .. }, [u, w]) => {
+                let by_u = derivative(g, (*u, one), (*w, zero), id);
+                let by_w = derivative(g, (*u, zero), (*w, one), id);
+                vec![(*u, 1.0, by_u), (*w, 1.0, by_w)]
             }
-        }
+            _ => Vec::new(),
+        },
         Node::Select([a, b, then, otherwise]) => {
-            let (one, zero) = (g.one(), g.zero());
             let (first, second) = (g.select(a, b, one, zero), g.select(a, b, zero, one));
-            vec![
-                (then, Local::Value(1.0, first)),
-                (otherwise, Local::Value(1.0, second)),
-            ]
+            vec![(then, 1.0, first), (otherwise, 1.0, second)]
         }
     }
 }

@@ -12,16 +12,21 @@ pub(crate) struct Point<'a> {
     pub(crate) prepared: &'a [f64],
 }
 
-impl Point<'_> {
+impl<'a> Point<'a> {
     /// No values: for what contains no symbol.
-    pub(crate) const NOWHERE: Point<'static> = Point {
-        params: &[],
-        q: &[],
-        v: &[],
-        t: f64::NAN,
-        residual: &[],
-        prepared: &[],
-    };
+    pub(crate) const NOWHERE: Point<'static> = Point::of_parameters(&[]);
+
+    /// Parameters alone: for what contains no other symbol.
+    pub(crate) const fn of_parameters(params: &'a [f64]) -> Self {
+        Point {
+            params,
+            q: &[],
+            v: &[],
+            t: f64::NAN,
+            residual: &[],
+            prepared: &[],
+        }
+    }
 }
 
 /// Values of `roots`, in one sweep over what they are made of.

@@ -81,6 +81,17 @@ fn used(decl: &Declaration) -> HashSet<String> {
     found.blocks(&decl.outputs, |output| {
         (vec![&output.key], vec![&output.value])
     });
+    for start in &decl.starts {
+        let options = start.options.iter();
+        options
+            .clone()
+            .for_each(|option| found.expr(&option.default));
+        found.hidden = options.map(|option| option.name.to_string()).collect();
+        found.blocks(&start.guesses, |guess| {
+            (vec![&guess.key], vec![&guess.value])
+        });
+        found.hidden.clear();
+    }
     found.used
 }
 

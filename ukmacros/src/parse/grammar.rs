@@ -5,8 +5,8 @@
 
 use super::expr::{Expr, Range, location};
 use super::item::{
-    Block, Body, Const, Coord, Declaration, Entry, Equation, Function, Key, Let, LetValue,
-    MassEntry, Output, Param, Section,
+    Block, Body, Const, Coord, Declaration, Entry, Equation, Function, Guess, Key, Let, LetValue,
+    MassEntry, Output, Param, Section, Start, StartOption,
 };
 use super::nesting;
 use crate::diag::{Diagnostics, Loc, suggest};
@@ -15,7 +15,7 @@ use quote::ToTokens as _;
 use syn::parse::ParseStream;
 use syn::{Token, braced, bracketed, parenthesized};
 
-const SECTIONS: &str = "const params coords bodies gravity let mass kinetic force forces potential dissipation holonomic nonholonomic nonideal output";
+const SECTIONS: &str = "const params coords bodies gravity let mass kinetic force forces potential dissipation holonomic nonholonomic nonideal output start";
 
 /// Parses a declaration; `None` if not even its name could be read.
 pub(crate) fn parse(mut tokens: TokenStream, diag: &Diagnostics) -> Option<Declaration> {
@@ -64,6 +64,7 @@ fn declaration(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Declar
         nonholonomic: Vec::new(),
         nonideal: None,
         outputs: Vec::new(),
+        starts: Vec::new(),
     };
     let body;
     braced!(body in input);
@@ -110,6 +111,10 @@ fn section(
         .parse()
         .map_err(|e| syn::Error::new(e.span(), format!("expected a section: {}", sections())))?;
     let name = keyword.to_string();
+    if name == "start" {
+        out.starts.push(start(input, docs, diag)?);
+        return Ok(());
+    }
     if seen.contains(&name) {
         diag.error(
             keyword.span(),
@@ -554,4 +559,86 @@ fn output_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Outpu
     let _: Token![=] = input.parse()?;
     let value = expression(input, diag)?;
     Ok(Output { docs, key, value })
+}
+
+/// `start name(option = number, …) { guesses }`.
+fn start(input: ParseStream<'_>, docs: Vec<String>, diag: &Diagnostics) -> syn::Result<Start> {
+    let name: Ident = input.parse().map_err(|e| {
+        let message = "a start needs a name: `start released { x = 1.0 }`";
+        syn::Error::new(e.span(), message)
+    })?;
+    let mut options = Vec::new();
+    if input.peek(syn::token::Paren) {
+        let list;
+        parenthesized!(list in input);
+        while !list.is_empty() {
+            options.push(start_option(&list, diag)?);
+            if !list.is_empty() {
+                let _: Token![,] = list.parse()?;
+            }
+        }
+    }
+    let mut guesses = Vec::new();
+    blocks(input, &mut guesses, diag, guess)?;
+    Ok(Start {
+        docs,
+        name,
+        options,
+        guesses,
+    })
+}
+
+fn start_option(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<StartOption> {
+    let docs = docs(input, diag)?;
+    let name: Ident = input.parse()?;
+    if !input.peek(Token![=]) {
+        let message = format!("option `{name}` needs a default: `{name} = 1.0`");
+        return Err(syn::Error::new(name.span(), message));
+    }
+    let _: Token![=] = input.parse()?;
+    let default = expression(input, diag)?;
+    Ok(StartOption {
+        docs,
+        name,
+        default,
+    })
+}
+
+fn guess(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Guess> {
+    let rate = input.peek2(syn::token::Paren) && input.fork().parse::<Ident>()? == "dot";
+    let key = if rate {
+        let _: Ident = input.parse()?;
+        let inner;
+        parenthesized!(inner in input);
+        let key = coordinates(&inner, diag)?;
+        if !inner.is_empty() {
+            let error =
+                inner.error("a start gives velocities of coordinates, such as `dot(x) = 1.0`");
+            let _: TokenStream = inner.parse()?;
+            return Err(error);
+        }
+        key
+    } else {
+        coordinates(input, diag)?
+    };
+    let held = input.peek(Token![=]);
+    if held {
+        let _: Token![=] = input.parse()?;
+    } else {
+        let near: Option<Ident> = input.parse()?;
+        if near.is_none_or(|word| word != "near") {
+            let message = format!(
+                "a start says where `{0}` is: `{0} = 1.0`, which holds, or `{0} near 1.0`, from where it may move",
+                key.name
+            );
+            return Err(syn::Error::new(key.name.span(), message));
+        }
+    }
+    let value = expression(input, diag)?;
+    Ok(Guess {
+        key,
+        rate,
+        held,
+        value,
+    })
 }

@@ -30,6 +30,7 @@ pub(crate) struct Declaration {
     pub(crate) nonholonomic: Vec<Block<Equation>>,
     pub(crate) nonideal: Option<Section<Entry>>,
     pub(crate) outputs: Vec<Block<Output>>,
+    pub(crate) starts: Vec<Start>,
 }
 
 /// A section whose presence matters, not only its entries.
@@ -145,5 +146,30 @@ pub(crate) struct Equation {
 pub(crate) struct Output {
     pub(crate) docs: Vec<String>,
     pub(crate) key: Key,
+    pub(crate) value: Expr,
+}
+
+/// `start released(angle = 0.5) { x = l * sin(angle); y near -l }`.
+pub(crate) struct Start {
+    pub(crate) docs: Vec<String>,
+    pub(crate) name: Ident,
+    pub(crate) options: Vec<StartOption>,
+    pub(crate) guesses: Vec<Block<Guess>>,
+}
+
+/// `angle = 0.5`.
+pub(crate) struct StartOption {
+    pub(crate) docs: Vec<String>,
+    pub(crate) name: Ident,
+    pub(crate) default: Expr,
+}
+
+/// `x = value`, `x near value`, `dot(x) = value`.
+pub(crate) struct Guess {
+    pub(crate) key: Key,
+    /// Of a velocity, not of a coordinate.
+    pub(crate) rate: bool,
+    /// Held, not only near.
+    pub(crate) held: bool,
     pub(crate) value: Expr,
 }

@@ -8,5 +8,6 @@ mod nesting;
 pub(crate) use expr::{BinaryOp, Expr, ExprKind, Range, own};
 pub(crate) use grammar::parse;
 pub(crate) use item::{
-    Block, Body, Const, Declaration, Entry, Equation, Function, Key, Let, LetValue, MassEntry,
+    Block, Body, Const, Declaration, Entry, Equation, Function, Guess, Key, Let, LetValue,
+    MassEntry, Start,
 };

@@ -27,8 +27,7 @@ fn check_rows(home: &str, joint: &str, rows: &str) {
             t: 0.3,
             q: &q,
             v: &v,
-            params: &system.defaults,
-            ..Point::NOWHERE
+            ..Point::of_parameters(&system.defaults)
         };
         let rows: Vec<Id> = system.constraints.iter().map(|c| c.phi).collect();
         eval(&system.graph, &rows, &point)

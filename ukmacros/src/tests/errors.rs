@@ -224,6 +224,18 @@ cases! {
     tuple: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { c: «(x, y)» = [0.0, 0.0] }" => "a vector is written `[a, b]`";
     parameter_without_default: "params { «m» } coords { x } mass { x: 1.0 }" => "parameter `m` needs a default";
     unknown_section: "coords { x } mass { x: 1.0 } «forced» { x: 1.0 }" => "unknown section `forced`; did you mean `force`?";
+    start_without_a_name: "coords { x } mass { x: 1.0 } start «{» x = 1.0 }" => "a start needs a name: `start released { x = 1.0 }`";
+    start_without_a_value: "coords { x } mass { x: 1.0 } start a { «x»: 1.0 }" => "a start says where `x` is: `x = 1.0`, which holds, or `x near 1.0`, from where it may move";
+    start_of_coordinates: "coords { x, y } mass { x: 1.0, y: 1.0 } start a { x = «y» }" => "a start is given by parameters and its options";
+    start_of_velocities: "coords { x } mass { x: 1.0 } start a { dot(x «+» 1.0) = 2.0 }" => "a start gives velocities of coordinates, such as `dot(x) = 1.0`";
+    start_of_what_is_none: "params { m = 1.0 } coords { x } mass { x: m } start a { «m» = 1.0 }" => "`m` is not a coordinate; coordinates are `x`";
+    start_given_twice: "coords { x[2] } mass { x: 1.0 } start a { x = [1.0, 2.0]; «x[1]» near 1.0 }" => "`x[1]` is given twice in this start; remove one";
+    start_declared_twice: "coords { x } mass { x: 1.0 } start a { x = 1.0 } start «a» { x = 2.0 }" => "start `a` is declared twice; names must be unique";
+    option_without_a_default: "coords { x } mass { x: 1.0 } start a(«b») { x = b }" => "option `b` needs a default: `b = 1.0`";
+    option_like_a_parameter: "params { m = 1.0 } coords { x } mass { x: m } start a(«m» = 1.0) { x = m }" => "`m` is declared twice; names must be unique";
+    option_not_constant: "params { m = 1.0 } coords { x } mass { x: m } start a(b = 2.0 * «m») { x = b }" => "a constant is known at compile time";
+    option_not_finite: "coords { x } mass { x: 1.0 } start a(b = «ln(0.0 - 1.0)») { x = b }" => "default of `b`";
+    start_of_a_wrong_shape: "coords { x[2] } mass { x: 1.0 } start a { x = «[1.0, 2.0, 3.0]» }" => "expected a vector of 2, found a vector of 3";
     repeated_section: "coords { x } «coords» { y } mass { x: 1.0, y: 1.0 }" => "section `coords` appears twice";
     attribute: "coords { #[«inline»] x } mass { x: 1.0 }" => "only doc comments are allowed here";
     lint_of_an_entry: "coords { «#»[allow(dead_code)] x } mass { x: 1.0 }" => "`#[allow(…)]` stands before the whole declaration";

@@ -221,43 +221,11 @@ fn chains_of_values_make_graphs_in_proportion() {
 /// Constraints on everything in reach: a coordinate waits for pairs whose inertia changes three couplings away.
 #[test]
 fn an_order_ends_where_more_rows_than_coordinates_are_coupled() {
-    let source = "pub T {
-            const N: usize = 2;
-            params {
-                m[N] = [1.0, 2.0],
-                r[N][3] = [[0.3, -0.2, 0.5], [0.1, 0.4, -0.3]],
-                tensor[3][3] = [[2.0, 0.1, 0.2], [0.1, 3.0, 0.3], [0.2, 0.3, 4.0]],
-                k = 3.0, c = 0.2, g = 9.81,
-            }
-            coords { p[N][3], angles[N][3], s }
-            let turn = |a| rotz(a[2]) * roty(a[1]) * rotx(a[0]);
-            let at = |i, v| p[i] + turn(angles[i]) * v;
-            let apart = |i, j| at(j, r[j]) - at(i, r[i]);
-            let next = |i| (i + 1) - N * ((i + 1) / N);
-            let { for i in 0..N { spin[i] = dot(angles[i]) } }
-            kinetic {
-                for i in 0..N { 0.5 * m[i] * sq(dot(p[i])), 0.5 * inner(spin[i], tensor * spin[i]) }
-                0.5 * sq(dot(s))
-            }
-            potential {
-                0.5 * k * sq(norm(apart(0, 1)) - 1.0)
-                for i in 0..N { m[i] * g * at(i, r[next(i)])[2] }
-            }
-            force {
-                for i in 0..N { p[i]: cross(spin[i], [0.0, s, t]) - c * dot(p[i]) }
-                angles: [[t, 0.0, 0.0], [0.0, s, 1.0]]
-                s: inner(dot(p[0]), p[1])
-            }
-            holonomic {
-                pin: at(0, r[1]) = at(1, r[0]) + [s, 0, t]
-                face: inner(normalise(p[0] - p[1]), turn(angles[0]) * [1, 0, 0]) = 0.2
-                plane: cross([p[0][0], p[0][1]], [p[1][0], p[1][1]]) = sin(t)
-                frame: rot(s) * [[p[0][0], p[0][1]], [p[1][0], p[1][1]]] = transpose(rot(t))
-                for i in 0..N { for j in 0..2 { gap[i][j]: p[i][j] * p[next(i)][j + 1] = s } }
-            }
-            nonholonomic { roll: dot(at(0, r[0])) = 0.1 * cross(spin[1], p[1]) }
-            nonideal { p[1]: -0.3 * normalise(dot(p[1])) }
-            output { place = [at(0, r[0]), at(1, r[1])], front = transpose(turn(angles[0]))[0] }
-        }";
-    accepted(source);
+    let text = include_str!("../../../tests/tests/vectors.rs");
+    let (_, text) = text.split_once("multibody! {").expect("a declaration");
+    let (declared, _) = text.split_once("\n}\n").expect("its end");
+    let frame = "frame: rot(s) * [[p[0][0], p[0][1]], [p[1][0], p[1][1]]] = transpose(rot(t))";
+    let source = declared.replacen("holonomic {", &format!("holonomic {{ {frame}"), 1);
+    assert_ne!(source, declared);
+    accepted(&source);
 }

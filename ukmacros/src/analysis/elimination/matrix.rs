@@ -385,13 +385,9 @@ impl Matrix {
                 let divisor = (!pair.coefficient.number).then(|| {
                     let entry = self.entry(pair.coordinate, pair.constraint);
                     let value = g.square(double.coefficient);
-                    let divisor = Divisor::positive(pair.constraint, value, names);
-                    match entry.size {
-                        None => divisor,
-                        Some(_) => Divisor {
-                            reference: entry.square(g),
-                            ..divisor
-                        },
+                    Divisor {
+                        reference: entry.square(g),
+                        ..Divisor::positive(pair.constraint, value, names)
                     }
                 });
                 (Factor::Double(double), divisor.into_iter().collect())
@@ -553,7 +549,7 @@ impl Matrix {
         let touched = both.into_iter().map(|at| {
             let (with, factor) = (entry(&row_j, at), g.div(entry(&row_c, at), a));
             let moved = g.mul(mu, factor);
-            let left = subtract(with, moved, g);
+            let left = g.factored_sum(&[(1.0, with), (-1.0, moved)]);
             Touched {
                 at,
                 with,
@@ -622,9 +618,4 @@ impl Matrix {
                 .for_each(|term| self.take_off(a, b, *term, false, g));
         }
     }
-}
-
-/// a − b.
-fn subtract(a: Id, b: Id, g: &mut Graph) -> Id {
-    g.factored_sum(&[(1.0, a), (-1.0, b)])
 }

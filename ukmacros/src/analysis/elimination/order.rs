@@ -75,7 +75,6 @@ impl Taste {
 
 /// The pivots in their order; or why there is none.
 pub(super) fn order(taste: Taste, mut pattern: Pattern, names: &[String]) -> Result<Order, String> {
-    let mut ready: BTreeSet<Key> = BTreeSet::new();
     let (mut pivots, mut entries, mut changes) = (Vec::new(), 0, 0);
     if taste == Taste::Freedoms {
         (pivots, changes) = rotations(&mut pattern);
@@ -83,22 +82,11 @@ pub(super) fn order(taste: Taste, mut pattern: Pattern, names: &[String]) -> Res
             return Err("no constraint contains two coordinates alone".to_owned());
         }
     }
-    loop {
-        if ready.is_empty() {
-            // At first; and where what was held back has been let go by an elimination farther off.
-            let left: BTreeSet<usize> = pattern.left().collect();
-            ready.extend(keys(&left, taste, &pattern));
-        }
-        let Some(key) = ready.pop_first() else {
-            break;
-        };
-        let (_, at, partner) = key;
-        let now = keys(&BTreeSet::from([at]), taste, &pattern);
-        if !now.contains(&key) {
-            ready.extend(now);
-            continue;
-        }
+    let left: BTreeSet<usize> = pattern.left().collect();
+    let mut ready: BTreeSet<Key> = keys(&left, taste, &pattern).into_iter().collect();
+    while let Some((_, at, partner)) = ready.first().copied() {
         let pair = partner.and_then(|constraint| pattern.pair(at, constraint));
+        debug_assert_eq!(pair.is_some(), partner.is_some());
         let around = around(at, partner, &pattern);
         for before in keys(&around, taste, &pattern) {
             ready.remove(&before);
@@ -267,23 +255,19 @@ fn changed_by_pair(pair: &Pair, pattern: &Pattern) -> usize {
     a * b + usize::from(pair.massive) * b * (b + 1) / 2
 }
 
+/// By the number of constraints that wait for the coordinate, or of entries that the pair fills or changes.
 fn pair_key(pair: &Pair, taste: Taste, pattern: &Pattern) -> Key {
     let (coordinate, constraint) = (pair.coordinate, pair.constraint);
     let changed = changed_by_pair(pair, pattern);
+    let others = || pattern.constraints_on(coordinate).count() - 1;
     let rank = match taste {
         // All before what is eliminated alone.
         Taste::Multipliers | Taste::Freedoms => {
             [0, coordinate, pattern.neighbours(constraint), 0, 0]
         }
-        Taste::Leaves => {
-            let others = pattern.constraints_on(coordinate).count() - 1;
-            [others, pattern.filled_by_pair(pair), changed, 0, 0]
-        }
+        Taste::Leaves => [others(), pattern.filled_by_pair(pair), changed, 0, 0],
         Taste::Roots => [changed, 0, 0, 0, 0],
-        Taste::Last => {
-            let others = pattern.constraints_on(coordinate).count() - 1;
-            [others, usize::MAX - coordinate, 0, 0, 0]
-        }
+        Taste::Last => [others(), usize::MAX - coordinate, 0, 0, 0],
     };
     (rank, coordinate, Some(constraint))
 }

@@ -68,11 +68,7 @@ impl Pattern {
         }
         let fixed = d.jacobian.iter().filter(|(_, a)| g.uses(**a).constant());
         let (places, ids): (Vec<_>, Vec<Id>) = fixed.map(|(at, a)| (*at, *a)).unzip();
-        let point = Point {
-            params: defaults,
-            ..Point::NOWHERE
-        };
-        let values = eval(g, &ids, &point);
+        let values = eval(g, &ids, &Point::of_parameters(defaults));
         for (((row, i), id), value) in places.into_iter().zip(&ids).zip(values) {
             let number = g.as_const(*id).is_some();
             let coefficient = Coefficient { value, number };

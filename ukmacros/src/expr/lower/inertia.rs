@@ -142,11 +142,7 @@ impl<'m> Lowering<'m> {
 
     /// Values of `ids` by the defaults of the parameters, if all are known.
     fn by_default(&self, ids: &[Id], defaults: &[f64]) -> Option<Vec<f64>> {
-        let point = Point {
-            params: defaults,
-            ..Point::NOWHERE
-        };
-        let values = eval(&self.graph, ids, &point);
+        let values = eval(&self.graph, ids, &Point::of_parameters(defaults));
         values.iter().all(|x| x.is_finite()).then_some(values)
     }
 

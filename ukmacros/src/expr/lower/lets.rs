@@ -29,7 +29,7 @@ impl<'m> Lowering<'m> {
     }
 
     /// Reports `what` if its `value` is not finite.
-    fn finite_number(&self, what: &str, value: f64, loc: Loc) {
+    pub(super) fn finite_number(&self, what: &str, value: f64, loc: Loc) {
         if !value.is_finite() {
             self.diag
                 .error(loc, format!("{what} is not a finite number"));
@@ -82,11 +82,7 @@ impl<'m> Lowering<'m> {
                 Vec::new()
             }
         };
-        let point = Point {
-            params: known,
-            ..Point::NOWHERE
-        };
-        let numbers = eval(&self.graph, &ids, &point);
+        let numbers = eval(&self.graph, &ids, &Point::of_parameters(known));
         if let Some(wrong) = numbers.iter().find(|x| !x.is_finite()) {
             self.finite_number(&format!("default of `{name}`"), *wrong, loc);
         }

@@ -7,11 +7,12 @@ mod inertia;
 mod lets;
 mod names;
 mod parts;
+mod starts;
 mod system;
 mod value;
 mod vectors;
 
-pub(crate) use system::{Constraint, ConstraintRef, Kind, OutputValue, System};
+pub(crate) use system::{Constraint, ConstraintRef, Kind, OutputValue, StartValue, System};
 #[cfg(test)]
 pub(crate) use vectors::vocabulary;
 
@@ -42,6 +43,7 @@ enum Place {
     Nonholonomic,
     Nonideal,
     Output,
+    Start,
 }
 
 enum Binding {
@@ -203,6 +205,7 @@ impl<'m> Lowering<'m> {
             });
         }
         let outputs = self.outputs(decl, &top);
+        let starts = self.starts(decl, &top);
         System {
             graph: std::mem::take(&mut self.graph),
             constants,
@@ -215,6 +218,7 @@ impl<'m> Lowering<'m> {
             inertias: of_bodies.inertias,
             constraints,
             outputs,
+            starts,
             hints: std::mem::take(&mut self.hints),
             inner_hints: HashMap::new(),
         }

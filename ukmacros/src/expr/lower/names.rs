@@ -375,6 +375,9 @@ impl<'m> Lowering<'m> {
                 Place::Body if !uses.constant() => {
                     Some("what a body consists of does not change: it depends on parameters only")
                 }
+                Place::Start if !uses.constant() => {
+                    Some("a start is given by parameters and its options")
+                }
                 Place::Gravity if uses.coord || uses.velocity => Some(
                     "gravity is one vector for all places, of parameters and `t`; a field that depends on the place goes under `potential`",
                 ),

@@ -26,6 +26,7 @@ pub(crate) struct System {
     /// Holonomic ones first.
     pub(crate) constraints: Vec<Constraint>,
     pub(crate) outputs: Vec<OutputValue>,
+    pub(crate) starts: Vec<StartValue>,
     /// Names that the modeller gave to values.
     pub(crate) hints: HashMap<Id, String>,
     /// Names for what the compiler adds: pivots, multipliers. They serve the emitted code alone, not the printed equations.
@@ -93,5 +94,29 @@ impl ConstraintRef {
 pub(crate) struct OutputValue {
     pub(crate) item: ConstraintRef,
     pub(crate) docs: Vec<String>,
+    pub(crate) value: Id,
+}
+
+/// A start: its options, and where coordinates and velocities are there.
+pub(crate) struct StartValue {
+    pub(crate) name: String,
+    pub(crate) docs: Vec<String>,
+    pub(crate) options: Vec<OptionValue>,
+    pub(crate) guesses: Vec<GuessValue>,
+}
+
+/// An option of a start. In expressions the k-th is the k-th parameter behind those of the mechanism.
+pub(crate) struct OptionValue {
+    pub(crate) name: String,
+    pub(crate) docs: Vec<String>,
+    pub(crate) default: f64,
+}
+
+/// Where a coordinate, or its velocity, is at a start.
+pub(crate) struct GuessValue {
+    pub(crate) coordinate: usize,
+    pub(crate) rate: bool,
+    pub(crate) held: bool,
+    /// By parameters and options.
     pub(crate) value: Id,
 }

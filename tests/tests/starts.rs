@@ -1,0 +1,152 @@
+//! Declared starts: what they hold, what they leave to the constraints, and what goes wrong.
+
+use tests::assert_close;
+use ukcore::assemble::residuals;
+use ukcore::model::StartOptions;
+use ukcore::{Error, Mechanism, Prepared, State};
+
+ukcore::multibody! {
+    /// A four-bar linkage of bodies, whose crank may be driven.
+    pub Linkage {
+        params { l[3] = [0.5, 2.0, 1.5], m = 1.0, span = 2.0 }
+        bodies { for i in 0..3 { planar bar[i] { mass: m, inertia: m * sq(l[i]) / 12.0, centre: [l[i] / 2.0, 0] } } }
+        holonomic {
+            o: pin(ground.at([0, 0]), bar[0].at([0, 0]))
+            p: pin(bar[0].at([l[0], 0]), bar[1].at([0, 0]))
+            q: pin(bar[1].at([l[1], 0]), bar[2].at([l[2], 0]))
+            r: pin(ground.at([span, 0]), bar[2].at([0, 0]))
+        }
+        let halves = |x| 0.5 * x;
+        /// the rocker above the ground
+        start open(crank = 1.0, speed = 2.0 * PI) {
+            bar[0].angle = crank;
+            dot(bar[0].angle) = speed;
+            for i in 1..3 { bar[i].angle near halves(i) }
+        }
+        /// the rocker below it
+        start crossed(crank = 1.0) { bar[0].angle = crank; bar[1].angle near -1.2; bar[2].angle near -2.0 }
+    }
+}
+
+ukcore::multibody! {
+    /// A box with a corner on a ball joint, beside a driven slide.
+    pub Hung {
+        params { a[3] = [0.1, 0.2, 0.3] }
+        coords { slide, free[2] }
+        bodies { spatial block { mass: 2.0, inertia: [0.3, 0.4, 0.5] } }
+        mass { slide: 1.0, free: 1.0 }
+        holonomic { hook: ball(ground.at([0, 0, 1]), block.at(a)), drive: slide = 0.5 + 3.0 * t }
+        start hanging { free = [1.0, -2.0]; dot(free[1]) near 4.0 }
+        start turned(e = 1.0) { block.e1 near e; free = 0.0 }
+    }
+}
+
+fn state(mechanism: &Prepared, name: &str, options: StartOptions) -> State {
+    let state = mechanism.start(name, &options).expect("a start");
+    let left = residuals(mechanism, &state).expect("lengths");
+    assert!(
+        left.largest_position() < 1e-14 && left.largest_velocity() < 1e-13,
+        "{left:?}"
+    );
+    state
+}
+
+/// The rocker's angle of the linkage by the law of cosines; it lies above the diagonal from crank pin to bearing, or below.
+fn rocker(crank: f64, above: f64) -> f64 {
+    let ([a, b, c], span) = ([0.5, 2.0, 1.5], 2.0_f64);
+    let (x, y) = (a * crank.cos() - span, a * crank.sin());
+    let diagonal = x.hypot(y);
+    let between = ((diagonal * diagonal + c * c - b * b) / (2.0 * diagonal * c)).acos();
+    y.atan2(x) - above * between
+}
+
+#[test]
+fn what_is_held_stays_and_guesses_choose_the_branch() {
+    let linkage = Linkage::default().prepared();
+    let [first, _, last] = Linkage::BAR_ANGLE;
+    for k in 0..20 {
+        let crank = 0.1 * f64::from(k);
+        let options = StartOptions::from([("crank", crank), ("speed", 0.0)]);
+        let open = state(&linkage, "open", options);
+        assert_eq!((open.q[first], open.v[first]), (crank, 0.0));
+        assert_close("rocker", open.q[last], rocker(crank, 1.0), 1e-13);
+        let crossed = state(&linkage, "crossed", [("crank", crank)].into());
+        assert_eq!(crossed.q[first], crank);
+        assert_close(
+            "rocker",
+            crossed.q[last] + std::f64::consts::TAU,
+            rocker(crank, -1.0),
+            1e-13,
+        );
+    }
+    let turning = state(&linkage, "open", StartOptions::new());
+    assert_eq!(
+        (turning.q[first], turning.v[first]),
+        (1.0, std::f64::consts::TAU)
+    );
+    assert_eq!(
+        Linkage::default().start("open", &StartOptions::new()),
+        Ok(turning)
+    );
+}
+
+#[test]
+fn parameters_move_starts() {
+    let linkage = Linkage {
+        l: [0.3, 1.2, 1.0],
+        span: 1.4,
+        ..Linkage::default()
+    };
+    let start = state(&linkage.prepared(), "open", StartOptions::new());
+    assert_close(
+        "pin",
+        start.q[Linkage::BAR_X[0]],
+        0.15 * 1.0_f64.cos(),
+        1e-14,
+    );
+}
+
+#[test]
+fn families_bodies_and_what_moves_with_time() {
+    let hung = Hung::default().prepared();
+    let start = state(&hung, "hanging", StartOptions::new());
+    let [x, y] = Hung::FREE;
+    assert_eq!(
+        (start.q[x], start.q[y], start.v[x], start.v[y]),
+        (1.0, -2.0, 0.0, 4.0)
+    );
+    assert_close("slide", start.q[Hung::SLIDE], 0.5, 1e-15);
+    assert_close("its speed", start.v[Hung::SLIDE], 3.0, 1e-15);
+    // A body of which nothing is said stands upright, but for the little that the ball joint's place costs less by turning.
+    assert!(start.q[Hung::BLOCK_E0] > 0.9, "{start:?}");
+    let turned = state(&hung, "turned", StartOptions::new());
+    assert!(turned.q[Hung::BLOCK_E1] > 0.9, "{turned:?}");
+}
+
+#[test]
+fn what_goes_wrong_is_named() {
+    let linkage = Linkage::default();
+    let refused = |name: &str, options: StartOptions| linkage.start(name, &options).unwrap_err();
+    let told = refused("opne", StartOptions::new()).to_string();
+    assert!(
+        told.starts_with("no start is called `opne`; did you mean `open`?"),
+        "{told}"
+    );
+    let told = refused("open", [("crnak", 1.0)].into()).to_string();
+    let expected = "no start option is called `crnak`; did you mean `crank`?";
+    assert!(told.starts_with(expected), "{told}");
+    assert!(matches!(
+        refused("open", [("crank", f64::NAN)].into()),
+        Error::NonFinite { .. }
+    ));
+    // With a short coupler the crank cannot point away from the rocker.
+    let mut short = Linkage::default();
+    short.l[1] = 0.9;
+    let Err(Error::NotAssembled { held, .. }) = short.start("open", &[("crank", 3.1)].into())
+    else {
+        panic!("it cannot be put together");
+    };
+    assert_eq!(held, ["bar[0].angle"]);
+    let names: Vec<&str> = Linkage::SPEC.starts.iter().map(|s| s.name).collect();
+    assert_eq!(names, ["open", "crossed"]);
+}

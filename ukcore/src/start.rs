@@ -1,0 +1,130 @@
+//! Starts that a mechanism declares: guesses by options, assembled.
+
+use std::collections::BTreeMap;
+
+use crate::assemble::{Held, State, assembled};
+use crate::error::Error;
+use crate::mechanism::Prepared;
+use crate::spec::{StartOption, StartSpec};
+
+/// Values for the options of a start; what is absent has its default.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct StartOptions {
+    values: BTreeMap<String, f64>,
+}
+
+impl StartOptions {
+    /// No option given: all defaults.
+    #[must_use]
+    pub fn new() -> Self {
+        StartOptions::default()
+    }
+
+    /// These options and `name` = `value`.
+    #[must_use]
+    pub fn with(mut self, name: &str, value: f64) -> Self {
+        self.set(name, value);
+        self
+    }
+
+    /// Gives the option `name` the value `value`, in the unit of its [`StartOption`].
+    pub fn set(&mut self, name: &str, value: f64) {
+        self.values.insert(name.to_owned(), value);
+    }
+
+    /// The value given for `name`, if any.
+    #[must_use]
+    pub fn get(&self, name: &str) -> Option<f64> {
+        self.values.get(name).copied()
+    }
+
+    /// Names and values given, by name.
+    pub fn iter(&self) -> impl Iterator<Item = (&str, f64)> {
+        self.values
+            .iter()
+            .map(|(name, &value)| (name.as_str(), value))
+    }
+}
+
+impl<const N: usize> From<[(&str, f64); N]> for StartOptions {
+    /// These names and values.
+    fn from(values: [(&str, f64); N]) -> Self {
+        let values = values.map(|(name, value)| (name.to_owned(), value));
+        StartOptions {
+            values: BTreeMap::from(values),
+        }
+    }
+}
+
+/// A start of a model with the values of all its options: what an implementation of `Model::start` begins with.
+#[derive(Debug, Clone)]
+pub struct Chosen {
+    /// The start.
+    pub spec: &'static StartSpec,
+    values: Vec<f64>,
+}
+
+impl Chosen {
+    /// The start `name` among `starts` with `options`.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name, [`Error::NonFinite`] for a value that is not finite.
+    pub fn among(
+        starts: &'static [StartSpec],
+        name: &str,
+        options: &StartOptions,
+    ) -> Result<Self, Error> {
+        let spec = starts.iter().find(|s| s.name == name).ok_or_else(|| {
+            Error::unknown_name("start", name, &mut starts.iter().map(|s| s.name))
+        })?;
+        for (name, value) in options.iter() {
+            if !spec.options.iter().any(|o| o.name == name) {
+                let mut known = spec.options.iter().map(|o| o.name);
+                return Err(Error::unknown_name("start option", name, &mut known));
+            }
+            if !value.is_finite() {
+                let what = vec![format!("start option {name}")];
+                return Err(Error::NonFinite { what });
+            }
+        }
+        let value = |o: &StartOption| options.get(o.name).unwrap_or(o.default);
+        let values = spec.options.iter().map(value).collect();
+        Ok(Chosen { spec, values })
+    }
+
+    /// Values of the first `K` options, in declared order; 0 for those that the start has not.
+    #[must_use]
+    pub fn values<const K: usize>(&self) -> [f64; K] {
+        std::array::from_fn(|i| self.values.get(i).copied().unwrap_or(0.0))
+    }
+}
+
+impl Prepared {
+    /// The declared start called `name` with `options`, for the parameters of now: what it holds has its value, all else is where the
+    /// constraints put it next to what the start says, or to 0. The first start is the default one.
+    ///
+    /// # Errors
+    /// - [`Error::UnknownName`] with the nearest name for a start or option that is not declared, [`Error::NonFinite`] for a value that is
+    ///   not finite.
+    /// - [`Error::NotAssembled`] where no state near what it says satisfies all constraints.
+    pub fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
+        let (spec, n) = (self.spec(), self.spec().n());
+        let chosen = Chosen::among(spec.starts, name, options)?;
+        let place = spec.starts.iter().position(|s| s.name == name);
+        let mut guess = State {
+            t: 0.0,
+            q: vec![0.0; n],
+            v: vec![0.0; n],
+        };
+        let mut held = Held::default();
+        self.guess(place.unwrap_or(0), &chosen.values, &mut |told| {
+            let (values, held) = match told.rate {
+                false => (&mut guess.q, &mut held.positions),
+                true => (&mut guess.v, &mut held.velocities),
+            };
+            values[told.coordinate] = told.value;
+            held.extend(told.held.then_some(told.coordinate));
+        });
+        assembled(self, &guess, held)
+    }
+}
