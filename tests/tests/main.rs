@@ -36,5 +36,6 @@ mod starts;
 mod stiff;
 mod streaming;
 mod switches;
+mod turned;
 mod vanishing;
 mod vectors;

@@ -20,6 +20,7 @@
 
 mod certificate;
 mod dropping;
+mod freedoms;
 mod matrix;
 mod order;
 mod pattern;

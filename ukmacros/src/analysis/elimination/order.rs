@@ -1,8 +1,9 @@
 //! The order of elimination, found on the pattern of K alone.
 
+use super::freedoms::freedoms;
 use super::pattern::Pattern;
-use super::{Pair, Pivoting, Rotation};
-use std::collections::{BTreeMap, BTreeSet};
+use super::{Pair, Pivoting};
+use std::collections::BTreeSet;
 
 /// Programs larger than this are not worth their compile time: the solve is then left to the runtime.
 const MAX_ENTRIES: usize = 20_000;
@@ -18,6 +19,12 @@ pub(crate) struct Order {
 }
 
 impl Order {
+    /// The pivots.
+    #[cfg(test)]
+    pub(crate) fn pivots(&self) -> &[Pivoting] {
+        &self.pivots
+    }
+
     /// The positions of those constraints in `rows` that are eliminated alone; coordinates are `n`.
     pub(super) fn alone(&self, n: usize, rows: &BTreeSet<usize>) -> BTreeSet<usize> {
         let alone = self.pivots.iter().filter_map(|pivot| match *pivot {
@@ -77,9 +84,14 @@ impl Taste {
 pub(super) fn order(taste: Taste, mut pattern: Pattern, names: &[String]) -> Result<Order, String> {
     let (mut pivots, mut entries, mut changes) = (Vec::new(), 0, 0);
     if taste == Taste::Freedoms {
-        (pivots, changes) = rotations(&mut pattern);
-        if pivots.is_empty() {
+        let rotations;
+        (rotations, changes) = freedoms(pattern.clone());
+        if rotations.is_empty() {
             return Err("no constraint contains two coordinates alone".to_owned());
+        }
+        for rotation in rotations {
+            pattern.turn(rotation);
+            pivots.push(Pivoting::Rotation(rotation));
         }
     }
     let left: BTreeSet<usize> = pattern.left().collect();
@@ -127,77 +139,6 @@ pub(super) fn order(taste: Taste, mut pattern: Pattern, names: &[String]) -> Res
             left.join(", ")
         )),
     }
-}
-
-/// All rotations that there are, those of what was declared first, then those that change least, and of these what waits least; and how
-/// many entries they change.
-fn rotations(pattern: &mut Pattern) -> (Vec<Pivoting>, usize) {
-    let mut ready: BTreeSet<([usize; 3], usize)> = BTreeSet::new();
-    let mut known: Vec<Option<[usize; 3]>> = Vec::new();
-    let mut open: BTreeSet<usize> = pattern.left().collect();
-    let (mut found, mut changes) = (Vec::new(), 0);
-    loop {
-        for c in open {
-            known.resize(known.len().max(c + 1), None);
-            let rotation = pattern.rotation(c);
-            let key = rotation.map(|r| {
-                let (changed, waits) = (pattern.changed_by_rotation(r), pattern.waits(r));
-                [waits.min(1), changed, waits]
-            });
-            if key != known[c] {
-                if let Some(key) = known[c] {
-                    ready.remove(&(key, c));
-                }
-                ready.extend(key.map(|key| (key, c)));
-                known[c] = key;
-            }
-        }
-        let Some((key, c)) = ready.pop_first() else {
-            break;
-        };
-        known[c] = None;
-        let Some(rotation) = pattern.rotation(c) else {
-            break;
-        };
-        changes += key[1];
-        found.push((rotation, key[2] > 0, pattern.around(rotation)));
-        pattern.turn(rotation);
-        let [place, _] = rotation.coordinates;
-        let near = pattern.near(place).chain([place]);
-        open = near.flat_map(|k| pattern.near(k)).collect();
-    }
-    (late(&found), changes)
-}
-
-/// The same rotations, given with what they touch and whether they wait for others: those that do not wait as late as the others allow, so
-/// that what they leave is soon used.
-fn late(found: &[(Rotation, bool, BTreeSet<usize>)]) -> Vec<Pivoting> {
-    let mut first: BTreeMap<usize, Rotation> = BTreeMap::new();
-    for (rotation, waits, _) in found {
-        if !waits {
-            first.extend(rotation.coordinates.map(|i| (i, *rotation)));
-        }
-    }
-    let mut pivots = Vec::new();
-    let mut take = |i: &usize, pivots: &mut Vec<Pivoting>| {
-        let Some(rotation) = first.remove(i) else {
-            return;
-        };
-        rotation
-            .coordinates
-            .iter()
-            .for_each(|i| drop(first.remove(i)));
-        pivots.push(Pivoting::Rotation(rotation));
-    };
-    for (rotation, _, around) in found.iter().filter(|(_, waits, _)| *waits) {
-        let touched = rotation.coordinates.iter().chain(around);
-        touched.for_each(|i| take(i, &mut pivots));
-        pivots.push(Pivoting::Rotation(*rotation));
-    }
-    for (rotation, ..) in found {
-        take(&rotation.coordinates[0], &mut pivots);
-    }
-    pivots
 }
 
 /// What is compared, and what it is of: a coordinate or constraint alone, or a coordinate with a constraint.
