@@ -9,7 +9,7 @@
 //!    rank, since what is eliminated is then a saddle-point matrix of its own.
 //! 3. Two coordinates with a constraint that contains them alone, turned into what it prescribes and what it leaves free: see [`rotation`].
 //!
-//! Which pairs are taken, and when, is a matter of [`order::Taste`]; several orders are eliminated, and the cheapest is taken
+//! Which pairs and rotations are taken, and when, is a matter of [`order::Taste`]; several orders are eliminated, and the cheapest is taken
 //! ([`super::choice`]).
 //!
 //! Every 1 × 1 pivot is checked at run time: see [`certificate`]; rows that imply each other, and may be left out, in a way of their own: see

@@ -79,3 +79,17 @@ fn legs_on_one_shaft_cost_what_legs_with_angles_of_their_own_cost() {
     );
     assert!(one <= 6500 && one <= own, "{one}, {own}");
 }
+
+/// By hand, in the null space and without a check, some 75 for each top.
+#[test]
+fn coupled_four_bars_cost_what_their_null_space_costs() {
+    let [twenty, forty] = ["20", "40"].map(|n| {
+        operations(declaration(
+            "four_bars",
+            "",
+            &[("$name", "Bars"), ("$n", n)],
+        ))
+    });
+    assert!(forty <= 3500, "{twenty}, {forty}");
+    assert!(100 * forty <= 205 * twenty, "{twenty}, {forty}");
+}

@@ -58,10 +58,9 @@ fn late(found: &[(Rotation, bool, BTreeSet<usize>)]) -> Vec<Rotation> {
         let Some(rotation) = first.remove(i) else {
             return;
         };
-        rotation
-            .coordinates
-            .iter()
-            .for_each(|i| drop(first.remove(i)));
+        for i in rotation.coordinates {
+            first.remove(&i);
+        }
         rotations.push(rotation);
     };
     for (rotation, _, around) in found.iter().filter(|(_, waits, _)| *waits) {
