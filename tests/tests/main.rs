@@ -6,6 +6,7 @@ mod bodies;
 mod certificate;
 mod closed_forms;
 mod derivatives;
+mod drawing;
 mod ensemble;
 mod equilibrium;
 mod failures;

@@ -61,6 +61,11 @@ pub trait Mechanism: Clone + Default + Into<Prepared> + Send + Sync + 'static {
         let _ = (given, each);
     }
 
+    /// The numbers of the shapes of `SPEC.drawing` at (t, q, q̇), one after the other.
+    fn drawing<S: Scalar>(prepared: &[S], t: S, q: &[S], v: &[S], drawing: &mut [S]) {
+        let _ = (prepared, t, q, v, drawing);
+    }
+
     /// Calls `each` with all that start number `start` (order of `SPEC.starts`) says, by the parameters (order of `SPEC.params`) and behind
     /// them the options of the start.
     fn guess(start: usize, given: &[f64], each: &mut dyn FnMut(Guess)) {

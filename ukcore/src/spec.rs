@@ -23,6 +23,8 @@ pub struct Spec {
     pub outputs: &'static [OutputSpec],
     /// The declared starts, in their order.
     pub starts: &'static [StartSpec],
+    /// How it is drawn.
+    pub drawing: Drawing,
     /// Where the equations of motion have kinks or jumps, in the order of `Mechanism::switching`.
     pub switches: &'static [SwitchSpec],
     /// What the compiler found out.
@@ -73,6 +75,60 @@ pub struct StartOption {
     pub default: f64,
     /// Its unit, such as `"m"`; empty for a plain number, and where the doc comment names it (`/// Angle of the crank, rad`).
     pub unit: &'static str,
+}
+
+/// A picture of a mechanism: shapes whose points [`Prepared::drawing`](crate::Prepared::drawing) gives at a state. Where no `draw` is declared
+/// it is made of what bodies and joints tell.
+#[derive(Debug, Clone, Copy)]
+pub struct Drawing {
+    /// Coordinates of a point: 2 or 3; 0 where nothing is drawn.
+    pub dimension: usize,
+    /// The shapes, the first at the back.
+    pub shapes: &'static [ShapeSpec],
+}
+
+impl Drawing {
+    /// No picture.
+    pub const NONE: Drawing = Drawing {
+        dimension: 0,
+        shapes: &[],
+    };
+
+    /// How many numbers its shapes have in all.
+    #[must_use]
+    pub fn numbers(&self) -> usize {
+        self.shapes.iter().map(|shape| shape.numbers).sum()
+    }
+}
+
+/// A shape of a picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ShapeSpec {
+    /// What it is.
+    pub kind: ShapeKind,
+    /// How many numbers it has: its points one after the other, of a circle the radius behind.
+    pub numbers: usize,
+    /// What a text says; empty for all else.
+    pub label: &'static str,
+}
+
+/// What a shape is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ShapeKind {
+    /// A line through its points.
+    Line,
+    /// A circle about a point; in space a sphere.
+    Circle,
+    /// A spring between two points.
+    Spring,
+    /// The path of a point.
+    Trace,
+    /// A text at a point.
+    Text,
+    /// A point of the ground on which something hangs.
+    Support,
+    /// The centre of mass of a body of which no other point is known.
+    Mark,
 }
 
 /// What a declared start says of a coordinate or of its velocity.
@@ -381,6 +437,7 @@ impl Spec {
         holonomic: 0,
         outputs: &[],
         starts: &[],
+        drawing: Drawing::NONE,
         switches: &[],
         structure: Structure::EMPTY,
         equations: Equations::NONE,

@@ -157,6 +157,7 @@ const _: () = {
                 },
             ],
             starts: &[],
+            drawing: ukcore::Drawing::NONE,
             switches: &[],
             structure: ukcore::Structure {
                 straight_line: true,

@@ -146,6 +146,7 @@ const _: () = {
                 },
             ],
             starts: &[],
+            drawing: ukcore::Drawing::NONE,
             switches: &[],
             structure: ukcore::Structure {
                 straight_line: true,

@@ -184,6 +184,7 @@ const _: () = {
                 },
             ],
             starts: &[],
+            drawing: ukcore::Drawing::NONE,
             switches: &[
                 ukcore::SwitchSpec {
                     function: "speed_down",

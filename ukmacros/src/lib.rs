@@ -64,6 +64,7 @@ use proc_macro2::TokenStream;
 /// | `nonholonomic` | `blade: dot(x) * sin(th) = dot(y) * cos(th)` | φ(q, q̇, t) = 0 (eq. 4), linear in q̇ or not |
 /// | `nonideal` | `x: -mu * n * sign(dot(x))` | the force c of eq. 8, which may do work in virtual displacements; entries as of `force` |
 /// | `output` | `fall = y[0]` | quantities to report, of q, q̇, t |
+/// | `draw` | `line(p, q)` | [shapes](#pictures) of the mechanism's picture |
 /// | `start` | `released(angle = 0.5) { th = angle; x near 1.0; dot(th) = 0.0 }` | a [start](#starts); there may be several |
 ///
 /// # Expressions
@@ -329,6 +330,39 @@ use proc_macro2::TokenStream;
 /// ```
 ///
 /// `T::SPEC.starts` lists them; programs made by `uktool::main!` take them by `--start`, and options by `--set`.
+///
+/// # Pictures
+///
+/// Bodies and joints have a picture by themselves: lines through the points where bodies are joined, springs, rods, places on the ground. `draw`
+/// takes its place. Points are vectors of the plane or of space, of q, q̇, t and parameters; what is declared first is at the back.
+///
+/// | shape | meaning |
+/// | --- | --- |
+/// | `line(p, q)`, `polyline(p, q, r, …)` | a line through points |
+/// | `circle(c, r)` | a circle about a point; in space a sphere |
+/// | `spring(p, q)` | a zigzag from one to the other |
+/// | `trace(p)` | the path that a point has gone |
+/// | `text(p, "driver")` | a text beside a point |
+///
+/// ```
+/// ukcore::multibody! {
+///     /// A pendulum; y points up.
+///     pub Pendulum {
+///         params { l = 1.0, g = 9.81 }
+///         coords { a }
+///         let bob = l * [sin(a), -cos(a)];
+///         kinetic { 0.5 * sq(dot(bob)) }
+///         potential { g * bob[1] }
+///         draw { line([0, 0], bob) circle(bob, 0.1 * l) trace(bob) }
+///     }
+/// }
+/// use ukcore::Mechanism as _;
+/// let mut numbers = [0.0; 9];
+/// Pendulum::default().prepared().drawing(0.0, &[0.0], &[0.0], &mut numbers);
+/// assert_eq!(numbers, [0.0, 0.0, 0.0, -1.0, 0.0, -1.0, 0.1, 0.0, -1.0]);
+/// ```
+///
+/// Programs made by `uktool::main!` show it: `animate pendulum` writes a page on which the motion is played.
 ///
 /// `expr` is Rust's expression grammar. Errors point at the token at fault; after an error the type still exists, so that one mistake gives
 /// one message.

@@ -1,4 +1,4 @@
-//! A whole program for a mechanism of one's own: `list`, `run`, `explain`, `report`.
+//! A whole program for a mechanism of one's own: `list`, `run`, `animate`, `explain`, `report`.
 
 ukcore::multibody! {
     /// A cart on a spring with a pendulum hanging from it; y points up.
@@ -18,6 +18,7 @@ ukcore::multibody! {
             x near l * sin(angle);
             y near -l * cos(angle)
         }
+        draw { spring([-1.0, 0.0], [s, 0.0]) line([s, 0.0], [x, y]) circle([x, y], 0.05) trace([x, y]) }
     }
 }
 

@@ -9,6 +9,7 @@ use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use ukcore::Error;
 use ukcore::model::Entry;
 
+use crate::animate::{AnimateArgs, animate};
 use crate::explain::{ExplainArgs, explain};
 use crate::failure::Failure;
 use crate::list::list;
@@ -27,6 +28,8 @@ pub enum Command {
     List,
     /// Integrate a model
     Run(RunArgs),
+    /// Show the motion of a model: a page that opens from disk, with its picture to play, energy and constraint residual
+    Animate(AnimateArgs),
     /// Show what is known about a model: M, Q, A, b, rank, degrees of freedom, how its motion is computed; or the emitted code
     Explain(ExplainArgs),
     /// Measure error against run time, for each method, formula and stabilisation, and say which to take for which accuracy
@@ -42,6 +45,7 @@ impl Command {
         match self {
             Command::List => list(models),
             Command::Run(args) => run(models, args),
+            Command::Animate(args) => animate(models, args),
             Command::Explain(args) => explain(models, args),
             Command::Report(args) => report(models, args),
         }
@@ -137,8 +141,8 @@ mod tests {
         };
         assert_eq!(run.scene.start.settings.len(), 2);
         assert_eq!(run.scene.start.hold, ["s", "th"]);
-        assert_eq!(run.until, Some(120.0));
+        assert_eq!(run.motion.until, Some(120.0));
         assert_eq!(run.every, Some(0.01));
-        assert_eq!(run.stabilise, Stabilisation::None);
+        assert_eq!(run.motion.stabilise, Stabilisation::None);
     }
 }

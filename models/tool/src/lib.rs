@@ -1,6 +1,6 @@
 //! Tools for mechanisms declared with [`ukcore::multibody!`]: commands, pages, plots.
 //!
-//! [`main!`] beside a declaration makes a program of it, with the commands `list`, `run`, `explain` and `report`:
+//! [`main!`] beside a declaration makes a program of it, with the commands `list`, `run`, `animate`, `explain` and `report`:
 //!
 //! ```no_run
 //! ukcore::multibody! {
@@ -11,23 +11,26 @@
 //!         mass { s: big, x: m, y: m }
 //!         potential { 0.5 * k * sq(s), m * g * y }
 //!         holonomic { rod: sq(x - s) + sq(y) = sq(l) }
-//!         output { angle = atan2(x - s, -y) }
+//!         output { swing = atan2(x - s, -y) }
+//!         start released(angle = 0.9) { s = 0.0; x near l * sin(angle); y near -l * cos(angle) }
+//!         draw { spring([-1.0, 0.0], [s, 0.0]) line([s, 0.0], [x, y]) circle([x, y], 0.05) trace([x, y]) }
 //!     }
 //! }
 //!
 //! uktool::main!(Cart);
 //! ```
 //!
-//! `cargo run -- run cart --guess x=0.4 --guess y=-0.2 --hold s --until 2 --csv -` then prints its motion. A mechanism that implements
-//! [`ukcore::model::Model`] has starts, a duration and references of its own besides.
+//! `cargo run -- run cart --set angle=50deg --until 2 --csv -` then prints its motion, and `cargo run -- animate cart` makes a page that shows
+//! it. A mechanism that implements [`ukcore::model::Model`] has further starts, a duration and references of its own besides.
 //!
-//! Programs of other shape call functions: [`list`](list::list), [`run`](run::run), [`explain`](explain::explain),
+//! Programs of other shape call functions: [`list`](list::list), [`run`](run::run), [`animate`](animate::animate), [`explain`](explain::explain),
 //! [`report`](report::report) and [`stability`](stability::stability) take models as [`Entry`], or cases, and their arguments; [`plot`]
 //! draws charts and [`html`] makes pages.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod animate;
 pub mod command;
 pub mod drift;
 pub mod explain;
@@ -35,6 +38,7 @@ pub mod failure;
 pub mod html;
 pub mod interrupt;
 pub mod list;
+pub mod motion;
 pub mod numbers;
 pub mod output;
 pub mod plot;
@@ -48,10 +52,11 @@ pub mod units;
 
 pub use ukcore::model::Entry;
 
-/// The whole of a program for the mechanisms declared beside it: a `main` function with the commands `list`, `run`, `explain` and `report`.
+/// The whole of a program for the mechanisms declared beside it: a `main` function with the commands `list`, `run`, `animate`,
+/// `explain` and `report`.
 ///
-/// The mechanisms are called like their types, in lower case and with dashes (`Cart` as `cart`, `UChain` as `u-chain`), and have no
-/// starts; unless they implement [`ukcore::model::Model`] and say more of themselves. See the [crate] for an example.
+/// The mechanisms are called like their types, in lower case and with dashes (`Cart` as `cart`, `UChain` as `u-chain`), and have the starts
+/// that they declare; unless they implement [`ukcore::model::Model`] and say more of themselves. See the [crate] for an example.
 #[macro_export]
 macro_rules! main {
     ($($mechanism:ty),+ $(,)?) => {

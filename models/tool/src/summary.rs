@@ -7,8 +7,8 @@ use ukcore::simulate::Ending;
 use ukcore::{Method, Solver, SolverOptions, Trajectory};
 
 use crate::drift::Drift;
+use crate::motion::Motion;
 use crate::numbers::{count, fixed, full, width};
-use crate::run::RunArgs;
 use crate::scene::Ready;
 
 /// What a run was, what came out and what it cost. SI units.
@@ -17,7 +17,7 @@ pub(crate) struct Summary<'a> {
     /// Its samples.
     pub(crate) measured: &'a ukcore::simulate::Drift,
     pub(crate) ready: &'a Ready<'a>,
-    pub(crate) args: &'a RunArgs,
+    pub(crate) motion: &'a Motion,
     /// Wall time of the integration, s.
     pub(crate) seconds: f64,
     /// Why it ended early, if it did.
@@ -44,7 +44,7 @@ impl Summary<'_> {
 
     /// None where the method looks at none.
     fn tolerance(&self) -> Option<f64> {
-        (!matches!(self.args.method, Method::Rattle { .. })).then_some(self.args.tol)
+        (!matches!(self.motion.method, Method::Rattle { .. })).then_some(self.motion.tol)
     }
 
     fn drift(&self) -> Drift {
@@ -76,8 +76,8 @@ impl Summary<'_> {
             "model": self.ready.entry.id,
             "start": self.ready.start,
             "parameters": named(params, self.trajectory.mechanism().parameters()),
-            "method": self.args.method.to_string(),
-            "stabilise": self.args.stabilise.to_string(),
+            "method": self.motion.method.to_string(),
+            "stabilise": self.motion.stabilise.to_string(),
             "tolerance": self.tolerance(),
             "ending": self.ending(),
             "error": self.error,
@@ -110,7 +110,7 @@ impl Summary<'_> {
         let tolerance = self.tolerance();
         let tolerance = tolerance.map_or(String::new(), |tol| format!(" at tolerance {tol:e}"));
         let (id, start) = (&self.ready.entry.id, self.ready.start);
-        let (method, ending) = (self.args.method, self.ending());
+        let (method, ending) = (self.motion.method, self.ending());
         writeln!(out, "{id} from `{start}`, {method}{tolerance}, {ending}")?;
         let (drift, w) = (self.drift(), self.trajectory.work());
         self.write_last(out)?;

@@ -168,3 +168,74 @@ fn it_is_measured() {
         "`--guess NAME=VALUE` gives one, of s, x, y",
     );
 }
+
+#[test]
+fn its_motion_is_shown() {
+    let out = tempfile::tempdir().expect("directory");
+    let page = out.path().join("cart.html");
+    let told = output(&format!(
+        "animate cart --until 2 --pictures 41 --out {}",
+        page.display()
+    ));
+    assert_eq!(told, format!("open {}\n", page.display()));
+    let text = std::fs::read_to_string(&page).expect("the page");
+    let (_, data) = text.split_once("id=\"data\">").expect("data");
+    let (data, _) = data.split_once("</script>").expect("its end");
+    let data: Value = serde_json::from_str(data).expect("JSON");
+    let pictures = data["pictures"].as_array().expect("pictures");
+    assert_eq!((pictures.len(), data["t"][40].as_f64()), (41, Some(2.0)));
+    // Spring, rod, bob and trace: the rod is as long in each.
+    for picture in pictures {
+        let x = |k: usize| picture[k].as_f64().expect("a number");
+        let length = (x(6) - x(4)).hypot(x(7) - x(5));
+        assert!((length - 0.5).abs() < 1e-6, "{picture}");
+    }
+    assert!(
+        !text.contains("http://") || text.matches("http").count() == 1,
+        "nothing is fetched"
+    );
+    if let Some(shown) = browsed(&page) {
+        // The last picture, asked for by the address, with the whole trace.
+        let traces = shown
+            .split("<polyline")
+            .skip(1)
+            .find(|part| part.contains("#c25a00"));
+        let trace = traces
+            .expect("a trace")
+            .split("points=\"")
+            .nth(1)
+            .expect("points");
+        let points = trace
+            .split('"')
+            .next()
+            .unwrap_or_default()
+            .split(' ')
+            .count();
+        assert_eq!(points, 41, "{shown}");
+        assert!(shown.contains("t = 2.000 s"), "{shown}");
+    }
+    fails("animate cart --pictures 1", 2, "1 is not in 2..=100000");
+}
+
+/// The page as a browser has it once its script has run, with the last picture shown; nothing where no browser is installed.
+fn browsed(page: &Path) -> Option<String> {
+    let arguments = [
+        "--headless=new",
+        "--no-sandbox",
+        "--disable-gpu",
+        "--virtual-time-budget=2000",
+        "--dump-dom",
+    ];
+    let address = format!("file://{}#40", page.display());
+    let run = |name: &str| {
+        Command::new(name)
+            .args(arguments)
+            .arg(&address)
+            .output()
+            .ok()
+    };
+    let shown = ["chromium", "chromium-browser", "google-chrome"]
+        .into_iter()
+        .find_map(run)?;
+    Some(String::from_utf8_lossy(&shown.stdout).into_owned())
+}

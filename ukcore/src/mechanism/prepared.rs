@@ -67,6 +67,8 @@ pub trait Face: Send + Sync + 'static {
     fn id(&self) -> TypeId;
     /// [`Mechanism::inertias`].
     fn inertias(&self, given: &[f64], each: &mut dyn FnMut(&'static str, &[f64]));
+    /// [`Mechanism::drawing`].
+    fn drawing(&self, prepared: &[f64], t: f64, q: &[f64], v: &[f64], drawing: &mut [f64]);
     /// [`Mechanism::guess`].
     fn guess(&self, start: usize, given: &[f64], each: &mut dyn FnMut(Guess));
     /// In numbers that carry a derivative.
@@ -87,6 +89,9 @@ impl<M: Mechanism> Face for Of<M> {
     }
     fn inertias(&self, given: &[f64], each: &mut dyn FnMut(&'static str, &[f64])) {
         M::inertias(given, each);
+    }
+    fn drawing(&self, prepared: &[f64], t: f64, q: &[f64], v: &[f64], drawing: &mut [f64]) {
+        M::drawing(prepared, t, q, v, drawing);
     }
     fn guess(&self, start: usize, given: &[f64], each: &mut dyn FnMut(Guess)) {
         M::guess(start, given, each);
@@ -331,6 +336,13 @@ impl Prepared {
     /// Calls `each` with the name of each spatial body, its mass and its inertia by rows; see [`Mechanism::inertias`].
     pub(crate) fn inertias(&self, each: &mut dyn FnMut(&'static str, &[f64])) {
         self.code.face().inertias(&self.given, each);
+    }
+
+    /// The numbers of the shapes of [`Spec::drawing`] at (t, q, q̇), one after the other; as many as
+    /// [`Drawing::numbers`](crate::spec::Drawing::numbers) says.
+    pub fn drawing(&self, t: f64, q: &[f64], v: &[f64], drawing: &mut [f64]) {
+        let face = self.code.face();
+        face.drawing(&self.values, t, q, v, drawing);
     }
 
     /// Calls `each` with all that start number `start` says with these values of its options; see [`Mechanism::guess`].

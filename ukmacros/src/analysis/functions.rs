@@ -19,6 +19,7 @@ pub(crate) enum Role {
     ResidualRate,
     Energy,
     Outputs,
+    Drawing,
     Switching,
     Acceleration,
     Correction,
@@ -36,6 +37,7 @@ pub(crate) enum Slice {
     Phi,
     Rate,
     Outputs,
+    Drawing,
     Switching,
     /// The solution of a straight-line solve.
     Out,
@@ -89,6 +91,9 @@ pub(crate) fn functions(system: &System, hoisted: &Hoisted) -> Vec<Function> {
         ),
         all(Role::Outputs, Slice::Outputs, &hoisted.outputs),
     ];
+    if !hoisted.drawing.is_empty() {
+        functions.push(all(Role::Drawing, Slice::Drawing, &hoisted.drawing));
+    }
     if !hoisted.switches.is_empty() {
         functions.push(all(Role::Switching, Slice::Switching, &hoisted.switches));
     }

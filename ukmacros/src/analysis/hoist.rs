@@ -18,6 +18,8 @@ const STATES: usize = 2;
 pub(crate) struct Hoisted {
     pub(crate) dynamics: Dynamics,
     pub(crate) outputs: Vec<Id>,
+    /// Numbers of the shapes that are drawn.
+    pub(crate) drawing: Vec<Id>,
     /// Switching functions.
     pub(crate) switches: Vec<Id>,
     /// The solve, or why there is none.
@@ -37,9 +39,12 @@ pub(crate) fn hoist(
     dynamics.lift = None;
     let mut straight = straight.clone();
     let mut outputs: Vec<Id> = system.outputs.iter().map(|o| o.value).collect();
+    let shapes = system.drawing.shapes.iter();
+    let mut drawing: Vec<Id> = shapes.flat_map(|shape| &shape.numbers).copied().collect();
     let mut switches: Vec<Id> = switches.iter().map(|s| s.function).collect();
     let mut places: Vec<&mut Id> = dynamics.values_mut().collect();
     places.extend(outputs.iter_mut().chain(&mut switches));
+    places.extend(&mut drawing);
     if let Ok(straight) = &mut straight {
         places.extend(straight.values_mut());
     }
@@ -64,6 +69,7 @@ pub(crate) fn hoist(
     Hoisted {
         dynamics,
         outputs,
+        drawing,
         switches,
         straight,
         values,

@@ -134,6 +134,7 @@ pub(super) fn signature(role: Role) -> TokenStream {
         Role::Jacobian => (quote! { #state, jacobian: &mut [S] }, None),
         Role::ResidualRate => (quote! { #state, rate: &mut [S] }, None),
         Role::Outputs => (quote! { #state, outputs: &mut [S] }, None),
+        Role::Drawing => (quote! { #state, drawing: &mut [S] }, None),
         Role::Switching => (quote! { #state, switching: &mut [S] }, None),
         Role::Energy => (state, Some(quote! { -> ukcore::Energy<S> })),
         Role::Acceleration => (quote! { #state, out: &mut [S] }, Some(quote! { -> S })),

@@ -7,7 +7,7 @@ use quote::format_ident;
 use std::collections::{HashMap, HashSet};
 
 /// Names that emitted functions use themselves, or that Rust reserves.
-const TAKEN: &str = "given residual t q v lit sum safe kinetic potential prepared mass force nonideal jacobian rhs phi rate outputs switching out as \
+const TAKEN: &str = "given residual t q v lit sum safe kinetic potential prepared mass force nonideal jacobian rhs phi rate outputs drawing switching out as \
     break const continue crate else enum extern false fn for if impl in let loop match mod move mut pub ref return self static struct \
     super trait true type unsafe use where while async await dyn abstract become box do final macro override priv typeof try gen yield \
     virtual unsized";

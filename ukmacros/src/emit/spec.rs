@@ -6,7 +6,7 @@ use crate::analysis::Switch;
 use crate::analysis::{
     Analysis, Costs, Operations, Pair, Pivoting, Rotation, SAFE_SHARE, Solve, Structure,
 };
-use crate::expr::{Kind, StartValue, System};
+use crate::expr::{Drawing, Kind, StartValue, System};
 use crate::model::Model;
 use crate::parse::Declaration;
 use proc_macro2::{Literal, TokenStream};
@@ -42,6 +42,7 @@ pub(super) fn spec(
         quote! { ukcore::OutputSpec { name: #name, doc: #docs } }
     });
     let starts = system.starts.iter().map(start);
+    let drawing = drawing(&system.drawing);
     let prepared = listing.prepared.iter().map(|(n, t)| quote! { (#n, #t) });
     let switches = listing.switches.iter().zip(&analysis.switches);
     let switches = switches.map(|((function, terms), Switch { length, .. })| {
@@ -60,6 +61,7 @@ pub(super) fn spec(
             holonomic: #holonomic,
             outputs: &[#(#outputs),*],
             starts: &[#(#starts),*],
+            drawing: #drawing,
             switches: &[#(#switches),*],
             structure: #structure,
             equations: #equations,
@@ -74,6 +76,19 @@ fn start(start: &StartValue) -> TokenStream {
         quote! { ukcore::StartOption { name: #name, doc: #doc, default: #default, unit: "" } }
     });
     quote! { ukcore::StartSpec { name: #name, doc: #doc, options: &[#(#options),*] } }
+}
+
+fn drawing(drawing: &Drawing) -> TokenStream {
+    let shapes = drawing.shapes.iter().map(|shape| {
+        let (kind, label) = (format_ident!("{}", format!("{:?}", shape.kind)), &shape.label);
+        let numbers = number(shape.numbers.len());
+        quote! { ukcore::ShapeSpec { kind: ukcore::ShapeKind::#kind, numbers: #numbers, label: #label } }
+    });
+    let dimension = number(drawing.dimension);
+    match drawing.shapes.is_empty() {
+        true => quote! { ukcore::Drawing::NONE },
+        false => quote! { ukcore::Drawing { dimension: #dimension, shapes: &[#(#shapes),*] } },
+    }
 }
 
 fn number(n: usize) -> Literal {

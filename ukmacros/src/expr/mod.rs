@@ -19,4 +19,4 @@ pub(crate) use graph::{Graph, Id, Node, Num, Symbol};
 pub(crate) use jet::Jet;
 #[cfg(test)]
 pub(crate) use lower::vocabulary;
-pub(crate) use lower::{Constraint, ConstraintRef, Kind, StartValue, System, lower};
+pub(crate) use lower::{Constraint, ConstraintRef, Drawing, Kind, StartValue, System, lower};

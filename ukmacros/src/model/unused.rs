@@ -81,6 +81,11 @@ fn used(decl: &Declaration) -> HashSet<String> {
     found.blocks(&decl.outputs, |output| {
         (vec![&output.key], vec![&output.value])
     });
+    if let Some(section) = &decl.drawing {
+        found.blocks(&section.blocks, |shape| {
+            (Vec::new(), shape.args.iter().collect())
+        });
+    }
     for start in &decl.starts {
         let options = start.options.iter();
         options

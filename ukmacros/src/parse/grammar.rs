@@ -6,7 +6,7 @@
 use super::expr::{Expr, Range, location};
 use super::item::{
     Block, Body, Const, Coord, Declaration, Entry, Equation, Function, Guess, Key, Let, LetValue,
-    MassEntry, Output, Param, Section, Start, StartOption,
+    MassEntry, Output, Param, Section, Shape, Start, StartOption,
 };
 use super::nesting;
 use crate::diag::{Diagnostics, Loc, suggest};
@@ -15,7 +15,7 @@ use quote::ToTokens as _;
 use syn::parse::ParseStream;
 use syn::{Token, braced, bracketed, parenthesized};
 
-const SECTIONS: &str = "const params coords bodies gravity let mass kinetic force forces potential dissipation holonomic nonholonomic nonideal output start";
+const SECTIONS: &str = "const params coords bodies gravity let mass kinetic force forces potential dissipation holonomic nonholonomic nonideal output start draw";
 
 /// Parses a declaration; `None` if not even its name could be read.
 pub(crate) fn parse(mut tokens: TokenStream, diag: &Diagnostics) -> Option<Declaration> {
@@ -65,6 +65,7 @@ fn declaration(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Declar
         nonideal: None,
         outputs: Vec::new(),
         starts: Vec::new(),
+        drawing: None,
     };
     let body;
     braced!(body in input);
@@ -137,6 +138,7 @@ fn section(
         "holonomic" => blocks(input, &mut out.holonomic, diag, equation),
         "nonholonomic" => blocks(input, &mut out.nonholonomic, diag, equation),
         "output" => blocks(input, &mut out.outputs, diag, output_entry),
+        "draw" => present(input, keyword, &mut out.drawing, diag, shape),
         _ => {
             let remedy = format!("sections are {}", sections());
             let near = suggest(&name, SECTIONS.split(' '), &remedy);
@@ -641,4 +643,27 @@ fn guess(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Guess> {
         held,
         value,
     })
+}
+
+/// `line(p, q)`, or with a text at the end `text(p, "driver")`.
+fn shape(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Shape> {
+    let name: Ident = input.parse()?;
+    if !input.peek(syn::token::Paren) {
+        let message = format!("a shape is written with its points: `{name}(p, q)`");
+        return Err(syn::Error::new(name.span(), message));
+    }
+    let list;
+    parenthesized!(list in input);
+    let (mut args, mut label) = (Vec::new(), None);
+    while !list.is_empty() {
+        if list.peek(syn::LitStr) {
+            label = Some(list.parse::<syn::LitStr>()?.value());
+        } else {
+            args.push(expression(&list, diag)?);
+        }
+        if !list.is_empty() {
+            let _: Token![,] = list.parse()?;
+        }
+    }
+    Ok(Shape { name, args, label })
 }

@@ -31,6 +31,7 @@ pub(crate) struct Declaration {
     pub(crate) nonideal: Option<Section<Entry>>,
     pub(crate) outputs: Vec<Block<Output>>,
     pub(crate) starts: Vec<Start>,
+    pub(crate) drawing: Option<Section<Shape>>,
 }
 
 /// A section whose presence matters, not only its entries.
@@ -172,4 +173,12 @@ pub(crate) struct Guess {
     /// Held, not only near.
     pub(crate) held: bool,
     pub(crate) value: Expr,
+}
+
+/// `line(p, q)`, `text(p, "driver")`.
+pub(crate) struct Shape {
+    pub(crate) name: Ident,
+    pub(crate) args: Vec<Expr>,
+    /// What a text says.
+    pub(crate) label: Option<String>,
 }

@@ -9,5 +9,5 @@ pub(crate) use expr::{BinaryOp, Expr, ExprKind, Range, own};
 pub(crate) use grammar::parse;
 pub(crate) use item::{
     Block, Body, Const, Declaration, Entry, Equation, Function, Guess, Key, Let, LetValue,
-    MassEntry, Start,
+    MassEntry, Shape, Start,
 };

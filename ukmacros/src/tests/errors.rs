@@ -224,6 +224,14 @@ cases! {
     tuple: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { c: «(x, y)» = [0.0, 0.0] }" => "a vector is written `[a, b]`";
     parameter_without_default: "params { «m» } coords { x } mass { x: 1.0 }" => "parameter `m` needs a default";
     unknown_section: "coords { x } mass { x: 1.0 } «forced» { x: 1.0 }" => "unknown section `forced`; did you mean `force`?";
+    unknown_shape: "coords { x } mass { x: 1.0 } draw { «lien»([x, 0], [0, 0]) }" => "unknown shape `lien`; did you mean `line`?";
+    shape_without_points: "coords { x } mass { x: 1.0 } draw { «line» }" => "a shape is written with its points: `line(p, q)`";
+    shape_with_too_few_points: "coords { x } mass { x: 1.0 } draw { «line»([x, 0]) }" => "shapes are written `line(p, q)`, ";
+    text_without_words: "coords { x } mass { x: 1.0 } draw { «text»([x, 0]) }" => "shapes are written `line(p, q)`, ";
+    circle_of_a_vector: "coords { x } mass { x: 1.0 } draw { circle([x, 0], «[1, 0]») }" => "expected a number, found a vector of 2";
+    point_that_is_a_number: "coords { x } mass { x: 1.0 } draw { trace(«x») }" => "expected a point of 2 or 3 coordinates, found a number";
+    points_of_two_worlds: "coords { x } mass { x: 1.0 } draw { line([x, 0], «[x, 0, 0]») }" => "found a vector of 3 in a picture whose first point has 2 coordinates";
+    body_for_a_point: "bodies { planar a { mass: 1.0, inertia: 1.0 } } draw { trace(«a») }" => "found the body `a`; a point of it is written `a.at([x, y])`";
     start_without_a_name: "coords { x } mass { x: 1.0 } start «{» x = 1.0 }" => "a start needs a name: `start released { x = 1.0 }`";
     start_without_a_value: "coords { x } mass { x: 1.0 } start a { «x»: 1.0 }" => "a start says where `x` is: `x = 1.0`, which holds, or `x near 1.0`, from where it may move";
     start_of_coordinates: "coords { x, y } mass { x: 1.0, y: 1.0 } start a { x = «y» }" => "a start is given by parameters and its options";

@@ -44,7 +44,7 @@ pub(super) struct Declared {
     pub(super) body: Body,
     pub(super) variables: Vec<Variable>,
     /// Its frame, once it is used.
-    frame: Option<Rc<Frame>>,
+    pub(super) frame: Option<Rc<Frame>>,
 }
 
 impl fmt::Display for Frame {
@@ -58,6 +58,12 @@ impl Frame {
     pub(super) fn dimension(&self) -> Option<usize> {
         let moving = self.moving.as_ref()?;
         Some(if moving.kind.spatial { 3 } else { 2 })
+    }
+
+    /// Where its centre of mass is, in axes of the ground; nothing for the ground.
+    pub(super) fn middle(&self, g: &mut Graph) -> Option<Vec<Id>> {
+        let centre = Value::vector(self.moving.as_ref()?.centre.clone());
+        Some(self.at(&centre, g).entries().to_vec())
     }
 
     /// Where the point `p` of its frame is, in axes of the ground.

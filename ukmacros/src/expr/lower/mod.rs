@@ -3,6 +3,7 @@
 mod array;
 mod bodies;
 mod calls;
+mod drawing;
 mod inertia;
 mod lets;
 mod names;
@@ -12,7 +13,9 @@ mod system;
 mod value;
 mod vectors;
 
-pub(crate) use system::{Constraint, ConstraintRef, Kind, OutputValue, StartValue, System};
+pub(crate) use system::{
+    Constraint, ConstraintRef, Drawing, Kind, OutputValue, StartValue, System,
+};
 #[cfg(test)]
 pub(crate) use vectors::vocabulary;
 
@@ -22,6 +25,7 @@ use crate::model::{Model, Scope, every};
 use crate::parse::{Block, Declaration, Entry, Equation, Expr, ExprKind, Function, MassEntry};
 use array::{Value, describe};
 use bodies::Declared;
+use drawing::Between;
 use inertia::OfBodies;
 use parts::{Acting, PARTS};
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -101,6 +105,7 @@ pub(crate) fn lower(decl: &Declaration, model: &Model, diag: &Diagnostics) -> Sy
         hints: HashMap::new(),
         unknown: HashSet::new(),
         results: HashMap::new(),
+        between: Vec::new(),
     };
     let results = &mut lowering.results;
     for block in decl.holonomic.iter().chain(&decl.nonholonomic) {
@@ -139,6 +144,8 @@ struct Lowering<'m> {
     unknown: HashSet<String>,
     /// Names of constraints (true) and outputs (false).
     results: HashMap<String, bool>,
+    /// What joints and springs are between.
+    between: Vec<Between>,
 }
 
 /// An expression's surroundings: loop variables, function arguments, section.
@@ -206,6 +213,7 @@ impl<'m> Lowering<'m> {
         }
         let outputs = self.outputs(decl, &top);
         let starts = self.starts(decl, &top);
+        let drawing = self.drawing(decl, &top);
         System {
             graph: std::mem::take(&mut self.graph),
             constants,
@@ -219,6 +227,7 @@ impl<'m> Lowering<'m> {
             constraints,
             outputs,
             starts,
+            drawing,
             hints: std::mem::take(&mut self.hints),
             inner_hints: HashMap::new(),
         }

@@ -352,6 +352,7 @@ impl<'m> Lowering<'m> {
             self.error(name.span(), message);
             return None;
         };
+        self.note(part.name, &values);
         let dimension = dimension.unwrap_or(2);
         let mut inner = Env {
             scope: Scope::new(self.model),

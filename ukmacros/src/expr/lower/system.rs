@@ -27,6 +27,7 @@ pub(crate) struct System {
     pub(crate) constraints: Vec<Constraint>,
     pub(crate) outputs: Vec<OutputValue>,
     pub(crate) starts: Vec<StartValue>,
+    pub(crate) drawing: Drawing,
     /// Names that the modeller gave to values.
     pub(crate) hints: HashMap<Id, String>,
     /// Names for what the compiler adds: pivots, multipliers. They serve the emitted code alone, not the printed equations.
@@ -119,4 +120,33 @@ pub(crate) struct GuessValue {
     pub(crate) held: bool,
     /// By parameters and options.
     pub(crate) value: Id,
+}
+
+/// A picture of the mechanism.
+#[derive(Default)]
+pub(crate) struct Drawing {
+    /// Of the plane, 2, or of space, 3.
+    pub(crate) dimension: usize,
+    pub(crate) shapes: Vec<ShapeValue>,
+}
+
+pub(crate) struct ShapeValue {
+    pub(crate) kind: ShapeKind,
+    /// Its points, one after the other; of a circle its radius behind.
+    pub(crate) numbers: Vec<Id>,
+    pub(crate) label: String,
+}
+
+/// What is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ShapeKind {
+    Line,
+    Circle,
+    Spring,
+    Trace,
+    Text,
+    /// A place on the ground that something hangs on.
+    Support,
+    /// A body of which no other point is known than its centre of mass.
+    Mark,
 }

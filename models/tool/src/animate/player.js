@@ -1,0 +1,325 @@
+"use strict";
+(() => {
+  const data = JSON.parse(document.getElementById("data").textContent);
+  const { dimension, shapes, t, pictures } = data;
+  const last = t.length - 1;
+  const byId = (id) => document.getElementById(id);
+  const finite = (picture) => picture.every(Number.isFinite);
+  let starts = 0;
+  for (const shape of shapes) {
+    shape.start = starts;
+    starts += shape.numbers;
+  }
+  // The points of a shape in a picture, each of `dimension` numbers; of a circle the radius behind is left out.
+  const points = (shape, picture) => {
+    const out = [];
+    for (let k = shape.start; k + dimension <= shape.start + shape.numbers; k += dimension) {
+      out.push(picture.slice(k, k + dimension));
+    }
+    return out;
+  };
+  const radius = (shape, picture) => Math.abs(picture[shape.start + shape.numbers - 1]);
+
+  // What all pictures lie in.
+  const low = Array(dimension).fill(Infinity), high = Array(dimension).fill(-Infinity);
+  for (const picture of pictures.filter(finite)) {
+    for (const shape of shapes) {
+      const r = shape.kind === "circle" ? radius(shape, picture) : 0;
+      for (const point of points(shape, picture)) {
+        point.forEach((x, i) => {
+          low[i] = Math.min(low[i], x - r);
+          high[i] = Math.max(high[i], x + r);
+        });
+      }
+    }
+  }
+  const centre = low.map((x, i) => (x + high[i]) / 2);
+  const spans = low.map((x, i) => high[i] - x);
+  const size = Math.max(...spans) || 1;
+
+  // A spring from p to q as a zigzag whose windings keep their width.
+  const zigzag = (p, q, width) => {
+    const d = [q[0] - p[0], q[1] - p[1]], length = Math.hypot(...d) || 1;
+    const normal = [-d[1] / length * width, d[0] / length * width], turns = 12;
+    const out = [p];
+    for (let k = 1; k < 2 * turns; k += 2) {
+      const s = 0.1 + 0.8 * k / (2 * turns), side = k % 4 === 1 ? 1 : -1;
+      out.push([p[0] + s * d[0] + side * normal[0], p[1] + s * d[1] + side * normal[1]]);
+    }
+    out.push(q);
+    return out;
+  };
+
+  const svgNode = (name, attributes, parent) => {
+    const node = document.createElementNS("http://www.w3.org/2000/svg", name);
+    for (const [key, value] of Object.entries(attributes)) node.setAttribute(key, value);
+    if (parent) parent.append(node);
+    return node;
+  };
+  const colours = { ink: "#1c1c1c", line: "#0b4f7d", trace: "#c25a00", soft: "#8a8a8a" };
+
+  // The plane: one SVG whose nodes are moved.
+  const plane = () => {
+    const margin = 0.08 * size, unit = size / 100;
+    const view = [low[0] - margin, -high[1] - margin, spans[0] + 2 * margin, spans[1] + 2 * margin];
+    const svg = svgNode("svg", { viewBox: view.join(" "), role: "img", "aria-label": "the mechanism" });
+    byId("stage").append(svg);
+    const stroke = (colour, width) => ({
+      fill: "none", stroke: colour, "stroke-width": width, "stroke-linejoin": "round", "stroke-linecap": "round",
+    });
+    const nodes = shapes.map((shape) => {
+      switch (shape.kind) {
+        case "circle": return svgNode("circle", { ...stroke(colours.line, 0.5 * unit), fill: "#0b4f7d22" }, svg);
+        case "mark": return svgNode("circle", { r: 1.2 * unit, fill: colours.line }, svg);
+        case "support": return svgNode("path", { fill: colours.soft }, svg);
+        case "trace": return svgNode("polyline", { ...stroke(colours.trace, 0.35 * unit), opacity: 0.8 }, svg);
+        case "spring": return svgNode("polyline", stroke(colours.ink, 0.35 * unit), svg);
+        case "text": {
+          const node = svgNode("text", { "font-size": 3.5 * unit, fill: colours.ink }, svg);
+          node.textContent = shape.label;
+          return node;
+        }
+        default: return svgNode("polyline", stroke(colours.line, 0.9 * unit), svg);
+      }
+    });
+    const path = (list) => list.map(([x, y]) => `${x},${-y}`).join(" ");
+    return (k) => {
+      const picture = pictures[k];
+      if (!finite(picture)) return;
+      shapes.forEach((shape, i) => {
+        const node = nodes[i], list = points(shape, picture), [x, y] = list[0];
+        switch (shape.kind) {
+          case "circle":
+            node.setAttribute("r", radius(shape, picture));
+          // fallthrough
+          case "mark":
+            node.setAttribute("cx", x);
+            node.setAttribute("cy", -y);
+            break;
+          case "support":
+            node.setAttribute("d", `M${x},${-y} l${-2 * unit},${3 * unit} h${4 * unit} z`);
+            break;
+          case "text":
+            node.setAttribute("x", x + unit);
+            node.setAttribute("y", -y - unit);
+            break;
+          case "trace": {
+            const shown = byId("traces").checked ? pictures.slice(0, k + 1).filter(finite) : [];
+            node.setAttribute("points", path(shown.map((p) => points(shape, p)[0])));
+            break;
+          }
+          case "spring":
+            node.setAttribute("points", path(zigzag(list[0], list[1], 1.5 * unit)));
+            break;
+          default:
+            node.setAttribute("points", path(list));
+        }
+      });
+    };
+  };
+
+  // Space: a canvas on which what lies behind is painted first; drag turns it, the wheel and two fingers scale it.
+  const space = () => {
+    const canvas = document.createElement("canvas");
+    canvas.setAttribute("role", "img");
+    canvas.setAttribute("aria-label", "the mechanism; drag to turn it");
+    byId("stage").append(canvas);
+    let azimuth = -0.6, height = 0.35, zoom = 1, shown = 0;
+    const paint = (k) => {
+      shown = k;
+      const picture = pictures[k];
+      if (!finite(picture)) return;
+      const ratio = window.devicePixelRatio || 1, { clientWidth: w, clientHeight: h } = canvas;
+      canvas.width = w * ratio;
+      canvas.height = h * ratio;
+      const pen = canvas.getContext("2d");
+      pen.scale(ratio, ratio);
+      const scale = zoom * 0.8 * Math.min(w, h) / (Math.hypot(...spans) || 1);
+      const [ca, sa, ch, sh] = [Math.cos(azimuth), Math.sin(azimuth), Math.cos(height), Math.sin(height)];
+      // z up; the depth grows away from the eye.
+      const seen = (p) => {
+        const [x, y, z] = p.map((value, i) => value - centre[i]);
+        const right = ca * x - sa * y, away = sa * x + ca * y;
+        return [w / 2 + scale * right, h / 2 - scale * (ch * z + sh * away), ch * away - sh * z];
+      };
+      const items = [];
+      const segment = (p, q, colour, width) => items.push({
+        depth: (p[2] + q[2]) / 2,
+        draw: () => {
+          pen.strokeStyle = colour;
+          pen.lineWidth = width;
+          pen.beginPath();
+          pen.moveTo(p[0], p[1]);
+          pen.lineTo(q[0], q[1]);
+          pen.stroke();
+        },
+      });
+      const disc = (p, r, colour, filled) => items.push({
+        depth: p[2],
+        draw: () => {
+          pen.beginPath();
+          pen.arc(p[0], p[1], r, 0, 2 * Math.PI);
+          pen.fillStyle = filled;
+          pen.fill();
+          pen.strokeStyle = colour;
+          pen.lineWidth = 1;
+          pen.stroke();
+        },
+      });
+      const chain = (list, colour, width) => list.slice(1).forEach((q, i) => segment(list[i], q, colour, width));
+      // The ground: a square below, so that it is seen how things lie.
+      const side = 0.5 * Math.max(spans[0], spans[1], 1e-9 * size), floor = low[2];
+      for (let i = -4; i <= 4; i += 1) {
+        const s = i / 4 * side, [x, y] = centre;
+        chain([seen([x + s, y - side, floor]), seen([x + s, y + side, floor])], "#ececec", 1);
+        chain([seen([x - side, y + s, floor]), seen([x + side, y + s, floor])], "#ececec", 1);
+      }
+      for (const shape of shapes) {
+        const list = points(shape, picture).map(seen);
+        switch (shape.kind) {
+          case "circle": disc(list[0], scale * radius(shape, picture), colours.line, "#d5e3ee"); break;
+          case "mark": disc(list[0], 4, colours.line, colours.line); break;
+          case "support": disc(list[0], 4, colours.soft, colours.soft); break;
+          case "spring": {
+            const flat = zigzag(list[0], list[1], 5), depth = (list[0][2] + list[1][2]) / 2;
+            chain(flat.map(([x, y]) => [x, y, depth]), colours.ink, 1.2);
+            break;
+          }
+          case "trace":
+            if (byId("traces").checked) {
+              const path = pictures.slice(0, k + 1).filter(finite).map((p) => seen(points(shape, p)[0]));
+              chain(path, colours.trace, 1.2);
+            }
+            break;
+          case "text":
+            items.push({
+              depth: list[0][2],
+              draw: () => {
+                pen.fillStyle = colours.ink;
+                pen.font = "14px Georgia, serif";
+                pen.fillText(shape.label, list[0][0] + 6, list[0][1] - 6);
+              },
+            });
+            break;
+          default: chain(list, colours.line, 3);
+        }
+      }
+      pen.lineCap = "round";
+      items.sort((a, b) => b.depth - a.depth).forEach((item) => item.draw());
+    };
+    const held = new Map();
+    canvas.addEventListener("pointerdown", (event) => {
+      held.set(event.pointerId, [event.clientX, event.clientY]);
+      canvas.setPointerCapture(event.pointerId);
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      const before = held.get(event.pointerId);
+      if (!before) return;
+      const other = [...held].find(([id]) => id !== event.pointerId);
+      const now = [event.clientX, event.clientY];
+      if (other) {
+        const apart = (p) => Math.hypot(p[0] - other[1][0], p[1] - other[1][1]) || 1;
+        zoom *= apart(now) / apart(before);
+      } else {
+        azimuth += 0.01 * (now[0] - before[0]);
+        height = Math.max(-1.5, Math.min(1.5, height + 0.01 * (now[1] - before[1])));
+      }
+      held.set(event.pointerId, now);
+      paint(shown);
+    });
+    for (const name of ["pointerup", "pointercancel"]) {
+      canvas.addEventListener(name, (event) => held.delete(event.pointerId));
+    }
+    canvas.addEventListener("wheel", (event) => {
+      event.preventDefault();
+      zoom *= Math.exp(-0.001 * event.deltaY);
+      paint(shown);
+    }, { passive: false });
+    window.addEventListener("resize", () => paint(shown));
+    return paint;
+  };
+
+  // A quantity over time, with a cursor.
+  const strip = (name, values) => {
+    const known = values.filter((x) => x !== null && Number.isFinite(x));
+    if (!known.length) return () => {};
+    const [min, max] = known.reduce(([a, b], x) => [Math.min(a, x), Math.max(b, x)], [Infinity, -Infinity]);
+    const svg = svgNode("svg", { viewBox: "0 0 800 80", preserveAspectRatio: "none", role: "img", "aria-label": name });
+    const at = (k) => 800 * (last ? k / last : 0);
+    const level = (x) => 74 - 50 * (max > min ? (x - min) / (max - min) : 0.5);
+    const path = values.map((x, k) => [x, k]).filter(([x]) => x !== null && Number.isFinite(x));
+    svgNode("polyline", {
+      points: path.map(([x, k]) => `${at(k)},${level(x)}`).join(" "),
+      fill: "none", stroke: colours.line, "stroke-width": 1.2, "vector-effect": "non-scaling-stroke",
+    }, svg);
+    const cursor = svgNode("line", {
+      y1: 20, y2: 80, stroke: colours.trace, "stroke-width": 1, "vector-effect": "non-scaling-stroke",
+    }, svg);
+    const label = document.createElement("div");
+    label.className = "soft";
+    byId("strips").append(label, svg);
+    return (k) => {
+      cursor.setAttribute("x1", at(k));
+      cursor.setAttribute("x2", at(k));
+      const number = (y) => (y === null ? "–" : String(Number(y.toPrecision(3))));
+      label.textContent = `${name} ${number(values[k])} (${number(min)} to ${number(max)})`;
+    };
+  };
+
+  const show = dimension === 3 ? space() : plane();
+  const energy = data.energy[0];
+  const strips = [
+    strip(`energy ${Number(energy.toPrecision(7))} and`, data.energy.map((x) => (x === null ? null : x - energy))),
+  ];
+  if (data.residual.length) strips.push(strip("largest constraint residual", data.residual));
+  const slider = byId("time"), play = byId("play");
+  slider.max = last;
+  let playing = false, time = t[0], clock = 0;
+  const draw = (k) => {
+    show(k);
+    strips.forEach((update) => update(k));
+    byId("now").textContent = `t = ${t[k].toFixed(3)} s`;
+    slider.value = k;
+  };
+  // The picture that is the last at or before `time`; times grow, or fall in motions backward.
+  const index = () => {
+    const forward = t[last] >= t[0];
+    let low = 0, high = last;
+    while (low < high) {
+      const middle = (low + high + 1) >> 1;
+      if (forward ? t[middle] <= time : t[middle] >= time) low = middle; else high = middle - 1;
+    }
+    return low;
+  };
+  const frame = (now) => {
+    if (!playing) return;
+    const step = Number(byId("speed").value) * (now - clock) / 1000;
+    clock = now;
+    time += t[last] >= t[0] ? step : -step;
+    const k = index();
+    draw(k);
+    if (k === last) stop(); else requestAnimationFrame(frame);
+  };
+  const stop = () => {
+    playing = false;
+    play.textContent = "Play";
+  };
+  play.addEventListener("click", () => {
+    if (playing) return stop();
+    if (Number(slider.value) === last) time = t[0];
+    playing = true;
+    play.textContent = "Pause";
+    clock = performance.now();
+    requestAnimationFrame(frame);
+  });
+  slider.addEventListener("input", () => {
+    time = t[Number(slider.value)];
+    draw(Number(slider.value));
+  });
+  byId("traces").addEventListener("change", () => draw(Number(slider.value)));
+  // `#k` in the address shows picture k.
+  const wished = Number(location.hash.slice(1));
+  const first = Number.isInteger(wished) ? Math.max(0, Math.min(last, wished)) : 0;
+  time = t[first];
+  draw(first);
+})();

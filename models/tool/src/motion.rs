@@ -1,0 +1,153 @@
+//! How a motion is computed: the arguments that `run` and `animate` share, and the run itself.
+
+use std::ops::ControlFlow;
+
+use clap::Args;
+use ukcore::simulate::{Record, SMALLEST_TOLERANCE, Sample};
+use ukcore::{Error, Method, Simulation, Stabilisation, Trajectory};
+
+use crate::failure::Failure;
+use crate::interrupt::Interrupt;
+use crate::progress::Progress;
+use crate::scene::Ready;
+use crate::units;
+
+/// Until when, by which method, how accurately.
+#[derive(Debug, Clone, Args)]
+pub struct Motion {
+    /// Time to stop at, before 0 to run backward; the model's own duration if absent
+    #[arg(long, value_name = "TIME", value_parser = units::seconds, allow_hyphen_values = true)]
+    pub until: Option<f64>,
+    /// Relative and absolute tolerance of the integration
+    #[arg(
+        long,
+        value_name = "TOL",
+        default_value = "1e-10",
+        value_parser = tolerance,
+        allow_hyphen_values = true
+    )]
+    pub tol: f64,
+    /// Integration method: `dop853` or `dopri5`, Dormand and Prince's of order 8 and 5; `radau5`, implicit of order 5, for stiff
+    /// mechanisms; `rattle=STEP`, symplectic of order 4 with steps of that time, which looks at no tolerance: the energy of a
+    /// conservative motion has no trend, however long the run
+    #[arg(long, value_name = "METHOD", default_value = "dop853", value_parser = method)]
+    pub method: Method,
+    /// Steps to give up after, such as 1e9
+    #[arg(long, value_name = "STEPS", default_value = "1e7", value_parser = steps)]
+    pub max_steps: usize,
+    /// How the constraints are kept from drifting: `projection` of positions and velocities after each step; `baumgarte` or
+    /// `baumgarte=ALPHA,BETA`, feedback terms 2 ALPHA φ̇ + BETA² φ with ALPHA and BETA in 1/s, 20 each if absent; `none`
+    #[arg(
+        long,
+        visible_alias = "stabilize",
+        value_name = "WAY",
+        default_value = "projection"
+    )]
+    pub stabilise: Stabilisation,
+}
+
+impl Motion {
+    /// How long it is, s; negative backward.
+    pub(crate) fn length(&self, ready: &Ready<'_>) -> f64 {
+        self.until.unwrap_or(ready.entry.duration) - ready.state.t
+    }
+
+    /// Computes it and hands over samples at this interval, or at each step, until one breaks it off; why it ends early, if it does by an
+    /// error.
+    ///
+    /// # Errors
+    /// [`Failure::Failed`] if signals cannot be caught.
+    pub(crate) fn follow(
+        &self,
+        ready: &Ready<'_>,
+        every: Option<f64>,
+        mut each: impl FnMut(Sample<'_>) -> ControlFlow<()>,
+    ) -> Result<(Trajectory, Option<Error>), Failure> {
+        let (from, length) = (ready.state.t, self.length(ready));
+        let (interrupt, progress) = (Interrupt::catch()?, Progress::new(&ready.entry.id));
+        let bar = progress.clone();
+        let mut simulation = Simulation::new(&ready.mechanism)
+            .start(ready.state.clone())
+            .method(self.method)
+            .tolerance(self.tol)
+            .max_steps(self.max_steps)
+            .stabilise(self.stabilise)
+            .progress(move |now| {
+                bar.set((now.t - from) / length, || format!("t = {:.3} s", now.t));
+                if interrupt.is_set() {
+                    return ControlFlow::Break(());
+                }
+                ControlFlow::Continue(())
+            });
+        if let Some(interval) = every {
+            simulation = simulation.every(interval);
+        }
+        let result = simulation.stream(from + length, |record| match record {
+            Record::Sample(sample) => each(sample),
+            _ => ControlFlow::Continue(()),
+        });
+        progress.finish();
+        Ok(match result {
+            Ok(trajectory) => (trajectory, None),
+            Err(failure) => (*failure.trajectory, Some(failure.error)),
+        })
+    }
+}
+
+/// Reads a method; the step of RATTLE may have a unit.
+fn method(text: &str) -> Result<Method, String> {
+    match text.split_once('=') {
+        Some(("rattle", step)) => Ok(Method::Rattle {
+            step: interval(step)?,
+        }),
+        _ => text.parse().map_err(|e: Error| e.to_string()),
+    }
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    let range = SMALLEST_TOLERANCE..1.0;
+    let number = text.trim().parse().ok().filter(|x| range.contains(x));
+    number.ok_or_else(|| format!("a number from {SMALLEST_TOLERANCE:.1e} to below 1 is needed"))
+}
+
+fn steps(text: &str) -> Result<usize, String> {
+    let number = text
+        .trim()
+        .parse()
+        .ok()
+        .filter(|x: &f64| (1.0..1e18).contains(x));
+    let number = number.ok_or("a number of steps is needed, at least 1")?;
+    Ok(number as usize)
+}
+
+pub(crate) fn interval(text: &str) -> Result<f64, String> {
+    let seconds = units::seconds(text)?;
+    if seconds > 0.0 {
+        return Ok(seconds);
+    }
+    Err("the interval must be positive".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_may_be_many() {
+        assert_eq!(steps("1e9"), Ok(1_000_000_000));
+        assert!(
+            ["0", "-1", "nan", "many", "1e30"]
+                .iter()
+                .all(|text| steps(text).is_err())
+        );
+    }
+
+    #[test]
+    fn the_step_of_rattle_has_a_unit() {
+        assert_eq!(method("dopri5"), Ok(Method::Dopri5));
+        assert_eq!(method("rattle=2ms"), Ok(Method::Rattle { step: 0.002 }));
+        for text in ["euler", "rattle", "rattle=", "rattle=0", "rattle=1kg"] {
+            assert!(method(text).is_err(), "{text}");
+        }
+    }
+}
