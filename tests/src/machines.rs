@@ -144,3 +144,32 @@ macro_rules! legs {
         }
     };
 }
+
+/// `four_bars!(Name, n)`: n four-bar linkages in a row that share their cranks, as the model has four of.
+#[macro_export]
+macro_rules! four_bars {
+    ($name:ident, $n:literal) => {
+        ukcore::multibody! {
+            pub $name {
+                const N: usize = $n;
+                params { m = 1.0, l = 1.0, g = 9.81 }
+                coords { x[N + 1], y[N + 1] }
+                kinetic {
+                    for i in 0..N + 1 { m / 6.0 * (sq(dot(x[i])) + sq(dot(y[i]))) }
+                    for i in 0..N {
+                        m / 6.0 * (sq(dot(x[i])) + dot(x[i]) * dot(x[i + 1]) + sq(dot(x[i + 1]))),
+                        m / 6.0 * (sq(dot(y[i])) + dot(y[i]) * dot(y[i + 1]) + sq(dot(y[i + 1]))),
+                    }
+                }
+                potential {
+                    for i in 0..N + 1 { m * g * y[i] / 2.0 }
+                    for i in 0..N { m * g * (y[i] + y[i + 1]) / 2.0 }
+                }
+                holonomic {
+                    for i in 0..N + 1 { crank[i]: sq(x[i] - i * l) + sq(y[i]) = sq(l) }
+                    for i in 0..N { coupler[i]: sq(x[i + 1] - x[i]) + sq(y[i + 1] - y[i]) = sq(l) }
+                }
+            }
+        }
+    };
+}

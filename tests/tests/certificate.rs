@@ -368,6 +368,70 @@ fn light_masses_between_heavy_ones() {
     }
 }
 
+/// Bodies that are light beside those pinned to them: coordinates are substituted, and what the straight line lacks refinement gives back,
+/// as accurate as the dense solve, by 31 digits.
+#[test]
+fn light_bodies_between_heavy_ones() {
+    let digits =
+        |x: &[f64]| -> Vec<DoubleDouble> { x.iter().map(|x| DoubleDouble::from_f64(*x)).collect() };
+    let mut pivots = SliderCrank::SPEC.structure.solve.pivots.iter();
+    assert!(pivots.any(|p| matches!(p, Pivot::Substituted(..))));
+    let (mut random, mut refined) = (Random::new(17), 0);
+    for exponent in 0..=12 {
+        for light in [["m1", "i1"], ["m2", "i2"], ["m3", "m3"], ["i1", "i2"]] {
+            let mut mechanism = SliderCrank::default();
+            for name in light {
+                let value = mechanism.get(name).expect("a parameter");
+                let value = value * 10.0_f64.powi(-exponent);
+                mechanism.set(name, value).expect("a parameter");
+            }
+            let options = |formula| SolverOptions {
+                formula,
+                ..SolverOptions::default()
+            };
+            let mut solver = Solver::new(&mechanism, options(Formula::Auto));
+            let mut dense = Solver::new(&mechanism, options(Formula::UdwadiaKalaba));
+            let (mut worst, mut allowed, mut doubted) = (0.0_f64, 0.0_f64, 0);
+            for k in 0..50 {
+                let (sin, cos) = (0.4 + 0.01 * f64::from(k)).sin_cos();
+                let (r, l) = (mechanism.r, mechanism.l);
+                let rod = (-r * sin / l).asin();
+                let mut q = vec![0.0; 9];
+                for (place, value) in [
+                    (SliderCrank::X1, 0.5 * r * cos),
+                    (SliderCrank::Y1, 0.5 * r * sin),
+                    (SliderCrank::TH1, 0.4 + 0.01 * f64::from(k)),
+                    (SliderCrank::X2, r * cos + 0.5 * l * rod.cos()),
+                    (SliderCrank::Y2, 0.5 * r * sin),
+                    (SliderCrank::TH2, rod),
+                    (SliderCrank::X3, r * cos + l * rod.cos()),
+                ] {
+                    q[place] = value;
+                }
+                let state = at::<SliderCrank>(q, &mut random);
+                let (mut found, mut slow) = ([0.0; 9], [0.0; 9]);
+                let straight = mechanism.prepared::<f64>();
+                let safe = straight.acceleration(0.0, &state.q, &state.v, &mut found);
+                doubted += usize::from(safe <= 0.5);
+                for (solver, out) in [(&mut solver, &mut found), (&mut dense, &mut slow)] {
+                    let solved = solver.acceleration(0.0, &state.q, &state.v, out);
+                    solved.expect("regular");
+                }
+                let mut exact = digits(&[0.0; 9]);
+                let prepared = mechanism.prepared::<DoubleDouble>();
+                let zero = DoubleDouble::from_f64(0.0);
+                prepared.acceleration(zero, &digits(&state.q), &digits(&state.v), &mut exact);
+                worst = worst.max(off(&mechanism, &state, &found, &exact));
+                allowed = allowed.max(off(&mechanism, &state, &slow, &exact));
+            }
+            let what = format!("{light:?} of 1e-{exponent}");
+            assert!(worst <= 4.0 * allowed, "{what}: {worst:e}, {allowed:e}");
+            refined += doubted - solver.work().fallbacks.min(doubted);
+        }
+    }
+    assert!(refined > 100, "{refined} refined");
+}
+
 /// One solver on its way to states at which constraints depend on each other decides as one that begins there.
 #[test]
 fn what_a_solver_remembers_does_not_hide_rank_loss() {

@@ -42,5 +42,6 @@ mod stiff;
 mod streaming;
 mod switches;
 mod tree;
+mod turned;
 mod vanishing;
 mod vectors;

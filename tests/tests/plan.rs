@@ -57,9 +57,16 @@ fn fill_is_what_elimination_fills() {
                     Pivot::Prescribed(i, row)
                     | Pivot::Massless(i, row)
                     | Pivot::Substituted(i, row) => vec![i, n + row],
+                    Pivot::Turned(_, j, row) => vec![j, n + row],
                     Pivot::Coordinate(i) => vec![i],
                     Pivot::Constraint(row) => vec![n + row],
                 };
+                if let Pivot::Turned(i, j, row) = *pivot {
+                    // The first becomes what the constraint leaves free.
+                    let mut turn = DMatrix::identity(n + m, n + m);
+                    (turn[(i, i)], turn[(j, i)]) = (k[(n + row, j)], -k[(n + row, i)]);
+                    k = turn.transpose() * k * turn;
+                }
                 left.retain(|i| !taken.contains(i));
                 let block = k.select_rows(&taken).select_columns(&taken);
                 let Some(inverse) = block.try_inverse() else {

@@ -85,6 +85,8 @@ impl Plan {
             Pivot::Prescribed(i, row) | Pivot::Massless(i, row) | Pivot::Substituted(i, row) => {
                 vec![i, n + row]
             }
+            // The other stays, as what is left free of both.
+            Pivot::Turned(_, j, row) => vec![j, n + row],
             Pivot::Coordinate(i) => vec![i],
             Pivot::Constraint(row) => vec![n + row],
         });
@@ -218,12 +220,17 @@ impl Plan {
                 Pivot::Prescribed(i, c) | Pivot::Massless(i, c) | Pivot::Substituted(i, c) => {
                     format!("{} with {}", coord(i), row(c))
                 }
+                Pivot::Turned(i, j, c) => format!("{} {} by {}", coord(i), coord(j), row(c)),
             });
             let kind = match first {
                 Pivot::Prescribed(..) => "prescribed by one constraint alone",
                 Pivot::Massless(..) => "without mass, given by a constraint",
                 Pivot::Substituted(..) => {
                     "given by other coordinates, their factor in the constraint being the same at any state"
+                }
+                Pivot::Turned(..) => {
+                    "two coordinates that are alone in a constraint, turned into the direction that it prescribes and the one that it leaves \
+                     free, which stands for both under the name of the first"
                 }
                 Pivot::Coordinate(_) => "coordinates with inertia",
                 Pivot::Constraint(_) => "constraints whose coordinates are gone",

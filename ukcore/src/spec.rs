@@ -257,6 +257,9 @@ pub enum Pivot {
     /// A coordinate with inertia, taken together with a constraint that gives it by other coordinates: its coefficient there is a number, as
     /// are all that are the same at any state.
     Substituted(usize, usize),
+    /// Two coordinates with inertia, and a constraint that contains these alone: they are turned into the direction that it prescribes, which
+    /// is done with, and the one that it leaves free, which takes the place of the first. There is no coefficient that must not vanish.
+    Turned(usize, usize, usize),
     /// A coordinate with inertia.
     Coordinate(usize),
     /// A constraint all of whose coordinates are eliminated.

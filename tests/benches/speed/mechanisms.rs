@@ -8,6 +8,7 @@ tests::arm!(Arm12, 12);
 tests::arm!(Arm24, 24);
 tests::planar_chain!(Bodies12, Angles12, 12);
 tests::crank_and_rod!(CrankAndRod);
+tests::four_bars!(FourBars40, 40);
 
 ukcore::multibody! {
     /// The U-chain with 65 links.
@@ -20,30 +21,6 @@ ukcore::multibody! {
         holonomic {
             for i in 0..N - 1 { link[i]: sq(x[i + 1] - x[i]) + sq(y[i + 1] - y[i]) = sq(l) }
             support: sq(x[N - 1]) + sq(y[N - 1]) = sq(l)
-        }
-    }
-}
-
-ukcore::multibody! {
-    /// Forty four-bar linkages in a row; see the model with four.
-    pub(crate) FourBars40 {
-        const N: usize = 40;
-        params { m = 1.0, l = 1.0, g = 9.81 }
-        coords { x[N + 1], y[N + 1] }
-        kinetic {
-            for i in 0..N + 1 { m / 6.0 * (sq(dot(x[i])) + sq(dot(y[i]))) }
-            for i in 0..N {
-                m / 6.0 * (sq(dot(x[i])) + dot(x[i]) * dot(x[i + 1]) + sq(dot(x[i + 1]))),
-                m / 6.0 * (sq(dot(y[i])) + dot(y[i]) * dot(y[i + 1]) + sq(dot(y[i + 1]))),
-            }
-        }
-        potential {
-            for i in 0..N + 1 { m * g * y[i] / 2.0 }
-            for i in 0..N { m * g * (y[i] + y[i + 1]) / 2.0 }
-        }
-        holonomic {
-            for i in 0..N + 1 { crank[i]: sq(x[i] - i * l) + sq(y[i]) = sq(l) }
-            for i in 0..N { coupler[i]: sq(x[i + 1] - x[i]) + sq(y[i + 1] - y[i]) = sq(l) }
         }
     }
 }

@@ -7,8 +7,9 @@
 //!    their definitions ([`super::lift`]).
 //! 2. Coordinates with inertia, and constraints all of whose coordinates are eliminated: 1 × 1 pivots that are definite where A has full
 //!    rank, since what is eliminated is then a saddle-point matrix of its own.
+//! 3. Two coordinates with a constraint that contains them alone, turned into what it prescribes and what it leaves free: see [`rotation`].
 //!
-//! Which pairs are taken, and when, is a matter of [`order::Taste`]; several orders are eliminated, and the cheapest is taken
+//! Which pairs and rotations are taken, and when, is a matter of [`order::Taste`]; several orders are eliminated, and the cheapest is taken
 //! ([`super::choice`]).
 //!
 //! Every 1 × 1 pivot is checked at run time: see [`certificate`]; rows that imply each other, and may be left out, in a way of their own: see
@@ -19,9 +20,11 @@
 
 mod certificate;
 mod dropping;
+mod freedoms;
 mod matrix;
 mod order;
 mod pattern;
+mod rotation;
 mod solution;
 
 pub(crate) use certificate::{SAFE_SHARE, Solve, Straight};
@@ -34,6 +37,7 @@ use matrix::{Factor, Matrix};
 pub(crate) use order::Order;
 use order::{Taste, order};
 use pattern::Pattern;
+pub(crate) use rotation::Rotation;
 use solution::Forward;
 use std::collections::BTreeSet;
 
@@ -90,6 +94,7 @@ pub(crate) struct Elimination {
 pub(crate) enum Pivoting {
     Single(usize),
     Pair(Pair),
+    Rotation(Rotation),
 }
 
 /// A coordinate that is eliminated with a constraint in which its coefficient is fixed.
@@ -167,13 +172,15 @@ pub(crate) enum Further {
 /// The orders that a system may be eliminated in; or why there is none. `defaults` are those of the parameters.
 pub(crate) fn orders(task: &Task<'_>, defaults: &[f64], g: &Graph) -> Result<Vec<Order>, String> {
     let pattern = Pattern::new(task.dynamics, task.own, defaults, g);
+    let pattern = pattern.keep(task.redundant);
     let mut orders: Vec<(Taste, Order)> = Vec::new();
     let mut refusal = None;
     for taste in Taste::ALL {
         // Definitions are substituted, ties are not: that would make one coordinate of them again.
         let suits = match task.further {
-            Further::Nothing => true,
-            Further::Velocities => taste != Taste::Multipliers,
+            // Rotations leave no multiplier.
+            Further::Nothing => taste != Taste::Freedoms || !task.multipliers,
+            Further::Velocities => !matches!(taste, Taste::Multipliers | Taste::Freedoms),
             Further::Copies => taste == Taste::Multipliers,
         };
         if !suits {
@@ -239,15 +246,15 @@ pub(crate) fn eliminate(
     // What depends on parameters alone.
     let mut fixed: Vec<Divisor> = common.into_iter().collect();
     for step in &order.pivots {
-        let (factor, divisor) = matrix.step(*step, names, g, &mut hints)?;
+        let (factor, checked) = matrix.step(*step, names, g, &mut hints)?;
         motion.step(&factor, g);
         match factor {
-            Factor::Single(_) => divisors.extend(divisor),
-            Factor::Double(_) => fixed.extend(divisor),
+            Factor::Double(_) => fixed.extend(checked),
+            _ => divisors.extend(checked.into_iter().map(|divisor| (divisor, factors.len()))),
         }
         factors.push(factor);
     }
-    fixed.extend(inertia(d, &divisors, names, g));
+    fixed.extend(inertia(d, divisors.iter().map(|(d, _)| d), names, g));
     let mut motion = motion.solution(&factors, task.multipliers, names, g, &mut hints)?;
     let droppings = droppings(&factors, &motion, d, [&force, &rhs], g);
     motion.coordinates.truncate(own.0);
@@ -272,15 +279,15 @@ pub(crate) fn eliminate(
     let mut projection = projection.solution(&factors, false, names, g, &mut hints)?;
     projection.coordinates.truncate(own.0);
     turn_back(&mut projection.coordinates, g);
-    let rights = motion.rights.into_iter().map(Some);
-    let divisors = divisors.into_iter().zip(rights);
+    let divisors = divisors.into_iter();
+    let divisors = divisors.map(|(divisor, step)| (divisor, motion.rights[step]));
     let fixed = fixed.into_iter().map(|divisor| (divisor, None));
     Ok(Elimination {
         acceleration: motion.coordinates,
         multipliers,
         correction: projection.coordinates,
         divisors: fixed.chain(divisors).collect(),
-        correction_rights: projection.rights,
+        correction_rights: projection.rights.into_iter().flatten().collect(),
         droppings,
         order,
         place: place(d, own),
@@ -298,8 +305,13 @@ fn multipliers(x: &[Id], common_factor: Id, scales: &[f64], g: &mut Graph) -> Ve
 }
 
 /// Inertia that depends on parameters and is no pivot by itself: it has to be positive, too.
-fn inertia(d: &Dynamics, pivots: &[Divisor], names: &[String], g: &Graph) -> Vec<Divisor> {
-    let pivots = pivots.iter().filter(|d| g.uses(d.value).constant());
+fn inertia<'a>(
+    d: &Dynamics,
+    pivots: impl Iterator<Item = &'a Divisor>,
+    names: &[String],
+    g: &Graph,
+) -> Vec<Divisor> {
+    let pivots = pivots.filter(|d| g.uses(d.value).constant());
     let pivots: BTreeSet<usize> = pivots.map(|d| d.position).collect();
     let diagonal = d.mass.iter().filter(|((i, j), _)| i == j);
     let others = diagonal.filter(|((i, _), _)| !pivots.contains(i));

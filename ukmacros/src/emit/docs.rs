@@ -1,7 +1,7 @@
 //! The emitted type's documentation.
 
 use super::listing::Listing;
-use crate::analysis::{Analysis, Pivoting};
+use crate::analysis::{Analysis, Pivoting, Rotation};
 use crate::expr::System;
 use crate::model::Model;
 use std::fmt::Write as _;
@@ -109,14 +109,25 @@ fn computed(analysis: &Analysis, system: &System, model: &Model) -> String {
                 "By straight-line code: [M Aᵀ; A 0] is eliminated at compile time, which fills in {} of its entries.",
                 2 * solve.fill.len()
             );
+            let n = model.coord_elements.len();
             for pivot in &solve.pivots {
+                if let Pivoting::Rotation(Rotation {
+                    coordinates: [i, j],
+                    constraint: row,
+                }) = *pivot
+                {
+                    let _ = writeln!(
+                        out,
+                        "`{}` and `{}` are solved for along what `{}` leaves free of them.",
+                        coord(i),
+                        coord(j),
+                        constraint(row - n)
+                    );
+                }
                 let Pivoting::Pair(pair) = pivot else {
                     continue;
                 };
-                let (i, row) = (
-                    pair.coordinate,
-                    pair.constraint - model.coord_elements.len(),
-                );
+                let (i, row) = (pair.coordinate, pair.constraint - n);
                 let why = match (pair.massive, pair.alone) {
                     (false, _) => "replaces the inertia it lacks",
                     (true, true) => "prescribes it alone",

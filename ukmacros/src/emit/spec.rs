@@ -3,7 +3,9 @@
 use super::body::float;
 use super::listing::Listing;
 use crate::analysis::Switch;
-use crate::analysis::{Analysis, Costs, Operations, Pair, Pivoting, SAFE_SHARE, Solve, Structure};
+use crate::analysis::{
+    Analysis, Costs, Operations, Pair, Pivoting, Rotation, SAFE_SHARE, Solve, Structure,
+};
 use crate::expr::{Drawing, Kind, OutputValue, StartValue, System};
 use crate::model::Model;
 use crate::parse::Declaration;
@@ -173,6 +175,13 @@ fn solve(solve: &Solve, n: usize) -> TokenStream {
             let kind = format_ident!("{kind}");
             let (i, row) = (number(pair.coordinate), number(pair.constraint - n));
             quote! { ukcore::Pivot::#kind(#i, #row) }
+        }
+        Pivoting::Rotation(Rotation {
+            coordinates,
+            constraint,
+        }) => {
+            let ([i, j], row) = (coordinates.map(number), number(constraint - n));
+            quote! { ukcore::Pivot::Turned(#i, #j, #row) }
         }
     });
     let fill = solve.fill.iter().map(|(i, j)| pair(*i, *j));

@@ -107,3 +107,17 @@ fn bodies_in_space_cost_what_they_are_many() {
         assert!(10 * twelve <= 22 * six, "{joint}: {six}, {twelve}");
     }
 }
+
+/// By hand, in the null space and without a check, some 75 for each top.
+#[test]
+fn coupled_four_bars_cost_what_their_null_space_costs() {
+    let [twenty, forty] = ["20", "40"].map(|n| {
+        operations(declaration(
+            "four_bars",
+            "",
+            &[("$name", "Bars"), ("$n", n)],
+        ))
+    });
+    assert!(forty <= 3500, "{twenty}, {forty}");
+    assert!(100 * forty <= 205 * twenty, "{twenty}, {forty}");
+}

@@ -1,7 +1,9 @@
 //! The straight-line solve of random mechanisms against dense elimination with pivoting.
 
 use super::system;
-use crate::analysis::{Dynamics, Further, Straight, Task, derive, eliminate, orders, turned};
+use crate::analysis::{
+    Dynamics, Further, Pivoting, Straight, Task, derive, eliminate, orders, turned,
+};
 use crate::expr::{Point, System, eval};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
@@ -191,6 +193,61 @@ fn spatial(random: &mut Random) -> String {
     text + "} }"
 }
 
+/// Points in a plane on rods about fixed points, coupled by rods in chains and trees; some with another inertia in each direction, some
+/// with inertia that rods share; with springs, a slider, a crank that is driven.
+fn linkage(random: &mut Random) -> String {
+    let n = 2 + random.below(6);
+    let mut text = format!("pub T {{ const N: usize = {n}; params {{ ");
+    for i in 0..n {
+        let _ = write!(text, "m{i} = {}, k{i} = {}, ", random.unit(), random.unit());
+    }
+    text += "} coords { x[N], y[N] } kinetic { ";
+    for i in 0..n {
+        let other = if random.below(3) == 0 { "k" } else { "m" };
+        let _ = write!(
+            text,
+            "0.5 * m{i} * sq(dot(x[{i}])) + 0.5 * {other}{i} * sq(dot(y[{i}])), "
+        );
+        if i > 0 && random.below(2) == 0 {
+            for c in ["x", "y"] {
+                let before = i - 1;
+                let _ = write!(
+                    text,
+                    "k{i} / 6.0 * (sq(dot({c}[{before}])) + dot({c}[{before}]) * dot({c}[{i}]) + sq(dot({c}[{i}]))), "
+                );
+            }
+        }
+    }
+    text += "} force { for i in 0..N { y[i]: -9.8 - dot(y[i]), x[i]: x[i] * y[i] } } holonomic { ";
+    let mut freedom = 2 * n;
+    for i in 0..n {
+        let (a, b) = (random.unit(), random.unit());
+        let row = match random.below(6) {
+            0 => continue,
+            1 => format!("slide{i}: {a} * x[{i}] + {b} * y[{i}] = sin(t), "),
+            2 => format!("bent{i}: sin(x[{i}]) + {a} * y[{i}] * x[{i}] = {b}, "),
+            _ => format!("crank{i}: sq(x[{i}] - {a}) + sq(y[{i}] + {b}) = 1.0, "),
+        };
+        text += &row;
+        freedom -= 1;
+    }
+    for i in 1..n {
+        if freedom > 1 && random.below(4) > 0 {
+            let j = if random.below(3) == 0 {
+                random.below(i)
+            } else {
+                i - 1
+            };
+            let _ = write!(
+                text,
+                "coupler{i}: sq(x[{i}] - x[{j}]) + sq(y[{i}] - y[{j}]) = 1.0, "
+            );
+            freedom -= 1;
+        }
+    }
+    text + "} }"
+}
+
 /// x of K x = r, or nothing where K is singular or nearly so.
 fn solve(mut k: Vec<Vec<f64>>, mut r: Vec<f64>) -> Option<Vec<f64>> {
     let n = r.len();
@@ -243,6 +300,8 @@ struct Tally {
     without: usize,
     /// With the velocities that T is written in as unknowns.
     lifted: usize,
+    /// With coordinates turned two by two.
+    rotated: usize,
     /// With rates of turning for quaternions.
     turned: usize,
 }
@@ -285,6 +344,9 @@ impl Tally {
                 frames,
             };
             for order in orders(&task, &system.defaults, &system.graph).unwrap_or_default() {
+                let mut pivots = order.pivots().iter();
+                let rotated = pivots.any(|p| matches!(p, Pivoting::Rotation(_)));
+                self.rotated += usize::from(rotated);
                 let elimination = eliminate(&task, order, &mut system.graph);
                 let elimination = elimination.unwrap_or_else(|e| panic!("{e}\n{source}"));
                 lines.push(Straight::new(elimination, &dynamics, &[], &mut system));
@@ -352,10 +414,11 @@ impl Tally {
 fn straight_lines_solve_the_saddle_point_system() {
     let mut random = Random(20_131);
     let mut tally = Tally::default();
-    for case in 0..135 {
-        let source = match case {
-            105.. => spatial(&mut random),
-            _ if case % 3 == 2 => bodies(&mut random),
+    for case in 0..170 {
+        let source = match case % 4 {
+            _ if case >= 140 => spatial(&mut random),
+            2 => bodies(&mut random),
+            3 => linkage(&mut random),
             _ => declaration(&mut random),
         };
         tally.check(&source, &mut random);
@@ -365,10 +428,16 @@ fn straight_lines_solve_the_saddle_point_system() {
         refused,
         without,
         lifted,
+        rotated,
         turned,
     } = tally;
     assert!(
-        solved > 500 && refused < solved / 10 && without < 10 && lifted > 30 && turned > 50,
-        "{solved} solved, {refused} refused, {without} without a straight line, {lifted} lifted, {turned} turned"
+        solved > 500
+            && refused < solved / 10
+            && without < 10
+            && lifted > 30
+            && rotated > 50
+            && turned > 20,
+        "{solved} solved, {refused} refused, {without} without a straight line, {lifted} lifted, {rotated} rotated, {turned} turned"
     );
 }

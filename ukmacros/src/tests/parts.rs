@@ -74,12 +74,12 @@ fn parts_are_what_stands_in_them() {
     assert_eq!(
         rows[6..],
         [
-            "leg[0].knee[0]",
-            "leg[0].knee[1]",
-            "leg[1].knee[0]",
-            "leg[1].knee[1]",
-            "tail.knee[0]",
-            "tail.knee[1]"
+            "leg[0].knee.x",
+            "leg[0].knee.y",
+            "leg[1].knee.x",
+            "leg[1].knee.y",
+            "tail.knee.x",
+            "tail.knee.y"
         ]
     );
     let params: Vec<&str> = model

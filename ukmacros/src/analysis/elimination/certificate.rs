@@ -32,7 +32,7 @@
 //! infinite mass would vanish by its reciprocal.
 
 use super::dropping::least;
-use super::{Elimination, Pair, Pivoting};
+use super::{Elimination, Pair, Pivoting, Rotation};
 use crate::analysis::dynamics::Dynamics;
 use crate::expr::{Func, Graph, Id, Node, System};
 use std::collections::{BTreeSet, HashSet};
@@ -108,6 +108,13 @@ impl Straight {
                 coordinate: own(pair.coordinate)?,
                 constraint: own(pair.constraint)?,
                 ..pair
+            })),
+            Pivoting::Rotation(Rotation {
+                coordinates: [i, j],
+                constraint,
+            }) => Some(Pivoting::Rotation(Rotation {
+                coordinates: [own(i)?, own(j)?],
+                constraint: own(constraint)?,
             })),
         });
         let fill = order.fill.iter();

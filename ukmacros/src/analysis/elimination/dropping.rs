@@ -76,12 +76,12 @@ pub(super) fn droppings(
     g: &mut Graph,
 ) -> Vec<Dropping> {
     let n = force.len();
-    let singles = factors.iter().filter_map(|factor| match factor {
-        Factor::Single(single) => Some(single),
-        Factor::Double(_) => None,
+    let steps = factors.iter().zip(&motion.rights);
+    let singles = steps.filter_map(|step| match step {
+        (Factor::Single(single), Some(right)) => Some((single, right)),
+        _ => None,
     });
-    let dropped = singles.zip(&motion.rights);
-    let dropped: Vec<_> = dropped.filter(|(s, _)| s.reciprocal.is_some()).collect();
+    let dropped: Vec<_> = singles.filter(|(s, _)| s.reciprocal.is_some()).collect();
     if dropped.is_empty() {
         return Vec::new();
     }
@@ -126,6 +126,14 @@ fn parts(factors: &[Factor]) -> BTreeMap<usize, usize> {
                 vec![double.pair.coordinate, double.pair.constraint],
                 double.touched.iter().map(|touched| touched.at).collect(),
             ),
+            Factor::Turned(turned) => {
+                let [place, other] = turned.rotation.coordinates;
+                let touched = turned.touched.iter().map(|(at, _)| *at);
+                (
+                    vec![other, turned.rotation.constraint],
+                    [place].into_iter().chain(touched).collect(),
+                )
+            }
         };
         let first = touched.first().and_then(|a| part.get(a)).copied();
         let first = first.unwrap_or(own[0]);

@@ -1,6 +1,7 @@
 //! K with symbolic entries, eliminated in a given order.
 
 use super::dropping::reciprocal;
+use super::rotation::{Turned, apart};
 use super::{Divisor, Pair, Pivoting};
 use crate::analysis::dynamics::Dynamics;
 use crate::expr::{Graph, Id};
@@ -12,10 +13,10 @@ const CHAIN: usize = 8;
 
 /// K, with entries that are sums still open.
 pub(super) struct Matrix {
-    n: usize,
+    pub(super) n: usize,
     /// (row ≥ column) → terms.
     entries: BTreeMap<(usize, usize), Entry>,
-    rows: Vec<BTreeSet<usize>>,
+    pub(super) rows: Vec<BTreeSet<usize>>,
     /// What one constraint before takes off each, its division put off.
     deferred: Vec<Option<Deferred>>,
     /// How many divisions in a row were put off.
@@ -24,6 +25,10 @@ pub(super) struct Matrix {
     turn: Vec<usize>,
     /// Constraints that may be left out.
     droppable: BTreeSet<usize>,
+    /// Of what took the place of two coordinates, how many rotations before it were not scaled.
+    pub(super) turned: Vec<Option<usize>>,
+    /// Whether what stands for different coordinates shares little inertia, whatever the state.
+    pub(super) apart: bool,
 }
 
 /// An update d − p²/(N/D) of a diagonal that is not yet divided by N.
@@ -53,8 +58,16 @@ impl Entry {
         }
     }
 
+    /// A coefficient whose square the diagonal of its constraint has counted in.
+    pub(super) fn counted(id: Id) -> Self {
+        Entry {
+            size: Some(Vec::new()),
+            ..Entry::of(id)
+        }
+    }
+
     /// Takes terms off a diagonal that could be `size`.
-    fn take_off_sized(&mut self, terms: &[Id], size: Id) {
+    pub(super) fn take_off_sized(&mut self, terms: &[Id], size: Id) {
         if self.size.is_some() || terms != [size] {
             let gram = &self.gram;
             let sizes = self.size.get_or_insert_with(|| gram.clone());
@@ -68,8 +81,31 @@ impl Entry {
         g.factored_sum(&[&self.gram[..], &self.schur].concat())
     }
 
+    /// The value, with terms collected that have a factor in common: two rods at one joint have a difference of its coordinates.
+    pub(super) fn collected(&self, g: &mut Graph) -> Id {
+        let terms = [&self.gram[..], &self.schur].concat();
+        let mut by_factor: BTreeMap<Id, Vec<(f64, Id)>> = BTreeMap::new();
+        let mut rest = Vec::new();
+        for (c, term) in terms {
+            let (k, inner) = g.unscaled(term);
+            match g.factors(inner)[..] {
+                [(one, 1), (other, 1)] => {
+                    let known = by_factor.contains_key(&other);
+                    let (by, of) = if known { (other, one) } else { (one, other) };
+                    by_factor.entry(by).or_default().push((c * k, of));
+                }
+                _ => rest.push((c, term)),
+            }
+        }
+        for (by, of) in by_factor {
+            let sum = g.sum(&of);
+            rest.push((1.0, g.mul(by, sum)));
+        }
+        g.factored_sum(&rest)
+    }
+
     /// What a diagonal could be: what it started from.
-    fn reference(&self, g: &mut Graph) -> Id {
+    pub(super) fn reference(&self, g: &mut Graph) -> Id {
         match &self.size {
             Some(size) => g.factored_sum(size),
             None => self.values(g).0,
@@ -77,7 +113,7 @@ impl Entry {
     }
 
     /// What the square of a coefficient could be.
-    fn square(&self, g: &mut Graph) -> Id {
+    pub(super) fn square(&self, g: &mut Graph) -> Id {
         match &self.size {
             Some(size) => g.factored_sum(size),
             None => {
@@ -129,6 +165,7 @@ impl Entry {
 pub(super) enum Factor {
     Single(Single),
     Double(Double),
+    Turned(Turned),
 }
 
 /// What one coordinate or constraint leaves: x_at = sign · right/pivot − Σ factor · x.
@@ -238,6 +275,9 @@ impl Matrix {
                 Pivoting::Pair(pair) => {
                     (turn[pair.coordinate], turn[pair.constraint]) = (at, at);
                 }
+                Pivoting::Rotation(rotation) => {
+                    (turn[rotation.coordinates[1]], turn[rotation.constraint]) = (at, at);
+                }
             }
         }
         Matrix {
@@ -248,6 +288,8 @@ impl Matrix {
             depth: vec![0; size],
             turn,
             droppable,
+            turned: vec![None; n],
+            apart: apart(&d.mass, g),
         }
     }
 
@@ -260,21 +302,26 @@ impl Matrix {
     }
 
     /// The entry at (a, b), zero where there is none.
-    fn entry(&self, a: usize, b: usize) -> Entry {
+    pub(super) fn entry(&self, a: usize, b: usize) -> Entry {
         let entry = self.entries.get(&(a.max(b), a.min(b)));
         entry.cloned().unwrap_or_default()
     }
 
-    fn entry_mut(&mut self, a: usize, b: usize) -> &mut Entry {
+    pub(super) fn entry_mut(&mut self, a: usize, b: usize) -> &mut Entry {
         self.entries.entry((a.max(b), a.min(b))).or_default()
     }
 
     /// Enters `a` and `b` as each other's neighbours.
-    fn link(&mut self, a: usize, b: usize) {
+    pub(super) fn link(&mut self, a: usize, b: usize) {
         if a != b {
             self.rows[a].insert(b);
             self.rows[b].insert(a);
         }
+    }
+
+    /// Takes away the entry at (a, b), off the diagonal.
+    pub(super) fn remove(&mut self, a: usize, b: usize) {
+        self.entries.remove(&(a.max(b), a.min(b)));
     }
 
     /// Those entries of `k` with `others` that are not zero, as `value` gives them.
@@ -292,7 +339,7 @@ impl Matrix {
     }
 
     /// Neighbours of `k`, which leaves the matrix.
-    fn take(&mut self, k: usize) -> BTreeSet<usize> {
+    pub(super) fn take(&mut self, k: usize) -> BTreeSet<usize> {
         let neighbours = std::mem::take(&mut self.rows[k]);
         for a in &neighbours {
             self.rows[*a].remove(&k);
@@ -333,15 +380,19 @@ impl Matrix {
         k >= self.n && a >= self.n && room && counts && !another()
     }
 
-    /// Takes one step of the elimination; and what it divides by, if that may vanish.
+    /// Takes one step of the elimination; and what may vanish of what it divides by.
     pub(super) fn step(
         &mut self,
         step: Pivoting,
         names: &[String],
         g: &mut Graph,
         hints: &mut Vec<(Id, String)>,
-    ) -> Result<(Factor, Option<Divisor>), String> {
+    ) -> Result<(Factor, Vec<Divisor>), String> {
         Ok(match step {
+            Pivoting::Rotation(rotation) => {
+                let (turned, divisors) = self.rotate(rotation, names, g, hints)?;
+                (Factor::Turned(turned), divisors)
+            }
             Pivoting::Pair(pair) => {
                 let double = self.eliminate_pair(pair, names, g)?;
                 // Parameters may make it vanish, or all but cancel.
@@ -353,11 +404,11 @@ impl Matrix {
                         ..Divisor::positive(pair.constraint, value, names)
                     }
                 });
-                (Factor::Double(double), divisor)
+                (Factor::Double(double), divisor.into_iter().collect())
             }
             Pivoting::Single(k) => {
                 let (single, divisor) = self.eliminate(k, names, g, hints)?;
-                (Factor::Single(single), Some(divisor))
+                (Factor::Single(single), vec![divisor])
             }
         })
     }

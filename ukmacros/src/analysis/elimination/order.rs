@@ -1,5 +1,6 @@
 //! The order of elimination, found on the pattern of K alone.
 
+use super::freedoms::freedoms;
 use super::pattern::Pattern;
 use super::{Pair, Pivoting};
 use std::collections::{BTreeMap, BTreeSet};
@@ -18,6 +19,12 @@ pub(crate) struct Order {
 }
 
 impl Order {
+    /// The pivots.
+    #[cfg(test)]
+    pub(crate) fn pivots(&self) -> &[Pivoting] {
+        &self.pivots
+    }
+
     /// The positions of those constraints in `rows` that are eliminated alone; coordinates are `n`.
     pub(super) fn alone(&self, n: usize, rows: &BTreeSet<usize>) -> BTreeSet<usize> {
         let alone = self.pivots.iter().filter_map(|pivot| match *pivot {
@@ -31,6 +38,7 @@ impl Order {
     pub(super) fn pairs(&self) -> BTreeSet<(usize, usize)> {
         let pairs = self.pivots.iter().filter_map(|pivot| match pivot {
             Pivoting::Pair(pair) => Some((pair.coordinate, pair.constraint)),
+            Pivoting::Rotation(rotation) => Some((rotation.coordinates[1], rotation.constraint)),
             Pivoting::Single(_) => None,
         });
         pairs.collect()
@@ -49,21 +57,44 @@ pub(super) enum Taste {
     Roots,
     /// The same with what was declared last first: of velocities that are given by each other the last, and each joint once it can be.
     Last,
+    /// As multipliers, after what is alone with a constraint in pairs is turned: see [`super::rotation`].
+    Freedoms,
 }
 
 impl Taste {
-    pub(super) const ALL: [Taste; 4] =
-        [Taste::Multipliers, Taste::Leaves, Taste::Roots, Taste::Last];
+    pub(super) const ALL: [Taste; 5] = [
+        Taste::Multipliers,
+        Taste::Leaves,
+        Taste::Roots,
+        Taste::Last,
+        Taste::Freedoms,
+    ];
+
+    /// Whether coordinates with inertia are taken together with constraints that contain others.
+    fn substitutes(self) -> bool {
+        !matches!(self, Taste::Multipliers | Taste::Freedoms)
+    }
 
     fn takes(self, pair: &Pair) -> bool {
-        self != Taste::Multipliers || !pair.massive || pair.alone
+        self.substitutes() || !pair.massive || pair.alone
     }
 }
 
 /// The pivots in their order; or why there is none.
 pub(super) fn order(taste: Taste, mut pattern: Pattern, names: &[String]) -> Result<Order, String> {
-    let mut keys = Keys::new(taste, &pattern);
     let (mut pivots, mut entries, mut changes) = (Vec::new(), 0, 0);
+    if taste == Taste::Freedoms {
+        let rotations;
+        (rotations, changes) = freedoms(pattern.clone());
+        if rotations.is_empty() {
+            return Err("no constraint contains two coordinates alone".to_owned());
+        }
+        for rotation in rotations {
+            pattern.turn(rotation);
+            pivots.push(Pivoting::Rotation(rotation));
+        }
+    }
+    let mut keys = Keys::new(taste, &pattern);
     while let Some((_, at, partner)) = keys.ready.first().copied() {
         let pair = partner.and_then(|constraint| pattern.pair(at, constraint));
         debug_assert_eq!(pair.is_some(), partner.is_some());
@@ -175,7 +206,7 @@ impl Keys {
                 keys.extend(pair.map(|pair| pair_key(&pair, taste, pattern)));
             }
         }
-        if pattern.is_definite(k) && (taste == Taste::Multipliers || !kept) {
+        if pattern.is_definite(k) && (!taste.substitutes() || !kept) {
             keys.push(single_key(k, taste, pattern));
         }
         keys
@@ -202,7 +233,9 @@ fn pair_key(pair: &Pair, taste: Taste, pattern: &Pattern) -> Key {
     let others = || pattern.constraints_on(coordinate).count() - 1;
     let rank = match taste {
         // All before what is eliminated alone.
-        Taste::Multipliers => [0, coordinate, pattern.neighbours(constraint), 0, 0],
+        Taste::Multipliers | Taste::Freedoms => {
+            [0, coordinate, pattern.neighbours(constraint), 0, 0]
+        }
         Taste::Leaves => [others(), pattern.filled_by_pair(pair), changed, 0, 0],
         Taste::Roots => [changed, 0, 0, 0, 0],
         Taste::Last => [others(), usize::MAX - coordinate, 0, 0, 0],
@@ -215,7 +248,9 @@ fn pair_key(pair: &Pair, taste: Taste, pattern: &Pattern) -> Key {
 fn single_key(k: usize, taste: Taste, pattern: &Pattern) -> Key {
     let (size, changed) = (pattern.neighbours(k), changed_by(k, pattern));
     let [a, b, c] = match taste {
-        Taste::Multipliers => [1, usize::from(!pattern.shares_no_inertia(k)), size],
+        Taste::Multipliers | Taste::Freedoms => {
+            [1, usize::from(!pattern.shares_no_inertia(k)), size]
+        }
         Taste::Leaves => [0, pattern.filled_by(k), changed],
         Taste::Roots => [changed, 1, 0],
         Taste::Last => [0, 0, changed],

@@ -1,6 +1,6 @@
 //! The non-zeros of K = [M Aᵀ; A 0] while it is eliminated: the one simulation that order, fill and sizes are read off.
 
-use super::{Coefficient, Pair};
+use super::{Coefficient, Pair, Rotation};
 use crate::analysis::dynamics::Dynamics;
 use crate::expr::{Graph, Id, Point, eval};
 use std::collections::{BTreeMap, BTreeSet};
@@ -25,6 +25,12 @@ pub(super) struct Pattern {
     coupled: Vec<bool>,
     /// Longest chain of divisions that a row waits for.
     depth: Vec<usize>,
+    /// Coordinates whose inertia is declared to be the same at all states.
+    steady: BTreeSet<usize>,
+    /// Those that took the place of two, with the longest chain of rotations before them.
+    turned: BTreeMap<usize, usize>,
+    /// Constraints that may be left out, and are to be eliminated by themselves.
+    kept: BTreeSet<usize>,
     fill: BTreeSet<(usize, usize)>,
     /// How many of the coordinates and of the constraints are the mechanism's.
     declared: (usize, usize),
@@ -44,11 +50,17 @@ impl Pattern {
             fixed: BTreeMap::new(),
             coupled: vec![false; size],
             depth: vec![0; size],
+            steady: BTreeSet::new(),
+            turned: BTreeMap::new(),
+            kept: BTreeSet::new(),
             fill: BTreeSet::new(),
             declared,
         };
-        for (i, j) in d.mass.keys() {
+        for ((i, j), m) in &d.mass {
             pattern.join(*i, *j);
+            if i == j && g.uses(*m).constant() {
+                pattern.steady.insert(*i);
+            }
         }
         for (row, column) in d.jacobian.keys() {
             pattern.join(n + row, *column);
@@ -64,6 +76,12 @@ impl Pattern {
         }
         pattern.fill.clear();
         pattern
+    }
+
+    /// The same, in which the constraints `rows` are not turned.
+    pub(super) fn keep(mut self, rows: &BTreeSet<usize>) -> Self {
+        self.kept = rows.iter().map(|row| self.n + row).collect();
+        self
     }
 
     /// What is left, in ascending order.
@@ -137,7 +155,15 @@ impl Pattern {
             || defined.is_some()
             || numbers && self.near[constraint].range(..self.n).all(inert);
         let size = coefficient.value.abs();
-        let fits = free && certain && size > 0.0 && size.is_finite() && size >= SMALL * largest;
+        // What was turned is no longer as large as it was declared.
+        let near = self.near[constraint].iter().chain([&coordinate]);
+        let straight = near.into_iter().all(|i| !self.turned.contains_key(i));
+        let fits = free
+            && straight
+            && certain
+            && size > 0.0
+            && size.is_finite()
+            && size >= SMALL * largest;
         fits.then(|| Pair {
             coordinate,
             constraint,
@@ -145,6 +171,54 @@ impl Pattern {
             massive: self.inertia[coordinate],
             alone,
         })
+    }
+
+    /// The rotation of `k`, if it is a constraint on two coordinates alone; before anything is eliminated in another way.
+    pub(super) fn rotation(&self, k: usize) -> Option<Rotation> {
+        let near = &self.near[k];
+        let mut coordinates = near.range(..self.n).copied();
+        let both = [coordinates.next()?, coordinates.next()?];
+        let free = k >= self.n && near.len() == 2 && !self.kept.contains(&k);
+        let fits = free && both.iter().all(|i| self.steady.contains(i));
+        fits.then_some(Rotation {
+            coordinates: both,
+            constraint: k,
+        })
+    }
+
+    /// How many rotations the rotation waits for.
+    pub(super) fn waits(&self, rotation: Rotation) -> usize {
+        let before = |i: &usize| self.turned.get(i).map_or(0, |depth| depth + 1);
+        rotation.coordinates.iter().map(before).max().unwrap_or(0)
+    }
+
+    /// Neighbours of the coordinates that are turned.
+    pub(super) fn around(&self, rotation: Rotation) -> BTreeSet<usize> {
+        let of = rotation.coordinates;
+        let near = of.iter().flat_map(|i| &self.near[*i]).copied();
+        let taken = |k: &usize| of.contains(k) || *k == rotation.constraint;
+        near.filter(|k| !taken(k)).collect()
+    }
+
+    /// How many entries the rotation changes: each neighbour's two become one, beside those of the two themselves.
+    pub(super) fn changed_by_rotation(&self, rotation: Rotation) -> usize {
+        2 * self.around(rotation).len() + 4
+    }
+
+    /// Puts what the rotation leaves in the place of its first coordinate.
+    pub(super) fn turn(&mut self, rotation: Rotation) {
+        let (waits, around) = (self.waits(rotation), self.around(rotation));
+        let [place, other] = rotation.coordinates;
+        self.take(rotation.constraint);
+        self.take(other);
+        for a in around {
+            self.join(place, a);
+            self.fixed.remove(&(a, place));
+            if !self.is_coordinate(a) {
+                self.own[a].insert(place);
+            }
+        }
+        self.turned.insert(place, waits);
     }
 
     /// Whether the pivot of `k` is definite where A has full rank: with all its coordinates gone, what is left of a constraint is, though

@@ -1,14 +1,15 @@
 //! Solutions of an eliminated system.
 
 use super::matrix::{Double, Entry, Factor, Single};
+use super::rotation::{Rotation, Turned, dot};
 use crate::expr::{Graph, Id};
 
 /// A solution of K x = r.
 pub(super) struct Solution {
     /// The coordinates' part of it.
     pub(super) coordinates: Vec<Id>,
-    /// Right-hand sides of the 1 × 1 pivots, times the same numbers as these.
-    pub(super) rights: Vec<Id>,
+    /// Of each step the right-hand side, times the same number as its pivot; none of 2 × 2 pivots.
+    pub(super) rights: Vec<Option<Id>>,
     /// The constraints' part of x, if it was asked for.
     pub(super) constraints: Vec<Id>,
 }
@@ -19,9 +20,9 @@ pub(super) struct Forward {
     entries: Vec<Entry>,
     /// p R of an update r + p (R/D)/(N/D) whose division by N is put off.
     deferred: Vec<Option<Id>>,
-    /// Right-hand sides of the 1 × 1 pivots.
-    rights: Vec<Id>,
-    /// What each step leaves of its unknown.
+    /// Right-hand sides of the steps.
+    rights: Vec<Option<Id>>,
+    /// What each step leaves of its unknown; of a rotation the right-hand side.
     solved: Vec<Id>,
     /// Of each 2 × 2 pivot, in their order, the right-hand side of its coordinate.
     given: Vec<Id>,
@@ -46,6 +47,7 @@ impl Forward {
         let solved = match factor {
             Factor::Single(single) => self.single(single, g),
             Factor::Double(double) => self.double(double, g),
+            Factor::Turned(turned) => self.turned(turned, g),
         };
         self.solved.push(solved);
     }
@@ -68,7 +70,7 @@ impl Forward {
             let whole = g.mul(own, pivot);
             right = g.factored_sum(&[(1.0, whole), (1.0, before)]);
         }
-        self.rights.push(right);
+        self.rights.push(Some(right));
         let solved = match single.reciprocal {
             Some(reciprocal) => g.mul(right, reciprocal),
             None => g.div(right, single.numerator),
@@ -100,6 +102,7 @@ impl Forward {
             self.entries[pair.constraint].open(g),
         );
         self.given.push(own);
+        self.rights.push(None);
         let solved = g.div(given, double.coefficient);
         let moved = g.mul(double.inertia, solved);
         let left = g.factored_sum(&[(1.0, own), (-1.0, moved)]);
@@ -109,6 +112,26 @@ impl Forward {
             }
         }
         solved
+    }
+
+    /// What the constraint of a rotation demands, taken off the neighbours.
+    fn turned(&mut self, turned: &Turned, g: &mut Graph) -> Id {
+        let Rotation {
+            coordinates: of,
+            constraint,
+        } = turned.rotation;
+        let force = of.map(|i| self.entries[i].open(g));
+        let right = self.entries[constraint].collected(g);
+        self.rights.push(Some(right));
+        let along = turned.along(right, g);
+        for (r, with) in &turned.touched {
+            for i in [0, 1] {
+                let term = g.mul(with[i], along[i]);
+                self.take_off(*r, term, false, g);
+            }
+        }
+        self.entries[of[0]] = Entry::of(dot(turned.tangent, force, g));
+        right
     }
 
     /// Back substitution, once all `factors` are taken; `names` are those of coordinates and constraints. What belongs to the constraints
@@ -121,17 +144,28 @@ impl Forward {
         g: &mut Graph,
         hints: &mut Vec<(Id, String)>,
     ) -> Result<Solution, String> {
-        let singles = factors.iter().filter_map(|factor| match factor {
-            Factor::Single(single) => Some(single.at),
-            Factor::Double(_) => None,
-        });
-        let named = singles.zip(&self.rights);
-        hints.extend(named.map(|(at, right)| (*right, format!("right_{}", names[at]))));
+        for (factor, right) in factors.iter().zip(&self.rights) {
+            let at = match factor {
+                Factor::Single(single) => single.at,
+                Factor::Double(double) => double.pair.constraint,
+                Factor::Turned(turned) => turned.rotation.constraint,
+            };
+            hints.extend(right.map(|right| (right, format!("right_{}", names[at]))));
+        }
         let mut solution: Vec<Option<Id>> = vec![None; self.entries.len()];
         for (factor, right) in factors.iter().zip(std::mem::take(&mut self.solved)).rev() {
             let (unknown, row) = match factor {
                 Factor::Single(single) => (single.at, single.factors.clone()),
                 Factor::Double(double) => (double.pair.coordinate, double.factors(g)),
+                Factor::Turned(turned) => {
+                    let of = turned.rotation.coordinates;
+                    let freedom = solution[of[0]].ok_or("a freedom was left over")?;
+                    let both = turned.solved(right, freedom, g);
+                    of.into_iter()
+                        .zip(both)
+                        .for_each(|(i, x)| solution[i] = Some(x));
+                    continue;
+                }
             };
             let mut terms = vec![(1.0, right)];
             for (other, factor) in &row {
