@@ -398,13 +398,13 @@ fn light_bodies_between_heavy_ones() {
                 let rod = (-r * sin / l).asin();
                 let mut q = vec![0.0; 9];
                 for (place, value) in [
-                    (SliderCrank::X1, 0.5 * r * cos),
-                    (SliderCrank::Y1, 0.5 * r * sin),
-                    (SliderCrank::TH1, 0.4 + 0.01 * f64::from(k)),
-                    (SliderCrank::X2, r * cos + 0.5 * l * rod.cos()),
-                    (SliderCrank::Y2, 0.5 * r * sin),
-                    (SliderCrank::TH2, rod),
-                    (SliderCrank::X3, r * cos + l * rod.cos()),
+                    (SliderCrank::CRANK_X, 0.5 * r * cos),
+                    (SliderCrank::CRANK_Y, 0.5 * r * sin),
+                    (SliderCrank::CRANK_ANGLE, 0.4 + 0.01 * f64::from(k)),
+                    (SliderCrank::ROD_X, r * cos + 0.5 * l * rod.cos()),
+                    (SliderCrank::ROD_Y, 0.5 * r * sin),
+                    (SliderCrank::ROD_ANGLE, rod),
+                    (SliderCrank::SLIDE_X, r * cos + l * rod.cos()),
                 ] {
                     q[place] = value;
                 }

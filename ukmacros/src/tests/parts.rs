@@ -206,3 +206,38 @@ cases! {
     name_of_a_part_taken: "gravity { [0, -1] } parts { «leg»: Leg } coords { leg_tip } mass { leg_tip: 1 }" => "`leg.tip` is declared twice";
     wrong_in_the_whole: "gravity { [0, -1] } params { m = 0.0 } parts { «leg»[2]: Leg { l: m, m: -1 } }" => "in part `leg`: the mass of a body must not be negative";
 }
+
+/// A reaction in a part is that of its own joint; from outside it goes by the part's name.
+#[test]
+fn reactions_reach_into_parts() {
+    let leg = LEG.replace(
+        "output { tip",
+        "output { load = norm(reaction(knee)) + reaction(knee.x), tip",
+    );
+    let source = |outer: &str| {
+        format!(
+            "{leg} pub Pair {{ params {{ l = 0.3 }} gravity {{ [0, -1] }} parts {{ for i in 0..2 {{ leg[i]: Leg {{ l: l }} }} }} \
+             holonomic {{ for i in 0..2 {{ hip[i]: pin(ground.at([i, 0]), leg[i].shin[0].at([0, 0])) }} }} output {{ {outer} }} }}"
+        )
+    };
+    let (system, _) = system(&source(
+        "for i in 0..2 { again[i] = norm(reaction(leg[i].knee)) + reaction(leg[i].knee.x) }",
+    ));
+    let outputs = system.outputs.iter();
+    let values: Vec<Id> = outputs
+        .filter(|o| !o.item.text().ends_with("tip[0]") && !o.item.text().ends_with("tip[1]"))
+        .map(|o| o.value)
+        .collect();
+    let [a, b, again_a, again_b] = values[..] else {
+        panic!("four outputs, not {}", values.len())
+    };
+    let mut both = [[a, b], [again_a, again_b]];
+    both.iter_mut().for_each(|pair| pair.sort_unstable());
+    assert!(a != b && both[0] == both[1]);
+    let told = |outer: &str| {
+        let (_, errors) = expand(&source(outer));
+        errors
+    };
+    let errors = told("wrong = reaction(leg[0].kene)");
+    assert_eq!(errors.len(), 1, "{errors:?}");
+}
