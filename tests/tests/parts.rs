@@ -85,7 +85,7 @@ fn a_mechanism_of_parts_is_the_one_written_out() {
     );
     assert_eq!((Walker::TAIL_S, Walker::LEG_1_BAR_ANGLE), (0, [12, 15]));
     let names: Vec<&str> = Walker::SPEC.constraints.iter().map(|c| c.name).collect();
-    assert_eq!(names[8..10], ["leg[0].knee[0]", "leg[0].knee[1]"]);
+    assert_eq!(names[8..10], ["leg[0].knee.x", "leg[0].knee.y"]);
     // What is not given is a parameter, one for all members; what is given follows those of the whole.
     let parts = Walker {
         l: 0.7,
