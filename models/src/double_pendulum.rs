@@ -39,6 +39,7 @@ ukcore::multibody! {
             /// Angle of the outer rod from the downward vertical, rad
             angle2 = atan2(x2 - x1, y1 - y2),
         }
+        draw { polyline([0, 0], [x1, y1], [x2, y2]) trace([x2, y2]) }
     }
 }
 

@@ -45,6 +45,9 @@ ukcore::multibody! {
             /// Vertical position of the outer mass, upwards, m
             y2 = -l1 * cos(th1) - l2 * cos(th2),
         }
+        let inner = l1 * [sin(th1), -cos(th1)];
+        let outer = inner + l2 * [sin(th2), -cos(th2)];
+        draw { polyline([0, 0], inner, outer) trace(outer) }
     }
 }
 

@@ -92,6 +92,12 @@ ukcore::multibody! {
             /// Lateral position of the fin's trailing edge, m
             edge_y = y3 + b * sin(th3),
         }
+        draw {
+            line([x1 - a * cos(th1), y1 - a * sin(th1)], [x1 + a * cos(th1), y1 + a * sin(th1)])
+            line([x2 - l2 / 2 * cos(th2), y2 - l2 / 2 * sin(th2)], [x2 + l2 / 2 * cos(th2), y2 + l2 / 2 * sin(th2)])
+            line([x3 - b * cos(th3), y3 - b * sin(th3)], [x3 + b * cos(th3), y3 + b * sin(th3)])
+            trace([x3 + b * cos(th3), y3 + b * sin(th3)])
+        }
     }
 }
 

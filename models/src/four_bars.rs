@@ -44,6 +44,10 @@ ukcore::multibody! {
             /// Angle of the first crank from the upright, towards +x, rad
             lean = atan2(x[0], y[0]),
         }
+        draw {
+            for i in 0..N + 1 { line([i * l, 0], [x[i], y[i]]) }
+            for i in 0..N { line([x[i], y[i]], [x[i + 1], y[i + 1]]) }
+        }
     }
 }
 

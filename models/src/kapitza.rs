@@ -37,6 +37,7 @@ ukcore::multibody! {
             /// Height of the pivot, m
             pivot_y = pivot,
         }
+        draw { line([0, pivot], [x, y]) circle([x, y], 0.05 * l) trace([x, y]) }
     }
 }
 

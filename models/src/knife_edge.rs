@@ -35,6 +35,7 @@ ukcore::multibody! {
             /// Angular velocity, rad/s
             spin = dot(th),
         }
+        draw { line([y - 0.2 * sin(th), 0.2 * cos(th) - x], [y + 0.2 * sin(th), -x - 0.2 * cos(th)]) trace([y, -x]) }
     }
 }
 

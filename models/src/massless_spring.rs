@@ -30,6 +30,7 @@ ukcore::multibody! {
             /// Force that the springs transmit, N
             spring_force = k1 * joint,
         }
+        draw { spring([0, 0], [1 + joint, 0]) spring([1 + joint, 0], [2 + x, 0]) circle([2 + x, 0], 0.1) }
     }
 }
 

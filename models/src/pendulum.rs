@@ -32,6 +32,7 @@ ukcore::multibody! {
             /// Tension of the rod, N
             tension = m * (sq(dot(x)) + sq(dot(y)) - g * y) / l,
         }
+        draw { line([0, 0], [x, y]) circle([x, y], 0.05 * l) }
     }
 }
 

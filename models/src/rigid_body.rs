@@ -43,6 +43,11 @@ ukcore::multibody! {
             /// Angular momentum along the space axis z, kg m^2/s
             momentum_z = in_space[2],
         }
+        let turned = |v| v + 2 * e0 * cross(im, v) + 2 * cross(im, cross(im, v));
+        draw {
+            line(turned([-1, 0, 0]), turned([1, 0, 0])) line(turned([0, -0.6, 0]), turned([0, 0.6, 0]))
+            line([0, 0, 0], turned([0, 0, 0.4])) trace(turned([1, 0, 0]))
+        }
     }
 }
 

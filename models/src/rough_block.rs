@@ -39,6 +39,7 @@ ukcore::multibody! {
             /// Friction, positive down the slope, N
             friction_force = friction,
         }
+        draw { circle([x, y], 0.1) trace([x, y]) }
     }
 }
 

@@ -37,6 +37,7 @@ ukcore::multibody! {
             /// Force of the spring, N
             tension = k * (r - l),
         }
+        draw { spring([0, 0], [x, y]) circle([x, y], 0.05 * l) }
     }
 }
 

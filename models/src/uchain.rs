@@ -38,6 +38,10 @@ ukcore::multibody! {
             /// Depth of the centre of mass below the support, m
             centre = sum(0..N, |i| y[i]) / N,
         }
+        draw {
+            for i in 0..N - 1 { line([x[i], -y[i]], [x[i + 1], -y[i + 1]]) }
+            line([x[N - 1], -y[N - 1]], [0, 0]) trace([x[0], -y[0]])
+        }
     }
 }
 

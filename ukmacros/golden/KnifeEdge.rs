@@ -157,7 +157,21 @@ const _: () = {
                 },
             ],
             starts: &[],
-            drawing: ukcore::Drawing::NONE,
+            drawing: ukcore::Drawing {
+                dimension: 2,
+                shapes: &[
+                    ukcore::ShapeSpec {
+                        kind: ukcore::ShapeKind::Line,
+                        numbers: 4,
+                        label: "",
+                    },
+                    ukcore::ShapeSpec {
+                        kind: ukcore::ShapeKind::Trace,
+                        numbers: 2,
+                        label: "",
+                    },
+                ],
+            },
             switches: &[],
             structure: ukcore::Structure {
                 straight_line: true,
@@ -414,6 +428,24 @@ const _: () = {
             let (sin_th, cos_th) = th.sin_cos();
             outputs[0] = dot_y.mul_add(sin_th, dot_x * cos_th);
             outputs[1] = dot_th;
+        }
+        fn drawing<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            drawing: &mut [S],
+        ) {
+            let drawing = ukcore::emitted::exact_mut::<S, 6>(drawing, "drawing");
+            let [x, y, th] = *ukcore::emitted::exact::<S, 3>(q, "q");
+            let lit = S::from_f64;
+            let (sin_th, cos_th) = th.sin_cos();
+            drawing[0] = lit(0.2).neg_mul_add(sin_th, y);
+            drawing[1] = lit(0.2) * cos_th - x;
+            drawing[2] = lit(0.2).mul_add(sin_th, y);
+            drawing[3] = lit(0.2).neg_mul_add(cos_th, -x);
+            drawing[4] = y;
+            drawing[5] = -x;
         }
         /// 4 additions, 11 multiplications, 1 divisions, 0 square roots, 1 transcendentals, 1 selections.
         fn acceleration<S: ukcore::Scalar>(

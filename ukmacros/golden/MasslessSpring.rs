@@ -140,7 +140,26 @@ const _: () = {
                 },
             ],
             starts: &[],
-            drawing: ukcore::Drawing::NONE,
+            drawing: ukcore::Drawing {
+                dimension: 2,
+                shapes: &[
+                    ukcore::ShapeSpec {
+                        kind: ukcore::ShapeKind::Spring,
+                        numbers: 4,
+                        label: "",
+                    },
+                    ukcore::ShapeSpec {
+                        kind: ukcore::ShapeKind::Spring,
+                        numbers: 4,
+                        label: "",
+                    },
+                    ukcore::ShapeSpec {
+                        kind: ukcore::ShapeKind::Circle,
+                        numbers: 3,
+                        label: "",
+                    },
+                ],
+            },
             switches: &[],
             structure: ukcore::Structure {
                 straight_line: true,
@@ -405,6 +424,30 @@ const _: () = {
             >(prepared, "prepared");
             let [joint, _] = *ukcore::emitted::exact::<S, 2>(q, "q");
             outputs[0] = joint * k1;
+        }
+        fn drawing<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            drawing: &mut [S],
+        ) {
+            let drawing = ukcore::emitted::exact_mut::<S, 11>(drawing, "drawing");
+            let [joint, x] = *ukcore::emitted::exact::<S, 2>(q, "q");
+            let lit = S::from_f64;
+            drawing[0] = lit(0.0);
+            drawing[1] = lit(0.0);
+            let drawing_2 = lit(1.0) + joint;
+            drawing[2] = drawing_2;
+            drawing[3] = lit(0.0);
+            drawing[4] = drawing_2;
+            drawing[5] = lit(0.0);
+            let drawing_6 = lit(2.0) + x;
+            drawing[6] = drawing_6;
+            drawing[7] = lit(0.0);
+            drawing[8] = drawing_6;
+            drawing[9] = lit(0.0);
+            drawing[10] = lit(0.1);
         }
         /// 3 additions, 5 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
         fn acceleration<S: ukcore::Scalar>(

@@ -47,7 +47,7 @@
 /// | straight line, nothing hoisted | 5 | 9 | 1 | 0 | 0 | 3 |
 /// | straight line, as emitted | 6 | 9 | 1 | 0 | 0 | 1 |
 /// | correction of a projection | 3 | 7 | 1 | 0 | 0 | 1 |
-/// | once for a set of parameters | 0 | 2 | 1 | 0 | 0 | 2 |
+/// | once for a set of parameters | 0 | 3 | 1 | 0 | 0 | 2 |
 ///
 /// `Mechanism::plan` tells the order, what is hoisted and left out, and draws the sparsity; `Mechanism::CODE` is the code.
 #[derive(Clone, Debug, PartialEq)]
@@ -125,6 +125,7 @@ const _: () = {
                     "safe_x",
                     "1 if the pivots that depend on m alone are positive and finite, else 0",
                 ),
+                ("times_l", "0.05*l"),
             ],
             coords: &["x", "y"],
             constraints: &[
@@ -146,7 +147,21 @@ const _: () = {
                 },
             ],
             starts: &[],
-            drawing: ukcore::Drawing::NONE,
+            drawing: ukcore::Drawing {
+                dimension: 2,
+                shapes: &[
+                    ukcore::ShapeSpec {
+                        kind: ukcore::ShapeKind::Line,
+                        numbers: 4,
+                        label: "",
+                    },
+                    ukcore::ShapeSpec {
+                        kind: ukcore::ShapeKind::Circle,
+                        numbers: 3,
+                        label: "",
+                    },
+                ],
+            },
             switches: &[],
             structure: ukcore::Structure {
                 straight_line: true,
@@ -228,7 +243,7 @@ const _: () = {
                     },
                     prepare: ukcore::Operations {
                         additions: 0,
-                        multiplications: 2,
+                        multiplications: 3,
                         divisions: 1,
                         square_roots: 0,
                         transcendentals: 0,
@@ -262,7 +277,7 @@ const _: () = {
             }
         }
         fn prepare<S: ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
-            let prepared = ukcore::emitted::exact_mut::<S, 6>(prepared, "prepared");
+            let prepared = ukcore::emitted::exact_mut::<S, 7>(prepared, "prepared");
             let [m, l, g] = *ukcore::emitted::exact::<S, 3>(given, "given");
             let lit = S::from_f64;
             prepared[0] = m * g;
@@ -277,6 +292,7 @@ const _: () = {
                 lit(0.0),
             );
             prepared[5] = safe_x;
+            prepared[6] = lit(0.05) * l;
         }
         /// 2 additions, 5 multiplications, 0 divisions, 0 square roots, 0 transcendentals, 0 selections.
         fn dynamics<S: ukcore::Scalar>(
@@ -291,9 +307,9 @@ const _: () = {
             let nonideal = ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
             let jacobian = ukcore::emitted::exact_mut::<S, 2>(out.jacobian, "jacobian");
             let rhs = ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
-            let [m_g, _, _, _, m, _] = *ukcore::emitted::exact::<
+            let [m_g, _, _, _, m, _, _] = *ukcore::emitted::exact::<
                 S,
-                6,
+                7,
             >(prepared, "prepared");
             let [x, y] = *ukcore::emitted::exact::<S, 2>(q, "q");
             let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
@@ -315,9 +331,9 @@ const _: () = {
             mass: &mut [S],
         ) {
             let mass = ukcore::emitted::exact_mut::<S, 4>(mass, "mass");
-            let [_, _, _, _, m, _] = *ukcore::emitted::exact::<
+            let [_, _, _, _, m, _, _] = *ukcore::emitted::exact::<
                 S,
-                6,
+                7,
             >(prepared, "prepared");
             mass[0] = m;
             mass[3] = m;
@@ -337,9 +353,9 @@ const _: () = {
         }
         fn residual<S: ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
             let phi = ukcore::emitted::exact_mut::<S, 1>(phi, "phi");
-            let [_, sq_l, _, _, _, _] = *ukcore::emitted::exact::<
+            let [_, sq_l, _, _, _, _, _] = *ukcore::emitted::exact::<
                 S,
-                6,
+                7,
             >(prepared, "prepared");
             let [x, y] = *ukcore::emitted::exact::<S, 2>(q, "q");
             phi[0] = y.mul_add(y, x * x - sq_l);
@@ -363,9 +379,9 @@ const _: () = {
             q: &[S],
             v: &[S],
         ) -> ukcore::Energy<S> {
-            let [m_g, _, _, _, m, _] = *ukcore::emitted::exact::<
+            let [m_g, _, _, _, m, _, _] = *ukcore::emitted::exact::<
                 S,
-                6,
+                7,
             >(prepared, "prepared");
             let [_, y] = *ukcore::emitted::exact::<S, 2>(q, "q");
             let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
@@ -385,14 +401,36 @@ const _: () = {
             outputs: &mut [S],
         ) {
             let outputs = ukcore::emitted::exact_mut::<S, 2>(outputs, "outputs");
-            let [_, _, g, m_per_l, _, _] = *ukcore::emitted::exact::<
+            let [_, _, g, m_per_l, _, _, _] = *ukcore::emitted::exact::<
                 S,
-                6,
+                7,
             >(prepared, "prepared");
             let [x, y] = *ukcore::emitted::exact::<S, 2>(q, "q");
             let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
             outputs[0] = x.atan2(-y);
             outputs[1] = m_per_l * y.neg_mul_add(g, dot_y.mul_add(dot_y, dot_x * dot_x));
+        }
+        fn drawing<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            drawing: &mut [S],
+        ) {
+            let drawing = ukcore::emitted::exact_mut::<S, 7>(drawing, "drawing");
+            let [_, _, _, _, _, _, times_l] = *ukcore::emitted::exact::<
+                S,
+                7,
+            >(prepared, "prepared");
+            let [x, y] = *ukcore::emitted::exact::<S, 2>(q, "q");
+            let lit = S::from_f64;
+            drawing[0] = lit(0.0);
+            drawing[1] = lit(0.0);
+            drawing[2] = x;
+            drawing[3] = y;
+            drawing[4] = x;
+            drawing[5] = y;
+            drawing[6] = times_l;
         }
         /// 6 additions, 9 multiplications, 1 divisions, 0 square roots, 0 transcendentals, 1 selections.
         fn acceleration<S: ukcore::Scalar>(
@@ -403,9 +441,9 @@ const _: () = {
             out: &mut [S],
         ) -> S {
             let out = ukcore::emitted::exact_mut::<S, 2>(out, "out");
-            let [_, _, g, _, _, safe_x] = *ukcore::emitted::exact::<
+            let [_, _, g, _, _, safe_x, _] = *ukcore::emitted::exact::<
                 S,
-                6,
+                7,
             >(prepared, "prepared");
             let [x, y] = *ukcore::emitted::exact::<S, 2>(q, "q");
             let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
@@ -433,9 +471,9 @@ const _: () = {
             out: &mut [S],
         ) -> S {
             let out = ukcore::emitted::exact_mut::<S, 2>(out, "out");
-            let [_, _, _, _, _, safe_x] = *ukcore::emitted::exact::<
+            let [_, _, _, _, _, safe_x, _] = *ukcore::emitted::exact::<
                 S,
-                6,
+                7,
             >(prepared, "prepared");
             let [x, y] = *ukcore::emitted::exact::<S, 2>(q, "q");
             let [residual_0] = *ukcore::emitted::exact::<S, 1>(residual, "residual");

@@ -184,7 +184,21 @@ const _: () = {
                 },
             ],
             starts: &[],
-            drawing: ukcore::Drawing::NONE,
+            drawing: ukcore::Drawing {
+                dimension: 2,
+                shapes: &[
+                    ukcore::ShapeSpec {
+                        kind: ukcore::ShapeKind::Circle,
+                        numbers: 3,
+                        label: "",
+                    },
+                    ukcore::ShapeSpec {
+                        kind: ukcore::ShapeKind::Trace,
+                        numbers: 2,
+                        label: "",
+                    },
+                ],
+            },
             switches: &[
                 ukcore::SwitchSpec {
                     function: "speed_down",
@@ -472,6 +486,22 @@ const _: () = {
             outputs[1] = speed_down;
             let neg_friction = cos_slope_mu_m_g * speed_down.sign();
             outputs[2] = -neg_friction;
+        }
+        fn drawing<S: ukcore::Scalar>(
+            prepared: &[S],
+            t: S,
+            q: &[S],
+            v: &[S],
+            drawing: &mut [S],
+        ) {
+            let drawing = ukcore::emitted::exact_mut::<S, 5>(drawing, "drawing");
+            let [x, y] = *ukcore::emitted::exact::<S, 2>(q, "q");
+            let lit = S::from_f64;
+            drawing[0] = x;
+            drawing[1] = y;
+            drawing[2] = lit(0.1);
+            drawing[3] = x;
+            drawing[4] = y;
         }
         fn switching<S: ukcore::Scalar>(
             prepared: &[S],
