@@ -269,7 +269,7 @@
   const show = dimension === 3 ? space() : plane();
   const energy = data.energy[0];
   const strips = [
-    strip(`energy ${Number(energy.toPrecision(7))} and`, data.energy.map((x) => (x === null ? null : x - energy))),
+    strip(`energy ${Number(energy.toPrecision(7))}, changed by`, data.energy.map((x) => (x === null ? null : x - energy))),
   ];
   if (data.residual.length) strips.push(strip("largest constraint residual", data.residual));
   const slider = byId("time"), play = byId("play");
