@@ -1,19 +1,20 @@
-//! Sections and entries.
+//! Sections.
 //! The grammar stands in the documentation of `multibody!`.
 //! `expr` is Rust's expression grammar, of which `+ - * /`, calls, method calls, indexing, vectors `[a, b]` and `sum(a..b, |i| …)` have a
 //! meaning.
 
-use super::expr::{Expr, Range, location};
-use super::item::{
-    Block, Body, Const, Coord, Declaration, Entry, Equation, Function, Guess, Joint, Key, Let,
-    LetValue, MassEntry, Merged, Output, Param, PartUse, Section, Shape, Start, StartOption,
+use super::entries::{
+    acting, body, coord_entry, entry, equation, joint, let_entry, mass_entry, output_entry,
+    param_entry, part, shape, start, term,
 };
+use super::expr::{Expr, Range};
+use super::item::{Block, Const, Declaration, Key, Merged, Section};
 use super::nesting;
 use crate::diag::{Diagnostics, Loc, suggest};
 use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
 use quote::ToTokens as _;
 use syn::parse::ParseStream;
-use syn::{Token, braced, bracketed, parenthesized};
+use syn::{Token, braced, bracketed};
 
 const SECTIONS: &str = "const params coords bodies tree parts gravity let mass kinetic force forces potential dissipation holonomic nonholonomic nonideal output integral start draw";
 
@@ -247,7 +248,7 @@ fn attributes(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Attribu
 }
 
 /// The text of doc comments; other attributes are refused.
-fn docs(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Vec<String>> {
+pub(super) fn docs(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Vec<String>> {
     let place = input.span();
     let Attributes {
         docs,
@@ -293,12 +294,12 @@ fn constant(input: ParseStream<'_>, docs: Vec<String>, diag: &Diagnostics) -> sy
     })
 }
 
-fn expression(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Expr> {
+pub(super) fn expression(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Expr> {
     let e: syn::Expr = input.parse()?;
     Ok(Expr::convert(e, diag))
 }
 
-fn key(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Key> {
+pub(super) fn key(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Key> {
     let name: Ident = input.parse()?;
     let mut indices = Vec::new();
     let mut loc: Loc = name.span().into();
@@ -322,7 +323,7 @@ fn key(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Key> {
 }
 
 /// The name of coordinates: a key, or `link[i].angle` of a body, or `leg[i].knee.angle` of a part's.
-fn coordinates(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Key> {
+pub(super) fn coordinates(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Key> {
     let mut key = key(input, diag)?;
     while input.peek(Token![.]) {
         let _: Token![.] = input.parse()?;
@@ -338,7 +339,7 @@ fn coordinates(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Key> {
 type EntryParser<T> = fn(ParseStream<'_>, &Diagnostics) -> syn::Result<T>;
 
 /// `{ entry entry, for i in a..b { entry } }` appended to `out`, so that entries before a syntax error are kept.
-fn blocks<T>(
+pub(super) fn blocks<T>(
     input: ParseStream<'_>,
     out: &mut Vec<Block<T>>,
     diag: &Diagnostics,
@@ -412,363 +413,4 @@ fn present<T>(
         blocks: Vec::new(),
     });
     blocks(input, &mut section.blocks, diag, parse)
-}
-
-fn param_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Param> {
-    let docs = docs(input, diag)?;
-    let key = key(input, diag)?;
-    if !input.peek(Token![=]) {
-        return Err(syn::Error::new(
-            key.name.span(),
-            format!("parameter `{0}` needs a default: `{0} = 1.0`", key.name),
-        ));
-    }
-    let _: Token![=] = input.parse()?;
-    let default = expression(input, diag)?;
-    Ok(Param { docs, key, default })
-}
-
-fn coord_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Coord> {
-    let docs = docs(input, diag)?;
-    let key = key(input, diag)?;
-    Ok(Coord { docs, key })
-}
-
-/// `planar link[i] { mass: m, inertia: j, centre: [a, b] }`.
-fn body(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Body> {
-    let docs = docs(input, diag)?;
-    let kind: Ident = input.parse()?;
-    if kind != "planar" && kind != "spatial" {
-        let message = format!(
-            "a body is `planar` or `spatial`, not `{kind}`: `planar link {{ mass: m, inertia: j }}`"
-        );
-        return Err(syn::Error::new(kind.span(), message));
-    }
-    let key = key(input, diag)?;
-    if !input.peek(syn::token::Brace) {
-        let message = format!(
-            "a body needs what it consists of: `{kind} {} {{ mass: m, inertia: j }}`",
-            key.name
-        );
-        return Err(syn::Error::new(key.name.span(), message));
-    }
-    let parts;
-    braced!(parts in input);
-    let mut out = Body {
-        docs,
-        spatial: kind == "spatial",
-        key,
-        mass: None,
-        inertia: None,
-        centre: None,
-    };
-    while !parts.is_empty() {
-        let name: Ident = parts.parse()?;
-        let _: Token![:] = parts.parse()?;
-        let value = expression(&parts, diag)?;
-        let _: Option<Token![,]> = parts.parse()?;
-        let known = ["mass", "inertia", "centre"];
-        let place = match name.to_string().as_str() {
-            "mass" => &mut out.mass,
-            "inertia" => &mut out.inertia,
-            "centre" => &mut out.centre,
-            text => {
-                let end = suggest(text, known, "it has `mass`, `inertia` and `centre`");
-                diag.error(name.span(), format!("a body has no `{text}`{end}"));
-                continue;
-            }
-        };
-        if place.replace(value).is_some() {
-            diag.error(name.span(), format!("`{name}` is given twice; remove one"));
-        }
-    }
-    Ok(out)
-}
-
-/// `leg[6]: legs::Leg { phase: 0.1 }`.
-fn part(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<PartUse> {
-    docs(input, diag)?;
-    let key = key(input, diag)?;
-    if !input.peek(Token![:]) {
-        let message = format!(
-            "a part needs the type that it is: `{0}: Leg` or `{0}: Leg {{ mass: m }}`",
-            key.name
-        );
-        return Err(syn::Error::new(key.name.span(), message));
-    }
-    let _: Token![:] = input.parse()?;
-    let path = input.call(syn::Path::parse_mod_style)?;
-    let name = path.segments.last().map(|segment| segment.ident.clone());
-    let mut out = PartUse {
-        name: name.unwrap_or_else(|| key.name.clone()),
-        path: path.to_token_stream(),
-        key,
-        given: Vec::new(),
-    };
-    if input.peek(syn::token::Brace) {
-        let given;
-        braced!(given in input);
-        while !given.is_empty() {
-            let name: Ident = given.parse()?;
-            let value = match given.parse::<Option<Token![:]>>()? {
-                Some(_) => expression(&given, diag)?,
-                // As in Rust, `{ mass }` is short for `{ mass: mass }`.
-                None => Expr::name(name.clone()),
-            };
-            let _: Option<Token![,]> = given.parse()?;
-            if out.given.iter().any(|(n, _)| *n == name) {
-                diag.error(name.span(), format!("`{name}` is given twice; remove one"));
-                continue;
-            }
-            out.given.push((name, value));
-        }
-    }
-    Ok(out)
-}
-
-/// `elbow: hinge(p, q, u)`.
-fn joint(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Joint> {
-    let docs = docs(input, diag)?;
-    let key = key(input, diag)?;
-    if !input.peek(Token![:]) {
-        let message = format!(
-            "a joint needs a name: `name: pin(p, q)` (found `{}` first)",
-            key.name
-        );
-        return Err(syn::Error::new(key.name.span(), message));
-    }
-    let _: Token![:] = input.parse()?;
-    let value = match input.parse()? {
-        syn::Expr::Assign(e) => {
-            let message = "a joint of the tree says what is free, and has no `=`; equations go under `holonomic`";
-            diag.error(e.eq_token.span, message);
-            Expr::error(location(&e.left))
-        }
-        e => Expr::convert(e, diag),
-    };
-    Ok(Joint { docs, key, value })
-}
-
-fn let_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Let> {
-    let key = key(input, diag)?;
-    let _: Token![=] = input.parse()?;
-    let e: syn::Expr = input.parse()?;
-    let value = match e {
-        syn::Expr::Closure(closure) => {
-            let mut args = Vec::new();
-            for pattern in &closure.inputs {
-                match pattern {
-                    syn::Pat::Ident(p) if p.subpat.is_none() && p.by_ref.is_none() => {
-                        args.push(p.ident.clone());
-                    }
-                    other => diag.damage(
-                        Loc::of(other),
-                        "an argument is a plain name, such as `|v| …`",
-                    ),
-                }
-            }
-            LetValue::Function(Function {
-                args,
-                body: Expr::convert(*closure.body, diag),
-            })
-        }
-        value => LetValue::Value(Expr::convert(value, diag)),
-    };
-    Ok(Let {
-        key,
-        given: None,
-        value,
-    })
-}
-
-fn mass_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<MassEntry> {
-    let (first, other) = if input.peek(syn::token::Paren) {
-        let pair;
-        parenthesized!(pair in input);
-        let first = coordinates(&pair, diag)?;
-        let _: Token![,] = pair.parse()?;
-        let second = coordinates(&pair, diag)?;
-        let _: Option<Token![,]> = pair.parse()?;
-        if !pair.is_empty() {
-            return Err(pair.error("an entry of M belongs to one or two coordinates"));
-        }
-        (first, Some(second))
-    } else {
-        (coordinates(input, diag)?, None)
-    };
-    let _: Token![:] = input.parse()?;
-    let value = expression(input, diag)?;
-    Ok(MassEntry {
-        key: first,
-        other,
-        value,
-    })
-}
-
-fn term(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Expr> {
-    expression(input, diag)
-}
-
-/// `spring(p, q, k, l)`.
-fn acting(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Expr> {
-    let e = expression(input, diag)?;
-    if input.peek(Token![:]) {
-        let message = "the force on a coordinate goes under `force`; here stands what acts on bodies, such as `spring(p, q, k, l)`";
-        return Err(input.error(message));
-    }
-    Ok(e)
-}
-
-fn entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Entry> {
-    let key = coordinates(input, diag)?;
-    let _: Token![:] = input.parse()?;
-    let value = expression(input, diag)?;
-    Ok(Entry { key, value })
-}
-
-fn equation(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Equation> {
-    let key = key(input, diag)?;
-    if !input.peek(Token![:]) {
-        return Err(syn::Error::new(
-            key.name.span(),
-            format!(
-                "a constraint needs a name: `name: lhs = rhs` (found `{}` first)",
-                key.name
-            ),
-        ));
-    }
-    let _: Token![:] = input.parse()?;
-    let e: syn::Expr = input.parse()?;
-    let (lhs, rhs) = match e {
-        syn::Expr::Assign(assign) => (*assign.left, Some(*assign.right)),
-        // A joint, perhaps.
-        syn::Expr::Call(_) | syn::Expr::MethodCall(_) => (e, None),
-        e => {
-            let loc = location(&e);
-            diag.error(loc, "a constraint is an equation: `lhs = rhs`");
-            return Ok(Equation {
-                key,
-                lhs: Expr::error(loc),
-                rhs: None,
-            });
-        }
-    };
-    Ok(Equation {
-        key,
-        lhs: Expr::convert(lhs, diag),
-        rhs: rhs.map(|rhs| Expr::convert(rhs, diag)),
-    })
-}
-
-fn output_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Output> {
-    let docs = docs(input, diag)?;
-    let key = key(input, diag)?;
-    let _: Token![=] = input.parse()?;
-    let value = expression(input, diag)?;
-    Ok(Output { docs, key, value })
-}
-
-/// `start name(option = number, …) { guesses }`.
-fn start(input: ParseStream<'_>, docs: Vec<String>, diag: &Diagnostics) -> syn::Result<Start> {
-    let name: Ident = input.parse().map_err(|e| {
-        let message = "a start needs a name: `start released { x = 1.0 }`";
-        syn::Error::new(e.span(), message)
-    })?;
-    let mut options = Vec::new();
-    if input.peek(syn::token::Paren) {
-        let list;
-        parenthesized!(list in input);
-        while !list.is_empty() {
-            options.push(start_option(&list, diag)?);
-            if !list.is_empty() {
-                let _: Token![,] = list.parse()?;
-            }
-        }
-    }
-    let mut guesses = Vec::new();
-    blocks(input, &mut guesses, diag, guess)?;
-    Ok(Start {
-        docs,
-        name,
-        options,
-        guesses,
-    })
-}
-
-fn start_option(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<StartOption> {
-    let docs = docs(input, diag)?;
-    let name: Ident = input.parse()?;
-    if !input.peek(Token![=]) {
-        let message = format!("option `{name}` needs a default: `{name} = 1.0`");
-        return Err(syn::Error::new(name.span(), message));
-    }
-    let _: Token![=] = input.parse()?;
-    let default = expression(input, diag)?;
-    Ok(StartOption {
-        docs,
-        name,
-        default,
-    })
-}
-
-fn guess(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Guess> {
-    let rate = input.peek2(syn::token::Paren) && input.fork().parse::<Ident>()? == "dot";
-    let key = if rate {
-        let _: Ident = input.parse()?;
-        let inner;
-        parenthesized!(inner in input);
-        let key = coordinates(&inner, diag)?;
-        if !inner.is_empty() {
-            let error =
-                inner.error("a start gives velocities of coordinates, such as `dot(x) = 1.0`");
-            let _: TokenStream = inner.parse()?;
-            return Err(error);
-        }
-        key
-    } else {
-        coordinates(input, diag)?
-    };
-    let held = input.peek(Token![=]);
-    if held {
-        let _: Token![=] = input.parse()?;
-    } else {
-        let near: Option<Ident> = input.parse()?;
-        if near.is_none_or(|word| word != "near") {
-            let message = format!(
-                "a start says where `{0}` is: `{0} = 1.0`, which holds, or `{0} near 1.0`, from where it may move",
-                key.name
-            );
-            return Err(syn::Error::new(key.name.span(), message));
-        }
-    }
-    let value = expression(input, diag)?;
-    Ok(Guess {
-        key,
-        rate,
-        held,
-        value,
-    })
-}
-
-/// `line(p, q)`, or with a text at the end `text(p, "driver")`.
-fn shape(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Shape> {
-    let name: Ident = input.parse()?;
-    if !input.peek(syn::token::Paren) {
-        let message = format!("a shape is written with its points: `{name}(p, q)`");
-        return Err(syn::Error::new(name.span(), message));
-    }
-    let list;
-    parenthesized!(list in input);
-    let (mut args, mut label) = (Vec::new(), None);
-    while !list.is_empty() {
-        if list.peek(syn::LitStr) {
-            label = Some(list.parse::<syn::LitStr>()?.value());
-        } else {
-            args.push(expression(&list, diag)?);
-        }
-        if !list.is_empty() {
-            let _: Token![,] = list.parse()?;
-        }
-    }
-    Ok(Shape { name, args, label })
 }

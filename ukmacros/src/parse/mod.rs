@@ -1,5 +1,6 @@
 //! Tokens to syntax tree. The only place that knows `syn`.
 
+mod entries;
 mod expr;
 mod grammar;
 mod item;
