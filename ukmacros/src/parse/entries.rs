@@ -1,0 +1,376 @@
+//! Entries of sections, each by itself.
+
+use super::expr::{Expr, location};
+use super::grammar::{blocks, coordinates, docs, expression, key};
+use super::item::{
+    Body, Coord, Entry, Equation, Function, Guess, Joint, Let, LetValue, MassEntry, Output, Param,
+    PartUse, Shape, Start, StartOption,
+};
+use crate::diag::{Diagnostics, Loc, suggest};
+use proc_macro2::{Ident, TokenStream};
+use quote::ToTokens as _;
+use syn::parse::ParseStream;
+use syn::{Token, braced, parenthesized};
+
+pub(super) fn param_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Param> {
+    let docs = docs(input, diag)?;
+    let key = key(input, diag)?;
+    if !input.peek(Token![=]) {
+        return Err(syn::Error::new(
+            key.name.span(),
+            format!("parameter `{0}` needs a default: `{0} = 1.0`", key.name),
+        ));
+    }
+    let _: Token![=] = input.parse()?;
+    let default = expression(input, diag)?;
+    Ok(Param { docs, key, default })
+}
+
+pub(super) fn coord_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Coord> {
+    let docs = docs(input, diag)?;
+    let key = key(input, diag)?;
+    Ok(Coord { docs, key })
+}
+
+/// `planar link[i] { mass: m, inertia: j, centre: [a, b] }`.
+pub(super) fn body(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Body> {
+    let docs = docs(input, diag)?;
+    let kind: Ident = input.parse()?;
+    if kind != "planar" && kind != "spatial" {
+        let message = format!(
+            "a body is `planar` or `spatial`, not `{kind}`: `planar link {{ mass: m, inertia: j }}`"
+        );
+        return Err(syn::Error::new(kind.span(), message));
+    }
+    let key = key(input, diag)?;
+    if !input.peek(syn::token::Brace) {
+        let message = format!(
+            "a body needs what it consists of: `{kind} {} {{ mass: m, inertia: j }}`",
+            key.name
+        );
+        return Err(syn::Error::new(key.name.span(), message));
+    }
+    let parts;
+    braced!(parts in input);
+    let mut out = Body {
+        docs,
+        spatial: kind == "spatial",
+        key,
+        mass: None,
+        inertia: None,
+        centre: None,
+    };
+    while !parts.is_empty() {
+        let name: Ident = parts.parse()?;
+        let _: Token![:] = parts.parse()?;
+        let value = expression(&parts, diag)?;
+        let _: Option<Token![,]> = parts.parse()?;
+        let known = ["mass", "inertia", "centre"];
+        let place = match name.to_string().as_str() {
+            "mass" => &mut out.mass,
+            "inertia" => &mut out.inertia,
+            "centre" => &mut out.centre,
+            text => {
+                let end = suggest(text, known, "it has `mass`, `inertia` and `centre`");
+                diag.error(name.span(), format!("a body has no `{text}`{end}"));
+                continue;
+            }
+        };
+        if place.replace(value).is_some() {
+            diag.error(name.span(), format!("`{name}` is given twice; remove one"));
+        }
+    }
+    Ok(out)
+}
+
+/// `leg[6]: legs::Leg { phase: 0.1 }`.
+pub(super) fn part(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<PartUse> {
+    docs(input, diag)?;
+    let key = key(input, diag)?;
+    if !input.peek(Token![:]) {
+        let message = format!(
+            "a part needs the type that it is: `{0}: Leg` or `{0}: Leg {{ mass: m }}`",
+            key.name
+        );
+        return Err(syn::Error::new(key.name.span(), message));
+    }
+    let _: Token![:] = input.parse()?;
+    let path = input.call(syn::Path::parse_mod_style)?;
+    let name = path.segments.last().map(|segment| segment.ident.clone());
+    let mut out = PartUse {
+        name: name.unwrap_or_else(|| key.name.clone()),
+        path: path.to_token_stream(),
+        key,
+        given: Vec::new(),
+    };
+    if input.peek(syn::token::Brace) {
+        let given;
+        braced!(given in input);
+        while !given.is_empty() {
+            let name: Ident = given.parse()?;
+            let value = match given.parse::<Option<Token![:]>>()? {
+                Some(_) => expression(&given, diag)?,
+                // As in Rust, `{ mass }` is short for `{ mass: mass }`.
+                None => Expr::name(name.clone()),
+            };
+            let _: Option<Token![,]> = given.parse()?;
+            if out.given.iter().any(|(n, _)| *n == name) {
+                diag.error(name.span(), format!("`{name}` is given twice; remove one"));
+                continue;
+            }
+            out.given.push((name, value));
+        }
+    }
+    Ok(out)
+}
+
+/// `elbow: hinge(p, q, u)`.
+pub(super) fn joint(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Joint> {
+    let docs = docs(input, diag)?;
+    let key = key(input, diag)?;
+    if !input.peek(Token![:]) {
+        let message = format!(
+            "a joint needs a name: `name: pin(p, q)` (found `{}` first)",
+            key.name
+        );
+        return Err(syn::Error::new(key.name.span(), message));
+    }
+    let _: Token![:] = input.parse()?;
+    let value = match input.parse()? {
+        syn::Expr::Assign(e) => {
+            let message = "a joint of the tree says what is free, and has no `=`; equations go under `holonomic`";
+            diag.error(e.eq_token.span, message);
+            Expr::error(location(&e.left))
+        }
+        e => Expr::convert(e, diag),
+    };
+    Ok(Joint { docs, key, value })
+}
+
+pub(super) fn let_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Let> {
+    let key = key(input, diag)?;
+    let _: Token![=] = input.parse()?;
+    let e: syn::Expr = input.parse()?;
+    let value = match e {
+        syn::Expr::Closure(closure) => {
+            let mut args = Vec::new();
+            for pattern in &closure.inputs {
+                match pattern {
+                    syn::Pat::Ident(p) if p.subpat.is_none() && p.by_ref.is_none() => {
+                        args.push(p.ident.clone());
+                    }
+                    other => diag.damage(
+                        Loc::of(other),
+                        "an argument is a plain name, such as `|v| …`",
+                    ),
+                }
+            }
+            LetValue::Function(Function {
+                args,
+                body: Expr::convert(*closure.body, diag),
+            })
+        }
+        value => LetValue::Value(Expr::convert(value, diag)),
+    };
+    Ok(Let {
+        key,
+        given: None,
+        value,
+    })
+}
+
+pub(super) fn mass_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<MassEntry> {
+    let (first, other) = if input.peek(syn::token::Paren) {
+        let pair;
+        parenthesized!(pair in input);
+        let first = coordinates(&pair, diag)?;
+        let _: Token![,] = pair.parse()?;
+        let second = coordinates(&pair, diag)?;
+        let _: Option<Token![,]> = pair.parse()?;
+        if !pair.is_empty() {
+            return Err(pair.error("an entry of M belongs to one or two coordinates"));
+        }
+        (first, Some(second))
+    } else {
+        (coordinates(input, diag)?, None)
+    };
+    let _: Token![:] = input.parse()?;
+    let value = expression(input, diag)?;
+    Ok(MassEntry {
+        key: first,
+        other,
+        value,
+    })
+}
+
+pub(super) fn term(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Expr> {
+    expression(input, diag)
+}
+
+/// `spring(p, q, k, l)`.
+pub(super) fn acting(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Expr> {
+    let e = expression(input, diag)?;
+    if input.peek(Token![:]) {
+        let message = "the force on a coordinate goes under `force`; here stands what acts on bodies, such as `spring(p, q, k, l)`";
+        return Err(input.error(message));
+    }
+    Ok(e)
+}
+
+pub(super) fn entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Entry> {
+    let key = coordinates(input, diag)?;
+    let _: Token![:] = input.parse()?;
+    let value = expression(input, diag)?;
+    Ok(Entry { key, value })
+}
+
+pub(super) fn equation(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Equation> {
+    let key = key(input, diag)?;
+    if !input.peek(Token![:]) {
+        return Err(syn::Error::new(
+            key.name.span(),
+            format!(
+                "a constraint needs a name: `name: lhs = rhs` (found `{}` first)",
+                key.name
+            ),
+        ));
+    }
+    let _: Token![:] = input.parse()?;
+    let e: syn::Expr = input.parse()?;
+    let (lhs, rhs) = match e {
+        syn::Expr::Assign(assign) => (*assign.left, Some(*assign.right)),
+        // A joint, perhaps.
+        syn::Expr::Call(_) | syn::Expr::MethodCall(_) => (e, None),
+        e => {
+            let loc = location(&e);
+            diag.error(loc, "a constraint is an equation: `lhs = rhs`");
+            return Ok(Equation {
+                key,
+                lhs: Expr::error(loc),
+                rhs: None,
+            });
+        }
+    };
+    Ok(Equation {
+        key,
+        lhs: Expr::convert(lhs, diag),
+        rhs: rhs.map(|rhs| Expr::convert(rhs, diag)),
+    })
+}
+
+pub(super) fn output_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Output> {
+    let docs = docs(input, diag)?;
+    let key = key(input, diag)?;
+    let _: Token![=] = input.parse()?;
+    let value = expression(input, diag)?;
+    Ok(Output { docs, key, value })
+}
+
+/// `start name(option = number, …) { guesses }`.
+pub(super) fn start(
+    input: ParseStream<'_>,
+    docs: Vec<String>,
+    diag: &Diagnostics,
+) -> syn::Result<Start> {
+    let name: Ident = input.parse().map_err(|e| {
+        let message = "a start needs a name: `start released { x = 1.0 }`";
+        syn::Error::new(e.span(), message)
+    })?;
+    let mut options = Vec::new();
+    if input.peek(syn::token::Paren) {
+        let list;
+        parenthesized!(list in input);
+        while !list.is_empty() {
+            options.push(start_option(&list, diag)?);
+            if !list.is_empty() {
+                let _: Token![,] = list.parse()?;
+            }
+        }
+    }
+    let mut guesses = Vec::new();
+    blocks(input, &mut guesses, diag, guess)?;
+    Ok(Start {
+        docs,
+        name,
+        options,
+        guesses,
+    })
+}
+
+fn start_option(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<StartOption> {
+    let docs = docs(input, diag)?;
+    let name: Ident = input.parse()?;
+    if !input.peek(Token![=]) {
+        let message = format!("option `{name}` needs a default: `{name} = 1.0`");
+        return Err(syn::Error::new(name.span(), message));
+    }
+    let _: Token![=] = input.parse()?;
+    let default = expression(input, diag)?;
+    Ok(StartOption {
+        docs,
+        name,
+        default,
+    })
+}
+
+fn guess(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Guess> {
+    let rate = input.peek2(syn::token::Paren) && input.fork().parse::<Ident>()? == "dot";
+    let key = if rate {
+        let _: Ident = input.parse()?;
+        let inner;
+        parenthesized!(inner in input);
+        let key = coordinates(&inner, diag)?;
+        if !inner.is_empty() {
+            let error =
+                inner.error("a start gives velocities of coordinates, such as `dot(x) = 1.0`");
+            let _: TokenStream = inner.parse()?;
+            return Err(error);
+        }
+        key
+    } else {
+        coordinates(input, diag)?
+    };
+    let held = input.peek(Token![=]);
+    if held {
+        let _: Token![=] = input.parse()?;
+    } else {
+        let near: Option<Ident> = input.parse()?;
+        if near.is_none_or(|word| word != "near") {
+            let message = format!(
+                "a start says where `{0}` is: `{0} = 1.0`, which holds, or `{0} near 1.0`, from where it may move",
+                key.name
+            );
+            return Err(syn::Error::new(key.name.span(), message));
+        }
+    }
+    let value = expression(input, diag)?;
+    Ok(Guess {
+        key,
+        rate,
+        held,
+        value,
+    })
+}
+
+/// `line(p, q)`, or with a text at the end `text(p, "driver")`.
+pub(super) fn shape(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Shape> {
+    let name: Ident = input.parse()?;
+    if !input.peek(syn::token::Paren) {
+        let message = format!("a shape is written with its points: `{name}(p, q)`");
+        return Err(syn::Error::new(name.span(), message));
+    }
+    let list;
+    parenthesized!(list in input);
+    let (mut args, mut label) = (Vec::new(), None);
+    while !list.is_empty() {
+        if list.peek(syn::LitStr) {
+            label = Some(list.parse::<syn::LitStr>()?.value());
+        } else {
+            args.push(expression(&list, diag)?);
+        }
+        if !list.is_empty() {
+            let _: Token![,] = list.parse()?;
+        }
+    }
+    Ok(Shape { name, args, label })
+}
