@@ -1,7 +1,7 @@
 //! Rest positions, against statics.
 
 use tests::{assert_all_close, assert_close};
-use ukcore::{Error, State, equilibrium};
+use ukcore::{Error, Mechanism, Stability, State, equilibrium};
 
 ukcore::multibody! {
     /// Masses on rods of one length between two supports at one height; y points up.
@@ -45,7 +45,7 @@ fn a_rope_hangs_as_its_weights_pull() {
     let rope = Rope::default();
     let start = rope.start("flat", &[].into()).expect("a start");
     let found = equilibrium(&rope, &start, &[]).expect("it hangs");
-    assert!(found.stable);
+    assert_eq!(found.stability, Stability::Stable);
     let State { q, v, .. } = &found.state;
     assert!(v.iter().all(|v| *v == 0.0));
     let at = |i: usize| match i {
@@ -64,7 +64,10 @@ fn a_rope_hangs_as_its_weights_pull() {
         .map(|k| if k < Rope::N { q[k] } else { -q[k] })
         .collect();
     let arch = equilibrium(&rope, &guess(&arch), &[]).expect("it stands");
-    assert!(!arch.stable && arch.state.q[Rope::Y[2]] > 0.0, "{arch:?}");
+    assert!(
+        arch.stability == Stability::Unstable && arch.state.q[Rope::Y[2]] > 0.0,
+        "{arch:?}"
+    );
     // A little off it falls down.
     let mut off = arch.state.q.clone();
     off[Rope::Y[1]] += 1e-3;
@@ -89,7 +92,7 @@ fn what_is_held_keeps_its_place() {
     balance(&free.state, 1.0);
     balance(&held.state, 0.0);
     assert_eq!(held.state.q[0], 0.2);
-    assert!(free.stable && held.stable);
+    assert_eq!([free.stability, held.stability], [Stability::Stable; 2]);
 }
 
 #[test]
@@ -103,6 +106,81 @@ fn what_does_not_rest_is_told() {
     let driven = equilibrium(Driven::default(), &guess(&[0.0, 0.0]), &[]).unwrap_err();
     assert!(told(driven).contains("constraints that change with time move `x`"));
     let free = equilibrium(Free::default(), &guess(&[3.0]), &[]).expect("anywhere");
-    assert!(!free.stable && free.state.q == [3.0]);
+    assert_eq!(
+        (free.stability, &free.state.q[..]),
+        (Stability::Neutral, &[3.0][..])
+    );
     assert!(equilibrium(Free::default(), &guess(&[3.0]), &["y"]).is_err());
+}
+
+macro_rules! mechanisms {
+    ($($name:ident { $($body:tt)* })*) => { $(ukcore::multibody! { $name { $($body)* } })* };
+}
+
+mechanisms! {
+    Spring { params { k = 4.0 } coords { x } mass { x: 1.0 } potential { 0.5 * k * sq(x) } }
+    Swing { coords { a } kinetic { 0.5 * sq(dot(a)) } potential { -9.81 * cos(a) } }
+    Mixed { params { k = 1e3 } coords { x, y } mass { x: 1.0, y: 1.0 } potential { 0.5 * k * sq(x - 1.0), 0.5 * sq(y - 1.0) } }
+    Row {
+        coords { x[3] } mass { x: 1.0 }
+        potential { 0.5e8 * sq(x[0]), 0.5 * sq(x[1] - x[0]), 0.5e8 * sq(x[2] - x[1]), -9.81 * (x[0] + x[1] + x[2]) }
+    }
+    Turning {
+        params { k = -4.0, w = 3.0 }
+        coords { x, y } mass { x: 1.0, y: 1.0 }
+        potential { 0.5 * k * (sq(x - 1.0) + sq(y - 1.0)) }
+        force { x: 2.0 * w * dot(y), y: -2.0 * w * dot(x) }
+    }
+    Fed { coords { x } mass { x: 1.0 } potential { 0.5 * sq(x) } dissipation { -0.25 * sq(dot(x)) } }
+    Circling {
+        params { k = 5.0, p = 1.0 }
+        coords { x, y } mass { x: 1.0, y: 1.0 }
+        potential { 0.5 * k * (sq(x - 1.0) + sq(y - 1.0)) }
+        force { x: -p * (y - 1.0), y: p * (x - 1.0) }
+    }
+}
+
+/// Rest positions at zero, stiff beside soft, with forces that have no potential.
+#[test]
+fn zeros_stiffness_and_forces_without_a_potential() {
+    fn rest<M: Mechanism>(q: &[f64], expected: &[f64], stability: Stability) {
+        let name = M::SPEC.name;
+        let found = equilibrium(M::default(), &guess(q), &[]);
+        let found = found.unwrap_or_else(|e| panic!("{name} from {q:?}: {e}"));
+        let size = q
+            .iter()
+            .chain(expected)
+            .fold(0.0, |s: f64, x| s.max(x.abs()));
+        assert_all_close(name, &found.state.q, expected, 1e-9 * size);
+        assert_eq!(found.stability, stability, "{name} from {q:?}");
+    }
+    use Stability::{Stable, Unstable};
+    for k in 1..=100 {
+        rest::<Spring>(&[0.05 * f64::from(k)], &[0.0], Stable);
+    }
+    for small in [1e-9, 1e-300, 0.0] {
+        rest::<Spring>(&[small], &[0.0], Stable);
+    }
+    for angle in [0.1, -1.4, 2.0, 3.14] {
+        rest::<Swing>(&[angle], &[0.0], Stable);
+    }
+    rest::<Swing>(&[std::f64::consts::PI], &[std::f64::consts::PI], Unstable);
+    rest::<Mixed>(&[0.1, 0.0], &[1.0, 1.0], Stable);
+    for ratio in [1e4, 1e6, 1e8] {
+        let mixed = Mixed { k: ratio };
+        let found = equilibrium(&mixed, &guess(&[0.1, 0.0]), &[]).expect("rest");
+        assert_eq!(found.stability, Stable, "{ratio:e}");
+        assert_all_close("place", &found.state.q, &[1.0, 1.0], 1e-9);
+    }
+    let g = 9.81;
+    let row = [
+        3.0 * g / 1e8,
+        3.0 * g / 1e8 + 2.0 * g,
+        3.0 * g / 1e8 + 2.0 * g + g / 1e8,
+    ];
+    rest::<Row>(&[0.0, 0.0, 0.0], &row, Stable);
+    // Held up by turning alone.
+    rest::<Turning>(&[0.3, 0.8], &[1.0, 1.0], Stability::Neutral);
+    rest::<Fed>(&[0.3], &[0.0], Unstable);
+    rest::<Circling>(&[0.3, 0.0], &[1.0, 1.0], Unstable);
 }

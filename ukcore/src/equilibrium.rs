@@ -1,16 +1,17 @@
 //! Where a mechanism rests.
 //!
 //! At rest the forces do no work in any displacement that the constraints allow: r = Nᵀ M q̈ = 0 at q̇ = 0, with a basis N of these
-//! displacements. It is found by Newton's method on the constraints, each step projected, with the stiffness K = −∂r/∂δ; where K is not
-//! positive definite it is shifted until it is, so that the search goes downhill, to a position that is stable, unless it starts where nothing
-//! moves it.
+//! displacements. It is found by Newton's method on the constraints, each step projected, with the stiffness K = −∂r/∂δ. Where forces have a
+//! potential the search goes downhill: curvatures count by their magnitude, so it ends where the potential is least nearby, unless it
+//! starts where nothing moves it. Else r alone tells.
 
 use nalgebra::{DMatrix, DVector};
 
 use crate::assemble::{Held, State, assembled};
 use crate::error::Error;
+use crate::linearise::Linearisation;
 use crate::mechanism::Prepared;
-use crate::modes::{null_space, units};
+use crate::modes::{modes, null_space, units};
 use crate::solver::{Solver, SolverOptions};
 
 /// A rest position.
@@ -18,25 +19,42 @@ use crate::solver::{Solver, SolverOptions};
 pub struct Equilibrium {
     /// The position; all velocities are 0.
     pub state: State,
-    /// Whether every small displacement is driven back: the stiffness is positive definite. A displacement that costs nothing, as that of a
-    /// wheel on a plane, makes it `false`.
-    pub stable: bool,
+    /// What small displacements come to.
+    pub stability: Stability,
+}
+
+/// What becomes of small displacements from a rest position.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stability {
+    /// All are driven back, and no vibration grows.
+    Stable,
+    /// Some cost nothing, as that of a wheel on a plane; none grows faster than in proportion to time, as far as a linear motion tells.
+    Neutral,
+    /// Some are driven on, or a vibration grows.
+    Unstable,
 }
 
 /// Attempted steps at most.
 const STEPS: usize = 200;
-/// A displacement for differences of forces, as a part of the coordinates: its square is the error of what is linear in it.
+/// A displacement for differences of forces, as a part of the coordinates, where coordinates are held.
 const DIFFERENCE: f64 = 1e-6;
 /// Forces below this share of their parts are rounding.
-const BALANCED: f64 = 1e-11;
+const BALANCED: f64 = 1e-12;
+/// A displacement below this part of the coordinates on the way leads nowhere.
+const NOWHERE: f64 = 1e-12;
+/// A stiffness below this part of the largest one is rounding; with coordinates held, of its differences.
+const FLAT: f64 = 1e-13;
+const FLAT_BY_DIFFERENCES: f64 = 1e-8;
+/// A growth below this part of the largest eigenvalue is that of a double zero.
+const STILL: f64 = 1e-7;
 
-/// A rest position of `mechanism` next to `guess`, on the constraints at its time. Coordinates named in `hold` keep the value of the guess,
-/// whatever force that takes.
+/// The rest position of `mechanism` that `guess` falls to, or is at, on the constraints at its time. Coordinates named in `hold` keep the
+/// value of the guess, whatever force that takes; what becomes of displacements is then told by the stiffness alone.
 ///
 /// # Errors
 /// - What [`assemble`](crate::assemble()) reports for `guess` and `hold`, and [`Solver::acceleration`] on the way.
-/// - [`Error::InvalidSetting`] where constraints move with time, so that nothing rests, and where no rest position is found: the search says
-///   which coordinate is driven most where it ends.
+/// - [`Error::InvalidSetting`] where constraints move with time, so that nothing rests, and where no rest position is found: it says which
+///   coordinate is driven most where the search ends.
 pub fn equilibrium(
     mechanism: impl Into<Prepared>,
     guess: &State,
@@ -53,47 +71,41 @@ pub fn equilibrium(
         solver: Solver::new(&mech, SolverOptions::default()),
         mech,
         held,
+        size: 0.0,
     };
     let mut still = guess.clone();
     still.v.fill(0.0);
     let mut here = search.place(still)?;
-    let mut shift = 0.0_f64;
+    let mut damping = 0.0_f64;
     for _ in 0..STEPS {
         let stiffness = search.stiffness(&here)?;
-        let least = stiffness.clone().symmetric_eigenvalues().min();
-        if here.is_balanced() {
-            // Zero stiffness is known to the error of its differences.
-            let stable = least > 1e3 * DIFFERENCE * stiffness.amax();
+        let step = here.step(&stiffness);
+        if here.is_balanced() || step.amax() <= NOWHERE * search.size {
+            let stability = search.stability(&here.state, &stiffness)?;
             return Ok(Equilibrium {
                 state: here.state,
-                stable: stable || here.force.is_empty(),
+                stability,
             });
         }
-        let size = stiffness.amax().max(f64::MIN_POSITIVE);
-        let needed = if least > 0.0 {
-            0.0
-        } else {
-            1e-3 * size - least
-        };
-        let mut shifted = stiffness.clone();
-        for k in 0..shifted.nrows() {
-            shifted[(k, k)] += needed + shift;
-        }
-        let step = shifted.lu().solve(&here.force);
-        let there = step.map(|step| search.moved(&here, &step));
-        match there {
-            Some(Ok(there)) if there.improves_on(&here) => {
+        match search.moved(&here, &(step / (1.0 + damping))) {
+            Ok(there) if there.improves_on(&here) => {
                 here = there;
-                shift *= 0.1;
+                damping *= 0.1;
+                if damping < 0.1 {
+                    damping = 0.0;
+                }
             }
-            _ => shift = (10.0 * shift).max(1e-2 * size),
+            _ => damping = 4.0 * damping + 1.0,
+        }
+        if damping > 1e20 {
+            break;
         }
     }
     let most = here.push.icamax();
     Err(Error::InvalidSetting {
         what: "guess",
         reason: format!(
-            "leads to no rest position: after {STEPS} steps `{}` is still driven most; give a nearer one, or hold coordinates",
+            "leads to no rest position: where the search ends `{}` is still driven most; give a nearer one, or hold coordinates",
             search.mech.spec().coords[most]
         ),
     })
@@ -103,6 +115,8 @@ struct Search {
     mech: Prepared,
     solver: Solver,
     held: Vec<usize>,
+    /// The largest coordinate so far, in units of the coordinates.
+    size: f64,
 }
 
 /// A position on the constraints, and what drives it.
@@ -133,6 +147,32 @@ impl Place {
             _ => now < then || self.is_balanced(),
         }
     }
+
+    /// Newton's step; downhill, where forces have a potential.
+    fn step(&self, stiffness: &DMatrix<f64>) -> DVector<f64> {
+        let largest = stiffness.amax();
+        let along = |curvatures: &DVector<f64>, vectors: &DMatrix<f64>| {
+            let mut shares = vectors.tr_mul(&self.force);
+            for (share, curvature) in shares.iter_mut().zip(curvatures.iter()) {
+                // What costs nothing is moved by what pushes it as by the stiffest, and stays if that is rounding.
+                let flat = curvature.abs() <= FLAT * largest;
+                *share /= if flat {
+                    largest.max(f64::MIN_POSITIVE)
+                } else {
+                    curvature.abs()
+                };
+            }
+            vectors * shares
+        };
+        if self.potential.is_none()
+            && let Some(step) = stiffness.clone().lu().solve(&self.force)
+        {
+            return step;
+        }
+        let symmetric = 0.5 * (stiffness + stiffness.transpose());
+        let decomposed = symmetric.symmetric_eigen();
+        along(&decomposed.eigenvalues, &decomposed.eigenvectors)
+    }
 }
 
 impl Search {
@@ -159,6 +199,8 @@ impl Search {
         let mut mass = vec![0.0; n * n];
         self.mech.mass_matrix(state.t, &state.q, &mut mass);
         let units = units(&self.mech, &state);
+        let sizes = state.q.iter().zip(units.iter());
+        self.size = sizes.fold(self.size, |s, (q, unit)| s.max((q / unit).abs()));
         let inertial = DMatrix::from_vec(n, n, mass) * DVector::from_vec(acceleration);
         let push = inertial.component_mul(&units);
         let solved = self.solver.solve(state.t, &state.q, &state.v)?;
@@ -210,31 +252,63 @@ impl Search {
         self.place(state)
     }
 
-    /// K at `here`, by differences; its symmetric part.
+    /// K at `here`: where nothing is held by exact derivatives of the accelerations, which are those of r where these vanish; else by
+    /// differences.
     fn stiffness(&mut self, here: &Place) -> Result<DMatrix<f64>, Error> {
+        let n = self.mech.spec().n();
+        if self.held.is_empty() {
+            let found = Linearisation::at(&self.mech, &here.state)?;
+            let mut mass = vec![0.0; n * n];
+            let State { t, q, .. } = &here.state;
+            self.mech.mass_matrix(*t, q, &mut mass);
+            let [mass, slope] = [mass, found.by_position].map(|m| DMatrix::from_vec(n, n, m));
+            let mut scaled = here.basis.clone();
+            for (mut row, unit) in scaled.row_iter_mut().zip(here.units.iter()) {
+                row *= *unit;
+            }
+            return Ok(-scaled.tr_mul(&(mass * (slope * &scaled))));
+        }
         let freedoms = here.force.len();
         let mut out = DMatrix::zeros(freedoms, freedoms);
-        let size = here.state.q.iter().zip(here.units.iter());
-        let size = size.fold(0.0, |s: f64, (q, unit)| s.max((q / unit).abs()));
-        let h = DIFFERENCE
-            * if size > 0.0 {
-                size
-            } else {
-                here.units.amax().recip()
-            };
+        let h = DIFFERENCE * if self.size > 0.0 { self.size } else { 1.0 };
         for k in 0..freedoms {
             let mut step = DVector::zeros(freedoms);
-            let mut forces = [h, -h].map(|h| {
-                step[k] = h;
-                let there = self.moved(here, &step)?;
-                Ok::<_, Error>(here.basis.tr_mul(&there.push))
-            });
-            let [Ok(after), Ok(before)] = &mut forces else {
-                let failed = forces.into_iter().find_map(Result::err);
-                return Err(failed.unwrap_or(Error::NonFinite { what: Vec::new() }));
-            };
-            out.set_column(k, &((&*before - &*after) / (2.0 * h)));
+            step[k] = h;
+            let [after, before] = [self.moved(here, &step)?, self.moved(here, &-step)?];
+            let change = here.basis.tr_mul(&(before.push - after.push));
+            out.set_column(k, &(change / (2.0 * h)));
         }
-        Ok(0.5 * (&out + out.transpose()))
+        Ok(out)
+    }
+
+    /// What the stiffness tells, and where nothing is held the modes.
+    fn stability(&self, state: &State, stiffness: &DMatrix<f64>) -> Result<Stability, Error> {
+        if self.held.is_empty() {
+            let modes = modes(&self.mech, state)?;
+            let sizes = modes.iter().map(|m| m.growth.hypot(m.frequency));
+            let least = STILL * sizes.fold(0.0, f64::max);
+            if modes.iter().any(|mode| mode.growth > least) {
+                return Ok(Stability::Unstable);
+            }
+        }
+        let (largest, symmetric) = (stiffness.amax(), stiffness + stiffness.transpose());
+        let least = 0.5
+            * symmetric
+                .symmetric_eigenvalues()
+                .iter()
+                .fold(f64::INFINITY, |s, x| s.min(*x));
+        let flat = largest
+            * if self.held.is_empty() {
+                FLAT
+            } else {
+                FLAT_BY_DIFFERENCES
+            };
+        let gyroscopic = self.held.is_empty() && !self.mech.spec().structure.conservative;
+        Ok(match least {
+            x if x > flat => Stability::Stable,
+            // Other forces may hold what the stiffness drives on; that nothing grows has been seen.
+            x if x >= -flat || gyroscopic => Stability::Neutral,
+            _ => Stability::Unstable,
+        })
     }
 }

@@ -62,7 +62,7 @@ mod trajectory;
 mod zero;
 
 pub use assemble::{State, assemble};
-pub use equilibrium::{Equilibrium, equilibrium};
+pub use equilibrium::{Equilibrium, Stability, equilibrium};
 pub use error::Error;
 pub use linearise::Linearisation;
 pub use manifold::Stabilisation;

@@ -134,7 +134,11 @@ fn steady(
 ) -> Result<(), Error> {
     let n = mech.spec().n();
     let parts = |i: usize, columns: &[f64], by: &[f64]| -> f64 {
-        let products = by.iter().enumerate().map(|(j, x)| x * columns[j * n + i]);
+        // What is nearer to rest than a billionth of a metre or radian is there.
+        let products = by
+            .iter()
+            .enumerate()
+            .map(|(j, x)| x.abs().max(1.0) * columns[j * n + i]);
         products.map(f64::abs).sum()
     };
     let sizes = (0..n).map(|i| {

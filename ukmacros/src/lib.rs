@@ -457,8 +457,9 @@ use proc_macro2::TokenStream;
 ///
 /// `start name(option = 1.0, …) { … }` says where a motion begins, by parameters and the options of the start, which are called like no
 /// parameter. `x = value` holds a coordinate and `dot(x) = value` its velocity; `x near value` is a guess, from which the constraints may
-/// move it. All else is near 0, a spatial body near the orientation in which its axes are those of the ground. The state nearest to that, in
-/// the mass metric, which satisfies all constraints is the start: with several branches it is the one that the guesses are near.
+/// move it. All else is near 0; a spatial body of whose quaternion nothing is said is near the orientation in which its axes are those of the
+/// ground. From there the constraints are approached by a local search in the mass metric: with several branches its end is one that the
+/// guesses are near, and the nearer they are to each other's meaning, the surer.
 ///
 /// ```
 /// ukcore::multibody! {

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 
 use clap::Args;
 use ukcore::model::Entry;
-use ukcore::{Mode, State, equilibrium, modes as modes_of};
+use ukcore::{Error, Mode, Stability, State, equilibrium, modes as modes_of};
 
 use crate::failure::Failure;
 use crate::numbers::{full, width};
@@ -33,17 +33,24 @@ const STILL: f64 = 1e-6;
 /// it.
 pub fn modes(models: &[Entry], args: &ModesArgs) -> Result<(), Failure> {
     let ready = args.scene.ready(models)?;
-    let failed = |error: ukcore::Error| Failure::Failed(error.to_string());
-    let (state, stable) = if args.steady {
+    let failed = |error| match error {
+        Error::InvalidSetting { reason, .. } => Failure::Failed(format!("the start {reason}")),
+        other => Failure::Failed(other.to_string()),
+    };
+    let (state, stability) = if args.steady {
         (ready.state.clone(), None)
     } else {
         let found = equilibrium(&ready.mechanism, &ready.state, &[]).map_err(failed)?;
-        (found.state, Some(found.stable))
+        (found.state, Some(found.stability))
     };
     let found = modes_of(&ready.mechanism, &state).map_err(failed)?;
     output::to_stdout(|out| {
-        place(out, &ready, &state, stable)?;
-        found.iter().try_for_each(|mode| show(out, &ready, mode))
+        place(out, &ready, &state, stability)?;
+        let sizes = found.iter().map(|m| m.growth.hypot(m.frequency));
+        let still = STILL_ROOT * sizes.fold(0.0, f64::max);
+        found
+            .iter()
+            .try_for_each(|mode| show(out, &ready, mode, still))
     })
 }
 
@@ -51,12 +58,16 @@ fn place(
     out: &mut dyn Write,
     ready: &Ready<'_>,
     state: &State,
-    stable: Option<bool>,
+    stability: Option<Stability>,
 ) -> io::Result<()> {
     let id = &ready.entry.id;
-    match stable {
-        Some(true) => writeln!(out, "{id} rests, stable, at")?,
-        Some(false) => writeln!(out, "{id} rests, not stable, at")?,
+    let word = stability.map(|stability| match stability {
+        Stability::Stable => "stable",
+        Stability::Neutral => "neutral (some displacements cost nothing)",
+        Stability::Unstable => "not stable",
+    });
+    match word {
+        Some(word) => writeln!(out, "{id} rests, {word}, at")?,
         None => writeln!(out, "{id} as in `{}`", ready.start)?,
     }
     let names = ready.mechanism.spec().coords;
@@ -74,11 +85,15 @@ fn place(
     writeln!(out)
 }
 
-fn show(out: &mut dyn Write, ready: &Ready<'_>, mode: &Mode) -> io::Result<()> {
+fn show(out: &mut dyn Write, ready: &Ready<'_>, mode: &Mode, still: f64) -> io::Result<()> {
     let Mode {
         growth, frequency, ..
     } = *mode;
     let size = growth.hypot(frequency);
+    if size <= still {
+        writeln!(out, "0 rad/s: a displacement that costs nothing")?;
+        return shape(out, ready, mode);
+    }
     let growing = format!("growth {} 1/s", number(growth, size));
     if frequency > 0.0 {
         let (hertz, damping) = (number(frequency / TAU, 0.0), number(mode.damping(), 1.0));
@@ -90,6 +105,10 @@ fn show(out: &mut dyn Write, ready: &Ready<'_>, mode: &Mode) -> io::Result<()> {
     } else {
         writeln!(out, "{growing}")?;
     }
+    shape(out, ready, mode)
+}
+
+fn shape(out: &mut dyn Write, ready: &Ready<'_>, mode: &Mode) -> io::Result<()> {
     let names = ready.mechanism.spec().coords;
     let parts = names.iter().zip(&mode.shape);
     let parts = parts.filter(|(_, [re, im])| re.hypot(*im) > STILL);
@@ -113,5 +132,7 @@ fn number(x: f64, size: f64) -> String {
     full(format!("{x:.6e}").parse().unwrap_or(x))
 }
 
+/// An eigenvalue below this part of the largest one is that of a double zero, which is known to the root of rounding.
+const STILL_ROOT: f64 = 1e-7;
 /// A number below this part of others of its kind is rounding.
 const ROUNDING: f64 = 1e-12;

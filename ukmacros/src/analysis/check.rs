@@ -24,6 +24,9 @@ fn constraints(system: &System, dynamics: &Dynamics, diag: &Diagnostics) {
         let name = constraint.item.text();
         let uses = g.uses(constraint.phi);
         let message = match constraint.kind {
+            _ if g.is_zero(constraint.phi) && constraint.item.row.is_some() => Some(format!(
+                "row `{name}` is always true, as its bodies cannot move in its direction; write the other rows of the joint as equations"
+            )),
             _ if g.is_zero(constraint.phi) => {
                 Some(format!("constraint `{name}` is always true; remove it"))
             }

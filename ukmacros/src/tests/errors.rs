@@ -230,6 +230,8 @@ cases! {
     tuple: "coords { x, y } mass { x: 1.0, y: 1.0 } holonomic { c: «(x, y)» = [0.0, 0.0] }" => "a vector is written `[a, b]`";
     parameter_without_default: "params { «m» } coords { x } mass { x: 1.0 }" => "parameter `m` needs a default";
     unknown_section: "coords { x } mass { x: 1.0 } «forced» { x: 1.0 }" => "unknown section `forced`; did you mean `force`?";
+    friction_the_other_way_round: "coords { x } mass { x: 1.0 } nonideal { x: «friction(2.0, dot(x))» }" => "`friction` takes a velocity, made with `dot` or of a body, and a number";
+    reaction_of_a_joint_of_the_tree: "bodies { planar a { mass: 1.0, inertia: 1.0 } } tree { p: pin(ground.at([0, 0]), a.at([1, 0])) } output { f = reaction(«p») }" => "`p` stands under `tree`";
     unknown_shape: "coords { x } mass { x: 1.0 } draw { «lien»([x, 0], [0, 0]) }" => "unknown shape `lien`; did you mean `line`?";
     shape_without_points: "coords { x } mass { x: 1.0 } draw { «line» }" => "a shape is written with its points: `line(p, q)`";
     shape_with_too_few_points: "coords { x } mass { x: 1.0 } draw { «line»([x, 0]) }" => "shapes are written `line(p, q)`, ";
@@ -422,7 +424,7 @@ cases! {
     integral_named_as_a_column: "coords { x } mass { x: 1 } integral { «energy» = x }" => "`energy` is a column of every run";
     integral_twice: "coords { x } mass { x: 1 } integral { for i in 0..2 { «w» = x } }" => "integral `w` is declared twice; in a loop, index it: `w[i]`";
     friction_without_its_size: "coords { x } mass { x: 1 } force { x: «friction»(dot(x)) }" => "`friction` takes 2 arguments, found 1";
-    friction_of_a_vector_size: "coords { x } mass { x: 1 } force { x: «friction(dot(x), [1, 2])» }" => "`friction` takes a velocity, which is a number or a vector, and a number, found a number and a vector of 2";
+    friction_of_a_vector_size: "coords { x } mass { x: 1 } force { x: «friction(dot(x), [1, 2])» }" => "`friction` takes a velocity, made with `dot` or of a body, and a number, found a number and a vector of 2";
     output_in_an_output: "coords { x } mass { x: 1.0 } output { o = x, p = 2.0 * «o» }" => "`o` is an output, which no expression can use";
     unknown_function_many_times: "coords { x } let a = «foo»(x); let b = a[0]; mass { x: foo(x) * foo(x) } force { x: foo(2 * b) }" => "unknown function `foo`";
     unknown_function_in_a_family: "coords { x } let { for i in 0..3 { a[i] = «foo»(x) } } mass { x: 1.0 } force { x: a[2] }" => "unknown function `foo`";

@@ -7,9 +7,10 @@ use super::{Env, Lowering, NoValue, Place};
 use crate::diag::suggest;
 use crate::expr::diff::Gradient;
 use crate::expr::graph::{Graph, Id, Node, Symbol};
-use crate::model::indexed;
+use crate::model::{Name, indexed};
 use crate::parse::{Expr, ExprKind};
 use proc_macro2::Ident;
+use std::collections::HashMap;
 use std::ops::Range;
 
 /// A constraint that is declared: its rows.
@@ -156,6 +157,12 @@ impl<'m> Lowering<'m> {
         if !self.unknown.insert(base.clone()) {
             return Value::Error;
         }
+        if self.model.names.get(&base) == Some(&Name::Joint) {
+            let message = format!(
+                "`{base}` stands under `tree`: it has a coordinate in place of rows, and so no multipliers; under `holonomic` it has a reaction"
+            );
+            return self.error(arg.loc, message);
+        }
         let declared = self
             .results
             .iter()
@@ -169,20 +176,32 @@ impl<'m> Lowering<'m> {
     /// The force of a joint between points on its second body; of any other constraint its multipliers, in the shape of its equation.
     fn whole(&mut self, text: &str, arg: &Expr) -> Value {
         let Some(Known {
-            rows, shape, force, ..
+            rows,
+            shape,
+            names,
+            force,
         }) = self.known.get(text)
         else {
             return Value::Error;
         };
         let (rows, shape) = (rows.clone(), shape.clone());
+        // Rows that keep a point at a point are the force's components.
+        let axes = names.iter().zip(["x", "y", "z"]);
+        let axes = axes.take_while(|(name, axis)| *name == axis).count();
         let Some(Pushed { centre, sign }) = force.clone() else {
             let multipliers = rows.map(|row| self.graph.symbol(Symbol::Multiplier(row)));
             let multipliers: Vec<Id> = multipliers.collect();
             return Value::new(&shape, multipliers);
         };
+        if centre.is_empty() && axes >= 2 {
+            let components = rows.take(axes).map(Symbol::Multiplier);
+            let components: Vec<Id> = components.map(|symbol| self.graph.symbol(symbol)).collect();
+            return Value::vector(components);
+        }
         if centre.is_empty() {
             let message = format!(
-                "the bodies of `{text}` have no coordinates of their own place; take the multipliers of its rows"
+                "the bodies of `{text}` have no coordinates of their own place; take the multipliers of its rows, such as `reaction({text}.{})`",
+                names_of(&self.known, text)
             );
             return self.error(arg.loc, message);
         }
@@ -220,6 +239,15 @@ impl<'m> Lowering<'m> {
         };
         self.error(row.span(), message)
     }
+}
+
+/// The name of a row of the constraint, if it has one.
+fn names_of(known: &HashMap<String, Known>, text: &str) -> &'static str {
+    let names = known.get(text).map(|known| &known.names);
+    names
+        .and_then(|names| names.first())
+        .copied()
+        .unwrap_or("x")
 }
 
 /// The name that a path begins with.

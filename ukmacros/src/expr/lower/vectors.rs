@@ -51,10 +51,14 @@ operations! {
     "rotx"(1, "a number"): |g, v| about(g, &v[0], 0);
     "roty"(1, "a number"): |g, v| about(g, &v[0], 1);
     "rotz"(1, "a number"): |g, v| about(g, &v[0], 2);
-    "friction"(2, "a velocity, which is a number or a vector, and a number"): |g, v| {
+    "friction"(2, "a velocity, made with `dot` or of a body, and a number"): |g, v| {
         let &Value::Scalar(force) = &v[1] else {
             return None;
         };
+        // The other way round it would push all the same.
+        if !v[0].entries().iter().any(|id| g.uses(*id).velocity) {
+            return None;
+        }
         let against = g.neg(force);
         Some(match v[0].shape() {
             [] => v[0].map(|id| {
