@@ -184,3 +184,23 @@ fn zeros_stiffness_and_forces_without_a_potential() {
     rest::<Fed>(&[0.3], &[0.0], Unstable);
     rest::<Circling>(&[0.3, 0.0], &[1.0, 1.0], Unstable);
 }
+
+/// Two rods hold a point, and a drive that stands still a slide: nothing is left to move.
+#[test]
+fn what_has_no_freedom_rests_where_it_is() {
+    mechanisms! {
+        Held { params { g = 9.81 } coords { x, y } mass { x: 1.0, y: 1.0 } potential { g * y } holonomic {
+            left: sq(x) + sq(y) = 1.0, right: sq(x - 1.0) + sq(y) = 1.0
+        } }
+    }
+    let place = [0.5, 0.75_f64.sqrt()];
+    let found = equilibrium(Held::default(), &guess(&[0.4, 0.9]), &[]).expect("rest");
+    assert_all_close("place", &found.state.q, &place, 1e-14);
+    assert_eq!(found.stability, Stability::Stable);
+    assert_eq!(ukcore::modes(Held::default(), &found.state), Ok(Vec::new()));
+    let held = equilibrium(Spring::default(), &guess(&[0.3]), &["x"]).expect("rest");
+    assert_eq!(
+        (&held.state.q[..], held.stability),
+        (&[0.3][..], Stability::Stable)
+    );
+}

@@ -10,6 +10,7 @@ use crate::error::Error;
 use crate::manifold::{At, Level, Manifold};
 use crate::mechanism::{Mechanism, Prepared};
 use crate::scan::largest;
+use crate::spec::Spec;
 
 /// Guesses: the given one, then it with perturbations of [`SHAKES`] times the size of the coordinates. A guess with points that
 /// coincide has vanishing gradients, from which only a perturbation leads away.
@@ -105,11 +106,22 @@ pub fn assemble(
     hold: &[&str],
 ) -> Result<State, Error> {
     let mech: Prepared = mechanism.into();
-    let mut held = Vec::new();
-    for name in hold {
-        held.extend(mech.spec().coordinate_indices(name)?);
-    }
+    let held = held(mech.spec(), hold)?;
     assembled(&mech, &guess, Held::both(held))
+}
+
+/// The coordinates that `names` mean, in their order, each once.
+///
+/// # Errors
+/// [`Error::UnknownName`] with the nearest name.
+pub(crate) fn held(spec: &Spec, names: &[&str]) -> Result<Vec<usize>, Error> {
+    let mut held = Vec::new();
+    for name in names {
+        held.extend(spec.coordinate_indices(name)?);
+    }
+    held.sort_unstable();
+    held.dedup();
+    Ok(held)
 }
 
 /// Coordinates that keep their value, and those that keep their velocity.
@@ -120,9 +132,7 @@ pub(crate) struct Held {
 }
 
 impl Held {
-    fn both(mut coordinates: Vec<usize>) -> Self {
-        coordinates.sort_unstable();
-        coordinates.dedup();
+    fn both(coordinates: Vec<usize>) -> Self {
         Held {
             positions: coordinates.clone(),
             velocities: coordinates,

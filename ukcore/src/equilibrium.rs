@@ -7,11 +7,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::assemble::{Held, State, assembled};
+use crate::assemble::{Held, State, assembled, held};
 use crate::error::Error;
 use crate::linearise::Linearisation;
 use crate::mechanism::Prepared;
-use crate::modes::{modes, null_space, units};
+use crate::modes::{Mode, mass_matrix, modes, null_space, units};
 use crate::solver::{Solver, SolverOptions};
 
 /// A rest position.
@@ -45,8 +45,6 @@ const NOWHERE: f64 = 1e-12;
 /// A stiffness below this part of the largest one is rounding; with coordinates held, of its differences.
 const FLAT: f64 = 1e-13;
 const FLAT_BY_DIFFERENCES: f64 = 1e-8;
-/// A growth below this part of the largest eigenvalue is that of a double zero.
-const STILL: f64 = 1e-7;
 
 /// The rest position of `mechanism` that `guess` falls to, or is at, on the constraints at its time. Coordinates named in `hold` keep the
 /// value of the guess, whatever force that takes; what becomes of displacements is then told by the stiffness alone.
@@ -61,12 +59,7 @@ pub fn equilibrium(
     hold: &[&str],
 ) -> Result<Equilibrium, Error> {
     let mech: Prepared = mechanism.into();
-    let mut held = Vec::new();
-    for name in hold {
-        held.extend(mech.spec().coordinate_indices(name)?);
-    }
-    held.sort_unstable();
-    held.dedup();
+    let held = held(mech.spec(), hold)?;
     let mut search = Search {
         solver: Solver::new(&mech, SolverOptions::default()),
         mech,
@@ -76,6 +69,13 @@ pub fn equilibrium(
     let mut still = guess.clone();
     still.v.fill(0.0);
     let mut here = search.place(still)?;
+    if here.force.is_empty() {
+        // Nothing is left to move.
+        return Ok(Equilibrium {
+            state: here.state,
+            stability: Stability::Stable,
+        });
+    }
     let mut damping = 0.0_f64;
     for _ in 0..STEPS {
         let stiffness = search.stiffness(&here)?;
@@ -150,28 +150,24 @@ impl Place {
 
     /// Newton's step; downhill, where forces have a potential.
     fn step(&self, stiffness: &DMatrix<f64>) -> DVector<f64> {
-        let largest = stiffness.amax();
-        let along = |curvatures: &DVector<f64>, vectors: &DMatrix<f64>| {
-            let mut shares = vectors.tr_mul(&self.force);
-            for (share, curvature) in shares.iter_mut().zip(curvatures.iter()) {
-                // What costs nothing is moved by what pushes it as by the stiffest, and stays if that is rounding.
-                let flat = curvature.abs() <= FLAT * largest;
-                *share /= if flat {
-                    largest.max(f64::MIN_POSITIVE)
-                } else {
-                    curvature.abs()
-                };
-            }
-            vectors * shares
-        };
         if self.potential.is_none()
             && let Some(step) = stiffness.clone().lu().solve(&self.force)
         {
             return step;
         }
-        let symmetric = 0.5 * (stiffness + stiffness.transpose());
-        let decomposed = symmetric.symmetric_eigen();
-        along(&decomposed.eigenvalues, &decomposed.eigenvectors)
+        let largest = stiffness.amax();
+        let curved = symmetric(stiffness).symmetric_eigen();
+        let mut shares = curved.eigenvectors.tr_mul(&self.force);
+        for (share, curvature) in shares.iter_mut().zip(curved.eigenvalues.iter()) {
+            // What costs nothing is moved by what pushes it as by the stiffest, and stays if that is rounding.
+            let flat = curvature.abs() <= FLAT * largest;
+            *share /= if flat {
+                largest.max(f64::MIN_POSITIVE)
+            } else {
+                curvature.abs()
+            };
+        }
+        curved.eigenvectors * shares
     }
 }
 
@@ -192,18 +188,13 @@ impl Search {
             });
         }
         state.v.fill(0.0);
-        let n = self.mech.spec().n();
-        let mut acceleration = vec![0.0; n];
-        self.solver
-            .acceleration(state.t, &state.q, &state.v, &mut acceleration)?;
-        let mut mass = vec![0.0; n * n];
-        self.mech.mass_matrix(state.t, &state.q, &mut mass);
-        let units = units(&self.mech, &state);
+        let solved = self.solver.solve(state.t, &state.q, &state.v)?;
+        let mass = mass_matrix(&self.mech, &state);
+        let units = units(&mass);
         let sizes = state.q.iter().zip(units.iter());
         self.size = sizes.fold(self.size, |s, (q, unit)| s.max((q / unit).abs()));
-        let inertial = DMatrix::from_vec(n, n, mass) * DVector::from_vec(acceleration);
+        let inertial = mass * DVector::from_vec(solved.acceleration);
         let push = inertial.component_mul(&units);
-        let solved = self.solver.solve(state.t, &state.q, &state.v)?;
         let parts = solved.ideal_force.iter().zip(units.iter());
         let parts: f64 = parts.map(|(f, unit)| (f * unit).abs()).sum();
         let basis = self.basis(&state, &units);
@@ -255,13 +246,11 @@ impl Search {
     /// K at `here`: where nothing is held by exact derivatives of the accelerations, which are those of r where these vanish; else by
     /// differences.
     fn stiffness(&mut self, here: &Place) -> Result<DMatrix<f64>, Error> {
-        let n = self.mech.spec().n();
         if self.held.is_empty() {
+            let n = self.mech.spec().n();
             let found = Linearisation::at(&self.mech, &here.state)?;
-            let mut mass = vec![0.0; n * n];
-            let State { t, q, .. } = &here.state;
-            self.mech.mass_matrix(*t, q, &mut mass);
-            let [mass, slope] = [mass, found.by_position].map(|m| DMatrix::from_vec(n, n, m));
+            let mass = mass_matrix(&self.mech, &here.state);
+            let slope = DMatrix::from_vec(n, n, found.by_position);
             let mut scaled = here.basis.clone();
             for (mut row, unit) in scaled.row_iter_mut().zip(here.units.iter()) {
                 row *= *unit;
@@ -285,18 +274,14 @@ impl Search {
     fn stability(&self, state: &State, stiffness: &DMatrix<f64>) -> Result<Stability, Error> {
         if self.held.is_empty() {
             let modes = modes(&self.mech, state)?;
-            let sizes = modes.iter().map(|m| m.growth.hypot(m.frequency));
-            let least = STILL * sizes.fold(0.0, f64::max);
+            let least = Mode::STILL * modes.iter().map(Mode::size).fold(0.0, f64::max);
             if modes.iter().any(|mode| mode.growth > least) {
                 return Ok(Stability::Unstable);
             }
         }
-        let (largest, symmetric) = (stiffness.amax(), stiffness + stiffness.transpose());
-        let least = 0.5
-            * symmetric
-                .symmetric_eigenvalues()
-                .iter()
-                .fold(f64::INFINITY, |s, x| s.min(*x));
+        let largest = stiffness.amax();
+        let least = symmetric(stiffness).symmetric_eigenvalues();
+        let least = least.iter().copied().fold(f64::INFINITY, f64::min);
         let flat = largest
             * if self.held.is_empty() {
                 FLAT
@@ -311,4 +296,9 @@ impl Search {
             _ => Stability::Unstable,
         })
     }
+}
+
+/// The symmetric part of `matrix`.
+fn symmetric(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+    0.5 * (matrix + matrix.transpose())
 }

@@ -35,17 +35,26 @@ pub struct Mode {
 }
 
 impl Mode {
+    /// An eigenvalue below this part of the largest one is that of a double zero, which is known to the root of rounding.
+    pub const STILL: f64 = 1e-7;
+
+    /// The magnitude of its eigenvalue, 1/s.
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        self.growth.hypot(self.frequency)
+    }
+
     /// The damping ratio −`growth`/|eigenvalue|: 0 for a vibration that lasts, 1 for one that only dies away; 0 for an eigenvalue of 0.
     #[must_use]
     pub fn damping(&self) -> f64 {
-        let size = self.growth.hypot(self.frequency);
+        let size = self.size();
         if size > 0.0 { -self.growth / size } else { 0.0 }
     }
 }
 
 /// The modes of `mechanism` about `state`, slowest first: by frequency, then by growth. There are as many eigenvalues as the mechanism has
-/// freedoms of position and of velocity: vibrations give two each. An eigenvalue of 0, as of a body that nothing holds, comes double and is
-/// known to the root of rounding.
+/// freedoms of position and of velocity: vibrations give two each; none where nothing is left to move. An eigenvalue of 0, as of a body that
+/// nothing holds, comes double and is known to the root of rounding.
 ///
 /// # Errors
 /// - [`Error::InvalidSetting`] where `state` is neither a rest position nor a steady motion: a coordinate accelerates.
@@ -54,9 +63,12 @@ pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>,
     let mech: Prepared = mechanism.into();
     let found = Linearisation::at(&mech, state)?;
     let n = mech.spec().n();
-    let units = units(&mech, state);
+    let units = units(&mass_matrix(&mech, state));
     steady(&mech, &found, state, &units)?;
     let tangent = tangent(&mech, state, &units);
+    if tangent.ncols() == 0 {
+        return Ok(Vec::new());
+    }
     let mut flow = DMatrix::zeros(2 * n, 2 * n);
     for i in 0..n {
         flow[(i, n + i)] = 1.0;
@@ -94,15 +106,30 @@ pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>,
     Ok(modes)
 }
 
-/// What the coordinates of `mech` are measured by: 1/√M_jj; 1 where there is no inertia.
-pub(crate) fn units(mech: &Prepared, state: &State) -> DVector<f64> {
+/// M at `state`.
+pub(crate) fn mass_matrix(mech: &Prepared, state: &State) -> DMatrix<f64> {
     let n = mech.spec().n();
     let mut mass = vec![0.0; n * n];
     mech.mass_matrix(state.t, &state.q, &mut mass);
-    DVector::from_fn(n, |j, _| match mass[j * n + j] {
-        m if m > 0.0 => m.sqrt().recip(),
-        _ => 1.0,
+    DMatrix::from_vec(n, n, mass)
+}
+
+/// What coordinates with the inertia `mass` are measured by: 1/√M_jj; 1 where there is no inertia.
+pub(crate) fn units(mass: &DMatrix<f64>) -> DVector<f64> {
+    mass.diagonal().map(|m| match m > 0.0 {
+        true => m.sqrt().recip(),
+        false => 1.0,
     })
+}
+
+/// Divides each of `rows` that is not zero by its length.
+pub(crate) fn normalise(rows: &mut DMatrix<f64>) {
+    for mut row in rows.row_iter_mut() {
+        let length = row.norm();
+        if length > 0.0 {
+            row /= length;
+        }
+    }
 }
 
 /// An orthonormal basis of what all `rows` are at right angles to, measured by `units`, in columns.
@@ -111,12 +138,7 @@ pub(crate) fn null_space(mut rows: DMatrix<f64>, units: &DVector<f64>) -> DMatri
     for (k, mut column) in rows.column_iter_mut().enumerate() {
         column *= units[k % units.len()];
     }
-    for mut row in rows.row_iter_mut() {
-        let length = row.norm();
-        if length > 0.0 {
-            row /= length;
-        }
-    }
+    normalise(&mut rows);
     let decomposed = rows.transpose().col_piv_qr();
     let diagonal = decomposed.r().diagonal();
     let rank = diagonal.iter().filter(|x| x.abs() > INDEPENDENT).count();

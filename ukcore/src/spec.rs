@@ -537,7 +537,11 @@ fn members<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<Vec<u
     (!members.is_empty()).then_some(members)
 }
 
-fn find<'a>(
+/// The position of `name` among `names`, which are of this `kind`.
+///
+/// # Errors
+/// [`Error::UnknownName`] with the nearest name.
+pub(crate) fn find<'a>(
     kind: &'static str,
     name: &str,
     mut names: impl Iterator<Item = &'a str> + Clone,

@@ -12,7 +12,7 @@ use crate::manifold::Projector;
 use crate::mechanism::{Energy, Prepared};
 use crate::scan::largest;
 use crate::solver::{Solution, Solver, SolverOptions};
-use crate::spec::Spec;
+use crate::spec::{Spec, find};
 
 mod csv;
 mod drift;
@@ -318,15 +318,8 @@ impl Trajectory {
     /// # Errors
     /// [`Error::UnknownName`] with the nearest name.
     pub fn integral(&self, name: &str) -> Result<Vec<f64>, Error> {
-        let names = || {
-            self.mechanism
-                .integrals()
-                .iter()
-                .map(|integral| integral.name)
-        };
-        let Some(index) = names().position(|known| known == name) else {
-            return Err(Error::unknown_name("integral", name, &mut names()));
-        };
+        let names = self.mechanism.integrals().iter().map(|i| i.name);
+        let index = find("integral", name, names)?;
         Ok(self.samples().map(|s| s.integrals[index]).collect())
     }
 

@@ -46,8 +46,7 @@ pub fn modes(models: &[Entry], args: &ModesArgs) -> Result<(), Failure> {
     let found = modes_of(&ready.mechanism, &state).map_err(failed)?;
     output::to_stdout(|out| {
         place(out, &ready, &state, stability)?;
-        let sizes = found.iter().map(|m| m.growth.hypot(m.frequency));
-        let still = STILL_ROOT * sizes.fold(0.0, f64::max);
+        let still = Mode::STILL * found.iter().map(Mode::size).fold(0.0, f64::max);
         found
             .iter()
             .try_for_each(|mode| show(out, &ready, mode, still))
@@ -89,7 +88,7 @@ fn show(out: &mut dyn Write, ready: &Ready<'_>, mode: &Mode, still: f64) -> io::
     let Mode {
         growth, frequency, ..
     } = *mode;
-    let size = growth.hypot(frequency);
+    let size = mode.size();
     if size <= still {
         writeln!(out, "0 rad/s: a displacement that costs nothing")?;
         return shape(out, ready, mode);
@@ -132,7 +131,5 @@ fn number(x: f64, size: f64) -> String {
     full(format!("{x:.6e}").parse().unwrap_or(x))
 }
 
-/// An eigenvalue below this part of the largest one is that of a double zero, which is known to the root of rounding.
-const STILL_ROOT: f64 = 1e-7;
 /// A number below this part of others of its kind is rounding.
 const ROUNDING: f64 = 1e-12;

@@ -4,6 +4,7 @@ use nalgebra::DMatrix;
 
 use super::{Sample, Trajectory};
 use crate::error::Error;
+use crate::modes::normalise;
 use crate::solver::{Solution, Solver};
 
 /// A row takes part in what constraints imply of each other with more than this share of it.
@@ -55,12 +56,7 @@ impl Trajectory {
         let mut jacobian = vec![0.0; n * m];
         self.mechanism().jacobian(s.t, s.q, s.v, &mut jacobian);
         let mut rows = DMatrix::from_vec(m, n, jacobian);
-        for mut row in rows.row_iter_mut() {
-            let length = row.norm();
-            if length > 0.0 {
-                row /= length;
-            }
-        }
+        normalise(&mut rows);
         let gram = (&rows * rows.transpose()).symmetric_eigen();
         let mut order: Vec<usize> = (0..m).collect();
         order.sort_by(|a, b| gram.eigenvalues[*a].total_cmp(&gram.eigenvalues[*b]));
