@@ -127,6 +127,16 @@ impl Value {
         Ok(Value::new(&stacked, entries))
     }
 
+    /// Its transpose; nothing of what is no matrix.
+    pub(super) fn transposed(&self) -> Option<Value> {
+        let [rows, columns] = *self.shape() else {
+            return None;
+        };
+        let places = (0..columns).flat_map(|j| (0..rows).map(move |i| i * columns + j));
+        let entries = places.map(|place| self.entries()[place]).collect();
+        Some(Value::new(&[columns, rows], entries))
+    }
+
     /// The product of a matrix with a matrix or a vector, where [`Value::terms`] has an answer.
     pub(super) fn times(&self, other: &Value, g: &mut Graph) -> Value {
         let [rows, inner] = self.shape() else {

@@ -32,6 +32,7 @@ use bodies::Declared;
 use drawing::Between;
 use inertia::OfBodies;
 use parts::{Acting, PARTS};
+use proc_macro2::Ident;
 use reactions::Known;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::Rc;
@@ -453,6 +454,15 @@ impl<'m> Lowering<'m> {
         out.map(|(i, values)| (i, self.total_of(&values))).collect()
     }
 
+    /// Whether nothing is declared under `name`; the reason if something is.
+    fn free(&self, name: &Ident) -> Result<(), String> {
+        self.model.free(name)?;
+        match self.lets.contains_key(&name.to_string()) {
+            true => Err(format!("`{name}` is declared twice; names must be unique")),
+            false => Ok(()),
+        }
+    }
+
     fn equation(&mut self, equation: &Equation, kind: Kind, scope: &Scope<'m>, names: &mut Names) {
         let key = &equation.key;
         let Some(indices) = self.indices(&key.indices, scope) else {
@@ -466,17 +476,9 @@ impl<'m> Lowering<'m> {
             row: None,
             unit_of: None,
         };
-        let reason = match self.model.free(&key.name) {
-            Err(reason) => Some(reason),
-            Ok(()) if self.lets.contains_key(&key.name.to_string()) => Some(format!(
-                "`{}` is declared twice; names must be unique",
-                key.name
-            )),
-            Ok(()) => names
-                .enter("constraint", &item, !scope.variables.is_empty())
-                .err(),
-        };
-        if let Some(reason) = reason {
+        let looped = !scope.variables.is_empty();
+        let free = self.free(&key.name);
+        if let Err(reason) = free.and_then(|()| names.enter("constraint", &item, looped)) {
             self.diag.error(key.loc, reason);
             return;
         }

@@ -10,7 +10,6 @@ use crate::expr::graph::{Graph, Id, Node, Symbol};
 use crate::model::{Name, indexed};
 use crate::parse::{Expr, ExprKind};
 use proc_macro2::Ident;
-use std::collections::HashMap;
 use std::ops::Range;
 
 /// A constraint that is declared: its rows.
@@ -185,7 +184,7 @@ impl<'m> Lowering<'m> {
             return Value::Error;
         };
         let (rows, shape) = (rows.clone(), shape.clone());
-        // Rows that keep a point at a point are the force's components.
+        // Rows that keep a point at a point: their multipliers are the force's components.
         let axes = names.iter().zip(["x", "y", "z"]);
         let axes = axes.take_while(|(name, axis)| *name == axis).count();
         let Some(Pushed { centre, sign }) = force.clone() else {
@@ -193,15 +192,15 @@ impl<'m> Lowering<'m> {
             let multipliers: Vec<Id> = multipliers.collect();
             return Value::new(&shape, multipliers);
         };
-        if centre.is_empty() && axes >= 2 {
+        if axes >= 2 {
             let components = rows.take(axes).map(Symbol::Multiplier);
             let components: Vec<Id> = components.map(|symbol| self.graph.symbol(symbol)).collect();
             return Value::vector(components);
         }
         if centre.is_empty() {
+            let row = names.first().copied().unwrap_or("x");
             let message = format!(
-                "the bodies of `{text}` have no coordinates of their own place; take the multipliers of its rows, such as `reaction({text}.{})`",
-                names_of(&self.known, text)
+                "the bodies of `{text}` have no coordinates of their own place; take the multipliers of its rows, such as `reaction({text}.{row})`"
             );
             return self.error(arg.loc, message);
         }
@@ -239,15 +238,6 @@ impl<'m> Lowering<'m> {
         };
         self.error(row.span(), message)
     }
-}
-
-/// The name of a row of the constraint, if it has one.
-fn names_of(known: &HashMap<String, Known>, text: &str) -> &'static str {
-    let names = known.get(text).map(|known| &known.names);
-    names
-        .and_then(|names| names.first())
-        .copied()
-        .unwrap_or("x")
 }
 
 /// The name that a path begins with.

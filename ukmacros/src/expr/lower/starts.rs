@@ -48,8 +48,8 @@ impl<'m> Lowering<'m> {
         let (mut options, mut args) = (Vec::<OptionValue>::new(), Vec::new());
         for option in &start.options {
             let name = option.name.to_string();
-            let again = options.iter().any(|o| o.name == name) || self.lets.contains_key(&name);
-            let taken = match self.model.free(&option.name) {
+            let again = options.iter().any(|o| o.name == name);
+            let taken = match self.free(&option.name) {
                 Ok(()) if again => Err(format!("`{name}` is declared twice; names must be unique")),
                 other => other,
             };

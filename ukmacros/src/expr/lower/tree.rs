@@ -29,7 +29,7 @@ impl Moved {
     /// Turned by the matrix `turn`.
     fn turn(&mut self, turn: &Value, g: &mut Graph) {
         self.axes = self.axes.times(turn, g);
-        let back = transposed(turn);
+        let back = turn.transposed().unwrap_or(Value::Error);
         self.velocity = back.times(&self.velocity, g);
         if self.omega.shape() == [3] {
             self.omega = back.times(&self.omega, g);
@@ -61,13 +61,6 @@ fn swept(omega: &Value, r: &Value, g: &mut Graph) -> Value {
         }
         _ => cross(g, omega, r).unwrap_or(Value::Error),
     }
-}
-
-/// Of a square matrix.
-fn transposed(m: &Value) -> Value {
-    let n = m.shape()[0];
-    let places = (0..n).flat_map(|j| (0..n).map(move |i| i * n + j));
-    Value::new(m.shape(), places.map(|k| m.entries()[k]).collect())
 }
 
 /// `k v`.
@@ -128,7 +121,10 @@ impl Frame {
                 let rates = moving.place.iter().map(|id| total.of(*id, g)).collect();
                 let rates = Value::vector(rates);
                 let angle = if own.len() == 1 { own[0] } else { zero };
-                (transposed(&axes).times(&rates, g), angle)
+                (
+                    axes.transposed().unwrap_or(Value::Error).times(&rates, g),
+                    angle,
+                )
             }
         };
         Moved {
@@ -334,10 +330,7 @@ impl<'m> Lowering<'m> {
     /// Reports a matrix that is no rotation by the defaults of the parameters.
     fn rotates(&mut self, turn: &Value, args: &[Expr]) -> Option<()> {
         let n = turn.shape()[0];
-        let point = crate::expr::eval::Point {
-            params: &self.defaults,
-            ..crate::expr::eval::Point::NOWHERE
-        };
+        let point = crate::expr::eval::Point::of_parameters(&self.defaults);
         let m = eval(&self.graph, turn.entries(), &point);
         let inner = |i: usize, j: usize| (0..n).map(|k| m[n * i + k] * m[n * j + k]).sum::<f64>();
         let unit = |i, j| if i == j { 1.0 } else { 0.0 };

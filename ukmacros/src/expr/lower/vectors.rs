@@ -71,14 +71,7 @@ operations! {
             }
         })
     };
-    "transpose"(1, "a matrix"): |_, v| {
-        let [rows, columns] = v[0].shape() else {
-            return None;
-        };
-        let places = (0..*columns).flat_map(|j| (0..*rows).map(move |i| i * columns + j));
-        let entries = places.map(|place| v[0].entries()[place]).collect();
-        Some(Value::new(&[*columns, *rows], entries))
-    };
+    "transpose"(1, "a matrix"): |_, v| v[0].transposed();
 }
 
 /// The names of all operations.
