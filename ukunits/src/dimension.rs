@@ -1,0 +1,117 @@
+//! What a unit measures.
+
+use std::fmt;
+
+/// Exponents are kept in twelfths: square, cube and fourth roots have theirs.
+pub(crate) const TWELFTHS: i32 = 12;
+
+/// Exponents of kilogram, metre, second and radian.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Dimension {
+    twelfths: [i32; 4],
+}
+
+/// Dimensions with a name of their own.
+const NAMED: [(&str, [i32; 4]); 5] = [
+    ("N", [1, 1, -2, 0]),
+    ("J", [1, 2, -2, 0]),
+    ("W", [1, 2, -3, 0]),
+    ("N/m", [1, 0, -2, 0]),
+    ("N s/m", [1, 0, -1, 0]),
+];
+
+/// `x` in twelfths, if it is a whole number of them.
+pub(crate) fn twelfths(x: f64) -> Option<i32> {
+    let scaled = x * f64::from(TWELFTHS);
+    #[allow(
+        clippy::cast_possible_truncation,
+        reason = "a whole number within bounds"
+    )]
+    let whole = (scaled == scaled.round() && scaled.abs() < 1e6).then_some(scaled as i32);
+    whole
+}
+
+impl Dimension {
+    /// That of a plain number.
+    pub const NUMBER: Dimension = Dimension::new([0; 4]);
+    /// Of a mass.
+    pub const MASS: Dimension = Dimension::new([1, 0, 0, 0]);
+    /// Of a length.
+    pub const LENGTH: Dimension = Dimension::new([0, 1, 0, 0]);
+    /// Of a time.
+    pub const TIME: Dimension = Dimension::new([0, 0, 1, 0]);
+    /// Of an energy.
+    pub const ENERGY: Dimension = Dimension::new([1, 2, -2, 0]);
+
+    /// From whole exponents of kilogram, metre, second and radian.
+    #[must_use]
+    pub const fn new(exponents: [i32; 4]) -> Self {
+        let [kg, m, s, rad] = exponents;
+        Dimension {
+            twelfths: [kg * TWELFTHS, m * TWELFTHS, s * TWELFTHS, rad * TWELFTHS],
+        }
+    }
+
+    /// Of a product.
+    #[must_use]
+    pub fn times(self, other: Dimension) -> Self {
+        let sum = |i: usize| self.twelfths[i].saturating_add(other.twelfths[i]);
+        Dimension {
+            twelfths: std::array::from_fn(sum),
+        }
+    }
+
+    /// Of a quotient.
+    #[must_use]
+    pub fn per(self, other: Dimension) -> Self {
+        self.times(other.scaled(-TWELFTHS))
+    }
+
+    /// Of a power; none if its exponents are no twelfths.
+    #[must_use]
+    pub fn power(self, exponent: f64) -> Option<Self> {
+        let power = |e: i32| twelfths(f64::from(e) / f64::from(TWELFTHS) * exponent);
+        let [kg, m, s, rad] = self.twelfths;
+        Some(Dimension {
+            twelfths: [power(kg)?, power(m)?, power(s)?, power(rad)?],
+        })
+    }
+
+    /// Of a power in twelfths.
+    pub(crate) fn scaled(self, power: i32) -> Self {
+        Dimension {
+            twelfths: self.twelfths.map(|e| e.saturating_mul(power) / TWELFTHS),
+        }
+    }
+
+    /// The same with angles as plain numbers.
+    #[must_use]
+    pub const fn without_angle(self) -> Self {
+        let [kg, m, s, _] = self.twelfths;
+        Dimension {
+            twelfths: [kg, m, s, 0],
+        }
+    }
+
+    /// Whether mass is a part of it.
+    #[must_use]
+    pub const fn has_mass(self) -> bool {
+        self.twelfths[0] != 0
+    }
+}
+
+/// In units of mechanics: `m/s^2`, `N`, `kg m^2`; a plain number in words.
+impl fmt::Display for Dimension {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if *self == Dimension::NUMBER {
+            return f.write_str("a plain number");
+        }
+        let named = NAMED.iter().find(|(_, e)| Dimension::new(*e) == *self);
+        if let Some((name, _)) = named {
+            return f.write_str(name);
+        }
+        let symbols = ["kg", "m", "s", "rad"];
+        let powers: Vec<(&str, i32)> = symbols.into_iter().zip(self.twelfths).collect();
+        f.write_str(&crate::product(&powers))
+    }
+}
