@@ -85,7 +85,8 @@ impl Explanation {
             return Ok(());
         }
         let setting = |(p, value): (&ParamSpec, &f64)| {
-            let mut text = format!("{} = {}", p.name, short(*value, DIGITS));
+            let mut text = format!("{} = {} {}", p.name, short(*value, DIGITS), p.unit);
+            text.truncate(text.trim_end().len());
             if *value != p.default {
                 text += &format!(" (default {})", short(p.default, DIGITS));
             }

@@ -167,6 +167,7 @@ const fn holonomic(name: &'static str) -> ConstraintSpec {
 
 const fn param(name: &'static str, default: f64) -> ParamSpec {
     ParamSpec {
+        unit: "",
         name,
         doc: "",
         default,

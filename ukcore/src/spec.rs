@@ -15,6 +15,8 @@ pub struct Spec {
     pub prepared: &'static [(&'static str, &'static str)],
     /// Coordinate names (`x[0]`, `th1`), the order of q.
     pub coords: &'static [&'static str],
+    /// Units of the coordinates, such as `"m"`, in their order; none at all where the declaration has no units, see [`Spec::coordinate_unit`].
+    pub coordinate_units: &'static [&'static str],
     /// Constraints, holonomic ones first, the order of the rows of A.
     pub constraints: &'static [ConstraintSpec],
     /// Number h of holonomic constraints.
@@ -42,6 +44,8 @@ pub struct ParamSpec {
     pub doc: &'static str,
     /// Default value.
     pub default: f64,
+    /// Its unit in SI, such as `"kg m^2"`; empty for a plain number, and where none is declared.
+    pub unit: &'static str,
 }
 
 /// An output.
@@ -51,6 +55,8 @@ pub struct OutputSpec {
     pub name: &'static str,
     /// Doc comment; empty if none.
     pub doc: &'static str,
+    /// The unit of its values, as declared: `"deg"` where they are in degrees; empty for a plain number, and where none is declared.
+    pub unit: &'static str,
 }
 
 /// A start state on offer: declared, or made by a `Model`.
@@ -73,7 +79,7 @@ pub struct StartOption {
     pub doc: &'static str,
     /// Its value where none is given.
     pub default: f64,
-    /// Its unit, such as `"m"`; empty for a plain number, and where the doc comment names it (`/// Angle of the crank, rad`).
+    /// Its unit in SI, such as `"rad"`; empty for a plain number, and where none is declared.
     pub unit: &'static str,
 }
 
@@ -437,6 +443,7 @@ impl Spec {
         params: &[],
         prepared: &[],
         coords: &[],
+        coordinate_units: &[],
         constraints: &[],
         holonomic: 0,
         outputs: &[],
@@ -462,6 +469,12 @@ impl Spec {
     /// Length of what emitted code takes as `prepared`: what depends on parameters only, then the branches held.
     pub(crate) const fn slots(&self) -> usize {
         self.prepared.len() + self.switches.len()
+    }
+
+    /// The unit of coordinate `index`; empty for a plain number, and where none is declared.
+    #[must_use]
+    pub fn coordinate_unit(&self, index: usize) -> &'static str {
+        self.coordinate_units.get(index).copied().unwrap_or("")
     }
 
     /// Name of what stands at `position` of K = [M Aᵀ; A 0]: a coordinate, or a constraint after all coordinates.

@@ -557,6 +557,9 @@ fn expand(input: TokenStream) -> (TokenStream, diag::Diagnostics) {
     let heard = if trusted { &diag } else { &quiet };
     let mut system = expr::lower(&decl, &model, heard);
     let constants = analysis::constants(&model, &system, heard);
+    if !faulty {
+        system.units = expr::units(&decl, &model, &diag);
+    }
     let handed = |faulty| {
         decl.part
             .then(|| emit::part(&decl, &source, &table, faulty))

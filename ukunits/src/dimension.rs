@@ -40,6 +40,12 @@ impl Dimension {
     pub const LENGTH: Dimension = Dimension::new([0, 1, 0, 0]);
     /// Of a time.
     pub const TIME: Dimension = Dimension::new([0, 0, 1, 0]);
+    /// Of an acceleration.
+    pub const ACCELERATION: Dimension = Dimension::new([0, 1, -2, 0]);
+    /// Of an inertia about an axis.
+    pub const INERTIA: Dimension = Dimension::new([1, 2, 0, 0]);
+    /// Of a power.
+    pub const POWER: Dimension = Dimension::new([1, 2, -3, 0]);
     /// Of an energy.
     pub const ENERGY: Dimension = Dimension::new([1, 2, -2, 0]);
 

@@ -54,6 +54,9 @@ impl fmt::Display for Refusal {
                 f,
                 "`/{a} {b}` has two readings; write `/{a}/{b}`, or `{b}` before the `/`"
             ),
+            Refusal::Unexpected(rest) if rest.starts_with(|c: char| c.is_ascii_digit()) => {
+                write!(f, "`*`, `/` or `^` is missing before `{rest}`")
+            }
             Refusal::Unexpected(rest) => write!(f, "`{rest}` is not understood in a unit"),
             Refusal::Missing => f.write_str("a unit is missing"),
         }

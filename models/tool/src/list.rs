@@ -7,7 +7,6 @@ use ukcore::model::Entry;
 use crate::failure::Failure;
 use crate::numbers::{short, width};
 use crate::output;
-use crate::units;
 
 /// Width of a list of parameters; with what stands before them, lines are within 100 characters.
 const LINE: usize = 84;
@@ -29,23 +28,21 @@ fn entry(out: &mut dyn Write, model: &Entry, wide: usize) -> io::Result<()> {
         writeln!(out, "    start {}{default}: {}", start.name, start.doc)?;
         for option in start.options {
             let value = short(option.default, 6);
-            let unit = units::of_option(option).unwrap_or_default();
-            let setting = format!("{} = {value} {unit}", option.name);
+            let setting = format!("{} = {value} {}", option.name, option.unit);
             writeln!(out, "        {:<24}{}", setting.trim_end(), option.doc)?;
         }
     }
     if model.starts.is_empty() {
-        let coordinates = model
-            .mechanism
-            .spec()
-            .coords
-            .iter()
-            .map(|c| (*c).to_owned());
+        let spec = model.mechanism.spec();
+        let coordinates = spec.coords.iter().enumerate();
+        let coordinates = coordinates.map(|(i, c)| match spec.coordinate_unit(i) {
+            "" => (*c).to_owned(),
+            unit => format!("{c} in {unit}"),
+        });
         paragraph(out, "guess", coordinates)?;
     }
     let params = model.mechanism.spec().params.iter().map(|p| {
-        let unit = units::unit_in(p.doc).unwrap_or_default();
-        let setting = format!("{} = {} {unit}", p.name, short(p.default, 8));
+        let setting = format!("{} = {} {}", p.name, short(p.default, 8), p.unit);
         setting.trim_end().to_owned()
     });
     paragraph(out, "parameters", params)?;

@@ -73,13 +73,15 @@ fn place(
     let wide = width(names.iter().copied());
     let largest = |values: &[f64]| values.iter().fold(0.0, |s: f64, x| s.max(x.abs()));
     let (size, speed) = (largest(&state.q), largest(&state.v));
-    for ((name, q), v) in names.iter().zip(&state.q).zip(&state.v) {
+    for (i, ((name, q), v)) in names.iter().zip(&state.q).zip(&state.v).enumerate() {
         let rate = if *v == 0.0 {
             String::new()
         } else {
             format!("   dot {}", number(*v, speed))
         };
-        writeln!(out, "  {name:<wide$}  {}{rate}", number(*q, size))?;
+        let unit = ready.mechanism.spec().coordinate_unit(i);
+        let line = format!("  {name:<wide$}  {}{rate} {unit}", number(*q, size));
+        writeln!(out, "{}", line.trim_end())?;
     }
     writeln!(out)
 }

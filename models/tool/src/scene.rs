@@ -123,13 +123,13 @@ impl Start {
         let mut options = StartOptions::new();
         for (name, quantity) in &self.settings {
             let in_unit = |unit| {
-                let value = quantity.in_unit(unit);
+                let value = quantity.si(unit);
                 value.map_err(|e| Failure::Usage(format!("`{name}`: {e}")))
             };
             if let Some(option) = offered.iter().find(|o| o.name == *name) {
-                options.set(name, in_unit(units::of_option(option))?);
-            } else if let Some(doc) = parameter_doc(mechanism.spec(), name) {
-                mechanism.set(name, in_unit(units::unit_in(doc))?)?;
+                options.set(name, in_unit(option.unit)?);
+            } else if let Some(unit) = unit_of(mechanism.spec(), name) {
+                mechanism.set(name, in_unit(unit)?)?;
             } else {
                 return Err(unknown_setting(entry, name, start));
             }
@@ -147,9 +147,13 @@ impl Start {
             } else {
                 &mut state.q
             };
-            let value = quantity.in_unit(None).map_err(Failure::Usage)?;
             for index in spec.coordinate_indices(velocity.unwrap_or(name))? {
-                values[index] = value;
+                let unit = spec.coordinate_unit(index);
+                let value = match velocity {
+                    Some(_) => quantity.si_rate(unit),
+                    None => quantity.si(unit),
+                };
+                values[index] = value.map_err(|e| Failure::Usage(format!("`{name}`: {e}")))?;
             }
         }
         let hold: Vec<&str> = self.hold.iter().map(String::as_str).collect();
@@ -163,10 +167,10 @@ impl Start {
     }
 }
 
-/// Doc comment of a parameter, or of a family named without index.
-fn parameter_doc(spec: &Spec, name: &str) -> Option<&'static str> {
+/// The unit of a parameter, or of a family named without index.
+fn unit_of(spec: &Spec, name: &str) -> Option<&'static str> {
     let named = |p: &&ukcore::spec::ParamSpec| p.name == name || family(p.name) == name;
-    spec.params.iter().find(named).map(|p| p.doc)
+    spec.params.iter().find(named).map(|p| p.unit)
 }
 
 fn family(name: &str) -> &str {

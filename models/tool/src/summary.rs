@@ -69,6 +69,22 @@ impl Summary<'_> {
         }))
     }
 
+    /// The units that are declared, by the names of parameters, coordinates, outputs and integrals.
+    fn units(&self) -> Map<String, Value> {
+        let (mechanism, spec) = (self.trajectory.mechanism(), self.trajectory.spec());
+        let params = spec.params.iter().map(|p| (p.name, p.unit));
+        let coords = spec.coords.iter().enumerate();
+        let coords = coords.map(|(i, name)| (*name, spec.coordinate_unit(i)));
+        let reported = spec.outputs.iter().chain(mechanism.integrals());
+        let all = params
+            .chain(coords)
+            .chain(reported.map(|o| (o.name, o.unit)));
+        let known = all.filter(|(_, unit)| !unit.is_empty());
+        known
+            .map(|(name, unit)| (name.to_owned(), unit.into()))
+            .collect()
+    }
+
     /// The summary as JSON.
     pub(crate) fn json(&self) -> Value {
         let (work, drift) = (self.trajectory.work(), self.drift());
@@ -83,6 +99,7 @@ impl Summary<'_> {
             "ending": self.ending(),
             "error": self.error,
             "final": self.last(),
+            "units": self.units(),
             "samples": self.measured.samples(),
             "position_residual": drift.position_residual,
             "velocity_residual": drift.velocity_residual,
@@ -205,33 +222,40 @@ impl Summary<'_> {
         };
         let names = spec.outputs.iter().map(|o| o.name);
         let integrals = mechanism.integrals().iter().map(|o| o.name);
-        let wide = width(
-            spec.coords
-                .iter()
-                .copied()
-                .chain(names.clone())
-                .chain(integrals.clone()),
-        );
+        let wide = width(spec.coords.iter().copied().chain(names).chain(integrals));
+        let units = spec.coordinate_units.iter().copied().map(behind);
+        let most = units.map(|unit| unit.chars().count()).max().unwrap_or(0);
         writeln!(out, "\nState at t = {} s", full(last.t))?;
-        for ((name, q), v) in spec.coords.iter().zip(last.q).zip(last.v) {
+        for (i, ((name, q), v)) in spec.coords.iter().zip(last.q).zip(last.v).enumerate() {
             let [q, v] = [q, v].map(|x| number(*x));
-            writeln!(out, "  {name:<wide$} {q:>18}   dot {v:>18}")?;
+            let unit = behind(spec.coordinate_unit(i));
+            writeln!(out, "  {name:<wide$} {q:>18}{unit:<most$}   dot {v:>18}")?;
         }
         if !spec.outputs.is_empty() {
             writeln!(out, "\nOutputs")?;
         }
         let mut outputs = vec![0.0; spec.outputs.len()];
         mechanism.outputs(last.t, last.q, last.v, &mut outputs);
-        for (name, value) in names.zip(outputs) {
-            writeln!(out, "  {name:<wide$} {:>18}", number(value))?;
+        for (output, value) in spec.outputs.iter().zip(outputs) {
+            let (name, unit) = (output.name, behind(output.unit));
+            writeln!(out, "  {name:<wide$} {:>18}{unit}", number(value))?;
         }
         if !last.integrals.is_empty() {
             writeln!(out, "\nIntegrals")?;
         }
-        for (name, value) in integrals.zip(last.integrals) {
-            writeln!(out, "  {name:<wide$} {:>18}", number(*value))?;
+        for (integral, value) in mechanism.integrals().iter().zip(last.integrals) {
+            let (name, unit) = (integral.name, behind(integral.unit));
+            writeln!(out, "  {name:<wide$} {:>18}{unit}", number(*value))?;
         }
         Ok(())
+    }
+}
+
+/// A unit behind a number, if there is one.
+fn behind(unit: &str) -> String {
+    match unit {
+        "" => String::new(),
+        unit => format!(" {unit}"),
     }
 }
 

@@ -40,7 +40,13 @@ impl Default for Pendulum {
 
 const fn param(name: &'static str, default: f64) -> ParamSpec {
     let doc = "";
-    ParamSpec { name, doc, default }
+    let unit = "";
+    ParamSpec {
+        name,
+        doc,
+        default,
+        unit,
+    }
 }
 
 static SPEC: Spec = Spec {
@@ -55,6 +61,7 @@ static SPEC: Spec = Spec {
     }],
     holonomic: 1,
     outputs: &[OutputSpec {
+        unit: "",
         name: "angle",
         doc: "",
     }],

@@ -1,10 +1,11 @@
 //! Associated constants of the emitted type: what users read instead of numbers, `T::X[3]`, `T::ROD`, `T::OUT_FALL`, `T::N`.
 
 use crate::diag::Diagnostics;
-use crate::expr::{ConstraintRef, System};
+use crate::expr::{ConstraintRef, OutputValue, System};
 use crate::model::Model;
 use proc_macro2::Ident;
 use std::collections::HashMap;
+use ukunits::Unit;
 
 /// Constants of `ukcore::Mechanism`.
 pub(crate) const ASSOCIATED: [&str; 3] = ["SPEC", "CODE", "INTEGRALS"];
@@ -54,25 +55,38 @@ pub(crate) fn constants(model: &Model, system: &System, diag: &Diagnostics) -> V
     }
     for family in &model.coords {
         let positions = nested(&family.shape, &family.members);
+        let unit = family
+            .members
+            .first()
+            .map(|at| &model.coord_elements[*at].unit);
+        let unit = unit.and_then(Option::as_ref).map(Unit::si);
         register.positions(
             "",
             "coordinate",
             "Position in q of",
-            &family.name,
+            (&family.name, unit),
             positions,
         );
     }
     let constraints = system.constraints.iter().map(|c| &c.item);
     for (base, positions) in grouped(constraints) {
-        register.positions("", "constraint", "Row in A of", base, positions);
+        register.positions("", "constraint", "Row in A of", (base, None), positions);
     }
     for (base, positions) in grouped(system.outputs.iter().map(|o| &o.item)) {
-        register.positions("OUT_", "output", "Position of", base, positions);
+        let unit = unit_of(&system.outputs, base);
+        register.positions("OUT_", "output", "Position of", (base, unit), positions);
     }
     for (base, positions) in grouped(system.integrals.iter().map(|o| &o.item)) {
-        register.positions("INT_", "integral", "Position of", base, positions);
+        let unit = unit_of(&system.integrals, base);
+        register.positions("INT_", "integral", "Position of", (base, unit), positions);
     }
     register.out
+}
+
+/// The unit of the outputs called `base`, if one is declared.
+fn unit_of(outputs: &[OutputValue], base: &Ident) -> Option<String> {
+    let output = outputs.iter().find(|o| o.item.base == *base)?;
+    output.unit.clone()
 }
 
 struct Register<'d> {
@@ -125,7 +139,7 @@ impl Register<'_> {
         prefix: &str,
         what: &str,
         of: &str,
-        source: &Ident,
+        (source, unit): (&Ident, Option<String>),
         positions: Positions,
     ) {
         let plural = if matches!(positions, Positions::One(_)) {
@@ -133,7 +147,9 @@ impl Register<'_> {
         } else {
             "s"
         };
-        let docs = vec![format!("{of} {what}{plural} `{source}`.")];
+        let unit = unit.filter(|unit| !unit.is_empty());
+        let unit = unit.map_or(String::new(), |unit| format!(", in {unit}"));
+        let docs = vec![format!("{of} {what}{plural} `{source}`{unit}.")];
         let name = upper(&format!("{prefix}{source}"));
         self.enter(name, what, source, docs, ConstantValue::Position(positions));
     }

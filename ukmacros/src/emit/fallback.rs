@@ -29,7 +29,7 @@ pub(crate) fn fallback(
     system: &System,
     constants: &[Constant],
 ) -> TokenStream {
-    let item = item(decl, model, &system.defaults, "");
+    let item = item(decl, model, system, "");
     let constants = associated(decl, constants);
     let parameters = parameters(model);
     let name = decl.name.to_string();
@@ -41,6 +41,7 @@ pub(crate) fn fallback(
     });
     let implementation = implementation(
         decl,
+        system,
         &quote! {
             const SPEC: &'static ukcore::Spec = &ukcore::Spec { name: #name, ..ukcore::Spec::EMPTY };
             #parameters

@@ -2,6 +2,7 @@
 
 use super::body::float;
 use crate::analysis::{Constant, ConstantValue, Positions};
+use crate::expr::{OptionValue, System};
 use crate::model::Model;
 use crate::parse::Declaration;
 use proc_macro2::{Literal, TokenStream};
@@ -17,13 +18,16 @@ pub(super) fn doc(text: &str) -> TokenStream {
     lines.collect()
 }
 
+/// What is said of a number, with its unit.
+fn in_unit(text: String, unit: Option<&String>) -> String {
+    match unit {
+        Some(unit) => format!("{text}\n\nUnit: {unit}."),
+        None => text,
+    }
+}
+
 /// The struct of parameters, and its default.
-pub(super) fn item(
-    decl: &Declaration,
-    model: &Model,
-    defaults: &[f64],
-    extra: &str,
-) -> TokenStream {
+pub(super) fn item(decl: &Declaration, model: &Model, system: &System, extra: &str) -> TokenStream {
     let (vis, name, lints) = (&decl.vis, &decl.name, &decl.lints);
     let own = if decl.docs.is_empty() {
         format!("Mechanism `{name}`.")
@@ -40,8 +44,9 @@ pub(super) fn item(
         } else {
             family.docs.join("\n")
         };
-        let docs = doc(&text);
-        let number = |i: &usize| float(defaults.get(*i).copied().unwrap_or(f64::NAN));
+        let unit = |i: &usize| system.units.params.get(*i).filter(|unit| !unit.is_empty());
+        let docs = doc(&in_unit(text, family.members.iter().find_map(unit)));
+        let number = |i: &usize| float(system.defaults.get(*i).copied().unwrap_or(f64::NAN));
         let numbers: Vec<TokenStream> = family.members.iter().map(number).collect();
         let (ty, value) = nested(&family.shape, numbers);
         fields.extend(quote! { #docs pub #field: #ty, });
@@ -65,10 +70,14 @@ pub(super) fn item(
 }
 
 /// How the declared starts are called, if there are any.
-pub(super) fn start(decl: &Declaration) -> Option<TokenStream> {
+pub(super) fn start(decl: &Declaration, system: &System) -> Option<TokenStream> {
     let name = &decl.name;
-    let starts = decl.starts.iter().map(|start| {
-        let options = start.options.iter().map(|o| format!("`{}`", o.name));
+    let starts = system.starts.iter().map(|start| {
+        let option = |o: &OptionValue| match o.unit.as_deref() {
+            Some("") | None => format!("`{}`", o.name),
+            Some(unit) => format!("`{}` in {unit}", o.name),
+        };
+        let options = start.options.iter().map(option);
         let options: Vec<String> = options.collect();
         let taking = match options.is_empty() {
             true => String::new(),

@@ -31,20 +31,20 @@ pub(crate) fn emit(
 ) -> TokenStream {
     let listing = listing::listing(system, model, analysis);
     let docs = docs::derived(&listing, analysis, system, model);
-    let item = item::item(decl, model, &system.defaults, &docs);
+    let item = item::item(decl, model, system, &docs);
     let constants = item::associated(decl, constants);
     let spec = spec::spec(decl, model, system, analysis, &listing);
     let parameters = item::parameters(model);
     let functions = functions::functions(system, model, analysis);
-    let implementation = implementation(decl, &quote! { #spec #parameters #functions });
+    let implementation = implementation(decl, system, &quote! { #spec #parameters #functions });
     let unused = unused::unused(decl, model);
     quote! { #item #constants #implementation #unused }
 }
 
 /// `impl Mechanism` with these `members`, where `ukcore` is known by that name, whatever it is called in the user's crate.
-fn implementation(decl: &Declaration, members: &TokenStream) -> TokenStream {
+fn implementation(decl: &Declaration, system: &System, members: &TokenStream) -> TokenStream {
     let name = &decl.name;
-    let start = item::start(decl);
+    let start = item::start(decl, system);
     let runtime = decl.runtime.clone().unwrap_or_else(|| quote! { ::ukcore });
     quote! {
         const _: () = {

@@ -11,6 +11,7 @@ use crate::model::Model;
 use crate::parse::Declaration;
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
+use ukunits::Unit;
 
 /// `const SPEC`.
 pub(super) fn spec(
@@ -25,9 +26,12 @@ pub(super) fn spec(
     let params = model.param_elements.iter().enumerate().map(|(i, e)| {
         let (name, docs) = (&e.name, model.params[e.family].docs.join(" "));
         let default = float(system.defaults[i]);
-        quote! { ukcore::ParamSpec { name: #name, doc: #docs, default: #default } }
+        let unit = system.units.params.get(i).map_or("", String::as_str);
+        quote! { ukcore::ParamSpec { name: #name, doc: #docs, default: #default, unit: #unit } }
     });
     let coords = model.coord_elements.iter().map(|e| &e.name);
+    let units = model.coord_elements.iter().filter(|_| model.units);
+    let units = units.map(|e| e.unit.as_ref().map(Unit::si).unwrap_or_default());
     let constraints = system.constraints.iter().zip(&listing.phi).map(|(c, equation)| {
         let name = c.item.text();
         let kind = match c.kind {
@@ -39,7 +43,8 @@ pub(super) fn spec(
     let holonomic = number(analysis.dynamics.phi.len());
     let reported = |o: &OutputValue| {
         let (name, docs) = (o.item.text(), o.docs.join(" "));
-        quote! { ukcore::OutputSpec { name: #name, doc: #docs } }
+        let unit = o.unit.as_deref().unwrap_or("");
+        quote! { ukcore::OutputSpec { name: #name, doc: #docs, unit: #unit } }
     };
     let outputs = system.outputs.iter().map(reported);
     let integrals = system.integrals.iter().map(reported);
@@ -62,6 +67,7 @@ pub(super) fn spec(
             params: &[#(#params),*],
             prepared: &[#(#prepared),*],
             coords: &[#(#coords),*],
+            coordinate_units: &[#(#units),*],
             constraints: &[#(#constraints),*],
             holonomic: #holonomic,
             outputs: &[#(#outputs),*],
@@ -79,7 +85,8 @@ fn start(start: &StartValue) -> TokenStream {
     let (name, doc) = (&start.name, start.docs.join(" "));
     let options = start.options.iter().map(|option| {
         let (name, doc, default) = (&option.name, option.docs.join(" "), float(option.default));
-        quote! { ukcore::StartOption { name: #name, doc: #doc, default: #default, unit: "" } }
+        let unit = option.unit.as_deref().unwrap_or("");
+        quote! { ukcore::StartOption { name: #name, doc: #doc, default: #default, unit: #unit } }
     });
     quote! { ukcore::StartSpec { name: #name, doc: #doc, options: &[#(#options),*] } }
 }

@@ -155,6 +155,11 @@ impl Graph {
         self.nodes.len()
     }
 
+    /// The nodes from number `first` on.
+    pub(crate) fn nodes_from(&self, first: usize) -> &[Node] {
+        &self.nodes[first..]
+    }
+
     pub(crate) fn node(&self, id: Id) -> &Node {
         &self.nodes[id.index()]
     }

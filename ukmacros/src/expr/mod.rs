@@ -20,5 +20,6 @@ pub(crate) use jet::Jet;
 #[cfg(test)]
 pub(crate) use lower::vocabulary;
 pub(crate) use lower::{
-    Constraint, ConstraintRef, Drawing, Kind, OutputValue, StartValue, System, lower,
+    Constraint, ConstraintRef, Drawing, Kind, OptionValue, OutputValue, StartValue, System, lower,
+    units,
 };

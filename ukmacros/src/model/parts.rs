@@ -4,7 +4,7 @@ use super::renaming::{Renaming, bound, section, uses};
 use super::resolve::bare;
 use super::types::{Model, Variable, every, indexed};
 use crate::diag::{Diagnostics, suggest};
-use crate::parse::{Block, Declaration, Key, Let, LetValue, PartUse, Table, parse};
+use crate::parse::{Block, Declaration, Given, Key, Let, LetValue, PartUse, Table, parse};
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 
@@ -241,6 +241,7 @@ impl Whole<'_> {
 
     /// Takes the part `inner` in as this member.
     fn take(&mut self, mut inner: Declaration, member: &Member, diag: &Diagnostics) {
+        self.decl.units |= inner.units;
         let fixed = member.fixed(&inner);
         let names = self.names(&inner, member, &fixed);
         let span = member.part.key.name.span();
@@ -367,7 +368,10 @@ impl Whole<'_> {
                 let sizes = std::mem::take(&mut param.key.indices);
                 let binding = Let {
                     key: param.key,
-                    given: Some(sizes),
+                    given: Some(Given {
+                        sizes,
+                        default: param.default,
+                    }),
                     value: LetValue::Value(value),
                 };
                 // The sizes are the part's, the value that of the loops around.
@@ -386,8 +390,9 @@ impl Whole<'_> {
                 LetValue::Value(value) => r.expr(value),
                 LetValue::Function(function) => r.function(function),
             }
-            if let Some(sizes) = &mut binding.given {
+            if let Some(Given { sizes, default }) = &mut binding.given {
                 sizes.iter_mut().for_each(|size| r.expr(size));
+                r.expr(default);
             }
         });
         self.lets.append(&mut inner.lets);

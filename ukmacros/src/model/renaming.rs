@@ -153,7 +153,9 @@ impl Renaming {
                 self.expr(base);
                 name.set_span(self.span);
             }
-            ExprKind::Neg(inner) | ExprKind::Group(inner) => self.expr(inner),
+            ExprKind::Neg(inner) | ExprKind::Group(inner) | ExprKind::Quantity(inner, _) => {
+                self.expr(inner);
+            }
             ExprKind::Chain(first, rest) => {
                 self.expr(first);
                 rest.iter_mut().for_each(|(_, operand)| self.expr(operand));

@@ -3,14 +3,15 @@
 use super::scope::{MAX_MEMBERS, Scope, index_functions};
 use super::tree;
 use super::types::{
-    BodyKind, Element, Family, Field, Integer, Model, Name, Preset, every, indexed,
+    BodyKind, Element, Family, Field, Integer, Model, Name, Preset, every, indexed, unit_of,
 };
 use crate::diag::{Diagnostics, Loc};
-use crate::parse::{Block, Declaration, Expr, Key};
+use crate::parse::{Block, Declaration, Expr, Key, Measure};
 use proc_macro2::Ident;
 use std::cell::Cell;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::Rc;
+use ukunits::Unit;
 
 /// Names with a fixed meaning, beside those of functions.
 const RESERVED: [&str; 15] = [
@@ -47,6 +48,7 @@ fn constants(
         repetitions: Cell::new(0),
         applications: Cell::new(0),
         too_many: Cell::new(None),
+        units: decl.units,
         reserved: functions.chain(RESERVED).collect(),
         part_families: BTreeMap::new(),
         shown: BTreeMap::new(),
@@ -98,15 +100,17 @@ pub(crate) fn resolve(
 ) -> Model {
     let mut model = constants(decl, functions, diag);
     parts(decl, &mut model, diag);
-    members(&decl.params, Kind::Param, &mut model, diag, |param| {
-        (&param.key, &param.docs, Some(&param.default))
+    members(&decl.params, Kind::Param, &mut model, diag, |param| Said {
+        default: Some(&param.default),
+        ..Said::new(&param.key, &param.docs)
     });
-    members(&decl.coords, Kind::Coord, &mut model, diag, |coord| {
-        (&coord.key, &coord.docs, None)
+    members(&decl.coords, Kind::Coord, &mut model, diag, |coord| Said {
+        unit: coord.measure.as_ref().and_then(|m| coherent(m, diag)),
+        ..Said::new(&coord.key, &coord.docs)
     });
     let before = diag.len();
     members(&decl.bodies, Kind::Body, &mut model, diag, |body| {
-        (&body.key, &body.docs, None)
+        Said::new(&body.key, &body.docs)
     });
     bodies(decl, &mut model, diag, before);
     if model.coord_elements.is_empty() && diag.is_empty() {
@@ -143,6 +147,39 @@ enum Kind {
     Body,
 }
 
+/// What a declaration says.
+struct Said<'d> {
+    key: &'d Key,
+    docs: &'d Vec<String>,
+    default: Option<&'d Expr>,
+    unit: Option<Unit>,
+}
+
+impl<'d> Said<'d> {
+    fn new(key: &'d Key, docs: &'d Vec<String>) -> Self {
+        Said {
+            key,
+            docs,
+            default: None,
+            unit: None,
+        }
+    }
+}
+
+/// The unit of a coordinate, which equations have in kg, m, s and rad.
+fn coherent(measure: &Measure, diag: &Diagnostics) -> Option<Unit> {
+    if !measure.unit.is_coherent() {
+        let message = format!(
+            "equations have coordinates in SI units: write `[{}]`; an output may be in `[{}]`",
+            measure.unit.si(),
+            measure.unit
+        );
+        diag.error(measure.loc, message);
+        return None;
+    }
+    Some(measure.unit.clone())
+}
+
 /// A member found while unrolling.
 struct Found {
     name: Ident,
@@ -150,6 +187,7 @@ struct Found {
     indices: Vec<usize>,
     loc: Loc,
     default: Option<Rc<Preset>>,
+    unit: Option<Unit>,
 }
 
 /// Enters parameters or coordinates: `x[N]` outside of a loop is a family of N; `x[i]` inside of one is its member i.
@@ -158,13 +196,18 @@ fn members<T>(
     kind: Kind,
     model: &mut Model,
     diag: &Diagnostics,
-    parts: impl Fn(&T) -> (&Key, &Vec<String>, Option<&Expr>),
+    said: impl Fn(&T) -> Said<'_>,
 ) {
     for block in blocks {
         let mut found = Vec::new();
         let looped = matches!(block, Block::For { .. });
         Scope::new(model).unroll(std::slice::from_ref(block), diag, &mut |item, scope| {
-            let (key, docs, default) = parts(item);
+            let Said {
+                key,
+                docs,
+                default,
+                unit,
+            } = said(item);
             let Some(sizes) = sizes(key, looped, scope, diag) else {
                 return;
             };
@@ -182,6 +225,7 @@ fn members<T>(
                 indices,
                 loc: key.loc,
                 default: default.clone(),
+                unit: unit.clone(),
             };
             match looped {
                 true => found.push(member(sizes)),
@@ -313,6 +357,7 @@ fn add(found: Found, kind: Kind, model: &mut Model, diag: &Diagnostics) {
         family,
         indices: found.indices,
         default: found.default,
+        unit: found.unit,
     });
 }
 
@@ -451,6 +496,7 @@ fn coordinates(
                 family,
                 indices,
                 default: None,
+                unit: unit_of(name).filter(|_| model.units),
             };
             let of_family = &mut model.coords[family];
             let place = element.place(&of_family.shape);

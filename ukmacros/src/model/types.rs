@@ -8,6 +8,7 @@ use std::cell::Cell;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::ops::Range;
 use std::rc::Rc;
+use ukunits::Unit;
 
 /// Names of a declaration, resolved.
 pub(crate) struct Model {
@@ -49,6 +50,8 @@ pub(crate) struct Model {
     pub(crate) applications: Cell<u32>,
     /// The first application that was one too many.
     pub(crate) too_many: Cell<Option<Loc>>,
+    /// There are units in the declaration.
+    pub(crate) units: bool,
     /// Names with a fixed meaning.
     pub(crate) reserved: HashSet<&'static str>,
 }
@@ -132,6 +135,16 @@ impl BodyKind {
     }
 }
 
+/// What the coordinate of this `name` of a body or joint is measured in.
+pub(super) fn unit_of(name: &str) -> Option<Unit> {
+    let unit = match name {
+        "x" | "y" | "z" | "slide" => "m",
+        "angle" | "first" | "second" => "rad",
+        _ => "-",
+    };
+    Unit::parse(unit).ok()
+}
+
 /// The places of those members, in an array of this `shape` whose last index runs fastest, that begin with `indices`; the position of the
 /// index that is out of range, if one is.
 pub(crate) fn block(shape: &[usize], indices: &[i64]) -> Result<Range<usize>, usize> {
@@ -172,6 +185,8 @@ pub(crate) struct Element {
     pub(crate) indices: Vec<usize>,
     /// A parameter's default, one for all that are declared together.
     pub(crate) default: Option<Rc<Preset>>,
+    /// A coordinate's unit; bodies and joints have theirs where the declaration has units.
+    pub(crate) unit: Option<Unit>,
 }
 
 impl Element {

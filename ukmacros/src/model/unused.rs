@@ -169,9 +169,10 @@ impl Names {
                 self.expr(base);
                 indices.iter().for_each(|i| self.expr(i));
             }
-            ExprKind::Neg(inner) | ExprKind::Group(inner) | ExprKind::Field(inner, _) => {
-                self.expr(inner);
-            }
+            ExprKind::Neg(inner)
+            | ExprKind::Group(inner)
+            | ExprKind::Field(inner, _)
+            | ExprKind::Quantity(inner, _) => self.expr(inner),
             ExprKind::Chain(first, rest) => {
                 self.expr(first);
                 rest.iter().for_each(|(_, operand)| self.expr(operand));

@@ -1,7 +1,7 @@
 //! Entries of sections, each by itself.
 
 use super::expr::{Expr, location};
-use super::grammar::{blocks, coordinates, docs, expression, key};
+use super::grammar::{blocks, coordinates, declared, docs, expression, key};
 use super::item::{
     Body, Coord, Entry, Equation, Function, Guess, Joint, Let, LetValue, MassEntry, Output, Param,
     PartUse, Shape, Start, StartOption,
@@ -28,8 +28,8 @@ pub(super) fn param_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Re
 
 pub(super) fn coord_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Coord> {
     let docs = docs(input, diag)?;
-    let key = key(input, diag)?;
-    Ok(Coord { docs, key })
+    let (key, measure) = declared(input, diag)?;
+    Ok(Coord { docs, key, measure })
 }
 
 /// `planar link[i] { mass: m, inertia: j, centre: [a, b] }`.
@@ -260,10 +260,15 @@ pub(super) fn equation(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Resul
 
 pub(super) fn output_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Output> {
     let docs = docs(input, diag)?;
-    let key = key(input, diag)?;
+    let (key, measure) = declared(input, diag)?;
     let _: Token![=] = input.parse()?;
     let value = expression(input, diag)?;
-    Ok(Output { docs, key, value })
+    Ok(Output {
+        docs,
+        key,
+        measure,
+        value,
+    })
 }
 
 /// `start name(option = number, …) { guesses }`.

@@ -3,6 +3,7 @@
 use crate::diag::{Diagnostics, Loc};
 use proc_macro2::{Ident, Span};
 use syn::spanned::Spanned as _;
+use ukunits::Unit;
 
 /// An expression and where it stands.
 #[derive(Clone, Debug)]
@@ -15,6 +16,8 @@ pub(crate) struct Expr {
 pub(crate) enum ExprKind {
     Int(i64),
     Float(f64),
+    /// `0.3 [m]`, `[0.5, 2.0] [m]`: numbers of a unit.
+    Quantity(Box<Expr>, Unit),
     Name(Ident),
     /// `x[i]`, `p[i][j]`, `(u + v)[0]`: what is indexed, and its indices.
     Index(Box<Expr>, Vec<Expr>),
@@ -130,9 +133,10 @@ impl Expr {
                 all(indices);
                 base.names(visit);
             }
-            ExprKind::Field(inner, _) | ExprKind::Neg(inner) | ExprKind::Group(inner) => {
-                inner.names(visit);
-            }
+            ExprKind::Field(inner, _)
+            | ExprKind::Neg(inner)
+            | ExprKind::Group(inner)
+            | ExprKind::Quantity(inner, _) => inner.names(visit),
             ExprKind::Chain(first, rest) => {
                 first.names(visit);
                 rest.iter().for_each(|(_, operand)| operand.names(visit));
@@ -293,6 +297,9 @@ fn simple(e: syn::Expr, loc: Loc, diag: &Diagnostics) -> ExprKind {
             ),
             _ => refuse(loc, "`!` has no meaning in an equation"),
         },
+        syn::Expr::Index(syn::ExprIndex { expr, index, .. }) if text(&index).is_some() => {
+            quantity(*expr, &text(&index).unwrap_or_default(), diag)
+        }
         syn::Expr::Index(i) => {
             let (mut base, mut indices) = (*i.expr, vec![Expr::convert(*i.index, diag)]);
             while let syn::Expr::Index(inner) = base {
@@ -358,6 +365,40 @@ fn simple(e: syn::Expr, loc: Loc, diag: &Diagnostics) -> ExprKind {
             loc,
             "not an equation's expression; allowed are numbers, names, `+ - * /`, functions and vectors `[a, b]`",
         ),
+    }
+}
+
+/// What a unit became before it was read.
+fn text(index: &syn::Expr) -> Option<String> {
+    match index {
+        syn::Expr::Lit(syn::ExprLit {
+            lit: syn::Lit::Str(text),
+            ..
+        }) => Some(text.value()),
+        _ => None,
+    }
+}
+
+/// `e` in the unit that `text` names; one in error is told already.
+fn quantity(e: syn::Expr, text: &str, diag: &Diagnostics) -> ExprKind {
+    let e = Expr::convert(e, diag);
+    let named = match &e.kind {
+        ExprKind::Name(name) => name != "PI",
+        ExprKind::Index(..) | ExprKind::Field(..) | ExprKind::Call(..) | ExprKind::Sum { .. } => {
+            true
+        }
+        _ => false,
+    };
+    if named {
+        diag.error(
+            e.loc,
+            "a unit stands behind numbers, such as `0.3 [m]`; what has a name has the unit that it is declared with",
+        );
+        return ExprKind::Error;
+    }
+    match Unit::parse(text) {
+        Ok(unit) => ExprKind::Quantity(Box::new(e), unit),
+        Err(_) => e.kind,
     }
 }
 

@@ -8,8 +8,8 @@ use super::entries::{
     param_entry, part, shape, start, term,
 };
 use super::expr::{Expr, Range};
-use super::item::{Block, Const, Declaration, Key, Merged, Section};
-use super::nesting;
+use super::item::{Block, Const, Declaration, Key, Measure, Merged, Section};
+use super::{nesting, units};
 use crate::diag::{Diagnostics, Loc, suggest};
 use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
 use quote::ToTokens as _;
@@ -24,11 +24,17 @@ pub(crate) fn parse(mut tokens: TokenStream, diag: &Diagnostics) -> Option<Decla
         diag.damage(place, "nested too deeply; name parts of it with `let`");
         tokens = nesting::head(tokens);
     }
+    let marked = units::mark(&tokens, diag);
+    let units = marked.is_some();
     let mut read = None;
     let parser = |input: ParseStream<'_>| {
-        read = Some(declaration(input, diag)?);
+        read = Some(Declaration {
+            units,
+            ..declaration(input, diag)?
+        });
         Ok(())
     };
+    let tokens = marked.unwrap_or(tokens);
     if let Err(e) = syn::parse::Parser::parse2(parser, tokens) {
         // Within a declaration errors are told where they are met; what they left unread is found once more behind it.
         if read.is_none() || diag.is_empty() {
@@ -53,6 +59,7 @@ fn declaration(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Declar
         runtime,
         lints,
         part,
+        units: false,
         vis: vis.to_token_stream(),
         name,
         consts: Vec::new(),
@@ -300,10 +307,28 @@ pub(super) fn expression(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Res
 }
 
 pub(super) fn key(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Key> {
+    let (key, measure) = declared(input, diag)?;
+    if let Some(Measure { loc, .. }) = measure {
+        let message = "a unit stands behind numbers, as in `l = 0.3 [m]`, and behind names of coordinates, outputs and integrals where these are declared";
+        diag.error(loc, message);
+    }
+    Ok(key)
+}
+
+/// A key, and the unit of what it declares.
+pub(super) fn declared(
+    input: ParseStream<'_>,
+    diag: &Diagnostics,
+) -> syn::Result<(Key, Option<Measure>)> {
     let name: Ident = input.parse()?;
     let mut indices = Vec::new();
     let mut loc: Loc = name.span().into();
+    let mut measure = None;
     while input.peek(syn::token::Bracket) {
+        if let Some(unit) = units::next(input) {
+            measure = unit;
+            break;
+        }
         let inner;
         let bracket = bracketed!(inner in input);
         loc.end = bracket.span.close();
@@ -314,12 +339,13 @@ pub(super) fn key(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Key
             return Err(error);
         }
     }
-    Ok(Key {
+    let key = Key {
         name,
         indices,
         fields: Vec::new(),
         loc,
-    })
+    };
+    Ok((key, measure))
 }
 
 /// The name of coordinates: a key, or `link[i].angle` of a body, or `leg[i].knee.angle` of a part's.

@@ -4,6 +4,7 @@ use super::expr::{Expr, Range};
 use crate::diag::Loc;
 use proc_macro2::{Ident, TokenStream};
 use std::collections::BTreeMap;
+use ukunits::Unit;
 
 /// A whole declaration.
 pub(crate) struct Declaration {
@@ -14,6 +15,8 @@ pub(crate) struct Declaration {
     pub(crate) lints: TokenStream,
     /// It may be a part of others: `#[ukcore(part)]`.
     pub(crate) part: bool,
+    /// There are units in it, or in a part of it.
+    pub(crate) units: bool,
     /// Visibility, as written.
     pub(crate) vis: TokenStream,
     pub(crate) name: Ident,
@@ -98,10 +101,18 @@ pub(crate) struct Param {
     pub(crate) default: Expr,
 }
 
-/// `x[N]`, `th`.
+/// `x[N]`, `s [m]`.
 pub(crate) struct Coord {
     pub(crate) docs: Vec<String>,
     pub(crate) key: Key,
+    pub(crate) measure: Option<Measure>,
+}
+
+/// A unit, and where its brackets are.
+#[derive(Clone)]
+pub(crate) struct Measure {
+    pub(crate) unit: Unit,
+    pub(crate) loc: Loc,
 }
 
 /// `planar link[i] { mass: m, inertia: j, centre: [a, b] }`.
@@ -150,9 +161,16 @@ pub(crate) struct Merged {
 /// `let thrust = …;`
 pub(crate) struct Let {
     pub(crate) key: Key,
-    /// It is a parameter of a part, of this size, each of which is declared where the part is.
-    pub(crate) given: Option<Vec<Expr>>,
+    pub(crate) given: Option<Given>,
     pub(crate) value: LetValue,
+}
+
+/// What stands for a parameter of a part.
+pub(crate) struct Given {
+    /// Its size, which is declared where the part is.
+    pub(crate) sizes: Vec<Expr>,
+    /// The default that it has there.
+    pub(crate) default: Expr,
 }
 
 pub(crate) enum LetValue {
@@ -187,10 +205,11 @@ pub(crate) struct Equation {
     pub(crate) rhs: Option<Expr>,
 }
 
-/// `fall = y[0]`.
+/// `fall = y[0]`, `swing [deg] = atan2(x, -y)`.
 pub(crate) struct Output {
     pub(crate) docs: Vec<String>,
     pub(crate) key: Key,
+    pub(crate) measure: Option<Measure>,
     pub(crate) value: Expr,
 }
 

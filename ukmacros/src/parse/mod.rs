@@ -6,11 +6,12 @@ mod grammar;
 mod item;
 mod nesting;
 mod table;
+mod units;
 
 pub(crate) use expr::{BinaryOp, Expr, ExprKind, Range, own};
 pub(crate) use grammar::parse;
 pub(crate) use item::{
-    Block, Body, Const, Declaration, Entry, Equation, Function, Guess, Key, Let, LetValue,
-    MassEntry, Output, PartUse, Section, Shape, Start,
+    Block, Body, Const, Declaration, Entry, Equation, Function, Given, Guess, Key, Let, LetValue,
+    MassEntry, Measure, Output, PartUse, Section, Shape, Start,
 };
 pub(crate) use table::{Table, split};

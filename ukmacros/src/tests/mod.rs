@@ -14,6 +14,7 @@ mod random;
 mod regular;
 mod speed;
 mod tree;
+mod units;
 mod vectors;
 mod verify;
 

@@ -15,6 +15,7 @@ use crate::parse::{Body, Declaration, Expr, ExprKind};
 use proc_macro2::Ident;
 use std::fmt;
 use std::rc::Rc;
+use ukunits::Dimension;
 
 /// A body, or the ground.
 pub(super) struct Frame {
@@ -334,6 +335,7 @@ impl<'m> Lowering<'m> {
         let mut c = vec![self.graph.zero(); dimension];
         if let Some(e) = centre {
             let value = self.part_of_body(&e, &variables);
+            self.expect_all(&value, Dimension::LENGTH, "a place", e.loc);
             if let Some(entries) = self.of_shape(&value, &[dimension], e.loc) {
                 c = entries;
             }
@@ -413,6 +415,9 @@ impl<'m> Lowering<'m> {
             }
         };
         let value = self.value(v, env);
+        if name == "at" {
+            self.expect_all(&value, Dimension::LENGTH, "a place", v.loc);
+        }
         let fits = match frame.dimension() {
             Some(n) => value.shape() == [n],
             None => matches!(value.shape(), [2 | 3]),

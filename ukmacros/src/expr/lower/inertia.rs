@@ -10,6 +10,7 @@ use crate::expr::graph::{Id, Symbol};
 use crate::model::{Scope, Variable};
 use crate::parse::{Body, Declaration, Expr};
 use proc_macro2::Ident;
+use ukunits::Dimension;
 
 /// What all bodies have by themselves.
 #[derive(Default)]
@@ -156,6 +157,7 @@ impl<'m> Lowering<'m> {
             self.error(loc, format!("expected a vector of 2 or 3, found {found}"));
             return None;
         }
+        self.expect_all(&value, Dimension::ACCELERATION, "an acceleration", loc);
         Some((value, loc))
     }
 
@@ -208,6 +210,11 @@ impl<'m> Lowering<'m> {
             return zero;
         };
         let value = self.part_of_body(e, variables);
+        let dimension = match what {
+            "mass" => Dimension::MASS,
+            _ => Dimension::INERTIA,
+        };
+        self.expect_all(&value, dimension, &format!("the {what} of a body"), e.loc);
         let Some(numbers) = self.of_shape(&value, &[], e.loc) else {
             return zero;
         };
@@ -234,6 +241,7 @@ impl<'m> Lowering<'m> {
     ) -> Option<Vec<Id>> {
         let e = body.inertia.as_ref()?;
         let value = self.part_of_body(e, variables);
+        self.expect_all(&value, Dimension::INERTIA, "the inertia of a body", e.loc);
         let j = value.entries();
         let zero = self.graph.zero();
         // By places [row][column] of the lower triangle.

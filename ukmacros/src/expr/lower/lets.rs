@@ -6,7 +6,7 @@ use crate::diag::Loc;
 use crate::expr::eval::{Point, eval};
 use crate::expr::graph::Id;
 use crate::model::{Preset, Scope, every, indexed};
-use crate::parse::{Declaration, Expr, Function, Let, LetValue};
+use crate::parse::{Declaration, Expr, Function, Given, Let, LetValue};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
@@ -82,6 +82,7 @@ impl<'m> Lowering<'m> {
                 Vec::new()
             }
         };
+        self.measure_parameters(&ids, count);
         let numbers = eval(&self.graph, &ids, &Point::of_parameters(known));
         if let Some(wrong) = numbers.iter().find(|x| !x.is_finite()) {
             self.finite_number(&format!("default of `{name}`"), *wrong, loc);
@@ -148,7 +149,7 @@ impl<'m> Lowering<'m> {
             ),
             LetValue::Value(e) => {
                 let value = match &binding.given {
-                    Some(sizes) => self.given(e, sizes, scope),
+                    Some(given) => self.given(e, given, scope),
                     None => self.argument(e, &Env::new(scope, Place::Let)),
                 };
                 let shown = indexed(self.model.shown(&name), &indices);
@@ -167,9 +168,13 @@ impl<'m> Lowering<'m> {
     }
 
     /// What is given to a part for a parameter of these sizes: numbers for all of it, or one.
-    fn given(&mut self, e: &Expr, sizes: &[Expr], scope: &Scope<'m>) -> Value {
+    fn given(&mut self, e: &Expr, given: &Given, scope: &Scope<'m>) -> Value {
         let value = self.value(e, &Env::new(scope, Place::Given));
-        let sizes = sizes.iter().map(|size| {
+        if self.dimensions.is_some() {
+            let default = self.value(&given.default, &Env::new(scope, Place::Given));
+            self.fits(&value, &default, e.loc);
+        }
+        let sizes = given.sizes.iter().map(|size| {
             let n = scope.integer(size, self.diag)?;
             usize::try_from(n).ok()
         });

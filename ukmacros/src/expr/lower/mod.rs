@@ -12,12 +12,14 @@ mod reactions;
 mod starts;
 mod system;
 mod tree;
+mod units;
 mod value;
 mod vectors;
 
 pub(crate) use system::{
-    Constraint, ConstraintRef, Drawing, Kind, OutputValue, StartValue, System,
+    Constraint, ConstraintRef, Drawing, Kind, OptionValue, OutputValue, StartValue, System,
 };
+pub(crate) use units::units;
 #[cfg(test)]
 pub(crate) use vectors::vocabulary;
 
@@ -25,7 +27,7 @@ use super::graph::{Graph, Id, Map, Symbol};
 use crate::diag::{Diagnostics, Loc};
 use crate::model::{Model, Scope, every, uses};
 use crate::parse::{
-    Block, Declaration, Entry, Equation, Expr, ExprKind, Function, MassEntry, Output,
+    Block, Declaration, Entry, Equation, Expr, ExprKind, Function, MassEntry, Measure, Output,
 };
 use array::{Value, describe};
 use bodies::Declared;
@@ -36,6 +38,8 @@ use proc_macro2::Ident;
 use reactions::Known;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::Rc;
+use ukunits::Dimension;
+use units::{Dimensions, Measured, Units};
 
 /// Where an expression stands, which decides what it may use.
 #[derive(Clone, Copy, PartialEq)]
@@ -105,6 +109,16 @@ impl Names {
 
 /// Lowers everything.
 pub(crate) fn lower(decl: &Declaration, model: &Model, diag: &Diagnostics) -> System {
+    lower_with(decl, model, diag, None).0
+}
+
+/// The same, with a look at `dimensions`.
+fn lower_with<'m>(
+    decl: &Declaration,
+    model: &'m Model,
+    diag: &'m Diagnostics,
+    dimensions: Option<Dimensions<'m>>,
+) -> (System, Option<Dimensions<'m>>) {
     let mut lowering = Lowering {
         model,
         diag,
@@ -128,6 +142,7 @@ pub(crate) fn lower(decl: &Declaration, model: &Model, diag: &Diagnostics) -> Sy
         known: HashMap::new(),
         reaction_used: None,
         between: Vec::new(),
+        dimensions,
     };
     let results = &mut lowering.results;
     for block in decl.holonomic.iter().chain(&decl.nonholonomic) {
@@ -140,7 +155,7 @@ pub(crate) fn lower(decl: &Declaration, model: &Model, diag: &Diagnostics) -> Sy
         let blocks = blocks.iter();
         blocks.for_each(|b| b.each(&mut |o| results.extend([(o.key.name.to_string(), result)])));
     }
-    lowering.run(decl)
+    (lowering.run(decl), lowering.dimensions)
 }
 
 struct Lowering<'m> {
@@ -181,6 +196,8 @@ struct Lowering<'m> {
     reaction_used: Option<Loc>,
     /// What joints and springs are between.
     between: Vec<Between>,
+    /// Dimensions, where it is these that are looked at.
+    dimensions: Option<Dimensions<'m>>,
 }
 
 /// An expression's surroundings: loop variables, function arguments, section.
@@ -264,6 +281,7 @@ impl<'m> Lowering<'m> {
             graph: std::mem::take(&mut self.graph),
             constants,
             defaults,
+            units: Units::default(),
             mass,
             kinetic,
             force,
@@ -304,7 +322,13 @@ impl<'m> Lowering<'m> {
     ) -> Vec<(f64, Id)> {
         let mut terms = Vec::new();
         top.unroll(blocks, self.diag, &mut |e, scope| {
-            terms.push((1.0, self.scalar(e, &Env::new(scope, place))));
+            let id = self.scalar(e, &Env::new(scope, place));
+            let (dimension, what) = match place {
+                Place::Force => (Dimension::POWER, "a dissipated power"),
+                _ => (Dimension::ENERGY, "an energy"),
+            };
+            self.expect(id, Measured::of(dimension), what, e.loc);
+            terms.push((1.0, id));
         });
         terms
     }
@@ -389,7 +413,11 @@ impl<'m> Lowering<'m> {
                 _ => self.fitting(&value, shape, &entry.value),
             };
             let places = positions.iter().map(|i| (*i, *i));
-            return places.zip(values).collect();
+            let entries: Vec<((usize, usize), Id)> = places.zip(values).collect();
+            for (place, id) in &entries {
+                self.expect_mass(*place, *id, entry.value.loc);
+            }
+            return entries;
         };
         let (row, column) = (
             self.coordinate(&entry.key, scope),
@@ -404,7 +432,16 @@ impl<'m> Lowering<'m> {
             self.diag.error(other.loc, message);
             return Vec::new();
         }
+        self.expect_mass((row, column), value, entry.value.loc);
         vec![((row.max(column), row.min(column)), value)]
+    }
+
+    /// What an entry of M is measured in.
+    fn expect_mass(&mut self, (i, j): (usize, usize), id: Id, loc: Loc) {
+        let time = Measured::of(Dimension::TIME);
+        let rates = [i, j].map(|k| self.of_coordinate(k).per(time));
+        let mass = Measured::of(Dimension::ENERGY).per(rates[0]).per(rates[1]);
+        self.expect(id, mass, "a mass for these coordinates", loc);
     }
 
     /// The numbers of `value`, if it has this `shape`, or is 0; reports it, if not.
@@ -447,6 +484,9 @@ impl<'m> Lowering<'m> {
                 .iter()
                 .zip(self.fitting(&value, shape, &entry.value))
             {
+                let force = Measured::of(Dimension::ENERGY).per(self.of_coordinate(*i));
+                let loc = entry.value.loc;
+                self.expect(id, force, "the force on this coordinate", loc);
                 out.entry(*i).or_default().push(id);
             }
         });
@@ -500,6 +540,7 @@ impl<'m> Lowering<'m> {
             }
             _ => self.chain(&equation.lhs, 1.0, &env, &mut terms),
         }
+        let left = terms.len();
         match &equation.rhs {
             Some(rhs) => self.chain(rhs, -1.0, &env, &mut terms),
             None if self.is_joint(&equation.lhs) => {}
@@ -507,7 +548,14 @@ impl<'m> Lowering<'m> {
                 .diag
                 .error(equation.lhs.loc, "a constraint is an equation: `lhs = rhs`"),
         }
-        let total = self.total(&terms, true);
+        let clash = self.dimensions.is_some() && {
+            let (left, right) = terms.split_at(left);
+            self.sides_clash(left, right)
+        };
+        let total = match clash {
+            true => Value::Error,
+            false => self.total(&terms, true),
+        };
         let (first, whole) = (self.constraints.len(), item.text());
         for (k, (components, phi)) in self.components(&total).into_iter().enumerate() {
             item.components = components;
@@ -518,6 +566,7 @@ impl<'m> Lowering<'m> {
                 phi,
                 loc: key.loc,
             });
+            self.measure_row(phi, kind);
         }
         self.know(whole, first, total.shape(), rows, force);
     }
@@ -539,6 +588,23 @@ impl<'m> Lowering<'m> {
             _ => value.entries().to_vec(),
         };
         every(value.shape()).zip(numbers).collect()
+    }
+
+    /// The `value` of an output in the unit that it is declared with.
+    fn in_unit(&mut self, output: &Output, result: NoValue, value: Id) -> Id {
+        let Some(Measure { unit, .. }) = &output.measure else {
+            return value;
+        };
+        let of = Measured::known(unit.dimension(), true);
+        let (what, loc) = (format!("as `[{unit}]` says"), output.value.loc);
+        match result {
+            NoValue::Integral => self.expect_rate(value, of, &what, loc),
+            _ => self.expect(value, of, &what, loc),
+        }
+        match unit.is_coherent() {
+            true => value,
+            false => self.graph.scale(unit.from_si(1.0), value),
+        }
     }
 
     /// Outputs or integrals.
@@ -575,6 +641,7 @@ impl<'m> Lowering<'m> {
             }
             let value = self.value(&output.value, &Env::new(scope, place));
             for (components, value) in self.components(&value) {
+                let value = self.in_unit(output, result, value);
                 item.components = components;
                 let text = item.text();
                 let coordinates = &self.model.coord_elements;
@@ -590,6 +657,7 @@ impl<'m> Lowering<'m> {
                 out.push(OutputValue {
                     item: item.clone(),
                     docs: output.docs.clone(),
+                    unit: output.measure.as_ref().map(|m| m.unit.to_string()),
                     value,
                 });
             }

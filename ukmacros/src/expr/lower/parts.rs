@@ -4,6 +4,7 @@
 
 use super::array::{Value, describe};
 use super::reactions::Pushed;
+use super::units::Measured;
 use super::{Env, Lowering, Place};
 use crate::diag::{Loc, suggest};
 use crate::expr::diff::Gradient;
@@ -13,6 +14,7 @@ use crate::parse::{Expr, ExprKind, own};
 use proc_macro2::Ident;
 use std::collections::BTreeMap;
 use std::rc::Rc;
+use ukunits::Dimension;
 
 /// What an argument is.
 #[derive(Clone, Copy, PartialEq)]
@@ -270,6 +272,10 @@ impl<'m> Lowering<'m> {
                     self.error(e.loc, format!("a `{name}` depends on coordinates and time only; write what depends on velocities as a `force` or `torque`"));
                     return;
                 }
+                for id in value.entries() {
+                    let energy = Measured::of(Dimension::ENERGY);
+                    self.expect(*id, energy, &format!("the energy of `{name}`"), e.loc);
+                }
                 out.potential
                     .extend(value.entries().iter().map(|id| (1.0, *id)));
             }
@@ -288,6 +294,9 @@ impl<'m> Lowering<'m> {
                     return;
                 }
                 for (v, f) in velocity.entries().iter().zip(force.entries()) {
+                    let expected = Measured::of(Dimension::POWER).per(self.dimension(*v));
+                    let last = args.last().map_or(e.loc, |a| a.loc);
+                    self.expect(*f, expected, &format!("what acts by `{name}`"), last);
                     self.push(*v, *f, out);
                 }
             }
@@ -309,14 +318,15 @@ impl<'m> Lowering<'m> {
     /// The value of a text of the table; what is wrong with it is wrong with what stands at `loc`.
     pub(super) fn written(&mut self, text: &str, loc: Loc, env: &Env<'m>) -> Value {
         let e = own(text);
-        let before = self.diag.len();
+        let before = (self.diag.len(), self.units_told());
         self.written = true;
         let mut terms = Vec::new();
         self.chain(&e, 1.0, env, &mut terms);
         let value = self.total(&terms, true);
         self.written = false;
-        self.diag.relocate(before, loc);
-        match self.diag.len() == before {
+        self.diag.relocate(before.0, loc);
+        self.units_relocated(before.1, loc);
+        match self.diag.len() == before.0 {
             true => value,
             false => Value::Error,
         }

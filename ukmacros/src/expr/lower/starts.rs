@@ -2,12 +2,14 @@
 
 use super::array::Value;
 use super::system::{GuessValue, OptionValue, StartValue};
+use super::units::{Measured, unit_of};
 use super::{Env, Lowering, Place};
 use crate::expr::eval::{Point, eval};
 use crate::expr::graph::Symbol;
 use crate::model::Scope;
 use crate::parse::{Declaration, Guess, Start};
 use std::collections::HashSet;
+use ukunits::Dimension;
 
 impl<'m> Lowering<'m> {
     /// The starts, in their order.
@@ -63,12 +65,14 @@ impl<'m> Lowering<'m> {
                 let what = format!("default of `{name}`");
                 self.finite_number(&what, default, option.default.loc);
             }
-            let symbol = Symbol::Param(parameters + options.len());
+            let symbol = self.measured_option(id);
+            let symbol = symbol.unwrap_or(Symbol::Param(parameters + options.len()));
             args.push((name.clone(), Value::Scalar(self.graph.symbol(symbol))));
             options.push(OptionValue {
                 name,
                 docs: option.docs.clone(),
                 default,
+                unit: unit_of(&option.default),
             });
         }
         (options, args)
@@ -82,6 +86,15 @@ impl<'m> Lowering<'m> {
         };
         let values = self.fitting(&value, shape, &guess.value);
         for (coordinate, value) in positions.iter().copied().zip(values) {
+            let place = self.of_coordinate(coordinate);
+            let (expected, what) = match guess.rate {
+                true => (
+                    place.per(Measured::of(Dimension::TIME)),
+                    "as this velocity is",
+                ),
+                false => (place, "as this coordinate is"),
+            };
+            self.expect(value, expected, what, guess.value.loc);
             let again =
                 |other: &GuessValue| (other.coordinate, other.rate) == (coordinate, guess.rate);
             if out.iter().any(again) {

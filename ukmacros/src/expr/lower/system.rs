@@ -1,5 +1,6 @@
 //! What lowering makes.
 
+use super::units::Units;
 use crate::diag::Loc;
 use crate::expr::graph::{Graph, Id, Map};
 use crate::model::indexed;
@@ -13,6 +14,8 @@ pub(crate) struct System {
     pub(crate) constants: Vec<f64>,
     /// Default of each parameter.
     pub(crate) defaults: Vec<f64>,
+    /// Units that follow from those declared.
+    pub(crate) units: Units,
     /// Lower triangle (row ≥ column) of the declared M, with where it was declared first.
     pub(crate) mass: BTreeMap<(usize, usize), (Id, Loc)>,
     pub(crate) kinetic: Option<(Id, Loc)>,
@@ -107,6 +110,8 @@ impl ConstraintRef {
 pub(crate) struct OutputValue {
     pub(crate) item: ConstraintRef,
     pub(crate) docs: Vec<String>,
+    /// The unit of `value`, if one is declared.
+    pub(crate) unit: Option<String>,
     pub(crate) value: Id,
 }
 
@@ -123,6 +128,8 @@ pub(crate) struct OptionValue {
     pub(crate) name: String,
     pub(crate) docs: Vec<String>,
     pub(crate) default: f64,
+    /// Its unit in SI, if the default has one.
+    pub(crate) unit: Option<String>,
 }
 
 /// Where a coordinate, or its velocity, is at a start.

@@ -15,6 +15,7 @@ use crate::expr::graph::{Graph, Id, Symbol};
 use crate::model::{Scope, Step};
 use crate::parse::{Expr, ExprKind};
 use std::rc::Rc;
+use ukunits::Dimension;
 
 /// A frame on its way from one body to the next.
 struct Moved {
@@ -189,6 +190,7 @@ impl<'m> Lowering<'m> {
                 return None;
             };
             let v = self.value(&parts[1], &env);
+            self.expect_all(&v, Dimension::LENGTH, "a place", parts[1].loc);
             let v = self.of_shape(&v, &[dimension], parts[1].loc)?;
             values.push(Value::Point(Rc::new(Point {
                 body: body.clone(),

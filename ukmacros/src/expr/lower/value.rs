@@ -75,12 +75,15 @@ impl<'m> Lowering<'m> {
             );
         }
         self.depth += 1;
-        let value = self.value_of(e, env);
+        let value = match self.dimensions.is_some() {
+            true => self.measured(e, env),
+            false => self.value_of(e, env),
+        };
         self.depth -= 1;
         value
     }
 
-    fn value_of(&mut self, e: &Expr, env: &Env<'m>) -> Value {
+    pub(super) fn value_of(&mut self, e: &Expr, env: &Env<'m>) -> Value {
         if let ExprKind::Field(..) | ExprKind::Index(..) = &e.kind
             && let Some(value) = self.in_part(e, env)
         {
@@ -94,6 +97,7 @@ impl<'m> Lowering<'m> {
             )]
             ExprKind::Int(n) => Value::Scalar(self.graph.constant(*n as f64)),
             ExprKind::Float(x) => Value::Scalar(self.graph.constant(*x)),
+            ExprKind::Quantity(numbers, unit) => self.quantity(e, numbers, unit, env),
             ExprKind::Group(inner) => self.argument(inner, env),
             ExprKind::Field(base, name) => self.field(base, name, env),
             ExprKind::Name(name) => self.name(name, &[], env),
@@ -171,6 +175,7 @@ impl<'m> Lowering<'m> {
         let mut array: Option<Value> = None;
         let mut factors: Vec<(Id, i32)> = Vec::with_capacity(rest.len() + 1);
         let mut failed = false;
+        self.factor_next();
         match self.value(first, env) {
             Value::Scalar(id) => factors.push((id, 1)),
             Value::Error => failed = true,
@@ -194,6 +199,7 @@ impl<'m> Lowering<'m> {
                 (Some(x), Some(y)) => x.checked_mul(y),
                 _ => None,
             };
+            self.factor_next();
             match self.value(operand, env) {
                 Value::Error => failed = true,
                 Value::Scalar(id) if divides && self.graph.is_zero(id) => {
@@ -350,8 +356,13 @@ impl<'m> Lowering<'m> {
                 }
             }
         }
+        let clash = self.dimensions.is_some() && self.terms_clash(terms);
         let sums = sums.iter().map(|terms| self.graph.sum(terms));
-        Value::new(expected, sums.collect())
+        let value = Value::new(expected, sums.collect());
+        if clash {
+            self.told();
+        }
+        value
     }
 }
 
