@@ -215,8 +215,14 @@ impl<'m> Scope<'m> {
                 if found.is_none() {
                     let names = self.model.integers.keys().map(String::as_str);
                     let names = names.chain(self.variables.iter().map(|(n, _)| n.as_str()));
-                    let remedy = "indices and ranges must be known at compile time";
-                    let end = suggest(&text, names, remedy);
+                    let mut end = suggest(
+                        &text,
+                        names,
+                        "indices and ranges must be known at compile time",
+                    );
+                    if ukunits::is_known(&text) {
+                        end = "; a unit is written so where no constant, loop variable or argument has its name".to_owned();
+                    }
                     diag.error(
                         e.loc,
                         format!("`{name}` is not an integer constant or loop variable{end}"),

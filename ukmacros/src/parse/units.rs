@@ -6,35 +6,27 @@
 use super::item::Measure;
 use crate::diag::{Diagnostics, suggest};
 use proc_macro2::{Delimiter, Group, Literal, Span, TokenStream, TokenTree};
-use std::collections::HashSet;
 use syn::parse::ParseStream;
 use ukunits::{Refusal, Unit};
 
 /// `tokens` with the contents of brackets that hold units as texts; nothing where there are none.
 pub(super) fn mark(tokens: &TokenStream, diag: &Diagnostics) -> Option<TokenStream> {
-    let mut integers = HashSet::new();
-    find_integers(tokens, &mut integers);
-    marked(tokens, &integers, diag)
+    let mut integers = Vec::new();
+    constants(tokens, &mut integers);
+    let mut marking = Marking { integers, diag };
+    marking.level(tokens)
 }
 
-/// Names that an index may be made of: behind `const` and `for`, and between bars.
-fn find_integers(tokens: &TokenStream, found: &mut HashSet<String>) {
-    let (mut declares, mut bars) = (false, false);
+/// Names behind `const`.
+fn constants(tokens: &TokenStream, found: &mut Vec<String>) {
+    let mut declares = false;
     for token in tokens.clone() {
         match &token {
-            TokenTree::Ident(name) => {
-                if declares || bars {
-                    found.insert(name.to_string());
-                }
-                declares = name == "const" || name == "for";
-            }
-            TokenTree::Punct(p) => {
-                bars ^= p.as_char() == '|';
-                declares = false;
-            }
-            TokenTree::Group(group) => find_integers(&group.stream(), found),
-            TokenTree::Literal(_) => {}
+            TokenTree::Group(group) => constants(&group.stream(), found),
+            TokenTree::Ident(name) if declares => found.push(name.to_string()),
+            _ => {}
         }
+        declares = matches!(&token, TokenTree::Ident(name) if name == "const");
     }
 }
 
@@ -46,48 +38,80 @@ enum Before {
     Other,
 }
 
-/// As [`mark`]. Groups without units stay as they are, since the spans of their delimiters do not survive another group.
-fn marked(
-    tokens: &TokenStream,
-    integers: &HashSet<String>,
-    diag: &Diagnostics,
-) -> Option<TokenStream> {
-    let (mut before, mut changed) = (Before::Other, false);
-    let mut each = |token: TokenTree| {
-        let stands = std::mem::replace(&mut before, Before::Other);
-        match &token {
-            TokenTree::Group(group) => {
-                before = Before::Operand;
-                let holds = group.delimiter() == Delimiter::Bracket
-                    && match stands {
-                        Before::Number => true,
-                        Before::Operand => is_unit(&group.stream(), integers),
-                        Before::Other => false,
-                    };
-                let stream = match holds {
-                    true => Some(text(group, diag)),
-                    false => marked(&group.stream(), integers, diag),
-                };
-                let Some(stream) = stream else {
-                    return token;
-                };
-                changed = true;
-                let mut new = Group::new(group.delimiter(), stream);
-                new.set_span(group.span());
-                return new.into();
+struct Marking<'d> {
+    /// Names that an index may be made of: of constants, and of the loops and functions around.
+    integers: Vec<String>,
+    diag: &'d Diagnostics,
+}
+
+impl Marking<'_> {
+    /// As [`mark`]. Groups without units stay as they are, since the spans of their delimiters do not survive another group.
+    fn level(&mut self, tokens: &TokenStream) -> Option<TokenStream> {
+        let outside = self.integers.len();
+        let (mut before, mut changed, mut bars) = (Before::Other, false, false);
+        // A loop's variable, on the way to its braces.
+        let (mut declares, mut variable) = (false, None);
+        let mut out: Vec<TokenTree> = Vec::new();
+        for token in tokens.clone() {
+            let stands = std::mem::replace(&mut before, Before::Other);
+            let named = std::mem::take(&mut declares);
+            match &token {
+                TokenTree::Group(group) => {
+                    before = Before::Operand;
+                    let braces = group.delimiter() == Delimiter::Brace;
+                    let variable = variable.take_if(|_| braces);
+                    let inside = self.integers.len();
+                    self.integers.extend(variable);
+                    let stream = self.group(group, stands);
+                    self.integers.truncate(inside);
+                    if let Some(stream) = stream {
+                        let mut new = Group::new(group.delimiter(), stream);
+                        new.set_span(group.span());
+                        out.push(new.into());
+                        changed = true;
+                        continue;
+                    }
+                }
+                TokenTree::Ident(name) => {
+                    before = Before::Operand;
+                    declares = name == "for";
+                    if named {
+                        variable = Some(name.to_string());
+                    } else if bars {
+                        self.integers.push(name.to_string());
+                    }
+                }
+                TokenTree::Literal(_) => before = Before::Number,
+                TokenTree::Punct(p) => match p.as_char() {
+                    '|' => bars = !bars,
+                    // Here a function ends.
+                    ',' | ';' if !bars => self.integers.truncate(outside),
+                    _ => {}
+                },
             }
-            TokenTree::Ident(_) => before = Before::Operand,
-            TokenTree::Literal(_) => before = Before::Number,
-            TokenTree::Punct(_) => {}
+            out.push(token);
         }
-        token
-    };
-    let stream = tokens.clone().into_iter().map(&mut each).collect();
-    changed.then_some(stream)
+        self.integers.truncate(outside);
+        changed.then(|| out.into_iter().collect())
+    }
+
+    /// What becomes of the contents of a group.
+    fn group(&mut self, group: &Group, before: Before) -> Option<TokenStream> {
+        let holds = group.delimiter() == Delimiter::Bracket
+            && match before {
+                Before::Number => true,
+                Before::Operand => is_unit(&group.stream(), &self.integers),
+                Before::Other => false,
+            };
+        match holds {
+            true => Some(text(group, self.diag)),
+            false => self.level(&group.stream()),
+        }
+    }
 }
 
 /// Whether this is written as a unit, and can be no index.
-fn is_unit(tokens: &TokenStream, integers: &HashSet<String>) -> bool {
+fn is_unit(tokens: &TokenStream, integers: &[String]) -> bool {
     let tokens: Vec<TokenTree> = tokens.clone().into_iter().collect();
     if let [TokenTree::Punct(only)] = &tokens[..] {
         return only.as_char() == '-';

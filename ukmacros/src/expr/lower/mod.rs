@@ -596,7 +596,11 @@ impl<'m> Lowering<'m> {
             return value;
         };
         let of = Measured::known(unit.dimension(), true);
-        let (what, loc) = (format!("as `[{unit}]` says"), output.value.loc);
+        let what = match unit.to_string().as_str() {
+            "" => "as `[-]` says".to_owned(),
+            text => format!("as `[{text}]` says"),
+        };
+        let loc = output.value.loc;
         match result {
             NoValue::Integral => self.expect_rate(value, of, &what, loc),
             _ => self.expect(value, of, &what, loc),

@@ -55,7 +55,7 @@ pub(super) struct Dimensions<'m> {
     /// By the places of nodes.
     nodes: Vec<Measured>,
     /// What stands for a number of this value and this unit.
-    numbers: HashMap<(u64, String), usize>,
+    numbers: HashMap<(u64, Option<String>), usize>,
     /// The values of these.
     values: HashMap<usize, f64>,
     clash: Option<Clash>,
@@ -297,7 +297,7 @@ impl Dimensions<'_> {
     }
 
     /// The symbol that stands for the number `x`.
-    fn symbol(&mut self, x: f64, measured: Measured, unit: String) -> Symbol {
+    fn symbol(&mut self, x: f64, measured: Measured, unit: Option<String>) -> Symbol {
         let next = self.first + self.symbols.len();
         let known = self.numbers.entry((x.to_bits(), unit)).or_insert(next);
         if *known == next {
@@ -358,7 +358,7 @@ impl<'m> Lowering<'m> {
         match value {
             Value::Scalar(id) if !factor => match self.graph.as_const(id) {
                 Some(x) if x != 0.0 => {
-                    let symbol = dimensions.symbol(x, Unknown, String::new());
+                    let symbol = dimensions.symbol(x, Unknown, None);
                     Value::Scalar(self.graph.symbol(symbol))
                 }
                 _ => value,
@@ -394,7 +394,7 @@ impl<'m> Lowering<'m> {
             match &mut self.dimensions {
                 Some(dimensions) if x != 0.0 => {
                     let measured = Measured::known(unit.dimension(), true);
-                    let symbol = dimensions.symbol(x, measured, unit.to_string());
+                    let symbol = dimensions.symbol(x, measured, Some(unit.to_string()));
                     self.graph.symbol(symbol)
                 }
                 _ => self.graph.constant(x),
@@ -545,7 +545,9 @@ impl<'m> Lowering<'m> {
     fn complain(&mut self, id: Id, loc: Loc, message: String) {
         if let Some(dimensions) = &mut self.dimensions {
             dimensions.diag.error(loc, message);
-            dimensions.nodes[id.index()] = Unknown;
+            for node in [id, self.graph.unscaled(id).1] {
+                dimensions.nodes[node.index()] = Unknown;
+            }
         }
     }
 
