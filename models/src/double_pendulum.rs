@@ -10,22 +10,22 @@ ukcore::multibody! {
     /// Two point masses on massless rigid rods, the first about a pivot at the origin; y points up.
     pub DoublePendulum {
         params {
-            /// Inner mass, kg
-            m1 = 1.0,
-            /// Outer mass, kg
-            m2 = 1.0,
-            /// Length of the inner rod, m
-            l1 = 1.0,
-            /// Length of the outer rod, m
-            l2 = 1.0,
-            /// Acceleration of gravity (exact in binary), m/s^2
-            g = 9.8125,
+            /// Inner mass
+            m1 = 1.0 [kg],
+            /// Outer mass
+            m2 = 1.0 [kg],
+            /// Length of the inner rod
+            l1 = 1.0 [m],
+            /// Length of the outer rod
+            l2 = 1.0 [m],
+            /// Acceleration of gravity (exact in binary)
+            g = 9.8125 [m/s^2],
         }
         coords {
-            /// Position of the inner mass, m
-            x1, y1,
-            /// Position of the outer mass, m
-            x2, y2,
+            /// Position of the inner mass
+            x1 [m], y1 [m],
+            /// Position of the outer mass
+            x2 [m], y2 [m],
         }
         mass { x1: m1, y1: m1, x2: m2, y2: m2 }
         potential { m1 * g * y1, m2 * g * y2 }
@@ -34,10 +34,10 @@ ukcore::multibody! {
             outer: sq(x2 - x1) + sq(y2 - y1) = sq(l2),
         }
         output {
-            /// Angle of the inner rod from the downward vertical, rad
-            angle1 = atan2(x1, -y1),
-            /// Angle of the outer rod from the downward vertical, rad
-            angle2 = atan2(x2 - x1, y1 - y2),
+            /// Angle of the inner rod from the downward vertical
+            angle1 [rad] = atan2(x1, -y1),
+            /// Angle of the outer rod from the downward vertical
+            angle2 [rad] = atan2(x2 - x1, y1 - y2),
         }
         draw { polyline([0, 0], [x1, y1], [x2, y2]) trace([x2, y2]) }
     }

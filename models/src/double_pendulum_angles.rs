@@ -9,22 +9,22 @@ ukcore::multibody! {
     /// The double pendulum in the angles of its rods from the downward vertical, declared by its energies alone.
     pub DoublePendulumAngles {
         params {
-            /// Inner mass, kg
-            m1 = 1.0,
-            /// Outer mass, kg
-            m2 = 1.0,
-            /// Length of the inner rod, m
-            l1 = 1.0,
-            /// Length of the outer rod, m
-            l2 = 1.0,
-            /// Acceleration of gravity (exact in binary), m/s^2
-            g = 9.8125,
+            /// Inner mass
+            m1 = 1.0 [kg],
+            /// Outer mass
+            m2 = 1.0 [kg],
+            /// Length of the inner rod
+            l1 = 1.0 [m],
+            /// Length of the outer rod
+            l2 = 1.0 [m],
+            /// Acceleration of gravity (exact in binary)
+            g = 9.8125 [m/s^2],
         }
         coords {
-            /// Angle of the inner rod, rad
-            th1,
-            /// Angle of the outer rod, rad
-            th2,
+            /// Angle of the inner rod
+            th1 [rad],
+            /// Angle of the outer rod
+            th2 [rad],
         }
         kinetic {
             0.5 * (m1 + m2) * sq(l1 * dot(th1)),
@@ -36,14 +36,14 @@ ukcore::multibody! {
             -m2 * g * l2 * cos(th2),
         }
         output {
-            /// Horizontal position of the inner mass, m
-            x1 = l1 * sin(th1),
-            /// Vertical position of the inner mass, upwards, m
-            y1 = -l1 * cos(th1),
-            /// Horizontal position of the outer mass, m
-            x2 = l1 * sin(th1) + l2 * sin(th2),
-            /// Vertical position of the outer mass, upwards, m
-            y2 = -l1 * cos(th1) - l2 * cos(th2),
+            /// Horizontal position of the inner mass
+            x1 [m] = l1 * sin(th1),
+            /// Vertical position of the inner mass, upwards
+            y1 [m] = -l1 * cos(th1),
+            /// Horizontal position of the outer mass
+            x2 [m] = l1 * sin(th1) + l2 * sin(th2),
+            /// Vertical position of the outer mass, upwards
+            y2 [m] = -l1 * cos(th1) - l2 * cos(th2),
         }
         let inner = l1 * [sin(th1), -cos(th1)];
         let outer = inner + l2 * [sin(th2), -cos(th2)];

@@ -12,18 +12,18 @@ ukcore::multibody! {
     /// points up. (The double Scott-Russell linkage is a usual example of a redundantly constrained mechanism of one degree of freedom.)
     pub DoubleScottRussell {
         params {
-            /// Length of the cranks, half that of the rods, m
-            l = 0.4,
-            /// Mass of each crank, half that of each rod, kg
-            m = 1.3,
-            /// Mass of the table, kg
-            table_mass = 5.0,
-            /// Distance of the linkages, m
-            span = 2.0,
-            /// Stiffness of the spring, N/m
-            k = 600.0,
-            /// Acceleration of gravity, m/s^2
-            g = 9.81,
+            /// Length of the cranks, half that of the rods
+            l = 0.4 [m],
+            /// Mass of each crank, half that of each rod
+            m = 1.3 [kg],
+            /// Mass of the table
+            table_mass = 5.0 [kg],
+            /// Distance of the linkages
+            span = 2.0 [m],
+            /// Stiffness of the spring
+            k = 600.0 [N/m],
+            /// Acceleration of gravity
+            g = 9.81 [m/s^2],
         }
         bodies {
             for i in 0..2 {
@@ -47,8 +47,8 @@ ukcore::multibody! {
         }
         forces { spring(ground.at([0, 0]), table.at([0, 0]), k, l) }
         output {
-            /// Height of the table, m
-            height = table.y,
+            /// Height of the table
+            height [m] = table.y,
         }
     }
 }

@@ -13,52 +13,52 @@ ukcore::multibody! {
     /// (Zhao, Zhen & Chen 2013, §6-10.)
     pub FishRobot {
         params {
-            /// Mass of the body, kg
-            m1 = 0.409,
-            /// Moment of inertia of the body about its centre, kg m^2
-            i1 = 1.23e-3,
-            /// Half length of the body, m
-            a = 0.09375,
-            /// Frontal area of the body, m^2
-            s = 7.069e-3,
-            /// Lateral area of the body (as printed; far more than a body of this size has), m^2
-            s1 = 0.19,
-            /// Mass of the peduncle, kg
-            m2 = 0.104,
-            /// Length of the peduncle, m
-            l2 = 0.0625,
-            /// Lateral area of the peduncle, m^2
-            s2 = 0.04,
-            /// Mass of the fin, kg
-            m3 = 9.0e-3,
-            /// Half length of the fin, m
-            b = 0.015,
-            /// Lateral area of the fin, m^2
-            s3 = 0.008,
-            /// Density of water, kg/m^3
-            rho = 998.0,
+            /// Mass of the body
+            m1 = 0.409 [kg],
+            /// Moment of inertia of the body about its centre
+            i1 = 1.23e-3 [kg m^2],
+            /// Half length of the body
+            a = 0.09375 [m],
+            /// Frontal area of the body
+            s = 7.069e-3 [m^2],
+            /// Lateral area of the body (as printed; far more than a body of this size has)
+            s1 = 0.19 [m^2],
+            /// Mass of the peduncle
+            m2 = 0.104 [kg],
+            /// Length of the peduncle
+            l2 = 0.0625 [m],
+            /// Lateral area of the peduncle
+            s2 = 0.04 [m^2],
+            /// Mass of the fin
+            m3 = 9.0e-3 [kg],
+            /// Half length of the fin
+            b = 0.015 [m],
+            /// Lateral area of the fin
+            s3 = 0.008 [m^2],
+            /// Density of water
+            rho = 998.0 [kg/m^3],
             /// Drag coefficient
-            cd = 0.5,
-            /// Span of the fin, m
-            span = 0.075,
-            /// Half chord of the fin, m
-            half_chord = 0.015,
-            /// Amplitude of the peduncle's angle, rad
-            a2 = 0.3,
-            /// Amplitude of the fin's angle, rad
-            a3 = 0.6,
-            /// Angular frequency of the gait, rad/s
-            w = 2.0 * PI,
-            /// Phase by which the fin lags the peduncle, rad
-            phi = PI / 12.0,
+            cd = 0.5 [-],
+            /// Span of the fin
+            span = 0.075 [m],
+            /// Half chord of the fin
+            half_chord = 0.015 [m],
+            /// Amplitude of the peduncle's angle
+            a2 = 0.3 [rad],
+            /// Amplitude of the fin's angle
+            a3 = 0.6 [rad],
+            /// Angular frequency of the gait
+            w = 2.0 * PI [rad/s],
+            /// Phase by which the fin lags the peduncle
+            phi = (PI / 12.0) [rad],
         }
         coords {
-            /// Position and angle of the body, m and rad
-            x1, y1, th1,
-            /// Position and angle of the peduncle, m and rad
-            x2, y2, th2,
-            /// Position and angle of the fin, m and rad
-            x3, y3, th3,
+            /// Position and angle of the body
+            x1 [m], y1 [m], th1 [rad],
+            /// Position and angle of the peduncle
+            x2 [m], y2 [m], th2 [rad],
+            /// Position and angle of the fin
+            x3 [m], y3 [m], th3 [rad],
         }
         let drag = |area, v| -0.5 * rho * cd * area * v.abs() * v;
         let lift = 2.0 * PI * rho * span * half_chord;
@@ -79,18 +79,18 @@ ukcore::multibody! {
             fin: th3 = a3 * sin(w * t - phi),
         }
         output {
-            /// Speed of the body towards its nose's side, −x, m/s
-            forward_speed = -dot(x1),
-            /// Swing angle of the body, rad
-            swing = th1,
-            /// Force of the water on the fin along x by lift (negative drives the fish), N
-            fin_x = lift_x,
-            /// Force of the water on the fin along y by lift, N
-            fin_y = lift_y,
-            /// Longitudinal position of the fin's trailing edge, m
-            edge_x = x3 + b * cos(th3),
-            /// Lateral position of the fin's trailing edge, m
-            edge_y = y3 + b * sin(th3),
+            /// Speed of the body towards its nose's side, −x
+            forward_speed [m/s] = -dot(x1),
+            /// Swing angle of the body
+            swing [rad] = th1,
+            /// Force of the water on the fin along x by lift (negative drives the fish)
+            fin_x [N] = lift_x,
+            /// Force of the water on the fin along y by lift
+            fin_y [N] = lift_y,
+            /// Longitudinal position of the fin's trailing edge
+            edge_x [m] = x3 + b * cos(th3),
+            /// Lateral position of the fin's trailing edge
+            edge_y [m] = y3 + b * sin(th3),
         }
         draw {
             line([x1 - a * cos(th1), y1 - a * sin(th1)], [x1 + a * cos(th1), y1 + a * sin(th1)])

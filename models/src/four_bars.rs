@@ -12,18 +12,18 @@ ukcore::multibody! {
     pub FourBars {
         const N: usize = 4;
         params {
-            /// Mass of each rod, kg
-            m = 1.0,
-            /// Length of each rod, m
-            l = 1.0,
-            /// Acceleration of gravity, m/s^2
-            g = 9.81,
+            /// Mass of each rod
+            m = 1.0 [kg],
+            /// Length of each rod
+            l = 1.0 [m],
+            /// Acceleration of gravity
+            g = 9.81 [m/s^2],
         }
         coords {
-            /// Horizontal positions of the tops, m
-            x[N + 1],
-            /// Vertical positions of the tops, upwards, m
-            y[N + 1],
+            /// Horizontal positions of the tops
+            x[N + 1] [m],
+            /// Vertical positions of the tops, upwards
+            y[N + 1] [m],
         }
         kinetic {
             for i in 0..N + 1 { m / 6.0 * (sq(dot(x[i])) + sq(dot(y[i]))) }
@@ -41,8 +41,8 @@ ukcore::multibody! {
             for i in 0..N { coupler[i]: sq(x[i + 1] - x[i]) + sq(y[i + 1] - y[i]) = sq(l) }
         }
         output {
-            /// Angle of the first crank from the upright, towards +x, rad
-            lean = atan2(x[0], y[0]),
+            /// Angle of the first crank from the upright, towards +x
+            lean [rad] = atan2(x[0], y[0]),
         }
         draw {
             for i in 0..N + 1 { line([i * l, 0], [x[i], y[i]]) }

@@ -10,32 +10,32 @@ ukcore::multibody! {
     /// contains the time.
     pub KapitzaPendulum {
         params {
-            /// Mass of the bob, kg
-            m = 1.0,
-            /// Length of the rod, m
-            l = 1.0,
-            /// Acceleration of gravity, m/s^2
-            g = 9.81,
-            /// Amplitude of the pivot, m
-            a = 0.1,
-            /// Angular frequency of the pivot, rad/s
-            w = 100.0,
+            /// Mass of the bob
+            m = 1.0 [kg],
+            /// Length of the rod
+            l = 1.0 [m],
+            /// Acceleration of gravity
+            g = 9.81 [m/s^2],
+            /// Amplitude of the pivot
+            a = 0.1 [m],
+            /// Angular frequency of the pivot
+            w = 100.0 [rad/s],
         }
         coords {
-            /// Horizontal position, m
-            x,
-            /// Vertical position, upwards, m
-            y,
+            /// Horizontal position
+            x [m],
+            /// Vertical position, upwards
+            y [m],
         }
         let pivot = a * cos(w * t);
         mass { x: m, y: m }
         potential { m * g * y }
         holonomic { rod: sq(x) + sq(y - pivot) = sq(l) }
         output {
-            /// Angle from the upward vertical, clockwise, rad
-            angle = atan2(x, y - pivot),
-            /// Height of the pivot, m
-            pivot_y = pivot,
+            /// Angle from the upward vertical, clockwise
+            angle [rad] = atan2(x, y - pivot),
+            /// Height of the pivot
+            pivot_y [m] = pivot,
         }
         draw { line([0, pivot], [x, y]) circle([x, y], 0.05 * l) trace([x, y]) }
     }

@@ -9,31 +9,31 @@ ukcore::multibody! {
     /// and does not slip sideways: a nonholonomic constraint. Set turning, it drifts across the slope and never gets down.
     pub KnifeEdge {
         params {
-            /// Mass, kg
-            m = 1.0,
-            /// Moment of inertia about the normal of the plane, kg m^2
-            i = 0.1,
-            /// Acceleration of gravity, m/s^2
-            g = 9.81,
-            /// Inclination of the plane, rad
-            slope = PI / 6.0,
+            /// Mass
+            m = 1.0 [kg],
+            /// Moment of inertia about the normal of the plane
+            i = 0.1 [kg m^2],
+            /// Acceleration of gravity
+            g = 9.81 [m/s^2],
+            /// Inclination of the plane
+            slope = (PI / 6.0) [rad],
         }
         coords {
-            /// Position down the slope, m
-            x,
-            /// Position across the slope, m
-            y,
-            /// Direction of the edge, from the line of fall, rad
-            th,
+            /// Position down the slope
+            x [m],
+            /// Position across the slope
+            y [m],
+            /// Direction of the edge, from the line of fall
+            th [rad],
         }
         mass { x: m, y: m, th: i }
         potential { -m * g * sin(slope) * x }
         nonholonomic { edge: dot(x) * sin(th) = dot(y) * cos(th) }
         output {
-            /// Speed along the edge, m/s
-            speed = dot(x) * cos(th) + dot(y) * sin(th),
-            /// Angular velocity, rad/s
-            spin = dot(th),
+            /// Speed along the edge
+            speed [m/s] = dot(x) * cos(th) + dot(y) * sin(th),
+            /// Angular velocity
+            spin [rad/s] = dot(th),
         }
         draw { line([y - 0.2 * sin(th), 0.2 * cos(th) - x], [y + 0.2 * sin(th), -x - 0.2 * cos(th)]) trace([y, -x]) }
     }

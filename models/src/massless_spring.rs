@@ -10,25 +10,25 @@ ukcore::multibody! {
     /// force is zero. Both positions are measured from where the springs are relaxed.
     pub MasslessSpring {
         params {
-            /// Mass, kg
-            m = 1.0,
-            /// Stiffness of the spring at the wall, N/m
-            k1 = 30.0,
-            /// Stiffness of the spring at the mass, N/m
-            k2 = 60.0,
+            /// Mass
+            m = 1.0 [kg],
+            /// Stiffness of the spring at the wall
+            k1 = 30.0 [N/m],
+            /// Stiffness of the spring at the mass
+            k2 = 60.0 [N/m],
         }
         coords {
-            /// Position of the massless joint, m
-            joint,
-            /// Position of the mass, m
-            x,
+            /// Position of the massless joint
+            joint [m],
+            /// Position of the mass
+            x [m],
         }
         mass { x: m }
         potential { 0.5 * k1 * sq(joint), 0.5 * k2 * sq(x - joint) }
         holonomic { balance: k1 * joint = k2 * (x - joint) }
         output {
-            /// Force that the springs transmit, N
-            spring_force = k1 * joint,
+            /// Force that the springs transmit
+            spring_force [N] = k1 * joint,
         }
         draw { spring([0, 0], [1 + joint, 0]) spring([1 + joint, 0], [2 + x, 0]) circle([2 + x, 0], 0.1) }
     }

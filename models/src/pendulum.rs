@@ -10,27 +10,27 @@ ukcore::multibody! {
     /// Point mass on a massless rigid rod about a pivot at the origin; y points up.
     pub Pendulum {
         params {
-            /// Mass, kg
-            m = 1.0,
-            /// Length of the rod, m
-            l = 1.0,
-            /// Acceleration of gravity, m/s^2
-            g = 9.81,
+            /// Mass
+            m = 1.0 [kg],
+            /// Length of the rod
+            l = 1.0 [m],
+            /// Acceleration of gravity
+            g = 9.81 [m/s^2],
         }
         coords {
-            /// Horizontal position, m
-            x,
-            /// Vertical position, upwards, m
-            y,
+            /// Horizontal position
+            x [m],
+            /// Vertical position, upwards
+            y [m],
         }
         mass { x: m, y: m }
         potential { m * g * y }
         holonomic { rod: sq(x) + sq(y) = sq(l) }
         output {
-            /// Angle from the downward vertical, counter-clockwise, rad
-            angle = atan2(x, -y),
-            /// Tension of the rod, N
-            tension = m * (sq(dot(x)) + sq(dot(y)) - g * y) / l,
+            /// Angle from the downward vertical, counter-clockwise
+            angle [rad] = atan2(x, -y),
+            /// Tension of the rod
+            tension [N] = m * (sq(dot(x)) + sq(dot(y)) - g * y) / l,
         }
         draw { line([0, 0], [x, y]) circle([x, y], 0.05 * l) }
     }

@@ -10,18 +10,18 @@ ukcore::multibody! {
     /// velocity in body axes is ω = 2 G(e) ė, so M = 4 Gᵀ I G is singular along e; the constraint |e|² = 1 mends that (eq. 19).
     pub RigidBody {
         params {
-            /// Smallest principal moment of inertia, kg m^2
-            i1 = 1.0,
-            /// Middle principal moment of inertia, kg m^2
-            i2 = 2.0,
-            /// Largest principal moment of inertia, kg m^2
-            i3 = 3.0,
+            /// Smallest principal moment of inertia
+            i1 = 1.0 [kg m^2],
+            /// Middle principal moment of inertia
+            i2 = 2.0 [kg m^2],
+            /// Largest principal moment of inertia
+            i3 = 3.0 [kg m^2],
         }
         coords {
             /// Scalar part of the quaternion
-            e0,
+            e0 [-],
             /// Vector part of the quaternion
-            e1, e2, e3,
+            e1 [-], e2 [-], e3 [-],
         }
         let im = [e1, e2, e3];
         let w = 2.0 * (e0 * dot(im) - dot(e0) * im - cross(im, dot(im)));
@@ -30,18 +30,18 @@ ukcore::multibody! {
         kinetic { 0.5 * inner(w, momentum) }
         holonomic { unit: sq(e0) + sq(im) = 1.0 }
         output {
-            /// Angular velocity about the body's axis 1, rad/s
-            spin1 = w[0],
-            /// Angular velocity about the body's axis 2, rad/s
-            spin2 = w[1],
-            /// Angular velocity about the body's axis 3, rad/s
-            spin3 = w[2],
-            /// Angular momentum along the space axis x, kg m^2/s
-            momentum_x = in_space[0],
-            /// Angular momentum along the space axis y, kg m^2/s
-            momentum_y = in_space[1],
-            /// Angular momentum along the space axis z, kg m^2/s
-            momentum_z = in_space[2],
+            /// Angular velocity about the body's axis 1
+            spin1 [rad/s] = w[0],
+            /// Angular velocity about the body's axis 2
+            spin2 [rad/s] = w[1],
+            /// Angular velocity about the body's axis 3
+            spin3 [rad/s] = w[2],
+            /// Angular momentum along the space axis x
+            momentum_x [kg m^2/s] = in_space[0],
+            /// Angular momentum along the space axis y
+            momentum_y [kg m^2/s] = in_space[1],
+            /// Angular momentum along the space axis z
+            momentum_z [kg m^2/s] = in_space[2],
         }
         let turned = |v| v + 2 * e0 * cross(im, v) + 2 * cross(im, cross(im, v));
         draw {

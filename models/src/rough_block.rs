@@ -10,20 +10,20 @@ ukcore::multibody! {
     /// the slope has to be steeper than the angle of repose, mu < tan(slope), or the block would have to stick.
     pub RoughBlock {
         params {
-            /// Mass, kg
-            m = 1.0,
-            /// Acceleration of gravity, m/s^2
-            g = 9.81,
-            /// Inclination of the slope, rad
-            slope = PI / 6.0,
+            /// Mass
+            m = 1.0 [kg],
+            /// Acceleration of gravity
+            g = 9.81 [m/s^2],
+            /// Inclination of the slope
+            slope = (PI / 6.0) [rad],
             /// Coefficient of friction
-            mu = 0.2,
+            mu = 0.2 [-],
         }
         coords {
-            /// Horizontal position, m
-            x,
-            /// Vertical position, upwards, m
-            y,
+            /// Horizontal position
+            x [m],
+            /// Vertical position, upwards
+            y [m],
         }
         let speed_down = dot(x) * cos(slope) - dot(y) * sin(slope);
         let friction = -mu * m * g * cos(slope) * sign(speed_down);
@@ -32,12 +32,12 @@ ukcore::multibody! {
         holonomic { plane: x * sin(slope) + y * cos(slope) = 0.0 }
         nonideal { x: friction * cos(slope), y: -friction * sin(slope) }
         output {
-            /// Way down the slope, m
-            way = x * cos(slope) - y * sin(slope),
-            /// Speed down the slope, m/s
-            speed = speed_down,
-            /// Friction, positive down the slope, N
-            friction_force = friction,
+            /// Way down the slope
+            way [m] = x * cos(slope) - y * sin(slope),
+            /// Speed down the slope
+            speed [m/s] = speed_down,
+            /// Friction, positive down the slope
+            friction_force [N] = friction,
         }
         draw { circle([x, y], 0.1) trace([x, y]) }
     }

@@ -10,26 +10,26 @@ ukcore::multibody! {
     /// and guide close the loop and leave one degree of freedom. y points up.
     pub SliderCrank {
         params {
-            /// Length of the crank, m
-            r = 0.1,
-            /// Length of the connecting rod, m
-            l = 0.3,
-            /// Mass of the crank, kg
-            m1 = 0.5,
-            /// Mass of the connecting rod, kg
-            m2 = 0.8,
-            /// Mass of the slider, kg
-            m3 = 0.6,
-            /// Moment of inertia of the crank about its centre, kg m^2
-            i1 = 4.0e-4,
-            /// Moment of inertia of the connecting rod about its centre, kg m^2
-            i2 = 6.0e-3,
-            /// Moment of inertia of the slider about its centre, kg m^2
-            i3 = 5.0e-4,
-            /// Acceleration of gravity, m/s^2
-            g = 9.81,
-            /// Constant torque on the crank (with the potential -torque * crank.angle), Nm
-            torque = 0.0,
+            /// Length of the crank
+            r = 0.1 [m],
+            /// Length of the connecting rod
+            l = 0.3 [m],
+            /// Mass of the crank
+            m1 = 0.5 [kg],
+            /// Mass of the connecting rod
+            m2 = 0.8 [kg],
+            /// Mass of the slider
+            m3 = 0.6 [kg],
+            /// Moment of inertia of the crank about its centre
+            i1 = 4.0e-4 [kg m^2],
+            /// Moment of inertia of the connecting rod about its centre
+            i2 = 6.0e-3 [kg m^2],
+            /// Moment of inertia of the slider about its centre
+            i3 = 5.0e-4 [kg m^2],
+            /// Acceleration of gravity
+            g = 9.81 [m/s^2],
+            /// Constant torque on the crank (with the potential -torque * crank.angle)
+            torque = 0.0 [N m],
         }
         bodies {
             planar crank { mass: m1, inertia: i1, centre: [r / 2, 0] }
@@ -45,12 +45,12 @@ ukcore::multibody! {
             guide: slider(ground.at([0, 0]), slide.at([0, 0]), [1, 0])
         }
         output {
-            /// Angle of the crank, rad
-            crank_angle = crank.angle,
-            /// Position of the slider, m
-            stroke = slide.x,
-            /// Velocity of the slider, m/s
-            stroke_speed = dot(slide.x),
+            /// Angle of the crank
+            crank_angle [rad] = crank.angle,
+            /// Position of the slider
+            stroke [m] = slide.x,
+            /// Velocity of the slider
+            stroke_speed [m/s] = dot(slide.x),
         }
     }
 }

@@ -11,31 +11,31 @@ ukcore::multibody! {
     /// spring, be it there or not.
     pub SpringPendulum {
         params {
-            /// Mass, kg
-            m = 1.0,
-            /// Length of the relaxed spring, m
-            l = 1.0,
-            /// Stiffness of the spring, N/m
-            k = 1e4,
-            /// Acceleration of gravity, m/s^2
-            g = 9.81,
+            /// Mass
+            m = 1.0 [kg],
+            /// Length of the relaxed spring
+            l = 1.0 [m],
+            /// Stiffness of the spring
+            k = 1e4 [N/m],
+            /// Acceleration of gravity
+            g = 9.81 [m/s^2],
         }
         coords {
-            /// Horizontal position, m
-            x,
-            /// Vertical position, upwards, m
-            y,
+            /// Horizontal position
+            x [m],
+            /// Vertical position, upwards
+            y [m],
         }
         let r = sqrt(sq(x) + sq(y));
         mass { x: m, y: m }
         potential { 0.5 * k * sq(r - l), m * g * y }
         output {
-            /// Angle from the downward vertical, counter-clockwise, rad
-            angle = atan2(x, -y),
-            /// Extension of the spring, m
-            extension = r - l,
-            /// Force of the spring, N
-            tension = k * (r - l),
+            /// Angle from the downward vertical, counter-clockwise
+            angle [rad] = atan2(x, -y),
+            /// Extension of the spring
+            extension [m] = r - l,
+            /// Force of the spring
+            tension [N] = k * (r - l),
         }
         draw { spring([0, 0], [x, y]) circle([x, y], 0.05 * l) }
     }

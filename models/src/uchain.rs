@@ -11,18 +11,18 @@ ukcore::multibody! {
     pub UChain {
         const N: usize = 17;
         params {
-            /// Mass of each particle, kg
-            m = 1.0,
-            /// Length of each link, m
-            l = 1.0,
-            /// Acceleration of gravity, m/s^2
-            g = 9.8,
+            /// Mass of each particle
+            m = 1.0 [kg],
+            /// Length of each link
+            l = 1.0 [m],
+            /// Acceleration of gravity
+            g = 9.8 [m/s^2],
         }
         coords {
-            /// Horizontal positions, m
-            x[N],
-            /// Vertical positions, downwards, m
-            y[N],
+            /// Horizontal positions
+            x[N] [m],
+            /// Vertical positions, downwards
+            y[N] [m],
         }
         mass { for i in 0..N { x[i]: m, y[i]: m } }
         potential { for i in 0..N { -m * g * y[i] } }
@@ -31,12 +31,12 @@ ukcore::multibody! {
             support: sq(x[N - 1]) + sq(y[N - 1]) = sq(l)
         }
         output {
-            /// Depth of the tip below the support, m
-            fall = y[0],
-            /// Downward speed of the tip, m/s
-            fall_speed = dot(y[0]),
-            /// Depth of the centre of mass below the support, m
-            centre = sum(0..N, |i| y[i]) / N,
+            /// Depth of the tip below the support
+            fall [m] = y[0],
+            /// Downward speed of the tip
+            fall_speed [m/s] = dot(y[0]),
+            /// Depth of the centre of mass below the support
+            centre [m] = sum(0..N, |i| y[i]) / N,
         }
         draw {
             for i in 0..N - 1 { line([x[i], -y[i]], [x[i + 1], -y[i + 1]]) }

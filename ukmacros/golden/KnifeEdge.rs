@@ -55,13 +55,21 @@
 #[derive(Clone, Debug, PartialEq)]
 #[allow(non_snake_case, clippy::approx_constant)]
 pub struct KnifeEdge {
-    /// Mass, kg
+    /// Mass
+    ///
+    /// Unit: kg.
     pub m: f64,
-    /// Moment of inertia about the normal of the plane, kg m^2
+    /// Moment of inertia about the normal of the plane
+    ///
+    /// Unit: kg m^2.
     pub i: f64,
-    /// Acceleration of gravity, m/s^2
+    /// Acceleration of gravity
+    ///
+    /// Unit: m/s^2.
     pub g: f64,
-    /// Inclination of the plane, rad
+    /// Inclination of the plane
+    ///
+    /// Unit: rad.
     pub slope: f64,
 }
 #[automatically_derived]
@@ -78,17 +86,17 @@ impl ::core::default::Default for KnifeEdge {
 }
 #[allow(dead_code)]
 impl KnifeEdge {
-    /// Position in q of coordinate `x`.
+    /// Position in q of coordinate `x`, in m.
     pub const X: usize = 0;
-    /// Position in q of coordinate `y`.
+    /// Position in q of coordinate `y`, in m.
     pub const Y: usize = 1;
-    /// Position in q of coordinate `th`.
+    /// Position in q of coordinate `th`, in rad.
     pub const TH: usize = 2;
     /// Row in A of constraint `edge`.
     pub const EDGE: usize = 0;
-    /// Position of output `speed`.
+    /// Position of output `speed`, in m/s.
     pub const OUT_SPEED: usize = 0;
-    /// Position of output `spin`.
+    /// Position of output `spin`, in rad/s.
     pub const OUT_SPIN: usize = 1;
 }
 const _: () = {
@@ -108,23 +116,27 @@ const _: () = {
             params: &[
                 ukcore::ParamSpec {
                     name: "m",
-                    doc: "Mass, kg",
+                    doc: "Mass",
                     default: 1.0,
+                    unit: "kg",
                 },
                 ukcore::ParamSpec {
                     name: "i",
-                    doc: "Moment of inertia about the normal of the plane, kg m^2",
+                    doc: "Moment of inertia about the normal of the plane",
                     default: 0.1,
+                    unit: "kg m^2",
                 },
                 ukcore::ParamSpec {
                     name: "g",
-                    doc: "Acceleration of gravity, m/s^2",
+                    doc: "Acceleration of gravity",
                     default: 9.81,
+                    unit: "m/s^2",
                 },
                 ukcore::ParamSpec {
                     name: "slope",
-                    doc: "Inclination of the plane, rad",
+                    doc: "Inclination of the plane",
                     default: 0.5235987755982988,
+                    unit: "rad",
                 },
             ],
             prepared: &[
@@ -138,6 +150,7 @@ const _: () = {
                 ),
             ],
             coords: &["x", "y", "th"],
+            coordinate_units: &["m", "m", "rad"],
             constraints: &[
                 ukcore::ConstraintSpec {
                     name: "edge",
@@ -149,11 +162,13 @@ const _: () = {
             outputs: &[
                 ukcore::OutputSpec {
                     name: "speed",
-                    doc: "Speed along the edge, m/s",
+                    doc: "Speed along the edge",
+                    unit: "m/s",
                 },
                 ukcore::OutputSpec {
                     name: "spin",
-                    doc: "Angular velocity, rad/s",
+                    doc: "Angular velocity",
+                    unit: "rad/s",
                 },
             ],
             starts: &[],

@@ -50,11 +50,17 @@
 #[derive(Clone, Debug, PartialEq)]
 #[allow(non_snake_case, clippy::approx_constant)]
 pub struct MasslessSpring {
-    /// Mass, kg
+    /// Mass
+    ///
+    /// Unit: kg.
     pub m: f64,
-    /// Stiffness of the spring at the wall, N/m
+    /// Stiffness of the spring at the wall
+    ///
+    /// Unit: N/m.
     pub k1: f64,
-    /// Stiffness of the spring at the mass, N/m
+    /// Stiffness of the spring at the mass
+    ///
+    /// Unit: N/m.
     pub k2: f64,
 }
 #[automatically_derived]
@@ -70,13 +76,13 @@ impl ::core::default::Default for MasslessSpring {
 }
 #[allow(dead_code)]
 impl MasslessSpring {
-    /// Position in q of coordinate `joint`.
+    /// Position in q of coordinate `joint`, in m.
     pub const JOINT: usize = 0;
-    /// Position in q of coordinate `x`.
+    /// Position in q of coordinate `x`, in m.
     pub const X: usize = 1;
     /// Row in A of constraint `balance`.
     pub const BALANCE: usize = 0;
-    /// Position of output `spring_force`.
+    /// Position of output `spring_force`, in N.
     pub const OUT_SPRING_FORCE: usize = 0;
 }
 const _: () = {
@@ -96,18 +102,21 @@ const _: () = {
             params: &[
                 ukcore::ParamSpec {
                     name: "m",
-                    doc: "Mass, kg",
+                    doc: "Mass",
                     default: 1.0,
+                    unit: "kg",
                 },
                 ukcore::ParamSpec {
                     name: "k1",
-                    doc: "Stiffness of the spring at the wall, N/m",
+                    doc: "Stiffness of the spring at the wall",
                     default: 30.0,
+                    unit: "N/m",
                 },
                 ukcore::ParamSpec {
                     name: "k2",
-                    doc: "Stiffness of the spring at the mass, N/m",
+                    doc: "Stiffness of the spring at the mass",
                     default: 60.0,
+                    unit: "N/m",
                 },
             ],
             prepared: &[
@@ -125,6 +134,7 @@ const _: () = {
                 ),
             ],
             coords: &["joint", "x"],
+            coordinate_units: &["m", "m"],
             constraints: &[
                 ukcore::ConstraintSpec {
                     name: "balance",
@@ -136,7 +146,8 @@ const _: () = {
             outputs: &[
                 ukcore::OutputSpec {
                     name: "spring_force",
-                    doc: "Force that the springs transmit, N",
+                    doc: "Force that the springs transmit",
+                    unit: "N",
                 },
             ],
             starts: &[],

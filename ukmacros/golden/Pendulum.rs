@@ -53,11 +53,17 @@
 #[derive(Clone, Debug, PartialEq)]
 #[allow(non_snake_case, clippy::approx_constant)]
 pub struct Pendulum {
-    /// Mass, kg
+    /// Mass
+    ///
+    /// Unit: kg.
     pub m: f64,
-    /// Length of the rod, m
+    /// Length of the rod
+    ///
+    /// Unit: m.
     pub l: f64,
-    /// Acceleration of gravity, m/s^2
+    /// Acceleration of gravity
+    ///
+    /// Unit: m/s^2.
     pub g: f64,
 }
 #[automatically_derived]
@@ -73,15 +79,15 @@ impl ::core::default::Default for Pendulum {
 }
 #[allow(dead_code)]
 impl Pendulum {
-    /// Position in q of coordinate `x`.
+    /// Position in q of coordinate `x`, in m.
     pub const X: usize = 0;
-    /// Position in q of coordinate `y`.
+    /// Position in q of coordinate `y`, in m.
     pub const Y: usize = 1;
     /// Row in A of constraint `rod`.
     pub const ROD: usize = 0;
-    /// Position of output `angle`.
+    /// Position of output `angle`, in rad.
     pub const OUT_ANGLE: usize = 0;
-    /// Position of output `tension`.
+    /// Position of output `tension`, in N.
     pub const OUT_TENSION: usize = 1;
 }
 const _: () = {
@@ -101,18 +107,21 @@ const _: () = {
             params: &[
                 ukcore::ParamSpec {
                     name: "m",
-                    doc: "Mass, kg",
+                    doc: "Mass",
                     default: 1.0,
+                    unit: "kg",
                 },
                 ukcore::ParamSpec {
                     name: "l",
-                    doc: "Length of the rod, m",
+                    doc: "Length of the rod",
                     default: 1.0,
+                    unit: "m",
                 },
                 ukcore::ParamSpec {
                     name: "g",
-                    doc: "Acceleration of gravity, m/s^2",
+                    doc: "Acceleration of gravity",
                     default: 9.81,
+                    unit: "m/s^2",
                 },
             ],
             prepared: &[
@@ -128,6 +137,7 @@ const _: () = {
                 ("times_l", "0.05*l"),
             ],
             coords: &["x", "y"],
+            coordinate_units: &["m", "m"],
             constraints: &[
                 ukcore::ConstraintSpec {
                     name: "rod",
@@ -139,11 +149,13 @@ const _: () = {
             outputs: &[
                 ukcore::OutputSpec {
                     name: "angle",
-                    doc: "Angle from the downward vertical, counter-clockwise, rad",
+                    doc: "Angle from the downward vertical, counter-clockwise",
+                    unit: "rad",
                 },
                 ukcore::OutputSpec {
                     name: "tension",
-                    doc: "Tension of the rod, N",
+                    doc: "Tension of the rod",
+                    unit: "N",
                 },
             ],
             starts: &[],

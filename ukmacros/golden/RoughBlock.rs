@@ -68,11 +68,17 @@
 #[derive(Clone, Debug, PartialEq)]
 #[allow(non_snake_case, clippy::approx_constant)]
 pub struct RoughBlock {
-    /// Mass, kg
+    /// Mass
+    ///
+    /// Unit: kg.
     pub m: f64,
-    /// Acceleration of gravity, m/s^2
+    /// Acceleration of gravity
+    ///
+    /// Unit: m/s^2.
     pub g: f64,
-    /// Inclination of the slope, rad
+    /// Inclination of the slope
+    ///
+    /// Unit: rad.
     pub slope: f64,
     /// Coefficient of friction
     pub mu: f64,
@@ -91,17 +97,17 @@ impl ::core::default::Default for RoughBlock {
 }
 #[allow(dead_code)]
 impl RoughBlock {
-    /// Position in q of coordinate `x`.
+    /// Position in q of coordinate `x`, in m.
     pub const X: usize = 0;
-    /// Position in q of coordinate `y`.
+    /// Position in q of coordinate `y`, in m.
     pub const Y: usize = 1;
     /// Row in A of constraint `plane`.
     pub const PLANE: usize = 0;
-    /// Position of output `way`.
+    /// Position of output `way`, in m.
     pub const OUT_WAY: usize = 0;
-    /// Position of output `speed`.
+    /// Position of output `speed`, in m/s.
     pub const OUT_SPEED: usize = 1;
-    /// Position of output `friction_force`.
+    /// Position of output `friction_force`, in N.
     pub const OUT_FRICTION_FORCE: usize = 2;
 }
 const _: () = {
@@ -121,23 +127,27 @@ const _: () = {
             params: &[
                 ukcore::ParamSpec {
                     name: "m",
-                    doc: "Mass, kg",
+                    doc: "Mass",
                     default: 1.0,
+                    unit: "kg",
                 },
                 ukcore::ParamSpec {
                     name: "g",
-                    doc: "Acceleration of gravity, m/s^2",
+                    doc: "Acceleration of gravity",
                     default: 9.81,
+                    unit: "m/s^2",
                 },
                 ukcore::ParamSpec {
                     name: "slope",
-                    doc: "Inclination of the slope, rad",
+                    doc: "Inclination of the slope",
                     default: 0.5235987755982988,
+                    unit: "rad",
                 },
                 ukcore::ParamSpec {
                     name: "mu",
                     doc: "Coefficient of friction",
                     default: 0.2,
+                    unit: "",
                 },
             ],
             prepared: &[
@@ -161,6 +171,7 @@ const _: () = {
                 ),
             ],
             coords: &["x", "y"],
+            coordinate_units: &["m", "m"],
             constraints: &[
                 ukcore::ConstraintSpec {
                     name: "plane",
@@ -172,15 +183,18 @@ const _: () = {
             outputs: &[
                 ukcore::OutputSpec {
                     name: "way",
-                    doc: "Way down the slope, m",
+                    doc: "Way down the slope",
+                    unit: "m",
                 },
                 ukcore::OutputSpec {
                     name: "speed",
-                    doc: "Speed down the slope, m/s",
+                    doc: "Speed down the slope",
+                    unit: "m/s",
                 },
                 ukcore::OutputSpec {
                     name: "friction_force",
-                    doc: "Friction, positive down the slope, N",
+                    doc: "Friction, positive down the slope",
+                    unit: "N",
                 },
             ],
             starts: &[],

@@ -10,11 +10,12 @@ ukcore::multibody! {
     /// points A, B and C of the ground. Lengths in m, masses in kg.
     pub Andrews {
         params {
-            m[7] = [0.04325, 0.00365, 0.02373, 0.00706, 0.07050, 0.00706, 0.05498],
-            i[7] = [2.194e-6, 4.410e-7, 5.255e-6, 5.667e-7, 1.169e-5, 5.667e-7, 1.912e-5],
-            a[2] = [-0.06934, -0.00227], b[2] = [-0.03635, 0.03273], c[2] = [0.014, 0.072], c0 = 4530.0, l0 = 0.07785,
-            d = 0.028, da = 0.0115, e = 0.02, ea = 0.01421, rr = 0.007, ra = 0.00092, ss = 0.035, sa = 0.01874, sb = 0.01043, sc = 0.018,
-            sd = 0.02, ta = 0.02308, tb = 0.00916, u = 0.04, ua = 0.01228, ub = 0.00449, zf = 0.02, zt = 0.04, fa = 0.01421, mom = 0.033,
+            m[7] = [0.04325, 0.00365, 0.02373, 0.00706, 0.07050, 0.00706, 0.05498] [kg],
+            i[7] = [2.194e-6, 4.410e-7, 5.255e-6, 5.667e-7, 1.169e-5, 5.667e-7, 1.912e-5] [kg m^2],
+            a[2] = [-0.06934, -0.00227] [m], b[2] = [-0.03635, 0.03273] [m], c[2] = [0.014, 0.072] [m], c0 = 4530.0 [N/m], l0 = 0.07785 [m],
+            d = 0.028 [m], da = 0.0115 [m], e = 0.02 [m], ea = 0.01421 [m], rr = 0.007 [m], ra = 0.00092 [m], ss = 0.035 [m], sa = 0.01874 [m],
+            sb = 0.01043 [m], sc = 0.018 [m], sd = 0.02 [m], ta = 0.02308 [m], tb = 0.00916 [m], u = 0.04 [m], ua = 0.01228 [m], ub = 0.00449 [m],
+            zf = 0.02 [m], zt = 0.04 [m], fa = 0.01421 [m], mom = 0.033 [N m],
         }
         let centre = [[ra, 0], [-da, 0], [sb, -sa], [0, ea - e], [ta, -tb], [zf - fa, 0], [ua, -ub]];
         bodies { for n in 0..7 { planar k[n] { mass: m[n], inertia: i[n], centre: centre[n] } } }
@@ -30,8 +31,8 @@ ukcore::multibody! {
             for n in 1..4 { e0[n - 1]: end[n] - end[0] = 0 }
         }
         forces { spring(k[2].at([sd, -sc]), ground.at(c), c0, l0), torque(k[0], mom) }
-        output { beta = k[0].angle, theta = k[1].angle - k[0].angle, gamma = k[2].angle, phi = k[3].angle - k[4].angle, delta = k[4].angle,
-            omega = k[5].angle - k[6].angle, epsilon = k[6].angle }
+        output { beta [rad] = k[0].angle, theta [rad] = k[1].angle - k[0].angle, gamma [rad] = k[2].angle, phi [rad] = k[3].angle - k[4].angle,
+            delta [rad] = k[4].angle, omega [rad] = k[5].angle - k[6].angle, epsilon [rad] = k[6].angle }
         /// at rest at the published angles
         start published {
             k[0].angle = -0.06171389001427645

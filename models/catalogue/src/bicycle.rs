@@ -13,17 +13,17 @@ ukcore::multibody! {
     /// products of inertia change sign. Frames of all bodies have their origin in the rear contact of the bicycle that stands upright.
     pub Bicycle {
         params {
-            /// Wheel base, m
-            w = 1.02,
-            /// Trail, m
-            c = 0.08,
-            /// Tilt of the steering axis, rad
-            tilt = PI / 10,
-            /// Radius of the rear wheel, m
-            rear_radius = 0.3,
-            /// Radius of the front wheel, m
-            front_radius = 0.35,
-            g = 9.81,
+            /// Wheel base
+            w = 1.02 [m],
+            /// Trail
+            c = 0.08 [m],
+            /// Tilt of the steering axis
+            tilt = (PI / 10) [rad],
+            /// Radius of the rear wheel
+            rear_radius = 0.3 [m],
+            /// Radius of the front wheel
+            front_radius = 0.35 [m],
+            g = 9.81 [m/s^2],
         }
         let hub = [[0, 0, rear_radius], [w, 0, front_radius]];
         let head = [w + c, 0, 0];
@@ -45,7 +45,7 @@ ukcore::multibody! {
             rear_rolls: rolls(rear.at(hub[0]), [0, 1, 0], rear_radius)
             front_rolls: rolls(front.at(hub[1]), [0, 1, 0], front_radius)
         }
-        output { lean_rate = frame.spin[0], speed = inner(frame.along([1, 0, 0]), dot(rear.centre)) }
+        output { lean_rate [rad/s] = frame.spin[0], speed [m/s] = inner(frame.along([1, 0, 0]), dot(rear.centre)) }
     }
 }
 

@@ -8,7 +8,7 @@ ukcore::multibody! {
     /// Library of Computational Benchmark Problems of IFToMM, A04. Rods of 1 m and 1 kg with a square section of 0.1 m stand in the edges of
     /// a cube; of the 30 rows of the hinges 29 are independent where all are met, 30 elsewhere. Gravity points along −y.
     pub Bricard {
-        params { m = 1.0, across = 1.01 / 12.0, along = 0.02 / 12.0, g = 9.81 }
+        params { m = 1.0 [kg], across = (1.01 / 12.0) [kg m^2], along = (0.02 / 12.0) [kg m^2], g = 9.81 [m/s^2] }
         bodies {
             spatial r0 { mass: m, inertia: [along, across, across], centre: [0.5, 0, 0] }
             spatial r1 { mass: m, inertia: [across, along, across], centre: [0, -0.5, 0] }
@@ -25,7 +25,7 @@ ukcore::multibody! {
             p4: hinge(r3.at([-1, 0, 0]), r4.at([0, 0, 0]), [0, 0, 1])
             p5: hinge(r4.at([0, 1, 0]), ground.at([0, 0, 1]), [1, 0, 0])
         }
-        output { p3_at = r3.at([0, 0, 0]) }
+        output { p3_at [m] = r3.at([0, 0, 0]) }
         /// at rest in the edges of a cube
         start cube {
             r0.x near 0.5

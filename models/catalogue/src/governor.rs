@@ -13,27 +13,27 @@ ukcore::multibody! {
     /// sections of side `side`. z points up, the hinges of the rods are parallel to the y axis of the axle.
     pub Governor {
         params {
-            /// Length of axle and rods, m
-            l = 1.0,
-            /// Mass of the axle and of each rod, kg
-            rod = 0.3,
-            /// Side of their section, m
-            side = 0.01,
-            /// Mass of each ball, kg
-            ball = 5.0,
-            /// Mass of the slider, a cube, kg
-            cube = 3.0,
-            /// Its edge, m
-            edge = 0.1,
-            /// Distance of the joints from the axle, m
-            r = 0.05,
-            /// Stiffness of a strut, N/m
-            k = 8e5,
-            /// Its damping, N s/m
-            c = 4e4,
-            /// Its length, m
-            strut = 0.5,
-            g = 9.81,
+            /// Length of axle and rods
+            l = 1.0 [m],
+            /// Mass of the axle and of each rod
+            rod = 0.3 [kg],
+            /// Side of their section
+            side = 0.01 [m],
+            /// Mass of each ball
+            ball = 5.0 [kg],
+            /// Mass of the slider, a cube
+            cube = 3.0 [kg],
+            /// Its edge
+            edge = 0.1 [m],
+            /// Distance of the joints from the axle
+            r = 0.05 [m],
+            /// Stiffness of a strut
+            k = 8e5 [N/m],
+            /// Its damping
+            c = 4e4 [N s/m],
+            /// Its length
+            strut = 0.5 [m],
+            g = 9.81 [m/s^2],
         }
         let across = rod * (sq(l) + sq(side)) / 12;
         let along = rod * sq(side) / 6;
@@ -57,7 +57,7 @@ ukcore::multibody! {
                 damper(slide.at([out[i], 0, 0]), arm[i].at([0, 0, -l / 2]), c)
             }
         }
-        output { height = slide.z, speed = axle.omega[2] }
+        output { height [m] = slide.z, speed [rad/s] = axle.omega[2] }
     }
 }
 

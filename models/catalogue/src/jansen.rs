@@ -18,17 +18,17 @@ macro_rules! legs {
                 const PAIRS: usize = $pairs;
                 const SIDES: usize = $sides;
                 params {
-                    a = 0.38, b = 0.415, c = 0.393, d = 0.401, e = 0.558, f = 0.394, g = 0.367, h = 0.657, i = 0.49, j = 0.5, k = 0.619,
-                    l = 0.078, m = 0.15,
-                    /// Mass of the bars for each metre, kg/m
-                    rho = 0.5,
-                    /// Moment of inertia of the crank shaft, kg m^2
-                    shaft = 0.5,
-                    /// Torque on the crank shaft, N m
-                    torque = 20.0,
-                    /// Drag of the crank shaft, N m s
-                    drag = 5.0,
-                    gravity = 9.81,
+                    a = 0.38 [m], b = 0.415 [m], c = 0.393 [m], d = 0.401 [m], e = 0.558 [m], f = 0.394 [m], g = 0.367 [m], h = 0.657 [m],
+                    i = 0.49 [m], j = 0.5 [m], k = 0.619 [m], l = 0.078 [m], m = 0.15 [m],
+                    /// Mass of the bars for each metre
+                    rho = 0.5 [kg/m],
+                    /// Moment of inertia of the crank shaft
+                    shaft = 0.5 [kg m^2],
+                    /// Torque on the crank shaft
+                    torque = 20.0 [N m],
+                    /// Drag of the crank shaft
+                    drag = 5.0 [N m s],
+                    gravity = 9.81 [m/s^2],
                 }
                 let apex = |p, q, r| [(sq(p) + sq(q) - sq(r)) / (2 * p), sqrt(sq(q) - sq((sq(p) + sq(q) - sq(r)) / (2 * p)))];
                 let hand = |s, v| [v[0], (1 - 2 * s) * v[1]];
@@ -74,7 +74,7 @@ macro_rules! legs {
                     } }
                 }
                 forces { torque(crank, torque - drag * crank.omega) }
-                output { for n in 0..PAIRS { for s in 0..SIDES { step[n][s] = foot[n][s].at(toe(s)) } } }
+                output { for n in 0..PAIRS { for s in 0..SIDES { step[n][s] [m] = foot[n][s].at(toe(s)) } } }
             }
         }
 

@@ -14,16 +14,16 @@ ukcore::multibody! {
     /// its y.
     pub RollingDisc {
         params {
-            m = 1.0,
-            /// Radius, m
-            r = 0.5,
-            g = 9.81,
+            m = 1.0 [kg],
+            /// Radius
+            r = 0.5 [m],
+            g = 9.81 [m/s^2],
         }
         bodies { spatial disc { mass: m, inertia: m * sq(r) / 4 * [1, 2, 1] } }
         gravity { [0, 0, -g] }
         holonomic { touches: disc(disc.at([0, 0, 0]), [0, 1, 0], r) }
         nonholonomic { rolls: rolls(disc.at([0, 0, 0]), [0, 1, 0], r) }
-        output { tilt = acos(disc.along([0, 1, 0])[2]), spin = disc.spin[1] }
+        output { tilt [rad] = acos(disc.along([0, 1, 0])[2]), spin [rad/s] = disc.spin[1] }
     }
 }
 

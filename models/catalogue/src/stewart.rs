@@ -14,23 +14,23 @@ ukcore::multibody! {
     /// of the same lengths exist, up to 40.
     pub Stewart {
         params {
-            m = 10.0,
-            inertia[3] = [0.4, 0.5, 0.8],
-            /// Radius of the circle of joints on the ground, m
-            base = 0.8,
-            /// Radius of that on the platform, m
-            plate = 0.5,
-            /// Half angle between the joints of a pair, rad
-            spread = 0.2,
-            /// Mean height, m
-            height = 0.7,
-            /// Amplitude of the height, m
-            rise = 0.1,
-            /// Amplitude of the angles, rad
-            turn = 0.2,
-            /// Angular frequency of the motion, rad/s
-            w = 2.0,
-            g = 9.81,
+            m = 10.0 [kg],
+            inertia[3] = [0.4, 0.5, 0.8] [kg m^2],
+            /// Radius of the circle of joints on the ground
+            base = 0.8 [m],
+            /// Radius of that on the platform
+            plate = 0.5 [m],
+            /// Half angle between the joints of a pair
+            spread = 0.2 [rad],
+            /// Mean height
+            height = 0.7 [m],
+            /// Amplitude of the height
+            rise = 0.1 [m],
+            /// Amplitude of the angles
+            turn = 0.2 [rad],
+            /// Angular frequency of the motion
+            w = 2.0 [rad/s],
+            g = 9.81 [m/s^2],
         }
         bodies { spatial platform { mass: m, inertia: inertia } }
         gravity { [0, 0, -g] }
@@ -45,7 +45,7 @@ ukcore::multibody! {
             } }
         }
         output {
-            for i in 0..3 { for s in 0..2 { length[i][s] = norm(platform.at(head(i, s)) - foot(i, s)) } }
+            for i in 0..3 { for s in 0..2 { length[i][s] [m] = norm(platform.at(head(i, s)) - foot(i, s)) } }
         }
     }
 }

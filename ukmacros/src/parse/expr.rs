@@ -268,7 +268,37 @@ fn chain(mut e: syn::Expr, diag: &Diagnostics) -> ExprKind {
         }
         chain.push((op, Expr::convert(right, diag)));
     }
-    close(done, chain).kind
+    let whole = close(done, chain);
+    two_readings(&whole, diag);
+    whole.kind
+}
+
+/// Reports a unit at the end of a product or sum of numbers that some read as that of all of it: `PI / 2 [rad]`, `1 + 2 [mm]`.
+fn two_readings(whole: &Expr, diag: &Diagnostics) {
+    let ExprKind::Chain(first, rest) = &whole.kind else {
+        return;
+    };
+    let operands = std::iter::once((BinaryOp::Add, &**first));
+    let operands = operands.chain(rest.iter().map(|(op, operand)| (*op, operand)));
+    let quantity = |e: &Expr| matches!(e.kind, ExprKind::Quantity(..));
+    let bare = |e: &Expr| match e.kind {
+        ExprKind::Int(n) => n != 0,
+        ExprKind::Float(x) => x != 0.0,
+        _ => false,
+    };
+    let sum = rest.first().is_some_and(|(op, _)| op.adds());
+    let beside = sum && operands.clone().any(|(_, e)| quantity(e));
+    for (op, e) in operands {
+        if op == BinaryOp::Div && quantity(e) {
+            let message = "a unit belongs to the number before it, here a divisor; write `(a / b) [m]` for the unit of a quotient, and `a / (b [m])` for this";
+            diag.error(e.loc, message);
+        } else if beside && bare(e) {
+            diag.error(
+                e.loc,
+                "a number without a unit beside one that has one; give it its own",
+            );
+        }
+    }
 }
 
 /// Everything but operators between operands.

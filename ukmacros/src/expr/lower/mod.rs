@@ -276,7 +276,11 @@ impl<'m> Lowering<'m> {
         let outputs = self.reported(&decl.outputs, NoValue::Output, &top, &mut names);
         let integrals = self.reported(&decl.integrals, NoValue::Integral, &top, &mut names);
         let starts = self.starts(decl, &top);
-        let drawing = self.drawing(decl, &top);
+        // A picture may have sizes of its own.
+        let drawing = match &self.dimensions {
+            None => self.drawing(decl, &top),
+            Some(_) => Drawing::default(),
+        };
         System {
             graph: std::mem::take(&mut self.graph),
             constants,
