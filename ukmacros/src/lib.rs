@@ -26,15 +26,15 @@ use proc_macro2::TokenStream;
 ///     /// A pendulum of length l hanging from a spring.
 ///     pub SpringPendulum {
 ///         params {
-///             /// Mass of the bob, kg
-///             m = 1.0,
-///             l = 1.0, g = 9.81, k = 50.0,
+///             /// Mass of the bob
+///             m = 1.0 [kg],
+///             l = 1.0 [m], g = 9.81 [m/s^2], k = 50.0 [N/m],
 ///         }
-///         coords { s, x, y }                                   // support, bob; y points up
+///         coords { s [m], x [m], y [m] }                       // support, bob; y points up
 ///         mass { s: 0.2 * m, x: m, y: m }
 ///         potential { m * g * y, 0.2 * m * g * s, 0.5 * k * sq(s) }
 ///         holonomic { rod: sq(x) + sq(y - s) = sq(l) }
-///         output { angle = atan2(x, s - y) }
+///         output { angle [deg] = atan2(x, s - y) }
 ///     }
 /// }
 /// assert_eq!((SpringPendulum::Y, SpringPendulum::default().k), (2, 50.0));
@@ -49,8 +49,8 @@ use proc_macro2::TokenStream;
 /// | section | entries | meaning |
 /// | --- | --- | --- |
 /// | `const N: usize = 17;` | | an integer (or `f64`) known at compile time |
-/// | `params` | `m = 1.0`, `k[N] = 2.0`, `r[2][3] = [[1, 0, 0], [0, 1, 0]]` | parameters with defaults, a family's one for all members or one for each; public `f64` fields (arrays for families), changeable at run time |
-/// | `coords` | `x[N]`, `p[N][3]`, `th` | coordinates q: scalars and families; inside a `for`, `x[i]` declares one member |
+/// | `params` | `m = 1.0`, `l = 300 [mm]`, `k[N] = 2.0`, `r[2][3] = [[1, 0, 0], [0, 1, 0]]` | parameters with defaults, a family's one for all members or one for each; public `f64` fields (arrays for families), changeable at run time |
+/// | `coords` | `x[N]`, `p[N][3]`, `th`, `s [m]` | coordinates q: scalars and families, with their [units](#units); inside a `for`, `x[i]` declares one member |
 /// | `bodies` | `planar link[i] { mass: m, inertia: j, centre: [a, 0] }` | [bodies](#bodies), which have coordinates, kinetic energy and weight |
 /// | `tree` | `knee: pin(thigh.at(p), shank.at(q))` | [joints of the tree](#joints-of-the-tree): the second body has no coordinates of its own, but those of the joint |
 /// | `parts` | `leg[6]: Leg { phase: 0.2 }` | [other declarations](#parts) within this one |
@@ -65,7 +65,7 @@ use proc_macro2::TokenStream;
 /// | `holonomic` | `rod: sq(x) + sq(y) = sq(l)`, `joint: [a, b] = [c, d]`, `knee: pin(p, q)` | φ(q, t) = 0 (eq. 3); a vector equation gives one constraint for each component; redundant equations are welcome, but the same one under two names is taken for a slip, an error |
 /// | `nonholonomic` | `blade: dot(x) * sin(th) = dot(y) * cos(th)` | φ(q, q̇, t) = 0 (eq. 4), linear in q̇ or not |
 /// | `nonideal` | `x: -mu * n * sign(dot(x))` | the force c of eq. 8, which may do work in virtual displacements; entries as of `force`; may use [reactions](#reactions) |
-/// | `output` | `fall = y[0]` | quantities to report, of q, q̇, t and reactions |
+/// | `output` | `fall = y[0]`, `swing [deg] = th` | quantities to report, of q, q̇, t and reactions |
 /// | `integral` | `work = torque * dot(th)` | quantities of q, q̇, t and reactions to be [integrated](#integrals) by time |
 /// | `draw` | `line(p, q)` | [shapes](#pictures) of the mechanism's picture |
 /// | `start` | `released(angle = 0.5) { th = angle; x near 1.0; dot(th) = 0.0 }` | a [start](#starts); there may be several |
@@ -119,7 +119,8 @@ use proc_macro2::TokenStream;
 ///
 /// An argument that is an integer may serve as an index: with `let apart = |i, j| norm(p[i] - p[j]);`, `apart(0, i + 1)` is a distance. A
 /// function made of integers alone, its arguments, constants and functions like it declared before it, is an integer itself, and stands
-/// in indices, ranges and exponents: with `let next = |i| (i + 1) - N * ((i + 1) / N);`, `x[next(i)]` is the neighbour in a ring.
+/// in indices, ranges and exponents, where `/` rounds towards zero: with `let next = |i| (i + 1) - N * ((i + 1) / N);`, `x[next(i)]` is the
+/// neighbour in a ring. In a formula it is a number like others, and a quotient of integers that is not whole is an error there.
 ///
 /// ```
 /// use ukcore::{Simulation, State, assemble};
@@ -438,7 +439,7 @@ use proc_macro2::TokenStream;
 ///             | "let", NAME, "=", (expr | function), ";"
 ///             | "let", block(key, "=", (expr | function))
 ///             | "params", block(docs, key, "=", expr)
-///             | "coords", block(docs, key)
+///             | "coords", block(docs, key, [unit])
 ///             | "bodies", block(docs, ("planar" | "spatial"), key, "{", { ("mass" | "inertia" | "centre"), ":", expr, [","] }, "}")
 ///             | "tree", block(docs, key, ":", expr)
 ///             | "parts", block(key, ":", path, ["{", { NAME, [":", expr], [","] }, "}"])
@@ -446,11 +447,13 @@ use proc_macro2::TokenStream;
 ///             | ("gravity" | "kinetic" | "potential" | "dissipation" | "forces"), block(expr)
 ///             | ("force" | "nonideal"), block(place, ":", expr)
 ///             | ("holonomic" | "nonholonomic"), block(key, ":", expr, ["=", expr])
-///             | ("output" | "integral"), block(docs, key, "=", expr) ;
+///             | ("output" | "integral"), block(docs, key, [unit], "=", expr) ;
 /// block(e)    = "{", { (e | "for", NAME, "in", expr, "..", expr, "{", { e }, "}"), ["," | ";"] }, "}" ;
 /// key         = NAME, { "[", expr, "]" } ;
 /// place       = key, { ".", key } ;
 /// function    = "|", NAME, { ",", NAME }, "|", expr ;
+/// unit        = "[", ("-" | factor, { ["*" | "/"], factor }), "]" ;              (in an expr behind a number or a vector of numbers)
+/// factor      = "1" | NAME, ["^", ["-"], NUMBER] ;
 /// ```
 ///
 /// # Starts
@@ -475,10 +478,10 @@ use proc_macro2::TokenStream;
 ///         }
 ///         /// crank at an angle, turning
 ///         start turning(
-///             /// Angle of the crank, rad
-///             angle = 0.5,
-///             /// Its angular velocity, rad/s
-///             speed = 2.0,
+///             /// Angle of the crank
+///             angle = 30 [deg],
+///             /// Its angular velocity
+///             speed = 2.0 [rad/s],
 ///         ) {
 ///             crank = angle;
 ///             dot(crank) = speed;
@@ -495,6 +498,37 @@ use proc_macro2::TokenStream;
 /// ```
 ///
 /// `T::SPEC.starts` lists them; programs made by `uktool::main!` take them by `--start`, and options by `--set`.
+///
+/// # Units
+///
+/// A unit stands behind a number, `0.3 [m]`, or a vector of numbers, `[0.5, 2.0] [m]`, and behind the name of a coordinate, an output or an
+/// integral where that is declared. It is a product of powers: `[kg m^2]`, `[N/mm]`, `[m/s^2]`, `[1/s]`, `[N/m^1.5]`, and `[-]` for a plain
+/// number. Known are g, m, s, min, h, rad, deg, °, turn, rpm, N, Nm, J, W, Pa, and G, M, k, c, m, u, µ, n before those that take prefixes. A
+/// hertz is refused: some mean a turn a second by it and some 1/s.
+///
+/// **Equations are in SI.** `l = 300 [mm]` is 0.3, and so is the field `l`; an angle is in radians. Coordinates are declared in units
+/// without a factor. Outputs and integrals are given in the unit declared: `swing [deg] = th` is in degrees.
+///
+/// **Dimensions are checked**, over all sections, when the macro runs: terms and sides of equations, arguments of functions, energies,
+/// forces, masses, what bodies, joints and springs are made of, starts, outputs. The radian is 1. Units are optional: what has none fits
+/// everything, and where none is declared nothing is refused. A bare number is a plain one where it is a factor, as in `0.5 * m`; `m * 9.81 * y`
+/// is no energy, `m * 9.81 [m/s^2] * y` is one. Where it stands by itself, as in `x + 2`, `[0.3, 0]` or `let g = 9.81;`, it may be of
+/// anything.
+///
+/// ```compile_fail
+/// ukcore::multibody! {
+///     pub Bead {
+///         params { m = 0.1 [kg], k = 3.0 [N/m], c = 0.2 [N s/m] }
+///         coords { x [m] }
+///         mass { x: m }
+///         force { x: -k * x - c * x }   // error: subtracts kg m/s from N
+///     }
+/// }
+/// ```
+///
+/// They are handed on: to the documentation of the type, to `T::SPEC` (`unit` of parameters, options of starts and outputs,
+/// `coordinate_unit`), and to programs made by `uktool::main!`, which take `--set l=250mm` and refuse `--set l=3kg`. Brackets hold an index
+/// where all that is named in them are constants, loop variables or arguments: with `const N: usize = 3;` a force is in `[kg m/s^2]`.
 ///
 /// # Pictures
 ///

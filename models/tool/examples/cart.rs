@@ -3,16 +3,16 @@
 ukcore::multibody! {
     /// A cart on a spring with a pendulum hanging from it; y points up.
     pub Cart {
-        params { big = 2.0, m = 1.0, l = 0.5, k = 40.0, g = 9.81 }
-        coords { s, x, y }
+        params { big = 2.0 [kg], m = 1.0 [kg], l = 500 [mm], k = 40.0 [N/m], g = 9.81 [m/s^2] }
+        coords { s [m], x [m], y [m] }
         mass { s: big, x: m, y: m }
         potential { 0.5 * k * sq(s), m * g * y }
         holonomic { rod: sq(x - s) + sq(y) = sq(l) }
-        output { swing = atan2(x - s, -y) }
+        output { swing [deg] = atan2(x - s, -y) }
         /// let go with the cart at rest
         start released(
-            /// Angle of the rod from the vertical, rad
-            angle = 0.9,
+            /// Angle of the rod from the vertical
+            angle = 50 [deg],
         ) {
             s = 0.0;
             x near l * sin(angle);

@@ -55,8 +55,8 @@ fn a_mechanism_is_listed_with_its_starts() {
     );
     for part in [
         "start released (default): let go with the cart at rest\n",
-        "angle = 0.9 rad         Angle of the rod from the vertical, rad\n",
-        "parameters big = 2, m = 1,",
+        "angle = 0.872665 rad    Angle of the rod from the vertical\n",
+        "parameters big = 2 kg, m = 1 kg, l = 0.5 m, k = 40 N/m,",
     ] {
         assert!(list.contains(part), "{part} in {list}");
     }
@@ -87,6 +87,11 @@ fn its_start_is_assembled_and_its_motion_printed() {
     assert_eq!(
         (&run["start"], &run["parameters"]["k"]),
         (&"assembled".into(), &80.0.into())
+    );
+    let units = &run["units"];
+    assert_eq!(
+        (&units["k"], &units["s"], &units["swing"]),
+        (&"N/m".into(), &"m".into(), &"deg".into())
     );
     assert!(
         run["energy_drift"]
@@ -123,7 +128,23 @@ fn a_declared_start_takes_its_options() {
         (x - 1.0).abs() < 1e-15 && (y + 3.0_f64.sqrt()).abs() < 1e-15,
         "{row}"
     );
-    fails("run cart --set angle=3m", 2, "`angle`: ");
+    let same = output("run cart --set angle=30deg --set l=2000mm --until 0.1 --csv -");
+    assert_eq!(same, csv);
+    for (setting, told) in [
+        (
+            "angle=3m",
+            "`angle`: a value in rad is needed, not one in m",
+        ),
+        ("l=3kg", "`l`: a value in m is needed, not one in kg"),
+        ("k=3m/s", "`k`: a value in N/m is needed, not one in m/s"),
+    ] {
+        fails(&format!("run cart --set {setting}"), 2, told);
+    }
+    fails(
+        "run cart --guess dot(x)=3m --hold s",
+        2,
+        "`dot(x)`: a value in m/s is needed, not one in m",
+    );
     fails("run cart --set angel=3", 2, "did you mean `angle`?");
 }
 

@@ -338,6 +338,7 @@ cases! {
     massless_in_space: "bodies { spatial a { mass: «0», inertia: [1, 1, 1] } }" => "the mass of a spatial body must be positive";
     no_inertia_in_space: "bodies { spatial «a» { mass: 1 } }" => "spatial body `a` has no inertia";
     inertia_of_one_number: "bodies { spatial a { mass: 1, inertia: «1» } }" => "the inertia of a spatial body is `[xx, yy, zz]`";
+    inertia_of_a_thin_rod: "bodies { spatial a { mass: 1, inertia: «[0, 1, 1]» } }" => "must be positive definite; about its own axis a thin rod has a small moment";
     inertia_not_positive: "bodies { spatial a { mass: 1, inertia: «[1, 1, 1, 2, 0, 0]» } }" => "must be positive definite";
     inertia_of_no_body: "params { j = 3.0 } bodies { spatial a { mass: 1, inertia: «[1, 1, j]» } }" => "no rigid body has this inertia";
     inertia_not_symmetric: "bodies { spatial a { mass: 1, inertia: «[[1, 0.1, 0], [0, 1, 0], [0, 0, 1]]» } }" => "the inertia of a body is a symmetric matrix";

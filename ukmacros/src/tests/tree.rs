@@ -130,7 +130,7 @@ cases! {
     point_of_itself: "bodies { planar a { mass: 1, inertia: 1 } } coords { x } mass { x: 1 } tree { c: weld(ground.at(«a».centre), a.at([0, 0])) }" => "where `a` sits cannot depend on `a` itself";
     joint_as_a_value: "bodies { planar a { mass: 1, inertia: 1 } } tree { c: pin(ground.at([0, 0]), a.at([0, 0])) } force { c.angle: «c» }" => "`c` is a joint of the tree; its coordinates are `c.angle`";
     unknown_coordinate: "bodies { planar a { mass: 1, inertia: 1 } } tree { c: pin(ground.at([0, 0]), a.at([0, 0])) } force { c.«angel»: 1 }" => "joint `c` has no coordinate `angel`; did you mean `angle`?";
-    coordinate_of_a_body_that_hangs: "bodies { planar a { mass: 1, inertia: 1 } } tree { c: pin(ground.at([0, 0]), a.at([0, 0])) } force { a.«angle»: 1 }" => "`a` hangs on a joint of the tree: its coordinates are those of the joint";
+    coordinate_of_a_body_that_hangs: "bodies { planar a { mass: 1, inertia: 1 } } tree { c: pin(ground.at([0, 0]), a.at([0, 0])) } force { a.«angle»: 1 }" => "`a` hangs on a joint of the tree: its coordinates are those of the joint, `c.angle`; what acts on it goes under `forces`";
     quaternion_of_a_body_that_hangs: "bodies { spatial a { mass: 1, inertia: [1, 1, 1] } } tree { c: ball(ground.at([0, 0, 0]), a.at([0, 0, 0])) } output { o = a.«e0» }" => "has no quaternion; its orientation is `a.axes`";
     joint_twice: "bodies { planar a[2] { mass: 1, inertia: 1 } } tree { for i in 0..2 { «c»: pin(ground.at([0, 0]), a[i].at([0, 0])) } }" => "`c` is declared twice; in a loop, index it: `c[i]`";
     joint_and_constraint: "bodies { planar a { mass: 1, inertia: 1 } } tree { c: pin(ground.at([0, 0]), a.at([0, 0])) } holonomic { «c»: a.x = t }" => "`c` is declared twice";

@@ -351,9 +351,17 @@ fn possible(numbers: &[f64]) -> Result<(), String> {
         ([a, b, c], pairs, det)
     };
     let (own, pairs, det) = minors([xx, yy, zz], [yx, zx, zy]);
+    let own_moments = own;
     let own = own.iter().chain(&pairs).chain([&det]);
     if own.into_iter().any(|x| *x <= 0.0) {
-        return Err("the inertia of a spatial body must be positive definite".to_owned());
+        let thin = own_moments.iter().any(|x| *x == 0.0);
+        let remedy = match thin {
+            true => "; about its own axis a thin rod has a small moment, m r²/2, too",
+            false => "",
+        };
+        return Err(format!(
+            "the inertia of a spatial body must be positive definite{remedy}"
+        ));
     }
     let half = 0.5 * trace;
     let (own, pairs, det) = minors([half - xx, half - yy, half - zz], [-yx, -zx, -zy]);

@@ -365,7 +365,8 @@ impl<'m> Lowering<'m> {
             }
             None if body.is_some_and(|names| names.contains(&text.as_str())) => {
                 let message = format!(
-                    "`{name}` hangs on a joint of the tree: its coordinates are those of the joint; what acts on it goes under `forces`"
+                    "`{name}` hangs on a joint of the tree: its coordinates are those of the joint{}; what acts on it goes under `forces`",
+                    self.carrying(&name)
                 );
                 self.diag.error(field.span(), message);
                 None
@@ -383,6 +384,27 @@ impl<'m> Lowering<'m> {
                 None
             }
         }
+    }
+
+    /// The coordinates of the joint that the bodies called `name` hang on, as written, if all hang on joints of one name.
+    fn carrying(&self, name: &str) -> String {
+        let model = self.model;
+        let Some(Name::Body(family)) = model.names.get(name) else {
+            return String::new();
+        };
+        let members = model.bodies[*family].members.iter();
+        let joints = members.map(|at| model.hung[*at].map(|joint| &model.joints[joint]));
+        let joints: Option<Vec<_>> = joints.collect();
+        let Some([first, rest @ ..]) = joints.as_deref() else {
+            return String::new();
+        };
+        if rest.iter().any(|joint| joint.key != first.key) {
+            return String::new();
+        }
+        let index = if first.indices.is_empty() { "" } else { "[i]" };
+        let names = first.kind.coordinates.iter();
+        let names = names.map(|coordinate| format!(", `{}{index}.{coordinate}`", first.key));
+        names.collect()
     }
 
     /// What coordinates the bodies or joints called `name` have, in words.
