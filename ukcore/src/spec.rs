@@ -201,6 +201,8 @@ pub struct Structure {
     pub scleronomic: bool,
     /// A `nonideal` section exists (c of eq. 8).
     pub nonideal: bool,
+    /// c depends on reactions, which are not unique where constraints imply each other.
+    pub loaded: bool,
     /// A `potential` section exists.
     pub potential: bool,
     /// T + V is conserved: scleronomic, no `force` and no `nonideal`, nonholonomic constraints homogeneous in q̇, and M either constant or
@@ -410,6 +412,7 @@ impl Structure {
         angles: &[],
         scleronomic: false,
         nonideal: false,
+        loaded: false,
         potential: false,
         conservative: false,
         left_out: &[],

@@ -206,6 +206,7 @@ const _: () = {
                 angles: &[2],
                 scleronomic: true,
                 nonideal: false,
+                loaded: false,
                 potential: true,
                 conservative: true,
                 left_out: &[

@@ -188,6 +188,7 @@ const _: () = {
                 angles: &[],
                 scleronomic: true,
                 nonideal: false,
+                loaded: false,
                 potential: true,
                 conservative: true,
                 left_out: &[

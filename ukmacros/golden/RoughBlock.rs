@@ -234,6 +234,7 @@ const _: () = {
                 angles: &[],
                 scleronomic: true,
                 nonideal: true,
+                loaded: false,
                 potential: true,
                 conservative: false,
                 left_out: &[
