@@ -592,7 +592,7 @@ fn expand(input: TokenStream) -> (TokenStream, diag::Diagnostics) {
     let mut system = expr::lower(&decl, &model, heard);
     let constants = analysis::constants(&model, &system, heard);
     if !faulty {
-        system.units = expr::units(&decl, &model, &diag);
+        expr::units(&decl, &model, &mut system, &diag);
     }
     let handed = |faulty| {
         decl.part

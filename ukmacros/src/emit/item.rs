@@ -44,7 +44,7 @@ pub(super) fn item(decl: &Declaration, model: &Model, system: &System, extra: &s
         } else {
             family.docs.join("\n")
         };
-        let unit = |i: &usize| system.units.params.get(*i).filter(|unit| !unit.is_empty());
+        let unit = |i: &usize| system.units.get(*i).filter(|unit| !unit.is_empty());
         let docs = doc(&in_unit(text, family.members.iter().find_map(unit)));
         let number = |i: &usize| float(system.defaults.get(*i).copied().unwrap_or(f64::NAN));
         let numbers: Vec<TokenStream> = family.members.iter().map(number).collect();
@@ -73,9 +73,9 @@ pub(super) fn item(decl: &Declaration, model: &Model, system: &System, extra: &s
 pub(super) fn start(decl: &Declaration, system: &System) -> Option<TokenStream> {
     let name = &decl.name;
     let starts = system.starts.iter().map(|start| {
-        let option = |o: &OptionValue| match o.unit.as_deref() {
-            Some("") | None => format!("`{}`", o.name),
-            Some(unit) => format!("`{}` in {unit}", o.name),
+        let option = |o: &OptionValue| match o.unit.as_str() {
+            "" => format!("`{}`", o.name),
+            unit => format!("`{}` in {unit}", o.name),
         };
         let options = start.options.iter().map(option);
         let options: Vec<String> = options.collect();

@@ -26,7 +26,7 @@ pub(super) fn spec(
     let params = model.param_elements.iter().enumerate().map(|(i, e)| {
         let (name, docs) = (&e.name, model.params[e.family].docs.join(" "));
         let default = float(system.defaults[i]);
-        let unit = system.units.params.get(i).map_or("", String::as_str);
+        let unit = system.units.get(i).map_or("", String::as_str);
         quote! { ukcore::ParamSpec { name: #name, doc: #docs, default: #default, unit: #unit } }
     });
     let coords = model.coord_elements.iter().map(|e| &e.name);
@@ -85,7 +85,7 @@ fn start(start: &StartValue) -> TokenStream {
     let (name, doc) = (&start.name, start.docs.join(" "));
     let options = start.options.iter().map(|option| {
         let (name, doc, default) = (&option.name, option.docs.join(" "), float(option.default));
-        let unit = option.unit.as_deref().unwrap_or("");
+        let unit = &option.unit;
         quote! { ukcore::StartOption { name: #name, doc: #doc, default: #default, unit: #unit } }
     });
     quote! { ukcore::StartSpec { name: #name, doc: #doc, options: &[#(#options),*] } }

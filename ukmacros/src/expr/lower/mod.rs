@@ -4,9 +4,11 @@ mod array;
 mod bodies;
 mod calls;
 mod drawing;
+mod expect;
 mod inertia;
 mod lets;
 mod names;
+mod outputs;
 mod parts;
 mod reactions;
 mod starts;
@@ -26,9 +28,7 @@ pub(crate) use vectors::vocabulary;
 use super::graph::{Graph, Id, Map, Symbol};
 use crate::diag::{Diagnostics, Loc};
 use crate::model::{Model, Scope, every, uses};
-use crate::parse::{
-    Block, Declaration, Entry, Equation, Expr, ExprKind, Function, MassEntry, Measure, Output,
-};
+use crate::parse::{Block, Declaration, Entry, Equation, Expr, ExprKind, Function, MassEntry};
 use array::{Value, describe};
 use bodies::Declared;
 use drawing::Between;
@@ -39,7 +39,7 @@ use reactions::Known;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::Rc;
 use ukunits::Dimension;
-use units::{Dimensions, Measured, Units};
+use units::{Dimensions, Measured};
 
 /// Where an expression stands, which decides what it may use.
 #[derive(Clone, Copy, PartialEq)]
@@ -285,7 +285,7 @@ impl<'m> Lowering<'m> {
             graph: std::mem::take(&mut self.graph),
             constants,
             defaults,
-            units: Units::default(),
+            units: Vec::new(),
             mass,
             kinetic,
             force,
@@ -440,14 +440,6 @@ impl<'m> Lowering<'m> {
         vec![((row.max(column), row.min(column)), value)]
     }
 
-    /// What an entry of M is measured in.
-    fn expect_mass(&mut self, (i, j): (usize, usize), id: Id, loc: Loc) {
-        let time = Measured::of(Dimension::TIME);
-        let rates = [i, j].map(|k| self.of_coordinate(k).per(time));
-        let mass = Measured::of(Dimension::ENERGY).per(rates[0]).per(rates[1]);
-        self.expect(id, mass, "a mass for these coordinates", loc);
-    }
-
     /// The numbers of `value`, if it has this `shape`, or is 0; reports it, if not.
     fn fitting(&mut self, value: &Value, shape: &[usize], e: &Expr) -> Vec<Id> {
         if let Value::Scalar(id) = value
@@ -592,84 +584,5 @@ impl<'m> Lowering<'m> {
             _ => value.entries().to_vec(),
         };
         every(value.shape()).zip(numbers).collect()
-    }
-
-    /// The `value` of an output in the unit that it is declared with.
-    fn in_unit(&mut self, output: &Output, result: NoValue, value: Id) -> Id {
-        let Some(Measure { unit, .. }) = &output.measure else {
-            return value;
-        };
-        let of = Measured::known(unit.dimension(), true);
-        let what = match unit.to_string().as_str() {
-            "" => "as `[-]` says".to_owned(),
-            text => format!("as `[{text}]` says"),
-        };
-        let loc = output.value.loc;
-        match result {
-            NoValue::Integral => self.expect_rate(value, of, &what, loc),
-            _ => self.expect(value, of, &what, loc),
-        }
-        match unit.is_coherent() {
-            true => value,
-            false => self.graph.scale(unit.from_si(1.0), value),
-        }
-    }
-
-    /// Outputs or integrals.
-    fn reported(
-        &mut self,
-        blocks: &[Block<Output>],
-        result: NoValue,
-        top: &Scope<'m>,
-        names: &mut Names,
-    ) -> Vec<OutputValue> {
-        let mut out: Vec<OutputValue> = Vec::new();
-        let (what, place) = match result {
-            NoValue::Integral => ("integral", Place::Integral),
-            _ => ("output", Place::Output),
-        };
-        top.unroll(blocks, self.diag, &mut |output, scope| {
-            let key = &output.key;
-            let Some(indices) = self.indices(&key.indices, scope) else {
-                return;
-            };
-            let mut item = ConstraintRef {
-                base: key.name.clone(),
-                shown: self.model.shown(&key.name.to_string()).to_owned(),
-                indices,
-                components: Vec::new(),
-                row: None,
-                unit_of: None,
-            };
-            let looped = !scope.variables.is_empty();
-            let free = self.model.column(&key.name);
-            if let Err(reason) = free.and_then(|()| names.enter(what, &item, looped)) {
-                self.diag.error(key.loc, reason);
-                return;
-            }
-            let value = self.value(&output.value, &Env::new(scope, place));
-            for (components, value) in self.components(&value) {
-                let value = self.in_unit(output, result, value);
-                item.components = components;
-                let text = item.text();
-                let coordinates = &self.model.coord_elements;
-                if coordinates.iter().any(|c| c.name == text) {
-                    self.diag.error(
-                        key.loc,
-                        format!(
-                            "`{text}` is a coordinate and in the output anyway; choose another name"
-                        ),
-                    );
-                    return;
-                }
-                out.push(OutputValue {
-                    item: item.clone(),
-                    docs: output.docs.clone(),
-                    unit: output.measure.as_ref().map(|m| m.unit.to_string()),
-                    value,
-                });
-            }
-        });
-        out
     }
 }

@@ -2,7 +2,7 @@
 
 use super::array::Value;
 use super::system::{GuessValue, OptionValue, StartValue};
-use super::units::{Measured, unit_of};
+use super::units::Measured;
 use super::{Env, Lowering, Place};
 use crate::expr::eval::{Point, eval};
 use crate::expr::graph::Symbol;
@@ -72,7 +72,7 @@ impl<'m> Lowering<'m> {
                 name,
                 docs: option.docs.clone(),
                 default,
-                unit: unit_of(&option.default),
+                unit: self.dimension(id).unit(&option.default),
             });
         }
         (options, args)

@@ -1,6 +1,5 @@
 //! What lowering makes.
 
-use super::units::Units;
 use crate::diag::Loc;
 use crate::expr::graph::{Graph, Id, Map};
 use crate::model::indexed;
@@ -14,8 +13,8 @@ pub(crate) struct System {
     pub(crate) constants: Vec<f64>,
     /// Default of each parameter.
     pub(crate) defaults: Vec<f64>,
-    /// Units that follow from those declared.
-    pub(crate) units: Units,
+    /// Unit of each parameter in SI; empty where none is known, none at all where none is declared.
+    pub(crate) units: Vec<String>,
     /// Lower triangle (row ≥ column) of the declared M, with where it was declared first.
     pub(crate) mass: BTreeMap<(usize, usize), (Id, Loc)>,
     pub(crate) kinetic: Option<(Id, Loc)>,
@@ -128,8 +127,8 @@ pub(crate) struct OptionValue {
     pub(crate) name: String,
     pub(crate) docs: Vec<String>,
     pub(crate) default: f64,
-    /// Its unit in SI, if the default has one.
-    pub(crate) unit: Option<String>,
+    /// Its unit in SI; empty where none is known.
+    pub(crate) unit: String,
 }
 
 /// Where a coordinate, or its velocity, is at a start.

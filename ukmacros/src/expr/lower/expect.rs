@@ -1,0 +1,299 @@
+//! What has to be of which dimension, and what is said where it is not.
+
+use super::array::Value;
+use super::system::Kind;
+use super::units::{Clash, Measured};
+use super::{Env, Lowering};
+use crate::diag::Loc;
+use crate::expr::graph::{Id, Symbol};
+use crate::parse::{Expr, ExprKind};
+use Measured::{Known, Number, Unknown};
+use ukunits::{Dimension, Unit};
+
+impl<'m> Lowering<'m> {
+    /// The value of `e`, whose dimensions are looked at.
+    pub(super) fn measured(&mut self, e: &Expr, env: &Env<'m>) -> Value {
+        let Some(dimensions) = &mut self.dimensions else {
+            return self.value_of(e, env);
+        };
+        let factor = std::mem::take(&mut dimensions.factor);
+        // What was made since without an expression of its own is not the modeller's.
+        dimensions.see(&self.graph);
+        dimensions.clash = None;
+        dimensions.factor = factor && matches!(e.kind, ExprKind::Group(_) | ExprKind::Neg(_));
+        let value = self.value_of(e, env);
+        let Some(dimensions) = &mut self.dimensions else {
+            return value;
+        };
+        dimensions.factor = false;
+        dimensions.see(&self.graph);
+        if let Some(clash) = dimensions.clash.take() {
+            let argument = match &e.kind {
+                ExprKind::Call(_, args) => args.first().map(|first| first.loc),
+                _ => None,
+            };
+            let (loc, message) = match clash {
+                Clash::Terms(a, b) => (e.loc, adds(b, a, false)),
+                Clash::Arguments(func, a, b) => (
+                    e.loc,
+                    format!("arguments of `{}` are {a} and {b}", func.row().name),
+                ),
+                Clash::Argument(func, found) => (
+                    argument.unwrap_or(e.loc),
+                    format!("`{}` takes a plain number, found {found}", func.row().name),
+                ),
+            };
+            dimensions.diag.error(loc, message);
+        }
+        match value {
+            Value::Scalar(id) if !factor => match self.graph.as_const(id) {
+                Some(x) if x != 0.0 => {
+                    let symbol = dimensions.symbol(x, Unknown, None);
+                    Value::Scalar(self.graph.symbol(symbol))
+                }
+                _ => value,
+            },
+            _ => value,
+        }
+    }
+
+    /// Numbers in a unit: in SI from here on.
+    pub(super) fn quantity(
+        &mut self,
+        e: &Expr,
+        numbers: &Expr,
+        unit: &Unit,
+        env: &Env<'m>,
+    ) -> Value {
+        let value = self.value(numbers, env);
+        let mut values = Vec::new();
+        for id in value.entries() {
+            let number = match (self.graph.as_const(*id), &self.dimensions) {
+                (None, Some(dimensions)) => dimensions.value_of(*id, &self.graph),
+                (number, _) => number,
+            };
+            let Some(x) = number else {
+                let message = "a unit stands behind numbers, such as `0.3 [m]`; what depends on parameters has the unit that follows from theirs";
+                return self.error(e.loc, message);
+            };
+            values.push(unit.to_si(x));
+        }
+        let mut values = values.into_iter();
+        value.map(|_| {
+            let x = values.next().unwrap_or_default();
+            match &mut self.dimensions {
+                Some(dimensions) if x != 0.0 => {
+                    let measured = Measured::known(unit.dimension(), true);
+                    let symbol = dimensions.symbol(x, measured, Some(unit.to_string()));
+                    self.graph.symbol(symbol)
+                }
+                _ => self.graph.constant(x),
+            }
+        })
+    }
+
+    /// What is lowered next is a factor: a number there is a plain one.
+    pub(super) fn factor_next(&mut self) {
+        if let Some(dimensions) = &mut self.dimensions {
+            dimensions.factor = true;
+        }
+    }
+
+    /// What is known of the dimension of `id`.
+    pub(super) fn dimension(&mut self, id: Id) -> Measured {
+        let dimensions = self.dimensions.as_mut();
+        dimensions.map_or(Unknown, |d| d.of(id, &self.graph))
+    }
+
+    /// Enters the dimensions of the next parameters, whose defaults are these.
+    pub(super) fn measure_parameters(&mut self, defaults: &[Id], count: usize) {
+        for k in 0..count {
+            let measured = defaults.get(k).map_or(Unknown, |id| self.dimension(*id));
+            if let Some(dimensions) = &mut self.dimensions {
+                dimensions.params.push(match measured {
+                    Known { declared: true, .. } => measured,
+                    _ => Unknown,
+                });
+            }
+        }
+    }
+
+    /// What stands for an option whose default is `default`, where units are looked at.
+    pub(super) fn measured_option(&mut self, default: Id) -> Option<Symbol> {
+        let measured = self.dimension(default);
+        let dimensions = self.dimensions.as_mut()?;
+        dimensions.symbols.push(measured);
+        Some(Symbol::Param(
+            dimensions.first + dimensions.symbols.len() - 1,
+        ))
+    }
+
+    /// Reports `id`, which stands at `loc`, where it is not of the dimension `expected` of `what`.
+    pub(super) fn expect(&mut self, id: Id, expected: Measured, what: &str, loc: Loc) {
+        let found = self.dimension(id);
+        if let Err((expected, found)) = expected.with(found) {
+            let message = format!("expected {expected}, {what}, found {found}");
+            self.complain(id, loc, message);
+        }
+    }
+
+    /// The same for the rate of what is expected.
+    pub(super) fn expect_rate(&mut self, id: Id, expected: Measured, what: &str, loc: Loc) {
+        let found = self.dimension(id).times(Measured::of(Dimension::TIME));
+        if let Err((expected, found)) = expected.with(found) {
+            let message = format!("expected {expected}, {what}, found {found} in all");
+            self.complain(id, loc, message);
+        }
+    }
+
+    /// Reports numbers of `value` that are not of this dimension.
+    pub(super) fn expect_all(&mut self, value: &Value, dimension: Dimension, what: &str, loc: Loc) {
+        for id in value.entries() {
+            self.expect(*id, Measured::of(dimension), what, loc);
+        }
+    }
+
+    /// Reports what is given for a parameter of a part, where its `default` is of another dimension.
+    pub(super) fn fits(&mut self, value: &Value, default: &Value, loc: Loc) {
+        let defaults = default.entries().iter().cycle();
+        for (id, default) in value.entries().iter().zip(defaults) {
+            let expected = self.dimension(*default);
+            self.expect(*id, expected, "as the default of this parameter is", loc);
+        }
+    }
+
+    /// Reports terms that cannot be added; true if it does.
+    pub(super) fn terms_clash(&mut self, terms: &[(f64, Value, Loc)]) -> bool {
+        let mut sums: Vec<Measured> = Vec::new();
+        for (sign, value, loc) in terms {
+            for (k, id) in value.entries().iter().enumerate() {
+                if self.graph.is_zero(*id) {
+                    continue;
+                }
+                let next = self.dimension(*id);
+                if sums.len() <= k {
+                    sums.resize(k + 1, Number);
+                }
+                match sums[k].with(next) {
+                    Ok(same) => sums[k] = same,
+                    Err((before, next)) => {
+                        self.complain(*id, *loc, adds(next, before, *sign < 0.0));
+                        return true;
+                    }
+                }
+            }
+        }
+        false
+    }
+
+    /// Reports sides of an equation that cannot be equal; true if it does.
+    pub(super) fn sides_clash(
+        &mut self,
+        left: &[(f64, Value, Loc)],
+        right: &[(f64, Value, Loc)],
+    ) -> bool {
+        let (Some(first), Some(last)) = (right.first(), right.last()) else {
+            return false;
+        };
+        let loc = first.2.to(last.2);
+        let entries = |terms: &[(f64, Value, Loc)]| {
+            let values = terms.iter().map(|(_, value, _)| value.entries().len());
+            values.max().unwrap_or(0)
+        };
+        for k in 0..entries(left).max(entries(right)) {
+            let sides = [left, right].map(|terms| {
+                let ids = terms
+                    .iter()
+                    .filter_map(|(_, value, _)| value.entries().get(k));
+                let ids: Vec<Id> = ids.copied().collect();
+                ids.into_iter().try_fold(Number, |side, id| {
+                    let next = match self.graph.is_zero(id) {
+                        true => Number,
+                        false => self.dimension(id),
+                    };
+                    side.with(next)
+                })
+            });
+            // What is wrong within a side is told as such.
+            let [Ok(a), Ok(b)] = sides else {
+                continue;
+            };
+            if let Err((a, b)) = a.with(b) {
+                let ids = right
+                    .iter()
+                    .filter_map(|(_, value, _)| value.entries().get(k));
+                let message = format!("equates {a} with {b}");
+                ids.copied()
+                    .for_each(|id| self.complain(id, loc, message.clone()));
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Reports what is wrong with `id`, of which nothing is known from here on: what follows from one mistake is not told.
+    fn complain(&mut self, id: Id, loc: Loc, message: String) {
+        if let Some(dimensions) = &mut self.dimensions {
+            dimensions.diag.error(loc, message);
+            for node in [id, self.graph.unscaled(id).1] {
+                dimensions.nodes[node.index()] = Unknown;
+            }
+        }
+    }
+
+    /// Forgets what is wrong with what was made last: it is told.
+    pub(super) fn told(&mut self) {
+        if let Some(dimensions) = &mut self.dimensions {
+            dimensions.see(&self.graph);
+            dimensions.clash = None;
+        }
+    }
+
+    /// How many errors of units there are.
+    pub(super) fn units_told(&self) -> usize {
+        self.dimensions.as_ref().map_or(0, |d| d.diag.len())
+    }
+
+    /// Moves the errors of units from number `from` on to `loc`.
+    pub(super) fn units_relocated(&self, from: usize, loc: Loc) {
+        if let Some(dimensions) = &self.dimensions {
+            dimensions.diag.relocate(from, loc);
+        }
+    }
+
+    /// Enters what the last constraint, `phi`, is measured in.
+    pub(super) fn measure_row(&mut self, phi: Id, kind: Kind) {
+        let row = self.dimension(phi);
+        let per = match kind {
+            Kind::Holonomic => Number,
+            Kind::Nonholonomic => Measured::of(Dimension::TIME),
+        };
+        let place = self.constraints.len() - 1;
+        if let Some(dimensions) = &mut self.dimensions {
+            dimensions.rows.resize(place, Unknown);
+            dimensions.rows.push(row.times(per));
+        }
+    }
+
+    /// What coordinate `i` is measured in.
+    pub(super) fn of_coordinate(&self, i: usize) -> Measured {
+        let dimensions = self.dimensions.as_ref();
+        let measured = dimensions.and_then(|d| d.coordinates.get(i));
+        measured.copied().unwrap_or(Unknown)
+    }
+
+    /// What an entry of M is measured in.
+    pub(super) fn expect_mass(&mut self, (i, j): (usize, usize), id: Id, loc: Loc) {
+        let time = Measured::of(Dimension::TIME);
+        let rates = [i, j].map(|k| self.of_coordinate(k).per(time));
+        let mass = Measured::of(Dimension::ENERGY).per(rates[0]).per(rates[1]);
+        self.expect(id, mass, "a mass for these coordinates", loc);
+    }
+}
+
+fn adds(next: Dimension, before: Dimension, minus: bool) -> String {
+    match minus {
+        true => format!("subtracts {next} from {before}"),
+        false => format!("adds {next} to {before}"),
+    }
+}

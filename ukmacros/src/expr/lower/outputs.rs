@@ -1,0 +1,89 @@
+//! Outputs and integrals.
+
+use super::system::{ConstraintRef, OutputValue};
+use super::units::Measured;
+use super::{Env, Lowering, Names, NoValue, Place};
+use crate::expr::graph::Id;
+use crate::model::Scope;
+use crate::parse::{Block, Measure, Output};
+
+impl<'m> Lowering<'m> {
+    /// The `value` of an output in the unit that it is declared with.
+    fn in_unit(&mut self, output: &Output, result: NoValue, value: Id) -> Id {
+        let Some(Measure { unit, .. }) = &output.measure else {
+            return value;
+        };
+        let of = Measured::known(unit.dimension(), true);
+        let what = match unit.to_string().as_str() {
+            "" => "as `[-]` says".to_owned(),
+            text => format!("as `[{text}]` says"),
+        };
+        let loc = output.value.loc;
+        match result {
+            NoValue::Integral => self.expect_rate(value, of, &what, loc),
+            _ => self.expect(value, of, &what, loc),
+        }
+        match unit.is_coherent() {
+            true => value,
+            false => self.graph.scale(unit.from_si(1.0), value),
+        }
+    }
+
+    /// Outputs or integrals.
+    pub(super) fn reported(
+        &mut self,
+        blocks: &[Block<Output>],
+        result: NoValue,
+        top: &Scope<'m>,
+        names: &mut Names,
+    ) -> Vec<OutputValue> {
+        let mut out: Vec<OutputValue> = Vec::new();
+        let (what, place) = match result {
+            NoValue::Integral => ("integral", Place::Integral),
+            _ => ("output", Place::Output),
+        };
+        top.unroll(blocks, self.diag, &mut |output, scope| {
+            let key = &output.key;
+            let Some(indices) = self.indices(&key.indices, scope) else {
+                return;
+            };
+            let mut item = ConstraintRef {
+                base: key.name.clone(),
+                shown: self.model.shown(&key.name.to_string()).to_owned(),
+                indices,
+                components: Vec::new(),
+                row: None,
+                unit_of: None,
+            };
+            let looped = !scope.variables.is_empty();
+            let free = self.model.column(&key.name);
+            if let Err(reason) = free.and_then(|()| names.enter(what, &item, looped)) {
+                self.diag.error(key.loc, reason);
+                return;
+            }
+            let value = self.value(&output.value, &Env::new(scope, place));
+            for (components, value) in self.components(&value) {
+                let value = self.in_unit(output, result, value);
+                item.components = components;
+                let text = item.text();
+                let coordinates = &self.model.coord_elements;
+                if coordinates.iter().any(|c| c.name == text) {
+                    self.diag.error(
+                        key.loc,
+                        format!(
+                            "`{text}` is a coordinate and in the output anyway; choose another name"
+                        ),
+                    );
+                    return;
+                }
+                out.push(OutputValue {
+                    item: item.clone(),
+                    docs: output.docs.clone(),
+                    unit: output.measure.as_ref().map(|m| m.unit.to_string()),
+                    value,
+                });
+            }
+        });
+        out
+    }
+}
