@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
 /// Pieces that declarations are made of, and some that they are not.
-const PIECES: [&str; 117] = [
+const PIECES: [&str; 123] = [
     "pub",
     "T",
     "{",
@@ -123,6 +123,12 @@ const PIECES: [&str; 117] = [
     "leg[0].shin[1].angle: leg[1].tip[0]",
     "@parts [{ Leg } { pub Leg { params { l = 1.0 } bodies { planar shin[2] { mass: l, inertia: 1 } } let tip = shin[0].at([l, 0]); } } { }]",
     "#[ukcore(part)]",
+    "[m]",
+    "[kg m^2]",
+    "2.0 [N",
+    "m = 1.0 [kg]",
+    "x [m/s]",
+    "[-]",
 ];
 
 /// A declaration that works, to be damaged.
@@ -162,6 +168,14 @@ const PARTS: &str = "@parts [{ Leg } { pub Leg { const N: usize = 2; params { l 
     force { leg[1].knee.angle: 1.0, tail.shin[0].x: leg[0].m[1] } output { reach = norm(leg[1].tip - trunk.centre) + tail.l } \
     start s(a = 1.0) { leg[0].knee.angle = a; hip[1].angle near 2; dot(tail.shin[0].x) = 1 } }";
 
+/// One with units, to be damaged.
+const UNITS: &str = "pub T { const N: usize = 2; const G: f64 = 9.81 [m/s^2]; params { m = 1.0 [kg], l[N] = [300, 2] [mm], k = 2 [N/m], c = 0.1 [N s/m], tau = 1 [N m] } \
+    coords { x [m], a[N] [rad] } bodies { planar b { mass: m, inertia: m * sq(l[0]) / 12, centre: [l[1] / 2, 0] } } gravity { [0, -G] } let f = |u, s| u * s; \
+    mass { x: m + 2 [g], a: m * sq(l[1]) } force { x: -c * dot(x) - f(k, x) } potential { m * 9.81 [m/s^2] * x, 0.5 * k * sq(x - 3 [mm]) } \
+    holonomic { r: sq(x) + sq(b.x) = sq(l[0] + 2) + x * l[1]; p: [b.y, x] = [l[0] * sin(a[1]), l[1]] } forces { torque(b, tau) spring(b.at([0.1, 0]), ground.at([0, 0]), k, 1 [cm]) } \
+    nonideal { a[0]: friction(dot(a[0]), 1 [mm] * norm(reaction(p))) } output { o [mm] = x, w [rpm] = b.omega } integral { e [mJ] = tau * b.omega } \
+    start s(p0 = 30 [deg], v = (1 + 2) [m/s]) { a[0] = p0; dot(x) near v; b.x near 1 } }";
+
 fn survives(source: &str) {
     if let Ok(tokens) = source.parse::<proc_macro2::TokenStream>() {
         let (code, _) = crate::expand(tokens);
@@ -171,7 +185,7 @@ fn survives(source: &str) {
 
 #[test]
 fn the_whole_declarations_compile() {
-    for source in [WHOLE, VECTORS, BODIES, TREE, PARTS] {
+    for source in [WHOLE, VECTORS, BODIES, TREE, PARTS, UNITS] {
         let (_, errors) = expand(source);
         assert!(errors.is_empty(), "{errors:?}");
     }
@@ -207,7 +221,7 @@ proptest! {
 
     #[test]
     fn damaged_declarations(at in 0usize..900, length in 0usize..12, piece in 0usize..PIECES.len()) {
-        for whole in [WHOLE, VECTORS, BODIES, TREE, PARTS] {
+        for whole in [WHOLE, VECTORS, BODIES, TREE, PARTS, UNITS] {
             let characters: Vec<char> = whole.chars().collect();
             let at = at.min(characters.len());
             let end = (at + length).min(characters.len());

@@ -131,6 +131,21 @@ fn a_linkage_with_all_its_units() {
     );
 }
 
+/// What is nested as deeply as may be is looked at without more stack than there is.
+#[test]
+fn deep_nesting() {
+    let mut body =
+        "params { l = 1 [m] } coords { x [m] } mass { x: 1 } let f0 = |u| u + x;".to_owned();
+    for k in 1..90 {
+        body += &format!("let f{k} = |u| (f{}(u) + 2 * (l - u));", k - 1);
+    }
+    accepted(&format!("{body} output {{ o [m] = f89(x) }}"));
+    let inner = "(l + ".repeat(40) + "x" + &")".repeat(40);
+    accepted(&format!(
+        "params {{ l = 1 [m] }} coords {{ x [m] }} mass {{ x: 1 }} output {{ o [mm] = {inner} }}"
+    ));
+}
+
 macro_rules! cases {
     ($($name:ident: $source:literal => $($message:literal),+;)*) => {
         $(#[test] fn $name() { check($source, &[$($message),+]); })*
@@ -321,39 +336,5 @@ proptest! {
         let wrong = writer.declaration(&text, d, Some(planted % writer.params.len()));
         let (_, errors) = expand(&wrong);
         prop_assert!(!errors.is_empty(), "accepted: {wrong}");
-    }
-}
-#[test]
-#[ignore]
-fn try_out() {
-    let text = std::fs::read_to_string(std::env::var("TRY").unwrap()).unwrap();
-    for source in text.split("\n---\n") {
-        let start = std::time::Instant::now();
-        let (code, errors) = expand(source);
-        println!("{:?}", start.elapsed());
-        println!("== {}", source.lines().next().unwrap());
-        for e in &errors {
-            let (s, t) = (e.loc.start.start(), e.loc.end.end());
-            let line = source.lines().nth(s.line - 1).unwrap_or("");
-            let shown: String = line
-                .chars()
-                .skip(s.column)
-                .take(if t.line == s.line {
-                    t.column - s.column
-                } else {
-                    40
-                })
-                .collect();
-            println!("  {}:{} `{shown}`: {}", s.line, s.column, e.message);
-        }
-        if errors.is_empty() {
-            let text = code.to_string();
-            for piece in text.split("unit :").skip(1) {
-                print!(" {}", piece.split('}').next().unwrap());
-            }
-            if let Some(c) = text.split("coordinate_units :").nth(1) {
-                println!("  | {}", c.split(']').next().unwrap());
-            }
-        }
     }
 }
