@@ -46,6 +46,8 @@ struct Data<'a> {
     t: Vec<f64>,
     pictures: Vec<Vec<f32>>,
     energy: Vec<f64>,
+    /// J, where the declaration has units.
+    energy_unit: &'static str,
     /// Of each picture the largest |φ| and |φ̇|; nothing without constraints.
     residual: Vec<f64>,
 }
@@ -85,6 +87,11 @@ pub fn animate(models: &[Entry], args: &AnimateArgs) -> Result<(), Failure> {
         t: Vec::new(),
         pictures: Vec::new(),
         energy: Vec::new(),
+        energy_unit: if spec.coordinate_units.is_empty() {
+            ""
+        } else {
+            " J"
+        },
         residual: Vec::new(),
     };
     let every = args.motion.length(&ready).abs() / f64::from(args.pictures - 1);

@@ -131,6 +131,19 @@ fn a_linkage_with_all_its_units() {
     );
 }
 
+/// Nothing but dimensions is told of in the second look, so that no loop ends there early.
+#[test]
+fn the_second_look_goes_through_all_of_it() {
+    let (source, wrong) = (
+        "params { for i in 0..30 { k[i] = 2.0 [N/m], j[i] = (1 + i) [N/m] } } coords { for i in 0..30 { x[i] [m] } } \
+        mass { for i in 0..30 { x[i]: 1 } } force { for i in 0..30 { x[i]: -k[i] * x[i] + j[i] * 0.1 [m] } } output { o [N] = ",
+        "k[29] * x[29]",
+    );
+    accepted(&format!("{source}{wrong} }}"));
+    let (_, errors) = expand(&format!("pub T {{ {source}{wrong} * x[0] }} }}"));
+    assert_eq!(errors.len(), 1, "{errors:?}");
+}
+
 /// What is nested as deeply as may be is looked at without more stack than there is.
 #[test]
 fn deep_nesting() {

@@ -240,7 +240,7 @@
   };
 
   // A quantity over time, with a cursor.
-  const strip = (name, values) => {
+  const strip = (name, values, unit) => {
     const known = values.filter((x) => x !== null && Number.isFinite(x));
     if (!known.length) return () => {};
     const [min, max] = known.reduce(([a, b], x) => [Math.min(a, x), Math.max(b, x)], [Infinity, -Infinity]);
@@ -262,16 +262,19 @@
       cursor.setAttribute("x1", at(k));
       cursor.setAttribute("x2", at(k));
       const number = (y) => (y === null ? "–" : String(Number(y.toPrecision(3))));
-      label.textContent = `${name} ${number(values[k])} (${number(min)} to ${number(max)})`;
+      label.textContent = `${name} ${number(values[k])}${unit} (${number(min)} to ${number(max)})`;
     };
   };
 
   const show = dimension === 3 ? space() : plane();
   const energy = data.energy[0];
   const strips = [
-    strip(`energy ${Number(energy.toPrecision(7))}, changed by`, data.energy.map((x) => (x === null ? null : x - energy))),
+    strip(
+      `energy ${Number(energy.toPrecision(7))}${data.energy_unit}, changed by`,
+      data.energy.map((x) => (x === null ? null : x - energy)), data.energy_unit,
+    ),
   ];
-  if (data.residual.length) strips.push(strip("largest constraint residual", data.residual));
+  if (data.residual.length) strips.push(strip("largest constraint residual", data.residual, ""));
   const slider = byId("time"), play = byId("play");
   slider.max = last;
   let playing = false, time = t[0], clock = 0;

@@ -66,29 +66,27 @@ impl<'m> Lowering<'m> {
         env: &Env<'m>,
     ) -> Value {
         let value = self.value(numbers, env);
-        let mut values = Vec::new();
-        for id in value.entries() {
-            let number = match (self.graph.as_const(*id), &self.dimensions) {
-                (None, Some(dimensions)) => dimensions.value_of(*id, &self.graph),
-                (number, _) => number,
-            };
-            let Some(x) = number else {
-                let message = "a unit stands behind numbers, such as `0.3 [m]`; what depends on parameters has the unit that follows from theirs";
-                return self.error(e.loc, message);
-            };
-            values.push(unit.to_si(x));
-        }
-        let mut values = values.into_iter();
-        value.map(|_| {
-            let x = values.next().unwrap_or_default();
-            match &mut self.dimensions {
-                Some(dimensions) if x != 0.0 => {
-                    let measured = Measured::known(unit.dimension(), true);
-                    let symbol = dimensions.symbol(x, measured, Some(unit.to_string()));
+        if let Some(dimensions) = &mut self.dimensions {
+            let (measured, text) = (Measured::known(unit.dimension(), true), unit.to_string());
+            return value.map(|id| match self.graph.is_zero(id) {
+                true => id,
+                false => {
+                    let number = dimensions.value_of(id, &self.graph);
+                    let symbol =
+                        dimensions.symbol(number.unwrap_or(f64::NAN), measured, Some(text.clone()));
                     self.graph.symbol(symbol)
                 }
-                _ => self.graph.constant(x),
-            }
+            });
+        }
+        let numbers = value.entries().iter().map(|id| self.graph.as_const(*id));
+        let Some(numbers) = numbers.collect::<Option<Vec<f64>>>() else {
+            let message = "a unit stands behind numbers, such as `0.3 [m]`; what depends on parameters has the unit that follows from theirs";
+            return self.error(e.loc, message);
+        };
+        let mut numbers = numbers.into_iter();
+        value.map(|_| {
+            let number = numbers.next().unwrap_or_default();
+            self.graph.constant(unit.to_si(number))
         })
     }
 

@@ -28,9 +28,9 @@ impl<'m> Lowering<'m> {
         values
     }
 
-    /// Reports `what` if its `value` is not finite.
+    /// Reports `what` if its `value` is not finite. Where dimensions are looked at, symbols stand for values.
     pub(super) fn finite_number(&self, what: &str, value: f64, loc: Loc) {
-        if !value.is_finite() {
+        if !value.is_finite() && self.dimensions.is_none() {
             self.diag
                 .error(loc, format!("{what} is not a finite number"));
         }

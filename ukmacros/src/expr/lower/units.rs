@@ -295,6 +295,7 @@ impl Dimensions<'_> {
         let (c, inner) = g.unscaled(id);
         match g.node(inner) {
             Node::Symbol(Symbol::Param(i)) => self.values.get(i).map(|x| c * x),
+            Node::Const(x) => Some(c * x.get()),
             _ => None,
         }
     }
