@@ -169,6 +169,7 @@ cases! {
     // Sums and equations.
     added: "params { a = 1 [m/s^2] } coords { x [m] } mass { x: 1 } output { o = x + «a» }" => "adds m/s^2 to m";
     subtracted: "params { a = 1 [N] } coords { x [m] } mass { x: 1 } output { o = x - 2 - «3 * a» + x }" => "subtracts N from m";
+    told_once: "coords { x [m] } mass { x: 1 } force { x: -x - «2 [N]» }" => "subtracts N from m";
     sides: "params { l = 1 [m] } coords { x [m], y [m] } mass { x: 1, y: 1 } holonomic { c: sq(x) + sq(y) = «l» }" => "equates m^2 with m";
     components: "params { l = 1 [m] } coords { x [m], y [m] } mass { x: 1, y: 1 } holonomic { d: [x, y] = «[l, sq(l)]» }" => "equates m with m^2";
     rates: "coords { x [m], y [m] } mass { x: 1, y: 1 } nonholonomic { c: dot(x) = «y» }" => "equates m/s with m";

@@ -239,11 +239,14 @@ impl<'m> Lowering<'m> {
         }
     }
 
-    /// Forgets what is wrong with what was made last: it is told.
-    pub(super) fn told(&mut self) {
+    /// Forgets what is wrong with `value`, which was made last: it is told.
+    pub(super) fn told(&mut self, value: &Value) {
         if let Some(dimensions) = &mut self.dimensions {
             dimensions.see(&self.graph);
             dimensions.clash = None;
+            for id in value.entries() {
+                dimensions.nodes[id.index()] = Unknown;
+            }
         }
     }
 

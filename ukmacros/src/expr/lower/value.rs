@@ -360,7 +360,7 @@ impl<'m> Lowering<'m> {
         let sums = sums.iter().map(|terms| self.graph.sum(terms));
         let value = Value::new(expected, sums.collect());
         if clash {
-            self.told();
+            self.told(&value);
         }
         value
     }
