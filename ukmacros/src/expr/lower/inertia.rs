@@ -354,7 +354,7 @@ fn possible(numbers: &[f64]) -> Result<(), String> {
     let own_moments = own;
     let own = own.iter().chain(&pairs).chain([&det]);
     if own.into_iter().any(|x| *x <= 0.0) {
-        let thin = own_moments.iter().any(|x| *x == 0.0);
+        let thin = own_moments.contains(&0.0);
         let remedy = match thin {
             true => "; about its own axis a thin rod has a small moment, m r²/2, too",
             false => "",
