@@ -62,7 +62,12 @@ pub struct StartSpec {
     pub doc: &'static str,
     /// Its options.
     pub options: &'static [StartOption],
+    /// How long a typical run from it lasts, s.
+    pub duration: f64,
 }
+
+/// Duration of a run, s, where no start says otherwise.
+pub const DURATION: f64 = 10.0;
 
 /// An option of a start state. No option is called like a parameter of its model.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -49,7 +49,7 @@ pub struct Motion {
 impl Motion {
     /// How long it is, s; negative backward.
     pub(crate) fn length(&self, ready: &Ready<'_>) -> f64 {
-        self.until.unwrap_or(ready.entry.duration) - ready.state.t
+        self.until.unwrap_or(ready.duration) - ready.state.t
     }
 
     /// Computes it and hands over samples at this interval, or at each step, until one breaks it off; why it ends early, if it does by an

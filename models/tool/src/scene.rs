@@ -1,7 +1,7 @@
 //! From the command line to a mechanism with its parameters and a consistent start.
 
 use clap::Args;
-use ukcore::model::{Entry, StartOptions, StartSpec};
+use ukcore::model::{DURATION, Entry, StartOptions, StartSpec};
 use ukcore::spec::Spec;
 use ukcore::{Error, Prepared, State, assemble};
 
@@ -48,6 +48,8 @@ pub struct Ready<'a> {
     pub start: &'static str,
     /// The state there.
     pub state: State,
+    /// How long a typical run from it lasts, s.
+    pub duration: f64,
 }
 
 impl Scene {
@@ -100,6 +102,7 @@ impl Start {
             mechanism,
             start: name.unwrap_or("assembled"),
             state,
+            duration: start.map_or(DURATION, |spec| spec.duration),
         })
     }
 

@@ -81,7 +81,13 @@ fn start(start: &StartValue) -> TokenStream {
         let (name, doc, default) = (&option.name, option.docs.join(" "), float(option.default));
         quote! { ukcore::StartOption { name: #name, doc: #doc, default: #default, unit: "" } }
     });
-    quote! { ukcore::StartSpec { name: #name, doc: #doc, options: &[#(#options),*] } }
+    let duration = match start.until {
+        Some(until) => float(until),
+        None => quote! { ukcore::DURATION },
+    };
+    quote! {
+        ukcore::StartSpec { name: #name, doc: #doc, options: &[#(#options),*], duration: #duration }
+    }
 }
 
 fn drawing(drawing: &Drawing) -> TokenStream {

@@ -115,6 +115,8 @@ pub(crate) struct StartValue {
     pub(crate) name: String,
     pub(crate) docs: Vec<String>,
     pub(crate) options: Vec<OptionValue>,
+    /// How long a motion from it is of interest, if it says so.
+    pub(crate) until: Option<f64>,
     pub(crate) guesses: Vec<GuessValue>,
 }
 
