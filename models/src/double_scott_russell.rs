@@ -60,7 +60,7 @@ ukcore::multibody! {
             crank[1].angle near PI - angle
             rod[0].angle near PI - angle
             rod[1].angle near angle
-            for i in 0..2 { [rod[i].x, rod[i].y] near [i * span, 0] + l * [(1 - 2 * i) * cos(angle), sin(angle)] }
+            for i in 0..2 { rod[i].centre near [i * span, 0] + l * [(1 - 2 * i) * cos(angle), sin(angle)] }
             table.y near 2 * l * sin(angle)
         }
     }

@@ -58,8 +58,8 @@ ukcore::multibody! {
         ) until 2.0 {
             crank.angle = angle
             crank.omega = speed,
-            [crank.x, crank.y] near r / 2 * [cos(angle), sin(angle)],
-            [rod.x, rod.y] near r * [cos(angle), sin(angle)] + [l / 2, 0]
+            crank.centre near r / 2 * [cos(angle), sin(angle)]
+            rod.centre near r * [cos(angle), sin(angle)] + [l / 2, 0]
             slide.x near r * cos(angle) + l
         }
     }

@@ -251,6 +251,15 @@ cases! {
     option_like_a_parameter: "params { m = 1.0 } coords { x } mass { x: m } start a(«m» = 1.0) { x = m }" => "`m` is declared twice; names must be unique";
     option_not_constant: "params { m = 1.0 } coords { x } mass { x: m } start a(b = 2.0 * «m») { x = b }" => "a constant is known at compile time";
     option_not_finite: "coords { x } mass { x: 1.0 } start a(b = «ln(0.0 - 1.0)») { x = b }" => "default of `b`";
+    start_of_a_vector_of_nothing: "coords { x } mass { x: 1.0 } start a { «[]» near 1.0 }" => "a vector of coordinates, such as `[x, y] near [1.0, 0.0]`, needs one at least";
+    start_of_a_vector_of_another_size: "coords { x, y } mass { x: 1.0, y: 1.0 } start a { [x, y] near «[1.0, 2.0, 3.0]» }" => "expected a vector of 2, found a vector of 3";
+    start_of_a_mixed_vector: "coords { x, y[2] } mass { x: 1.0, y: 1.0 } start a { [x, «y»] near [1.0, 2.0] }" => "those of one vector are numbers all, or families of one size";
+    start_that_turns_twice: "bodies { spatial top { mass: 1.0, inertia: [1.0, 1.0, 1.0] } } start a { dot(top.e0) = 0.0; «top.omega» = [1.0, 2.0, 3.0] }" => "`dot(top.e0)` is given twice in this start; remove one";
+    start_of_a_wrong_turn: "bodies { spatial top { mass: 1.0, inertia: [1.0, 1.0, 1.0] } } start a { top.spin = «2.0» }" => "expected a vector of 3, found a number";
+    start_of_what_no_body_has: "bodies { planar bar { mass: 1.0, inertia: 1.0 } } start a { bar.«spin» = 2.0 }" => "body `bar` has no coordinate `spin`";
+    start_that_lasts_no_time: "coords { x } mass { x: 1.0 } start a until «0.0» { x = 1.0 }" => "a motion lasts a time above 0, not 0";
+    start_that_lasts_what_changes: "params { m = 1.0 } coords { x } mass { x: m } start a until «m» { x = 1.0 }" => "a constant is known at compile time";
+    start_with_a_slip: "coords { x } mass { x: 1.0 } start a «till» 2.0 { x = 1.0 }" => "unexpected `till`; behind name and options of a start stands how long a motion from it lasts, `until 2.0`, or `{`";
     start_of_a_wrong_shape: "coords { x[2] } mass { x: 1.0 } start a { x = «[1.0, 2.0, 3.0]» }" => "expected a vector of 2, found a vector of 3";
     repeated_section: "coords { x } «coords» { y } mass { x: 1.0, y: 1.0 }" => "section `coords` appears twice";
     repeated_section_of_the_same_names: "params { m = 1.0 } «params» { m = 2.0 } coords { x } mass { x: m }" => "section `params` appears twice";

@@ -1,32 +1,24 @@
 //! Starts: where coordinates and velocities are, by parameters and options.
 
 use super::array::Value;
-use super::system::{GuessValue, OptionValue, StartValue};
+use super::system::{GuessKind, GuessValue, OptionValue, StartValue};
 use super::{Env, Lowering, Place};
 use crate::diag::Loc;
 use crate::expr::eval::{Point, eval};
-use crate::expr::graph::{Id, Symbol};
+use crate::expr::graph::Symbol;
 use crate::model::{Name, Scope};
 use crate::parse::{Declaration, Expr, Guess, Key, Start};
 use proc_macro2::Ident;
 use std::collections::HashSet;
 
-/// What a start says.
-#[derive(Default)]
-struct Told {
-    guesses: Vec<GuessValue>,
-    turning: Vec<Turning>,
-}
-
-/// That a spatial body turns.
-struct Turning {
-    /// The position in q of its quaternion's first component.
-    quaternion: usize,
-    omega: Vec<Id>,
-    /// In its own axes.
-    own: bool,
-    held: bool,
-    loc: Loc,
+/// A vector of a body that a start says something of.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum OfBody {
+    Centre,
+    /// The angular velocity in axes of the ground.
+    Omega,
+    /// The same in axes of the body.
+    Spin,
 }
 
 impl<'m> Lowering<'m> {
@@ -43,20 +35,19 @@ impl<'m> Lowering<'m> {
             let (options, args) = self.options(start, top);
             let until = start.until.as_ref();
             let until = until.and_then(|until| self.lasting(until, top));
-            let mut told = Told::default();
+            let mut guesses = Vec::new();
             top.unroll(&start.guesses, self.diag, &mut |guess, scope| {
                 let mut env = Env::new(scope, Place::Start);
                 env.args.clone_from(&args);
-                self.guess(guess, &env, &mut told);
+                self.guess(guess, &env, &mut guesses);
             });
-            self.upright(&mut told.guesses);
-            self.turning_at(&mut told);
+            self.upright(&mut guesses);
             starts.push(StartValue {
                 name,
                 docs: start.docs.clone(),
                 options,
                 until,
-                guesses: told.guesses,
+                guesses,
             });
         }
         starts
@@ -114,11 +105,11 @@ impl<'m> Lowering<'m> {
         Some(value)
     }
 
-    fn guess(&mut self, guess: &Guess, env: &Env<'m>, out: &mut Told) {
-        if let ([key], false) = (&guess.keys[..], guess.rate || guess.vector)
-            && let Some(turn) = self.turn_of(key, &env.scope)
+    fn guess(&mut self, guess: &Guess, env: &Env<'m>, out: &mut Vec<GuessValue>) {
+        if let ([key], false) = (&guess.keys[..], guess.vector)
+            && let Some((key, vector)) = self.vector_of(key, guess.rate, &env.scope)
         {
-            return self.turning_guess(guess, turn, env, out);
+            return self.vector_guess(guess, &key, vector, env, out);
         }
         let found: Vec<_> = guess
             .keys
@@ -146,23 +137,29 @@ impl<'m> Lowering<'m> {
             for (coordinate, value) in positions.iter().zip(values) {
                 let said = GuessValue {
                     coordinate: *coordinate,
-                    rate: guess.rate,
+                    kind: match guess.rate {
+                        true => GuessKind::Velocity,
+                        false => GuessKind::Position,
+                    },
                     held: guess.held,
                     value: *value,
                 };
-                self.tell(said, key.loc, &mut out.guesses);
+                self.tell(said, key.loc, out);
             }
         }
     }
 
     /// Adds what is said, unless it was said before.
     fn tell(&mut self, said: GuessValue, loc: Loc, out: &mut Vec<GuessValue>) {
-        let again = |other: &GuessValue| (other.coordinate, other.rate) == (said.coordinate, said.rate);
+        let rate = said.kind != GuessKind::Position;
+        let again = |other: &GuessValue| {
+            other.coordinate == said.coordinate && (other.kind != GuessKind::Position) == rate
+        };
         if !out.iter().any(again) {
             return out.push(said);
         }
         let name = &self.model.coord_elements[said.coordinate].name;
-        let shown = match said.rate {
+        let shown = match rate {
             true => format!("dot({name})"),
             false => name.clone(),
         };
@@ -170,12 +167,13 @@ impl<'m> Lowering<'m> {
         self.diag.error(loc, message);
     }
 
-    /// Of `arm.omega` and `arm.spin`: the key of the body's first coordinate, and whether its own axes are meant.
-    fn turn_of(&mut self, key: &Key, scope: &Scope<'m>) -> Option<(Key, bool)> {
+    /// Of `arm.centre`, `arm.omega` and `arm.spin`: the key of the body's first coordinate, and which it is.
+    fn vector_of(&mut self, key: &Key, rate: bool, scope: &Scope<'m>) -> Option<(Key, OfBody)> {
         let (last, _) = key.fields.last()?;
-        let own = match last.to_string().as_str() {
-            "omega" => false,
-            "spin" => true,
+        let vector = match last.to_string().as_str() {
+            "centre" => OfBody::Centre,
+            "omega" if !rate => OfBody::Omega,
+            "spin" if !rate => OfBody::Spin,
             _ => return None,
         };
         let mut key = self.within(key, scope)?;
@@ -183,89 +181,63 @@ impl<'m> Lowering<'m> {
         let Some(Name::Body(family)) = body else {
             return None;
         };
-        let planar = !self.model.body_kinds[*family].spatial;
+        let spatial = self.model.body_kinds[*family].spatial;
         let [(field, behind)] = &mut key.fields[..] else {
             return None;
         };
-        if !behind.is_empty() || planar && own {
+        if !behind.is_empty() || !spatial && vector == OfBody::Spin {
             return None;
         }
         *field = Ident::new("x", field.span());
-        Some((key, own))
+        Some((key, vector))
     }
 
-    /// An angular velocity: of a planar body the rate of its angle, of a spatial one those of its quaternion.
-    fn turning_guess(
+    /// The place of a body's centre of mass, or its velocity; or its angular velocity: the rate of the angle of a planar one, those of the
+    /// quaternion of a spatial one.
+    fn vector_guess(
         &mut self,
         guess: &Guess,
-        (key, own): (Key, bool),
+        key: &Key,
+        vector: OfBody,
         env: &Env<'m>,
-        out: &mut Told,
+        out: &mut Vec<GuessValue>,
     ) {
-        let found = self.coordinates(&key, &env.scope);
-        let value = self.value(&guess.value, env);
-        let Some((places, shape)) = found else {
+        let (value, model) = (self.value(&guess.value, env), self.model);
+        let Some((places, shape)) = self.coordinates(key, &env.scope) else {
             return;
         };
-        let model = self.model;
-        let body = |place| model.own.iter().position(|own| *own == Some(place));
-        let kind = |place| body(place).map(|k| model.body_kinds[model.body_elements[k].family]);
-        let spatial = kind(places[0]).is_some_and(|kind| kind.spatial);
-        let shape = match spatial {
-            true => [shape, &[3]].concat(),
-            false => shape.to_vec(),
+        let body = model.own.iter().position(|own| *own == Some(places[0]));
+        let kind = body.map(|k| model.body_kinds[model.body_elements[k].family]);
+        let size = match (kind.is_some_and(|kind| kind.spatial), vector) {
+            (true, _) => 3,
+            (false, OfBody::Centre) => 2,
+            (false, _) => 1,
+        };
+        let shape = match size {
+            1 => shape.to_vec(),
+            _ => [shape, &[size]].concat(),
         };
         let values = self.fitting(&value, &shape, &guess.value);
         let loc = guess.keys[0].loc;
-        for (first, values) in places.iter().zip(values.chunks(if spatial { 3 } else { 1 })) {
-            match *values {
-                [value] => {
-                    let said = GuessValue {
-                        coordinate: first + 2,
-                        rate: true,
-                        held: guess.held,
-                        value,
-                    };
-                    self.tell(said, loc, &mut out.guesses);
-                }
-                _ => out.turning.push(Turning {
-                    quaternion: first + 3,
-                    omega: values.to_vec(),
-                    own,
-                    held: guess.held,
-                    loc,
-                }),
-            }
-        }
-    }
-
-    /// The rates of quaternions whose bodies have a given angular velocity: ė = ½ ω e of ω in axes of the ground, ½ e ω of it in the body's.
-    fn turning_at(&mut self, told: &mut Told) {
-        for turning in std::mem::take(&mut told.turning) {
-            let zero = self.graph.zero();
-            let of = |k: usize| {
-                let mut said = told.guesses.iter().filter(|guess| !guess.rate);
-                let found = said.find(|guess| guess.coordinate == turning.quaternion + k);
-                found.map_or(zero, |guess| guess.value)
+        let zero = self.graph.zero();
+        for (first, values) in places.iter().zip(values.chunks(size)) {
+            let (offset, kind) = match vector {
+                OfBody::Centre if guess.rate => (0, GuessKind::Velocity),
+                OfBody::Centre => (0, GuessKind::Position),
+                _ if size == 1 => (2, GuessKind::Velocity),
+                OfBody::Omega => (3, GuessKind::Omega),
+                OfBody::Spin => (3, GuessKind::Spin),
             };
-            let (e, w) = ([of(0), of(1), of(2), of(3)], &turning.omega);
-            let sign = if turning.own { -0.5 } else { 0.5 };
-            for k in 0..4 {
-                let terms = match k {
-                    0 => [(-0.5, 0, 1), (-0.5, 1, 2), (-0.5, 2, 3)],
-                    _ => {
-                        let (i, j) = (k % 3 + 1, (k + 1) % 3 + 1);
-                        [(0.5, k - 1, 0), (sign, i - 1, j), (-sign, j - 1, i)]
-                    }
-                };
-                let terms = terms.map(|(c, i, j)| (c, self.graph.mul(w[i], e[j])));
+            let turns = matches!(kind, GuessKind::Omega | GuessKind::Spin);
+            let values = turns.then_some(&zero).into_iter().chain(values);
+            for (k, value) in values.enumerate() {
                 let said = GuessValue {
-                    coordinate: turning.quaternion + k,
-                    rate: true,
-                    held: turning.held,
-                    value: self.graph.sum(&terms),
+                    coordinate: first + offset + k,
+                    kind,
+                    held: guess.held,
+                    value: *value,
                 };
-                self.tell(said, turning.loc, &mut told.guesses);
+                self.tell(said, loc, out);
             }
         }
     }
@@ -276,12 +248,13 @@ impl<'m> Lowering<'m> {
         let one = self.graph.one();
         for first in self.model.quaternions() {
             let own = first..first + 4;
-            if out.iter().any(|g| !g.rate && own.contains(&g.coordinate)) {
+            let placed = |g: &GuessValue| g.kind == GuessKind::Position && own.contains(&g.coordinate);
+            if out.iter().any(placed) {
                 continue;
             }
             out.push(GuessValue {
                 coordinate: first,
-                rate: false,
+                kind: GuessKind::Position,
                 held: false,
                 value: one,
             });

@@ -127,10 +127,21 @@ pub(crate) struct OptionValue {
     pub(crate) default: f64,
 }
 
+/// What is said of a coordinate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum GuessKind {
+    Position,
+    Velocity,
+    /// Of the four of a quaternion in turn nothing, then the components of the angular velocity in axes of the ground.
+    Omega,
+    /// The same in axes of the body.
+    Spin,
+}
+
 /// Where a coordinate, or its velocity, is at a start.
 pub(crate) struct GuessValue {
     pub(crate) coordinate: usize,
-    pub(crate) rate: bool,
+    pub(crate) kind: GuessKind,
     pub(crate) held: bool,
     /// By parameters and options.
     pub(crate) value: Id,
