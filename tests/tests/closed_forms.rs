@@ -299,9 +299,7 @@ fn slider_crank_with_one_degree_of_freedom() {
     };
     let run = run(crank.clone(), StartOptions::new(), 1.0);
     let start = run.sample(0).expect("a start").to_state();
-    let kinetic = |angle: f64, rate: f64| {
-        0.5 * crank.reduced_inertia(angle) * rate * rate
-    };
+    let kinetic = |angle: f64, rate: f64| 0.5 * crank.reduced_inertia(angle) * rate * rate;
     let angle = start.q[SliderCrank::CRANK_ANGLE];
     let energy = kinetic(angle, start.v[SliderCrank::CRANK_ANGLE]) + crank.reduced_potential(angle);
     for sample in run.samples() {
@@ -413,8 +411,18 @@ fn block_slides_by_coulomb() {
         block.mu * normal,
         1e-13,
     );
-    let steep = RoughBlock { mu: 0.6, ..block };
-    assert!(steep.default_start().is_err(), "it would stick");
+    // Friction that can hold it does so where it turns.
+    let rough = RoughBlock { mu: 0.6, ..block };
+    let start = rough.default_start().expect("a start");
+    let failure = Simulation::new(&rough)
+        .start(start)
+        .until(3.0)
+        .expect_err("it would stick");
+    let Error::At { t, source, .. } = failure.error else {
+        panic!("{}", failure.error)
+    };
+    assert!(matches!(*source, Error::Chattering { .. }), "{source}");
+    assert_close("where it turns", t, rough.turning_time(-5.0), 1e-6);
 }
 
 #[test]

@@ -228,7 +228,11 @@ fn starts_are_consistent() {
                 "{}",
                 M::ID
             );
-            assert!(M::duration() > 0.0 && !Entry::of::<M>().summary.is_empty(), "{}", M::ID);
+            assert!(
+                M::duration() > 0.0 && !Entry::of::<M>().summary.is_empty(),
+                "{}",
+                M::ID
+            );
         }
     }
     every_model(&Starts);

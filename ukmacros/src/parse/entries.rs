@@ -3,8 +3,8 @@
 use super::expr::{Expr, location};
 use super::grammar::{blocks, coordinates, docs, expression, key};
 use super::item::{
-    Body, Coord, Entry, Equation, Function, Guess, Joint, Key, Let, LetValue, MassEntry, Output, Param,
-    PartUse, Shape, Start, StartOption,
+    Body, Coord, Entry, Equation, Function, Guess, Joint, Key, Let, LetValue, MassEntry, Output,
+    Param, PartUse, Shape, Start, StartOption,
 };
 use crate::diag::{Diagnostics, Loc, suggest};
 use proc_macro2::{Ident, TokenStream};

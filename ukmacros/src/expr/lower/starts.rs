@@ -248,7 +248,8 @@ impl<'m> Lowering<'m> {
         let one = self.graph.one();
         for first in self.model.quaternions() {
             let own = first..first + 4;
-            let placed = |g: &GuessValue| g.kind == GuessKind::Position && own.contains(&g.coordinate);
+            let placed =
+                |g: &GuessValue| g.kind == GuessKind::Position && own.contains(&g.coordinate);
             if out.iter().any(placed) {
                 continue;
             }
