@@ -18,7 +18,7 @@ use crate::curves::Thinned;
 use crate::failure::Failure;
 use crate::html::document;
 use crate::motion::{self, Motion};
-use crate::numbers::{full, short};
+use crate::numbers::short;
 use crate::output::{self, WholeFile};
 use crate::runs::Runs;
 use crate::scene::{Ready, Start};
@@ -175,23 +175,27 @@ pub fn animate(models: &[Entry], args: &AnimateArgs) -> Result<(), Failure> {
     failed.map_or(Ok(()), |error| Err(error.into()))
 }
 
-/// The page of one motion, in so many pictures.
+/// The page of motions of one model side by side, each with what it is called there, in so many pictures.
 ///
 /// # Errors
-/// What [`animate`] reports, and why the motion ends early if it does.
+/// What [`animate`] reports, and why a motion ends early if one does.
 pub fn page_of(
     entry: &Entry,
-    start: &Start,
-    motion: &Motion,
+    runs: &[(&str, Start, Motion)],
     pictures: u32,
 ) -> Result<String, Failure> {
-    let ready = start.ready(entry)?;
-    let film = Film::new(&ready, String::new())?;
-    let (film, error) = taken(film, &ready, motion, pictures)?;
-    match error {
-        Some(error) => Err(error.into()),
-        None => page(entry, vec![film], &foot(&ready, motion)),
+    let (mut films, mut about) = (Vec::new(), String::new());
+    for (label, start, motion) in runs {
+        let ready = start.ready(entry)?;
+        let film = Film::new(&ready, (*label).to_owned())?;
+        let (film, error) = taken(film, &ready, motion, pictures)?;
+        error.map_or(Ok(()), Err)?;
+        if films.is_empty() {
+            about = foot(&ready, motion);
+        }
+        films.push(film);
     }
+    page(entry, films, &about)
 }
 
 /// A film of a whole motion, and why it ends early.
@@ -238,8 +242,8 @@ pub(crate) fn foot(ready: &Ready<'_>, motion: &Motion) -> String {
     let parameters = parameters.zip(ready.mechanism.parameters());
     let parameters = parameters.map(|(p, value)| format!("{} = {}", p.name, short(*value, 6)));
     let parameters: Vec<String> = parameters.collect();
-    let (start, method, tol) = (ready.start, motion.method, full(motion.tol));
-    let from = format!("From `{start}`, by {method} at tolerance {tol}.");
+    let (start, method, tol) = (ready.start, motion.method, motion.tol);
+    let from = format!("From `{start}`, by {method} at tolerance {tol:e}.");
     match parameters.is_empty() {
         true => from,
         false => format!("{from} Parameters: {}.", parameters.join(", ")),

@@ -167,6 +167,17 @@ pub fn figure_of(class: &str, file: &str, text: &str, caption: impl Render) -> M
     }
 }
 
+/// A page within the page: an HTML file beside it, and a caption with a link to it.
+#[must_use]
+pub fn embedded(file: &str, text: &str, caption: impl Render) -> Markup {
+    html! {
+        figure.wide {
+            iframe src=(file) title=(text) loading="lazy" {}
+            figcaption { (caption) " " a href=(file) { "By itself." } }
+        }
+    }
+}
+
 /// A part of a page, with a heading that is numbered and a link at the top of the page.
 #[derive(Debug, Clone)]
 pub struct Section {

@@ -112,7 +112,7 @@ impl Runs {
         let mut told = |several: bool, name: &str, text: String| {
             differs.extend(several.then(|| (name.to_owned(), text)));
         };
-        told(self.tol.0.len() > 1, "tolerance", full(tol));
+        told(self.tol.0.len() > 1, "tolerance", format!("{tol:e}"));
         told(self.method.0.len() > 1, "method", method.to_string());
         told(self.stabilise.0.len() > 1, "stabilisation", way.to_string());
         let motion = Motion {
