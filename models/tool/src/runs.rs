@@ -74,14 +74,17 @@ impl Runs {
             axes.push((name, values));
         }
         let lengths = axes.iter().map(|(_, values)| values.len());
-        let lengths = lengths.chain([
+        let others = [
             self.tol.0.len(),
             self.method.0.len(),
             self.stabilise.0.len(),
-        ]);
-        let count = lengths.clone().try_fold(1_usize, usize::checked_mul);
+        ];
+        let lengths: Vec<usize> = lengths.chain(others).filter(|n| *n > 1).collect();
+        let count = lengths
+            .iter()
+            .try_fold(1_usize, |all, n| all.checked_mul(*n));
         let count = count.filter(|count| *count <= most).ok_or_else(|| {
-            let each: Vec<String> = lengths.clone().map(|n| n.to_string()).collect();
+            let each: Vec<String> = lengths.iter().map(ToString::to_string).collect();
             let product = each.join(" × ");
             Failure::Usage(format!(
                 "{product} runs are asked for; at most {most} are made"
