@@ -296,6 +296,10 @@ pub(super) fn start(
             );
             return Err(syn::Error::new(word.span(), message));
         }
+        if input.peek(syn::token::Brace) {
+            let message = "`until` needs how long a motion lasts: `until 2.0`";
+            return Err(syn::Error::new(word.span(), message));
+        }
         // In front of a brace, as behind `if` and `for`.
         until = Some(Expr::convert(
             input.call(syn::Expr::parse_without_eager_brace)?,
@@ -359,7 +363,13 @@ fn guess(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Guess> {
             return Err(syn::Error::new(keys[0].name.span(), message));
         }
     }
-    let value = expression(input, diag)?;
+    let value: syn::Expr = input.parse()?;
+    if let syn::Expr::Assign(e) = &value
+        && matches!(*e.left, syn::Expr::Index(_))
+    {
+        return Err(indexed_by_the_next("=", e.eq_token.span));
+    }
+    let value = Expr::convert(value, diag);
     Ok(Guess {
         keys,
         vector,
@@ -369,9 +379,21 @@ fn guess(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Guess> {
     })
 }
 
+/// Of `x = 1.0 [y, z] near 2.0`, which is read as `1.0[y, z]`.
+fn indexed_by_the_next(word: impl std::fmt::Display, span: proc_macro2::Span) -> syn::Error {
+    let message = format!(
+        "what stands before `{word}` is read as an index of the entry before it; put `,` between them"
+    );
+    syn::Error::new(span, message)
+}
+
 /// `x`, or `[x, y]`: what a start says something of, and whether it is a vector.
 fn guessed(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<(Vec<Key>, bool)> {
     if !input.peek(syn::token::Bracket) {
+        let word = input.fork().parse::<Ident>()?;
+        if word == "near" {
+            return Err(indexed_by_the_next(&word, word.span()));
+        }
         return Ok((vec![coordinates(input, diag)?], false));
     }
     let list;

@@ -255,6 +255,10 @@ cases! {
     start_of_a_vector_of_another_size: "coords { x, y } mass { x: 1.0, y: 1.0 } start a { [x, y] near «[1.0, 2.0, 3.0]» }" => "expected a vector of 2, found a vector of 3";
     start_of_a_mixed_vector: "coords { x, y[2] } mass { x: 1.0, y: 1.0 } start a { [x, «y»] near [1.0, 2.0] }" => "those of one vector are numbers all, or families of one size";
     start_that_turns_twice: "bodies { spatial top { mass: 1.0, inertia: [1.0, 1.0, 1.0] } } start a { dot(top.e0) = 0.0; «top.omega» = [1.0, 2.0, 3.0] }" => "`dot(top.e0)` is given twice in this start; remove one";
+    start_that_turns_again: "bodies { spatial top { mass: 1.0, inertia: [1.0, 1.0, 1.0] } } start a { top.spin near [1.0, 2.0, 3.0]; «top.omega» = [1.0, 2.0, 3.0] }" => "`dot(top.e0)` is given twice in this start; remove one";
+    start_of_vectors_without_a_comma: "coords { x, y } mass { x: 1.0, y: 1.0 } start a { dot(x) = 1.0 [x, y] «near» [1.0, 2.0] }" => "what stands before `near` is read as an index of the entry before it; put `,` between them";
+    start_of_held_vectors_without_a_comma: "coords { x, y } mass { x: 1.0, y: 1.0 } start a { dot(x) = 1.0 [x, y] «=» [1.0, 2.0] }" => "what stands before `=` is read as an index of the entry before it; put `,` between them";
+    start_that_lasts_nothing: "coords { x } mass { x: 1.0 } start a «until» { x = 1.0 }" => "`until` needs how long a motion lasts: `until 2.0`";
     start_of_a_wrong_turn: "bodies { spatial top { mass: 1.0, inertia: [1.0, 1.0, 1.0] } } start a { top.spin = «2.0» }" => "expected a vector of 3, found a number";
     start_of_what_no_body_has: "bodies { planar bar { mass: 1.0, inertia: 1.0 } } start a { bar.«spin» = 2.0 }" => "body `bar` has no coordinate `spin`";
     start_that_lasts_no_time: "coords { x } mass { x: 1.0 } start a until «0.0» { x = 1.0 }" => "a motion lasts a time above 0, not 0";

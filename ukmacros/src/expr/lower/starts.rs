@@ -144,19 +144,22 @@ impl<'m> Lowering<'m> {
                     held: guess.held,
                     value: *value,
                 };
-                self.tell(said, key.loc, out);
+                if !self.tell(said, key.loc, out) {
+                    return;
+                }
             }
         }
     }
 
-    /// Adds what is said, unless it was said before.
-    fn tell(&mut self, said: GuessValue, loc: Loc, out: &mut Vec<GuessValue>) {
+    /// Adds what is said, unless it was said before, which is reported.
+    fn tell(&mut self, said: GuessValue, loc: Loc, out: &mut Vec<GuessValue>) -> bool {
         let rate = said.kind != GuessKind::Position;
         let again = |other: &GuessValue| {
             other.coordinate == said.coordinate && (other.kind != GuessKind::Position) == rate
         };
         if !out.iter().any(again) {
-            return out.push(said);
+            out.push(said);
+            return true;
         }
         let name = &self.model.coord_elements[said.coordinate].name;
         let shown = match rate {
@@ -165,6 +168,7 @@ impl<'m> Lowering<'m> {
         };
         let message = format!("`{shown}` is given twice in this start; remove one");
         self.diag.error(loc, message);
+        false
     }
 
     /// Of `arm.centre`, `arm.omega` and `arm.spin`: the key of the body's first coordinate, and which it is.
@@ -237,7 +241,9 @@ impl<'m> Lowering<'m> {
                     held: guess.held,
                     value: *value,
                 };
-                self.tell(said, loc, out);
+                if !self.tell(said, loc, out) {
+                    return;
+                }
             }
         }
     }
