@@ -16,6 +16,7 @@ use crate::list::list;
 use crate::modes::{ModesArgs, modes};
 use crate::report::{ReportArgs, report};
 use crate::run::{RunArgs, run};
+use crate::stability::{ModelArgs, of_model};
 use crate::sweep::{SweepArgs, sweep};
 
 /// The exit codes, and how values are written: the end of `--help`.
@@ -40,6 +41,9 @@ pub enum Command {
     Explain(ExplainArgs),
     /// Measure error against run time, for each method, formula and stabilisation, and say which to take for which accuracy
     Report(ReportArgs),
+    /// Sweep each parameter, the speed of the start and the tolerance until something breaks: how far results are right, and what is said
+    /// beyond
+    Stability(ModelArgs),
 }
 
 impl Command {
@@ -56,6 +60,7 @@ impl Command {
             Command::Modes(args) => modes(models, args),
             Command::Explain(args) => explain(models, args),
             Command::Report(args) => report(models, args),
+            Command::Stability(args) => of_model(models, args),
         }
     }
 }

@@ -46,7 +46,7 @@ pub struct Runs {
 
 /// One of the runs.
 #[derive(Debug, Clone)]
-pub struct Chosen {
+pub struct Variant {
     /// With which parameters, and from where.
     pub start: Start,
     /// How it is computed.
@@ -60,7 +60,7 @@ impl Runs {
     ///
     /// # Errors
     /// [`Failure::Usage`] for unknown names, values in the wrong unit, and more runs than `most`.
-    pub fn each(&self, entry: &Entry, most: usize) -> Result<Vec<Chosen>, Failure> {
+    pub fn each(&self, entry: &Entry, most: usize) -> Result<Vec<Variant>, Failure> {
         let plain = Start {
             start: self.start.clone(),
             guesses: self.guesses.clone(),
@@ -95,7 +95,7 @@ impl Runs {
             .collect())
     }
 
-    fn chosen(&self, plain: &Start, axes: &[(&String, Vec<f64>)], index: usize) -> Chosen {
+    fn chosen(&self, plain: &Start, axes: &[(&String, Vec<f64>)], index: usize) -> Variant {
         let (mut start, mut differs, mut rest) = (plain.clone(), Vec::new(), index);
         let mut pick = |count: usize| {
             let place = rest % count;
@@ -125,7 +125,7 @@ impl Runs {
             max_steps: self.max_steps,
             stabilise: way,
         };
-        Chosen {
+        Variant {
             start,
             motion,
             differs,

@@ -24,7 +24,7 @@ use crate::motion;
 use crate::numbers::count;
 use crate::output::{self, write_whole};
 use crate::progress::Progress;
-use crate::runs::{Chosen, Runs};
+use crate::runs::{Runs, Variant};
 
 /// The arguments of `sweep`.
 #[derive(Debug, Args)]
@@ -117,7 +117,7 @@ pub fn sweep(models: &[Entry], args: &SweepArgs) -> Result<(), Failure> {
 /// All that is to be computed.
 struct Plan<'a> {
     entry: &'a Entry,
-    members: Vec<Chosen>,
+    members: Vec<Variant>,
     columns: Columns,
     every: Option<f64>,
 }
@@ -154,7 +154,7 @@ impl Plan<'_> {
 
     /// What says which run member number `k` is.
     fn key(&self, k: usize) -> Result<Vec<String>, Failure> {
-        let Chosen { start, motion, .. } = &self.members[k];
+        let Variant { start, motion, .. } = &self.members[k];
         let (mechanism, spec, options) = start.settings(self.entry)?;
         let own = spec.filter(|_| !start.guesses());
         let mut key = vec![
