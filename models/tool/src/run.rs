@@ -28,15 +28,15 @@ pub struct RunArgs {
     /// How its motion is computed
     #[command(flatten)]
     pub motion: Motion,
-    /// Sample at this interval; each accepted step if absent
+    /// Sample at this interval; each accepted step if absent, unless something is drawn
     #[arg(long, value_name = "TIME", value_parser = motion::interval, allow_hyphen_values = true)]
     pub every: Option<f64>,
     /// Write the samples as CSV; `-` is standard output, which then holds nothing else and gets each row as soon as it is computed.
     /// Of a run that fails or is interrupted (Ctrl-C), what was computed so far is written
     #[arg(long, value_name = "FILE", value_parser = command::path)]
     pub csv: Option<PathBuf>,
-    /// Draw curves as SVG: each is a NAME of `--csv` over time, or `X,Y`, which is Y over X. Samples are 1000 intervals apart then, if
-    /// `--every` says nothing else
+    /// Draw curves as SVG: each is a NAME of `--csv` over time, or `X,Y`, which is Y over X. Where `--every` says nothing, the run then has
+    /// 1000 equal intervals
     #[arg(long, num_args = 2.., value_names = ["FILE", "CURVE"])]
     pub plot: Option<Vec<String>>,
     /// Write a page that plays the motion, as `animate` does
