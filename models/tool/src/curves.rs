@@ -39,7 +39,7 @@ impl<T> Thinned<T> {
     }
 
     pub(crate) fn push(&mut self, item: T) {
-        let kept = self.seen % self.stride == 0;
+        let kept = self.seen.is_multiple_of(self.stride);
         self.seen += 1;
         if !kept {
             self.last = Some(item);
