@@ -1,12 +1,12 @@
 //! A double pendulum in Cartesian coordinates.
 
-use crate::{Model, Reference, StartOption, StartOptions, StartSpec, reference};
+use crate::{Model, Reference, reference};
 use serde_json::Value;
-use std::f64::consts::FRAC_PI_2;
-use ukcore::model::{Chosen, positive};
-use ukcore::{Error, State};
+use ukcore::State;
 
 ukcore::multibody! {
+    /// Double pendulum in Cartesian coordinates (chaotic).
+    ///
     /// Two point masses on massless rigid rods, the first about a pivot at the origin; y points up.
     pub DoublePendulum {
         params {
@@ -39,72 +39,30 @@ ukcore::multibody! {
             /// Angle of the outer rod from the downward vertical
             angle2 [rad] = atan2(x2 - x1, y1 - y2),
         }
+        let rod = |length, angle| length * [sin(angle), -cos(angle)];
+        let swing = |length, angle, rate| length * rate * [cos(angle), sin(angle)];
+        /// let go with given angles and angular velocities of the rods
+        start released(
+            /// Angle of the inner rod from the downward vertical
+            from1 = (PI / 2.0) [rad],
+            /// Angle of the outer rod from the downward vertical
+            from2 = (PI / 2.0) [rad],
+            /// Angular velocity of the inner rod
+            rate1 = 0.0 [rad/s],
+            /// Angular velocity of the outer rod
+            rate2 = 0.0 [rad/s],
+        ) {
+            [x1, y1] near rod(l1, from1),
+            [x2, y2] near rod(l1, from1) + rod(l2, from2)
+            dot([x1, y1]) near swing(l1, from1, rate1)
+            dot([x2, y2]) near swing(l1, from1, rate1) + swing(l2, from2, rate2)
+        }
         draw { polyline([0, 0], [x1, y1], [x2, y2]) trace([x2, y2]) }
-    }
-}
-
-/// Options that both formulations of the double pendulum share.
-pub(crate) const RELEASED: StartSpec = StartSpec {
-    name: "released",
-    doc: "let go with given angles and angular velocities of the rods",
-    options: &[
-        option(
-            "from1",
-            "angle of the inner rod from the downward vertical",
-            FRAC_PI_2,
-            "rad",
-        ),
-        option(
-            "from2",
-            "angle of the outer rod from the downward vertical",
-            FRAC_PI_2,
-            "rad",
-        ),
-        option("rate1", "angular velocity of the inner rod", 0.0, "rad/s"),
-        option("rate2", "angular velocity of the outer rod", 0.0, "rad/s"),
-    ],
-};
-
-const fn option(
-    name: &'static str,
-    doc: &'static str,
-    default: f64,
-    unit: &'static str,
-) -> StartOption {
-    StartOption {
-        name,
-        doc,
-        default,
-        unit,
     }
 }
 
 impl Model for DoublePendulum {
     const ID: &'static str = "double_pendulum";
-
-    fn summary() -> &'static str {
-        "double pendulum in Cartesian coordinates (chaotic)"
-    }
-
-    fn starts() -> &'static [StartSpec] {
-        &[RELEASED]
-    }
-
-    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let [from1, from2, rate1, rate2] = Chosen::among(Self::starts(), name, options)?.values();
-        positive("l1", self.l1)?;
-        positive("l2", self.l2)?;
-        let (q, v) = self.at_angles([from1, from2], [rate1, rate2]);
-        Ok(State {
-            t: 0.0,
-            q: q.to_vec(),
-            v: v.to_vec(),
-        })
-    }
-
-    fn duration() -> f64 {
-        10.0
-    }
 
     fn references() -> Vec<Reference> {
         known(|t, point| State {

@@ -1,11 +1,11 @@
 //! The double pendulum in angles: no constraints, M from the kinetic energy.
 
-use crate::double_pendulum::{self, DoublePendulum, RELEASED};
-use crate::{Model, Reference, StartOptions, StartSpec, reference};
-use ukcore::model::{Chosen, positive};
-use ukcore::{Error, State};
+use crate::double_pendulum::{self, DoublePendulum};
+use crate::{Model, Reference, reference};
 
 ukcore::multibody! {
+    /// Double pendulum in angles, by its kinetic energy (equals double_pendulum).
+    ///
     /// The double pendulum in the angles of its rods from the downward vertical, declared by its energies alone.
     pub DoublePendulumAngles {
         params {
@@ -45,6 +45,20 @@ ukcore::multibody! {
             /// Vertical position of the outer mass, upwards
             y2 [m] = -l1 * cos(th1) - l2 * cos(th2),
         }
+        /// let go with given angles and angular velocities of the rods
+        start released(
+            /// Angle of the inner rod from the downward vertical
+            from1 = (PI / 2.0) [rad],
+            /// Angle of the outer rod from the downward vertical
+            from2 = (PI / 2.0) [rad],
+            /// Angular velocity of the inner rod
+            rate1 = 0.0 [rad/s],
+            /// Angular velocity of the outer rod
+            rate2 = 0.0 [rad/s],
+        ) {
+            [th1, th2] = [from1, from2]
+            dot([th1, th2]) = [rate1, rate2]
+        }
         let inner = l1 * [sin(th1), -cos(th1)];
         let outer = inner + l2 * [sin(th2), -cos(th2)];
         draw { polyline([0, 0], inner, outer) trace(outer) }
@@ -53,29 +67,6 @@ ukcore::multibody! {
 
 impl Model for DoublePendulumAngles {
     const ID: &'static str = "double_pendulum_angles";
-
-    fn summary() -> &'static str {
-        "double pendulum in angles, by its kinetic energy (equals double_pendulum)"
-    }
-
-    fn starts() -> &'static [StartSpec] {
-        &[RELEASED]
-    }
-
-    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let [from1, from2, rate1, rate2] = Chosen::among(Self::starts(), name, options)?.values();
-        positive("l1", self.l1)?;
-        positive("l2", self.l2)?;
-        Ok(State {
-            t: 0.0,
-            q: vec![from1, from2],
-            v: vec![rate1, rate2],
-        })
-    }
-
-    fn duration() -> f64 {
-        10.0
-    }
 
     fn references() -> Vec<Reference> {
         double_pendulum::known(|t, point| {

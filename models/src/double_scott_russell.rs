@@ -1,11 +1,8 @@
 //! Two Scott-Russell linkages that carry a table: more constraints than needed.
 
-use crate::{Model, StartOption, StartOptions, StartSpec};
-use std::f64::consts::PI;
-use ukcore::model::{Chosen, positive};
-use ukcore::{Error, State};
-
 ukcore::multibody! {
+    /// Two Scott-Russell linkages that carry a table (two redundant constraints).
+    ///
     /// Two Scott-Russell linkages side by side carry a level table on a spring: the crank of length l, with its end in the middle of a rod of
     /// length 2l whose foot runs on the x axis, leads the other end of the rod on a vertical line. That it keeps to that line is said
     /// once more by a guide, in both linkages: two of the rows are redundant, which shows where the joints are closed, not off them. y
@@ -50,82 +47,26 @@ ukcore::multibody! {
             /// Height of the table
             height [m] = table.y,
         }
-    }
-}
-
-impl Model for DoubleScottRussell {
-    const ID: &'static str = "double_scott_russell";
-
-    fn summary() -> &'static str {
-        "two Scott-Russell linkages that carry a table (two redundant constraints)"
-    }
-
-    fn starts() -> &'static [StartSpec] {
-        &[StartSpec {
-            name: "turning",
-            doc: "the first crank at an angle, turning, the second one its mirror image",
-            options: &[
-                StartOption {
-                    name: "angle",
-                    doc: "angle of the first crank",
-                    default: 0.7,
-                    unit: "rad",
-                },
-                StartOption {
-                    name: "speed",
-                    doc: "its angular velocity",
-                    default: 0.5,
-                    unit: "rad/s",
-                },
-            ],
-        }]
-    }
-
-    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let [angle, speed] = Chosen::among(Self::starts(), name, options)?.values();
-        positive("l", self.l)?;
-        Ok(self.at_crank(angle, speed))
-    }
-
-    fn duration() -> f64 {
-        2.0
+        /// the first crank at an angle, turning, the second one its mirror image
+        start turning(
+            /// Angle of the first crank
+            angle = 0.7 [rad],
+            /// Its angular velocity
+            speed = 0.5 [rad/s],
+        ) until 2.0 {
+            crank[0].angle = angle
+            crank[0].omega = speed
+            // The rod leans as the other crank.
+            crank[1].angle near PI - angle
+            rod[0].angle near PI - angle
+            rod[1].angle near angle
+            for i in 0..2 { rod[i].centre near [i * span, 0] + l * [(1 - 2 * i) * cos(angle), sin(angle)] }
+            table.y near 2 * l * sin(angle)
+        }
     }
 }
 
 impl DoubleScottRussell {
-    /// The consistent state at t = 0 with the first crank at `angle`, rad, turning at `speed`, rad/s.
-    #[must_use]
-    pub fn at_crank(&self, angle: f64, speed: f64) -> State {
-        let mut state = State::zeros::<Self>();
-        let mut enter = |first: usize, q: [f64; 3], v: [f64; 3]| {
-            state.q[first..first + 3].copy_from_slice(&q);
-            state.v[first..first + 3].copy_from_slice(&v);
-        };
-        let l = self.l;
-        let (own, mirrored) = ((angle, speed), (PI - angle, -speed));
-        // The rod leans as the other crank.
-        for (i, (crank, rod)) in [(own, mirrored), (mirrored, own)].into_iter().enumerate() {
-            let ((sin, cos), rate) = (crank.0.sin_cos(), crank.1);
-            let place = |k: f64| {
-                (
-                    [i as f64 * self.span + k * cos, k * sin],
-                    [-k * sin, k * cos],
-                )
-            };
-            for (first, k, (turn, turning)) in
-                [(Self::CRANK_X[i], l / 2.0, crank), (Self::ROD_X[i], l, rod)]
-            {
-                let ([x, y], [u, v]) = place(k);
-                enter(first, [x, y, turn], [u * rate, v * rate, turning]);
-            }
-        }
-        let (sin, cos) = angle.sin_cos();
-        let rise = 2.0 * l * cos * speed;
-        let table = [self.span / 2.0, 2.0 * l * sin, 0.0];
-        enter(Self::TABLE_X, table, [0.0, rise, 0.0]);
-        state
-    }
-
     /// Moment of inertia of the whole linkage reduced to a crank, kg m²: T = ½ J(θ) θ̇².
     #[must_use]
     pub fn reduced_inertia(&self, angle: f64) -> f64 {

@@ -1,12 +1,13 @@
 //! The two-joint carangiform fish robot of Zhao, Zhen & Chen 2013, §6-10.
 
-use crate::{Model, Reference, StartOption, StartOptions, StartSpec, reference};
+use crate::{Model, Reference, reference};
 use serde_json::Value;
 use std::f64::consts::PI;
-use ukcore::model::Chosen;
-use ukcore::{Error, State};
+use ukcore::State;
 
 ukcore::multibody! {
+    /// Two-joint carangiform fish robot (Zhao, Zhen & Chen 2013, case 2).
+    ///
     /// Fish robot of three links: body, peduncle and tail fin. x is longitudinal with the tail at +x, so it swims towards −x; y is
     /// lateral. The angles of peduncle and fin are prescribed and carry no inertia, which makes M singular (eqs. 36, 37).
     /// Parameters are those of Table 2, with its moments of inertia of peduncle and fin left out as the model does not use them.
@@ -92,6 +93,20 @@ ukcore::multibody! {
             /// Lateral position of the fin's trailing edge
             edge_y [m] = y3 + b * sin(th3),
         }
+        /// the body at rest, peduncle and fin as the gait has them at t = 0 (Table 3, made consistent)
+        start table3(
+            /// Longitudinal position of the body
+            x = 0.0 [m],
+            /// Lateral position of the body
+            y = 0.0 [m],
+            /// Angle of the body
+            angle = 0.0 [rad],
+        ) until 4.0 {
+            [x1, y1, th1] = [x, y, angle]
+            dot([x1, y1, th1]) = 0.0,
+            [x2, y2] near [x, y] + a * [cos(angle), sin(angle)],
+            [x3, y3] near [x, y] + a * [cos(angle), sin(angle)]
+        }
         draw {
             line([x1 - a * cos(th1), y1 - a * sin(th1)], [x1 + a * cos(th1), y1 + a * sin(th1)])
             line([x2 - l2 / 2 * cos(th2), y2 - l2 / 2 * sin(th2)], [x2 + l2 / 2 * cos(th2), y2 + l2 / 2 * sin(th2)])
@@ -101,48 +116,8 @@ ukcore::multibody! {
     }
 }
 
-const BODY_X: StartOption = StartOption {
-    name: "x",
-    doc: "longitudinal position of the body",
-    default: 0.0,
-    unit: "m",
-};
-const BODY_Y: StartOption = StartOption {
-    name: "y",
-    doc: "lateral position of the body",
-    default: 0.0,
-    unit: "m",
-};
-const BODY_ANGLE: StartOption = StartOption {
-    name: "angle",
-    doc: "angle of the body",
-    default: 0.0,
-    unit: "rad",
-};
-
 impl Model for FishRobot {
     const ID: &'static str = "fish";
-
-    fn summary() -> &'static str {
-        "two-joint carangiform fish robot (Zhao, Zhen & Chen 2013, case 2)"
-    }
-
-    fn starts() -> &'static [StartSpec] {
-        &[StartSpec {
-            name: "table3",
-            doc: "the body at rest, peduncle and fin as the gait has them at t = 0 (Table 3, made consistent)",
-            options: &[BODY_X, BODY_Y, BODY_ANGLE],
-        }]
-    }
-
-    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let [x, y, angle] = Chosen::among(Self::starts(), name, options)?.values();
-        Ok(self.follow(0.0, [x, y, angle], [0.0; 3]))
-    }
-
-    fn duration() -> f64 {
-        4.0
-    }
 
     fn references() -> Vec<Reference> {
         let data = reference::data(include_str!("../data/fish.json"));

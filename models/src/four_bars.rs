@@ -1,10 +1,8 @@
 //! Coupled four-bar linkages side by side, which pass through singular positions.
 
-use crate::{Model, StartOption, StartOptions, StartSpec};
-use ukcore::model::{Chosen, positive};
-use ukcore::{Error, State};
-
 ukcore::multibody! {
+    /// Four four-bar linkages in a row, coupled by their cranks.
+    ///
     /// N four-bar linkages in a row that share their cranks: N + 1 uniform rods from the ground points (i l, 0) to the tops (x\[i\],
     /// y\[i\]), and N uniform rods from each top to the next. The y axis points up. A uniform rod with the end velocities a and b has the
     /// kinetic energy m/6 (a² + a·b + b²), so that M couples neighbours. Where all rods lie in one line the N couplers are redundant.
@@ -44,6 +42,16 @@ ukcore::multibody! {
             /// Angle of the first crank from the upright, towards +x
             lean [rad] = atan2(x[0], y[0]),
         }
+        /// all cranks upright, all tops moving at one speed
+        start upright(
+            /// Horizontal speed of all tops
+            speed = 1.0 [m/s],
+        ) until 0.6 {
+            for i in 0..N + 1 {
+                [x[i], y[i]] near [i * l, l]
+                dot(x[i]) near speed
+            }
+        }
         draw {
             for i in 0..N + 1 { line([i * l, 0], [x[i], y[i]]) }
             for i in 0..N { line([x[i], y[i]], [x[i + 1], y[i + 1]]) }
@@ -53,45 +61,6 @@ ukcore::multibody! {
 
 /// Number of tops.
 const TOPS: usize = FourBars::X.len();
-
-const SPEED: StartOption = StartOption {
-    name: "speed",
-    doc: "horizontal speed of all tops",
-    default: 1.0,
-    unit: "m/s",
-};
-
-impl Model for FourBars {
-    const ID: &'static str = "four_bars";
-
-    fn summary() -> &'static str {
-        "four four-bar linkages in a row, coupled by their cranks"
-    }
-
-    fn starts() -> &'static [StartSpec] {
-        &[StartSpec {
-            name: "upright",
-            doc: "all cranks upright, all tops moving at one speed",
-            options: &[SPEED],
-        }]
-    }
-
-    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let [speed] = Chosen::among(Self::starts(), name, options)?.values();
-        positive("l", self.l)?;
-        let mut q = vec![self.l; 2 * TOPS];
-        let mut v = vec![0.0; 2 * TOPS];
-        for (i, &x) in FourBars::X.iter().enumerate() {
-            q[x] = i as f64 * self.l;
-            v[x] = speed;
-        }
-        Ok(State { t: 0.0, q, v })
-    }
-
-    fn duration() -> f64 {
-        0.6
-    }
-}
 
 impl FourBars {
     /// k in θ̈ = k sin θ, 1/s², for cranks that all lean by θ from the upright.

@@ -1,11 +1,8 @@
 //! Kapitza's pendulum: a pendulum that stands on its head because its pivot shakes.
 
-use crate::{Model, StartOption, StartOptions, StartSpec};
-use std::f64::consts::PI;
-use ukcore::model::{Chosen, positive};
-use ukcore::{Error, State};
-
 ukcore::multibody! {
+    /// Pendulum upside down on a shaking pivot (time in the constraint).
+    ///
     /// Pendulum whose pivot moves vertically as a cos(w t), in Cartesian coordinates of the bob; y points up. The rod's constraint
     /// contains the time.
     pub KapitzaPendulum {
@@ -37,74 +34,27 @@ ukcore::multibody! {
             /// Height of the pivot
             pivot_y [m] = pivot,
         }
+        /// near the upward vertical, pivot at its highest
+        start inverted(
+            /// Angle from the upward vertical, clockwise
+            from = 0.2 [rad],
+            /// Angular velocity
+            rate = 0.0 [rad/s],
+        ) until 5.0 {
+            [x, y] near l * [sin(from), cos(from)] + [0, a]
+            dot([x, y]) near l * rate * [cos(from), -sin(from)]
+        }
+        /// near the downward vertical, pivot at its highest
+        start hanging(
+            /// Angle from the downward vertical, counter-clockwise
+            from = 0.2 [rad],
+            /// Angular velocity
+            rate = 0.0 [rad/s],
+        ) until 5.0 {
+            [x, y] near l * [sin(from), -cos(from)] + [0, a]
+            dot([x, y]) near l * rate * [cos(from), sin(from)]
+        }
         draw { line([0, pivot], [x, y]) circle([x, y], 0.05 * l) trace([x, y]) }
-    }
-}
-
-const RATE: StartOption = StartOption {
-    name: "rate",
-    doc: "angular velocity",
-    default: 0.0,
-    unit: "rad/s",
-};
-
-impl Model for KapitzaPendulum {
-    const ID: &'static str = "kapitza";
-
-    fn summary() -> &'static str {
-        "pendulum upside down on a shaking pivot (time in the constraint)"
-    }
-
-    fn starts() -> &'static [StartSpec] {
-        &[
-            StartSpec {
-                name: "inverted",
-                doc: "near the upward vertical, pivot at its highest",
-                options: &[
-                    StartOption {
-                        name: "from",
-                        doc: "angle from the upward vertical, clockwise",
-                        default: 0.2,
-                        unit: "rad",
-                    },
-                    RATE,
-                ],
-            },
-            StartSpec {
-                name: "hanging",
-                doc: "near the downward vertical, pivot at its highest",
-                options: &[
-                    StartOption {
-                        name: "from",
-                        doc: "angle from the downward vertical, counter-clockwise",
-                        default: 0.2,
-                        unit: "rad",
-                    },
-                    RATE,
-                ],
-            },
-        ]
-    }
-
-    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let start = Chosen::among(Self::starts(), name, options)?;
-        let [from, rate] = start.values();
-        positive("l", self.l)?;
-        let (angle, rate) = if start.spec.name == "hanging" {
-            (PI - from, -rate)
-        } else {
-            (from, rate)
-        };
-        let (q, v) = self.at_angle(0.0, angle, rate);
-        Ok(State {
-            t: 0.0,
-            q: q.to_vec(),
-            v: v.to_vec(),
-        })
-    }
-
-    fn duration() -> f64 {
-        5.0
     }
 }
 

@@ -1,10 +1,10 @@
 //! A knife edge on an inclined plane: nonholonomic, in closed form.
 
-use crate::{Model, Reference, StartOption, StartOptions, StartSpec};
-use ukcore::model::Chosen;
-use ukcore::{Error, State};
+use crate::{Model, Reference};
 
 ukcore::multibody! {
+    /// Knife edge on an inclined plane (nonholonomic, closed form).
+    ///
     /// Knife edge (a skate) on a plane inclined by `slope`; x points down the slope, y across it. The edge touches at its centre of mass
     /// and does not slip sideways: a nonholonomic constraint. Set turning, it drifts across the slope and never gets down.
     pub KnifeEdge {
@@ -35,57 +35,25 @@ ukcore::multibody! {
             /// Angular velocity
             spin [rad/s] = dot(th),
         }
+        /// at the origin, turning and gliding along its edge
+        start spinning(
+            /// Angular velocity
+            turn = 1.0 [rad/s],
+            /// Speed along the edge
+            glide = 0.0 [m/s],
+            /// Direction of the edge, from the line of fall
+            heading = 0.0 [rad],
+        ) {
+            th = heading
+            dot(th) = turn
+            dot([x, y]) near glide * [cos(heading), sin(heading)]
+        }
         draw { line([y - 0.2 * sin(th), 0.2 * cos(th) - x], [y + 0.2 * sin(th), -x - 0.2 * cos(th)]) trace([y, -x]) }
     }
 }
 
 impl Model for KnifeEdge {
     const ID: &'static str = "knife_edge";
-
-    fn summary() -> &'static str {
-        "knife edge on an inclined plane (nonholonomic, closed form)"
-    }
-
-    fn starts() -> &'static [StartSpec] {
-        &[StartSpec {
-            name: "spinning",
-            doc: "at the origin, turning and gliding along its edge",
-            options: &[
-                StartOption {
-                    name: "turn",
-                    doc: "angular velocity",
-                    default: 1.0,
-                    unit: "rad/s",
-                },
-                StartOption {
-                    name: "glide",
-                    doc: "speed along the edge",
-                    default: 0.0,
-                    unit: "m/s",
-                },
-                StartOption {
-                    name: "heading",
-                    doc: "direction of the edge, from the line of fall",
-                    default: 0.0,
-                    unit: "rad",
-                },
-            ],
-        }]
-    }
-
-    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let [turn, glide, heading] = Chosen::among(Self::starts(), name, options)?.values();
-        let (sin, cos) = heading.sin_cos();
-        Ok(State {
-            t: 0.0,
-            q: vec![0.0, 0.0, heading],
-            v: vec![glide * cos, glide * sin, turn],
-        })
-    }
-
-    fn duration() -> f64 {
-        10.0
-    }
 
     fn references() -> Vec<Reference> {
         let edge = KnifeEdge::default();

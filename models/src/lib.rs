@@ -1,7 +1,7 @@
 //! Mechanisms declared with [`ukcore::multibody!`]: the two of Zhao, Zhen & Chen 2013 and a small one for each feature.
 //!
-//! Each module holds a declaration, its start states, and what is known about its motion in closed form. All models are found
-//! by name in the [registry](visit).
+//! Each module holds a declaration and what is known about its motion in closed form. All models are found by name in the
+//! [registry](visit).
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

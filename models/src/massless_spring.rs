@@ -1,10 +1,10 @@
 //! A mass on two springs in series, joined by a massless point: M is singular.
 
-use crate::{Model, Reference, StartOption, StartOptions, StartSpec};
-use ukcore::model::{Chosen, positive};
-use ukcore::{Error, State};
+use crate::{Model, Reference};
 
 ukcore::multibody! {
+    /// Mass on two springs with a massless joint (singular M, closed form).
+    ///
     /// Wall, spring k1, massless joint, spring k2, mass: all along one line. The joint has no mass, so the forces of the springs on it
     /// balance at all times; declared as a constraint this makes [M | Aᵀ] regular (the condition of eq. 19), and its constraint
     /// force is zero. Both positions are measured from where the springs are relaxed.
@@ -30,53 +30,22 @@ ukcore::multibody! {
             /// Force that the springs transmit
             spring_force [N] = k1 * joint,
         }
+        /// mass pulled out and let go, joint in balance
+        start pulled(
+            /// Position of the mass
+            pull = 0.1 [m],
+            /// Velocity of the mass
+            speed = 0.0 [m/s],
+        ) {
+            x = pull
+            dot(x) = speed
+        }
         draw { spring([0, 0], [1 + joint, 0]) spring([1 + joint, 0], [2 + x, 0]) circle([2 + x, 0], 0.1) }
     }
 }
 
 impl Model for MasslessSpring {
     const ID: &'static str = "massless_spring";
-
-    fn summary() -> &'static str {
-        "mass on two springs with a massless joint (singular M, closed form)"
-    }
-
-    fn starts() -> &'static [StartSpec] {
-        &[StartSpec {
-            name: "pulled",
-            doc: "mass pulled out and let go, joint in balance",
-            options: &[
-                StartOption {
-                    name: "pull",
-                    doc: "position of the mass",
-                    default: 0.1,
-                    unit: "m",
-                },
-                StartOption {
-                    name: "speed",
-                    doc: "velocity of the mass",
-                    default: 0.0,
-                    unit: "m/s",
-                },
-            ],
-        }]
-    }
-
-    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let [pull, speed] = Chosen::among(Self::starts(), name, options)?.values();
-        positive("k1", self.k1)?;
-        positive("k2", self.k2)?;
-        let ratio = self.ratio();
-        Ok(State {
-            t: 0.0,
-            q: vec![ratio * pull, pull],
-            v: vec![ratio * speed, speed],
-        })
-    }
-
-    fn duration() -> f64 {
-        10.0
-    }
 
     fn references() -> Vec<Reference> {
         let spring = MasslessSpring::default();

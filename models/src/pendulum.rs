@@ -1,12 +1,12 @@
 //! A simple pendulum in Cartesian coordinates, with its motion in elliptic functions.
 
 use crate::elliptic;
-use crate::{Model, Reference, StartOption, StartOptions, StartSpec};
+use crate::{Model, Reference};
 use std::f64::consts::FRAC_PI_2;
-use ukcore::model::{Chosen, positive};
-use ukcore::{Error, State};
 
 ukcore::multibody! {
+    /// Simple pendulum in Cartesian coordinates (closed form).
+    ///
     /// Point mass on a massless rigid rod about a pivot at the origin; y points up.
     pub Pendulum {
         params {
@@ -32,55 +32,22 @@ ukcore::multibody! {
             /// Tension of the rod
             tension [N] = m * (sq(dot(x)) + sq(dot(y)) - g * y) / l,
         }
+        /// let go at an angle
+        start released(
+            /// Angle from the downward vertical, counter-clockwise
+            from = (-PI / 2.0) [rad],
+            /// Angular velocity
+            rate = 0.0 [rad/s],
+        ) {
+            [x, y] near l * [sin(from), -cos(from)]
+            dot([x, y]) near l * rate * [cos(from), sin(from)]
+        }
         draw { line([0, 0], [x, y]) circle([x, y], 0.05 * l) }
     }
 }
 
-/// Angle at which a pendulum is let go.
-pub(crate) const FROM: StartOption = StartOption {
-    name: "from",
-    doc: "angle from the downward vertical, counter-clockwise",
-    default: -FRAC_PI_2,
-    unit: "rad",
-};
-
-/// Angular velocity with which it is let go.
-pub(crate) const RATE: StartOption = StartOption {
-    name: "rate",
-    doc: "angular velocity",
-    default: 0.0,
-    unit: "rad/s",
-};
-
 impl Model for Pendulum {
     const ID: &'static str = "pendulum";
-
-    fn summary() -> &'static str {
-        "simple pendulum in Cartesian coordinates (closed form)"
-    }
-
-    fn starts() -> &'static [StartSpec] {
-        &[StartSpec {
-            name: "released",
-            doc: "let go at an angle",
-            options: &[FROM, RATE],
-        }]
-    }
-
-    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let [angle, rate] = Chosen::among(Self::starts(), name, options)?.values();
-        positive("l", self.l)?;
-        let (q, v) = self.at_angle(angle, rate);
-        Ok(State {
-            t: 0.0,
-            q: q.to_vec(),
-            v: v.to_vec(),
-        })
-    }
-
-    fn duration() -> f64 {
-        10.0
-    }
 
     fn references() -> Vec<Reference> {
         let pendulum = Pendulum::default();

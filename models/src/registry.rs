@@ -44,6 +44,23 @@ macro_rules! registry {
     };
 }
 
+/// Models that say nothing but their names beyond their declarations.
+macro_rules! plain {
+    ($($model:ty = $id:literal),* $(,)?) => {
+        $(impl Model for $model {
+            const ID: &'static str = $id;
+        })*
+    };
+}
+
+plain![
+    KapitzaPendulum = "kapitza",
+    SliderCrank = "slider_crank",
+    DoubleScottRussell = "double_scott_russell",
+    RigidBody = "rigid_body",
+    FourBars = "four_bars",
+];
+
 registry![
     UChain,
     FishRobot,

@@ -1,11 +1,10 @@
 //! A free rigid body in a unit quaternion: M is 4 × 4 of rank 3.
 
 use crate::elliptic;
-use crate::{Model, StartOption, StartOptions, StartSpec};
-use ukcore::model::Chosen;
-use ukcore::{Error, State};
 
 ukcore::multibody! {
+    /// Free rigid body in a unit quaternion (singular M from the kinetic energy).
+    ///
     /// Free rigid body about its centre of mass, turned by the unit quaternion (e0, e1, e2, e3) from body to space. The angular
     /// velocity in body axes is ω = 2 G(e) ė, so M = 4 Gᵀ I G is singular along e; the constraint |e|² = 1 mends that (eq. 19).
     pub RigidBody {
@@ -43,56 +42,23 @@ ukcore::multibody! {
             /// Angular momentum along the space axis z
             momentum_z [kg m^2/s] = in_space[2],
         }
+        /// body axes along the space axes, turning nearly about the middle, unstable one
+        start tumbling(
+            /// Angular velocity about axis 1
+            rate1 = 0.01 [rad/s],
+            /// Angular velocity about axis 2
+            rate2 = 2.0 [rad/s],
+            /// Angular velocity about axis 3
+            rate3 = 0.02 [rad/s],
+        ) until 20.0 {
+            e0 = 1.0
+            dot([e1, e2, e3]) = 0.5 * [rate1, rate2, rate3]
+        }
         let turned = |v| v + 2 * e0 * cross(im, v) + 2 * cross(im, cross(im, v));
         draw {
             line(turned([-1, 0, 0]), turned([1, 0, 0])) line(turned([0, -0.6, 0]), turned([0, 0.6, 0]))
             line([0, 0, 0], turned([0, 0, 0.4])) trace(turned([1, 0, 0]))
         }
-    }
-}
-
-const fn rate(name: &'static str, doc: &'static str, default: f64) -> StartOption {
-    StartOption {
-        name,
-        doc,
-        default,
-        unit: "rad/s",
-    }
-}
-
-const TUMBLING: StartSpec = StartSpec {
-    name: "tumbling",
-    doc: "body axes along the space axes, turning nearly about the middle, unstable one",
-    options: &[
-        rate("rate1", "angular velocity about axis 1", 0.01),
-        rate("rate2", "angular velocity about axis 2", 2.0),
-        rate("rate3", "angular velocity about axis 3", 0.02),
-    ],
-};
-
-impl Model for RigidBody {
-    const ID: &'static str = "rigid_body";
-
-    fn summary() -> &'static str {
-        "free rigid body in a unit quaternion (singular M from the kinetic energy)"
-    }
-
-    fn starts() -> &'static [StartSpec] {
-        &[TUMBLING]
-    }
-
-    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let spin = Chosen::among(Self::starts(), name, options)?.values();
-        let q = [1.0, 0.0, 0.0, 0.0];
-        Ok(State {
-            t: 0.0,
-            q: q.to_vec(),
-            v: quaternion_rate(q, spin).to_vec(),
-        })
-    }
-
-    fn duration() -> f64 {
-        20.0
     }
 }
 

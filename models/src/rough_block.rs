@@ -1,10 +1,10 @@
 //! A block on a rough slope: dry friction as a non-ideal constraint force, in closed form.
 
-use crate::{Model, Reference, StartOption, StartOptions, StartSpec};
-use ukcore::model::Chosen;
-use ukcore::{Error, State};
+use crate::{Model, Reference};
 
 ukcore::multibody! {
+    /// Block on a rough slope (non-ideal constraint, closed form).
+    ///
     /// Block on a slope that falls towards +x; y points up. The slope's constraint is not ideal: it rubs with Coulomb's friction
     /// mu N against the motion, where N = m g cos(slope) is the ideal constraint force, known beforehand. Friction is of sliding only:
     /// the slope has to be steeper than the angle of repose, mu < tan(slope), or the block would have to stick.
@@ -39,51 +39,19 @@ ukcore::multibody! {
             /// Friction, positive down the slope
             friction_force [N] = friction,
         }
+        /// at the origin, kicked along the slope
+        start kicked(
+            /// Speed down the slope; negative is up
+            kick = -5.0 [m/s],
+        ) until 3.0 {
+            dot([x, y]) near kick * [cos(slope), -sin(slope)]
+        }
         draw { circle([x, y], 0.1) trace([x, y]) }
     }
 }
 
 impl Model for RoughBlock {
     const ID: &'static str = "rough_block";
-
-    fn summary() -> &'static str {
-        "block on a rough slope (non-ideal constraint, closed form)"
-    }
-
-    fn starts() -> &'static [StartSpec] {
-        &[StartSpec {
-            name: "kicked",
-            doc: "at the origin, kicked along the slope",
-            options: &[StartOption {
-                name: "kick",
-                doc: "speed down the slope; negative is up",
-                default: -5.0,
-                unit: "m/s",
-            }],
-        }]
-    }
-
-    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let [kick] = Chosen::among(Self::starts(), name, options)?.values();
-        let repose = self.slope.tan();
-        if !(self.mu >= 0.0 && self.mu < repose) {
-            let reason = format!(
-                "is {:?}; it must not be negative, and below tan(slope) = {repose:?}: this friction cannot hold a block at rest",
-                self.mu
-            );
-            return Err(Error::InvalidSetting { what: "mu", reason });
-        }
-        let (sin, cos) = self.slope.sin_cos();
-        Ok(State {
-            t: 0.0,
-            q: vec![0.0, 0.0],
-            v: vec![kick * cos, -kick * sin],
-        })
-    }
-
-    fn duration() -> f64 {
-        3.0
-    }
 
     fn references() -> Vec<Reference> {
         let block = RoughBlock::default();

@@ -1,11 +1,10 @@
 //! A point mass on a stiff spring: fast along the spring, slow across it.
 
-use crate::pendulum::{FROM, RATE};
-use crate::{Model, StartOption, StartOptions, StartSpec};
-use ukcore::model::{Chosen, positive};
-use ukcore::{Error, State};
+use crate::Model;
 
 ukcore::multibody! {
+    /// Point mass on a stiff spring (rigid limit: pendulum).
+    ///
     /// Point mass on a massless spring about a pivot at the origin; y points up. The stiffer the spring, the more it is a
     /// [`Pendulum`](crate::Pendulum), and the shorter the steps of an explicit method, which has to follow the oscillation along the
     /// spring, be it there or not.
@@ -37,6 +36,20 @@ ukcore::multibody! {
             /// Force of the spring
             tension [N] = k * (r - l),
         }
+        let balance = |angle, rate| (k * l + m * g * cos(angle)) / (k - m * sq(rate));
+        let growth = |angle, rate| -3.0 * m * g / k * rate * sin(angle);
+        /// let go at an angle, the spring stretched so that it balances the mass
+        start released(
+            /// Angle from the downward vertical, counter-clockwise
+            from = (-PI / 2.0) [rad],
+            /// Angular velocity
+            rate = 0.0 [rad/s],
+            /// Stretch of the spring beyond balance, which excites the fast oscillation
+            stretch = 0.0 [m],
+        ) until 2.0 {
+            [x, y] = (balance(from, rate) + stretch) * [sin(from), -cos(from)]
+            dot([x, y]) = (balance(from, rate) + stretch) * rate * [cos(from), sin(from)] + growth(from, rate) * [sin(from), -cos(from)]
+        }
         draw { spring([0, 0], [x, y]) circle([x, y], 0.05 * l) }
     }
 }
@@ -44,48 +57,9 @@ ukcore::multibody! {
 impl Model for SpringPendulum {
     const ID: &'static str = "spring_pendulum";
 
-    fn summary() -> &'static str {
-        "point mass on a stiff spring (rigid limit: pendulum)"
-    }
-
-    fn starts() -> &'static [StartSpec] {
-        &[StartSpec {
-            name: "released",
-            doc: "let go at an angle, the spring stretched so that it balances the mass",
-            options: &[
-                FROM,
-                RATE,
-                StartOption {
-                    name: "stretch",
-                    doc: "stretch of the spring beyond balance, which excites the fast oscillation",
-                    default: 0.0,
-                    unit: "m",
-                },
-            ],
-        }]
-    }
-
-    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let [angle, rate, stretch] = Chosen::among(Self::starts(), name, options)?.values();
-        positive("l", self.l)?;
-        positive("k", self.k)?;
-        let (sin, cos) = angle.sin_cos();
-        let (r, growth) = self.balance(angle, rate);
-        let r = r + stretch;
-        Ok(State {
-            t: 0.0,
-            q: vec![r * sin, -r * cos],
-            v: vec![r * rate * cos + growth * sin, r * rate * sin - growth * cos],
-        })
-    }
-
     /// A hard spring makes it stiff.
     fn variations() -> &'static [&'static [(&'static str, f64)]] {
         &[&[("k", 1e8)]]
-    }
-
-    fn duration() -> f64 {
-        2.0
     }
 }
 

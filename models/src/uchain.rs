@@ -2,10 +2,12 @@
 
 use crate::{Model, Reference, StartOption, StartOptions, StartSpec, reference};
 use serde_json::Value;
-use ukcore::model::{Chosen, positive};
+use ukcore::model::Chosen;
 use ukcore::{Error, State};
 
 ukcore::multibody! {
+    /// Falling U-chain of 17 particles (Zhao, Zhen & Chen 2013, case 1).
+    ///
     /// Falling U-chain: N particles joined by N massless rigid links, of which the last hangs from a fixed support at the origin.
     /// Particle 0 is the free tip. The y axis points down. (Zhao, Zhen & Chen 2013, §3-5.)
     pub UChain {
@@ -93,21 +95,19 @@ const X0: StartOption = StartOption {
 impl Model for UChain {
     const ID: &'static str = "uchain";
 
-    fn summary() -> &'static str {
-        "falling U-chain of 17 particles (Zhao, Zhen & Chen 2013, case 1)"
-    }
-
     fn starts() -> &'static [StartSpec] {
         &[
             StartSpec {
                 name: "trapezoid",
                 doc: "at rest as an isosceles trapezoid, legs at 60° for integer x0 (the paper's start)",
                 options: &[X0],
+                duration: 2.0,
             },
             StartSpec {
                 name: "catenary",
                 doc: "at rest in the equilibrium shape between the support and the tip held at (x0, 0)",
                 options: &[X0],
+                duration: 2.0,
             },
         ]
     }
@@ -115,7 +115,6 @@ impl Model for UChain {
     fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
         let start = Chosen::among(Self::starts(), name, options)?;
         let [x0] = start.values();
-        positive("l", self.l)?;
         let span = x0 / self.l;
         let directions = if start.spec.name == "catenary" {
             catenary(span)?
@@ -123,10 +122,6 @@ impl Model for UChain {
             trapezoid(span)?
         };
         Ok(self.hang(&directions))
-    }
-
-    fn duration() -> f64 {
-        2.0
     }
 
     /// To 1.5 s, and to 1.6 s: shortly before the tip turns, where errors grow fast.

@@ -1,6 +1,6 @@
 //! Declared starts: what they hold, what they leave to the constraints, and what goes wrong.
 
-use tests::assert_close;
+use tests::{assert_all_close, assert_close};
 use ukcore::assemble::residuals;
 use ukcore::model::StartOptions;
 use ukcore::{Error, Mechanism, Prepared, State};
@@ -20,7 +20,8 @@ ukcore::multibody! {
         /// the rocker above the ground
         start open(crank = 1.0, speed = 2.0 * PI) {
             bar[0].angle = crank;
-            dot(bar[0].angle) = speed;
+            bar[0].omega = speed;
+            bar[0].centre near l[0] / 2 * [cos(crank), sin(crank)];
             for i in 1..3 { bar[i].angle near halves(i) }
         }
         /// the rocker below it
@@ -38,6 +39,13 @@ ukcore::multibody! {
         holonomic { hook: ball(ground.at([0, 0, 1]), block.at(a)), drive: slide = 0.5 + 3.0 * t }
         start hanging { free = [1.0, -2.0]; dot(free[1]) near 4.0 }
         start turned(e = 1.0) { block.e1 near e; free = 0.0 }
+        start spun(w = 0.3) until 2.5 {
+            [block.e0, block.e2] near [0.8, 0.6],
+            block.omega = [w, 1, -2];
+            [free[0], slide] near [0.1, 0.2]
+        }
+        start rolled(w = 0.3) { block.centre near [0, 0.3, 1.2]; block.spin = [w, 1, -2]; dot([free[0], free[1]]) = [5, w] }
+        output { omega = block.omega, spin = block.spin, at = block.centre }
     }
 }
 
@@ -121,6 +129,30 @@ fn families_bodies_and_what_moves_with_time() {
     assert!(start.q[Hung::BLOCK_E0] > 0.9, "{start:?}");
     let turned = state(&hung, "turned", StartOptions::new());
     assert!(turned.q[Hung::BLOCK_E1] > 0.9, "{turned:?}");
+}
+
+/// Wherever the constraints put the body, it has the angular velocity that was asked for.
+#[test]
+fn bodies_turn_as_they_are_told() {
+    let hung = Hung::default().prepared();
+    let seen = |state: &State, name: &str| {
+        let mut outputs = vec![0.0; hung.spec().outputs.len()];
+        hung.outputs(state.t, &state.q, &state.v, &mut outputs);
+        let of = |k: usize| hung.spec().output_index(&format!("{name}[{k}]"));
+        [0, 1, 2].map(|k| outputs[of(k).expect("declared")])
+    };
+    for w in [-3.0, 0.0, 0.7] {
+        let spun = state(&hung, "spun", [("w", w)].into());
+        assert_all_close("ω", &seen(&spun, "omega"), &[w, 1.0, -2.0], 1e-14);
+        let [e0, e2] = [Hung::BLOCK_E0, Hung::BLOCK_E2].map(|i| spun.q[i]);
+        assert!(e0 != 0.8 && e2 != 0.6, "the hook has moved it: {spun:?}");
+        let rolled = state(&hung, "rolled", [("w", w)].into());
+        assert_all_close("spin", &seen(&rolled, "spin"), &[w, 1.0, -2.0], 1e-14);
+        let [x, y] = Hung::FREE;
+        assert_eq!((rolled.v[x], rolled.v[y]), (5.0, w));
+    }
+    let durations: Vec<f64> = Hung::SPEC.starts.iter().map(|s| s.duration).collect();
+    assert_eq!(durations, [10.0, 10.0, 2.5, 10.0]);
 }
 
 #[test]

@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::manifold::{At, Level, Manifold};
 use crate::mechanism::{Mechanism, Prepared};
 use crate::scan::largest;
-use crate::spec::Spec;
+use crate::spec::{GuessKind, Spec};
 
 /// Guesses: the given one, then it with perturbations of [`SHAKES`] times the size of the coordinates. A guess with points that
 /// coincide has vanishing gradients, from which only a perturbation leads away.
@@ -129,6 +129,8 @@ pub(crate) fn held(spec: &Spec, names: &[&str]) -> Result<Vec<usize>, Error> {
 pub(crate) struct Held {
     pub(crate) positions: Vec<usize>,
     pub(crate) velocities: Vec<usize>,
+    /// Of quaternions the coordinates, four by four, in whose velocities an angular velocity stands.
+    pub(crate) turning: Vec<(usize, GuessKind)>,
 }
 
 impl Held {
@@ -136,6 +138,7 @@ impl Held {
         Held {
             positions: coordinates.clone(),
             velocities: coordinates,
+            turning: Vec::new(),
         }
     }
 
@@ -153,7 +156,25 @@ impl Held {
         Held {
             positions: others(&self.positions),
             velocities: others(&self.velocities),
+            turning: self.turning.clone(),
         }
+    }
+
+    /// `v` with the rates of quaternions at `q` in place of angular velocities: ė = ½ ω e of ω in axes of the ground, ½ e ω of it in those of
+    /// the body.
+    fn rates(&self, q: &[f64], v: &[f64]) -> Vec<f64> {
+        let mut rates = v.to_vec();
+        for group in self.turning.chunks_exact(4) {
+            let (first, kind) = group[0];
+            let (e, w) = (&q[first..first + 4], &v[first..first + 4]);
+            let side = if kind == GuessKind::Spin { -1.0 } else { 1.0 };
+            rates[first] = -0.5 * (w[1] * e[1] + w[2] * e[2] + w[3] * e[3]);
+            for k in 1..4 {
+                let (i, j) = (k % 3 + 1, (k + 1) % 3 + 1);
+                rates[first + k] = 0.5 * (e[0] * w[k] + side * (w[i] * e[j] - w[j] * e[i]));
+            }
+        }
+        rates
     }
 }
 
@@ -173,7 +194,8 @@ fn search(mech: &Prepared, guess: &State, held: &Held) -> Result<State, Error> {
     if held.velocities != held.positions {
         search = Search::new(mech, guess, &held.velocities);
     }
-    let v = search.find(&At::new(mech, Level::Velocity, guess.t, &q), &guess.v)?;
+    let v = held.rates(&q, &guess.v);
+    let v = search.find(&At::new(mech, Level::Velocity, guess.t, &q), &v)?;
     Ok(State { t: guess.t, q, v })
 }
 

@@ -177,6 +177,7 @@ impl Search {
         let positions = Held {
             positions: self.held.clone(),
             velocities: Vec::new(),
+            ..Held::default()
         };
         let mut state = assembled(&self.mech, &state, positions)?;
         if let Some(j) = state.v.iter().position(|v| *v != 0.0) {

@@ -1,6 +1,6 @@
 //! What a mechanism may say of itself beyond its equations, and a mechanism as tools handle it.
 //!
-//! [`Model`] is a trait of defaults: a name, start states with options, a duration, motions that are known otherwise. [`Entry`] carries any
+//! [`Model`] is a trait of defaults: a name, start states that are computed, motions that are known otherwise. [`Entry`] carries any
 //! mechanism, with what it says or without, under a name; a slice of entries is a registry.
 
 use std::fmt;
@@ -9,19 +9,13 @@ use std::marker::PhantomData;
 use crate::assemble::State;
 use crate::error::Error;
 use crate::mechanism::{Mechanism, Prepared};
-pub use crate::spec::{StartOption, StartSpec};
+pub use crate::spec::{DURATION, StartOption, StartSpec};
 pub use crate::start::{Chosen, StartOptions};
 
 /// What a mechanism says of itself beyond its declaration. Everything has a default; what is given serves the tools.
 pub trait Model: Mechanism {
     /// Name on the command line, such as `"uchain"`; if empty, the name of the type as [`kebab_case`].
     const ID: &'static str = "";
-
-    /// The model in one line; the first line of the declaration's doc comment if not given.
-    #[must_use]
-    fn summary() -> &'static str {
-        first_line(Self::SPEC.doc)
-    }
 
     /// The start states on offer, those declared if not given; the first is the default. Where there is none, a start is
     /// [assembled](crate::assemble()) from a guess.
@@ -40,10 +34,10 @@ pub trait Model: Mechanism {
         self.prepared().start(name, options)
     }
 
-    /// Duration of a typical run, s.
+    /// Duration of a typical run from the default start, s.
     #[must_use]
     fn duration() -> f64 {
-        DURATION
+        Self::starts().first().map_or(DURATION, |s| s.duration)
     }
 
     /// What is known about the motion from [`default_start`](Model::default_start) with default parameters, once for each end that is of
@@ -68,21 +62,6 @@ pub trait Model: Mechanism {
         let name = Self::starts().first().map_or("", |s| s.name);
         self.start(name, &StartOptions::new())
     }
-}
-
-/// Duration of a run, s, where a model gives none.
-const DURATION: f64 = 10.0;
-
-/// Checks a length or another value that only a positive number makes sense of, for [`Model::start`].
-///
-/// # Errors
-/// [`Error::InvalidSetting`] unless `value` is positive and finite.
-pub fn positive(what: &'static str, value: f64) -> Result<(), Error> {
-    if value > 0.0 && value.is_finite() {
-        return Ok(());
-    }
-    let reason = format!("is {value:?}; it must be positive and finite");
-    Err(Error::InvalidSetting { what, reason })
 }
 
 /// States of a motion that are known in closed form, or from integrations with more digits than an `f64` holds.
@@ -137,8 +116,6 @@ pub struct Entry {
     pub mechanism: Prepared,
     /// The start states on offer; the first is the default.
     pub starts: &'static [StartSpec],
-    /// Duration of a typical run, s.
-    pub duration: f64,
     /// [`Model::variations`].
     pub variations: &'static [&'static [(&'static str, f64)]],
     /// The emitted functions: name and text.
@@ -165,9 +142,7 @@ impl Entry {
             } else {
                 M::ID.to_owned()
             },
-            summary: M::summary(),
             starts: M::starts(),
-            duration: M::duration(),
             variations: M::variations(),
             start,
             references: M::references,
@@ -183,7 +158,6 @@ impl Entry {
             summary: first_line(M::SPEC.doc),
             mechanism: M::default().prepared(),
             starts: M::SPEC.starts,
-            duration: DURATION,
             variations: &[],
             code: M::CODE,
             start: Prepared::start,
@@ -202,6 +176,12 @@ impl Entry {
         options: &StartOptions,
     ) -> Result<State, Error> {
         (self.start)(mechanism, name, options)
+    }
+
+    /// Duration of a typical run from the default start, s.
+    #[must_use]
+    pub fn duration(&self) -> f64 {
+        self.starts.first().map_or(DURATION, |s| s.duration)
     }
 
     /// [`Model::references`].
@@ -303,17 +283,17 @@ mod tests {
     impl Model for Twice {
         const ID: &'static str = "two";
 
-        fn duration() -> f64 {
-            3.0
+        fn variations() -> &'static [&'static [(&'static str, f64)]] {
+            &[&[]]
         }
     }
 
     #[test]
     fn what_is_no_model_has_the_defaults() {
         let plain = crate::entry!(Pendulum);
-        assert_eq!((plain.id.as_str(), plain.duration), ("pendulum", DURATION));
+        assert_eq!((plain.id.as_str(), plain.variations.len()), ("pendulum", 0));
         let model = crate::entry!(Twice);
-        assert_eq!((model.id.as_str(), model.duration), ("two", 3.0));
+        assert_eq!((model.id.as_str(), model.variations.len()), ("two", 1));
         let error = plain.start(&plain.mechanism, "rest", &StartOptions::new());
         assert!(matches!(
             error,

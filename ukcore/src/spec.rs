@@ -68,7 +68,12 @@ pub struct StartSpec {
     pub doc: &'static str,
     /// Its options.
     pub options: &'static [StartOption],
+    /// How long a typical run from it lasts, s.
+    pub duration: f64,
 }
+
+/// Duration of a run, s, where no start says otherwise.
+pub const DURATION: f64 = 10.0;
 
 /// An option of a start state. No option is called like a parameter of its model.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -137,13 +142,26 @@ pub enum ShapeKind {
     Mark,
 }
 
+/// What is said of a coordinate at a start.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GuessKind {
+    /// Its value.
+    Position,
+    /// Its velocity.
+    Velocity,
+    /// An angular velocity in axes of the ground: of the four coordinates of a quaternion the first has a 0, the others the components.
+    Omega,
+    /// The same in axes of the body.
+    Spin,
+}
+
 /// What a declared start says of a coordinate or of its velocity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Guess {
     /// The coordinate, in the order of [`Spec::coords`].
     pub coordinate: usize,
-    /// Whether it is the coordinate's velocity.
-    pub rate: bool,
+    /// What of it.
+    pub kind: GuessKind,
     /// Whether it keeps its value where the start is assembled.
     pub held: bool,
     /// Its value.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::assemble::{Held, State, assembled};
 use crate::error::Error;
 use crate::mechanism::Prepared;
-use crate::spec::{StartOption, StartSpec};
+use crate::spec::{GuessKind, StartOption, StartSpec};
 
 /// Values for the options of a start; what is absent has its default.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -118,12 +118,15 @@ impl Prepared {
         };
         let mut held = Held::default();
         self.guess(place.unwrap_or(0), &chosen.values, &mut |told| {
-            let (values, held) = match told.rate {
-                false => (&mut guess.q, &mut held.positions),
-                true => (&mut guess.v, &mut held.velocities),
+            let (values, kept) = match told.kind {
+                GuessKind::Position => (&mut guess.q, &mut held.positions),
+                _ => (&mut guess.v, &mut held.velocities),
             };
             values[told.coordinate] = told.value;
-            held.extend(told.held.then_some(told.coordinate));
+            kept.extend(told.held.then_some(told.coordinate));
+            if matches!(told.kind, GuessKind::Omega | GuessKind::Spin) {
+                held.turning.push((told.coordinate, told.kind));
+            }
         });
         assembled(self, &guess, held)
     }

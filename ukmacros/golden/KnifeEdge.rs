@@ -1,3 +1,4 @@
+/// Knife edge on an inclined plane (nonholonomic, closed form).
 /// Knife edge (a skate) on a plane inclined by `slope`; x points down the slope, y across it. The edge touches at its centre of mass
 /// and does not slip sideways: a nonholonomic constraint. Set turning, it drifts across the slope and never gets down.
 ///
@@ -96,7 +97,7 @@ const _: () = {
     impl ukcore::Mechanism for KnifeEdge {
         const SPEC: &'static ukcore::Spec = &ukcore::Spec {
             name: "KnifeEdge",
-            doc: "Knife edge (a skate) on a plane inclined by `slope`; x points down the slope, y across it. The edge touches at its centre of mass\nand does not slip sideways: a nonholonomic constraint. Set turning, it drifts across the slope and never gets down.",
+            doc: "Knife edge on an inclined plane (nonholonomic, closed form).\nKnife edge (a skate) on a plane inclined by `slope`; x points down the slope, y across it. The edge touches at its centre of mass\nand does not slip sideways: a nonholonomic constraint. Set turning, it drifts across the slope and never gets down.",
             params: &[
                 ukcore::ParamSpec {
                     name: "m",
@@ -155,7 +156,33 @@ const _: () = {
                     unit: "rad/s",
                 },
             ],
-            starts: &[],
+            starts: &[
+                ukcore::StartSpec {
+                    name: "spinning",
+                    doc: "at the origin, turning and gliding along its edge",
+                    options: &[
+                        ukcore::StartOption {
+                            name: "turn",
+                            doc: "Angular velocity",
+                            default: 1.0,
+                            unit: "rad/s",
+                        },
+                        ukcore::StartOption {
+                            name: "glide",
+                            doc: "Speed along the edge",
+                            default: 0.0,
+                            unit: "m/s",
+                        },
+                        ukcore::StartOption {
+                            name: "heading",
+                            doc: "Direction of the edge, from the line of fall",
+                            default: 0.0,
+                            unit: "rad",
+                        },
+                    ],
+                    duration: ukcore::DURATION,
+                },
+            ],
             drawing: ukcore::Drawing {
                 dimension: 2,
                 shapes: &[
@@ -514,6 +541,64 @@ const _: () = {
             out[1] = residual_0 * cos_th * per_pivot_edge;
             out[0] = -(residual_0 * sin_th * per_pivot_edge);
             safe
+        }
+        fn guess(
+            start: usize,
+            given: &[f64],
+            each: &mut dyn ::core::ops::FnMut(ukcore::Guess),
+        ) {
+            match start {
+                0 => {
+                    fn prepare<S: ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
+                        let prepared = ukcore::emitted::exact_mut::<
+                            S,
+                            4,
+                        >(prepared, "prepared");
+                        let [_, _, _, _, turn, glide, heading] = *ukcore::emitted::exact::<
+                            S,
+                            7,
+                        >(given, "given");
+                        prepared[0] = heading;
+                        prepared[1] = turn;
+                        let (sin_heading, cos_heading) = heading.sin_cos();
+                        prepared[2] = glide * cos_heading;
+                        prepared[3] = glide * sin_heading;
+                    }
+                    let mut numbers = [0.0; 4];
+                    prepare(given, &mut numbers);
+                    let places: &[(usize, ukcore::GuessKind, bool)] = &[
+                        (2, ukcore::GuessKind::Position, true),
+                        (2, ukcore::GuessKind::Velocity, true),
+                        (0, ukcore::GuessKind::Velocity, false),
+                        (1, ukcore::GuessKind::Velocity, false),
+                    ];
+                    for ((coordinate, kind, held), value) in places.iter().zip(numbers) {
+                        each(ukcore::Guess {
+                            coordinate: *coordinate,
+                            kind: *kind,
+                            held: *held,
+                            value,
+                        });
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+    #[automatically_derived]
+    impl KnifeEdge {
+        /// The declared start called `name`, with these options, as `Prepared::start` assembles it:
+        /// - `"spinning"` (`turn` in rad/s, `glide` in m/s, `heading` in rad): at the origin, turning and gliding along its edge
+        ///
+        /// # Errors
+        /// Unknown names; values that are not finite; options for which nothing satisfies the constraints.
+        #[allow(dead_code)]
+        pub fn start(
+            &self,
+            name: &str,
+            options: &ukcore::StartOptions,
+        ) -> ::core::result::Result<ukcore::State, ukcore::Error> {
+            ukcore::Prepared::from(self).start(name, options)
         }
     }
 };

@@ -1,3 +1,4 @@
+/// Mass on two springs with a massless joint (singular M, closed form).
 /// Wall, spring k1, massless joint, spring k2, mass: all along one line. The joint has no mass, so the forces of the springs on it
 /// balance at all times; declared as a constraint this makes [M | Aᵀ] regular (the condition of eq. 19), and its constraint
 /// force is zero. Both positions are measured from where the springs are relaxed.
@@ -88,7 +89,7 @@ const _: () = {
     impl ukcore::Mechanism for MasslessSpring {
         const SPEC: &'static ukcore::Spec = &ukcore::Spec {
             name: "MasslessSpring",
-            doc: "Wall, spring k1, massless joint, spring k2, mass: all along one line. The joint has no mass, so the forces of the springs on it\nbalance at all times; declared as a constraint this makes [M | Aᵀ] regular (the condition of eq. 19), and its constraint\nforce is zero. Both positions are measured from where the springs are relaxed.",
+            doc: "Mass on two springs with a massless joint (singular M, closed form).\nWall, spring k1, massless joint, spring k2, mass: all along one line. The joint has no mass, so the forces of the springs on it\nbalance at all times; declared as a constraint this makes [M | Aᵀ] regular (the condition of eq. 19), and its constraint\nforce is zero. Both positions are measured from where the springs are relaxed.",
             params: &[
                 ukcore::ParamSpec {
                     name: "m",
@@ -140,7 +141,27 @@ const _: () = {
                     unit: "N",
                 },
             ],
-            starts: &[],
+            starts: &[
+                ukcore::StartSpec {
+                    name: "pulled",
+                    doc: "mass pulled out and let go, joint in balance",
+                    options: &[
+                        ukcore::StartOption {
+                            name: "pull",
+                            doc: "Position of the mass",
+                            default: 0.1,
+                            unit: "m",
+                        },
+                        ukcore::StartOption {
+                            name: "speed",
+                            doc: "Velocity of the mass",
+                            default: 0.0,
+                            unit: "m/s",
+                        },
+                    ],
+                    duration: ukcore::DURATION,
+                },
+            ],
             drawing: ukcore::Drawing {
                 dimension: 2,
                 shapes: &[
@@ -497,6 +518,59 @@ const _: () = {
             let safe = safe_balance;
             out[0] = -(residual_0 * per_k1_and_k2);
             safe
+        }
+        fn guess(
+            start: usize,
+            given: &[f64],
+            each: &mut dyn ::core::ops::FnMut(ukcore::Guess),
+        ) {
+            match start {
+                0 => {
+                    fn prepare<S: ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
+                        let prepared = ukcore::emitted::exact_mut::<
+                            S,
+                            2,
+                        >(prepared, "prepared");
+                        let [_, _, _, pull, speed] = *ukcore::emitted::exact::<
+                            S,
+                            5,
+                        >(given, "given");
+                        prepared[0] = pull;
+                        prepared[1] = speed;
+                    }
+                    let mut numbers = [0.0; 2];
+                    prepare(given, &mut numbers);
+                    let places: &[(usize, ukcore::GuessKind, bool)] = &[
+                        (1, ukcore::GuessKind::Position, true),
+                        (1, ukcore::GuessKind::Velocity, true),
+                    ];
+                    for ((coordinate, kind, held), value) in places.iter().zip(numbers) {
+                        each(ukcore::Guess {
+                            coordinate: *coordinate,
+                            kind: *kind,
+                            held: *held,
+                            value,
+                        });
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+    #[automatically_derived]
+    impl MasslessSpring {
+        /// The declared start called `name`, with these options, as `Prepared::start` assembles it:
+        /// - `"pulled"` (`pull` in m, `speed` in m/s): mass pulled out and let go, joint in balance
+        ///
+        /// # Errors
+        /// Unknown names; values that are not finite; options for which nothing satisfies the constraints.
+        #[allow(dead_code)]
+        pub fn start(
+            &self,
+            name: &str,
+            options: &ukcore::StartOptions,
+        ) -> ::core::result::Result<ukcore::State, ukcore::Error> {
+            ukcore::Prepared::from(self).start(name, options)
         }
     }
 };

@@ -1,3 +1,4 @@
+/// Simple pendulum in Cartesian coordinates (closed form).
 /// Point mass on a massless rigid rod about a pivot at the origin; y points up.
 ///
 /// # Equations of motion
@@ -87,7 +88,7 @@ const _: () = {
     impl ukcore::Mechanism for Pendulum {
         const SPEC: &'static ukcore::Spec = &ukcore::Spec {
             name: "Pendulum",
-            doc: "Point mass on a massless rigid rod about a pivot at the origin; y points up.",
+            doc: "Simple pendulum in Cartesian coordinates (closed form).\nPoint mass on a massless rigid rod about a pivot at the origin; y points up.",
             params: &[
                 ukcore::ParamSpec {
                     name: "m",
@@ -142,7 +143,27 @@ const _: () = {
                     unit: "N",
                 },
             ],
-            starts: &[],
+            starts: &[
+                ukcore::StartSpec {
+                    name: "released",
+                    doc: "let go at an angle",
+                    options: &[
+                        ukcore::StartOption {
+                            name: "from",
+                            doc: "Angle from the downward vertical, counter-clockwise",
+                            default: -::core::f64::consts::FRAC_PI_2,
+                            unit: "rad",
+                        },
+                        ukcore::StartOption {
+                            name: "rate",
+                            doc: "Angular velocity",
+                            default: 0.0,
+                            unit: "rad/s",
+                        },
+                    ],
+                    duration: ukcore::DURATION,
+                },
+            ],
             drawing: ukcore::Drawing {
                 dimension: 2,
                 shapes: &[
@@ -492,6 +513,64 @@ const _: () = {
             out[0] = -(x * right_rod * per_pivot_rod);
             out[1] = -(y * right_rod * per_pivot_rod);
             safe
+        }
+        fn guess(
+            start: usize,
+            given: &[f64],
+            each: &mut dyn ::core::ops::FnMut(ukcore::Guess),
+        ) {
+            match start {
+                0 => {
+                    fn prepare<S: ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
+                        let prepared = ukcore::emitted::exact_mut::<
+                            S,
+                            4,
+                        >(prepared, "prepared");
+                        let [_, l, _, from, rate_2] = *ukcore::emitted::exact::<
+                            S,
+                            5,
+                        >(given, "given");
+                        let (sin_from, cos_from) = from.sin_cos();
+                        prepared[0] = l * sin_from;
+                        prepared[1] = -(l * cos_from);
+                        prepared[2] = l * rate_2 * cos_from;
+                        prepared[3] = l * rate_2 * sin_from;
+                    }
+                    let mut numbers = [0.0; 4];
+                    prepare(given, &mut numbers);
+                    let places: &[(usize, ukcore::GuessKind, bool)] = &[
+                        (0, ukcore::GuessKind::Position, false),
+                        (1, ukcore::GuessKind::Position, false),
+                        (0, ukcore::GuessKind::Velocity, false),
+                        (1, ukcore::GuessKind::Velocity, false),
+                    ];
+                    for ((coordinate, kind, held), value) in places.iter().zip(numbers) {
+                        each(ukcore::Guess {
+                            coordinate: *coordinate,
+                            kind: *kind,
+                            held: *held,
+                            value,
+                        });
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+    #[automatically_derived]
+    impl Pendulum {
+        /// The declared start called `name`, with these options, as `Prepared::start` assembles it:
+        /// - `"released"` (`from` in rad, `rate` in rad/s): let go at an angle
+        ///
+        /// # Errors
+        /// Unknown names; values that are not finite; options for which nothing satisfies the constraints.
+        #[allow(dead_code)]
+        pub fn start(
+            &self,
+            name: &str,
+            options: &ukcore::StartOptions,
+        ) -> ::core::result::Result<ukcore::State, ukcore::Error> {
+            ukcore::Prepared::from(self).start(name, options)
         }
     }
 };

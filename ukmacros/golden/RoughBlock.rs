@@ -1,3 +1,4 @@
+/// Block on a rough slope (non-ideal constraint, closed form).
 /// Block on a slope that falls towards +x; y points up. The slope's constraint is not ideal: it rubs with Coulomb's friction
 /// mu N against the motion, where N = m g cos(slope) is the ideal constraint force, known beforehand. Friction is of sliding only:
 /// the slope has to be steeper than the angle of repose, mu < tan(slope), or the block would have to stick.
@@ -109,7 +110,7 @@ const _: () = {
     impl ukcore::Mechanism for RoughBlock {
         const SPEC: &'static ukcore::Spec = &ukcore::Spec {
             name: "RoughBlock",
-            doc: "Block on a slope that falls towards +x; y points up. The slope's constraint is not ideal: it rubs with Coulomb's friction\nmu N against the motion, where N = m g cos(slope) is the ideal constraint force, known beforehand. Friction is of sliding only:\nthe slope has to be steeper than the angle of repose, mu < tan(slope), or the block would have to stick.",
+            doc: "Block on a rough slope (non-ideal constraint, closed form).\nBlock on a slope that falls towards +x; y points up. The slope's constraint is not ideal: it rubs with Coulomb's friction\nmu N against the motion, where N = m g cos(slope) is the ideal constraint force, known beforehand. Friction is of sliding only:\nthe slope has to be steeper than the angle of repose, mu < tan(slope), or the block would have to stick.",
             params: &[
                 ukcore::ParamSpec {
                     name: "m",
@@ -183,7 +184,21 @@ const _: () = {
                     unit: "N",
                 },
             ],
-            starts: &[],
+            starts: &[
+                ukcore::StartSpec {
+                    name: "kicked",
+                    doc: "at the origin, kicked along the slope",
+                    options: &[
+                        ukcore::StartOption {
+                            name: "kick",
+                            doc: "Speed down the slope; negative is up",
+                            default: -5.0,
+                            unit: "m/s",
+                        },
+                    ],
+                    duration: 3.0,
+                },
+            ],
             drawing: ukcore::Drawing {
                 dimension: 2,
                 shapes: &[
@@ -565,6 +580,60 @@ const _: () = {
             out[0] = -(residual_0 * prepared_part_2);
             out[1] = -(residual_0 * prepared_part_3);
             safe
+        }
+        fn guess(
+            start: usize,
+            given: &[f64],
+            each: &mut dyn ::core::ops::FnMut(ukcore::Guess),
+        ) {
+            match start {
+                0 => {
+                    fn prepare<S: ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
+                        let prepared = ukcore::emitted::exact_mut::<
+                            S,
+                            2,
+                        >(prepared, "prepared");
+                        let [_, _, slope, _, kick] = *ukcore::emitted::exact::<
+                            S,
+                            5,
+                        >(given, "given");
+                        let (sin_slope, cos_slope) = slope.sin_cos();
+                        prepared[0] = kick * cos_slope;
+                        prepared[1] = -(kick * sin_slope);
+                    }
+                    let mut numbers = [0.0; 2];
+                    prepare(given, &mut numbers);
+                    let places: &[(usize, ukcore::GuessKind, bool)] = &[
+                        (0, ukcore::GuessKind::Velocity, false),
+                        (1, ukcore::GuessKind::Velocity, false),
+                    ];
+                    for ((coordinate, kind, held), value) in places.iter().zip(numbers) {
+                        each(ukcore::Guess {
+                            coordinate: *coordinate,
+                            kind: *kind,
+                            held: *held,
+                            value,
+                        });
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+    #[automatically_derived]
+    impl RoughBlock {
+        /// The declared start called `name`, with these options, as `Prepared::start` assembles it:
+        /// - `"kicked"` (`kick` in m/s): at the origin, kicked along the slope
+        ///
+        /// # Errors
+        /// Unknown names; values that are not finite; options for which nothing satisfies the constraints.
+        #[allow(dead_code)]
+        pub fn start(
+            &self,
+            name: &str,
+            options: &ukcore::StartOptions,
+        ) -> ::core::result::Result<ukcore::State, ukcore::Error> {
+            ukcore::Prepared::from(self).start(name, options)
         }
     }
 };

@@ -447,9 +447,13 @@ use proc_macro2::TokenStream;
 ///             | ("gravity" | "kinetic" | "potential" | "dissipation" | "forces"), block(expr)
 ///             | ("force" | "nonideal"), block(place, ":", expr)
 ///             | ("holonomic" | "nonholonomic"), block(key, ":", expr, ["=", expr])
-///             | ("output" | "integral"), block(docs, key, [unit], "=", expr) ;
+///             | ("output" | "integral"), block(docs, key, [unit], "=", expr)
+///             | docs, "start", NAME, ["(", { docs, NAME, "=", expr, [","] }, ")"], ["until", expr], block(guess)
+///             | "draw", block(NAME, "(", { (expr | STRING), [","] }, ")") ;
 /// block(e)    = "{", { (e | "for", NAME, "in", expr, "..", expr, "{", { e }, "}"), ["," | ";"] }, "}" ;
 /// key         = NAME, { "[", expr, "]" } ;
+/// guess       = (places | "dot", "(", places, ")"), ("=" | "near"), expr ;
+/// places      = place | "[", place, { ",", place }, "]" ;
 /// place       = key, { ".", key } ;
 /// function    = "|", NAME, { ",", NAME }, "|", expr ;
 /// unit        = "[", ("-" | factor, { ["*" | "/"], factor }), "]" ;              (in an expr behind a number or a vector of numbers)
@@ -460,9 +464,12 @@ use proc_macro2::TokenStream;
 ///
 /// `start name(option = 1.0, …) { … }` says where a motion begins, by parameters and the options of the start, which are called like no
 /// parameter. `x = value` holds a coordinate and `dot(x) = value` its velocity; `x near value` is a guess, from which the constraints may
-/// move it. All else is near 0; a spatial body of whose quaternion nothing is said is near the orientation in which its axes are those of the
+/// move it. `[x, y] near l * [sin(a), -cos(a)]` and `dot([x, y]) = …` say so of several at once; of a body `arm.centre`, `dot(arm.centre)`,
+/// `arm.omega` and, in its own axes, `arm.spin` are such vectors: the rates of a quaternion are those that it has where the body is found
+/// to be. All else is near 0; a spatial body of whose quaternion nothing is said is near the orientation in which its axes are those of the
 /// ground. From there the constraints are approached by a local search in the mass metric: with several branches its end is one that the
-/// guesses are near, and the nearer they are to each other's meaning, the surer.
+/// guesses are near, and the nearer they are to each other's meaning, the surer. `start name(…) until 2.0 { … }` says how long a run from
+/// it is of interest, in units of time; if it does not, tools take 10.
 ///
 /// ```
 /// ukcore::multibody! {

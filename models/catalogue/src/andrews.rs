@@ -1,7 +1,5 @@
 //! Andrews' squeezing mechanism.
 
-use ukcore::model::Model;
-
 ukcore::multibody! {
     /// Andrews' squeezing mechanism: seven planar bodies, one degree of freedom, driven by a constant torque.
     ///
@@ -34,7 +32,7 @@ ukcore::multibody! {
         output { beta [rad] = k[0].angle, theta [rad] = k[1].angle - k[0].angle, gamma [rad] = k[2].angle, phi [rad] = k[3].angle - k[4].angle,
             delta [rad] = k[4].angle, omega [rad] = k[5].angle - k[6].angle, epsilon [rad] = k[6].angle }
         /// at rest at the published angles
-        start published {
+        start published until 0.03 {
             k[0].angle = -0.06171389001427645
             k[1].angle near -0.06171389001427645
             k[2].angle near 0.4552798191630704
@@ -43,20 +41,5 @@ ukcore::multibody! {
             k[5].angle near 1.0078790543839353
             k[6].angle near 1.2305474445498212
         }
-    }
-}
-
-impl Andrews {
-    /// The angles of the seven bodies from (β, Θ, γ, Φ, δ, Ω, ε).
-    #[must_use]
-    pub fn angles([beta, theta, gamma, phi, delta, omega, epsilon]: [f64; 7]) -> [f64; 7] {
-        let rods = [beta + theta, phi + delta, omega + epsilon];
-        [beta, rods[0], gamma, rods[1], delta, rods[2], epsilon]
-    }
-}
-
-impl Model for Andrews {
-    fn duration() -> f64 {
-        0.03
     }
 }

@@ -1,11 +1,5 @@
 //! The Whipple bicycle.
 
-use nalgebra::Vector3;
-use ukcore::model::{Chosen, Model, StartOption, StartOptions, StartSpec, positive};
-use ukcore::{Error, State};
-
-use crate::Pose;
-
 ukcore::multibody! {
     /// Whipple's bicycle with a rigid rider and the benchmark's numbers: wheels that roll without slip, frame, fork.
     ///
@@ -46,68 +40,21 @@ ukcore::multibody! {
             front_rolls: rolls(front.at(hub[1]), [0, 1, 0], front_radius)
         }
         output { lean_rate [rad/s] = frame.spin[0], speed [m/s] = inner(frame.along([1, 0, 0]), dot(rear.centre)) }
-    }
-}
-
-impl Bicycle {
-    /// Upright, rolling along x at `speed`, m/s, and leaning over at `lean_rate`, rad/s.
-    #[must_use]
-    pub fn upright(&self, speed: f64, lean_rate: f64) -> State {
-        let mut state = State::zeros::<Self>();
-        let wheel = |r: f64| Vector3::y() * (speed / r);
-        for (x, centre, own) in [
-            (
-                Bicycle::REAR_X,
-                [0.0, 0.0, self.rear_radius],
-                wheel(self.rear_radius),
-            ),
-            (Bicycle::FRAME_X, [0.3, 0.0, 0.9], Vector3::zeros()),
-            (Bicycle::FORK_X, [0.9, 0.0, 0.7], Vector3::zeros()),
-            (
-                Bicycle::FRONT_X,
-                [self.w, 0.0, self.front_radius],
-                wheel(self.front_radius),
-            ),
-        ] {
-            let mut pose = Pose::at_rest(centre).turning(Vector3::x() * lean_rate);
-            pose.velocity.x = speed;
-            pose.omega += own;
-            pose.enter(&mut state, x);
+        /// rolling upright along x, and leaning over
+        start upright(
+            /// Speed
+            speed = 4.6 [m/s],
+            /// Rate of leaning
+            lean_rate = 0.5 [rad/s],
+        ) until 5.0 {
+            rear.centre near hub[0]
+            frame.centre = [0.3, 0, 0.9]
+            fork.centre near [0.9, 0, 0.7]
+            front.centre near hub[1]
+            // The wheels follow.
+            dot(frame.centre) = [speed, -0.9 * lean_rate, 0]
+            frame.omega = [lean_rate, 0, 0]
+            fork.omega = [lean_rate, 0, 0]
         }
-        state
-    }
-}
-
-impl Model for Bicycle {
-    fn starts() -> &'static [StartSpec] {
-        &[StartSpec {
-            name: "upright",
-            doc: "rolling upright along x, and leaning over",
-            options: &[
-                StartOption {
-                    name: "speed",
-                    doc: "speed",
-                    default: 4.6,
-                    unit: "m/s",
-                },
-                StartOption {
-                    name: "lean_rate",
-                    doc: "rate of leaning",
-                    default: 0.5,
-                    unit: "rad/s",
-                },
-            ],
-        }]
-    }
-
-    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let [speed, lean_rate] = Chosen::among(Self::starts(), name, options)?.values();
-        positive("rear_radius", self.rear_radius)?;
-        positive("front_radius", self.front_radius)?;
-        Ok(self.upright(speed, lean_rate))
-    }
-
-    fn duration() -> f64 {
-        5.0
     }
 }

@@ -1,7 +1,5 @@
 //! Bricard's linkage.
 
-use ukcore::model::Model;
-
 ukcore::multibody! {
     /// Bricard's linkage: five rods, six hinges; by count it cannot move.
     ///
@@ -28,13 +26,11 @@ ukcore::multibody! {
         output { p3_at [m] = r3.at([0, 0, 0]) }
         /// at rest in the edges of a cube
         start cube {
-            r0.x near 0.5
-            r1.x near 1, r1.y near -0.5
-            r2.x near 1, r2.y near -1, r2.z near 0.5
-            r3.x near 0.5, r3.y near -1, r3.z near 1
-            r4.y near -0.5, r4.z near 1
+            r0.centre near [0.5, 0, 0]
+            r1.centre near [1, -0.5, 0]
+            r2.centre near [1, -1, 0.5]
+            r3.centre near [0.5, -1, 1]
+            r4.centre near [0, -0.5, 1]
         }
     }
 }
-
-impl Model for Bricard {}

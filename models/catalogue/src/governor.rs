@@ -1,11 +1,5 @@
 //! The flyball governor.
 
-use nalgebra::{UnitQuaternion, Vector3};
-use ukcore::model::{Chosen, Model, StartOption, StartOptions, StartSpec};
-use ukcore::{Error, State};
-
-use crate::Pose;
-
 ukcore::multibody! {
     /// The flyball governor: an axle free to turn, a slider on it, two rods with balls, hard struts between slider and rods.
     ///
@@ -58,69 +52,24 @@ ukcore::multibody! {
             }
         }
         output { height [m] = slide.z, speed [rad/s] = axle.omega[2] }
-    }
-}
-
-impl Governor {
-    /// Rods at `angle` from the downward vertical, the slider where the struts are not strained, all turning at `speed` about the axle.
-    /// `None` where the struts do not reach.
-    #[must_use]
-    pub fn turning(&self, angle: f64, speed: f64) -> Option<State> {
-        let (sin, cos) = angle.sin_cos();
-        let half = self.l / 2.0;
-        // The strut from the middle of the rod down to the slider.
-        let below = (self.strut.powi(2) - (half * sin).powi(2)).sqrt();
-        if below.is_nan() {
-            return None;
-        }
-        let height = self.l - half * cos - below;
-        let centre = (self.rod * half + self.ball * self.l) / (self.rod + self.ball);
-        let mut state = State::zeros::<Self>();
-        let mut enter = |x: usize, turn: f64, at: [f64; 3]| {
-            let mut pose = Pose::at_rest(at).turning(Vector3::z() * speed);
-            pose.turn = UnitQuaternion::from_scaled_axis(Vector3::y() * turn);
-            pose.enter(&mut state, x);
-        };
-        enter(Governor::AXLE_X, 0.0, [0.0, 0.0, half]);
-        enter(Governor::SLIDE_X, 0.0, [0.0, 0.0, height]);
-        for (x, side) in Governor::ARM_X.into_iter().zip([1.0, -1.0]) {
-            let at = [side * (self.r + centre * sin), 0.0, self.l - centre * cos];
-            enter(x, -side * angle, at);
-        }
-        Some(state)
-    }
-}
-
-impl Model for Governor {
-    fn starts() -> &'static [StartSpec] {
-        &[StartSpec {
-            name: "turning",
-            doc: "turning with the rods at an angle, struts unstrained",
-            options: &[
-                StartOption {
-                    name: "angle",
-                    doc: "angle of the rods from the downward vertical",
-                    default: std::f64::consts::FRAC_PI_3,
-                    unit: "rad",
-                },
-                StartOption {
-                    name: "spin",
-                    doc: "angular velocity about the axle",
-                    default: std::f64::consts::TAU,
-                    unit: "rad/s",
-                },
-            ],
-        }]
-    }
-
-    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        let [angle, spin] = Chosen::among(Self::starts(), name, options)?.values();
-        self.turning(angle, spin).ok_or_else(|| {
-            let reason = format!("is {angle} rad; there the struts do not reach the axle");
-            Error::InvalidSetting {
-                what: "angle",
-                reason,
+        let below = |angle| l / 2 * cos(angle) + sqrt(sq(strut) - sq(l / 2 * sin(angle)));
+        /// turning with the rods at an angle, struts unstrained
+        start turning(
+            /// Angle of the rods from the downward vertical
+            angle = (PI / 3) [rad],
+            /// Angular velocity about the axle
+            spin = (2 * PI) [rad/s],
+        ) {
+            axle.z near l / 2
+            slide.z near l - below(angle)
+            axle.omega near [0, 0, spin]
+            slide.omega near [0, 0, spin]
+            for i in 0..2 {
+                [arm[i].e0, arm[i].e2] near [cos(angle / 2), (2 * i - 1) * sin(angle / 2)],
+                arm[i].centre near [(1 - 2 * i) * (r + centre * sin(angle)), 0, l - centre * cos(angle)]
+                dot(arm[i].y) near spin * (1 - 2 * i) * (r + centre * sin(angle))
+                arm[i].omega near [0, 0, spin]
             }
-        })
+        }
     }
 }

@@ -1,7 +1,5 @@
 //! A fast heavy top.
 
-use ukcore::model::Model;
-
 ukcore::multibody! {
     /// The heavy top of Brüls, Cardona & Arnold, spinning about its axis y, about a fixed point.
     ///
@@ -19,18 +17,9 @@ ukcore::multibody! {
             turning = 150.0 [rad/s],
             /// Angular velocity about the vertical
             precession = -4.61538 [rad/s],
-        ) {
-            top.y near l
-            top.e0 = 1
-            dot(top.x) near -precession * l
-            dot(top.e2) = turning / 2
-            dot(top.e3) = precession / 2
+        ) until 2.0 {
+            top.centre near [0, l, 0]
+            top.omega = [0, turning, precession]
         }
-    }
-}
-
-impl Model for HeavyTop {
-    fn duration() -> f64 {
-        2.0
     }
 }

@@ -1,13 +1,5 @@
 //! Theo Jansen's leg, and a walker of such legs.
 
-use ukcore::model::{StartOption, StartSpec};
-
-/// A point of the plane.
-type Point = [f64; 2];
-
-/// The joints of a leg besides its hip: crank pin, knee above, lower joint, outer end of the upper triangle, heel, toe.
-pub type Joints = [Point; 6];
-
 /// `legs!(docs Name, pairs, sides)`: pairs of legs on one crank shaft, of `sides` legs each; n counts pairs, s sides.
 #[macro_export]
 macro_rules! legs {
@@ -75,73 +67,34 @@ macro_rules! legs {
                 }
                 forces { torque(crank, torque - drag * crank.omega) }
                 output { for n in 0..PAIRS { for s in 0..SIDES { step[n][s] [m] = foot[n][s].at(toe(s)) } } }
-            }
-        }
-
-        impl $name {
-            /// The joints of leg (n, s) with the crank at `angle`, rad: the knee on the left of the line from hip to crank pin where
-            /// `left[0]`, the lower joint where `left[1]`, the heel on the left of that from the outer end to the lower joint where
-            /// `left[2]`; of legs with s = 1 seen in the mirror. `None` where bars do not reach. Jansen's is `[true, false, false]`.
-            #[must_use]
-            pub fn joints(&self, angle: f64, (n, s): (usize, usize), left: [bool; 3]) -> Option<$crate::jansen::Joints> {
-                use $crate::jansen::meet;
-                let side = 1.0 - 2.0 * s as f64;
-                let (sin, cos) = (angle + std::f64::consts::TAU / 3.0 * n as f64).sin_cos();
-                let (hip, pin) = ([-self.a, -self.l], [side * self.m * cos, self.m * sin]);
-                let knee = meet(hip, self.b, pin, self.j, left[0])?;
-                let low = meet(hip, self.c, pin, self.k, left[1])?;
-                let outer = meet(hip, self.d, knee, self.e, true)?;
-                let heel = meet(outer, self.f, low, self.g, left[2])?;
-                let toe = meet(low, self.i, heel, self.h, true)?;
-                Some([pin, knee, low, outer, heel, toe].map(|[x, y]| [side * x, y]))
-            }
-
-            /// The crank at `angle`, rad, and the bodies of the legs where `joints`, drawn as well as may be, have them: (n, s) to joints.
-            #[must_use]
-            pub fn drawn(&self, angle: f64, mut joints: impl FnMut(usize, usize) -> $crate::jansen::Joints) -> ukcore::State {
-                let mut state = ukcore::State::zeros::<Self>();
-                state.q[Self::CRANK_ANGLE] = angle;
-                for n in 0..Self::PAIRS {
-                    for s in 0..Self::SIDES {
-                        let [pin, knee, low, outer, heel, toe] = joints(n, s);
-                        let hip = [self.a * (2.0 * s as f64 - 1.0), -self.l];
-                        let mut enter = |x: usize, from: [f64; 2], to: [f64; 2], corners: &[[f64; 2]]| {
-                            let mean = |k: usize| corners.iter().map(|p| p[k]).sum::<f64>() / corners.len() as f64;
-                            (state.q[x], state.q[x + 1]) = (mean(0), mean(1));
-                            state.q[x + 2] = (to[1] - from[1]).atan2(to[0] - from[0]);
-                        };
-                        enter(Self::BAR_J_X[n][s], pin, knee, &[pin, knee]);
-                        enter(Self::BAR_K_X[n][s], pin, low, &[pin, low]);
-                        enter(Self::BAR_C_X[n][s], hip, low, &[hip, low]);
-                        enter(Self::BAR_F_X[n][s], outer, heel, &[outer, heel]);
-                        enter(Self::THIGH_X[n][s], hip, knee, &[hip, knee, outer]);
-                        enter(Self::FOOT_X[n][s], low, heel, &[low, heel, toe]);
-                    }
+                // The point at the distances r from p and s from p + v, on the left of v or, where `side` is −1, on the right.
+                let share = |v, r, s| (sq(v) + sq(r) - sq(s)) / (2 * sq(v));
+                let meet = |p, v, r, s, side| p + share(v, r, s) * v + side * sqrt(sq(r) / sq(v) - sq(share(v, r, s))) * [-v[1], v[0]];
+                let bent = |s, v, r1, r2, side| meet(hip(s), v - hip(s), r1, r2, (1 - 2 * s) * side);
+                let at_pin = |n, angle| m * [cos(angle + 2 * PI / 3 * n), sin(angle + 2 * PI / 3 * n)];
+                let at_low = |n, s, angle| bent(s, at_pin(n, angle), c, k, -1);
+                let at_knee = |n, s, angle| bent(s, at_pin(n, angle), b, j, 1);
+                let at_back = |n, s, angle| bent(s, at_knee(n, s, angle), d, e, 1);
+                let at_heel = |n, s, angle| meet(at_back(n, s, angle), at_low(n, s, angle) - at_back(n, s, angle), f, g, 2 * s - 1);
+                let lies = |u, v| [(u[0] + v[0]) / 2, (u[1] + v[1]) / 2, atan2(v[1] - u[1], v[0] - u[0])];
+                /// crank at an angle, turning
+                start turning(
+                    /// Angle of the crank
+                    angle = 0.0 [rad],
+                    /// Angular velocity of the crank
+                    speed = 4.0 [rad/s],
+                ) {
+                    crank.angle = angle
+                    crank.omega = speed
+                    for n in 0..PAIRS { for s in 0..SIDES {
+                        [bar_j[n][s].x, bar_j[n][s].y, bar_j[n][s].angle] near lies(at_pin(n, angle), at_knee(n, s, angle)),
+                        [bar_k[n][s].x, bar_k[n][s].y, bar_k[n][s].angle] near lies(at_pin(n, angle), at_low(n, s, angle)),
+                        [bar_c[n][s].x, bar_c[n][s].y, bar_c[n][s].angle] near lies(hip(s), at_low(n, s, angle)),
+                        [bar_f[n][s].x, bar_f[n][s].y, bar_f[n][s].angle] near lies(at_back(n, s, angle), at_heel(n, s, angle)),
+                        [thigh[n][s].x, thigh[n][s].y, thigh[n][s].angle] near lies(hip(s), at_knee(n, s, angle)),
+                        [foot[n][s].x, foot[n][s].y, foot[n][s].angle] near lies(at_low(n, s, angle), at_heel(n, s, angle)),
+                    } }
                 }
-                state
-            }
-        }
-
-        impl ukcore::model::Model for $name {
-            fn starts() -> &'static [ukcore::model::StartSpec] {
-                &[$crate::jansen::TURNING]
-            }
-
-            fn start(&self, name: &str, options: &ukcore::model::StartOptions) -> Result<ukcore::State, ukcore::Error> {
-                let [angle, speed] = ukcore::model::Chosen::among(Self::starts(), name, options)?.values();
-                let mut missing = None;
-                let mut sketch = self.drawn(angle, |n, s| {
-                    self.joints(angle, (n, s), [true, false, false]).unwrap_or_else(|| {
-                        missing = Some((n, s));
-                        Default::default()
-                    })
-                });
-                if let Some((n, s)) = missing {
-                    let reason = format!("is {angle} rad; there the bars of leg ({n}, {s}) do not reach each other");
-                    return Err(ukcore::Error::InvalidSetting { what: "angle", reason });
-                }
-                sketch.v[Self::CRANK_ANGLE] = speed;
-                ukcore::assemble(self, sketch, &["crank.angle"])
             }
         }
     };
@@ -161,40 +114,3 @@ legs! {
     /// Proportions and names as in `JansenLeg`.
     Walker, 3, 2
 }
-
-/// The point at the distance r from p and s from q, to the left of the way from p to q or to its right.
-#[doc(hidden)]
-#[must_use]
-pub fn meet(p: Point, r: f64, q: Point, s: f64, left: bool) -> Option<Point> {
-    let [dx, dy] = [q[0] - p[0], q[1] - p[1]];
-    let square = dx * dx + dy * dy;
-    let along = (square + r * r - s * s) / (2.0 * square);
-    let across = (r * r / square - along * along).sqrt();
-    let across = if left { across } else { -across };
-    let place = [
-        p[0] + along * dx - across * dy,
-        p[1] + along * dy + across * dx,
-    ];
-    (!across.is_nan()).then_some(place)
-}
-
-/// The start of all legs.
-#[doc(hidden)]
-pub const TURNING: StartSpec = StartSpec {
-    name: "turning",
-    doc: "crank at an angle, turning",
-    options: &[
-        StartOption {
-            name: "angle",
-            doc: "angle of the crank",
-            default: 0.0,
-            unit: "rad",
-        },
-        StartOption {
-            name: "speed",
-            doc: "angular velocity of the crank",
-            default: 4.0,
-            unit: "rad/s",
-        },
-    ],
-};

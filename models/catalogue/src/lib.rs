@@ -14,7 +14,6 @@ pub mod bricard;
 pub mod governor;
 pub mod heavy_top;
 pub mod jansen;
-mod pose;
 pub mod rolling_disc;
 pub mod stewart;
 
@@ -25,6 +24,5 @@ pub use bricard::Bricard;
 pub use governor::Governor;
 pub use heavy_top::HeavyTop;
 pub use jansen::{JansenLeg, Walker};
-pub use pose::Pose;
 pub use rolling_disc::RollingDisc;
 pub use stewart::Stewart;

@@ -1,11 +1,5 @@
 //! The Stewart platform.
 
-use nalgebra::{UnitQuaternion, Vector3};
-use ukcore::model::{Chosen, Model, StartOptions, StartSpec};
-use ukcore::{Error, State};
-
-use crate::Pose;
-
 ukcore::multibody! {
     /// A platform on six legs whose lengths are driven, so that it heaves, yaws and nods: the leg forces are the multipliers.
     ///
@@ -47,51 +41,7 @@ ukcore::multibody! {
         output {
             for i in 0..3 { for s in 0..2 { length[i][s] [m] = norm(platform.at(head(i, s)) - foot(i, s)) } }
         }
-    }
-}
-
-impl Stewart {
-    /// The pose that the lengths of the legs are made for, at time t, s.
-    #[must_use]
-    pub fn pose(&self, t: f64) -> Pose {
-        let (sin, cos) = (self.w * t).sin_cos();
-        let yaw = UnitQuaternion::from_scaled_axis(Vector3::z() * (self.turn * sin));
-        let nod = UnitQuaternion::from_scaled_axis(Vector3::x() * (self.turn * (1.0 - cos)));
-        Pose {
-            centre: Vector3::z() * (self.height + self.rise * sin),
-            turn: yaw * nod,
-            velocity: Vector3::z() * (self.rise * self.w * cos),
-            omega: Vector3::z() * (self.turn * self.w * cos)
-                + yaw * Vector3::x() * (self.turn * self.w * sin),
-        }
-    }
-
-    /// Joint (i, s) on the ground, and that on the platform in its frame.
-    #[must_use]
-    pub fn ends(&self, i: usize, s: usize) -> [Vector3<f64>; 2] {
-        let third = std::f64::consts::TAU / 3.0;
-        let (turn, side) = (third * i as f64, 2.0 * s as f64 - 1.0);
-        let ring = |r: f64, angle: f64| Vector3::new(r * angle.cos(), r * angle.sin(), 0.0);
-        [
-            ring(self.base, turn + side * self.spread),
-            ring(self.plate, turn + side * (third / 2.0 - self.spread)),
-        ]
-    }
-}
-
-impl Model for Stewart {
-    fn starts() -> &'static [StartSpec] {
-        &[StartSpec {
-            name: "level",
-            doc: "level at the mean height, moving as the legs drive it",
-            options: &[],
-        }]
-    }
-
-    fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
-        Chosen::among(Self::starts(), name, options)?;
-        let mut state = State::zeros::<Self>();
-        self.pose(0.0).enter(&mut state, Stewart::PLATFORM_X);
-        Ok(state)
+        /// level at the mean height, moving as the legs drive it
+        start level { platform.z near height }
     }
 }

@@ -2,12 +2,11 @@
 
 use catalogue::Andrews;
 use tests::{assert_all_close, assert_close};
-use ukcore::model::Model;
 use ukcore::{Solver, SolverOptions};
 
 #[test]
 fn it_is_where_the_literature_has_it() {
-    let state = Andrews::default().default_start().expect("a start");
+    let state = super::start(&Andrews::default());
     let solution = Solver::new(Andrews::default(), SolverOptions::default())
         .solve(0.0, &state.q, &state.v)
         .expect("accelerations");

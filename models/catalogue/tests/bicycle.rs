@@ -103,7 +103,8 @@ fn rate_by_position(bicycle: &Bicycle, q: &[f64], v: &[f64]) -> DMatrix<f64> {
 /// depend on no other part of a deviation that meets the constraints; which is asserted.
 fn eigenvalues(speed: f64) -> Vec<Complex<f64>> {
     let bicycle = Bicycle::default();
-    let state = bicycle.upright(speed, 0.0);
+    let options = [("speed", speed), ("lean_rate", 0.0)].into();
+    let state = bicycle.start("upright", &options).expect("a start");
     let (n, h, m) = (
         state.q.len(),
         Bicycle::SPEC.holonomic,

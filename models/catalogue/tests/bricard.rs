@@ -1,18 +1,18 @@
 //! Bricard's linkage.
 
-use catalogue::{Bricard, Pose};
+use crate::pose::Pose;
+use catalogue::Bricard;
 use nalgebra::{UnitQuaternion, Vector3};
 use tests::{Dense, Random, assert_all_close, assert_close, largest};
 use ukcore::equations::up;
 use ukcore::manifold::Projector;
-use ukcore::model::Model;
 use ukcore::simulate::Sample;
 use ukcore::{Mechanism, Simulation, Solver, SolverOptions};
 
 /// Two periods at a tight tolerance: the closed form of the angles, energy, no dense solve, and back at the start.
 #[test]
 fn it_moves_with_a_row_to_spare() {
-    let start = Bricard::default().default_start().expect("a start");
+    let start = super::start(&Bricard::default());
     let run = Simulation::new(Bricard::default())
         .tolerance(1e-12)
         .start(start)

@@ -3,14 +3,13 @@
 use catalogue::{
     Andrews, Arm, Bicycle, Bricard, Governor, HeavyTop, JansenLeg, RollingDisc, Stewart, Walker,
 };
-use ukcore::model::Model;
-use ukcore::{Solver, SolverOptions};
+use ukcore::{Mechanism, Solver, SolverOptions};
 
 #[test]
 fn mechanisms_have_the_freedoms_counted_by_hand() {
-    fn check<M: Model>(freedoms: usize, redundant: usize) {
+    fn check<M: Mechanism>(freedoms: usize, redundant: usize) {
         let (mechanism, name) = (M::default(), M::SPEC.name);
-        let start = mechanism.default_start().expect("a start");
+        let start = super::start(&mechanism);
         let solution = Solver::new(mechanism, SolverOptions::default())
             .solve(start.t, &start.q, &start.v)
             .unwrap_or_else(|e| panic!("{name}: {e}"));
@@ -36,7 +35,7 @@ fn mechanisms_have_the_freedoms_counted_by_hand() {
 
 #[test]
 fn energy_is_conserved() {
-    fn check<M: Model>(end: f64) {
+    fn check<M: Mechanism>(end: f64) {
         let run = super::run::<M>(1e-11, end, end);
         let drift = run.energy_drift();
         assert!(drift < 1e-9, "{}: {drift:e}", M::SPEC.name);

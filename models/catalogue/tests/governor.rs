@@ -1,8 +1,8 @@
 //! The flyball governor.
 
-use catalogue::{Governor, Pose};
+use crate::pose::Pose;
+use catalogue::Governor;
 use tests::assert_close;
-use ukcore::model::Model;
 use ukcore::{Linearisation, Method, Simulation};
 
 /// The governor in slider height s and rod angle θ alone, after Routh: the angular momentum about the axle stays.
@@ -82,7 +82,7 @@ impl Reduced {
 #[test]
 fn it_moves_as_two_coordinates_say() {
     let governor = Governor::default();
-    let start = governor.default_start().expect("a start");
+    let start = super::start(&governor);
     let mut reduced = Reduced {
         governor: governor.clone(),
         momentum: 0.0,
@@ -120,7 +120,7 @@ fn it_moves_as_two_coordinates_say() {
 #[test]
 fn it_is_as_stiff_as_published() {
     let governor = Governor::default();
-    let start = governor.default_start().expect("a start");
+    let start = super::start(&governor);
     let n = start.q.len();
     let found = Linearisation::at(governor, &start).expect("smooth");
     let mut matrix = nalgebra::DMatrix::zeros(2 * n, 2 * n);

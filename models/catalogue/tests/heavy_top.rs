@@ -3,7 +3,6 @@
 use catalogue::HeavyTop;
 use models::elliptic;
 use tests::{assert_all_close, assert_close};
-use ukcore::model::Model;
 
 #[test]
 fn it_turns_as_the_literature_says() {
@@ -18,8 +17,8 @@ fn it_turns_as_the_literature_says() {
 fn its_nutation_is_that_of_elliptic_functions() {
     let top = HeavyTop::default();
     let inertia = top.across + top.m * top.l * top.l;
-    let start = top.default_start().expect("a start");
-    let omega = catalogue::Pose::of(&start.q, &start.v, HeavyTop::TOP_X).omega;
+    let start = super::start(&top);
+    let omega = crate::pose::Pose::of(&start.q, &start.v, HeavyTop::TOP_X).omega;
     let (a, b) = (top.along * omega.y / inertia, omega.z);
     let beta = 2.0 * top.m * top.g * top.l / inertia;
     let (sum, product) = ((a * a + b * b) / beta, 2.0 * a * b / beta - 1.0);

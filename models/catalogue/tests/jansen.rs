@@ -1,10 +1,8 @@
 //! Theo Jansen's leg and walkers.
 
-use catalogue::jansen::Joints;
 use catalogue::{JansenLeg, Walker};
 use std::f64::consts::TAU;
 use tests::{Random, assert_close, hunted};
-use ukcore::model::Model;
 use ukcore::{Mechanism, Simulation, State, assemble};
 
 catalogue::legs! {
@@ -15,10 +13,84 @@ catalogue::legs! {
 /// How Jansen puts a leg together.
 const JANSEN: [bool; 3] = [true, false, false];
 
+/// A point of the plane.
+type Point = [f64; 2];
+
+/// The joints of a leg besides its hip: crank pin, knee above, lower joint, outer end of the upper triangle, heel, toe.
+type Joints = [Point; 6];
+
+/// Legs by compass and ruler.
+trait Legs: Mechanism {
+    /// The joints of leg (n, s) with the crank at `angle`, rad: the knee on the left of the line from hip to crank pin where
+    /// `left[0]`, the lower joint where `left[1]`, the heel on the left of that from the outer end to the lower joint where
+    /// `left[2]`; of legs with s = 1 seen in the mirror. `None` where bars do not reach. Jansen's is [`JANSEN`].
+    fn joints(&self, angle: f64, leg: (usize, usize), left: [bool; 3]) -> Option<Joints>;
+
+    /// The crank at `angle`, rad, and the bodies of the legs where `joints`, drawn as well as may be, have them: (n, s) to joints.
+    fn drawn(&self, angle: f64, joints: impl FnMut(usize, usize) -> Joints) -> State;
+}
+
+macro_rules! drawn {
+    ($($name:ty),*) => {$(
+        impl Legs for $name {
+            fn joints(&self, angle: f64, (n, s): (usize, usize), left: [bool; 3]) -> Option<Joints> {
+                let side = 1.0 - 2.0 * s as f64;
+                let (sin, cos) = (angle + TAU / 3.0 * n as f64).sin_cos();
+                let (hip, pin) = ([-self.a, -self.l], [side * self.m * cos, self.m * sin]);
+                let knee = meet(hip, self.b, pin, self.j, left[0])?;
+                let low = meet(hip, self.c, pin, self.k, left[1])?;
+                let outer = meet(hip, self.d, knee, self.e, true)?;
+                let heel = meet(outer, self.f, low, self.g, left[2])?;
+                let toe = meet(low, self.i, heel, self.h, true)?;
+                Some([pin, knee, low, outer, heel, toe].map(|[x, y]| [side * x, y]))
+            }
+
+            fn drawn(&self, angle: f64, mut joints: impl FnMut(usize, usize) -> Joints) -> State {
+                let mut state = State::zeros::<Self>();
+                state.q[Self::CRANK_ANGLE] = angle;
+                for n in 0..Self::PAIRS {
+                    for s in 0..Self::SIDES {
+                        let [pin, knee, low, outer, heel, toe] = joints(n, s);
+                        let hip = [self.a * (2.0 * s as f64 - 1.0), -self.l];
+                        let mut enter = |x: usize, from: [f64; 2], to: [f64; 2], corners: &[[f64; 2]]| {
+                            let mean = |k: usize| corners.iter().map(|p| p[k]).sum::<f64>() / corners.len() as f64;
+                            (state.q[x], state.q[x + 1]) = (mean(0), mean(1));
+                            state.q[x + 2] = (to[1] - from[1]).atan2(to[0] - from[0]);
+                        };
+                        enter(Self::BAR_J_X[n][s], pin, knee, &[pin, knee]);
+                        enter(Self::BAR_K_X[n][s], pin, low, &[pin, low]);
+                        enter(Self::BAR_C_X[n][s], hip, low, &[hip, low]);
+                        enter(Self::BAR_F_X[n][s], outer, heel, &[outer, heel]);
+                        enter(Self::THIGH_X[n][s], hip, knee, &[hip, knee, outer]);
+                        enter(Self::FOOT_X[n][s], low, heel, &[low, heel, toe]);
+                    }
+                }
+                state
+            }
+        }
+    )*};
+}
+
+drawn!(JansenLeg, Walker, Twelve);
+
+/// The point at the distance r from p and s from q, to the left of the way from p to q or to its right.
+fn meet(p: Point, r: f64, q: Point, s: f64, left: bool) -> Option<Point> {
+    let [dx, dy] = [q[0] - p[0], q[1] - p[1]];
+    let square = dx * dx + dy * dy;
+    let along = (square + r * r - s * s) / (2.0 * square);
+    let across = (r * r / square - along * along).sqrt();
+    let across = if left { across } else { -across };
+    let place = [
+        p[0] + along * dx - across * dy,
+        p[1] + along * dy + across * dx,
+    ];
+    (!across.is_nan()).then_some(place)
+}
+
 /// Over a turn of the crank the toe is where circles about the joints have it.
 #[test]
 fn toes_go_where_compass_and_ruler_have_them() {
-    fn check<M: Model>(crank: usize, toe: impl Fn(f64) -> Vec<f64>) {
+    fn check<M: Legs>(crank: usize, toe: impl Fn(f64) -> Vec<f64>) {
         let run = super::run::<M>(1e-10, 0.1, 2.0);
         let angle = |q: &[f64]| q[crank];
         assert!(angle(run.last().expect("the end").q) > TAU, "a whole turn");
@@ -42,7 +114,7 @@ fn toes_go_where_compass_and_ruler_have_them() {
 /// A walk of twelve legs: how far its samples are off the constraints, and the turns of the crank.
 fn walk(end: f64, samples: u32) -> (f64, f64) {
     let walker = Twelve::default();
-    let start = walker.default_start().expect("a start");
+    let start = super::start(&walker);
     let run = Simulation::new(walker)
         .start(start)
         .every(end / f64::from(samples))
@@ -175,7 +247,7 @@ fn a_leg_that_nothing_drives_keeps_its_energy() {
         drag: 0.0,
         ..JansenLeg::default()
     };
-    let start = leg.default_start().expect("a start");
+    let start = super::start(&leg);
     let run = Simulation::new(leg)
         .tolerance(1e-11)
         .start(start)

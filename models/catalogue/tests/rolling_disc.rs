@@ -1,20 +1,21 @@
 //! The rolling disc.
 
+use crate::pose::Pose;
 use catalogue::RollingDisc;
 use std::f64::consts::PI;
 use tests::assert_close;
 use ukcore::Simulation;
-use ukcore::model::Model;
 
 #[test]
 fn it_stays_on_its_circle() {
     let (tilt, precession) = (1.1_f64, 2.0);
     let disc = RollingDisc::default();
-    let spin = disc.spin(tilt, precession);
+    let start = super::start(&disc);
+    let omega = Pose::of(&start.q, &start.v, RollingDisc::DISC_X).omega;
+    let spin = omega.z * tilt.cos() + omega.y * tilt.sin();
     assert_close("spin", spin, -3.177_452_701_121_622, 1e-12);
     let radius = -disc.r * spin / precession;
     assert_close("radius of the circle", radius, 0.794_363_175, 1e-9);
-    let start = disc.default_start().expect("a start");
     let run = Simulation::new(disc)
         .tolerance(1e-11)
         .dense()

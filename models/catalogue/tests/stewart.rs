@@ -1,16 +1,40 @@
 //! The Stewart platform.
 
-use catalogue::{Pose, Stewart};
-use nalgebra::{Matrix6, Vector3, Vector6};
+use crate::pose::Pose;
+use catalogue::Stewart;
+use nalgebra::{Matrix6, UnitQuaternion, Vector3, Vector6};
 use tests::assert_all_close;
 use ukcore::{Solver, SolverOptions, State, assemble};
+
+/// The pose that the lengths of the legs are made for, at time t, s.
+fn pose(stewart: &Stewart, t: f64) -> Pose {
+    let (sin, cos) = (stewart.w * t).sin_cos();
+    let yaw = UnitQuaternion::from_scaled_axis(Vector3::z() * (stewart.turn * sin));
+    let nod = UnitQuaternion::from_scaled_axis(Vector3::x() * (stewart.turn * (1.0 - cos)));
+    Pose {
+        centre: Vector3::z() * (stewart.height + stewart.rise * sin),
+        turn: yaw * nod,
+        velocity: Vector3::z() * (stewart.rise * stewart.w * cos),
+        omega: Vector3::z() * (stewart.turn * stewart.w * cos)
+            + yaw * Vector3::x() * (stewart.turn * stewart.w * sin),
+    }
+}
+
+/// Joint (i, s) on the ground, and that on the platform in its frame.
+fn ends(stewart: &Stewart, i: usize, s: usize) -> [Vector3<f64>; 2] {
+    let third = std::f64::consts::TAU / 3.0;
+    let (turn, side) = (third * i as f64, 2.0 * s as f64 - 1.0);
+    let ring = |r: f64, angle: f64| Vector3::new(r * angle.cos(), r * angle.sin(), 0.0);
+    [
+        ring(stewart.base, turn + side * stewart.spread),
+        ring(stewart.plate, turn + side * (third / 2.0 - stewart.spread)),
+    ]
+}
 
 fn at(t: f64) -> State {
     let mut state = State::zeros::<Stewart>();
     state.t = t;
-    Stewart::default()
-        .pose(t)
-        .enter(&mut state, Stewart::PLATFORM_X);
+    pose(&Stewart::default(), t).enter(&mut state, Stewart::PLATFORM_X);
     state
 }
 
@@ -44,11 +68,11 @@ fn its_legs_push_as_newton_and_euler_say() {
         let solution = Solver::new(&stewart, SolverOptions::default())
             .solve(t, &state.q, &state.v)
             .expect("accelerations");
-        let pose = stewart.pose(t);
+        let pose = self::pose(&stewart, t);
         let h = 1e-3;
         // Of fourth order.
         let rate = |of: &dyn Fn(Pose) -> Vector3<f64>| {
-            let at = |k: f64| of(stewart.pose(t + k * h));
+            let at = |k: f64| of(self::pose(&stewart, t + k * h));
             ((at(1.0) - at(-1.0)) * 8.0 - at(2.0) + at(-2.0)) / (12.0 * h)
         };
         let (a, alpha) = (rate(&|p| p.velocity), rate(&|p| p.omega));
@@ -60,7 +84,7 @@ fn its_legs_push_as_newton_and_euler_say() {
         let moment = turned(alpha) + pose.omega.cross(&turned(pose.omega));
         let mut columns = Matrix6::zeros();
         for leg in 0..6 {
-            let [foot, head] = stewart.ends(leg / 2, leg % 2);
+            let [foot, head] = ends(&stewart, leg / 2, leg % 2);
             let arm = pose.turn * head;
             let along = pose.centre + arm - foot;
             columns.fixed_view_mut::<3, 1>(0, leg).copy_from(&along);

@@ -1,35 +1,36 @@
-//! The command `animate`: a motion as a page that opens from disk, with no network and no library.
+//! The command `animate`: motions as a page that opens from disk, with no network and no library.
 
 use std::io::Write;
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
-use maud::{DOCTYPE, PreEscaped, html};
+use maud::{PreEscaped, html};
 use serde::Serialize;
-use ukcore::assemble::residuals;
 use ukcore::model::Entry;
 use ukcore::simulate::Sample;
 use ukcore::spec::ShapeKind;
 use ukcore::{Error, Prepared};
 
-use crate::command;
+use crate::columns::residual;
+use crate::command::{self, find};
+use crate::curves::Thinned;
 use crate::failure::Failure;
-use crate::motion::Motion;
-use crate::numbers::{full, short};
+use crate::html::document;
+use crate::motion::{self, Motion};
+use crate::numbers::short;
 use crate::output::{self, WholeFile};
-use crate::run::usage;
-use crate::scene::{Ready, Scene};
+use crate::runs::Runs;
+use crate::scene::{Ready, Start};
 
 /// The arguments of `animate`.
 #[derive(Debug, Args)]
 pub struct AnimateArgs {
-    /// The mechanism and its start
+    /// Model (see `list`)
+    pub model: String,
+    /// Its runs, which are shown side by side: `--tol 1e-3,1e-10`, `--set k=40,400`, `--stabilise projection,none`
     #[command(flatten)]
-    pub scene: Scene,
-    /// How its motion is computed
-    #[command(flatten)]
-    pub motion: Motion,
+    pub runs: Runs,
     /// Number of pictures, from 2 to 100000
     #[arg(long, value_name = "NUMBER", default_value = "600", value_parser = clap::value_parser!(u32).range(2..=100_000))]
     pub pictures: u32,
@@ -38,18 +39,19 @@ pub struct AnimateArgs {
     pub out: Option<PathBuf>,
 }
 
+/// More runs side by side are not told apart.
+const MOST_RUNS: usize = 6;
+/// More pictures of a run are thinned out.
+const MOST_PICTURES: usize = 100_000;
+
 /// What the page is given: numbers with the seven digits that a picture needs.
 #[derive(Serialize)]
 struct Data<'a> {
     dimension: usize,
     shapes: Vec<Shape<'a>>,
-    t: Vec<f64>,
-    pictures: Vec<Vec<f32>>,
-    energy: Vec<f64>,
     /// J, where the declaration has units.
     energy_unit: &'static str,
-    /// Of each picture the largest |φ| and |φ̇|; nothing without constraints.
-    residual: Vec<f64>,
+    runs: Vec<Shown>,
 }
 
 #[derive(Serialize)]
@@ -59,58 +61,169 @@ struct Shape<'a> {
     label: &'a str,
 }
 
-/// Computes a motion and writes its page. Of a motion that ends early what was computed is shown.
+/// A run as the page has it.
+#[derive(Serialize)]
+struct Shown {
+    label: String,
+    /// Why it ends early, if it does.
+    ended: Option<String>,
+    t: Vec<f64>,
+    pictures: Vec<Vec<f32>>,
+    energy: Vec<f64>,
+    /// Of each picture the largest |φ| and |φ̇|; nothing without constraints.
+    residual: Vec<f64>,
+}
+
+/// A run whose pictures are taken while it is computed.
+#[derive(Debug)]
+pub(crate) struct Film {
+    mechanism: Prepared,
+    label: String,
+    ended: Option<String>,
+    frames: Thinned<Frame>,
+}
+
+#[derive(Debug)]
+struct Frame {
+    t: f64,
+    picture: Vec<f32>,
+    energy: f64,
+    residual: f64,
+}
+
+impl Film {
+    /// Of a mechanism, called by what distinguishes it from those beside it.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] for a mechanism without a picture.
+    pub(crate) fn new(ready: &Ready<'_>, label: String) -> Result<Self, Failure> {
+        if ready.mechanism.spec().drawing.shapes.is_empty() {
+            return Err(Failure::Usage(format!(
+                "`{}` has no picture; declare one: `draw {{ line([x, y], [0, 0]) }}`",
+                ready.entry.id
+            )));
+        }
+        Ok(Film {
+            mechanism: ready.mechanism.clone(),
+            label,
+            ended: None,
+            frames: Thinned::new(MOST_PICTURES),
+        })
+    }
+
+    pub(crate) fn add(&mut self, sample: Sample<'_>) {
+        let Sample { t, q, v, .. } = sample;
+        let mut numbers = vec![0.0; self.mechanism.spec().drawing.numbers()];
+        self.mechanism.drawing(t, q, v, &mut numbers);
+        self.frames.push(Frame {
+            t,
+            picture: numbers.into_iter().map(|x| x as f32).collect(),
+            energy: self.mechanism.energy(t, q, v).total(),
+            residual: residual(&self.mechanism, sample),
+        });
+    }
+
+    /// Notes why the run ends early, if it does.
+    pub(crate) fn end(&mut self, error: Option<&Error>) {
+        self.ended = error.map(|error| format!("The motion ends early: {error}"));
+    }
+
+    fn shown(self) -> Shown {
+        let constrained = self.mechanism.spec().m() > 0;
+        let frames = self.frames.finish();
+        let residuals = frames.iter().filter(|_| constrained);
+        Shown {
+            label: self.label,
+            ended: self.ended,
+            t: frames.iter().map(|frame| frame.t).collect(),
+            energy: frames.iter().map(|frame| frame.energy).collect(),
+            residual: residuals.map(|frame| frame.residual).collect(),
+            pictures: frames.into_iter().map(|frame| frame.picture).collect(),
+        }
+    }
+}
+
+/// Computes motions and writes their page. Of one that ends early what was computed is shown.
 ///
 /// # Errors
-/// [`Failure::Usage`] for what is wrong with the command line, and for a mechanism without a picture; [`Failure::Failed`] if the integration
+/// [`Failure::Usage`] for what is wrong with the command line, and for a mechanism without a picture; [`Failure::Failed`] if an integration
 /// ends early or the page cannot be written.
 pub fn animate(models: &[Entry], args: &AnimateArgs) -> Result<(), Failure> {
-    let ready = args.scene.ready(models)?;
-    let spec = ready.mechanism.spec();
-    if spec.drawing.shapes.is_empty() {
-        return Err(Failure::Usage(format!(
-            "`{}` has no picture; declare one: `draw {{ line([x, y], [0, 0]) }}`",
-            ready.entry.id
-        )));
-    }
+    let entry = find(models, &args.model)?;
+    let runs = args.runs.each(entry, MOST_RUNS)?;
     let path = args.out.clone();
-    let path = path.unwrap_or_else(|| PathBuf::from(format!("{}.html", ready.entry.id)));
-    let mut file = WholeFile::create(&path)?;
-    let shapes = spec.drawing.shapes.iter().map(|shape| Shape {
-        kind: kind(shape.kind),
-        numbers: shape.numbers,
-        label: shape.label,
-    });
-    let mut data = Data {
-        dimension: spec.drawing.dimension,
-        shapes: shapes.collect(),
-        t: Vec::new(),
-        pictures: Vec::new(),
-        energy: Vec::new(),
-        energy_unit: if spec.coordinate_units.is_empty() {
-            ""
-        } else {
-            " J"
-        },
-        residual: Vec::new(),
-    };
-    let every = args.motion.length(&ready).abs() / f64::from(args.pictures - 1);
-    let (_, error) = args.motion.follow(&ready, Some(every), |sample| {
-        data.add(&ready.mechanism, sample);
+    let path = path.unwrap_or_else(|| PathBuf::from(format!("{}.html", entry.id)));
+    let (mut file, mut films, mut about, mut failed) = (None, Vec::new(), None, None);
+    for run in &runs {
+        let ready = run.start.ready(entry)?;
+        let differs = run.differs.iter();
+        let label: Vec<String> = differs
+            .map(|(name, value)| format!("{name} = {value}"))
+            .collect();
+        let film = Film::new(&ready, label.join(", "))?;
+        // Where the page cannot be written it is known before a long computation.
+        if file.is_none() {
+            file = Some(WholeFile::create(&path)?);
+        }
+        let (film, error) = taken(film, &ready, &run.motion, args.pictures)?;
+        about.get_or_insert_with(|| foot(&ready, &run.motion));
+        failed = failed.or(error);
+        films.push(film);
+    }
+    if let (Some(file), Some(about)) = (file, about) {
+        write(file, &path, &page(entry, films, &about)?)?;
+    }
+    output::to_stdout(|out| writeln!(out, "open {}", path.display()))?;
+    failed.map_or(Ok(()), |error| Err(error.into()))
+}
+
+/// The page of motions of one model side by side, each with what it is called there, in so many pictures.
+///
+/// # Errors
+/// What [`animate`] reports, and why a motion ends early if one does.
+pub fn page_of(
+    entry: &Entry,
+    runs: &[(&str, Start, Motion)],
+    pictures: u32,
+) -> Result<String, Failure> {
+    let (mut films, mut about) = (Vec::new(), String::new());
+    for (label, start, motion) in runs {
+        let ready = start.ready(entry)?;
+        let film = Film::new(&ready, (*label).to_owned())?;
+        let (film, error) = taken(film, &ready, motion, pictures)?;
+        error.map_or(Ok(()), Err)?;
+        if films.is_empty() {
+            about = foot(&ready, motion);
+        }
+        films.push(film);
+    }
+    page(entry, films, &about)
+}
+
+/// A film of a whole motion, and why it ends early.
+fn taken(
+    mut film: Film,
+    ready: &Ready<'_>,
+    motion: &Motion,
+    pictures: u32,
+) -> Result<(Film, Option<Error>), Failure> {
+    let every = motion.length(ready).abs() / f64::from(pictures - 1);
+    let (_, error) = motion.follow(ready, Some(every), |sample| {
+        film.add(sample);
         ControlFlow::Continue(())
     })?;
     if let Some(error @ Error::InvalidSetting { .. }) = error {
-        return Err(usage(error));
+        return Err(motion::usage(error));
     }
-    let ended = error
-        .as_ref()
-        .map(|error| format!("The motion ends early: {error}"));
-    let page = page(&ready, &args.motion, &data, ended)?;
+    film.end(error.as_ref());
+    Ok((film, error))
+}
+
+/// Writes a page to the file begun for it.
+pub(crate) fn write(mut file: WholeFile, path: &Path, page: &str) -> Result<(), Failure> {
     file.write_all(page.as_bytes())
-        .map_err(|e| output::failure(Some(&path), &e))?;
-    file.finish()?;
-    output::to_stdout(|out| writeln!(out, "open {}", path.display()))?;
-    error.map_or(Ok(()), |error| Err(error.into()))
+        .map_err(|e| output::failure(Some(path), &e))?;
+    file.finish()
 }
 
 fn kind(kind: ShapeKind) -> &'static str {
@@ -125,76 +238,63 @@ fn kind(kind: ShapeKind) -> &'static str {
     }
 }
 
-impl Data<'_> {
-    fn add(&mut self, mechanism: &Prepared, sample: Sample<'_>) {
-        let Sample { t, q, v, .. } = sample;
-        let mut numbers = vec![0.0; mechanism.spec().drawing.numbers()];
-        mechanism.drawing(t, q, v, &mut numbers);
-        let energy = mechanism.energy(t, q, v);
-        self.t.push(t);
-        self.pictures
-            .push(numbers.into_iter().map(|x| x as f32).collect());
-        self.energy.push(energy.total());
-        if mechanism.spec().m() > 0
-            && let Ok(left) = residuals(mechanism, &sample.to_state())
-        {
-            let largest = left.largest_position().max(left.largest_velocity());
-            self.residual.push(largest);
-        }
-    }
-}
-
-/// The page's text.
-fn page(
-    ready: &Ready<'_>,
-    motion: &Motion,
-    data: &Data<'_>,
-    ended: Option<String>,
-) -> Result<String, Failure> {
-    let data = serde_json::to_string(data).map_err(|e| Failure::Failed(e.to_string()))?;
-    // In a script nothing but its end has a meaning.
-    let data = data.replace("</", "<\\/");
-    let title = ready.mechanism.spec().name;
+/// From where, how, and with which parameters.
+pub(crate) fn foot(ready: &Ready<'_>, motion: &Motion) -> String {
     let parameters = ready.mechanism.spec().params.iter();
     let parameters = parameters.zip(ready.mechanism.parameters());
     let parameters = parameters.map(|(p, value)| format!("{} = {}", p.name, short(*value, 6)));
     let parameters: Vec<String> = parameters.collect();
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { (title) }
-                style { (PreEscaped(STYLE)) }
-            }
-            body {
-                h1 { (title) }
-                p { (ready.entry.summary) }
-                @if let Some(ended) = ended { p.note { (ended) } }
-                div #stage {}
-                div #controls {
-                    button #play type="button" { "Play" }
-                    input #time type="range" min="0" value="0" aria-label="time";
-                    output #now {}
-                    label { "speed " select #speed {
-                        @for speed in ["0.1", "0.25", "0.5", "1", "2", "5", "10"] {
-                            option value=(speed) selected[speed == "1"] { "× " (speed) }
-                        }
-                    } }
-                    label { input #traces type="checkbox" checked; " traces" }
-                }
-                div #strips {}
-                p.soft {
-                    "From `" (ready.start) "`, by " (motion.method.to_string()) " at tolerance " (full(motion.tol)) ". "
-                    @if !parameters.is_empty() { "Parameters: " (parameters.join(", ")) "." }
-                }
-                script type="application/json" id="data" { (PreEscaped(data)) }
-                script { (PreEscaped(PLAYER)) }
-            }
-        }
+    let (start, method, tol) = (ready.start, motion.method, motion.tol);
+    let from = format!("From `{start}`, by {method} at tolerance {tol:e}.");
+    match parameters.is_empty() {
+        true => from,
+        false => format!("{from} Parameters: {}.", parameters.join(", ")),
+    }
+}
+
+/// The page's text: films of one mechanism side by side, and what is to say of them.
+pub(crate) fn page(entry: &Entry, films: Vec<Film>, about: &str) -> Result<String, Failure> {
+    let spec = entry.mechanism.spec();
+    let shapes = spec.drawing.shapes.iter().map(|shape| Shape {
+        kind: kind(shape.kind),
+        numbers: shape.numbers,
+        label: shape.label,
+    });
+    let several = films.len() > 1;
+    let data = Data {
+        dimension: spec.drawing.dimension,
+        shapes: shapes.collect(),
+        energy_unit: if spec.coordinate_units.is_empty() {
+            ""
+        } else {
+            " J"
+        },
+        runs: films.into_iter().map(Film::shown).collect(),
     };
-    Ok(page.into_string())
+    let data = serde_json::to_string(&data).map_err(|e| Failure::Failed(e.to_string()))?;
+    // In a script nothing but its end has a meaning.
+    let data = data.replace("</", "<\\/");
+    let body = html! {
+        h1 { (spec.name) }
+        p { (entry.summary) }
+        div #stage {}
+        div #controls {
+            button #play type="button" { "Play" }
+            input #time type="range" min="0" value="0" aria-label="time";
+            output #now {}
+            label { "speed " select #speed {
+                @for speed in ["0.1", "0.25", "0.5", "1", "2", "5", "10"] {
+                    option value=(speed) selected[speed == "1"] { "× " (speed) }
+                }
+            } }
+            label { input #traces type="checkbox" checked; " traces" }
+        }
+        div #strips {}
+        p.soft { @if several { "The first: " } (about) }
+        script type="application/json" id="data" { (PreEscaped(data)) }
+        script { (PreEscaped(PLAYER)) }
+    };
+    Ok(document(spec.name, STYLE, &body))
 }
 
 const STYLE: &str = include_str!("animate/player.css");

@@ -17,6 +17,7 @@ use crate::modes::{ModesArgs, modes};
 use crate::report::{ReportArgs, report};
 use crate::run::{RunArgs, run};
 use crate::stability::{ModelArgs, of_model};
+use crate::sweep::{SweepArgs, sweep};
 
 /// The exit codes, and how values are written: the end of `--help`.
 pub const HELP: &str = "\
@@ -30,6 +31,8 @@ pub enum Command {
     List,
     /// Integrate a model
     Run(RunArgs),
+    /// Run a model with many values of parameters, options and tolerances, and make a table of what comes out
+    Sweep(SweepArgs),
     /// Show the motion of a model: a page that opens from disk, with its picture to play, energy and constraint residual
     Animate(AnimateArgs),
     /// Show where a model rests next to its start, and how it vibrates there: frequencies, growth, shapes
@@ -52,6 +55,7 @@ impl Command {
         match self {
             Command::List => list(models),
             Command::Run(args) => run(models, args),
+            Command::Sweep(args) => sweep(models, args),
             Command::Animate(args) => animate(models, args),
             Command::Modes(args) => modes(models, args),
             Command::Explain(args) => explain(models, args),

@@ -37,6 +37,15 @@ impl Failure {
         }
     }
 
+    /// What went wrong, without saying that something did.
+    #[must_use]
+    pub fn message(&self) -> String {
+        match self {
+            Failure::Usage(message) | Failure::Failed(message) => message.clone(),
+            other => other.to_string(),
+        }
+    }
+
     /// A failure to write standard output.
     pub fn stdout(error: &io::Error) -> Self {
         if error.kind() == io::ErrorKind::BrokenPipe {

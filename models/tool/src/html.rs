@@ -167,6 +167,17 @@ pub fn figure_of(class: &str, file: &str, text: &str, caption: impl Render) -> M
     }
 }
 
+/// A page within the page: an HTML file beside it, and a caption with a link to it.
+#[must_use]
+pub fn embedded(file: &str, text: &str, caption: impl Render) -> Markup {
+    html! {
+        figure.wide {
+            iframe src=(file) title=(text) loading="lazy" {}
+            figcaption { (caption) " " a href=(file) { "By itself." } }
+        }
+    }
+}
+
 /// A part of a page, with a heading that is numbered and a link at the top of the page.
 #[derive(Debug, Clone)]
 pub struct Section {
@@ -200,32 +211,39 @@ impl Page<'_> {
     #[must_use]
     pub fn render(&self) -> String {
         let shown = || self.sections.iter().filter(|s| !s.body.0.is_empty());
-        let page = html! {
-            (DOCTYPE)
-            html lang="en" {
-                head {
-                    meta charset="utf-8";
-                    meta name="viewport" content="width=device-width, initial-scale=1";
-                    title { (self.title) }
-                    style { (PreEscaped(STYLE)) }
-                }
-                body {
-                    h1 { (self.title) }
-                    (self.head)
-                    nav {
-                        @for section in shown() { a href=(format!("#{}", section.id)) { (section.link) } " " }
-                        @for (file, text) in self.files { a href=(file) { (text) } " " }
-                    }
-                    @for (k, section) in shown().enumerate() {
-                        h2 id=(section.id) { (k + 1) ". " (section.title) }
-                        (section.body)
-                    }
-                    (self.foot)
-                }
+        let body = html! {
+            h1 { (self.title) }
+            (self.head)
+            nav {
+                @for section in shown() { a href=(format!("#{}", section.id)) { (section.link) } " " }
+                @for (file, text) in self.files { a href=(file) { (text) } " " }
             }
+            @for (k, section) in shown().enumerate() {
+                h2 id=(section.id) { (k + 1) ". " (section.title) }
+                (section.body)
+            }
+            (self.foot)
         };
-        page.into_string()
+        document(self.title, STYLE, &body)
     }
+}
+
+/// The text of an HTML file that needs nothing but itself: its title, style sheet and body.
+#[must_use]
+pub fn document(title: &str, style: &str, body: &Markup) -> String {
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { (title) }
+                style { (PreEscaped(style)) }
+            }
+            body { (body) }
+        }
+    };
+    page.into_string()
 }
 
 const STYLE: &str = include_str!("page.css");

@@ -49,7 +49,17 @@ pub struct Motion {
 impl Motion {
     /// How long it is, s; negative backward.
     pub(crate) fn length(&self, ready: &Ready<'_>) -> f64 {
-        self.until.unwrap_or(ready.entry.duration) - ready.state.t
+        self.until.unwrap_or(ready.duration) - ready.state.t
+    }
+
+    /// What computes it.
+    pub(crate) fn simulation(&self, ready: &Ready<'_>) -> Simulation {
+        Simulation::new(&ready.mechanism)
+            .start(ready.state.clone())
+            .method(self.method)
+            .tolerance(self.tol)
+            .max_steps(self.max_steps)
+            .stabilise(self.stabilise)
     }
 
     /// Computes it and hands over samples at this interval, or at each step, until one breaks it off; why it ends early, if it does by an
@@ -66,19 +76,13 @@ impl Motion {
         let (from, length) = (ready.state.t, self.length(ready));
         let (interrupt, progress) = (Interrupt::catch()?, Progress::new(&ready.entry.id));
         let bar = progress.clone();
-        let mut simulation = Simulation::new(&ready.mechanism)
-            .start(ready.state.clone())
-            .method(self.method)
-            .tolerance(self.tol)
-            .max_steps(self.max_steps)
-            .stabilise(self.stabilise)
-            .progress(move |now| {
-                bar.set((now.t - from) / length, || format!("t = {:.3} s", now.t));
-                if interrupt.is_set() {
-                    return ControlFlow::Break(());
-                }
-                ControlFlow::Continue(())
-            });
+        let mut simulation = self.simulation(ready).progress(move |now| {
+            bar.set((now.t - from) / length, || format!("t = {:.3} s", now.t));
+            if interrupt.is_set() {
+                return ControlFlow::Break(());
+            }
+            ControlFlow::Continue(())
+        });
         if let Some(interval) = every {
             simulation = simulation.every(interval);
         }
@@ -94,8 +98,23 @@ impl Motion {
     }
 }
 
+/// A setting that the simulation refuses, by the name that it has on the command line.
+pub(crate) fn usage(error: Error) -> Failure {
+    match error {
+        Error::InvalidSetting {
+            what: "every",
+            reason,
+        } => Failure::Usage(format!("`--every` {reason}")),
+        Error::InvalidSetting {
+            what: "t_end",
+            reason,
+        } => Failure::Usage(format!("`--until` {reason}")),
+        other => Failure::from(other),
+    }
+}
+
 /// Reads a method; the step of RATTLE may have a unit.
-fn method(text: &str) -> Result<Method, String> {
+pub(crate) fn method(text: &str) -> Result<Method, String> {
     match text.split_once('=') {
         Some(("rattle", step)) => Ok(Method::Rattle {
             step: interval(step)?,
@@ -104,13 +123,13 @@ fn method(text: &str) -> Result<Method, String> {
     }
 }
 
-fn tolerance(text: &str) -> Result<f64, String> {
+pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
     let range = SMALLEST_TOLERANCE..1.0;
     let number = text.trim().parse().ok().filter(|x| range.contains(x));
     number.ok_or_else(|| format!("a number from {SMALLEST_TOLERANCE:.1e} to below 1 is needed"))
 }
 
-fn steps(text: &str) -> Result<usize, String> {
+pub(crate) fn steps(text: &str) -> Result<usize, String> {
     let number = text
         .trim()
         .parse()

@@ -9,7 +9,9 @@ use ukcore::model::Entry;
 use ukcore::simulate::{CsvWriter, Drift, Ending};
 use ukcore::{Error, Trajectory};
 
+use crate::animate::{self, Film};
 use crate::command;
+use crate::curves::Curves;
 use crate::failure::Failure;
 use crate::motion::{self, Motion};
 use crate::numbers::full;
@@ -26,13 +28,20 @@ pub struct RunArgs {
     /// How its motion is computed
     #[command(flatten)]
     pub motion: Motion,
-    /// Sample at this interval; each accepted step if absent
+    /// Sample at this interval; each accepted step if absent, unless something is drawn
     #[arg(long, value_name = "TIME", value_parser = motion::interval, allow_hyphen_values = true)]
     pub every: Option<f64>,
     /// Write the samples as CSV; `-` is standard output, which then holds nothing else and gets each row as soon as it is computed.
     /// Of a run that fails or is interrupted (Ctrl-C), what was computed so far is written
     #[arg(long, value_name = "FILE", value_parser = command::path)]
     pub csv: Option<PathBuf>,
+    /// Draw curves as SVG: each is a NAME of `--csv` over time, or `X,Y`, which is Y over X. Where `--every` says nothing, the run then has
+    /// 1000 equal intervals
+    #[arg(long, num_args = 2.., value_names = ["FILE", "CURVE"])]
+    pub plot: Option<Vec<String>>,
+    /// Write a page that plays the motion, as `animate` does
+    #[arg(long, value_name = "FILE", value_parser = command::path)]
+    pub animate: Option<PathBuf>,
     /// Print the summary as JSON: final state, residuals, energy drift, work
     #[arg(long)]
     pub json: bool,
@@ -60,15 +69,26 @@ pub fn run(models: &[Entry], args: &RunArgs) -> Result<(), Failure> {
     let begin = |file| CsvWriter::new(&ready.mechanism, file);
     let rows = file.map(begin).transpose();
     let path = args.csv.as_deref().filter(|_| !to_stdout);
+    let curves = args.plot.as_ref();
+    let curves = curves.map(|asked| Curves::new(&ready.mechanism, asked));
+    let film = match args.animate.as_deref() {
+        Some(path) => Some((Film::new(&ready, String::new())?, WholeFile::create(path)?)),
+        None => None,
+    };
     let samples = Samples {
         rows: rows.map_err(|e| output::failure(path, &e))?,
+        curves: curves.transpose()?,
+        film,
         drift: Drift::new(&ready.mechanism),
     };
     let started = Instant::now();
-    let (trajectory, error, samples) = integrate(&ready, args, samples)?;
+    let (trajectory, error, mut samples) = integrate(&ready, args, samples)?;
     let seconds = started.elapsed().as_secs_f64();
     if let Some(error @ Error::InvalidSetting { .. }) = error {
-        return Err(usage(error));
+        return Err(motion::usage(error));
+    }
+    if let Some((film, _)) = &mut samples.film {
+        film.end(error.as_ref());
     }
     let failure = match (error, trajectory.last()) {
         (Some(error), _) => Some(Failure::from(error)),
@@ -81,6 +101,11 @@ pub fn run(models: &[Entry], args: &RunArgs) -> Result<(), Failure> {
     };
     if let Some(rows) = samples.rows {
         rows.into_inner().finish()?;
+    }
+    samples.curves.map_or(Ok(()), Curves::finish)?;
+    if let (Some((film, file)), Some(path)) = (samples.film, &args.animate) {
+        let about = animate::foot(&ready, &args.motion);
+        animate::write(file, path, &animate::page(ready.entry, vec![film], &about)?)?;
     }
     if !to_stdout {
         let message = match &failure {
@@ -103,24 +128,11 @@ pub fn run(models: &[Entry], args: &RunArgs) -> Result<(), Failure> {
     failure.map_or(Ok(()), Err)
 }
 
-/// A setting that the simulation refuses, by the name that it has on the command line.
-pub(crate) fn usage(error: Error) -> Failure {
-    match error {
-        Error::InvalidSetting {
-            what: "every",
-            reason,
-        } => Failure::Usage(format!("`--every` {reason}")),
-        Error::InvalidSetting {
-            what: "t_end",
-            reason,
-        } => Failure::Usage(format!("`--until` {reason}")),
-        other => Failure::from(other),
-    }
-}
-
 /// What becomes of the samples.
 struct Samples {
     rows: Option<CsvWriter<WholeFile>>,
+    curves: Option<Curves>,
+    film: Option<(Film, WholeFile)>,
     drift: Drift,
 }
 
@@ -133,7 +145,11 @@ fn integrate(
     args: &RunArgs,
     mut samples: Samples,
 ) -> Result<(Trajectory, Option<Error>, Samples), Failure> {
-    if let Some(interval) = args.every {
+    let every = args.every.or_else(|| {
+        let pictures = args.plot.is_some() || args.animate.is_some();
+        pictures.then(|| args.motion.length(ready).abs() / PICTURES)
+    });
+    if let Some(interval) = every {
         let number = args.motion.length(ready).abs() / interval;
         if number > MOST_SAMPLES {
             return Err(Failure::Usage(format!(
@@ -142,8 +158,14 @@ fn integrate(
         }
     }
     let mut broken = None;
-    let (trajectory, error) = args.motion.follow(ready, args.every, |sample| {
+    let (trajectory, error) = args.motion.follow(ready, every, |sample| {
         samples.drift.add(sample);
+        if let Some(curves) = &mut samples.curves {
+            curves.add(sample);
+        }
+        if let Some((film, _)) = &mut samples.film {
+            film.add(sample);
+        }
         let row = samples.rows.as_mut().map(|rows| rows.write(sample));
         if let Some(Err(error)) = row {
             broken = Some(error);
@@ -157,6 +179,9 @@ fn integrate(
     }
     Ok((trajectory, error, samples))
 }
+
+/// Intervals of a run that is drawn.
+const PICTURES: f64 = 1000.0;
 
 /// A slip in the unit of an interval must not fill the disk.
 const MOST_SAMPLES: f64 = 1e8;

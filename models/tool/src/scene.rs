@@ -1,7 +1,7 @@
 //! From the command line to a mechanism with its parameters and a consistent start.
 
 use clap::Args;
-use ukcore::model::{Entry, StartOptions, StartSpec};
+use ukcore::model::{DURATION, Entry, StartOptions, StartSpec};
 use ukcore::spec::Spec;
 use ukcore::{Error, Prepared, State, assemble};
 
@@ -48,6 +48,8 @@ pub struct Ready<'a> {
     pub start: &'static str,
     /// The state there.
     pub state: State,
+    /// How long a typical run from it lasts, s.
+    pub duration: f64,
 }
 
 impl Scene {
@@ -73,7 +75,7 @@ impl Start {
         entry.starts.is_empty() && !self.guesses()
     }
 
-    fn guesses(&self) -> bool {
+    pub(crate) fn guesses(&self) -> bool {
         !self.guesses.is_empty() || !self.hold.is_empty()
     }
 
@@ -100,6 +102,7 @@ impl Start {
             mechanism,
             start: name.unwrap_or("assembled"),
             state,
+            duration: start.map_or(DURATION, |spec| spec.duration),
         })
     }
 
@@ -111,30 +114,37 @@ impl Start {
         &self,
         entry: &Entry,
     ) -> Result<(Prepared, Option<&'static StartSpec>, StartOptions), Failure> {
-        let start =
-            match &self.start {
-                None => entry.starts.first(),
-                Some(name) => Some(entry.starts.iter().find(|s| s.name == name).ok_or_else(
-                    || Error::unknown_name("start", name, &mut entry.starts.iter().map(|s| s.name)),
-                )?),
-            };
-        let offered = start.map_or(&[][..], |s| s.options);
+        let start = self.spec(entry)?;
         let mut mechanism = entry.mechanism.clone();
         let mut options = StartOptions::new();
         for (name, quantity) in &self.settings {
-            let in_unit = |unit| {
-                let value = quantity.si(unit);
-                value.map_err(|e| Failure::Usage(format!("`{name}`: {e}")))
-            };
-            if let Some(option) = offered.iter().find(|o| o.name == *name) {
-                options.set(name, in_unit(option.unit)?);
-            } else if let Some(unit) = unit_of(mechanism.spec(), name) {
-                mechanism.set(name, in_unit(unit)?)?;
-            } else {
-                return Err(unknown_setting(entry, name, start));
+            let (option, unit) = setting(entry, name, start)?;
+            let value = quantity.si(unit);
+            let value = value.map_err(|e| Failure::Usage(format!("`{name}`: {e}")))?;
+            match option {
+                true => options.set(name, value),
+                false => mechanism.set(name, value)?,
             }
         }
         Ok((mechanism, start, options))
+    }
+
+    /// The unit of the parameter or option called `name`.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] for unknown names.
+    pub(crate) fn unit(&self, entry: &Entry, name: &str) -> Result<&'static str, Failure> {
+        Ok(setting(entry, name, self.spec(entry)?)?.1)
+    }
+
+    fn spec(&self, entry: &Entry) -> Result<Option<&'static StartSpec>, Failure> {
+        let Some(name) = &self.start else {
+            return Ok(entry.starts.first());
+        };
+        let found = entry.starts.iter().find(|s| s.name == name);
+        let unknown =
+            || Error::unknown_name("start", name, &mut entry.starts.iter().map(|s| s.name));
+        Ok(Some(found.ok_or_else(unknown)?))
     }
 
     /// The nearest consistent state to `state` with the guesses in it.
@@ -164,6 +174,22 @@ impl Start {
             )),
             other => other.into(),
         })
+    }
+}
+
+/// Whether `name` is an option of the start, not a parameter, and its unit.
+fn setting(
+    entry: &Entry,
+    name: &str,
+    start: Option<&StartSpec>,
+) -> Result<(bool, &'static str), Failure> {
+    let mut offered = start.map_or(&[][..], |s| s.options).iter();
+    if let Some(option) = offered.find(|o| o.name == name) {
+        return Ok((true, option.unit));
+    }
+    match unit_of(entry.mechanism.spec(), name) {
+        Some(unit) => Ok((false, unit)),
+        None => Err(unknown_setting(entry, name, start)),
     }
 }
 

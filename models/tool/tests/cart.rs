@@ -5,7 +5,8 @@ use std::process::{Command, Output};
 
 use serde_json::Value;
 
-fn cart(args: &str) -> Output {
+/// The example.
+fn program() -> std::path::PathBuf {
     // Examples are built beside the tests.
     let test = std::env::current_exe().expect("a test");
     let examples = test.ancestors().nth(2).expect("a target directory");
@@ -17,7 +18,11 @@ fn cart(args: &str) -> Output {
         "`cargo build -p uktool --example cart` makes {}",
         program.display()
     );
-    Command::new(program)
+    program
+}
+
+fn cart(args: &str) -> Output {
+    Command::new(program())
         .args(args.split_whitespace())
         .output()
         .expect("it starts")
@@ -200,9 +205,7 @@ fn its_motion_is_shown() {
     ));
     assert_eq!(told, format!("open {}\n", page.display()));
     let text = std::fs::read_to_string(&page).expect("the page");
-    let (_, data) = text.split_once("id=\"data\">").expect("data");
-    let (data, _) = data.split_once("</script>").expect("its end");
-    let data: Value = serde_json::from_str(data).expect("JSON");
+    let data = &data(&text)["runs"][0];
     let pictures = data["pictures"].as_array().expect("pictures");
     assert_eq!((pictures.len(), data["t"][40].as_f64()), (41, Some(2.0)));
     // Spring, rod, bob and trace: the rod is as long in each.
@@ -236,6 +239,247 @@ fn its_motion_is_shown() {
         assert!(shown.contains("t = 2.000 s"), "{shown}");
     }
     fails("animate cart --pictures 1", 2, "1 is not in 2..=100000");
+}
+
+/// What a page is given.
+fn data(page: &str) -> Value {
+    let (_, data) = page.split_once("id=\"data\">").expect("data");
+    let (data, _) = data.split_once("</script>").expect("its end");
+    serde_json::from_str(data).expect("JSON")
+}
+
+/// Of a conservative mechanism projection keeps the rod, and a loose tolerance without it does not.
+#[test]
+fn runs_are_shown_side_by_side() {
+    let out = tempfile::tempdir().expect("directory");
+    let page = out.path().join("both.html");
+    output(&format!(
+        "animate cart --stabilise projection,none --tol 1e-4 --set k=40,400 --until 5 --pictures 51 --out {}",
+        page.display()
+    ));
+    let data = data(&std::fs::read_to_string(&page).expect("the page"));
+    let runs = data["runs"].as_array().expect("runs");
+    let labels: Vec<&str> = runs
+        .iter()
+        .filter_map(|run| run["label"].as_str())
+        .collect();
+    assert_eq!(
+        labels,
+        [
+            "k = 40, stabilisation = projection",
+            "k = 40, stabilisation = none",
+            "k = 400, stabilisation = projection",
+            "k = 400, stabilisation = none"
+        ]
+    );
+    for (k, run) in runs.iter().enumerate() {
+        let residuals = run["residual"].as_array().expect("residuals");
+        let largest = residuals.iter().filter_map(Value::as_f64);
+        let largest = largest.fold(0.0, f64::max);
+        assert_eq!(largest < 1e-12, k % 2 == 0, "{largest:e}");
+    }
+    if let Some(shown) = browsed(&page) {
+        let pictures = shown.matches("role=\"img\" aria-label=\"the mechanism\"");
+        assert_eq!(pictures.count(), 4, "{shown}");
+        assert!(shown.contains("t = 4.000 s"), "{shown}");
+    }
+    fails(
+        "animate cart --set k=1,2,3,4 --tol 1e-4,1e-6",
+        2,
+        "4 × 2 runs are asked for; at most 6 are made",
+    );
+}
+
+#[test]
+fn curves_of_a_run_are_drawn() {
+    let out = tempfile::tempdir().expect("directory");
+    let (over_time, path) = (out.path().join("t.svg"), out.path().join("path.svg"));
+    let page = out.path().join("run.html");
+    output(&format!(
+        "run cart --until 1 --plot {} swing dot(s) --animate {}",
+        over_time.display(),
+        page.display()
+    ));
+    let text = std::fs::read_to_string(&over_time).expect("a picture");
+    for part in ["swing", "dot(s)", "t (s)", "</svg>"] {
+        assert!(text.contains(part), "{part} in {text}");
+    }
+    let shown = data(&std::fs::read_to_string(&page).expect("a page"));
+    let times = shown["runs"][0]["t"].as_array().map(Vec::len);
+    assert_eq!(times, Some(1001));
+    // With a heavy cart that stands the bob swings on a circle about it: the path is as wide as 2 l sin(angle).
+    output(&format!(
+        "run cart --set big=1e12 --set k=0 --set angle=0.9 --until 3 --plot {} x,y",
+        path.display()
+    ));
+    let text = std::fs::read_to_string(&path).expect("a picture");
+    let longest = text
+        .split("points=\"")
+        .skip(1)
+        .filter_map(|part| part.split('"').next())
+        .max_by_key(|points| points.len());
+    let points = longest.expect("a curve").split_whitespace();
+    let across = points.filter_map(|point| point.split_once(',')?.0.parse::<f64>().ok());
+    let (low, high) = across.fold((f64::INFINITY, 0.0_f64), |(low, high), x| {
+        (low.min(x), high.max(x))
+    });
+    // The axis goes from −0.4 to 0.4 over the frame, or from −0.391 to 0.392.
+    assert!(high - low > 0.9 * 0.979 * 650.0, "{low} {high}");
+    fails(
+        "run cart --plot a.svg swnig",
+        2,
+        "no quantity is called `swnig`; did you mean `swing`?",
+    );
+    fails(
+        "run cart --plot a.svg s x,y",
+        2,
+        "do not go into one picture",
+    );
+    fails("run cart --plot a.svg", 2, "--plot <FILE> <CURVE>");
+}
+
+/// Rows of a table as names to values.
+fn rows(table: &str) -> Vec<std::collections::HashMap<&str, &str>> {
+    let names = table.lines().next().expect("names").split(',');
+    let rows = table.lines().skip(1);
+    rows.map(|line| names.clone().zip(line.split(',')).collect())
+        .collect()
+}
+
+#[test]
+fn values_are_swept() {
+    let out = tempfile::tempdir().expect("directory");
+    let place = out.path().join("sweep.csv");
+    let sweep = |more: &str| format!("sweep cart --until 1 --out {} {more}", place.display());
+    let command = sweep("--set k=40..60:10 --set angle=30deg,1");
+    assert!(output(&command).starts_with("6 runs in "));
+    let table = std::fs::read_to_string(&place).expect("a table");
+    let found = rows(&table);
+    assert_eq!(found.len(), 6);
+    for (k, row) in found.iter().enumerate() {
+        let angle = ["0.5235987755982988", "1.0"][k % 2];
+        let stiffness = ["40.0", "50.0", "60.0"][k / 2];
+        assert_eq!(
+            (row["member"], row["k"], row["angle"], row["error"]),
+            (k.to_string().as_str(), stiffness, angle, "")
+        );
+        // Against the samples of a run.
+        let csv = output(&format!(
+            "run cart --until 1 --every 1ms --csv - --set k={stiffness} --set angle={angle}"
+        ));
+        let column = csv.lines().next().expect("names").split(',');
+        let column = column.into_iter().position(|name| name == "swing");
+        let values = csv.lines().skip(1).map(|line| {
+            let value = line.split(',').nth(column.expect("swing"));
+            value.expect("a value").parse::<f64>().expect("a number")
+        });
+        let values: Vec<f64> = values.collect();
+        let number = |name: &str| row[name].parse::<f64>().expect("a number");
+        let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        assert_eq!(values.last(), Some(&number("swing")));
+        assert!((number("min(swing)") - low).abs() < 1e-5, "{row:?}");
+        assert!((number("max(swing)") - high).abs() < 1e-5, "{row:?}");
+        assert!(number("min(swing)") <= low && number("max(swing)") >= high);
+    }
+    // One that was broken off in the middle of a row goes on to the same table.
+    let half = table.len() / 2;
+    std::fs::write(&place, &table[..half]).expect("a part");
+    output(&command);
+    assert_eq!(std::fs::read_to_string(&place).expect("a table"), table);
+    // Complete, it is left as it is; of another sweep, too, which is an error.
+    output(&command);
+    fails(&sweep("--set k=40..70:10"), 2, "holds something else than");
+    fails(
+        &sweep("--set k=40..60:10 --set angle=30deg,1 --tol 1e-8"),
+        2,
+        "holds something else",
+    );
+    assert_eq!(std::fs::read_to_string(&place).expect("a table"), table);
+}
+
+#[test]
+fn members_fail_alone() {
+    let out = tempfile::tempdir().expect("directory");
+    let place = out.path().join("sweep.csv");
+    let told = output(&format!(
+        "sweep cart --until 1 --set m=1,-1 --out {}",
+        place.display()
+    ));
+    assert!(told.contains("of which 1 failed"), "{told}");
+    let table = std::fs::read_to_string(&place).expect("a table");
+    let mut reader = csv::Reader::from_reader(table.as_bytes());
+    let last = |record: csv::StringRecord| record.iter().next_back().map(str::to_owned);
+    let errors: Vec<String> = reader
+        .records()
+        .map(|record| record.ok().and_then(last).expect("a row"))
+        .collect();
+    assert_eq!(errors[0], "");
+    assert!(errors[1].contains("mass"), "{}", errors[1]);
+    let other = out.path().join("none.csv");
+    fails(
+        &format!("sweep cart --until 1 --set m=-1 --out {}", other.display()),
+        1,
+        "no run succeeded; the first: ",
+    );
+    fails(
+        "sweep cart --set q=1 --out a.csv",
+        2,
+        "no parameter or start option is called `q`",
+    );
+    fails(
+        "sweep cart --set k=1..2 --out a.csv",
+        2,
+        "a range needs its step: `k=1..2:STEP`",
+    );
+    fails(
+        "sweep cart --set k=1m,2 --set angle=1kg --out a.csv",
+        2,
+        "`angle`",
+    );
+}
+
+/// What is done when the user ends it is kept, and the same command goes on from there.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_sweep_goes_on() {
+    let out = tempfile::tempdir().expect("directory");
+    let (broken, whole) = (out.path().join("broken.csv"), out.path().join("whole.csv"));
+    let sweep = |place: &Path| {
+        format!(
+            "sweep cart --set k=40..79:1 --until 20 --out {}",
+            place.display()
+        )
+    };
+    let mut child = Command::new(program())
+        .args(sweep(&broken).split_whitespace())
+        .stderr(std::process::Stdio::piped())
+        .stdout(std::process::Stdio::piped())
+        .spawn()
+        .expect("it starts");
+    let done = || std::fs::read_to_string(&broken).map_or(0, |text| text.lines().count());
+    while done() < 4 && child.try_wait().expect("a child").is_none() {
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    let kill = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    let output_of = child.wait_with_output().expect("its end");
+    // It may have been done before it was told.
+    if kill.is_ok_and(|status| status.success()) && output_of.status.code() != Some(0) {
+        let told = String::from_utf8_lossy(&output_of.stderr);
+        assert_eq!(output_of.status.code(), Some(130), "{told}");
+        assert!(
+            told.contains("the same command goes on from there"),
+            "{told}"
+        );
+        let rows = done() - 1;
+        assert!((3..40).contains(&rows), "{rows} rows");
+    }
+    output(&sweep(&broken));
+    output(&sweep(&whole));
+    let read = |place: &Path| std::fs::read_to_string(place).expect("a table");
+    assert_eq!(read(&broken), read(&whole));
 }
 
 /// The page as a browser has it once its script has run, with the last picture shown; nothing where no browser is installed.

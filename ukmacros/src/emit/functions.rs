@@ -76,16 +76,16 @@ fn guesses(system: &System, model: &Model) -> Option<TokenStream> {
         let options: Vec<String> = start.options.iter().map(|o| o.name.clone()).collect();
         let numbers = numbers(&ids, &options, system, model);
         let guesses = start.guesses.iter().map(|guess| {
-            let (rate, held) = (guess.rate, guess.held);
+            let (kind, held) = (format_ident!("{}", format!("{:?}", guess.kind)), guess.held);
             let coordinate = Literal::usize_unsuffixed(guess.coordinate);
-            quote! { (#coordinate, #rate, #held) }
+            quote! { (#coordinate, ukcore::GuessKind::#kind, #held) }
         });
         quote! {
             #k => {
                 #numbers
-                let places: &[(usize, bool, bool)] = &[#(#guesses),*];
-                for ((coordinate, rate, held), value) in places.iter().zip(numbers) {
-                    each(ukcore::Guess { coordinate: *coordinate, rate: *rate, held: *held, value });
+                let places: &[(usize, ukcore::GuessKind, bool)] = &[#(#guesses),*];
+                for ((coordinate, kind, held), value) in places.iter().zip(numbers) {
+                    each(ukcore::Guess { coordinate: *coordinate, kind: *kind, held: *held, value });
                 }
             }
         }

@@ -88,7 +88,13 @@ fn start(start: &StartValue) -> TokenStream {
         let unit = &option.unit;
         quote! { ukcore::StartOption { name: #name, doc: #doc, default: #default, unit: #unit } }
     });
-    quote! { ukcore::StartSpec { name: #name, doc: #doc, options: &[#(#options),*] } }
+    let duration = match start.until {
+        Some(until) => float(until),
+        None => quote! { ukcore::DURATION },
+    };
+    quote! {
+        ukcore::StartSpec { name: #name, doc: #doc, options: &[#(#options),*], duration: #duration }
+    }
 }
 
 fn drawing(drawing: &Drawing) -> TokenStream {

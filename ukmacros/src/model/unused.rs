@@ -100,9 +100,10 @@ fn used(decl: &Declaration) -> HashSet<String> {
         options
             .clone()
             .for_each(|option| found.expr(&option.default));
+        start.until.iter().for_each(|until| found.expr(until));
         found.hidden = options.map(|option| option.name.to_string()).collect();
         found.blocks(&start.guesses, |guess| {
-            (vec![&guess.key], vec![&guess.value])
+            (guess.keys.iter().collect(), vec![&guess.value])
         });
         found.hidden.clear();
     }

@@ -3,14 +3,14 @@
 use super::expr::{Expr, location};
 use super::grammar::{blocks, coordinates, declared, docs, expression, key};
 use super::item::{
-    Body, Coord, Entry, Equation, Function, Guess, Joint, Let, LetValue, MassEntry, Output, Param,
-    PartUse, Shape, Start, StartOption,
+    Body, Coord, Entry, Equation, Function, Guess, Joint, Key, Let, LetValue, MassEntry, Output,
+    Param, PartUse, Shape, Start, StartOption,
 };
 use crate::diag::{Diagnostics, Loc, suggest};
 use proc_macro2::{Ident, TokenStream};
 use quote::ToTokens as _;
 use syn::parse::ParseStream;
-use syn::{Token, braced, parenthesized};
+use syn::{Token, braced, bracketed, parenthesized};
 
 pub(super) fn param_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Param> {
     let docs = docs(input, diag)?;
@@ -271,7 +271,7 @@ pub(super) fn output_entry(input: ParseStream<'_>, diag: &Diagnostics) -> syn::R
     })
 }
 
-/// `start name(option = number, …) { guesses }`.
+/// `start name(option = number, …) until number { guesses }`.
 pub(super) fn start(
     input: ParseStream<'_>,
     docs: Vec<String>,
@@ -292,12 +292,32 @@ pub(super) fn start(
             }
         }
     }
+    let mut until = None;
+    if input.peek(syn::Ident) {
+        let word: Ident = input.parse()?;
+        if word != "until" {
+            let message = format!(
+                "unexpected `{word}`; behind name and options of a start stands how long a motion from it lasts, `until 2.0`, or `{{`"
+            );
+            return Err(syn::Error::new(word.span(), message));
+        }
+        if input.peek(syn::token::Brace) {
+            let message = "`until` needs how long a motion lasts: `until 2.0`";
+            return Err(syn::Error::new(word.span(), message));
+        }
+        // In front of a brace, as behind `if` and `for`.
+        until = Some(Expr::convert(
+            input.call(syn::Expr::parse_without_eager_brace)?,
+            diag,
+        ));
+    }
     let mut guesses = Vec::new();
     blocks(input, &mut guesses, diag, guess)?;
     Ok(Start {
         docs,
         name,
         options,
+        until,
         guesses,
     })
 }
@@ -320,20 +340,20 @@ fn start_option(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Start
 
 fn guess(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Guess> {
     let rate = input.peek2(syn::token::Paren) && input.fork().parse::<Ident>()? == "dot";
-    let key = if rate {
+    let (keys, vector) = if rate {
         let _: Ident = input.parse()?;
         let inner;
         parenthesized!(inner in input);
-        let key = coordinates(&inner, diag)?;
+        let found = guessed(&inner, diag)?;
         if !inner.is_empty() {
             let error =
                 inner.error("a start gives velocities of coordinates, such as `dot(x) = 1.0`");
             let _: TokenStream = inner.parse()?;
             return Err(error);
         }
-        key
+        found
     } else {
-        coordinates(input, diag)?
+        guessed(input, diag)?
     };
     let held = input.peek(Token![=]);
     if held {
@@ -343,18 +363,60 @@ fn guess(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<Guess> {
         if near.is_none_or(|word| word != "near") {
             let message = format!(
                 "a start says where `{0}` is: `{0} = 1.0`, which holds, or `{0} near 1.0`, from where it may move",
-                key.name
+                keys[0].name
             );
-            return Err(syn::Error::new(key.name.span(), message));
+            return Err(syn::Error::new(keys[0].name.span(), message));
         }
     }
-    let value = expression(input, diag)?;
+    let value: syn::Expr = input.parse()?;
+    if let syn::Expr::Assign(e) = &value
+        && matches!(*e.left, syn::Expr::Index(_))
+    {
+        return Err(indexed_by_the_next("=", e.eq_token.span));
+    }
+    let value = Expr::convert(value, diag);
     Ok(Guess {
-        key,
+        keys,
+        vector,
         rate,
         held,
         value,
     })
+}
+
+/// Of `x = 1.0 [y, z] near 2.0`, which is read as `1.0[y, z]`.
+fn indexed_by_the_next(word: impl std::fmt::Display, span: proc_macro2::Span) -> syn::Error {
+    let message = format!(
+        "what stands before `{word}` is read as an index of the entry before it; put `,` between them"
+    );
+    syn::Error::new(span, message)
+}
+
+/// `x`, or `[x, y]`: what a start says something of, and whether it is a vector.
+fn guessed(input: ParseStream<'_>, diag: &Diagnostics) -> syn::Result<(Vec<Key>, bool)> {
+    if !input.peek(syn::token::Bracket) {
+        let word = input.fork().parse::<Ident>()?;
+        if word == "near" {
+            return Err(indexed_by_the_next(&word, word.span()));
+        }
+        return Ok((vec![coordinates(input, diag)?], false));
+    }
+    let list;
+    let bracket = bracketed!(list in input);
+    let mut keys = Vec::new();
+    while !list.is_empty() {
+        keys.push(coordinates(&list, diag)?);
+        if !list.is_empty() {
+            let _: Token![,] = list.parse()?;
+        }
+    }
+    match keys.is_empty() {
+        true => Err(syn::Error::new(
+            bracket.span.join(),
+            "a vector of coordinates, such as `[x, y] near [1.0, 0.0]`, needs one at least",
+        )),
+        false => Ok((keys, true)),
+    }
 }
 
 /// `line(p, q)`, or with a text at the end `text(p, "driver")`.

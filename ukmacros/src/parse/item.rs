@@ -218,6 +218,8 @@ pub(crate) struct Start {
     pub(crate) docs: Vec<String>,
     pub(crate) name: Ident,
     pub(crate) options: Vec<StartOption>,
+    /// How long a motion from it is of interest.
+    pub(crate) until: Option<Expr>,
     pub(crate) guesses: Vec<Block<Guess>>,
 }
 
@@ -228,9 +230,12 @@ pub(crate) struct StartOption {
     pub(crate) default: Expr,
 }
 
-/// `x = value`, `x near value`, `dot(x) = value`.
+/// `x = value`, `[x, y] near value`, `dot(x) = value`.
 pub(crate) struct Guess {
-    pub(crate) key: Key,
+    /// One, or those in brackets.
+    pub(crate) keys: Vec<Key>,
+    /// Whether brackets are written, so that the value is a vector of as many.
+    pub(crate) vector: bool,
     /// Of a velocity, not of a coordinate.
     pub(crate) rate: bool,
     /// Held, not only near.

@@ -52,7 +52,8 @@ impl Marking<'_> {
         // A loop's variable, on the way to its braces.
         let (mut declares, mut variable) = (false, None);
         let mut out: Vec<TokenTree> = Vec::new();
-        for token in tokens.clone() {
+        let mut rest = tokens.clone().into_iter().peekable();
+        while let Some(token) = rest.next() {
             let stands = std::mem::replace(&mut before, Before::Other);
             let named = std::mem::take(&mut declares);
             match &token {
@@ -62,6 +63,12 @@ impl Marking<'_> {
                     let variable = variable.take_if(|_| braces);
                     let inside = self.integers.len();
                     self.integers.extend(variable);
+                    // A vector that a start tells of, behind an entry without its comma.
+                    let stands = match rest.peek() {
+                        Some(TokenTree::Ident(next)) if next == "near" => Before::Other,
+                        Some(TokenTree::Punct(next)) if next.as_char() == '=' && stands == Before::Number => Before::Other,
+                        _ => stands,
+                    };
                     let stream = self.group(group, stands);
                     self.integers.truncate(inside);
                     if let Some(stream) = stream {

@@ -1,8 +1,10 @@
 "use strict";
 (() => {
   const data = JSON.parse(document.getElementById("data").textContent);
-  const { dimension, shapes, t, pictures } = data;
-  const last = t.length - 1;
+  const { dimension, shapes, runs } = data;
+  // The run that goes on for longest gives the times.
+  const longest = runs.reduce((a, b) => (Math.abs(b.t.at(-1) - b.t[0]) > Math.abs(a.t.at(-1) - a.t[0]) ? b : a));
+  const { t } = longest, last = t.length - 1;
   const byId = (id) => document.getElementById(id);
   const finite = (picture) => picture.every(Number.isFinite);
   let starts = 0;
@@ -22,7 +24,7 @@
 
   // What all pictures lie in.
   const low = Array(dimension).fill(Infinity), high = Array(dimension).fill(-Infinity);
-  for (const picture of pictures.filter(finite)) {
+  for (const picture of runs.flatMap((run) => run.pictures).filter(finite)) {
     for (const shape of shapes) {
       const r = shape.kind === "circle" ? radius(shape, picture) : 0;
       for (const point of points(shape, picture)) {
@@ -57,13 +59,16 @@
     return node;
   };
   const colours = { ink: "#1c1c1c", line: "#0b4f7d", trace: "#c25a00", soft: "#8a8a8a" };
+  // Told apart with every common colour vision.
+  const palette = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];
+  const colour = (k) => (runs.length > 1 ? palette[k % palette.length] : colours.line);
 
   // The plane: one SVG whose nodes are moved.
-  const plane = () => {
+  const plane = (stage, pictures) => {
     const margin = 0.08 * size, unit = size / 100;
     const view = [low[0] - margin, -high[1] - margin, spans[0] + 2 * margin, spans[1] + 2 * margin];
     const svg = svgNode("svg", { viewBox: view.join(" "), role: "img", "aria-label": "the mechanism" });
-    byId("stage").append(svg);
+    stage.append(svg);
     const stroke = (colour, width) => ({
       fill: "none", stroke: colour, "stroke-width": width, "stroke-linejoin": "round", "stroke-linecap": "round",
     });
@@ -119,16 +124,18 @@
   };
 
   // Space: a canvas on which what lies behind is painted first; drag turns it, the wheel and two fingers scale it.
-  const space = () => {
+  const view = { azimuth: -0.6, height: 0.35, zoom: 1, painters: [] };
+  const space = (stage, pictures) => {
     const canvas = document.createElement("canvas");
     canvas.setAttribute("role", "img");
     canvas.setAttribute("aria-label", "the mechanism; drag to turn it");
-    byId("stage").append(canvas);
-    let azimuth = -0.6, height = 0.35, zoom = 1, shown = 0;
+    stage.append(canvas);
+    let shown = 0;
     const paint = (k) => {
       shown = k;
       const picture = pictures[k];
       if (!finite(picture)) return;
+      const { azimuth, height, zoom } = view;
       const ratio = window.devicePixelRatio || 1, { clientWidth: w, clientHeight: h } = canvas;
       canvas.width = w * ratio;
       canvas.height = h * ratio;
@@ -219,87 +226,110 @@
       const now = [event.clientX, event.clientY];
       if (other) {
         const apart = (p) => Math.hypot(p[0] - other[1][0], p[1] - other[1][1]) || 1;
-        zoom *= apart(now) / apart(before);
+        view.zoom *= apart(now) / apart(before);
       } else {
-        azimuth += 0.01 * (now[0] - before[0]);
-        height = Math.max(-1.5, Math.min(1.5, height + 0.01 * (now[1] - before[1])));
+        view.azimuth += 0.01 * (now[0] - before[0]);
+        view.height = Math.max(-1.5, Math.min(1.5, view.height + 0.01 * (now[1] - before[1])));
       }
       held.set(event.pointerId, now);
-      paint(shown);
+      view.painters.forEach((again) => again());
     });
     for (const name of ["pointerup", "pointercancel"]) {
       canvas.addEventListener(name, (event) => held.delete(event.pointerId));
     }
     canvas.addEventListener("wheel", (event) => {
       event.preventDefault();
-      zoom *= Math.exp(-0.001 * event.deltaY);
-      paint(shown);
+      view.zoom *= Math.exp(-0.001 * event.deltaY);
+      view.painters.forEach((again) => again());
     }, { passive: false });
+    view.painters.push(() => paint(shown));
     window.addEventListener("resize", () => paint(shown));
     return paint;
   };
 
-  // A quantity over time, with a cursor.
-  const strip = (name, values, unit) => {
-    const known = values.filter((x) => x !== null && Number.isFinite(x));
-    if (!known.length) return () => {};
-    const [min, max] = known.reduce(([a, b], x) => [Math.min(a, x), Math.max(b, x)], [Infinity, -Infinity]);
+  // A quantity of all runs over time, with a cursor; `scaled` is how its numbers are drawn.
+  const from = t[0], span = t[last] - from || 1;
+  const strip = (name, lists, scaled = (x) => x, unit = "") => {
+    const known = (x) => x !== null && Number.isFinite(x);
+    const all = lists.flat().filter(known);
+    if (!all.length) return () => {};
+    const [min, max] = all.reduce(([a, b], x) => [Math.min(a, x), Math.max(b, x)], [Infinity, -Infinity]);
     const svg = svgNode("svg", { viewBox: "0 0 800 80", preserveAspectRatio: "none", role: "img", "aria-label": name });
-    const at = (k) => 800 * (last ? k / last : 0);
-    const level = (x) => 74 - 50 * (max > min ? (x - min) / (max - min) : 0.5);
-    const path = values.map((x, k) => [x, k]).filter(([x]) => x !== null && Number.isFinite(x));
-    svgNode("polyline", {
-      points: path.map(([x, k]) => `${at(k)},${level(x)}`).join(" "),
-      fill: "none", stroke: colours.line, "stroke-width": 1.2, "vector-effect": "non-scaling-stroke",
-    }, svg);
+    const at = (time) => 800 * (time - from) / span;
+    const [bottom, top] = [scaled(min), scaled(max)];
+    const level = (x) => 74 - 50 * (top > bottom ? (scaled(x) - bottom) / (top - bottom) : 0.5);
+    lists.forEach((values, k) => {
+      const path = values.map((x, i) => [x, runs[k].t[i]]).filter(([x]) => known(x));
+      svgNode("polyline", {
+        points: path.map(([x, time]) => `${at(time)},${level(x)}`).join(" "),
+        fill: "none", stroke: colour(k), "stroke-width": 1.2, "vector-effect": "non-scaling-stroke",
+      }, svg);
+    });
     const cursor = svgNode("line", {
-      y1: 20, y2: 80, stroke: colours.trace, "stroke-width": 1, "vector-effect": "non-scaling-stroke",
+      y1: 20, y2: 80, stroke: colours.ink, "stroke-width": 1, "vector-effect": "non-scaling-stroke",
     }, svg);
     const label = document.createElement("div");
     label.className = "soft";
     byId("strips").append(label, svg);
-    return (k) => {
-      cursor.setAttribute("x1", at(k));
-      cursor.setAttribute("x2", at(k));
-      const number = (y) => (y === null ? "–" : String(Number(y.toPrecision(3))));
-      label.textContent = `${name} ${number(values[k])}${unit} (${number(min)} to ${number(max)})`;
+    const number = (y) => (known(y) ? String(Number(y.toPrecision(3))) : "–");
+    return (time, places) => {
+      cursor.setAttribute("x1", at(time));
+      cursor.setAttribute("x2", at(time));
+      const now = lists.map((values, k) => {
+        const item = document.createElement("span");
+        item.textContent = number(values[places[k]]);
+        item.style.color = runs.length > 1 ? colour(k) : "";
+        return item;
+      });
+      label.replaceChildren(`${name} `, ...now.flatMap((item) => [item, " "]), `${unit} (${number(min)} to ${number(max)})`);
     };
   };
 
-  const show = dimension === 3 ? space() : plane();
-  const energy = data.energy[0];
-  const strips = [
-    strip(
-      `energy ${Number(energy.toPrecision(7))}${data.energy_unit}, changed by`,
-      data.energy.map((x) => (x === null ? null : x - energy)), data.energy_unit,
-    ),
-  ];
-  if (data.residual.length) strips.push(strip("largest constraint residual", data.residual, ""));
+  // The place in `run` that is the last at or before `time`; times grow, or fall in motions backward.
+  const place = (run, time) => {
+    let low = 0, high = run.t.length - 1;
+    while (low < high) {
+      const middle = (low + high + 1) >> 1;
+      if (span > 0 ? run.t[middle] <= time : run.t[middle] >= time) low = middle; else high = middle - 1;
+    }
+    return low;
+  };
+  byId("stage").classList.toggle("several", runs.length > 1);
+  const panels = runs.map((run, k) => {
+    const panel = document.createElement("figure");
+    byId("stage").append(panel);
+    const show = (dimension === 3 ? space : plane)(panel, run.pictures);
+    if (run.label || run.ended) {
+      const caption = document.createElement("figcaption");
+      caption.textContent = [run.label, run.ended].filter(Boolean).join(". ");
+      if (runs.length > 1) caption.style.borderColor = colour(k);
+      panel.append(caption);
+    }
+    return show;
+  });
+  const changed = (values) => values.map((x) => (x === null || values[0] === null ? null : x - values[0]));
+  const energy = runs.length > 1 ? "" : ` ${Number(Number(runs[0].energy[0]).toPrecision(7))}${data.energy_unit}`;
+  const strips = [strip(`energy${energy}, changed by`, runs.map((run) => changed(run.energy)), undefined, data.energy_unit)];
+  if (runs[0].residual.length) {
+    const digits = (x) => Math.log10(Math.max(x, 1e-18));
+    strips.push(strip("largest constraint residual, by powers of ten,", runs.map((run) => run.residual), digits));
+  }
   const slider = byId("time"), play = byId("play");
   slider.max = last;
   let playing = false, time = t[0], clock = 0;
   const draw = (k) => {
-    show(k);
-    strips.forEach((update) => update(k));
+    const places = runs.map((run) => place(run, t[k]));
+    panels.forEach((show, i) => show(places[i]));
+    strips.forEach((update) => update(t[k], places));
     byId("now").textContent = `t = ${t[k].toFixed(3)} s`;
     slider.value = k;
-  };
-  // The picture that is the last at or before `time`; times grow, or fall in motions backward.
-  const index = () => {
-    const forward = t[last] >= t[0];
-    let low = 0, high = last;
-    while (low < high) {
-      const middle = (low + high + 1) >> 1;
-      if (forward ? t[middle] <= time : t[middle] >= time) low = middle; else high = middle - 1;
-    }
-    return low;
   };
   const frame = (now) => {
     if (!playing) return;
     const step = Number(byId("speed").value) * (now - clock) / 1000;
     clock = now;
-    time += t[last] >= t[0] ? step : -step;
-    const k = index();
+    time += span > 0 ? step : -step;
+    const k = place(longest, time);
     draw(k);
     if (k === last) stop(); else requestAnimationFrame(frame);
   };

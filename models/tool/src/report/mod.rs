@@ -145,12 +145,12 @@ fn jobs<'a>(models: &'a [Entry], args: &ReportArgs) -> Result<Vec<Job<'a>>, Fail
         return Err(Failure::Usage(message.to_owned()));
     };
     // What is wrong with them is told before anything is written.
-    args.start.ready(entry)?;
+    let ready = args.start.ready(entry)?;
     Ok(vec![Job {
         name: entry.id.clone(),
         entry,
         start: args.start.clone(),
-        end: args.until.unwrap_or(entry.duration),
+        end: args.until.unwrap_or(ready.duration),
         reference: None,
     }])
 }
@@ -163,7 +163,7 @@ fn motions(entry: &Entry) -> Vec<Job<'_>> {
         name,
         entry,
         start: Start::default(),
-        end: entry.duration,
+        end: entry.duration(),
         reference,
     };
     let mut jobs: Vec<Job<'_>> = Vec::new();

@@ -58,7 +58,7 @@ pub fn of_model(models: &[Entry], args: &ModelArgs) -> Result<(), Failure> {
         entry: ready.entry,
         mechanism: ready.mechanism,
         start: named.map(|start| (start.name, options)),
-        length: args.until.unwrap_or(ready.entry.duration) - ready.state.t,
+        length: args.until.unwrap_or(ready.duration) - ready.state.t,
         state: ready.state,
     };
     let mut sweeps = Vec::new();

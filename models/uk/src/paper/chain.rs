@@ -5,11 +5,13 @@ use models::{Model, StartOptions, UChain};
 use serde::Serialize;
 use ukcore::Event;
 use ukcore::simulate::Direction;
+use uktool::animate;
 use uktool::command;
 use uktool::failure::Failure;
+use uktool::scene::Start;
 
 use super::measure;
-use super::motion::{Motion, RunRow, times};
+use super::motion::{self, Motion, RunRow, times};
 
 const TIP_X: usize = UChain::X[0];
 const TIP_Y: usize = UChain::Y[0];
@@ -89,6 +91,25 @@ pub(super) struct Chain {
 
 /// Times of the picture, s; the turn comes last.
 const SNAPSHOTS: [f64; 7] = [0.0, 0.6, 0.9, 1.2, 1.4, 1.5, 1.6];
+
+/// The page that plays the fall.
+pub(super) const FILM: &str = "chain-falling.html";
+
+/// The fall from the first and the last row of Table 1 side by side.
+pub(super) fn film() -> Result<String, Failure> {
+    let [first, .., last] = TABLE_1;
+    let rows = [first, last].map(|row| (format!("x0 = {} m", row.x0), row.x0));
+    let runs = rows.each_ref().map(|(label, x0)| {
+        let start = Start {
+            start: Some(PAPER_START.to_owned()),
+            settings: vec![("x0".to_owned(), (*x0).into())],
+            ..Start::default()
+        };
+        (label.as_str(), start, motion::played(UNTIL))
+    });
+    let models = models::entries();
+    animate::page_of(command::find(&models, UChain::ID)?, &runs, motion::PICTURES)
+}
 
 /// Runs the chain from the start `start` with the initial separation `x0`.
 ///

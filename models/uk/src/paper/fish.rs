@@ -4,11 +4,13 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use models::{FishRobot, Model, StartOptions};
 use serde::Serialize;
+use uktool::animate;
 use uktool::command;
 use uktool::failure::Failure;
+use uktool::scene::Start;
 
 use super::measure::{self, Oscillation};
-use super::motion::{Motion, RunRow, times};
+use super::motion::{self, Motion, RunRow, times};
 use super::published::{A2, AMPLITUDES, FREQUENCIES_PI, PHASES_DEG};
 
 const X1: usize = FishRobot::X1;
@@ -56,6 +58,12 @@ pub(super) fn gaits() -> Vec<Gait> {
 }
 
 impl Gait {
+    /// Names and values of the parameters that drive peduncle and fin.
+    fn parameters(self) -> [(&'static str, f64); 4] {
+        let (omega, phi) = (self.omega_pi * PI, self.phi_deg.to_radians());
+        [("a2", A2), ("a3", self.a3), ("w", omega), ("phi", phi)]
+    }
+
     /// Which of the sweeps it belongs to: amplitude, frequency, phase.
     pub(super) fn sweeps(self) -> [bool; 3] {
         let same = [
@@ -125,6 +133,31 @@ pub(super) struct Fish {
     pub(super) swing: Vec<(f64, f64)>,
 }
 
+/// The page that plays the swimming.
+pub(super) const FILM: &str = "fish-swimming.html";
+
+/// The fish with the least and the greatest amplitude of its fin side by side, up to the end of the window of the mean speed.
+pub(super) fn film() -> Result<String, Failure> {
+    let [first, .., last] = AMPLITUDES;
+    let rows = [first, last].map(|a3| (format!("A3 = {a3}"), a3));
+    let runs = rows.each_ref().map(|(label, a3)| {
+        let gait = Gait { a3: *a3, ..BASE };
+        let settings = gait.parameters();
+        let settings = settings.map(|(name, value)| (name.to_owned(), value.into()));
+        let start = Start {
+            settings: settings.to_vec(),
+            ..Start::default()
+        };
+        (label.as_str(), start, motion::played(WINDOW.1))
+    });
+    let models = models::entries();
+    animate::page_of(
+        command::find(&models, FishRobot::ID)?,
+        &runs,
+        motion::PICTURES,
+    )
+}
+
 /// Runs the fish with `gait`.
 ///
 /// # Errors
@@ -135,8 +168,7 @@ pub(super) fn compute(gait: Gait) -> Result<Fish, Failure> {
     let models = models::entries();
     let entry = command::find(&models, FishRobot::ID)?;
     let mut mechanism = entry.mechanism.clone();
-    let phi = gait.phi_deg.to_radians();
-    for (name, value) in [("a2", A2), ("a3", gait.a3), ("w", omega), ("phi", phi)] {
+    for (name, value) in gait.parameters() {
         mechanism.set(name, value)?;
     }
     let start = entry.start(&mechanism, "table3", &StartOptions::new())?;

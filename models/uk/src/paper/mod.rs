@@ -118,6 +118,8 @@ pub(crate) fn paper(args: &PaperArgs) -> Result<(), Failure> {
         runs: results.samples().map(|(run, _)| run.clone()).collect(),
         seconds: started.elapsed().as_secs_f64(),
     };
+    directory.write(chain::FILM, chain::film()?)?;
+    directory.write(fish::FILM, fish::film()?)?;
     directory.json("paper.json", &paper)?;
     directory.write("index.html", page::html(&paper))?;
     report(&args.out, &paper)

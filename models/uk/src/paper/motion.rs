@@ -3,7 +3,9 @@
 use std::time::Instant;
 
 use serde::Serialize;
-use ukcore::{Event, Prepared, Simulation, Solver, SolverOptions, State, Trajectory};
+use ukcore::{
+    Event, Method, Prepared, Simulation, Solver, SolverOptions, Stabilisation, State, Trajectory,
+};
 use uktool::drift::Drift;
 use uktool::failure::Failure;
 
@@ -11,6 +13,20 @@ use super::TOLERANCE;
 
 /// Interval of the samples that are written as CSV and whose drift is told, s.
 const SAMPLES: f64 = 0.01;
+
+/// Pictures of a motion that is played.
+pub(super) const PICTURES: u32 = 301;
+
+/// How a motion is computed that is played up to `until`, s.
+pub(super) fn played(until: f64) -> uktool::motion::Motion {
+    uktool::motion::Motion {
+        until: Some(until),
+        tol: TOLERANCE,
+        method: Method::Dop853,
+        max_steps: 1_000_000,
+        stabilise: Stabilisation::Projection,
+    }
+}
 
 /// A computed motion, and its accelerations.
 pub(super) struct Motion {

@@ -4,6 +4,7 @@ mod paper;
 mod refusals;
 mod report;
 mod streams;
+mod sweep;
 
 use std::fs;
 use std::path::{Path, PathBuf};

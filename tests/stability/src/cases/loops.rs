@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
-use models::{FourBars, Model, SliderCrank, StartOptions, UChain};
+use models::{FourBars, SliderCrank, StartOptions, UChain};
 use ukcore::equations::precise;
 use ukcore::solver::Formula;
 use ukcore::solver::RANK_TOLERANCE;

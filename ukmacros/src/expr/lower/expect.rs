@@ -68,14 +68,10 @@ impl<'m> Lowering<'m> {
         let value = self.value(numbers, env);
         if let Some(dimensions) = &mut self.dimensions {
             let (measured, text) = (Measured::known(unit.dimension(), true), unit.to_string());
-            return value.map(|id| match self.graph.is_zero(id) {
-                true => id,
-                false => {
-                    let number = dimensions.value_of(id, &self.graph);
-                    let symbol =
-                        dimensions.symbol(number.unwrap_or(f64::NAN), measured, Some(text.clone()));
-                    self.graph.symbol(symbol)
-                }
+            return value.map(|id| {
+                let number = dimensions.value_of(id, &self.graph).unwrap_or(f64::NAN);
+                let symbol = dimensions.symbol(number, measured, Some(text.clone()));
+                self.graph.symbol(symbol)
             });
         }
         let numbers = value.entries().iter().map(|id| self.graph.as_const(*id));
@@ -118,7 +114,10 @@ impl<'m> Lowering<'m> {
 
     /// What stands for an option whose default is `default`, where units are looked at.
     pub(super) fn measured_option(&mut self, default: Id) -> Option<Symbol> {
-        let measured = self.dimension(default);
+        let measured = match self.dimension(default) {
+            measured @ Known { declared: true, .. } => measured,
+            _ => Unknown,
+        };
         let dimensions = self.dimensions.as_mut()?;
         dimensions.symbols.push(measured);
         Some(Symbol::Param(

@@ -264,19 +264,8 @@ impl<'m> Lowering<'m> {
         key: &Key,
         scope: &Scope<'m>,
     ) -> Option<(&'m [usize], &'m [usize])> {
+        let key = &self.within(key, scope)?;
         let name = key.name.to_string();
-        if matches!(self.model.names.get(&name), Some(Name::Part)) {
-            let mut segments = vec![(key.name.clone(), key.indices.clone())];
-            segments.extend(key.fields.iter().cloned());
-            let found = scope.in_part(&segments, self.diag)?.ok()?;
-            let key = Key {
-                name: found.name,
-                indices: found.indices,
-                fields: segments.split_off(found.used),
-                loc: key.loc,
-            };
-            return self.coordinates(&key, scope);
-        }
         let family = match self.model.names.get(&name) {
             Some(Name::Coord(family)) => Some(*family),
             Some(Name::Body(_) | Name::Joint) => return self.of_owner(key, scope),
@@ -308,6 +297,24 @@ impl<'m> Lowering<'m> {
         }
         let family = &self.model.coords[family];
         self.member(&key.name, &key.indices, family, scope)
+    }
+
+    /// `key` by the name that what it says has in the whole, where it is of a part.
+    pub(super) fn within(&mut self, key: &Key, scope: &Scope<'m>) -> Option<Key> {
+        let name = key.name.to_string();
+        if !matches!(self.model.names.get(&name), Some(Name::Part)) {
+            return Some(key.clone());
+        }
+        let mut segments = vec![(key.name.clone(), key.indices.clone())];
+        segments.extend(key.fields.iter().cloned());
+        let found = scope.in_part(&segments, self.diag)?.ok()?;
+        let key = Key {
+            name: found.name,
+            indices: found.indices,
+            fields: segments.split_off(found.used),
+            loc: key.loc,
+        };
+        self.within(&key, scope)
     }
 
     /// Positions in q of the coordinates of bodies, or of joints of the tree, that `key` names.

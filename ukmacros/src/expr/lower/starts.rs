@@ -1,15 +1,27 @@
 //! Starts: where coordinates and velocities are, by parameters and options.
 
 use super::array::Value;
-use super::system::{GuessValue, OptionValue, StartValue};
+use super::system::{GuessKind, GuessValue, OptionValue, StartValue};
 use super::units::Measured;
 use super::{Env, Lowering, Place};
+use crate::diag::Loc;
 use crate::expr::eval::{Point, eval};
 use crate::expr::graph::Symbol;
-use crate::model::Scope;
-use crate::parse::{Declaration, Guess, Start};
+use crate::model::{Name, Scope};
+use crate::parse::{Declaration, Expr, Guess, Key, Start};
+use proc_macro2::Ident;
 use std::collections::HashSet;
 use ukunits::Dimension;
+
+/// A vector of a body that a start says something of.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum OfBody {
+    Centre,
+    /// The angular velocity in axes of the ground.
+    Omega,
+    /// The same in axes of the body.
+    Spin,
+}
 
 impl<'m> Lowering<'m> {
     /// The starts, in their order.
@@ -23,7 +35,9 @@ impl<'m> Lowering<'m> {
                 self.diag.error(start.name.span(), message);
             }
             let (options, args) = self.options(start, top);
-            let mut guesses: Vec<GuessValue> = Vec::new();
+            let until = start.until.as_ref();
+            let until = until.and_then(|until| self.lasting(until, top));
+            let mut guesses = Vec::new();
             top.unroll(&start.guesses, self.diag, &mut |guess, scope| {
                 let mut env = Env::new(scope, Place::Start);
                 env.args.clone_from(&args);
@@ -34,6 +48,7 @@ impl<'m> Lowering<'m> {
                 name,
                 docs: start.docs.clone(),
                 options,
+                until,
                 guesses,
             });
         }
@@ -78,41 +93,191 @@ impl<'m> Lowering<'m> {
         (options, args)
     }
 
+    /// How long a motion lasts.
+    fn lasting(&mut self, until: &Expr, top: &Scope<'m>) -> Option<f64> {
+        let before = self.diag.len();
+        let id = self.scalar(until, &Env::new(top, Place::Const));
+        let value = eval(&self.graph, &[id], &Point::NOWHERE)[0];
+        if self.diag.len() > before {
+            return None;
+        }
+        self.finite_number("the duration", value, until.loc);
+        if value <= 0.0 {
+            let message = format!("a motion lasts a time above 0, not {value}");
+            self.diag.error(until.loc, message);
+        }
+        self.expect(
+            id,
+            Measured::of(Dimension::TIME),
+            "as a duration is",
+            until.loc,
+        );
+        Some(value)
+    }
+
     fn guess(&mut self, guess: &Guess, env: &Env<'m>, out: &mut Vec<GuessValue>) {
-        let coordinates = self.coordinates(&guess.key, &env.scope);
+        if let ([key], false) = (&guess.keys[..], guess.vector)
+            && let Some((key, vector)) = self.vector_of(key, guess.rate, &env.scope)
+        {
+            return self.vector_guess(guess, &key, vector, env, out);
+        }
+        let found: Vec<_> = guess
+            .keys
+            .iter()
+            .map(|key| self.coordinates(key, &env.scope))
+            .collect();
         let value = self.value(&guess.value, env);
-        let Some((positions, shape)) = coordinates else {
+        let Some(found) = found.into_iter().collect::<Option<Vec<_>>>() else {
             return;
         };
-        let values = self.fitting(&value, shape, &guess.value);
-        for (coordinate, value) in positions.iter().copied().zip(values) {
-            let place = self.of_coordinate(coordinate);
-            let (expected, what) = match guess.rate {
-                true => (
-                    place.per(Measured::of(Dimension::TIME)),
-                    "as this velocity is",
-                ),
-                false => (place, "as this coordinate is"),
-            };
-            self.expect(value, expected, what, guess.value.loc);
-            let again =
-                |other: &GuessValue| (other.coordinate, other.rate) == (coordinate, guess.rate);
-            if out.iter().any(again) {
-                let name = &self.model.coord_elements[coordinate].name;
-                let shown = match guess.rate {
-                    true => format!("dot({name})"),
-                    false => name.clone(),
+        let shape = found[0].1;
+        if let Some(k) = found.iter().position(|(_, other)| *other != shape) {
+            let message = "those of one vector are numbers all, or families of one size";
+            self.diag.error(guess.keys[k].loc, message);
+            return;
+        }
+        let width: usize = shape.iter().product();
+        let shape = match guess.vector {
+            true => [&[found.len()], shape].concat(),
+            false => shape.to_vec(),
+        };
+        let values = self.fitting(&value, &shape, &guess.value);
+        for (part, ((positions, _), key)) in found.iter().zip(&guess.keys).enumerate() {
+            let values = values.iter().skip(part * width);
+            for (coordinate, value) in positions.iter().zip(values) {
+                let place = self.of_coordinate(*coordinate);
+                let (expected, what) = match guess.rate {
+                    true => (
+                        place.per(Measured::of(Dimension::TIME)),
+                        "as this velocity is",
+                    ),
+                    false => (place, "as this coordinate is"),
                 };
-                let message = format!("`{shown}` is given twice in this start; remove one");
-                self.diag.error(guess.key.loc, message);
-                return;
+                self.expect(*value, expected, what, guess.value.loc);
+                let said = GuessValue {
+                    coordinate: *coordinate,
+                    kind: match guess.rate {
+                        true => GuessKind::Velocity,
+                        false => GuessKind::Position,
+                    },
+                    held: guess.held,
+                    value: *value,
+                };
+                if !self.tell(said, key.loc, out) {
+                    return;
+                }
             }
-            out.push(GuessValue {
-                coordinate,
-                rate: guess.rate,
-                held: guess.held,
-                value,
-            });
+        }
+    }
+
+    /// Adds what is said, unless it was said before, which is reported.
+    fn tell(&mut self, said: GuessValue, loc: Loc, out: &mut Vec<GuessValue>) -> bool {
+        let rate = said.kind != GuessKind::Position;
+        let again = |other: &GuessValue| {
+            other.coordinate == said.coordinate && (other.kind != GuessKind::Position) == rate
+        };
+        if !out.iter().any(again) {
+            out.push(said);
+            return true;
+        }
+        let name = &self.model.coord_elements[said.coordinate].name;
+        let shown = match rate {
+            true => format!("dot({name})"),
+            false => name.clone(),
+        };
+        let message = format!("`{shown}` is given twice in this start; remove one");
+        self.diag.error(loc, message);
+        false
+    }
+
+    /// Of `arm.centre`, `arm.omega` and `arm.spin`: the key of the body's first coordinate, and which it is.
+    fn vector_of(&mut self, key: &Key, rate: bool, scope: &Scope<'m>) -> Option<(Key, OfBody)> {
+        let (last, _) = key.fields.last()?;
+        let vector = match last.to_string().as_str() {
+            "centre" => OfBody::Centre,
+            "omega" if !rate => OfBody::Omega,
+            "spin" if !rate => OfBody::Spin,
+            _ => return None,
+        };
+        let mut key = self.within(key, scope)?;
+        let body = self.model.names.get(&key.name.to_string());
+        let Some(Name::Body(family)) = body else {
+            return None;
+        };
+        let spatial = self.model.body_kinds[*family].spatial;
+        let [(field, behind)] = &mut key.fields[..] else {
+            return None;
+        };
+        if !behind.is_empty() || !spatial && vector == OfBody::Spin {
+            return None;
+        }
+        *field = Ident::new("x", field.span());
+        Some((key, vector))
+    }
+
+    /// The place of a body's centre of mass, or its velocity; or its angular velocity: the rate of the angle of a planar one, those of the
+    /// quaternion of a spatial one.
+    fn vector_guess(
+        &mut self,
+        guess: &Guess,
+        key: &Key,
+        vector: OfBody,
+        env: &Env<'m>,
+        out: &mut Vec<GuessValue>,
+    ) {
+        let (value, model) = (self.value(&guess.value, env), self.model);
+        let Some((places, shape)) = self.coordinates(key, &env.scope) else {
+            return;
+        };
+        let body = model.own.iter().position(|own| *own == Some(places[0]));
+        let kind = body.map(|k| model.body_kinds[model.body_elements[k].family]);
+        let size = match (kind.is_some_and(|kind| kind.spatial), vector) {
+            (true, _) => 3,
+            (false, OfBody::Centre) => 2,
+            (false, _) => 1,
+        };
+        let shape = match size {
+            1 => shape.to_vec(),
+            _ => [shape, &[size]].concat(),
+        };
+        let values = self.fitting(&value, &shape, &guess.value);
+        let loc = guess.keys[0].loc;
+        let zero = self.graph.zero();
+        for (first, values) in places.iter().zip(values.chunks(size)) {
+            let (offset, kind) = match vector {
+                OfBody::Centre if guess.rate => (0, GuessKind::Velocity),
+                OfBody::Centre => (0, GuessKind::Position),
+                _ if size == 1 => (2, GuessKind::Velocity),
+                OfBody::Omega => (3, GuessKind::Omega),
+                OfBody::Spin => (3, GuessKind::Spin),
+            };
+            let turns = matches!(kind, GuessKind::Omega | GuessKind::Spin);
+            let rate = |of: Measured| of.per(Measured::of(Dimension::TIME));
+            let (expected, what) = match vector {
+                OfBody::Centre if guess.rate => {
+                    (rate(self.of_coordinate(*first)), "as this velocity is")
+                }
+                OfBody::Centre => (self.of_coordinate(*first), "as this place is"),
+                _ => (
+                    rate(Measured::of(Dimension::NUMBER)),
+                    "as an angular velocity is",
+                ),
+            };
+            for value in values {
+                self.expect(*value, expected, what, guess.value.loc);
+            }
+            let values = turns.then_some(&zero).into_iter().chain(values);
+            for (k, value) in values.enumerate() {
+                let said = GuessValue {
+                    coordinate: first + offset + k,
+                    kind,
+                    held: guess.held,
+                    value: *value,
+                };
+                if !self.tell(said, loc, out) {
+                    return;
+                }
+            }
         }
     }
 
@@ -122,12 +287,14 @@ impl<'m> Lowering<'m> {
         let one = self.graph.one();
         for first in self.model.quaternions() {
             let own = first..first + 4;
-            if out.iter().any(|g| !g.rate && own.contains(&g.coordinate)) {
+            let placed =
+                |g: &GuessValue| g.kind == GuessKind::Position && own.contains(&g.coordinate);
+            if out.iter().any(placed) {
                 continue;
             }
             out.push(GuessValue {
                 coordinate: first,
-                rate: false,
+                kind: GuessKind::Position,
                 held: false,
                 value: one,
             });

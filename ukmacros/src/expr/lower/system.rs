@@ -119,6 +119,8 @@ pub(crate) struct StartValue {
     pub(crate) name: String,
     pub(crate) docs: Vec<String>,
     pub(crate) options: Vec<OptionValue>,
+    /// How long a motion from it is of interest, if it says so.
+    pub(crate) until: Option<f64>,
     pub(crate) guesses: Vec<GuessValue>,
 }
 
@@ -131,10 +133,21 @@ pub(crate) struct OptionValue {
     pub(crate) unit: String,
 }
 
+/// What is said of a coordinate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum GuessKind {
+    Position,
+    Velocity,
+    /// Of the four of a quaternion in turn nothing, then the components of the angular velocity in axes of the ground.
+    Omega,
+    /// The same in axes of the body.
+    Spin,
+}
+
 /// Where a coordinate, or its velocity, is at a start.
 pub(crate) struct GuessValue {
     pub(crate) coordinate: usize,
-    pub(crate) rate: bool,
+    pub(crate) kind: GuessKind,
     pub(crate) held: bool,
     /// By parameters and options.
     pub(crate) value: Id,

@@ -1,10 +1,10 @@
 //! The section on the U-chain.
 
 use maud::{Markup, html};
-use uktool::html::{Cell, figure, figure_of, fixed, signed, table};
+use uktool::html::{Cell, embedded, figure, figure_of, fixed, signed, table};
 
 use super::super::Paper;
-use super::super::chain::ChainRow;
+use super::super::chain::{ChainRow, FILM};
 
 /// Text, tables and figures.
 pub(super) fn section(paper: &Paper) -> Markup {
@@ -17,6 +17,13 @@ pub(super) fn section(paper: &Paper) -> Markup {
              chain hangs at the start; an isosceles trapezoid with legs at 60° reproduces its table, a catenary does not (for x0 = "
              (fixed(catenary.x0, 0)) " m it turns at "
             (fixed(catenary.h_max, 3)) " m after " (fixed(catenary.t_max, 3)) " s)."
+        }
+        div.figures {
+            (embedded(
+                FILM,
+                "The fall of the chain, to play",
+                "The fall from the least and the greatest separation: press Play. The brown line is the path of the tip."
+            ))
         }
         div.figures {
             (figure_of(

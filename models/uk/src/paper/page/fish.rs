@@ -1,9 +1,9 @@
 //! The section on the fish robot.
 
 use maud::{Markup, html};
-use uktool::html::{Cell, figure, figure_of, fixed, joined, table};
+use uktool::html::{Cell, embedded, figure, figure_of, fixed, joined, table};
 
-use super::super::fish::{FishRow, WINDOW, sweep};
+use super::super::fish::{FILM, FishRow, WINDOW, sweep};
 use super::super::{Paper, published};
 
 /// Text, tables and figures.
@@ -20,6 +20,13 @@ pub(super) fn section(paper: &Paper) -> Markup {
             b { "Signs." } " The tail is at +x, so the fish swims towards −x. The tables (and paper.json) give ẍ1 and ẋ1 as they are: \
              negative numbers swim forward. The figures of velocity show −ẋ1, as the paper's do, so up is forward; those of acceleration \
              show ẍ1, so the start points down."
+        }
+        div.figures {
+            (embedded(
+                FILM,
+                "The swimming fish, to play",
+                "The fish with the least and the greatest amplitude of its fin: press Play. The brown line is the path of the fin's edge."
+            ))
         }
         (fish_table(&paper.fish))
         h3 { "Forward velocity (Figs. 9-12)" }

@@ -5,41 +5,20 @@ use ukcore::State;
 
 /// Place, orientation and motion of a spatial body, vectors in axes of the ground.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pose {
+pub(crate) struct Pose {
     /// The centre of mass, m.
-    pub centre: Vector3<f64>,
+    pub(crate) centre: Vector3<f64>,
     /// The rotation from axes of the body to those of the ground.
-    pub turn: UnitQuaternion<f64>,
+    pub(crate) turn: UnitQuaternion<f64>,
     /// The velocity of the centre of mass, m/s.
-    pub velocity: Vector3<f64>,
+    pub(crate) velocity: Vector3<f64>,
     /// The angular velocity, rad/s.
-    pub omega: Vector3<f64>,
+    pub(crate) omega: Vector3<f64>,
 }
 
 impl Pose {
-    /// At rest with the centre of mass at `centre`, axes along those of the ground.
-    #[must_use]
-    pub fn at_rest(centre: [f64; 3]) -> Self {
-        Pose {
-            centre: Vector3::from(centre),
-            turn: UnitQuaternion::identity(),
-            velocity: Vector3::zeros(),
-            omega: Vector3::zeros(),
-        }
-    }
-
-    /// This pose, moving as a part of a rigid body that turns with `omega` about a line through the origin.
-    #[must_use]
-    pub fn turning(self, omega: Vector3<f64>) -> Self {
-        Pose {
-            velocity: self.velocity + omega.cross(&self.centre),
-            omega: self.omega + omega,
-            ..self
-        }
-    }
-
     /// Enters the pose as the seven coordinates and velocities from the index `x` of the body's first coordinate on.
-    pub fn enter(&self, state: &mut State, x: usize) {
+    pub(crate) fn enter(&self, state: &mut State, x: usize) {
         let rate = Quaternion::from_imag(self.omega) * self.turn.into_inner() * 0.5;
         let (e, i) = (self.turn.w, self.turn.imag());
         state.q[x..x + 3].copy_from_slice(self.centre.as_slice());
@@ -49,8 +28,7 @@ impl Pose {
     }
 
     /// The pose of the body whose first coordinate has the index `x`.
-    #[must_use]
-    pub fn of(q: &[f64], v: &[f64], x: usize) -> Self {
+    pub(crate) fn of(q: &[f64], v: &[f64], x: usize) -> Self {
         let turn = Quaternion::new(q[x + 3], q[x + 4], q[x + 5], q[x + 6]);
         let rate = Quaternion::new(v[x + 3], v[x + 4], v[x + 5], v[x + 6]);
         Pose {

@@ -1,0 +1,151 @@
+//! The quantities of a motion by the names that they have in tables: `t`, `x`, `dot(x)`, outputs, integrals, `energy`, `residual`.
+
+use ukcore::assemble::residuals;
+use ukcore::simulate::Sample;
+use ukcore::{Error, Prepared};
+
+use crate::failure::Failure;
+use crate::units;
+
+/// Some quantities of a mechanism, in the order asked for.
+#[derive(Debug, Clone)]
+pub(crate) struct Columns {
+    mechanism: Prepared,
+    chosen: Vec<(String, Source)>,
+}
+
+/// Where a number comes from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Source {
+    Time,
+    Coordinate(usize),
+    Velocity(usize),
+    Output(usize),
+    Integral(usize),
+    Energy,
+    Residual,
+}
+
+impl Columns {
+    /// Those called `names`, as in the first line of `run --csv`; the bare name of a family means all its members.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] for a name that is none, with the nearest.
+    pub(crate) fn named(mechanism: &Prepared, names: &[impl AsRef<str>]) -> Result<Self, Failure> {
+        let all = all(mechanism);
+        let mut chosen = Vec::new();
+        for name in names {
+            let name = name.as_ref().trim();
+            let exact = all.iter().filter(|(known, _)| known == name);
+            let mut found: Vec<_> = exact.cloned().collect();
+            if found.is_empty() {
+                let members = all.iter().filter(|(known, _)| family(known) == name);
+                found.extend(members.cloned());
+            }
+            if found.is_empty() {
+                let mut known = all.iter().map(|(known, _)| known.as_str());
+                return Err(Error::unknown_name("quantity", name, &mut known).into());
+            }
+            chosen.extend(found);
+        }
+        Ok(Columns {
+            mechanism: mechanism.clone(),
+            chosen,
+        })
+    }
+
+    /// All outputs and integrals; where there are none, all coordinates.
+    #[must_use]
+    pub(crate) fn of_interest(mechanism: &Prepared) -> Self {
+        let told = |source: &Source| matches!(source, Source::Output(_) | Source::Integral(_));
+        let all = all(mechanism);
+        let mut chosen: Vec<_> = all.iter().filter(|(_, s)| told(s)).cloned().collect();
+        if chosen.is_empty() {
+            let coordinates = all
+                .into_iter()
+                .filter(|(_, s)| matches!(s, Source::Coordinate(_)));
+            chosen = coordinates.collect();
+        }
+        Columns {
+            mechanism: mechanism.clone(),
+            chosen,
+        }
+    }
+
+    /// Their names.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
+        self.chosen.iter().map(|(name, _)| name.as_str())
+    }
+
+    /// Their names with units, as far as these are known.
+    #[must_use]
+    pub(crate) fn labels(&self) -> Vec<String> {
+        let spec = self.mechanism.spec();
+        let unit = |source: &Source| match source {
+            Source::Time => Some("s"),
+            Source::Output(k) => units::unit_in(spec.outputs[*k].doc),
+            Source::Integral(k) => units::unit_in(self.mechanism.integrals()[*k].doc),
+            _ => None,
+        };
+        let label = |(name, source): &(String, Source)| match unit(source) {
+            Some(unit) => format!("{name} ({unit})"),
+            None => name.clone(),
+        };
+        self.chosen.iter().map(label).collect()
+    }
+
+    /// Their values at `sample`.
+    #[must_use]
+    pub(crate) fn values(&self, sample: Sample<'_>) -> Vec<f64> {
+        let Sample { t, q, v, integrals } = sample;
+        let (mechanism, spec) = (&self.mechanism, self.mechanism.spec());
+        let mut outputs = vec![0.0; spec.outputs.len()];
+        mechanism.outputs(t, q, v, &mut outputs);
+        let value = |(_, source): &(String, Source)| match source {
+            Source::Time => t,
+            Source::Coordinate(k) => q[*k],
+            Source::Velocity(k) => v[*k],
+            Source::Output(k) => outputs[*k],
+            Source::Integral(k) => integrals.get(*k).copied().unwrap_or(f64::NAN),
+            Source::Energy => mechanism.energy(t, q, v).total(),
+            Source::Residual => residual(mechanism, sample),
+        };
+        self.chosen.iter().map(value).collect()
+    }
+}
+
+/// The largest |φ| and |φ̇| there; 0 without constraints.
+pub(crate) fn residual(mechanism: &Prepared, sample: Sample<'_>) -> f64 {
+    let left = residuals(mechanism, &sample.to_state());
+    left.map_or(f64::NAN, |left| {
+        left.largest_position().max(left.largest_velocity())
+    })
+}
+
+fn all(mechanism: &Prepared) -> Vec<(String, Source)> {
+    let spec = mechanism.spec();
+    let coordinates = spec.coords.iter().enumerate();
+    let outputs = spec.outputs.iter().enumerate();
+    let integrals = mechanism.integrals().iter().enumerate();
+    let mut all = vec![("t".to_owned(), Source::Time)];
+    all.extend(
+        coordinates
+            .clone()
+            .map(|(k, name)| ((*name).to_owned(), Source::Coordinate(k))),
+    );
+    all.extend(coordinates.map(|(k, name)| (format!("dot({name})"), Source::Velocity(k))));
+    all.extend(outputs.map(|(k, output)| (output.name.to_owned(), Source::Output(k))));
+    all.extend(integrals.map(|(k, integral)| (integral.name.to_owned(), Source::Integral(k))));
+    all.push(("energy".to_owned(), Source::Energy));
+    all.push(("residual".to_owned(), Source::Residual));
+    all
+}
+
+/// `x` of `x[1][2]`, and `dot(x)` of `dot(x[1])`.
+fn family(name: &str) -> String {
+    let bare = |name: &str| name.split_once('[').map(|(family, _)| family.to_owned());
+    match name.strip_prefix("dot(").and_then(|n| n.strip_suffix(')')) {
+        Some(inner) => bare(inner).map_or_else(String::new, |family| format!("dot({family})")),
+        None => bare(name).unwrap_or_default(),
+    }
+}

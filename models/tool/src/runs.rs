@@ -1,0 +1,291 @@
+//! Several runs at once: lists of values, each combination of which is a run.
+
+use std::str::FromStr;
+
+use clap::Args;
+use ukcore::model::Entry;
+use ukcore::{Method, Stabilisation};
+
+use crate::failure::Failure;
+use crate::motion::{self, Motion};
+use crate::numbers::full;
+use crate::scene::Start;
+use crate::units::{self, Quantity};
+
+/// Runs of one model, one for each combination of the values listed.
+#[derive(Debug, Clone, Args)]
+pub struct Runs {
+    /// Set a parameter or an option of the start, to each of several values: `k=1,2,5` or `x0=12..16:0.5`; may be repeated
+    #[arg(long = "set", value_name = "NAME=VALUES", value_parser = assignment)]
+    pub settings: Vec<(String, Values)>,
+    /// Start configuration (see `list`); the first one if absent
+    #[arg(long, value_name = "NAME")]
+    pub start: Option<String>,
+    /// Guess a coordinate, or by `dot(NAME)=VALUE` a velocity, of the start, as for `run`
+    #[arg(long = "guess", value_name = "NAME=VALUE", value_parser = units::assignment)]
+    pub guesses: Vec<(String, Quantity)>,
+    /// Coordinates that keep the value and velocity guessed; may be repeated
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    pub hold: Vec<String>,
+    /// Time to stop at, before 0 to run backward; that of the start if absent
+    #[arg(long, value_name = "TIME", value_parser = units::seconds, allow_hyphen_values = true)]
+    pub until: Option<f64>,
+    /// Relative and absolute tolerance of the integration, or several: `1e-4,1e-10`
+    #[arg(long, value_name = "TOLS", default_value = "1e-10", value_parser = List::<f64>::read, allow_hyphen_values = true)]
+    pub tol: List<f64>,
+    /// Integration method, or several, as for `run`: `dop853`, `dopri5`, `radau5`, `rattle=STEP`
+    #[arg(long, value_name = "METHODS", default_value = "dop853", value_parser = List::<Method>::read)]
+    pub method: List<Method>,
+    /// Steps to give up after, such as 1e9
+    #[arg(long, value_name = "STEPS", default_value = "1e7", value_parser = motion::steps)]
+    pub max_steps: usize,
+    /// How the constraints are kept from drifting, or several ways: `projection,none`
+    #[arg(long, visible_alias = "stabilize", value_name = "WAYS", default_value = "projection", value_parser = List::<Stabilisation>::read)]
+    pub stabilise: List<Stabilisation>,
+}
+
+/// One of the runs.
+#[derive(Debug, Clone)]
+pub struct Variant {
+    /// With which parameters, and from where.
+    pub start: Start,
+    /// How it is computed.
+    pub motion: Motion,
+    /// What distinguishes it from the others: names and values.
+    pub differs: Vec<(String, String)>,
+}
+
+impl Runs {
+    /// The runs of `entry`, the last list running fastest.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] for unknown names, values in the wrong unit, and more runs than `most`.
+    pub fn each(&self, entry: &Entry, most: usize) -> Result<Vec<Variant>, Failure> {
+        let plain = Start {
+            start: self.start.clone(),
+            guesses: self.guesses.clone(),
+            hold: self.hold.clone(),
+            ..Start::default()
+        };
+        let mut axes = Vec::new();
+        for (name, values) in &self.settings {
+            let values = values.si(plain.unit(entry, name)?);
+            let values = values.map_err(|e| Failure::Usage(format!("`{name}`: {e}")))?;
+            axes.push((name, values));
+        }
+        let lengths = axes.iter().map(|(_, values)| values.len());
+        let others = [
+            self.tol.0.len(),
+            self.method.0.len(),
+            self.stabilise.0.len(),
+        ];
+        let lengths: Vec<usize> = lengths.chain(others).filter(|n| *n > 1).collect();
+        let count = lengths
+            .iter()
+            .try_fold(1_usize, |all, n| all.checked_mul(*n));
+        let count = count.filter(|count| *count <= most).ok_or_else(|| {
+            let each: Vec<String> = lengths.iter().map(ToString::to_string).collect();
+            let product = each.join(" × ");
+            Failure::Usage(format!(
+                "{product} runs are asked for; at most {most} are made"
+            ))
+        })?;
+        Ok((0..count)
+            .map(|index| self.chosen(&plain, &axes, index))
+            .collect())
+    }
+
+    fn chosen(&self, plain: &Start, axes: &[(&String, Vec<f64>)], index: usize) -> Variant {
+        let (mut start, mut differs, mut rest) = (plain.clone(), Vec::new(), index);
+        let mut pick = |count: usize| {
+            let place = rest % count;
+            rest /= count;
+            place
+        };
+        let way = self.stabilise.0[pick(self.stabilise.0.len())];
+        let method = self.method.0[pick(self.method.0.len())];
+        let tol = self.tol.0[pick(self.tol.0.len())];
+        for (name, values) in axes.iter().rev() {
+            let value = values[pick(values.len())];
+            start.settings.insert(0, ((*name).clone(), value.into()));
+            if values.len() > 1 {
+                differs.insert(0, ((*name).clone(), full(value)));
+            }
+        }
+        let mut told = |several: bool, name: &str, text: String| {
+            differs.extend(several.then(|| (name.to_owned(), text)));
+        };
+        told(self.tol.0.len() > 1, "tolerance", format!("{tol:e}"));
+        told(self.method.0.len() > 1, "method", method.to_string());
+        told(self.stabilise.0.len() > 1, "stabilisation", way.to_string());
+        let motion = Motion {
+            until: self.until,
+            tol,
+            method,
+            max_steps: self.max_steps,
+            stabilise: way,
+        };
+        Variant {
+            start,
+            motion,
+            differs,
+        }
+    }
+}
+
+/// Values as they are written: `1,2,5`, or from the first to the last in steps.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Values {
+    /// Those listed.
+    List(Vec<Quantity>),
+    /// `first..last:step`.
+    Range([Quantity; 3]),
+}
+
+/// A range has at most so many values.
+const MOST: f64 = 1e7;
+
+impl Values {
+    /// The numbers in the SI unit `declared`.
+    fn si(&self, declared: &str) -> Result<Vec<f64>, String> {
+        let [first, last, step] = match self {
+            Values::List(values) => return values.iter().map(|v| v.si(declared)).collect(),
+            Values::Range(range) => *range,
+        };
+        let [first, last, step] = [first.si(declared)?, last.si(declared)?, step.si(declared)?];
+        let steps = (last - first) / step;
+        if !(0.0..MOST).contains(&steps) {
+            return Err(format!(
+                "steps of {step} do not lead from {first} to {last} in fewer than {MOST:.0e}"
+            ));
+        }
+        // A last value that rounding puts beyond the end is meant.
+        let count = (steps + 1e-9 * steps.max(1.0)).floor() as usize;
+        Ok((0..=count)
+            .map(|k| rounded(first + k as f64 * step))
+            .collect())
+    }
+}
+
+/// 0.3 for 0.1 + 2·0.1: the number of fifteen digits, which is what is meant by steps that are written with fewer.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.14e}").parse().unwrap_or(value)
+}
+
+/// Reads `NAME=VALUES`.
+fn assignment(text: &str) -> Result<(String, Values), String> {
+    let Some((name, values)) = text.split_once('=') else {
+        return Err(format!("`{text}` is not of the form NAME=VALUES"));
+    };
+    let name = name.trim();
+    if name.is_empty() {
+        return Err(format!("`{text}` has no name before `=`"));
+    }
+    let values = values.trim();
+    let values = match values.split_once("..") {
+        Some((first, rest)) => {
+            let (last, step) = rest
+                .split_once(':')
+                .ok_or_else(|| format!("a range needs its step: `{name}={first}..{rest}:STEP`"))?;
+            Values::Range([
+                Quantity::parse(first)?,
+                Quantity::parse(last)?,
+                Quantity::parse(step)?,
+            ])
+        }
+        None if values.is_empty() => return Err(format!("`{text}` has no value after `=`")),
+        None => Values::List(
+            values
+                .split(',')
+                .map(Quantity::parse)
+                .collect::<Result<_, _>>()?,
+        ),
+    };
+    Ok((name.to_owned(), values))
+}
+
+/// What is written with commas between.
+#[derive(Debug, Clone, PartialEq)]
+pub struct List<T>(pub Vec<T>);
+
+impl List<f64> {
+    fn read(text: &str) -> Result<Self, String> {
+        text.split(',')
+            .map(motion::tolerance)
+            .collect::<Result<_, _>>()
+            .map(List)
+    }
+}
+
+impl List<Method> {
+    fn read(text: &str) -> Result<Self, String> {
+        text.split(',')
+            .map(motion::method)
+            .collect::<Result<_, _>>()
+            .map(List)
+    }
+}
+
+impl List<Stabilisation> {
+    fn read(text: &str) -> Result<Self, String> {
+        let mut parts: Vec<String> = Vec::new();
+        for part in text.split(',') {
+            match parts.last_mut() {
+                // The second rate of `baumgarte=20,20`.
+                Some(before)
+                    if part
+                        .trim()
+                        .starts_with(|c: char| c.is_ascii_digit() || c == '.') =>
+                {
+                    *before += ",";
+                    *before += part;
+                }
+                _ => parts.push(part.to_owned()),
+            }
+        }
+        let ways = parts
+            .iter()
+            .map(|part| Stabilisation::from_str(part.trim()));
+        let ways: Result<_, _> = ways.map(|way| way.map_err(|e| e.to_string())).collect();
+        ways.map(List)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn numbers(text: &str, unit: &str) -> Vec<f64> {
+        let (_, values) = assignment(text).expect("values");
+        values.in_unit(Some(unit)).expect("numbers")
+    }
+
+    #[test]
+    fn values_are_listed_or_in_steps() {
+        assert_eq!(numbers("k=1,2,5", "N/m"), [1.0, 2.0, 5.0]);
+        assert_eq!(
+            numbers("x0=12..14:0.5", "m"),
+            [12.0, 12.5, 13.0, 13.5, 14.0]
+        );
+        assert_eq!(numbers("x=0.1..0.3:0.1", "m"), [0.1, 0.2, 0.3]);
+        assert_eq!(numbers("x=10mm..30mm:1cm", "m"), [0.01, 0.02, 0.03]);
+        assert_eq!(numbers("x=3..1:-1", "m"), [3.0, 2.0, 1.0]);
+        assert_eq!(numbers("x=1..2:5", "m"), [1.0]);
+        for (text, unit) in [("x=1..2:0", "m"), ("x=2..1:1", "m"), ("x=0..1:1e-9", "m")] {
+            let (_, values) = assignment(text).expect("values");
+            assert!(values.in_unit(Some(unit)).is_err(), "{text}");
+        }
+        for text in ["x", "=1", "x=", "x=1..2", "x=1,,2", "x=1..2:m3"] {
+            assert!(assignment(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn ways_with_rates_are_one() {
+        let List(ways) =
+            List::<Stabilisation>::read("none,baumgarte=5,6,projection").expect("ways");
+        let written: Vec<String> = ways.iter().map(Stabilisation::to_string).collect();
+        assert_eq!(written, ["none", "baumgarte=5,6", "projection"]);
+    }
+}

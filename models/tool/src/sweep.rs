@@ -1,0 +1,455 @@
+//! The command `sweep`: many runs of a model, one for each combination of values, as a table.
+//!
+//! Each row is appended as soon as its run has ended, in one write; a table that is not finished is taken up where it ends. When all runs are
+//! there the rows are put in order, so that the file does not depend on the number of cores.
+
+use std::collections::HashMap;
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use clap::Args;
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
+use ukcore::model::{DURATION, Entry};
+use ukcore::simulate::{Drift, Ending, Record, Sample};
+
+use crate::columns::Columns;
+use crate::command::{self, find};
+use crate::failure::Failure;
+use crate::interrupt::Interrupt;
+use crate::motion;
+use crate::numbers::count;
+use crate::output::{self, write_whole};
+use crate::progress::Progress;
+use crate::runs::{Runs, Variant};
+
+/// The arguments of `sweep`.
+#[derive(Debug, Args)]
+pub struct SweepArgs {
+    /// Model (see `list`)
+    pub model: String,
+    /// The runs
+    #[command(flatten)]
+    pub runs: Runs,
+    /// Quantities to tell of, called as in tables of `run`; all outputs and integrals if absent, or all coordinates where there are none
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    pub of: Vec<String>,
+    /// Interval at which extremes are looked for; a thousandth of the run if absent
+    #[arg(long, value_name = "TIME", value_parser = motion::interval, allow_hyphen_values = true)]
+    pub every: Option<f64>,
+    /// The table, as CSV. One that an interrupted sweep has left is completed
+    #[arg(long, value_name = "FILE", value_parser = command::path)]
+    pub out: PathBuf,
+}
+
+/// Samples of a run, if nothing is said.
+const SAMPLES: f64 = 1000.0;
+
+/// More members are a slip.
+const MOST: usize = 1_000_000;
+
+/// Runs all members that the table has not yet, on all cores.
+///
+/// # Errors
+/// [`Failure::Usage`] for what is wrong with the command line, and where the table is of another sweep; [`Failure::Interrupted`] if the user
+/// ends it: what is done is kept, and the same command goes on from there; [`Failure::Failed`] if no member could be computed, or the table
+/// not be written. A member that fails alone is a row with its error.
+pub fn sweep(models: &[Entry], args: &SweepArgs) -> Result<(), Failure> {
+    let entry = find(models, &args.model)?;
+    let columns = match args.of.is_empty() {
+        true => Columns::of_interest(&entry.mechanism),
+        false => Columns::named(&entry.mechanism, &args.of)?,
+    };
+    let plan = Plan {
+        entry,
+        members: args.runs.each(entry, MOST)?,
+        columns,
+        every: args.every,
+    };
+    let head = plan.head()?;
+    let mut table = Table::open(&args.out, &head)?;
+    let todo = table.missing(&plan)?;
+    let (interrupt, progress) = (Interrupt::catch()?, Progress::new(&entry.id));
+    let (all, done) = (plan.members.len(), AtomicUsize::new(0));
+    let had = all - todo.len();
+    let file = Mutex::new(&mut table.file);
+    let run = |&member: &usize| -> Result<(), Failure> {
+        let row = plan.row(member, interrupt)?;
+        if let Some(row) = row.filter(|_| !interrupt.is_set()) {
+            let mut file = file.lock().unwrap_or_else(PoisonError::into_inner);
+            file.write_all(&row)
+                .map_err(|e| Failure::file(&args.out, &e))?;
+            let done = had + 1 + done.fetch_add(1, Ordering::Relaxed);
+            progress.set(done as f64 / all as f64, || format!("{done} of {all} runs"));
+        }
+        Ok(())
+    };
+    let result = todo.par_iter().with_max_len(1).try_for_each(run);
+    progress.finish();
+    result?;
+    let done = had + done.into_inner();
+    if done < all {
+        let message = format!(
+            "interrupted: {done} of {} are done and kept; the same command goes on from there",
+            count(all, "run")
+        );
+        return Err(Failure::Interrupted(message));
+    }
+    drop(table);
+    let failed = in_order(&args.out)?;
+    if let (Some(first), true) = (failed.first(), failed.len() == all) {
+        return Err(Failure::Failed(format!(
+            "no run succeeded; the first: {first}"
+        )));
+    }
+    output::to_stdout(|out| {
+        write!(out, "{} in {}", count(all, "run"), args.out.display())?;
+        match failed.len() {
+            0 => writeln!(out),
+            number => writeln!(out, ", of which {number} failed (column `error`)"),
+        }
+    })
+}
+
+/// All that is to be computed.
+struct Plan<'a> {
+    entry: &'a Entry,
+    members: Vec<Variant>,
+    columns: Columns,
+    every: Option<f64>,
+}
+
+impl Plan<'_> {
+    /// The line of names.
+    fn head(&self) -> Result<Vec<u8>, Failure> {
+        let (_, start, _) = self.members[0].start.settings(self.entry)?;
+        let mut head = vec!["member".to_owned(), "start".to_owned()];
+        let options = start.map_or(&[][..], |s| s.options);
+        head.extend(options.iter().map(|o| o.name.to_owned()));
+        let params = self.entry.mechanism.spec().params;
+        head.extend(params.iter().map(|p| p.name.to_owned()));
+        head.extend(["until", "tolerance", "method", "stabilisation"].map(str::to_owned));
+        head.push("t".to_owned());
+        for name in self.columns.names() {
+            head.push(name.to_owned());
+            for what in ["min", "t_min", "max", "t_max"] {
+                head.push(format!("{what}({name})"));
+            }
+        }
+        let last = [
+            "residual",
+            "energy_drift",
+            "steps",
+            "rejected",
+            "evaluations",
+            "fallbacks",
+            "error",
+        ];
+        head.extend(last.map(str::to_owned));
+        line(&head)
+    }
+
+    /// What says which run member number `k` is.
+    fn key(&self, k: usize) -> Result<Vec<String>, Failure> {
+        let Variant { start, motion, .. } = &self.members[k];
+        let (mechanism, spec, options) = start.settings(self.entry)?;
+        let own = spec.filter(|_| !start.guesses());
+        let mut key = vec![
+            k.to_string(),
+            own.map_or("assembled", |s| s.name).to_owned(),
+        ];
+        for option in spec.map_or(&[][..], |s| s.options) {
+            key.push(number(options.get(option.name).unwrap_or(option.default)));
+        }
+        key.extend(mechanism.parameters().iter().map(|x| number(*x)));
+        let until = motion
+            .until
+            .unwrap_or(spec.map_or(DURATION, |s| s.duration));
+        key.extend([
+            number(until),
+            number(motion.tol),
+            motion.method.to_string(),
+            motion.stabilise.to_string(),
+        ]);
+        Ok(key)
+    }
+
+    /// The row of member number `k`; nothing where it was interrupted.
+    fn row(&self, k: usize, interrupt: Interrupt) -> Result<Option<Vec<u8>>, Failure> {
+        let mut row = self.key(k)?;
+        let chosen = &self.members[k];
+        let ready = match chosen.start.ready(self.entry) {
+            Ok(ready) => ready,
+            Err(failure) => {
+                let missing = 1 + 5 * self.columns.names().count() + 6;
+                row.extend(std::iter::repeat_n(String::new(), missing));
+                row.push(failure.message());
+                return line(&row).map(Some);
+            }
+        };
+        let mut extremes = vec![Extremes::default(); self.columns.names().count()];
+        let mut drift = Drift::new(&ready.mechanism);
+        let mut last = Vec::new();
+        let length = chosen.motion.length(&ready);
+        let simulation = chosen
+            .motion
+            .simulation(&ready)
+            .every(self.every.unwrap_or(length.abs() / SAMPLES))
+            .progress(move |_| match interrupt.is_set() {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            });
+        let mut add = |sample: Sample<'_>| {
+            last = self.columns.values(sample);
+            for (extremes, value) in extremes.iter_mut().zip(&last) {
+                extremes.add(sample.t, *value);
+            }
+            drift.add(sample);
+        };
+        let result = simulation.stream(ready.state.t + length, |record| {
+            if let Record::Sample(sample) = record {
+                add(sample);
+            }
+            ControlFlow::Continue(())
+        });
+        let (trajectory, error) = match result {
+            Ok(trajectory) => (trajectory, String::new()),
+            Err(failure) => (*failure.trajectory, motion::usage(failure.error).message()),
+        };
+        if trajectory.ending() == Ending::Interrupted {
+            return Ok(None);
+        }
+        // That of a run which fails is behind the last sample.
+        if let Some(end) = trajectory.last().filter(|_| !last.is_empty()) {
+            last = self.columns.values(end);
+        }
+        row.push(trajectory.last().map_or(String::new(), |end| number(end.t)));
+        last.resize(extremes.len(), f64::NAN);
+        for (value, extremes) in last.into_iter().zip(extremes) {
+            row.push(number(value));
+            row.extend(extremes.told().map(number));
+        }
+        let conservative = trajectory.spec().structure.conservative;
+        let work = trajectory.work();
+        row.push(number(drift.residual().largest()));
+        row.push(if conservative {
+            number(drift.energy())
+        } else {
+            String::new()
+        });
+        let counts = [work.steps, work.rejected, work.evaluations, work.fallbacks];
+        row.extend(counts.map(|n| n.to_string()));
+        row.push(error);
+        line(&row).map(Some)
+    }
+}
+
+/// The fewest digits that read back as the same number; nothing for what is none.
+fn number(x: f64) -> String {
+    if x.is_finite() {
+        format!("{x:?}")
+    } else {
+        String::new()
+    }
+}
+
+/// The least and the greatest value of a quantity, and when.
+#[derive(Debug, Clone, Default)]
+struct Extremes {
+    /// The samples before this one.
+    before: Vec<(f64, f64)>,
+    /// (t, value).
+    least: Option<(f64, f64)>,
+    greatest: Option<(f64, f64)>,
+}
+
+impl Extremes {
+    fn add(&mut self, t: f64, value: f64) {
+        if !value.is_finite() {
+            self.before.clear();
+            return;
+        }
+        self.before.push((t, value));
+        self.take((t, value));
+        if let [a, b, c] = self.before[..] {
+            self.take(vertex(a, b, c).unwrap_or(b));
+            self.before.remove(0);
+        }
+    }
+
+    fn take(&mut self, (t, value): (f64, f64)) {
+        if self.least.is_none_or(|(_, least)| value < least) {
+            self.least = Some((t, value));
+        }
+        if self.greatest.is_none_or(|(_, greatest)| value > greatest) {
+            self.greatest = Some((t, value));
+        }
+    }
+
+    /// Least, when, greatest, when.
+    fn told(&self) -> [f64; 4] {
+        let (least, greatest) = (self.least, self.greatest);
+        let none = (f64::NAN, f64::NAN);
+        let ((t0, low), (t1, high)) = (least.unwrap_or(none), greatest.unwrap_or(none));
+        [low, t0, high, t1]
+    }
+}
+
+/// The vertex of the parabola through three points, if the middle one is the highest or lowest.
+fn vertex(a: (f64, f64), b: (f64, f64), c: (f64, f64)) -> Option<(f64, f64)> {
+    let (left, right) = ((b.1 - a.1) / (b.0 - a.0), (c.1 - b.1) / (c.0 - b.0));
+    // Slopes of one sign have no turn between them.
+    if left * right >= 0.0 {
+        return None;
+    }
+    let curvature = (right - left) / (c.0 - a.0);
+    // y = b + slope (t − t_b) + curvature (t − t_b)².
+    let slope = left + curvature * (b.0 - a.0);
+    let t = -slope / (2.0 * curvature);
+    let value = b.1 + t * (slope + curvature * t);
+    (value.is_finite()).then_some((b.0 + t, value))
+}
+
+/// A row of a table. Texts of errors have one line.
+fn line(fields: &[String]) -> Result<Vec<u8>, Failure> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let plain = fields.iter().map(|field| field.replace(['\n', '\r'], " "));
+    let done = writer.write_record(plain).map_err(|e| e.to_string());
+    done.and_then(|()| writer.into_inner().map_err(|e| e.to_string()))
+        .map_err(Failure::Failed)
+}
+
+/// A table that rows are appended to, held as long as it is written.
+struct Table {
+    path: PathBuf,
+    file: File,
+    /// Its rows, each by the number of its member.
+    rows: HashMap<usize, Vec<String>>,
+}
+
+impl Table {
+    /// The table `path` with this line of names: a new one, or one that is there with all its whole rows.
+    fn open(path: &Path, head: &[u8]) -> Result<Self, Failure> {
+        let broken = |e: &io::Error| Failure::file(path, e);
+        let mut options = File::options();
+        let file = options.read(true).append(true).create(true).open(path);
+        let mut file = file.map_err(|e| broken(&e))?;
+        if let Err(fs::TryLockError::WouldBlock) = file.try_lock() {
+            let place = path.display();
+            let message = format!(
+                "another program is writing {place}; wait for it, or take another file with `--out`"
+            );
+            return Err(Failure::Failed(message));
+        }
+        let text = fs::read(path).map_err(|e| broken(&e))?;
+        // A line that was being written when the program ended is none.
+        let whole = text
+            .iter()
+            .rposition(|byte| *byte == b'\n')
+            .map_or(0, |end| end + 1);
+        if whole == 0 && (text.is_empty() || head.starts_with(&text)) {
+            file.set_len(0).map_err(|e| broken(&e))?;
+            file.write_all(head).map_err(|e| broken(&e))?;
+            return Ok(Table {
+                path: path.to_owned(),
+                file,
+                rows: HashMap::new(),
+            });
+        }
+        if !text.starts_with(head) {
+            return Err(other(path));
+        }
+        file.set_len(whole as u64).map_err(|e| broken(&e))?;
+        let mut reader = csv::Reader::from_reader(&text[..whole]);
+        let mut rows = HashMap::new();
+        for record in reader.records() {
+            let record = record.map_err(|_| other(path))?;
+            let fields: Vec<String> = record.iter().map(str::to_owned).collect();
+            let member = fields[0].parse().map_err(|_| other(path))?;
+            rows.insert(member, fields);
+        }
+        Ok(Table {
+            path: path.to_owned(),
+            file,
+            rows,
+        })
+    }
+
+    /// The members that have no row.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] where a row is of another sweep.
+    fn missing(&mut self, plan: &Plan<'_>) -> Result<Vec<usize>, Failure> {
+        let mut missing = Vec::new();
+        for member in 0..plan.members.len() {
+            match self.rows.remove(&member) {
+                None => missing.push(member),
+                Some(row) if row.starts_with(&plan.key(member)?) => {}
+                Some(_) => return Err(other(&self.path)),
+            }
+        }
+        match self.rows.is_empty() {
+            true => Ok(missing),
+            false => Err(other(&self.path)),
+        }
+    }
+}
+
+fn other(path: &Path) -> Failure {
+    Failure::Usage(format!(
+        "{} is there and holds something else than the begin of this sweep; take another file with `--out`, or remove it",
+        path.display()
+    ))
+}
+
+/// Puts the rows in the order of their members; the errors that there are.
+fn in_order(path: &Path) -> Result<Vec<String>, Failure> {
+    let text = fs::read_to_string(path).map_err(|e| Failure::file(path, &e))?;
+    let (head, rows) = text.split_once('\n').unwrap_or((&text, ""));
+    let member = |row: &&str| {
+        row.split(',')
+            .next()
+            .and_then(|k| k.parse().ok())
+            .unwrap_or(usize::MAX)
+    };
+    let mut rows: Vec<&str> = rows.lines().collect();
+    rows.sort_by_key(member);
+    let sorted = format!("{head}\n{}\n", rows.join("\n"));
+    write_whole(path, |out| out.write_all(sorted.as_bytes()))?;
+    let mut reader = csv::Reader::from_reader(sorted.as_bytes());
+    let last = |record: csv::StringRecord| record.iter().next_back().unwrap_or_default().to_owned();
+    let errors = reader.records().filter_map(Result::ok).map(last);
+    Ok(errors.filter(|error| !error.is_empty()).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn extremes_lie_between_samples() {
+        let mut extremes = Extremes::default();
+        for k in 0..=100 {
+            let t = 0.07 * f64::from(k);
+            extremes.add(t, (t - 0.3).sin());
+        }
+        let [low, t_low, high, t_high] = extremes.told();
+        let half = std::f64::consts::FRAC_PI_2;
+        for (found, expected) in [
+            (high, 1.0),
+            (low, -1.0),
+            (t_high, half + 0.3),
+            (t_low, 3.0 * half + 0.3),
+        ] {
+            // Of fourth order in the value, of third in the time.
+            assert!((found - expected).abs() < 1e-4, "{found} {expected}");
+        }
+        // At the ends it is the samples themselves.
+        let mut rising = Extremes::default();
+        (0..5).for_each(|k| rising.add(f64::from(k), f64::from(k * k)));
+        assert_eq!(rising.told(), [0.0, 0.0, 16.0, 4.0]);
+    }
+}
