@@ -33,6 +33,8 @@ pub struct Tape {
 pub type Functions<'a, S> = (&'a [fn(S) -> S], &'a [fn(S, S) -> S]);
 
 /// Reads `tape`: the function of `inputs`, into `slices`. Registers hold anything before.
+///
+/// Plain indices, no iterators: this is fast where builds for tests hardly optimise, too.
 pub(crate) fn play<S: Scalar>(
     tape: &Tape,
     registers: &mut [S],
@@ -40,49 +42,59 @@ pub(crate) fn play<S: Scalar>(
     (unary, binary): Functions<'_, S>,
     slices: &mut [&mut [S]],
 ) -> S {
-    let given = inputs.iter().flat_map(|input| input.iter().copied());
-    let given = given.chain(tape.constants.iter().map(|c| S::from_f64(*c)));
-    registers.iter_mut().zip(given).for_each(|(r, x)| *r = x);
+    let mut filled = 0;
+    for input in inputs {
+        registers[filled..filled + input.len()].copy_from_slice(input);
+        filled += input.len();
+    }
+    for (k, x) in tape.constants.iter().enumerate() {
+        registers[filled + k] = S::from_f64(*x);
+    }
+    let (code, mut at) = (tape.code, 0);
+    // The next word, and the register in that place.
+    macro_rules! word {
+        () => {{
+            at += 2;
+            code[at - 2] as usize | (code[at - 1] as usize) << 8
+        }};
+    }
+    macro_rules! register {
+        () => {
+            registers[word!()]
+        };
+    }
     let mut result = S::from_f64(0.0);
-    let mut words = tape
-        .code
-        .chunks_exact(2)
-        .map(|w| u16::from_le_bytes([w[0], w[1]]));
-    while let Some(sign) = words.next() {
-        let mut word = || usize::from(words.next().unwrap_or_default());
-        let first = word();
-        let x = match u8::try_from(sign).unwrap_or_default() {
-            b'+' => registers[word()] + registers[word()],
-            b'-' => registers[word()] - registers[word()],
-            b'*' => registers[word()] * registers[word()],
-            b'/' => registers[word()] / registers[word()],
-            b'm' => registers[word()].mul_add(registers[word()], registers[word()]),
-            b'w' => registers[word()].neg_mul_add(registers[word()], registers[word()]),
-            b'n' => -registers[word()],
-            b'i' => registers[word()].recip(),
+    while at < code.len() {
+        let sign = code[at];
+        at += 2;
+        let first = word!();
+        registers[first] = match sign {
+            b'+' => register!() + register!(),
+            b'-' => register!() - register!(),
+            b'*' => register!() * register!(),
+            b'/' => register!() / register!(),
+            b'm' => register!().mul_add(register!(), register!()),
+            b'w' => register!().neg_mul_add(register!(), register!()),
+            b'n' => -register!(),
+            b'i' => register!().recip(),
             b's' => {
-                let second = word();
-                let (sin, cos) = registers[word()].sin_cos();
+                let second = word!();
+                let (sin, cos) = register!().sin_cos();
                 registers[second] = cos;
                 sin
             }
             b'p' => {
-                let (base, low, high) = (registers[word()], word(), word());
+                let (base, low, high) = (register!(), word!(), word!());
                 // Both are words of two bytes.
                 #[allow(clippy::cast_possible_truncation, clippy::cast_possible_wrap)]
                 base.powi((low | high << 16) as u32 as i32)
             }
-            b'f' => unary[word()](registers[word()]),
-            b'g' => binary[word()](registers[word()], registers[word()]),
-            b'?' => S::select_le(
-                registers[word()],
-                registers[word()],
-                registers[word()],
-                registers[word()],
-            ),
+            b'f' => unary[word!()](register!()),
+            b'g' => binary[word!()](register!(), register!()),
+            b'?' => S::select_le(register!(), register!(), register!(), register!()),
             b'=' => {
-                let (low, high) = (word(), word());
-                slices[first][low | high << 16] = registers[word()];
+                let place = word!() | word!() << 16;
+                slices[first][place] = register!();
                 continue;
             }
             b'.' => {
@@ -91,7 +103,6 @@ pub(crate) fn play<S: Scalar>(
             }
             _ => unreachable!("the compiler of mechanisms wrote the tape"),
         };
-        registers[first] = x;
     }
     result
 }
