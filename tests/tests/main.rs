@@ -41,6 +41,7 @@ mod starts;
 mod stiff;
 mod streaming;
 mod switches;
+mod tapes;
 mod tree;
 mod turned;
 mod vanishing;

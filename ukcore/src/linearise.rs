@@ -1,7 +1,6 @@
 //! Exact derivatives of the accelerations: ∂q̈/∂(t, q, q̇, parameters) at a state.
 //!
-//! Emitted code runs on [`Dual`] numbers, a sweep for each direction. Where
-//! there is an emitted elimination and its certificate holds, it is differentiated as it stands. Elsewhere the solution is
+//! Emitted code runs on numbers with [`Slopes`], a sweep for several directions. Where there is an emitted elimination and its certificate holds, it is differentiated as it stands. Elsewhere the solution is
 //! differentiated implicitly: from M q̈ = Q + c + Aᵀλ and A q̈ = b follow
 //!
 //! M dq̈ = dQ + dc − dM q̈ + dAᵀλ + Aᵀdλ,  A dq̈ = db − dA q̈,
@@ -15,7 +14,7 @@
 use crate::assemble::State;
 use crate::error::Error;
 use crate::mechanism::{Dynamics, Evaluated, Prepared};
-use crate::scalar::{Dual, Scalar};
+use crate::scalar::{Scalar, Sloped, Slopes};
 use crate::scan::all_finite;
 use crate::solver::{Accepted, Baumgarte, Solver, SolverOptions};
 use crate::spec::Spec;
@@ -54,8 +53,8 @@ impl Linearisation {
         // Also checks the state.
         solver.acceleration(*t, q, v, &mut acceleration)?;
         let mut columns = vec![0.0; n * directions(spec)];
-        let mut slopes = Slopes::new(solver.mechanism());
-        slopes.columns(&mut solver, (*t, q, v), &mut acceleration, &mut columns)?;
+        let mut all = Columns::new(solver.mechanism());
+        all.fill(&mut solver, (*t, q, v), &mut acceleration, &mut columns)?;
         let names = names(spec);
         let broken = names.iter().zip(columns.chunks_exact(n));
         let broken = broken.filter(|(_, column)| !all_finite(column));
@@ -113,19 +112,22 @@ fn directions(spec: &Spec) -> usize {
     2 * spec.n() + spec.params.len() + 1
 }
 
+/// Directions of a sweep.
+const AT_ONCE: usize = Slopes::COUNT;
+
 /// Columns of ∂q̈/∂(q, q̇, parameters, t), in buffers allocated once.
-pub(crate) struct Slopes {
+pub(crate) struct Columns {
     sweep: Sweep,
-    straight: Vec<Dual>,
+    straight: Vec<Sloped>,
     implicit: Option<Implicit>,
 }
 
-impl Slopes {
+impl Columns {
     /// With the parameters of `mech`.
     pub(crate) fn new(mech: &Prepared) -> Self {
-        Slopes {
+        Columns {
             sweep: Sweep::new(mech),
-            straight: vec![Dual::from_f64(0.0); mech.spec().n()],
+            straight: vec![Sloped::from_f64(0.0); mech.spec().n()],
             implicit: None,
         }
     }
@@ -135,7 +137,7 @@ impl Slopes {
     ///
     /// # Errors
     /// What [`Solver::acceleration`] reports.
-    pub(crate) fn columns(
+    pub(crate) fn fill(
         &mut self,
         solver: &mut Solver,
         (t, q, v): (f64, &[f64], &[f64]),
@@ -164,15 +166,18 @@ impl Slopes {
     ) -> bool {
         let n = self.sweep.q.len();
         let out = &mut self.straight;
-        for (k, column) in columns.chunks_exact_mut(n).enumerate() {
-            self.sweep.aim(t, q, v, k);
+        for (k, columns) in columns.chunks_mut(n * AT_ONCE).enumerate() {
+            self.sweep.aim(t, q, v, k * AT_ONCE);
             let Sweep { mech, t, q, v, .. } = &self.sweep;
             let safe = mech.acceleration(*t, q, v, out);
             let finite = out.iter().all(|x| x.re.is_finite());
             if !(finite && accepted.has(safe.re)) {
                 return false;
             }
-            column.iter_mut().zip(&*out).for_each(|(d, x)| *d = x.eps);
+            for (k, column) in columns.chunks_exact_mut(n).enumerate() {
+                let pairs = column.iter_mut().zip(&*out);
+                pairs.for_each(|(d, x)| *d = x.eps.along(k));
+            }
         }
         let pairs = acceleration.iter_mut().zip(out);
         pairs.for_each(|(a, x)| *a = x.re);
@@ -180,41 +185,42 @@ impl Slopes {
     }
 }
 
-/// Mechanism and state, moving in one direction.
+/// Mechanism and state, moving in several directions.
 struct Sweep {
-    mech: Prepared<Dual, dyn Dynamics<Dual>>,
+    mech: Prepared<Sloped, dyn Dynamics<Sloped>>,
     /// Some parameter moves.
     moving: bool,
-    t: Dual,
-    q: Vec<Dual>,
-    v: Vec<Dual>,
+    t: Sloped,
+    q: Vec<Sloped>,
+    v: Vec<Sloped>,
 }
 
 impl Sweep {
     /// With the parameters of `mech`.
     fn new(mech: &Prepared) -> Self {
-        let zeros = || vec![Dual::from_f64(0.0); mech.spec().n()];
+        let zeros = || vec![Sloped::from_f64(0.0); mech.spec().n()];
         Sweep {
-            mech: mech.dual(),
+            mech: mech.sloped(),
             moving: false,
-            t: Dual::from_f64(0.0),
+            t: Sloped::from_f64(0.0),
             q: zeros(),
             v: zeros(),
         }
     }
 
-    /// At (t, q, q̇), moving in `direction`.
-    fn aim(&mut self, t: f64, q: &[f64], v: &[f64], direction: usize) {
-        let seed = |x: f64, own: usize| Dual::new(x, f64::from(u8::from(own == direction)));
+    /// At (t, q, q̇), moving in the directions from `first` on.
+    fn aim(&mut self, t: f64, q: &[f64], v: &[f64], first: usize) {
+        let unit = |own: usize| Slopes::new(|k| f64::from(u8::from(own == first + k)));
+        let seed = |x: f64, own: usize| Sloped::new(x, unit(own));
         let (n, p) = (q.len(), self.mech.parameters().len());
         for i in 0..n {
             self.q[i] = seed(q[i], i);
             self.v[i] = seed(v[i], n + i);
         }
-        let moves = (2 * n..2 * n + p).contains(&direction);
+        let moves = first < 2 * n + p && first + AT_ONCE > 2 * n;
         if moves || self.moving {
             let given = self.mech.parameters().iter().enumerate();
-            let given: Vec<Dual> = given.map(|(i, x)| seed(x.re, 2 * n + i)).collect();
+            let given: Vec<Sloped> = given.map(|(i, x)| seed(x.re, 2 * n + i)).collect();
             self.mech.set_parameters(given.into_iter());
             self.moving = moves;
         }
@@ -226,10 +232,10 @@ impl Sweep {
 struct Implicit {
     acceleration: Vec<f64>,
     multipliers: Vec<f64>,
-    terms: Evaluated<Dual>,
+    terms: Evaluated<Sloped>,
     /// φ and φ̇, for Baumgarte's terms.
-    position: Vec<Dual>,
-    rate: Vec<Dual>,
+    position: Vec<Sloped>,
+    rate: Vec<Sloped>,
     /// Right-hand sides of the differentiated equations.
     change: Vec<f64>,
     demand: Vec<f64>,
@@ -238,7 +244,7 @@ struct Implicit {
 impl Implicit {
     fn new(spec: &Spec) -> Self {
         let (n, m) = (spec.n(), spec.m());
-        let zeros = |len: usize| vec![Dual::from_f64(0.0); len];
+        let zeros = |len: usize| vec![Sloped::from_f64(0.0); len];
         Implicit {
             acceleration: vec![0.0; n],
             multipliers: vec![0.0; m],
@@ -259,17 +265,19 @@ impl Implicit {
     ) -> Result<(), Error> {
         let (acceleration, multipliers) = (&mut self.acceleration, &mut self.multipliers);
         let formula = solver.balance(t, q, v, acceleration, multipliers)?;
-        for (k, column) in columns.chunks_exact_mut(q.len()).enumerate() {
-            sweep.aim(t, q, v, k);
-            self.differentiate(sweep, solver.baumgarte());
-            solver.respond(formula, &self.change, &self.demand, column);
+        for (k, columns) in columns.chunks_mut(q.len() * AT_ONCE).enumerate() {
+            sweep.aim(t, q, v, k * AT_ONCE);
+            self.evaluate(sweep, solver.baumgarte());
+            for (k, column) in columns.chunks_exact_mut(q.len()).enumerate() {
+                self.differentiate(k);
+                solver.respond(formula, &self.change, &self.demand, column);
+            }
         }
         Ok(())
     }
 
-    /// dQ + dc − dM q̈ + dAᵀλ and db − dA q̈ along the directions of `sweep`.
-    fn differentiate(&mut self, sweep: &Sweep, baumgarte: Option<Baumgarte>) {
-        let (n, m) = (self.acceleration.len(), self.multipliers.len());
+    /// The terms and their derivatives along the directions of `sweep`.
+    fn evaluate(&mut self, sweep: &Sweep, baumgarte: Option<Baumgarte>) {
         let Sweep { mech, t, q, v, .. } = sweep;
         let terms = &mut self.terms;
         terms.dynamics(mech, *t, q, v);
@@ -278,22 +286,28 @@ impl Implicit {
             mech.residual_rate(*t, q, v, &mut self.rate);
             baumgarte.apply(&self.position, &self.rate, &mut terms.rhs);
         }
+    }
+
+    /// dQ + dc − dM q̈ + dAᵀλ and db − dA q̈ along direction `k` of the sweep.
+    fn differentiate(&mut self, k: usize) {
+        let (n, m) = (self.acceleration.len(), self.multipliers.len());
+        let terms = &self.terms;
         let (change, demand) = (&mut self.change, &mut self.demand);
         for (i, change) in change.iter_mut().enumerate() {
-            *change = terms.force[i].eps + terms.nonideal[i].eps;
+            *change = terms.force[i].eps.along(k) + terms.nonideal[i].eps.along(k);
         }
         for (demand, rhs) in demand.iter_mut().zip(&terms.rhs) {
-            *demand = rhs.eps;
+            *demand = rhs.eps.along(k);
         }
         for j in 0..n {
             let a = self.acceleration[j];
             for (change, mass) in change.iter_mut().zip(&terms.mass[j * n..]) {
-                *change -= mass.eps * a;
+                *change -= mass.eps.along(k) * a;
             }
             let column = terms.jacobian[j * m..].iter().zip(&self.multipliers);
             for (demand, (entry, multiplier)) in demand.iter_mut().zip(column) {
-                *demand -= entry.eps * a;
-                change[j] += entry.eps * multiplier;
+                *demand -= entry.eps.along(k) * a;
+                change[j] += entry.eps.along(k) * multiplier;
             }
         }
     }
@@ -318,8 +332,8 @@ mod tests {
         // Off the rod by a tenth, and moving off.
         let (q, v) = ([0.7, -0.6], [0.4, -0.3]);
         let mut columns = [0.0; 8];
-        let mut slopes = Slopes::new(solver.mechanism());
-        let found = slopes.columns(&mut solver, (0.0, &q, &v), &mut [0.0; 2], &mut columns);
+        let mut all = Columns::new(solver.mechanism());
+        let found = all.fill(&mut solver, (0.0, &q, &v), &mut [0.0; 2], &mut columns);
         assert_eq!(found, Ok(()));
         for (j, column) in columns.chunks_exact(2).enumerate() {
             let h = 1e-5;

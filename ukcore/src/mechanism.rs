@@ -245,7 +245,7 @@ impl Energy<f64> {
 pub mod emitted {
     pub use super::{Energy, Mechanism, Prepared, Terms};
     pub use crate::emitted;
-    pub use crate::scalar::Scalar;
+    pub use crate::scalar::{Scalar, Tape};
     pub use crate::spec::*;
 
     /// `slice` as an array of its one right length.

@@ -12,7 +12,7 @@ use crate::assemble::State;
 use crate::error::Error;
 use crate::linearise::Linearisation;
 use crate::mechanism::Prepared;
-use crate::scalar::Dual;
+use crate::scalar::{Scalar, Sloped, Slopes};
 use crate::solver::{Solver, SolverOptions};
 
 /// Rows of constraints, each of length 1, that keep less beside the others follow from them.
@@ -198,17 +198,18 @@ fn tangent(mech: &Prepared, state: &State, units: &DVector<f64>) -> DMatrix<f64>
     rows.view_mut((0, 0), (h, n))
         .copy_from(&jacobian.rows(0, h));
     rows.view_mut((h, n), (m, n)).copy_from(&jacobian);
-    let dual = mech.dual();
-    let fixed = |x: &f64| Dual::new(*x, 0.0);
-    let mut q: Vec<Dual> = state.q.iter().map(fixed).collect();
-    let v: Vec<Dual> = state.v.iter().map(fixed).collect();
-    let mut rate = vec![Dual::new(0.0, 0.0); m];
-    for j in 0..n {
-        q[j].eps = 1.0;
-        dual.residual_rate(Dual::new(state.t, 0.0), &q, &v, &mut rate);
-        q[j].eps = 0.0;
+    let sloped = mech.sloped();
+    let mut rate = vec![Sloped::from_f64(0.0); m];
+    let v: Vec<Sloped> = state.v.iter().copied().map(Sloped::from_f64).collect();
+    for first in (0..n).step_by(Slopes::COUNT) {
+        let unit = |own: usize| Slopes::new(|k| f64::from(u8::from(own == first + k)));
+        let q = state.q.iter().enumerate();
+        let q: Vec<Sloped> = q.map(|(i, x)| Sloped::new(*x, unit(i))).collect();
+        sloped.residual_rate(Sloped::from_f64(state.t), &q, &v, &mut rate);
         for (row, rate) in rate.iter().enumerate() {
-            rows[(h + row, j)] = rate.eps;
+            for k in 0..Slopes::COUNT.min(n - first) {
+                rows[(h + row, first + k)] = rate.eps.along(k);
+            }
         }
     }
     null_space(rows, units)

@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::scalar::{Dual, Scalar, functions};
+use crate::scalar::{Dual, Functions, Scalar, Tape, functions, tape};
 
 /// A value and the size of its rounding error, in units of ε: that of the inputs, carried on to first order, and one unit of each
 /// intermediate result. (A running error analysis: Higham, Accuracy and Stability of Numerical Algorithms, §3.3.)
@@ -52,7 +52,6 @@ impl Rounded {
     }
 
     /// f(self) by the derivative of f.
-    #[inline(never)]
     fn unary(self, f: fn(Dual) -> Dual) -> Self {
         let y = f(Dual::new(self.value, 1.0));
         Rounded::result(y.re, carried(y.eps, self.error))
@@ -78,35 +77,30 @@ fn carried(slope: f64, error: f64) -> f64 {
 
 impl Add for Rounded {
     type Output = Self;
-    #[inline(never)]
     fn add(self, o: Self) -> Self {
         Rounded::result(self.value + o.value, self.error + o.error)
     }
 }
 impl Sub for Rounded {
     type Output = Self;
-    #[inline(never)]
     fn sub(self, o: Self) -> Self {
         Rounded::result(self.value - o.value, self.error + o.error)
     }
 }
 impl Mul for Rounded {
     type Output = Self;
-    #[inline(never)]
     fn mul(self, o: Self) -> Self {
         self.binary(o, |a, b| a * b)
     }
 }
 impl Div for Rounded {
     type Output = Self;
-    #[inline(never)]
     fn div(self, o: Self) -> Self {
         self.binary(o, |a, b| a / b)
     }
 }
 impl Neg for Rounded {
     type Output = Self;
-    #[inline(never)]
     fn neg(self) -> Self {
         Rounded {
             value: -self.value,
@@ -121,19 +115,26 @@ macro_rules! by_slopes {
 }
 
 impl Scalar for Rounded {
+    const TAPED: bool = true;
+    // Not generic, so that it is compiled in this crate.
+    fn play(
+        tape: &Tape,
+        registers: &mut [Self],
+        inputs: &[&[Self]],
+        functions: Functions<'_, Self>,
+        slices: &mut [&mut [Self]],
+    ) -> Self {
+        tape::play(tape, registers, inputs, functions, slices)
+    }
     fn from_f64(x: f64) -> Self {
         Rounded::exact(x)
     }
-    #[inline(never)]
     fn select_le(a: Self, b: Self, then: Self, otherwise: Self) -> Self {
         if a.value <= b.value { then } else { otherwise }
     }
-    // Apart, as all of these: one call is compiled for each operation of a mechanism, and nothing else.
-    #[inline(never)]
     fn mul_add(self, b: Self, c: Self) -> Self {
         self * b + c
     }
-    #[inline(never)]
     fn neg_mul_add(self, b: Self, c: Self) -> Self {
         c - self * b
     }

@@ -4,8 +4,12 @@ use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 mod double;
+mod slopes;
+pub(crate) mod tape;
 
 pub use double::DoubleDouble;
+pub use slopes::{Slope, Sloped, Slopes};
+pub use tape::{Functions, Tape};
 
 /// A number type for emitted code: `f64`, `f32`, or [`Dual`] for exact derivatives.
 ///
@@ -20,6 +24,19 @@ pub trait Scalar:
     + Neg<Output = Self>
     + 'static
 {
+    /// Whether emitted functions that have a [`Tape`] are read off it in these numbers, rather than compiled for them.
+    const TAPED: bool = false;
+    /// Reads an emitted function off its tape, in registers that hold anything before.
+    #[doc(hidden)]
+    fn play(
+        tape: &Tape,
+        registers: &mut [Self],
+        inputs: &[&[Self]],
+        functions: Functions<'_, Self>,
+        slices: &mut [&mut [Self]],
+    ) -> Self {
+        tape::play(tape, registers, inputs, functions, slices)
+    }
     /// The constant `x`.
     fn from_f64(x: f64) -> Self;
     /// `then` where `a ≤ b`, else `otherwise` (also where a or b is NaN).
@@ -183,59 +200,62 @@ macro_rules! float {
 float!(f64);
 float!(f32);
 
-/// A value with a derivative: forward-mode differentiation through emitted code.
+/// A value with a derivative, or with [several](Slopes): forward-mode differentiation through emitted code.
 ///
 /// Where a function has no derivative (abs at 0, min at a tie) one of its one-sided ones, or 0, is given.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Dual<S = f64> {
+pub struct Dual<S = f64, E = S> {
     /// The value.
     pub re: S,
     /// Its derivative.
-    pub eps: S,
+    pub eps: E,
 }
 
-impl<S: Scalar> Dual<S> {
+impl<S, E> Dual<S, E> {
     /// A value and its derivative.
-    pub const fn new(re: S, eps: S) -> Self {
+    pub const fn new(re: S, eps: E) -> Self {
         Dual { re, eps }
     }
+}
+
+impl<S: Scalar, E: Slope<S>> Dual<S, E> {
     /// The value `self.re` → `re`, by the chain rule with the outer derivative `slope`.
     #[inline]
     fn chain(self, re: S, slope: S) -> Self {
-        Dual::new(re, slope * self.eps)
+        Dual::new(re, self.eps * slope)
     }
 }
 
-impl<S: Scalar> Add for Dual<S> {
+impl<S: Scalar, E: Slope<S>> Add for Dual<S, E> {
     type Output = Self;
     #[inline]
     fn add(self, o: Self) -> Self {
         Dual::new(self.re + o.re, self.eps + o.eps)
     }
 }
-impl<S: Scalar> Sub for Dual<S> {
+impl<S: Scalar, E: Slope<S>> Sub for Dual<S, E> {
     type Output = Self;
     #[inline]
     fn sub(self, o: Self) -> Self {
         Dual::new(self.re - o.re, self.eps - o.eps)
     }
 }
-impl<S: Scalar> Mul for Dual<S> {
+impl<S: Scalar, E: Slope<S>> Mul for Dual<S, E> {
     type Output = Self;
     #[inline]
     fn mul(self, o: Self) -> Self {
-        Dual::new(self.re * o.re, self.eps * o.re + self.re * o.eps)
+        Dual::new(self.re * o.re, self.eps * o.re + o.eps * self.re)
     }
 }
-impl<S: Scalar> Div for Dual<S> {
+impl<S: Scalar, E: Slope<S>> Div for Dual<S, E> {
     type Output = Self;
     #[inline]
     fn div(self, o: Self) -> Self {
         let re = self.re / o.re;
-        Dual::new(re, (self.eps - re * o.eps) / o.re)
+        Dual::new(re, (self.eps - o.eps * re) / o.re)
     }
 }
-impl<S: Scalar> Neg for Dual<S> {
+impl<S: Scalar, E: Slope<S>> Neg for Dual<S, E> {
     type Output = Self;
     #[inline]
     fn neg(self) -> Self {
@@ -243,14 +263,24 @@ impl<S: Scalar> Neg for Dual<S> {
     }
 }
 
-impl<S: Scalar> Scalar for Dual<S> {
+impl<S: Scalar, E: Slope<S>> Scalar for Dual<S, E> {
+    const TAPED: bool = E::READ;
+    fn play(
+        tape: &Tape,
+        registers: &mut [Self],
+        inputs: &[&[Self]],
+        functions: Functions<'_, Self>,
+        slices: &mut [&mut [Self]],
+    ) -> Self {
+        E::read(tape, registers, inputs, functions, slices)
+    }
     fn from_f64(x: f64) -> Self {
-        Dual::new(S::from_f64(x), S::from_f64(0.0))
+        Dual::new(S::from_f64(x), E::zero())
     }
     fn select_le(a: Self, b: Self, then: Self, otherwise: Self) -> Self {
         Dual::new(
             S::select_le(a.re, b.re, then.re, otherwise.re),
-            S::select_le(a.re, b.re, then.eps, otherwise.eps),
+            E::chosen_le(a.re, b.re, then.eps, otherwise.eps),
         )
     }
     fn sqrt(self) -> Self {
@@ -281,7 +311,7 @@ impl<S: Scalar> Scalar for Dual<S> {
         let square = self.re * self.re + x.re * x.re;
         Dual::new(
             self.re.atan2(x.re),
-            (x.re * self.eps - self.re * x.eps) / square,
+            (self.eps * x.re - x.eps * self.re) / square,
         )
     }
     fn sinh(self) -> Self {
@@ -327,7 +357,7 @@ impl<S: Scalar> Scalar for Dual<S> {
     }
     fn hypot(self, o: Self) -> Self {
         let r = self.re.hypot(o.re);
-        Dual::new(r, (self.re * self.eps + o.re * o.eps) / r)
+        Dual::new(r, (self.eps * self.re + o.eps * o.re) / r)
     }
     fn powi(self, n: i32) -> Self {
         let slope = match n {
@@ -338,11 +368,9 @@ impl<S: Scalar> Scalar for Dual<S> {
     }
     fn powf(self, y: Self) -> Self {
         let r = self.re.powf(y.re);
-        let base = y.re * self.re.powf(y.re - S::from_f64(1.0)) * self.eps;
+        let base = self.eps * (y.re * self.re.powf(y.re - S::from_f64(1.0)));
         // ln x only counts where the exponent varies, so a negative base with a fixed exponent stays finite.
-        let zero = S::from_f64(0.0);
-        let exponent = S::select_le(y.eps.abs(), zero, zero, r * self.re.ln() * y.eps);
-        Dual::new(r, base + exponent)
+        Dual::new(r, base + y.eps.where_any(r * self.re.ln()))
     }
 }
 

@@ -303,8 +303,8 @@ impl Simulation {
         }
         let mut run = Run {
             solver,
-            located: located.then(|| self.mechanism.dual()),
-            slopes: None,
+            located: located.then(|| self.mechanism.sloped()),
+            columns: None,
             energy,
             recorder,
             progress: self.progress,

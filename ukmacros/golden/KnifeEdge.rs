@@ -327,6 +327,26 @@ const _: () = {
         }
         fn prepare<S: ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
             let prepared = ukcore::emitted::exact_mut::<S, 5>(prepared, "prepared");
+            if const { S::TAPED } {
+                const TAPE: ukcore::Tape = ukcore::Tape {
+                    constants: &[
+                        1.7976931348623157e308,
+                        2.2250738585072014e-308,
+                        1.0,
+                        0.0,
+                    ],
+                    code: b"130 bytes",
+                };
+                let mut registers = [S::from_f64(0.0); 10];
+                S::play(
+                    &TAPE,
+                    &mut registers,
+                    &[ukcore::emitted::exact::<S, 4>(given, "given")],
+                    (&[S::sin], &[]),
+                    &mut [&mut prepared[..]],
+                );
+                return;
+            }
             let [m, i, g, slope] = *ukcore::emitted::exact::<S, 4>(given, "given");
             let lit = S::from_f64;
             let sin_slope = slope.sin();
@@ -362,6 +382,32 @@ const _: () = {
             let nonideal = ukcore::emitted::exact_mut::<S, 3>(out.nonideal, "nonideal");
             let jacobian = ukcore::emitted::exact_mut::<S, 3>(out.jacobian, "jacobian");
             let rhs = ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
+            if const { S::TAPED } {
+                const TAPE: ukcore::Tape = ukcore::Tape {
+                    constants: &[0.0],
+                    code: b"174 bytes",
+                };
+                let mut registers = [S::from_f64(0.0); 16];
+                S::play(
+                    &TAPE,
+                    &mut registers,
+                    &[
+                        &[t],
+                        ukcore::emitted::exact::<S, 3>(q, "q"),
+                        ukcore::emitted::exact::<S, 3>(v, "v"),
+                        ukcore::emitted::exact::<S, 5>(prepared, "prepared"),
+                    ],
+                    (&[], &[]),
+                    &mut [
+                        &mut mass[..],
+                        &mut force[..],
+                        &mut nonideal[..],
+                        &mut jacobian[..],
+                        &mut rhs[..],
+                    ],
+                );
+                return;
+            }
             let [right_x, m, i, _, _] = *ukcore::emitted::exact::<
                 S,
                 5,
@@ -419,6 +465,26 @@ const _: () = {
             rate: &mut [S],
         ) {
             let rate = ukcore::emitted::exact_mut::<S, 1>(rate, "rate");
+            if const { S::TAPED } {
+                const TAPE: ukcore::Tape = ukcore::Tape {
+                    constants: &[],
+                    code: b"36 bytes",
+                };
+                let mut registers = [S::from_f64(0.0); 14];
+                S::play(
+                    &TAPE,
+                    &mut registers,
+                    &[
+                        &[t],
+                        ukcore::emitted::exact::<S, 3>(q, "q"),
+                        ukcore::emitted::exact::<S, 3>(v, "v"),
+                        ukcore::emitted::exact::<S, 5>(prepared, "prepared"),
+                    ],
+                    (&[], &[]),
+                    &mut [&mut rate[..]],
+                );
+                return;
+            }
             let [_, _, th] = *ukcore::emitted::exact::<S, 3>(q, "q");
             let [dot_x, dot_y, _] = *ukcore::emitted::exact::<S, 3>(v, "v");
             let (sin_th, cos_th) = th.sin_cos();
@@ -487,6 +553,25 @@ const _: () = {
             out: &mut [S],
         ) -> S {
             let out = ukcore::emitted::exact_mut::<S, 3>(out, "out");
+            if const { S::TAPED } {
+                const TAPE: ukcore::Tape = ukcore::Tape {
+                    constants: &[2.2250738585072014e-308, 0.0],
+                    code: b"162 bytes",
+                };
+                let mut registers = [S::from_f64(0.0); 21];
+                return S::play(
+                    &TAPE,
+                    &mut registers,
+                    &[
+                        &[t],
+                        ukcore::emitted::exact::<S, 3>(q, "q"),
+                        ukcore::emitted::exact::<S, 3>(v, "v"),
+                        ukcore::emitted::exact::<S, 5>(prepared, "prepared"),
+                    ],
+                    (&[], &[]),
+                    &mut [&mut out[..]],
+                );
+            }
             let [_, _, _, g_sin_slope, safe_x] = *ukcore::emitted::exact::<
                 S,
                 5,

@@ -304,6 +304,27 @@ const _: () = {
         }
         fn prepare<S: ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
             let prepared = ukcore::emitted::exact_mut::<S, 9>(prepared, "prepared");
+            if const { S::TAPED } {
+                const TAPE: ukcore::Tape = ukcore::Tape {
+                    constants: &[
+                        0.5,
+                        1.7976931348623157e308,
+                        2.2250738585072014e-308,
+                        1.0,
+                        0.0,
+                    ],
+                    code: b"206 bytes",
+                };
+                let mut registers = [S::from_f64(0.0); 12];
+                S::play(
+                    &TAPE,
+                    &mut registers,
+                    &[ukcore::emitted::exact::<S, 3>(given, "given")],
+                    (&[], &[]),
+                    &mut [&mut prepared[..]],
+                );
+                return;
+            }
             let [m, k1, k2] = *ukcore::emitted::exact::<S, 3>(given, "given");
             let lit = S::from_f64;
             prepared[0] = k1;
@@ -350,6 +371,32 @@ const _: () = {
             let nonideal = ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
             let jacobian = ukcore::emitted::exact_mut::<S, 2>(out.jacobian, "jacobian");
             let rhs = ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
+            if const { S::TAPED } {
+                const TAPE: ukcore::Tape = ukcore::Tape {
+                    constants: &[0.0],
+                    code: b"124 bytes",
+                };
+                let mut registers = [S::from_f64(0.0); 17];
+                S::play(
+                    &TAPE,
+                    &mut registers,
+                    &[
+                        &[t],
+                        ukcore::emitted::exact::<S, 2>(q, "q"),
+                        ukcore::emitted::exact::<S, 2>(v, "v"),
+                        ukcore::emitted::exact::<S, 9>(prepared, "prepared"),
+                    ],
+                    (&[], &[]),
+                    &mut [
+                        &mut mass[..],
+                        &mut force[..],
+                        &mut nonideal[..],
+                        &mut jacobian[..],
+                        &mut rhs[..],
+                    ],
+                );
+                return;
+            }
             let [k1, k2, m, _, _, _, _, k1_and_k2, _] = *ukcore::emitted::exact::<
                 S,
                 9,
@@ -396,6 +443,25 @@ const _: () = {
         }
         fn residual<S: ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
             let phi = ukcore::emitted::exact_mut::<S, 1>(phi, "phi");
+            if const { S::TAPED } {
+                const TAPE: ukcore::Tape = ukcore::Tape {
+                    constants: &[],
+                    code: b"36 bytes",
+                };
+                let mut registers = [S::from_f64(0.0); 14];
+                S::play(
+                    &TAPE,
+                    &mut registers,
+                    &[
+                        &[t],
+                        ukcore::emitted::exact::<S, 2>(q, "q"),
+                        ukcore::emitted::exact::<S, 9>(prepared, "prepared"),
+                    ],
+                    (&[], &[]),
+                    &mut [&mut phi[..]],
+                );
+                return;
+            }
             let [k1, k2, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
                 S,
                 9,
@@ -411,6 +477,26 @@ const _: () = {
             rate: &mut [S],
         ) {
             let rate = ukcore::emitted::exact_mut::<S, 1>(rate, "rate");
+            if const { S::TAPED } {
+                const TAPE: ukcore::Tape = ukcore::Tape {
+                    constants: &[],
+                    code: b"36 bytes",
+                };
+                let mut registers = [S::from_f64(0.0); 16];
+                S::play(
+                    &TAPE,
+                    &mut registers,
+                    &[
+                        &[t],
+                        ukcore::emitted::exact::<S, 2>(q, "q"),
+                        ukcore::emitted::exact::<S, 2>(v, "v"),
+                        ukcore::emitted::exact::<S, 9>(prepared, "prepared"),
+                    ],
+                    (&[], &[]),
+                    &mut [&mut rate[..]],
+                );
+                return;
+            }
             let [k1, k2, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
                 S,
                 9,
@@ -488,6 +574,25 @@ const _: () = {
             out: &mut [S],
         ) -> S {
             let out = ukcore::emitted::exact_mut::<S, 2>(out, "out");
+            if const { S::TAPED } {
+                const TAPE: ukcore::Tape = ukcore::Tape {
+                    constants: &[],
+                    code: b"76 bytes",
+                };
+                let mut registers = [S::from_f64(0.0); 16];
+                return S::play(
+                    &TAPE,
+                    &mut registers,
+                    &[
+                        &[t],
+                        ukcore::emitted::exact::<S, 2>(q, "q"),
+                        ukcore::emitted::exact::<S, 2>(v, "v"),
+                        ukcore::emitted::exact::<S, 9>(prepared, "prepared"),
+                    ],
+                    (&[], &[]),
+                    &mut [&mut out[..]],
+                );
+            }
             let [k1, k2, _, _, per_k1_and_k2, per_m_k2, per_m_sq_k2_per_k1_and_k2, _,
             safe_balance] = *ukcore::emitted::exact::<S, 9>(prepared, "prepared");
             let [joint, x] = *ukcore::emitted::exact::<S, 2>(q, "q");

@@ -300,6 +300,27 @@ const _: () = {
         }
         fn prepare<S: ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
             let prepared = ukcore::emitted::exact_mut::<S, 7>(prepared, "prepared");
+            if const { S::TAPED } {
+                const TAPE: ukcore::Tape = ukcore::Tape {
+                    constants: &[
+                        1.7976931348623157e308,
+                        2.2250738585072014e-308,
+                        1.0,
+                        0.0,
+                        0.05,
+                    ],
+                    code: b"126 bytes",
+                };
+                let mut registers = [S::from_f64(0.0); 9];
+                S::play(
+                    &TAPE,
+                    &mut registers,
+                    &[ukcore::emitted::exact::<S, 3>(given, "given")],
+                    (&[], &[]),
+                    &mut [&mut prepared[..]],
+                );
+                return;
+            }
             let [m, l, g] = *ukcore::emitted::exact::<S, 3>(given, "given");
             let lit = S::from_f64;
             prepared[0] = m * g;
@@ -329,6 +350,32 @@ const _: () = {
             let nonideal = ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
             let jacobian = ukcore::emitted::exact_mut::<S, 2>(out.jacobian, "jacobian");
             let rhs = ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
+            if const { S::TAPED } {
+                const TAPE: ukcore::Tape = ukcore::Tape {
+                    constants: &[0.0, 2.0, -2.0],
+                    code: b"138 bytes",
+                };
+                let mut registers = [S::from_f64(0.0); 16];
+                S::play(
+                    &TAPE,
+                    &mut registers,
+                    &[
+                        &[t],
+                        ukcore::emitted::exact::<S, 2>(q, "q"),
+                        ukcore::emitted::exact::<S, 2>(v, "v"),
+                        ukcore::emitted::exact::<S, 7>(prepared, "prepared"),
+                    ],
+                    (&[], &[]),
+                    &mut [
+                        &mut mass[..],
+                        &mut force[..],
+                        &mut nonideal[..],
+                        &mut jacobian[..],
+                        &mut rhs[..],
+                    ],
+                );
+                return;
+            }
             let [m_g, _, _, _, m, _, _] = *ukcore::emitted::exact::<
                 S,
                 7,
@@ -375,6 +422,25 @@ const _: () = {
         }
         fn residual<S: ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
             let phi = ukcore::emitted::exact_mut::<S, 1>(phi, "phi");
+            if const { S::TAPED } {
+                const TAPE: ukcore::Tape = ukcore::Tape {
+                    constants: &[],
+                    code: b"36 bytes",
+                };
+                let mut registers = [S::from_f64(0.0); 11];
+                S::play(
+                    &TAPE,
+                    &mut registers,
+                    &[
+                        &[t],
+                        ukcore::emitted::exact::<S, 2>(q, "q"),
+                        ukcore::emitted::exact::<S, 7>(prepared, "prepared"),
+                    ],
+                    (&[], &[]),
+                    &mut [&mut phi[..]],
+                );
+                return;
+            }
             let [_, sq_l, _, _, _, _, _] = *ukcore::emitted::exact::<
                 S,
                 7,
@@ -390,6 +456,26 @@ const _: () = {
             rate: &mut [S],
         ) {
             let rate = ukcore::emitted::exact_mut::<S, 1>(rate, "rate");
+            if const { S::TAPED } {
+                const TAPE: ukcore::Tape = ukcore::Tape {
+                    constants: &[2.0],
+                    code: b"36 bytes",
+                };
+                let mut registers = [S::from_f64(0.0); 14];
+                S::play(
+                    &TAPE,
+                    &mut registers,
+                    &[
+                        &[t],
+                        ukcore::emitted::exact::<S, 2>(q, "q"),
+                        ukcore::emitted::exact::<S, 2>(v, "v"),
+                        ukcore::emitted::exact::<S, 7>(prepared, "prepared"),
+                    ],
+                    (&[], &[]),
+                    &mut [&mut rate[..]],
+                );
+                return;
+            }
             let [x, y] = *ukcore::emitted::exact::<S, 2>(q, "q");
             let [dot_x, dot_y] = *ukcore::emitted::exact::<S, 2>(v, "v");
             let lit = S::from_f64;
@@ -463,6 +549,25 @@ const _: () = {
             out: &mut [S],
         ) -> S {
             let out = ukcore::emitted::exact_mut::<S, 2>(out, "out");
+            if const { S::TAPED } {
+                const TAPE: ukcore::Tape = ukcore::Tape {
+                    constants: &[2.2250738585072014e-308, 0.0],
+                    code: b"134 bytes",
+                };
+                let mut registers = [S::from_f64(0.0); 17];
+                return S::play(
+                    &TAPE,
+                    &mut registers,
+                    &[
+                        &[t],
+                        ukcore::emitted::exact::<S, 2>(q, "q"),
+                        ukcore::emitted::exact::<S, 2>(v, "v"),
+                        ukcore::emitted::exact::<S, 7>(prepared, "prepared"),
+                    ],
+                    (&[], &[]),
+                    &mut [&mut out[..]],
+                );
+            }
             let [_, _, g, _, _, safe_x, _] = *ukcore::emitted::exact::<
                 S,
                 7,

@@ -346,6 +346,26 @@ const _: () = {
         }
         fn prepare<S: ukcore::Scalar>(given: &[S], prepared: &mut [S]) {
             let prepared = ukcore::emitted::exact_mut::<S, 15>(prepared, "prepared");
+            if const { S::TAPED } {
+                const TAPE: ukcore::Tape = ukcore::Tape {
+                    constants: &[
+                        1.7976931348623157e308,
+                        2.2250738585072014e-308,
+                        1.0,
+                        0.0,
+                    ],
+                    code: b"390 bytes",
+                };
+                let mut registers = [S::from_f64(0.0); 13];
+                S::play(
+                    &TAPE,
+                    &mut registers,
+                    &[ukcore::emitted::exact::<S, 4>(given, "given")],
+                    (&[], &[]),
+                    &mut [&mut prepared[..]],
+                );
+                return;
+            }
             let [m, g, slope, mu] = *ukcore::emitted::exact::<S, 4>(given, "given");
             let lit = S::from_f64;
             let (sin_slope, cos_slope) = slope.sin_cos();
@@ -397,6 +417,32 @@ const _: () = {
             let nonideal = ukcore::emitted::exact_mut::<S, 2>(out.nonideal, "nonideal");
             let jacobian = ukcore::emitted::exact_mut::<S, 2>(out.jacobian, "jacobian");
             let rhs = ukcore::emitted::exact_mut::<S, 1>(out.rhs, "rhs");
+            if const { S::TAPED } {
+                const TAPE: ukcore::Tape = ukcore::Tape {
+                    constants: &[0.0],
+                    code: b"154 bytes",
+                };
+                let mut registers = [S::from_f64(0.0); 24];
+                S::play(
+                    &TAPE,
+                    &mut registers,
+                    &[
+                        &[t],
+                        ukcore::emitted::exact::<S, 2>(q, "q"),
+                        ukcore::emitted::exact::<S, 2>(v, "v"),
+                        ukcore::emitted::exact::<S, 16>(prepared, "prepared"),
+                    ],
+                    (&[S::sign], &[S::branch]),
+                    &mut [
+                        &mut mass[..],
+                        &mut force[..],
+                        &mut nonideal[..],
+                        &mut jacobian[..],
+                        &mut rhs[..],
+                    ],
+                );
+                return;
+            }
             let [cos_slope, sin_slope, _, m_g, m, sq_cos_slope_mu_m_g,
             cos_slope_sin_slope_mu_m_g, _, _, _, _, _, _, _, _, held_speed_down] = *ukcore::emitted::exact::<
                 S,
@@ -447,6 +493,25 @@ const _: () = {
         }
         fn residual<S: ukcore::Scalar>(prepared: &[S], t: S, q: &[S], phi: &mut [S]) {
             let phi = ukcore::emitted::exact_mut::<S, 1>(phi, "phi");
+            if const { S::TAPED } {
+                const TAPE: ukcore::Tape = ukcore::Tape {
+                    constants: &[],
+                    code: b"28 bytes",
+                };
+                let mut registers = [S::from_f64(0.0); 20];
+                S::play(
+                    &TAPE,
+                    &mut registers,
+                    &[
+                        &[t],
+                        ukcore::emitted::exact::<S, 2>(q, "q"),
+                        ukcore::emitted::exact::<S, 16>(prepared, "prepared"),
+                    ],
+                    (&[], &[]),
+                    &mut [&mut phi[..]],
+                );
+                return;
+            }
             let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
                 S,
                 16,
@@ -462,6 +527,26 @@ const _: () = {
             rate: &mut [S],
         ) {
             let rate = ukcore::emitted::exact_mut::<S, 1>(rate, "rate");
+            if const { S::TAPED } {
+                const TAPE: ukcore::Tape = ukcore::Tape {
+                    constants: &[],
+                    code: b"28 bytes",
+                };
+                let mut registers = [S::from_f64(0.0); 22];
+                S::play(
+                    &TAPE,
+                    &mut registers,
+                    &[
+                        &[t],
+                        ukcore::emitted::exact::<S, 2>(q, "q"),
+                        ukcore::emitted::exact::<S, 2>(v, "v"),
+                        ukcore::emitted::exact::<S, 16>(prepared, "prepared"),
+                    ],
+                    (&[], &[]),
+                    &mut [&mut rate[..]],
+                );
+                return;
+            }
             let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
                 S,
                 16,
@@ -531,6 +616,26 @@ const _: () = {
             switching: &mut [S],
         ) {
             let switching = ukcore::emitted::exact_mut::<S, 1>(switching, "switching");
+            if const { S::TAPED } {
+                const TAPE: ukcore::Tape = ukcore::Tape {
+                    constants: &[],
+                    code: b"28 bytes",
+                };
+                let mut registers = [S::from_f64(0.0); 22];
+                S::play(
+                    &TAPE,
+                    &mut registers,
+                    &[
+                        &[t],
+                        ukcore::emitted::exact::<S, 2>(q, "q"),
+                        ukcore::emitted::exact::<S, 2>(v, "v"),
+                        ukcore::emitted::exact::<S, 16>(prepared, "prepared"),
+                    ],
+                    (&[], &[]),
+                    &mut [&mut switching[..]],
+                );
+                return;
+            }
             let [cos_slope, sin_slope, _, _, _, _, _, _, _, _, _, _, _, _, _, _] = *ukcore::emitted::exact::<
                 S,
                 16,
@@ -548,6 +653,25 @@ const _: () = {
             out: &mut [S],
         ) -> S {
             let out = ukcore::emitted::exact_mut::<S, 2>(out, "out");
+            if const { S::TAPED } {
+                const TAPE: ukcore::Tape = ukcore::Tape {
+                    constants: &[1.0],
+                    code: b"140 bytes",
+                };
+                let mut registers = [S::from_f64(0.0); 25];
+                return S::play(
+                    &TAPE,
+                    &mut registers,
+                    &[
+                        &[t],
+                        ukcore::emitted::exact::<S, 2>(q, "q"),
+                        ukcore::emitted::exact::<S, 2>(v, "v"),
+                        ukcore::emitted::exact::<S, 16>(prepared, "prepared"),
+                    ],
+                    (&[S::sign], &[S::branch]),
+                    &mut [&mut out[..]],
+                );
+            }
             let [cos_slope, sin_slope, _, _, _, _, _, cos_slope_sin_slope_mu,
             prepared_part, g, cos_slope_mu, prepared_part_2, cos_slope_g, _, safe_plane,
             held_speed_down] = *ukcore::emitted::exact::<S, 16>(prepared, "prepared");

@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::mechanism::{Branch, Energy, Mechanism, Terms};
 use crate::plan::Plan;
 use crate::rounding::Rounded;
-use crate::scalar::{Dual, Scalar};
+use crate::scalar::{Scalar, Sloped};
 use crate::spec::{Guess, OutputSpec, Spec};
 
 /// The equations of motion and the constraints, in numbers `S`.
@@ -75,8 +75,8 @@ pub trait Face: Send + Sync + 'static {
     fn drawing(&self, prepared: &[f64], t: f64, q: &[f64], v: &[f64], drawing: &mut [f64]);
     /// [`Mechanism::guess`].
     fn guess(&self, start: usize, given: &[f64], each: &mut dyn FnMut(Guess));
-    /// In numbers that carry a derivative.
-    fn dual(&self) -> &'static dyn Dynamics<Dual>;
+    /// In numbers that carry derivatives.
+    fn sloped(&self) -> &'static dyn Dynamics<Sloped>;
     /// In numbers that add up their rounding.
     fn rounded(&self) -> &'static dyn Equations<Rounded>;
 }
@@ -103,7 +103,7 @@ impl<M: Mechanism> Face for Of<M> {
     fn guess(&self, start: usize, given: &[f64], each: &mut dyn FnMut(Guess)) {
         M::guess(start, given, each);
     }
-    fn dual(&self) -> &'static dyn Dynamics<Dual> {
+    fn sloped(&self) -> &'static dyn Dynamics<Sloped> {
         &Of::<M>(PhantomData)
     }
     fn rounded(&self) -> &'static dyn Equations<Rounded> {
@@ -171,7 +171,7 @@ impl<M: Mechanism, S: Scalar> Emitted<S> for Of<M> {
 /// once, here.
 ///
 /// It is made by [`Mechanism::prepared`], or from a mechanism or a reference to one by `Prepared::from`; whatever solves, projects or
-/// simulates takes either. With [`Dual`] parameters come derivatives by parameters. Its methods do not check lengths; each panics if a
+/// simulates takes either. With [`Dual`](crate::scalar::Dual) parameters come derivatives by parameters. Its methods do not check lengths; each panics if a
 /// slice has not the stated one.
 pub struct Prepared<S: Scalar = f64, C: ?Sized + 'static = dyn Emitted<S>> {
     code: &'static C,
@@ -400,9 +400,9 @@ impl Prepared {
         Ok(())
     }
 
-    /// This mechanism in numbers that carry a derivative, with its parameters and held branches.
-    pub(crate) fn dual(&self) -> Prepared<Dual, dyn Dynamics<Dual>> {
-        self.lift(self.code.face().dual(), Dual::from_f64)
+    /// This mechanism in numbers that carry derivatives, with its parameters and held branches.
+    pub(crate) fn sloped(&self) -> Prepared<Sloped, dyn Dynamics<Sloped>> {
+        self.lift(self.code.face().sloped(), Sloped::from_f64)
     }
 
     /// This mechanism in numbers that add up their rounding, with its parameters, taken to be exact, and held branches.

@@ -11,9 +11,9 @@ use crate::assemble::State;
 use crate::error::Error;
 use crate::integrate::sample::Sample;
 use crate::integrate::{Method, Next, Outcome, Problem, Settings, Singular, Step};
-use crate::linearise::Slopes;
+use crate::linearise::Columns;
 use crate::mechanism::{Branch, Dynamics, Prepared};
-use crate::scalar::Dual;
+use crate::scalar::{Scalar, Sloped, Slopes};
 use crate::solver::{RANK_CEILING, Solver};
 use crate::trajectory::{Ending, Trajectory};
 
@@ -24,9 +24,9 @@ pub(super) type Progress = Box<dyn FnMut(Sample<'_>) -> ControlFlow<()>>;
 pub(super) struct Run<'s> {
     pub(super) solver: Solver,
     /// For the derivatives of switching functions, if steps are to go onto their zeros.
-    pub(super) located: Option<Prepared<Dual, dyn Dynamics<Dual>>>,
+    pub(super) located: Option<Prepared<Sloped, dyn Dynamics<Sloped>>>,
     /// Made when a method asks for the first Jacobian.
-    pub(super) slopes: Option<Slopes>,
+    pub(super) columns: Option<Columns>,
     /// For a method with a fixed step.
     pub(super) energy: Option<EnergyWatch>,
     pub(super) recorder: Recorder<'s>,
@@ -108,9 +108,9 @@ impl Problem for Run<'_> {
         out: &mut [f64],
     ) -> Result<(), Error> {
         let solver = &mut self.solver;
-        let slopes = (self.slopes).get_or_insert_with(|| Slopes::new(solver.mechanism()));
+        let columns = (self.columns).get_or_insert_with(|| Columns::new(solver.mechanism()));
         self.recorder.trajectory.work.jacobians += 1;
-        slopes.columns(solver, (at.t, at.q, at.v), acceleration, out)
+        columns.fill(solver, (at.t, at.q, at.v), acceleration, out)
     }
 
     fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Error> {
@@ -189,15 +189,16 @@ impl Problem for Run<'_> {
         let Some(mechanism) = &self.located else {
             return;
         };
-        let duals = |x: &[f64], rate: &[f64]| -> Vec<Dual> {
+        let sloped = |x: f64, rate: f64| Sloped::new(x, Slopes::new(|_| rate));
+        let along = |x: &[f64], rate: &[f64]| -> Vec<Sloped> {
             let pairs = x.iter().zip(rate);
-            pairs.map(|(x, rate)| Dual::new(*x, *rate)).collect()
+            pairs.map(|(x, rate)| sloped(*x, *rate)).collect()
         };
-        let (q, v) = (duals(at.q, at.v), duals(at.v, acceleration));
-        let mut out = vec![Dual::new(0.0, 0.0); values.len()];
-        mechanism.switching(Dual::new(at.t, 1.0), &q, &v, &mut out);
+        let (q, v) = (along(at.q, at.v), along(at.v, acceleration));
+        let mut out = vec![Sloped::from_f64(0.0); values.len()];
+        mechanism.switching(sloped(at.t, 1.0), &q, &v, &mut out);
         let pairs = values.iter_mut().zip(out);
-        pairs.for_each(|(value, dual)| *value = dual.eps);
+        pairs.for_each(|(value, x)| *value = x.eps.along(0));
     }
 
     fn set_branch(&mut self, k: usize, branch: Branch) {

@@ -272,18 +272,11 @@ impl Writer<'_> {
         }
     }
 
-    /// What is known first is added first, behind a positive term, so that a difference needs no negation. Products are added in one
-    /// step where the processor can.
+    /// Products are added in one step where the processor can.
     fn sum(&self, c: f64, terms: &[(f64, Id)]) -> (TokenStream, Operator) {
-        let mut terms = terms.to_vec();
-        terms.sort_by_key(|(_, term)| self.graph.latency(*term));
-        let first = terms.iter().position(|(k, _)| *k > 0.0);
-        if let Some(first) = first {
-            terms[..=first].rotate_right(1);
-        }
+        let (leading, terms) = ascending(self.graph, c, terms.to_vec());
         let mut out = None;
         let mut before = TokenStream::new();
-        let leading = c != 0.0 && (c > 0.0 || first.is_none());
         if leading {
             out = Some((constant(c), Operator::Call));
         }
@@ -409,10 +402,8 @@ impl Writer<'_> {
 
     /// Factors above and below the fraction bar; what is known first is multiplied first.
     fn sides(&self, factors: &[(Id, i32)]) -> (Factors, Factors) {
-        let mut factors = factors.to_vec();
-        factors.sort_by_key(|(base, e)| self.graph.latency(*base) + if *e < 0 { 14 } else { 0 });
         let mut sides = (Vec::new(), Vec::new());
-        for (base, exponent) in factors {
+        for (base, exponent) in known_first(self.graph, factors) {
             if exponent == -1
                 && let Some(name) = self.namer.reciprocal(base)
             {
@@ -437,6 +428,28 @@ impl Writer<'_> {
         }
         sides
     }
+}
+
+/// The terms of a sum with the constant `c` in the order in which they are added, what is known first first, behind a positive one, so that a
+/// difference needs no negation; and whether the constant comes before them.
+pub(super) fn ascending(
+    graph: &Graph,
+    c: f64,
+    mut terms: Vec<(f64, Id)>,
+) -> (bool, Vec<(f64, Id)>) {
+    terms.sort_by_key(|(_, term)| graph.latency(*term));
+    let first = terms.iter().position(|(k, _)| *k > 0.0);
+    if let Some(first) = first {
+        terms[..=first].rotate_right(1);
+    }
+    (c != 0.0 && (c > 0.0 || first.is_none()), terms)
+}
+
+/// The factors of a product in the order in which they are multiplied: what is known first first.
+pub(super) fn known_first(graph: &Graph, factors: &[(Id, i32)]) -> Vec<(Id, i32)> {
+    let mut factors = factors.to_vec();
+    factors.sort_by_key(|(base, e)| graph.latency(*base) + if *e < 0 { 14 } else { 0 });
+    factors
 }
 
 /// a * b * c

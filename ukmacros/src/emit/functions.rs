@@ -3,6 +3,7 @@
 use super::body::{Writing, body};
 use super::item::doc;
 use super::names::Slots;
+use super::tape::tape;
 use crate::analysis::{Analysis, Function, Role, Slice, of_parameters};
 use crate::expr::{Id, System};
 use crate::model::Model;
@@ -24,8 +25,8 @@ pub(super) fn functions(system: &System, model: &Model, analysis: &Analysis) -> 
                 ..Slots::default()
             },
         };
-        let statements = statements(function, system, model, slots);
-        let (name, text) = (role.name(), format!("{signature} {{ {statements} }}"));
+        let (slices, body) = statements(function, system, model, slots);
+        let (name, text) = (role.name(), format!("{signature} {{ {slices} {body} }}"));
         texts.extend(quote! { (#name, #text), });
         let counted = [Role::Dynamics, Role::Acceleration].contains(&role);
         let counts = counted.then(|| {
@@ -35,7 +36,9 @@ pub(super) fn functions(system: &System, model: &Model, analysis: &Analysis) -> 
                  {function} transcendentals, {select} selections."
             ))
         });
-        functions.extend(quote! { #counts #signature { #statements } });
+        let sizes = (model.coord_elements.len(), model.param_elements.len());
+        let tape = tape(system, function, slots, sizes);
+        functions.extend(quote! { #counts #signature { #slices #tape #body } });
     }
     let inertias = inertias(system, model);
     let guesses = guesses(system, model);
@@ -113,9 +116,9 @@ fn numbers(ids: &[Id], options: &[String], system: &System, model: &Model) -> To
         options,
         ..Slots::default()
     };
-    let statements = statements(&function, system, model, slots);
+    let (slices, body) = statements(&function, system, model, slots);
     quote! {
-        #signature { #statements }
+        #signature { #slices #body }
         let mut numbers = [0.0; #count];
         prepare(given, &mut numbers);
     }
@@ -147,13 +150,13 @@ pub(super) fn signature(role: Role) -> TokenStream {
     quote! { fn #name<S: ukcore::Scalar>(#arguments) #result }
 }
 
-/// The slices that `function` writes to with their lengths, what it computes, and its result.
+/// The slices that `function` writes to with their lengths; what it computes, and its result.
 fn statements(
     function: &Function,
     system: &System,
     model: &Model,
     prepared: Slots<'_>,
-) -> TokenStream {
+) -> (TokenStream, TokenStream) {
     let role = function.role;
     let slices = function.slices.iter();
     // There may be nothing to prepare.
@@ -178,7 +181,7 @@ fn statements(
         Role::Acceleration | Role::Correction => Some(quote! { safe }),
         _ => None,
     };
-    quote! { #(#slices)* #body #result }
+    (quote! { #(#slices)* }, quote! { #body #result })
 }
 
 impl Role {

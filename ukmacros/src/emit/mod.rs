@@ -9,6 +9,7 @@ mod listing;
 mod names;
 mod part;
 mod spec;
+mod tape;
 mod unused;
 
 pub(crate) use fallback::fallback;

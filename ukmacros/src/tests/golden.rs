@@ -7,7 +7,7 @@
 use super::analysis;
 use crate::analysis::Costs;
 use expect_test::expect_file;
-use proc_macro2::TokenStream;
+use proc_macro2::{Group, Literal, TokenStream, TokenTree};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -49,12 +49,34 @@ fn expansion(tokens: &TokenStream) -> TokenStream {
     code
 }
 
-/// The code, formatted, without `CODE`, which is the text of its functions.
+/// The code, formatted, without `CODE`, which is the text of its functions; of tapes their lengths.
 fn formatted(code: TokenStream) -> String {
-    let text = prettyplease::unparse(&syn::parse2(code).expect("emitted code is Rust"));
+    let text =
+        prettyplease::unparse(&syn::parse2(without_tapes(code)).expect("emitted code is Rust"));
     let (before, rest) = text.split_once("    const CODE:").unwrap_or((&text, ""));
     let rest = rest.split_once("    ];\n").map_or("", |(_, rest)| rest);
     format!("{}{rest}", before.trim_end_matches(' '))
+}
+
+/// The code with the length of each string of bytes in its place.
+fn without_tapes(code: TokenStream) -> TokenStream {
+    let short = |tree| match tree {
+        TokenTree::Group(group) => {
+            let inner = without_tapes(group.stream());
+            TokenTree::Group(Group::new(group.delimiter(), inner))
+        }
+        TokenTree::Literal(literal) => {
+            match syn::parse_str::<syn::LitByteStr>(&literal.to_string()) {
+                Ok(bytes) => {
+                    let length = format!("{} bytes", bytes.value().len());
+                    TokenTree::Literal(Literal::byte_string(length.as_bytes()))
+                }
+                Err(_) => TokenTree::Literal(literal),
+            }
+        }
+        other => other,
+    };
+    code.into_iter().map(short).collect()
 }
 
 /// The head of the digest.
