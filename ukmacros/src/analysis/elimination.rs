@@ -30,7 +30,7 @@ mod solution;
 pub(crate) use certificate::{SAFE_SHARE, Solve, Straight};
 
 use super::dynamics::Dynamics;
-use super::frame::Frame;
+use super::frame::Turned;
 use crate::expr::{Graph, Id, Symbol, is_power_of_two};
 use dropping::{Dropping, droppings};
 use matrix::{Factor, Matrix};
@@ -153,8 +153,8 @@ pub(crate) struct Task<'a> {
     pub(crate) further: Further,
     /// The constraints that may follow from others.
     pub(crate) redundant: &'a BTreeSet<usize>,
-    /// The coordinates that others stand for.
-    pub(crate) frames: &'a [Frame],
+    /// The coordinates that others stand for, and the constraints that are solved for these.
+    pub(crate) turned: &'a Turned,
     /// Whether all multipliers are wanted.
     pub(crate) multipliers: bool,
 }
@@ -240,11 +240,19 @@ pub(crate) fn eliminate(
     };
     let rhs = scaled(1.0, &d.rhs, g);
     let mut hints = Vec::new();
-    let mut matrix = Matrix::new(d, &jacobian, &order.pivots, droppable, g);
+    let whole = !task.turned.is_empty();
+    let mut matrix = Matrix::new(d, &jacobian, &order.pivots, droppable, whole, g);
     let mut motion = Forward::new(&force, &rhs);
     let (mut factors, mut divisors) = (Vec::new(), Vec::new());
     // What depends on parameters alone.
     let mut fixed: Vec<Divisor> = common.into_iter().collect();
+    fixed.extend(task.turned.joints.iter().map(|joint| {
+        let [value, reference] = joint.share();
+        Divisor {
+            reference,
+            ..Divisor::positive(d.force.len() + joint.row(), value, names)
+        }
+    }));
     for step in &order.pivots {
         let (factor, checked) = matrix.step(*step, names, g, &mut hints)?;
         motion.step(&factor, g);
@@ -258,27 +266,25 @@ pub(crate) fn eliminate(
     let mut motion = motion.solution(&factors, task.multipliers, names, g, &mut hints)?;
     let droppings = droppings(&factors, &motion, d, [&force, &rhs], g);
     motion.coordinates.truncate(own.0);
-    let turn_back = |solution: &mut [Id], g: &mut Graph| {
-        let frames = task.frames.iter();
-        frames.for_each(|frame| frame.turn_back(solution, g));
-    };
-    turn_back(&mut motion.coordinates, g);
+    task.turned.turn_back(&mut motion.coordinates, g);
     let multipliers = multipliers(&motion.constraints, *common_factor, &scales, g);
     let residuals = (0..own.1).map(|i| g.symbol(Symbol::Residual(i)));
     let mut residuals: Vec<Id> = residuals.collect();
     residuals.resize(d.rhs.len(), g.zero());
+    let mut turned = residuals.clone();
+    task.turned.turn(&mut turned, g);
     let mut pull = vec![g.zero(); force.len()];
     for (row, i, weight) in weights {
         let weight = g.div(*weight, *common_factor);
         let term = g.mul(weight, residuals[*row]);
         pull[*i] = g.sub(pull[*i], term);
     }
-    let residuals = scaled(-1.0, &residuals, g);
+    let residuals = scaled(-1.0, &turned, g);
     let mut projection = Forward::new(&pull, &residuals);
     factors.iter().for_each(|factor| projection.step(factor, g));
     let mut projection = projection.solution(&factors, false, names, g, &mut hints)?;
     projection.coordinates.truncate(own.0);
-    turn_back(&mut projection.coordinates, g);
+    task.turned.turn_back(&mut projection.coordinates, g);
     let divisors = divisors.into_iter();
     let divisors = divisors.map(|(divisor, step)| (divisor, motion.rights[step]));
     let fixed = fixed.into_iter().map(|divisor| (divisor, None));

@@ -2,7 +2,7 @@
 
 use super::system;
 use crate::analysis::{
-    Dynamics, Further, Pivoting, Straight, Task, derive, eliminate, orders, turned,
+    Dynamics, Further, Pivoting, Straight, Task, Turned, derive, eliminate, orders, turned,
 };
 use crate::expr::{Point, System, eval};
 use std::collections::{BTreeMap, BTreeSet};
@@ -316,18 +316,23 @@ impl Tally {
         let none = (BTreeMap::new(), BTreeMap::new());
         let lift = dynamics.lift.as_ref();
         let g = &mut system.graph;
-        let extended = lift.map(|lift| (lift.extended(&dynamics, &none.0, &none.1, g), Vec::new()));
+        let extended = lift.map(|lift| {
+            (
+                lift.extended(&dynamics, &none.0, &none.1, g),
+                Turned::default(),
+            )
+        });
         let turned = lift.and_then(|lift| turned(&dynamics, lift, &[], &system.defaults, g));
         // M knows nothing of the length of a quaternion: as it stands it is singular.
         let forms = match turned {
             Some(turned) => vec![turned],
-            None => [(dynamics.clone(), Vec::new())]
+            None => [(dynamics.clone(), Turned::default())]
                 .into_iter()
                 .chain(extended)
                 .collect(),
         };
         let mut lines = Vec::new();
-        for (of, frames) in &forms {
+        for (of, turned) in &forms {
             let size = of.force.len() + of.rhs.len();
             let names: Vec<String> = (0..size).map(|i| format!("u{i}")).collect();
             let task = Task {
@@ -341,7 +346,7 @@ impl Tally {
                 },
                 multipliers: false,
                 redundant: &BTreeSet::new(),
-                frames,
+                turned,
             };
             for order in orders(&task, &system.defaults, &system.graph).unwrap_or_default() {
                 let mut pivots = order.pivots().iter();
@@ -351,7 +356,7 @@ impl Tally {
                 let elimination = elimination.unwrap_or_else(|e| panic!("{e}\n{source}"));
                 lines.push(Straight::new(elimination, &dynamics, &[], &mut system));
                 self.lifted += usize::from(of.force.len() > n);
-                self.turned += usize::from(!frames.is_empty());
+                self.turned += usize::from(!turned.is_empty());
             }
         }
         self.without += usize::from(lines.is_empty());
