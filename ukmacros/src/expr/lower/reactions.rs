@@ -192,7 +192,7 @@ impl<'m> Lowering<'m> {
             let multipliers: Vec<Id> = multipliers.collect();
             return Value::new(&shape, multipliers);
         };
-        if axes >= 2 {
+        if axes >= 2 && (centre.is_empty() || axes == centre.len()) {
             let components = rows.take(axes).map(Symbol::Multiplier);
             let components: Vec<Id> = components.map(|symbol| self.graph.symbol(symbol)).collect();
             return Value::vector(components);
