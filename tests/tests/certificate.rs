@@ -479,14 +479,18 @@ fn wrong_masses() {
         fn check<M: Model>(&self) {
             let solve = &M::SPEC.structure.solve;
             let masses = M::SPEC.params.iter().enumerate().filter(|(_, p)| {
-                let diagonal = M::SPEC.equations.mass.iter().filter(|(i, j, _)| i == j);
-                let solved = diagonal.filter(|(i, ..)| {
-                    !solve
-                        .pivots
-                        .iter()
-                        .any(|s| matches!(s, Pivot::Prescribed(j, ..) if j == i))
-                });
-                solved.into_iter().any(|(.., text)| *text == p.name)
+                // `M[x, x] = m`, or that of a family with what its indices go through behind it.
+                let entries = M::SPEC.equations.mass.iter();
+                let mut entries = entries.filter_map(|text| text.split_once("] = "));
+                entries.any(|(place, value)| {
+                    let prescribed = |i: usize| {
+                        let name = M::SPEC.coords[i];
+                        place == format!("M[{name}, {name}")
+                    };
+                    let mut pivots = solve.pivots.iter();
+                    value.split([' ', ',']).next() == Some(p.name)
+                        && !pivots.any(|s| matches!(s, Pivot::Prescribed(i, ..) if prescribed(*i)))
+                })
             });
             for (index, p) in masses {
                 for wrong in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 0.0, -0.0, -1.0] {
