@@ -166,6 +166,7 @@ const _: () = {
                     met: &[],
                     velocities: &[],
                     turned: &[],
+                    solved: &[],
                     copies: &[],
                     redundant: &[],
                 },

@@ -4,7 +4,7 @@
 //! 1. A coordinate together with a constraint in which its coefficient is a number or, if it has no inertia, depends on parameters alone, also
 //!    after steps before: the 2 × 2 pivot [μ a; a 0] with a ≠ 0 is safe whatever the state. What is left is the system in the other
 //!    coordinates, M' = Zᵀ M Z. Bodies pinned to each other are eliminated so, each with its pins, and velocities that T is written in with
-//!    their definitions ([`super::lift`]).
+//!    their definitions ([`super::lift`]). So are bodies in space and the rates of turning that their joints were solved for ([`super::joint`]).
 //! 2. Coordinates with inertia, and constraints all of whose coordinates are eliminated: 1 × 1 pivots that are definite where A has full
 //!    rank, since what is eliminated is then a saddle-point matrix of its own.
 //! 3. Two coordinates with a constraint that contains them alone, turned into what it prescribes and what it leaves free: see [`rotation`].
@@ -27,7 +27,8 @@ mod pattern;
 mod rotation;
 mod solution;
 
-pub(crate) use certificate::{SAFE_SHARE, Solve, Straight};
+use certificate::SAFE_SHARE;
+pub(crate) use certificate::{Solve, Straight};
 
 use super::dynamics::Dynamics;
 use super::frame::Turned;
@@ -83,6 +84,8 @@ pub(crate) struct Elimination {
     /// What is checked of the rows that may be left out.
     droppings: Vec<Dropping>,
     order: Order,
+    /// Whether there are no constraints, but for definitions that are substituted.
+    free: bool,
     /// Where each coordinate and constraint of the system stands in the mechanism: not velocities and their definitions.
     place: Vec<Option<usize>>,
     /// Names of pivots, factors and multipliers.
@@ -250,7 +253,7 @@ pub(crate) fn eliminate(
         let [value, reference] = joint.share();
         Divisor {
             reference,
-            ..Divisor::positive(d.force.len() + joint.row(), value, names)
+            ..Divisor::positive(d.force.len() + joint.rows()[0], value, names)
         }
     }));
     for step in &order.pivots {
@@ -288,6 +291,9 @@ pub(crate) fn eliminate(
     let divisors = divisors.into_iter();
     let divisors = divisors.map(|(divisor, step)| (divisor, motion.rights[step]));
     let fixed = fixed.into_iter().map(|divisor| (divisor, None));
+    let n = d.force.len();
+    let alone = |pivot: &Pivoting| matches!(pivot, Pivoting::Single(k) if *k >= n);
+    let free = own.1 == 0 && !order.pivots.iter().any(alone);
     Ok(Elimination {
         acceleration: motion.coordinates,
         multipliers,
@@ -296,6 +302,7 @@ pub(crate) fn eliminate(
         correction_rights: projection.rights.into_iter().flatten().collect(),
         droppings,
         order,
+        free,
         place: place(d, own),
         hints,
     })

@@ -40,9 +40,9 @@ impl Joint {
         self.share
     }
 
-    /// The first of its rows.
-    pub(super) fn row(&self) -> usize {
-        self.rows[0]
+    /// Its constraints.
+    pub(super) fn rows(&self) -> &[usize] {
+        &self.rows
     }
 
     /// Puts W⁻¹ of its rows' `values` in their place.

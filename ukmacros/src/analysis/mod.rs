@@ -31,7 +31,7 @@ pub(crate) use cost::{Costs, Operations};
 pub(crate) use dynamics::{Dynamics, derive};
 #[cfg(test)]
 pub(crate) use elimination::{Further, Straight, Task, eliminate, orders};
-pub(crate) use elimination::{Pair, Pivoting, Rotation, SAFE_SHARE, Solve};
+pub(crate) use elimination::{Pair, Pivoting, Rotation, Solve};
 #[cfg(test)]
 pub(crate) use frame::{Turned, turned};
 pub(crate) use functions::{Function, Place, Role, Slice, of_parameters};
