@@ -7,7 +7,6 @@ use super::frame::{Frame, Turned, turned};
 use super::functions::{Function, acceleration, functions};
 use super::hoist::{Hoisted, hoist};
 use super::hub::{Divided, divided};
-use super::joint::Joint;
 use super::regular::Regular;
 use super::switches::Switch;
 use crate::expr::{Graph, Id, Map, System};
@@ -150,8 +149,7 @@ pub(super) fn choose(
         if let Ok(solve) = &mut chosen.solve {
             let variant = &variants[best.at];
             solve.turned = variant.turned.frames.iter().map(Frame::row).collect();
-            let joints = variant.turned.joints.iter();
-            solve.solved = joints.flat_map(Joint::rows).copied().collect();
+            solve.solved = variant.turned.rows().copied().collect();
             if solve.turned.is_empty() {
                 solve.regular.clone_from(&regular.rows);
             }

@@ -167,6 +167,11 @@ impl Turned {
         self.frames.is_empty()
     }
 
+    /// The constraints that are solved for rates.
+    pub(crate) fn rows(&self) -> impl Iterator<Item = &usize> {
+        self.joints.iter().flat_map(Joint::rows)
+    }
+
     /// The right-hand side of the constraints as they are turned, in the place of `values`.
     pub(super) fn turn(&self, values: &mut [Id], g: &mut Graph) {
         let frames = self.frames.iter();
