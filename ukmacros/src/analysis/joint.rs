@@ -7,7 +7,7 @@
 //! the same, and the multipliers are W⁻ᵀ times the new ones.
 //!
 //! At run time (det W)² has to keep a share of ∏ |w|², the squared lengths of the rows in all rates of the body; where it does, rounding
-//! is not magnified by more than the root of one over the share. Where constraints are met it does.
+//! is not magnified by more than three times the root of one over the share. Where constraints are met it does.
 //!
 //! Of the two bodies of a joint the one is taken that is farther from the ground: eliminated leaf by leaf, each with its joint, bodies fill in
 //! what one body has with the one before it.
