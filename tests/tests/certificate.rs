@@ -315,6 +315,63 @@ fn bent(bend: f64) -> impl Iterator<Item = State> {
     })
 }
 
+ukcore::multibody! {
+    /// Light rods hinged to each other, in their angles, with a load at the end.
+    Loaded {
+        const N: usize = 4;
+        params { m[N] = 1.0, l = 0.5, g = 9.81 }
+        coords { th[N] }
+        let across = |i| l * dot(th[i]) * [-sin(th[i]), cos(th[i])];
+        let {
+            v[0] = across(0)
+            h[0] = l * sin(th[0])
+            for i in 1..N { v[i] = v[i - 1] + across(i), h[i] = h[i - 1] + l * sin(th[i]) }
+        }
+        kinetic { for i in 0..N { 0.5 * m[i] * sq(v[i]), 0.005 * sq(dot(th[i])) } }
+        potential { for i in 0..N { m[i] * g * h[i] } }
+    }
+}
+
+/// Without constraints the straight line loses no more digits by small pivots than the dense solve: by 31 digits, whatever the load, and
+/// without a fallback as long as M is definite beyond doubt.
+#[test]
+fn heavy_loads_at_the_end_of_an_arm() {
+    let digits =
+        |x: &[f64]| -> Vec<DoubleDouble> { x.iter().map(|x| DoubleDouble::from_f64(*x)).collect() };
+    for exponent in (0..=8).step_by(2) {
+        let mut mechanism = Loaded::default();
+        mechanism.m[3] = 10.0_f64.powi(exponent);
+        let options = |formula| SolverOptions {
+            formula,
+            ..SolverOptions::default()
+        };
+        let mut solver = Solver::new(&mechanism, options(Formula::Auto));
+        let mut dense = Solver::new(&mechanism, options(Formula::UdwadiaKalaba));
+        let (mut worst, mut allowed) = (0.0_f64, 0.0_f64);
+        for k in 0..200 {
+            let angle = |i: i32| (f64::from(k) * 0.37 + f64::from(i) * 1.9).sin() * 3.0;
+            let q: Vec<f64> = (0..4).map(angle).collect();
+            let state = State {
+                t: 0.0,
+                v: q.iter().map(|x| 0.3 * x).collect(),
+                q,
+            };
+            let (mut found, mut slow) = (vec![0.0; 4], vec![0.0; 4]);
+            let straight = solver.acceleration(0.0, &state.q, &state.v, &mut found);
+            straight.expect("definite");
+            let other = dense.acceleration(0.0, &state.q, &state.v, &mut slow);
+            other.expect("definite");
+            let exact =
+                ukcore::equations::precise::accelerations(&mechanism, 0.0, &state.q, &state.v);
+            let exact = digits(&exact.expect("definite"));
+            worst = worst.max(off(&mechanism, &state, &found, &exact));
+            allowed = allowed.max(off(&mechanism, &state, &slow, &exact));
+        }
+        assert!(worst <= 4.0 * allowed, "{exponent}: {worst:e}, {allowed:e}");
+        assert_eq!(solver.work().fallbacks, 0, "{exponent}");
+    }
+}
+
 /// A light mass between heavy ones costs the pivots digits, but no constraint comes near the others: the straight line serves, refined, as
 /// accurate as the dense solve, by 31 digits.
 #[test]
@@ -534,7 +591,12 @@ fn shares_of_the_elimination_and_significances_of_rows_have_one_ceiling() {
             let structure = &M::SPEC.structure;
             if structure.straight_line {
                 let ceiling = ukcore::solver::RANK_CEILING;
-                assert_eq!(structure.solve.least_share, ceiling * ceiling, "{}", M::ID);
+                // Without rows that could depend on each other a pivot has to be clear of rounding.
+                let least = match M::SPEC.m() {
+                    0 => ceiling.powi(6),
+                    _ => ceiling * ceiling,
+                };
+                assert_eq!(structure.solve.least_share, least, "{}", M::ID);
             }
         }
     }

@@ -192,7 +192,16 @@ impl Plan {
         if !solve.turned.is_empty() {
             let names: Vec<&str> = solve.turned.iter().map(|c| row(*c)).collect();
             let text = format!(
-                "The coordinates of {} stand for rates of these velocities: a of the constraint and c of the velocities y = c·q̇ are at right angles,                  so that their q̈ are Σ c ẏ/|c|² + a b/|a|².",
+                "The coordinates of {} stand for rates of these velocities: a of the constraint and c of the velocities y = c·q̇ are at right angles, \
+                 so that their q̈ are Σ c ẏ/|c|² + a b/|a|².",
+                shortened(&names)
+            );
+            paragraph(f, &text)?;
+        }
+        if !solve.solved.is_empty() {
+            let names: Vec<&str> = solve.solved.iter().map(|c| row(*c)).collect();
+            let text = format!(
+                "{} are solved for such rates of one body each beforehand, which then stand alone in them.",
                 shortened(&names)
             );
             paragraph(f, &text)?;

@@ -264,6 +264,10 @@ pub struct Solve {
     /// Constraints, |e|² = 1 of a quaternion among them, whose coordinates are given by the constraint and by these velocities, all at right
     /// angles to each other: the solve has their rates in the place of the coordinates'.
     pub turned: &'static [usize],
+    /// Constraints between two bodies so turned, or one and the ground, that are solved for rates of one of them beforehand: these then stand
+    /// alone in them. The square of the determinant that is divided by keeps [`Solve::least_share`] of what it could be, or q̈ is computed in
+    /// another way.
+    pub solved: &'static [usize],
     /// Coordinates that many otherwise separate parts share, each once for every part but one: the solve has a copy of the coordinate for each
     /// of these, tied to the one before, with its share of the inertia.
     pub copies: &'static [usize],
@@ -387,6 +391,7 @@ impl Solve {
             met: &[],
             velocities: &[],
             turned: &[],
+            solved: &[],
             copies: &[],
             redundant: &[],
         }

@@ -220,6 +220,7 @@ const _: () = {
                     met: &[],
                     velocities: &[],
                     turned: &[],
+                    solved: &[],
                     copies: &[],
                     redundant: &[],
                 },

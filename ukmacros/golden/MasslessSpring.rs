@@ -198,6 +198,7 @@ const _: () = {
                     met: &[],
                     velocities: &[],
                     turned: &[],
+                    solved: &[],
                     copies: &[],
                     redundant: &[],
                 },

@@ -196,6 +196,7 @@ const _: () = {
                     met: &[],
                     velocities: &[],
                     turned: &[],
+                    solved: &[],
                     copies: &[],
                     redundant: &[],
                 },

@@ -237,6 +237,7 @@ const _: () = {
                     met: &[],
                     velocities: &[],
                     turned: &[],
+                    solved: &[],
                     copies: &[],
                     redundant: &[],
                 },

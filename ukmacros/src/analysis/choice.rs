@@ -3,7 +3,7 @@
 use super::cost::{Costs, cost, costs};
 use super::dynamics::Dynamics;
 use super::elimination::{Further, Order, Solve, Straight, Task, eliminate, orders};
-use super::frame::{Frame, turned};
+use super::frame::{Frame, Turned, turned};
 use super::functions::{Function, acceleration, functions};
 use super::hoist::{Hoisted, hoist};
 use super::hub::{Divided, divided};
@@ -32,13 +32,13 @@ struct Variant {
     further: Further,
     /// The hubs whose copies it has.
     copies: Vec<usize>,
-    frames: Vec<Frame>,
+    turned: Turned,
 }
 
 impl Variant {
     /// What was added to M: nothing where coordinates are turned.
     fn weights<'a>(&self, regular: &'a Regular) -> &'a [(usize, usize, Id)] {
-        match self.frames.is_empty() {
+        match self.turned.is_empty() {
             true => &regular.weights,
             false => &[],
         }
@@ -110,7 +110,7 @@ pub(super) fn choose(
         own,
         further: variant.further,
         redundant: &regular.redundant,
-        frames: &variant.frames,
+        turned: &variant.turned,
         multipliers: false,
     });
     let tasks: Vec<Task<'_>> = tasks.collect();
@@ -148,7 +148,8 @@ pub(super) fn choose(
         let mut chosen = emitted(system, best.straight, best.hoisted, names);
         if let Ok(solve) = &mut chosen.solve {
             let variant = &variants[best.at];
-            solve.turned = variant.frames.iter().map(Frame::row).collect();
+            solve.turned = variant.turned.frames.iter().map(Frame::row).collect();
+            solve.solved = variant.turned.rows().copied().collect();
             if solve.turned.is_empty() {
                 solve.regular.clone_from(&regular.rows);
             }
@@ -204,15 +205,16 @@ fn variants(
         names: names.to_vec(),
         further: Further::Nothing,
         copies: Vec::new(),
-        frames: Vec::new(),
+        turned: Turned::default(),
     }];
     let (coordinates, constraints) = names.split_at(held.force.len());
     let with = |more: &[String]| [coordinates, more, constraints, more].concat();
     if let Some(lift) = &held.lift {
         let turned = turned(held, lift, &regular.rows, &system.defaults, g);
-        let (dynamics, frames) = turned.unwrap_or_else(|| {
+        let (dynamics, turned) = turned.unwrap_or_else(|| {
             let (mass, force) = (&regular.added, &regular.pulled);
-            (lift.extended(&regular.dynamics, mass, force, g), Vec::new())
+            let extended = lift.extended(&regular.dynamics, mass, force, g);
+            (extended, Turned::default())
         });
         let velocities = lift.velocities().enumerate();
         let velocities = velocities.map(|(k, id)| match system.hints.get(&id) {
@@ -225,7 +227,7 @@ fn variants(
             names: with(&velocities),
             further: Further::Velocities,
             copies: Vec::new(),
-            frames,
+            turned,
         });
     }
     if let Some(Divided { dynamics, copies }) = divided(&regular.dynamics, g) {
@@ -237,7 +239,7 @@ fn variants(
             names: with(&more),
             further: Further::Copies,
             copies,
-            frames: Vec::new(),
+            turned: Turned::default(),
         });
     }
     variants

@@ -4,7 +4,7 @@
 //! 1. A coordinate together with a constraint in which its coefficient is a number or, if it has no inertia, depends on parameters alone, also
 //!    after steps before: the 2 × 2 pivot [μ a; a 0] with a ≠ 0 is safe whatever the state. What is left is the system in the other
 //!    coordinates, M' = Zᵀ M Z. Bodies pinned to each other are eliminated so, each with its pins, and velocities that T is written in with
-//!    their definitions ([`super::lift`]).
+//!    their definitions ([`super::lift`]). So are bodies in space and the rates of turning that their joints were solved for ([`super::joint`]).
 //! 2. Coordinates with inertia, and constraints all of whose coordinates are eliminated: 1 × 1 pivots that are definite where A has full
 //!    rank, since what is eliminated is then a saddle-point matrix of its own.
 //! 3. Two coordinates with a constraint that contains them alone, turned into what it prescribes and what it leaves free: see [`rotation`].
@@ -27,10 +27,11 @@ mod pattern;
 mod rotation;
 mod solution;
 
-pub(crate) use certificate::{SAFE_SHARE, Solve, Straight};
+use certificate::SAFE_SHARE;
+pub(crate) use certificate::{Solve, Straight};
 
 use super::dynamics::Dynamics;
-use super::frame::Frame;
+use super::frame::Turned;
 use crate::expr::{Graph, Id, Symbol, is_power_of_two};
 use dropping::{Dropping, droppings};
 use matrix::{Factor, Matrix};
@@ -83,6 +84,8 @@ pub(crate) struct Elimination {
     /// What is checked of the rows that may be left out.
     droppings: Vec<Dropping>,
     order: Order,
+    /// Whether there are no constraints, but for definitions that are substituted.
+    free: bool,
     /// Where each coordinate and constraint of the system stands in the mechanism: not velocities and their definitions.
     place: Vec<Option<usize>>,
     /// Names of pivots, factors and multipliers.
@@ -153,8 +156,8 @@ pub(crate) struct Task<'a> {
     pub(crate) further: Further,
     /// The constraints that may follow from others.
     pub(crate) redundant: &'a BTreeSet<usize>,
-    /// The coordinates that others stand for.
-    pub(crate) frames: &'a [Frame],
+    /// The coordinates that others stand for, and the constraints that are solved for these.
+    pub(crate) turned: &'a Turned,
     /// Whether all multipliers are wanted.
     pub(crate) multipliers: bool,
 }
@@ -240,11 +243,19 @@ pub(crate) fn eliminate(
     };
     let rhs = scaled(1.0, &d.rhs, g);
     let mut hints = Vec::new();
-    let mut matrix = Matrix::new(d, &jacobian, &order.pivots, droppable, g);
+    let whole = !task.turned.is_empty();
+    let mut matrix = Matrix::new(d, &jacobian, &order.pivots, droppable, whole, g);
     let mut motion = Forward::new(&force, &rhs);
     let (mut factors, mut divisors) = (Vec::new(), Vec::new());
     // What depends on parameters alone.
     let mut fixed: Vec<Divisor> = common.into_iter().collect();
+    fixed.extend(task.turned.joints.iter().map(|joint| {
+        let [value, reference] = joint.share();
+        Divisor {
+            reference,
+            ..Divisor::positive(d.force.len() + joint.rows()[0], value, names)
+        }
+    }));
     for step in &order.pivots {
         let (factor, checked) = matrix.step(*step, names, g, &mut hints)?;
         motion.step(&factor, g);
@@ -258,30 +269,31 @@ pub(crate) fn eliminate(
     let mut motion = motion.solution(&factors, task.multipliers, names, g, &mut hints)?;
     let droppings = droppings(&factors, &motion, d, [&force, &rhs], g);
     motion.coordinates.truncate(own.0);
-    let turn_back = |solution: &mut [Id], g: &mut Graph| {
-        let frames = task.frames.iter();
-        frames.for_each(|frame| frame.turn_back(solution, g));
-    };
-    turn_back(&mut motion.coordinates, g);
+    task.turned.turn_back(&mut motion.coordinates, g);
     let multipliers = multipliers(&motion.constraints, *common_factor, &scales, g);
     let residuals = (0..own.1).map(|i| g.symbol(Symbol::Residual(i)));
     let mut residuals: Vec<Id> = residuals.collect();
     residuals.resize(d.rhs.len(), g.zero());
+    let mut turned = residuals.clone();
+    task.turned.turn(&mut turned, g);
     let mut pull = vec![g.zero(); force.len()];
     for (row, i, weight) in weights {
         let weight = g.div(*weight, *common_factor);
         let term = g.mul(weight, residuals[*row]);
         pull[*i] = g.sub(pull[*i], term);
     }
-    let residuals = scaled(-1.0, &residuals, g);
+    let residuals = scaled(-1.0, &turned, g);
     let mut projection = Forward::new(&pull, &residuals);
     factors.iter().for_each(|factor| projection.step(factor, g));
     let mut projection = projection.solution(&factors, false, names, g, &mut hints)?;
     projection.coordinates.truncate(own.0);
-    turn_back(&mut projection.coordinates, g);
+    task.turned.turn_back(&mut projection.coordinates, g);
     let divisors = divisors.into_iter();
     let divisors = divisors.map(|(divisor, step)| (divisor, motion.rights[step]));
     let fixed = fixed.into_iter().map(|divisor| (divisor, None));
+    let n = d.force.len();
+    let alone = |pivot: &Pivoting| matches!(pivot, Pivoting::Single(k) if *k >= n);
+    let free = own.1 == 0 && !order.pivots.iter().any(alone);
     Ok(Elimination {
         acceleration: motion.coordinates,
         multipliers,
@@ -290,6 +302,7 @@ pub(crate) fn eliminate(
         correction_rights: projection.rights.into_iter().flatten().collect(),
         droppings,
         order,
+        free,
         place: place(d, own),
         hints,
     })

@@ -13,9 +13,10 @@
 //! knows nothing of the length of a quaternion; here nothing has to be added to it.
 
 use super::dynamics::Dynamics;
+use super::joint::{Joint, joints};
 use super::lift::Lift;
 use super::probe::{Probe, Random};
-use crate::expr::{Graph, Id, Node, Symbol, eval};
+use crate::expr::{Derivative, Graph, Id, Node, Symbol, eval};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Random states at which right angles are looked for: a polynomial that vanishes there is zero.
@@ -32,6 +33,8 @@ pub(crate) struct Frame {
     definitions: Vec<usize>,
     /// R, column by column.
     columns: Vec<Vec<Id>>,
+    /// What other constraints have of the first of x, which is given.
+    given: Vec<(usize, Id)>,
 }
 
 impl Frame {
@@ -40,14 +43,51 @@ impl Frame {
         self.row
     }
 
+    /// In ascending order; the constraint gives what stands for the first, definitions what stands for the others.
+    pub(super) fn coordinates(&self) -> &[usize] {
+        &self.coordinates
+    }
+
+    /// R, column by column.
+    pub(super) fn columns(&self) -> &[Vec<Id>] {
+        &self.columns
+    }
+
     /// Rᵀ u.
     fn across(&self, u: &[Id], g: &mut Graph) -> Vec<Id> {
         let columns = self.columns.iter();
         columns.map(|column| inner(column, u, g)).collect()
     }
 
+    /// The same of one column, for a force: what is multiplied by one product of other factors is summed up first. Of T that is a rate of
+    /// turning again.
+    fn collected(&self, column: &[Id], force: &[Id], g: &mut Graph) -> Id {
+        let mut by_others: BTreeMap<Id, Vec<(f64, Id)>> = BTreeMap::new();
+        for (a, force) in column.iter().zip(force) {
+            for (c, term) in g.open(1.0, *force) {
+                let product = g.mul(*a, term);
+                let (k, _) = g.unscaled(product);
+                let own = |(base, _): &(Id, i32)| match g.node(*base) {
+                    Node::Symbol(Symbol::Coord(i) | Symbol::Velocity(i)) => {
+                        self.coordinates.contains(i)
+                    }
+                    _ => false,
+                };
+                let (own, others): (Vec<_>, Vec<_>) = g.factors(product).into_iter().partition(own);
+                let (own, others) = (g.product(&own), g.product(&others));
+                by_others.entry(others).or_default().push((c * k, own));
+            }
+        }
+        let products = by_others.into_iter().map(|(others, own)| {
+            let sum = g.factored_sum(&own);
+            (1.0, g.mul(others, sum))
+        });
+        let products: Vec<(f64, Id)> = products.collect();
+        g.factored_sum(&products)
+    }
+
     /// Puts ë = R x in the place of x.
-    pub(super) fn turn_back(&self, solution: &mut [Id], g: &mut Graph) {
+    fn turn_back(&self, solution: &mut [Id], g: &mut Graph) {
         let x: Vec<Id> = self.coordinates.iter().map(|i| solution[*i]).collect();
         for (j, i) in self.coordinates.iter().enumerate() {
             let row: Vec<Id> = self.columns.iter().map(|column| column[j]).collect();
@@ -55,12 +95,23 @@ impl Frame {
         }
     }
 
+    /// Takes what is given off the other constraints' `values`.
+    fn take_off(&self, values: &mut [Id], g: &mut Graph) {
+        for (row, a) in &self.given {
+            let given = g.mul(*a, values[self.row]);
+            values[*row] = g.factored_sum(&[(1.0, values[*row]), (-1.0, given)]);
+        }
+    }
+
     /// Writes `d`, which has definitions behind its first `m` constraints, in x.
-    fn turn(&self, d: &mut Dynamics, m: usize, g: &mut Graph) {
+    fn turn(&mut self, d: &mut Dynamics, m: usize, g: &mut Graph) {
         let (zero, one) = (g.zero(), g.one());
         for vector in [&mut d.force, &mut d.nonideal] {
             let own: Vec<Id> = self.coordinates.iter().map(|i| vector[*i]).collect();
-            let turned = self.across(&own, g);
+            let columns = self.columns.iter();
+            let turned: Vec<Id> = columns
+                .map(|column| self.collected(column, &own, g))
+                .collect();
             let places = self.coordinates.iter().zip(turned);
             places.for_each(|(i, of)| vector[*i] = of);
         }
@@ -79,12 +130,60 @@ impl Frame {
             rows.remove(&row);
             d.jacobian.insert((row, *i), one);
         }
+        let symbols = self.coordinates.iter().map(|i| g.symbol(Symbol::Coord(*i)));
+        let symbols: Vec<Id> = symbols.collect();
+        let along = self.columns.iter().map(|column| {
+            let direction = symbols.iter().copied().zip(column.iter().copied());
+            Derivative::along(direction.collect())
+        });
+        let mut along: Vec<Derivative> = along.collect();
         for (row, entries) in rows {
-            let turned = self.across(&entries, g);
+            // Functions of the frame are differentiated once for all they stand in.
+            let turned = match d.phi.get(row) {
+                Some(phi) => along.iter_mut().map(|along| along.of(*phi, g)).collect(),
+                None => self.across(&entries, g),
+            };
             let places = self.coordinates.iter().zip(turned);
-            let places = places.filter(|(_, a)| !g.is_zero(*a));
+            let mut places = places.filter(|(_, a)| !g.is_zero(*a)).peekable();
+            let first = places.next_if(|(i, _)| **i == self.coordinates[0]);
+            self.given.extend(first.map(|(_, a)| (row, a)));
             d.jacobian.extend(places.map(|(i, a)| ((row, *i), a)));
         }
+        self.take_off(&mut d.rhs, g);
+    }
+}
+
+/// What is written in rates of turning.
+#[derive(Default)]
+pub(crate) struct Turned {
+    pub(super) frames: Vec<Frame>,
+    /// Solved for such rates.
+    pub(super) joints: Vec<Joint>,
+}
+
+impl Turned {
+    /// Whether nothing is.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.frames.is_empty()
+    }
+
+    /// The constraints that are solved for rates.
+    pub(crate) fn rows(&self) -> impl Iterator<Item = &usize> {
+        self.joints.iter().flat_map(Joint::rows)
+    }
+
+    /// The right-hand side of the constraints as they are turned, in the place of `values`.
+    pub(super) fn turn(&self, values: &mut [Id], g: &mut Graph) {
+        let frames = self.frames.iter();
+        frames.for_each(|frame| frame.take_off(values, g));
+        let joints = self.joints.iter();
+        joints.for_each(|joint| joint.solve(values, g));
+    }
+
+    /// Puts second derivatives of the coordinates in the place of rates of turning.
+    pub(super) fn turn_back(&self, solution: &mut [Id], g: &mut Graph) {
+        let frames = self.frames.iter();
+        frames.for_each(|frame| frame.turn_back(solution, g));
     }
 }
 
@@ -96,18 +195,18 @@ pub(crate) fn turned(
     regular: &[usize],
     defaults: &[f64],
     g: &mut Graph,
-) -> Option<(Dynamics, Vec<Frame>)> {
-    let frames = frames(d, lift, defaults, g);
+) -> Option<(Dynamics, Turned)> {
+    let mut frames = frames(d, lift, defaults, g);
     let own = |row: &usize| frames.iter().any(|frame| frame.row == *row);
     if frames.is_empty() || !regular.iter().all(own) {
         return None;
     }
     let mut turned = lift.extended(d, &BTreeMap::new(), &BTreeMap::new(), g);
     let m = d.rhs.len();
-    frames
-        .iter()
-        .for_each(|frame| frame.turn(&mut turned, m, g));
-    Some((turned, frames))
+    let all = frames.iter_mut();
+    all.for_each(|frame| frame.turn(&mut turned, m, g));
+    let joints = joints(&mut turned, d, &frames, defaults, g);
+    Some((turned, Turned { frames, joints }))
 }
 
 /// The frames among the coordinates of `d`.
@@ -151,6 +250,7 @@ fn frames(d: &Dynamics, lift: &Lift, defaults: &[f64], g: &mut Graph) -> Vec<Fra
             coordinates,
             row,
             definitions: own,
+            given: Vec::new(),
         });
     }
     found

@@ -11,6 +11,7 @@ mod functions;
 mod groups;
 mod hoist;
 mod hub;
+mod joint;
 mod lift;
 mod probe;
 mod reactions;
@@ -30,9 +31,9 @@ pub(crate) use cost::{Costs, Operations};
 pub(crate) use dynamics::{Dynamics, derive};
 #[cfg(test)]
 pub(crate) use elimination::{Further, Straight, Task, eliminate, orders};
-pub(crate) use elimination::{Pair, Pivoting, Rotation, SAFE_SHARE, Solve};
+pub(crate) use elimination::{Pair, Pivoting, Rotation, Solve};
 #[cfg(test)]
-pub(crate) use frame::turned;
+pub(crate) use frame::{Turned, turned};
 pub(crate) use functions::{Function, Place, Role, Slice, of_parameters};
 pub(crate) use schedule::{Program, Step};
 pub(crate) use structure::Structure;

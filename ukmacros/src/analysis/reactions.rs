@@ -9,6 +9,7 @@
 
 use super::dynamics::Dynamics;
 use super::elimination::{Further, Straight, Task, eliminate, orders};
+use super::frame::Turned;
 use super::regular::Regular;
 use super::switches::Switch;
 use crate::expr::{Func, Graph, Id, Map, Node, Symbol, System};
@@ -85,7 +86,7 @@ fn multipliers(
         own: (ideal.force.len(), ideal.rhs.len()),
         further: Further::Nothing,
         redundant: &regular.redundant,
-        frames: &[],
+        turned: &Turned::default(),
         multipliers: true,
     };
     let mut orders = orders(&task, &system.defaults, &system.graph)?;

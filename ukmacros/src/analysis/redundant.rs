@@ -12,7 +12,7 @@
 use super::dynamics::Dynamics;
 use super::probe::{Probe, Random};
 use crate::expr::{Graph, Id, Sweep};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Residuals of rows of length 1 below this share of the coordinates are zero.
 const MET: f64 = 1e-12;
@@ -37,8 +37,8 @@ const WORK: usize = 600_000;
 pub(super) fn redundant(d: &Dynamics, defaults: &[f64], g: &Graph) -> BTreeSet<usize> {
     let n = d.force.len();
     let mut search = Search {
-        position: Level::new(d, &d.phi, g),
-        velocity: Level::new(d, &d.rate, g),
+        position: Level::new(&d.jacobian, &d.phi, g),
+        velocity: Level::new(&d.jacobian, &d.rate, g),
         left: WORK,
     };
     let mut random = Random::new(3);
@@ -58,6 +58,19 @@ pub(super) fn redundant(d: &Dynamics, defaults: &[f64], g: &Graph) -> BTreeSet<u
     found
 }
 
+/// `probe` with q moved to where the constraints `phi` of the given Jacobian are met, if it gets there.
+pub(super) fn met<'a>(
+    phi: &[Id],
+    jacobian: &BTreeMap<(usize, usize), Id>,
+    mut probe: Probe<'a>,
+    g: &Graph,
+) -> Option<Probe<'a>> {
+    let mut level = Level::new(jacobian, phi, g);
+    let mut left = WORK;
+    level.settle(&mut probe, true, &mut left, g)?;
+    Some(probe)
+}
+
 /// The constraints of one level as equations for q, or for q̇.
 struct Level {
     sweep: Sweep,
@@ -75,9 +88,9 @@ struct Place {
 }
 
 impl Level {
-    fn new(d: &Dynamics, residuals: &[Id], g: &Graph) -> Self {
+    fn new(jacobian: &BTreeMap<(usize, usize), Id>, residuals: &[Id], g: &Graph) -> Self {
         let rows = residuals.len();
-        let entries: Vec<_> = d.jacobian.range((0, 0)..(rows, 0)).collect();
+        let entries: Vec<_> = jacobian.range((0, 0)..(rows, 0)).collect();
         let roots = residuals.iter().chain(entries.iter().map(|(_, id)| *id));
         Level {
             sweep: Sweep::new(g, &roots.copied().collect::<Vec<_>>()),
@@ -106,6 +119,40 @@ impl Level {
         }
         place
     }
+
+    /// Moves q, or q̇, onto the constraints; takes off `left` what work it is.
+    fn settle(
+        &mut self,
+        probe: &mut Probe<'_>,
+        position: bool,
+        left: &mut usize,
+        g: &Graph,
+    ) -> Option<Place> {
+        let mut here = self.evaluate(probe, g);
+        let mut damping = 1e-2_f64;
+        for _ in 0..STEPS {
+            let x = if position { &mut probe.q } else { &mut probe.v };
+            let scale = x.iter().fold(1.0_f64, |s, x| s.max(x.abs()));
+            if here.size.sqrt() <= MET * scale {
+                return Some(here);
+            }
+            let (step, work) = here.step(damping, x.len());
+            *left = left.checked_sub(work + self.sweep.len())?;
+            let before = x.clone();
+            x.iter_mut().zip(&step).for_each(|(x, d)| *x -= d);
+            let there = self.evaluate(probe, g);
+            if there.size < here.size {
+                damping = (0.1 * damping).min(there.size / (scale * scale));
+                damping = damping.max(DAMPING);
+                here = there;
+            } else {
+                let x = if position { &mut probe.q } else { &mut probe.v };
+                *x = before;
+                damping *= 10.0;
+            }
+        }
+        None
+    }
 }
 
 struct Search {
@@ -118,41 +165,9 @@ impl Search {
     /// The constraints that follow from others at the state on the constraints that is reached from `probe`; `None` if none is, or it
     /// is near a singular position.
     fn at(&mut self, mut probe: Probe<'_>, g: &Graph) -> Option<BTreeSet<usize>> {
-        self.settle(&mut probe, true, g)?;
-        let place = self.settle(&mut probe, false, g)?;
+        self.position.settle(&mut probe, true, &mut self.left, g)?;
+        let place = self.velocity.settle(&mut probe, false, &mut self.left, g)?;
         self.dependent(&place)
-    }
-
-    /// Moves q, or q̇, onto the constraints.
-    fn settle(&mut self, probe: &mut Probe<'_>, position: bool, g: &Graph) -> Option<Place> {
-        let level = match position {
-            true => &mut self.position,
-            false => &mut self.velocity,
-        };
-        let mut here = level.evaluate(probe, g);
-        let mut damping = 1e-2_f64;
-        for _ in 0..STEPS {
-            let x = if position { &mut probe.q } else { &mut probe.v };
-            let scale = x.iter().fold(1.0_f64, |s, x| s.max(x.abs()));
-            if here.size.sqrt() <= MET * scale {
-                return Some(here);
-            }
-            let (step, work) = here.step(damping, x.len());
-            self.left = self.left.checked_sub(work + level.sweep.len())?;
-            let before = x.clone();
-            x.iter_mut().zip(&step).for_each(|(x, d)| *x -= d);
-            let there = level.evaluate(probe, g);
-            if there.size < here.size {
-                damping = (0.1 * damping).min(there.size / (scale * scale));
-                damping = damping.max(DAMPING);
-                here = there;
-            } else {
-                let x = if position { &mut probe.q } else { &mut probe.v };
-                *x = before;
-                damping *= 10.0;
-            }
-        }
-        None
     }
 
     /// The rows that keep nothing beside those before them, with those they are made up of.

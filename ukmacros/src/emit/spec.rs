@@ -3,9 +3,7 @@
 use super::body::float;
 use super::listing::Listing;
 use crate::analysis::Switch;
-use crate::analysis::{
-    Analysis, Costs, Operations, Pair, Pivoting, Rotation, SAFE_SHARE, Solve, Structure,
-};
+use crate::analysis::{Analysis, Costs, Operations, Pair, Pivoting, Rotation, Solve, Structure};
 use crate::expr::{Block, Drawing, Kind, OutputValue, StartValue, System};
 use crate::model::Model;
 use crate::parse::Declaration;
@@ -207,11 +205,12 @@ fn solve(solve: &Solve, n: usize) -> TokenStream {
             false => quote! { ukcore::Check::Positive(#k) },
         }
     });
-    let least_share = float(SAFE_SHARE);
+    let least_share = float(solve.least_share);
     let regular = solve.regular.iter().map(|row| number(*row));
     let met = solve.met.iter().map(|row| number(*row));
     let velocities = &solve.velocities;
     let turned = solve.turned.iter().map(|row| number(*row));
+    let solved = solve.solved.iter().map(|row| number(*row));
     let copies = solve.copies.iter().map(|i| number(*i));
     let redundant = solve.droppable.iter().map(|row| number(*row));
     quote! {
@@ -225,6 +224,7 @@ fn solve(solve: &Solve, n: usize) -> TokenStream {
             met: &[#(#met),*],
             velocities: &[#(#velocities),*],
             turned: &[#(#turned),*],
+            solved: &[#(#solved),*],
             copies: &[#(#copies),*],
             redundant: &[#(#redundant),*],
         }

@@ -172,9 +172,20 @@ enum Seed {
     Partial(Symbol),
     /// d/dt with q → q̇, t → 1 and q̇ fixed: the total derivative without its q̈ terms.
     Total,
+    /// Of nothing but what was entered.
+    Entered,
 }
 
 impl Derivative {
+    /// Along a direction: of each of these symbols the given one.
+    pub(crate) fn along(direction: Vec<(Id, Id)>) -> Self {
+        Derivative {
+            seed: Seed::Entered,
+            known: direction.into_iter().collect(),
+            sums: Rc::default(),
+        }
+    }
+
     /// ∂/∂symbol.
     pub(crate) fn partial(symbol: Symbol) -> Self {
         Derivative {
@@ -214,6 +225,7 @@ impl Derivative {
             Seed::Partial(Symbol::Branch(_)) => !uses.branch,
             Seed::Partial(Symbol::Multiplier(_)) => !uses.multiplier,
             Seed::Total => !(uses.coord || uses.time),
+            Seed::Entered => !uses.coord,
         }
     }
 

@@ -462,6 +462,21 @@ impl Graph {
         self.scale(c.signum(), product)
     }
 
+    /// `id` with its coefficient as one value, with factors of parameters.
+    pub(crate) fn hold_all(&mut self, id: Id) -> Id {
+        let (c, inner) = self.unscaled(id);
+        let single = matches!(
+            self.node(inner),
+            Node::Symbol(_) | Node::Sum(..) | Node::Held(_)
+        );
+        if self.uses(id).constant() || (c.abs() == 1.0 && single) {
+            return id;
+        }
+        let scaled = self.scale(c.abs(), inner);
+        let held = self.intern(Node::Held(scaled));
+        self.scale(c.signum(), held)
+    }
+
     /// `id` with its coefficient as one factor or term.
     fn keep(&mut self, id: Id) -> Id {
         match self.node(id) {

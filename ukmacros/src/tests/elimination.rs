@@ -2,7 +2,7 @@
 
 use super::system;
 use crate::analysis::{
-    Dynamics, Further, Pivoting, Straight, Task, derive, eliminate, orders, turned,
+    Dynamics, Further, Pivoting, Straight, Task, Turned, derive, eliminate, orders, turned,
 };
 use crate::expr::{Point, System, eval};
 use std::collections::{BTreeMap, BTreeSet};
@@ -182,9 +182,10 @@ fn spatial(random: &mut Random) -> String {
             format!("{to}.at([r, 0.2, 0])"),
             format!("b{i}.at([0, 0, 0.1])"),
         );
-        let joint = match random.below(4) {
+        let joint = match random.below(5) {
             0 => continue,
             1 => format!("ball({p}, {q})"),
+            4 => format!("weld({p}, {q})"),
             2 => format!("hinge({p}, {q}, [0, 0.6, 0.8])"),
             _ => format!("universal({p}, {q}, [1, 0, 0], [0, 1, 0])"),
         };
@@ -304,6 +305,8 @@ struct Tally {
     rotated: usize,
     /// With rates of turning for quaternions.
     turned: usize,
+    /// With joints solved for such rates.
+    joints: usize,
 }
 
 impl Tally {
@@ -316,18 +319,23 @@ impl Tally {
         let none = (BTreeMap::new(), BTreeMap::new());
         let lift = dynamics.lift.as_ref();
         let g = &mut system.graph;
-        let extended = lift.map(|lift| (lift.extended(&dynamics, &none.0, &none.1, g), Vec::new()));
+        let extended = lift.map(|lift| {
+            (
+                lift.extended(&dynamics, &none.0, &none.1, g),
+                Turned::default(),
+            )
+        });
         let turned = lift.and_then(|lift| turned(&dynamics, lift, &[], &system.defaults, g));
         // M knows nothing of the length of a quaternion: as it stands it is singular.
         let forms = match turned {
             Some(turned) => vec![turned],
-            None => [(dynamics.clone(), Vec::new())]
+            None => [(dynamics.clone(), Turned::default())]
                 .into_iter()
                 .chain(extended)
                 .collect(),
         };
         let mut lines = Vec::new();
-        for (of, frames) in &forms {
+        for (of, turned) in &forms {
             let size = of.force.len() + of.rhs.len();
             let names: Vec<String> = (0..size).map(|i| format!("u{i}")).collect();
             let task = Task {
@@ -341,7 +349,7 @@ impl Tally {
                 },
                 multipliers: false,
                 redundant: &BTreeSet::new(),
-                frames,
+                turned,
             };
             for order in orders(&task, &system.defaults, &system.graph).unwrap_or_default() {
                 let mut pivots = order.pivots().iter();
@@ -351,7 +359,8 @@ impl Tally {
                 let elimination = elimination.unwrap_or_else(|e| panic!("{e}\n{source}"));
                 lines.push(Straight::new(elimination, &dynamics, &[], &mut system));
                 self.lifted += usize::from(of.force.len() > n);
-                self.turned += usize::from(!frames.is_empty());
+                self.turned += usize::from(!turned.is_empty());
+                self.joints += usize::from(turned.rows().next().is_some());
             }
         }
         self.without += usize::from(lines.is_empty());
@@ -430,6 +439,7 @@ fn straight_lines_solve_the_saddle_point_system() {
         lifted,
         rotated,
         turned,
+        joints,
     } = tally;
     assert!(
         solved > 500
@@ -437,7 +447,84 @@ fn straight_lines_solve_the_saddle_point_system() {
             && without < 10
             && lifted > 30
             && rotated > 50
-            && turned > 20,
-        "{solved} solved, {refused} refused, {without} without a straight line, {lifted} lifted, {rotated} rotated, {turned} turned"
+            && turned > 20
+            && joints > 10,
+        "{solved} solved, {refused} refused, {without} without a straight line, {lifted} lifted, {rotated} rotated, {turned} turned, {joints} with joints"
     );
+}
+
+/// Two bodies on a hinge about their y axes, the second turned off these about the line between x and z: where they are at right angles its rows cannot be solved for
+/// its rates, and the straight line says so; where they are not it may be used.
+#[test]
+fn hinges_are_solved_for_rates_unless_their_axes_are_at_right_angles() {
+    let (mut system, model) = system(
+        "pub T { bodies { for i in 0..2 { spatial b[i] { mass: 1, inertia: [1, 2, 2.5], centre: [0.5, 0, 0] } } } gravity { [0, 0, -9.81] } \
+         holonomic { o: ball(ground.at([0, 0, 0]), b[0].at([0, 0, 0])), j: hinge(b[0].at([1, 0, 0]), b[1].at([0, 0, 0]), [0, 1, 0]) } }",
+    );
+    let n = model.coord_elements.len();
+    let dynamics = derive(&mut system, n);
+    let lift = dynamics.lift.as_ref().expect("velocities");
+    let (of, turned) =
+        turned(&dynamics, lift, &[], &system.defaults, &mut system.graph).expect("frames");
+    let tilts: Vec<String> = turned
+        .rows()
+        .map(|row| system.constraints[*row].item.text())
+        .collect();
+    assert_eq!(tilts, ["j.tilt0", "j.tilt1"]);
+    let names: Vec<String> = (0..of.force.len() + of.rhs.len())
+        .map(|i| format!("u{i}"))
+        .collect();
+    let task = Task {
+        dynamics: &of,
+        weights: &[],
+        names: &names,
+        own: (n, dynamics.rhs.len()),
+        further: Further::Velocities,
+        multipliers: false,
+        redundant: &BTreeSet::new(),
+        turned: &turned,
+    };
+    let orders = orders(&task, &system.defaults, &system.graph).expect("orders");
+    for order in orders {
+        let elimination = eliminate(&task, order, &mut system.graph).expect("an elimination");
+        let straight = Straight::new(elimination, &dynamics, &[], &mut system);
+        for (angle, safe) in [
+            (0.0_f64, 1.0),
+            (0.4, 1.0),
+            (-1.2, 1.0),
+            (1.565, 0.0),
+            (-1.57, 0.0),
+        ] {
+            let (sin, cos) = (0.5 * angle).sin_cos();
+            let mut q = vec![0.0; n];
+            let part = sin / 2.0_f64.sqrt();
+            (q[3], q[10], q[11], q[13]) = (1.0, cos, part, part);
+            let v = vec![0.1; n];
+            let point = Point {
+                params: &system.defaults,
+                q: &q,
+                v: &v,
+                t: 0.0,
+                residual: &[],
+                prepared: &[],
+            };
+            let ids = [
+                &[straight.certificate],
+                &straight.elimination.acceleration[..],
+            ]
+            .concat();
+            let found = eval(&system.graph, &ids, &point);
+            assert_eq!(found[0], safe, "at {angle}");
+            if safe == 1.0 {
+                let (k, right) = saddle(&system, &dynamics, &point);
+                let expected = solve(k, right).expect("regular");
+                for (a, b) in found[1..].iter().zip(&expected) {
+                    assert!(
+                        (a - b).abs() < 1e-11 * (1.0 + b.abs()),
+                        "at {angle}: {a}, {b}"
+                    );
+                }
+            }
+        }
+    }
 }

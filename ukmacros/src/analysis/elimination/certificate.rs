@@ -26,6 +26,11 @@
 //!
 //! Inertia that is no pivot by itself is checked as a parameter: positive, and finite.
 //!
+//! Without constraints there is no rank to be decided, and no way to q̈ that keeps more digits: M is definite, and its LDLᵀ solves equations as
+//! near to those that are given as any factorisation does, however small its pivots are (Higham 2002, theorem 10.3), those of velocities that T
+//! is written in included: what these leave of M is a sum of μ f², known to rounding of itself. A heavy load at the end of a light arm has
+//! such pivots everywhere. Here a share has to be clear of rounding alone, so that M is definite beyond doubt: [`FREE_SHARE`].
+//!
 //! 1/1024 is `RANK_CEILING`² of the rank-revealing solve: above it that would not doubt the rank either, at states off the constraints
 //! included. Where a share is less it takes over (or, where light masses alone are the cause, `ukcore::solver` refines); it works on A
 //! itself, whose condition is the root of G's, and keeps twice the digits. What depends on parameters only also has to be finite: an
@@ -40,6 +45,9 @@ use std::collections::{BTreeSet, HashSet};
 /// The least share d/G of a pivot that the straight line accepts: the square of `ukcore::solver::RANK_CEILING`; see the
 /// module.
 pub(crate) const SAFE_SHARE: f64 = 1.0 / 1024.0;
+
+/// The same without constraints: see the module.
+const FREE_SHARE: f64 = SAFE_SHARE * SAFE_SHARE * SAFE_SHARE;
 
 /// What may be left of A q̈ = b, as a share of its terms, where it is checked: the least that [`SAFE_SHARE`] can promise, for ten rows.
 pub(super) const MET: f64 = 2e-12;
@@ -83,10 +91,14 @@ pub(crate) struct Solve {
     pub(crate) fill: Vec<(usize, usize)>,
     /// What the certificate compares, as in [`Straight`].
     pub(crate) checks: Vec<(usize, bool)>,
+    /// The least share that it accepts.
+    pub(crate) least_share: f64,
     /// Names of the velocities that the kinetic energy is written in, where they are unknowns.
     pub(crate) velocities: Vec<String>,
     /// Constraints whose coordinates stand for rates of those velocities.
     pub(crate) turned: Vec<usize>,
+    /// Constraints that were solved for such rates beforehand.
+    pub(crate) solved: Vec<usize>,
     /// Coordinates that are written once for each part they are shared by, each as often as it has copies.
     pub(crate) copies: Vec<usize>,
     /// Constraints that make M regular.
@@ -125,8 +137,10 @@ impl Straight {
             pivots: pivots.collect(),
             fill: fill.collect(),
             checks: checks.collect(),
+            least_share: self.elimination.least_share(),
             velocities: Vec::new(),
             turned: Vec::new(),
+            solved: Vec::new(),
             copies: Vec::new(),
             regular: Vec::new(),
             met: self.met.clone(),
@@ -228,6 +242,11 @@ impl Straight {
 }
 
 impl Elimination {
+    /// The least share d/G of a pivot that is accepted.
+    fn least_share(&self) -> f64 {
+        if self.free { FREE_SHARE } else { SAFE_SHARE }
+    }
+
     /// `safe` where q̈ meets constraint `row`, else 0.
     fn meets(&self, row: usize, d: &Dynamics, safe: Id, g: &mut Graph) -> Id {
         let mut terms = vec![d.rhs[row]];
@@ -256,10 +275,9 @@ impl Elimination {
     /// parameters only first, then in the order of the elimination, so that no pivot has to be kept for it. Rows that may be left out are
     /// not, and pivots may be smaller, where `all` is asked for.
     fn certificate(&self, all: bool, g: &mut Graph) -> (Id, Vec<(usize, Id)>) {
-        let share = if all {
-            SAFE_SHARE * SAFE_SHARE
-        } else {
-            SAFE_SHARE
+        let share = match all {
+            true => SAFE_SHARE * SAFE_SHARE,
+            false => self.least_share(),
         };
         let (zero, tiny) = (g.zero(), g.constant(f64::MIN_POSITIVE));
         let largest = g.constant(f64::MAX);

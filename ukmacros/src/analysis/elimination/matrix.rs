@@ -29,6 +29,8 @@ pub(super) struct Matrix {
     pub(super) turned: Vec<Option<usize>>,
     /// Whether what stands for different coordinates shares little inertia, whatever the state.
     pub(super) apart: bool,
+    /// Whether what a pair leaves is computed once, with all its factors: many entries are made up of it.
+    whole: bool,
 }
 
 /// An update d − p²/(N/D) of a diagonal that is not yet divided by N.
@@ -253,6 +255,7 @@ impl Matrix {
         jacobian: &BTreeMap<(usize, usize), Id>,
         order: &[Pivoting],
         droppable: BTreeSet<usize>,
+        whole: bool,
         g: &Graph,
     ) -> Self {
         let n = d.force.len();
@@ -290,6 +293,7 @@ impl Matrix {
             droppable,
             turned: vec![None; n],
             apart: apart(&d.mass, g),
+            whole,
         }
     }
 
@@ -562,8 +566,14 @@ impl Matrix {
         let both: BTreeSet<usize> = row_j.iter().chain(&row_c).map(|(r, _)| *r).collect();
         let touched = both.into_iter().map(|at| {
             let (with, factor) = (entry(&row_j, at), g.div(entry(&row_c, at), a));
+            let whole = |id: Id, g: &mut Graph| match self.whole {
+                true => g.hold_all(id),
+                false => id,
+            };
+            let (with, factor) = (whole(with, g), whole(factor, g));
             let moved = g.mul(mu, factor);
             let left = g.factored_sum(&[(1.0, with), (-1.0, moved)]);
+            let left = whole(left, g);
             Touched {
                 at,
                 with,

@@ -1,0 +1,330 @@
+//! Rows of joints, solved for the rates of turning of one of their bodies.
+//!
+//! The rows of a hinge that keep its axes along each other contain the rates x of both bodies ([`super::frame`]): W x + V y = b. No coefficient
+//! of theirs is the same at all states, but where the constraints are met those of one body turn as a whole: W has, in two or three of its
+//! columns, a determinant that is always the same share of what it could be. Then W⁻¹(W x + V y) = W⁻¹b has the coefficients 1 and 0 of these
+//! rates, and they are eliminated with the rows as places are with the rows of a ball joint. For K = [M Aᵀ; A 0] it is a congruence: q̈ is
+//! the same, and the multipliers are W⁻ᵀ times the new ones.
+//!
+//! At run time (det W)² has to keep a share of ∏ |w|², the squared lengths of the rows in all rates of the body; where it does, rounding
+//! is not magnified by more than three times the root of one over the share. Where constraints are met it does.
+//!
+//! Of the two bodies of a joint the one is taken that is farther from the ground: eliminated leaf by leaf, each with its joint, bodies fill in
+//! what one body has with the one before it.
+
+use super::dynamics::Dynamics;
+use super::frame::Frame;
+use super::probe::{Probe, Random};
+use super::redundant::met;
+use crate::expr::{Graph, Id, Sweep};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// States on the constraints that are looked at.
+const STATES: usize = 3;
+/// The least share |det W|/∏ |w| where the constraints are met, and how much of it may vary, numerically.
+const LEAST: f64 = 0.25;
+const VARIES: f64 = 1e-6;
+
+/// Rows that were solved for rates.
+pub(crate) struct Joint {
+    rows: Vec<usize>,
+    /// W⁻¹, by rows.
+    inverse: Vec<Vec<Id>>,
+    /// (det W)², and ∏ |w|².
+    share: [Id; 2],
+}
+
+impl Joint {
+    /// (det W)², which has to keep a share of ∏ |w|².
+    pub(super) fn share(&self) -> [Id; 2] {
+        self.share
+    }
+
+    /// Its constraints.
+    pub(super) fn rows(&self) -> &[usize] {
+        &self.rows
+    }
+
+    /// Puts W⁻¹ of its rows' `values` in their place.
+    pub(super) fn solve(&self, values: &mut [Id], g: &mut Graph) {
+        let own: Vec<Id> = self.rows.iter().map(|row| values[*row]).collect();
+        for (row, inverse) in self.rows.iter().zip(&self.inverse) {
+            values[*row] = combined(inverse, &own, g);
+        }
+    }
+
+    /// The joint with `rows` of `d`, whose rates `of` one body are to stand alone in them, `chosen` ones among these; which `d` is then
+    /// written with.
+    fn new(
+        rows: &[usize],
+        of: &[usize],
+        chosen: &[usize],
+        d: &mut Dynamics,
+        g: &mut Graph,
+    ) -> Self {
+        let zero = g.zero();
+        let entry = |d: &Dynamics, row: usize, i: usize| {
+            let entry = d.jacobian.get(&(row, i));
+            entry.copied().unwrap_or(zero)
+        };
+        let w = rows.iter().map(|row| {
+            let entries = chosen.iter().map(|k| entry(d, *row, of[*k]));
+            entries.collect::<Vec<Id>>()
+        });
+        let w: Vec<Vec<Id>> = w.collect();
+        let lengths = rows.iter().map(|row| {
+            let squares = of.iter().map(|i| (1.0, g.square(entry(d, *row, *i))));
+            let squares: Vec<(f64, Id)> = squares.collect();
+            (g.factored_sum(&squares), 1)
+        });
+        let lengths: Vec<(Id, i32)> = lengths.collect();
+        let determinant = determinant(&w, g);
+        let determinant = g.hold_whole(determinant);
+        let inverse = (0..rows.len()).map(|k| {
+            let cofactors = (0..rows.len()).map(|r| {
+                let sign = if (k + r) % 2 == 0 { 1.0 } else { -1.0 };
+                let cofactor = self::determinant(&without(&w, r, k), g);
+                let entry = g.div(cofactor, determinant);
+                let entry = g.hold_whole(entry);
+                g.scale(sign, entry)
+            });
+            cofactors.collect()
+        });
+        let joint = Joint {
+            rows: rows.to_vec(),
+            inverse: inverse.collect(),
+            share: [g.square(determinant), g.product(&lengths)],
+        };
+        let columns = rows.iter().flat_map(|row| {
+            let row = d.jacobian.range((*row, 0)..(*row + 1, 0));
+            row.map(|((_, i), _)| *i)
+        });
+        let columns: BTreeSet<usize> = columns.collect();
+        for i in columns {
+            let place = chosen.iter().position(|k| of[*k] == i);
+            let values = rows.iter().map(|row| entry(d, *row, i));
+            let values: Vec<Id> = values.collect();
+            for (k, row) in rows.iter().enumerate() {
+                let value = match place {
+                    Some(at) if at == k => g.one(),
+                    Some(_) => zero,
+                    None => combined(&joint.inverse[k], &values, g),
+                };
+                match g.is_zero(value) {
+                    true => drop(d.jacobian.remove(&(*row, i))),
+                    false => drop(d.jacobian.insert((*row, i), value)),
+                }
+            }
+        }
+        joint.solve(&mut d.rhs, g);
+        joint
+    }
+}
+
+/// Σ a b, as one value.
+fn combined(a: &[Id], b: &[Id], g: &mut Graph) -> Id {
+    let products: Vec<(f64, Id)> = a.iter().zip(b).map(|(a, b)| (1.0, g.mul(*a, *b))).collect();
+    let sum = g.factored_sum(&products);
+    let (c, sum) = g.unscaled(sum);
+    let sum = g.hold_whole(sum);
+    g.scale(c, sum)
+}
+
+/// `w` without its row `r` and its column `k`.
+fn without(w: &[Vec<Id>], r: usize, k: usize) -> Vec<Vec<Id>> {
+    let rows = w.iter().enumerate().filter(|(at, _)| *at != r);
+    let row = |row: &Vec<Id>| {
+        let others = row.iter().enumerate().filter(|(at, _)| *at != k);
+        others.map(|(_, id)| *id).collect()
+    };
+    rows.map(|(_, of)| row(of)).collect()
+}
+
+/// By cofactors of the first row: W has three rows at most.
+fn determinant(w: &[Vec<Id>], g: &mut Graph) -> Id {
+    let Some(first) = w.first() else {
+        return g.one();
+    };
+    let terms = first.iter().enumerate().map(|(k, entry)| {
+        let minor = determinant(&without(w, 0, k), g);
+        (if k % 2 == 0 { 1.0 } else { -1.0 }, g.mul(*entry, minor))
+    });
+    let terms: Vec<(f64, Id)> = terms.collect();
+    g.factored_sum(&terms)
+}
+
+/// Solves rows of joints for rates of `frames`; `d` are the equations in these, `held` those in coordinates. `defaults` are those of the
+/// parameters.
+pub(super) fn joints(
+    d: &mut Dynamics,
+    held: &Dynamics,
+    frames: &[Frame],
+    defaults: &[f64],
+    g: &mut Graph,
+) -> Vec<Joint> {
+    let mut found = Vec::new();
+    for (rows, ends) in outwards(groups(held, frames), frames.len()) {
+        let far = &frames[ends[1]];
+        let between = Rows {
+            rows: &rows,
+            far,
+            frames: ends.map(|k| &frames[k]),
+        };
+        if let Some(chosen) = between.rates(held, defaults, g) {
+            let rates = &far.coordinates()[1..];
+            found.push(Joint::new(&rows, rates, &chosen, d, g));
+        }
+    }
+    found
+}
+
+/// The holonomic rows between two frames, or one and what does not move, that contain nothing else.
+fn groups(held: &Dynamics, frames: &[Frame]) -> BTreeMap<[Option<usize>; 2], Vec<usize>> {
+    let mut of = vec![None; held.force.len()];
+    for (k, frame) in frames.iter().enumerate() {
+        frame.coordinates().iter().for_each(|i| of[*i] = Some(k));
+    }
+    let mut groups: BTreeMap<[Option<usize>; 2], Vec<usize>> = BTreeMap::new();
+    for row in (0..held.phi.len()).filter(|row| frames.iter().all(|f| f.row() != *row)) {
+        let entries = held.jacobian.range((row, 0)..(row + 1, 0));
+        let met: Option<BTreeSet<usize>> = entries.map(|((_, i), _)| of[*i]).collect();
+        match met
+            .map(|met| met.into_iter().collect::<Vec<usize>>())
+            .as_deref()
+        {
+            Some([one]) => groups.entry([None, Some(*one)]).or_default().push(row),
+            Some([one, two]) => groups
+                .entry([Some(*one), Some(*two)])
+                .or_default()
+                .push(row),
+            _ => {}
+        }
+    }
+    groups
+}
+
+/// The groups of rows from the ground outwards, so that no two are for the rates of one frame: each with the frame before it, and its own.
+fn outwards(
+    mut groups: BTreeMap<[Option<usize>; 2], Vec<usize>>,
+    frames: usize,
+) -> Vec<(Vec<usize>, [usize; 2])> {
+    let mut reached = vec![false; frames];
+    let mut found = Vec::new();
+    loop {
+        let inside = |of: &Option<usize>| of.is_none_or(|k| reached[k]);
+        let crossing = groups.keys().filter(|[a, b]| inside(a) != inside(b));
+        let crossing: Vec<_> = crossing.copied().collect();
+        if crossing.is_empty() {
+            // A part that does not hang on the ground hangs on its first body.
+            let Some(first) = groups.keys().flatten().flatten().find(|k| !reached[**k]) else {
+                return found;
+            };
+            reached[*first] = true;
+        }
+        for key in crossing {
+            let rows = groups.remove(&key).unwrap_or_default();
+            let ends: Vec<usize> = key.into_iter().flatten().collect();
+            if let Some(far) = ends.iter().find(|k| !reached[**k]) {
+                let near = ends.iter().find(|k| *k != far).unwrap_or(far);
+                found.push((rows, [*near, *far]));
+                reached[*far] = true;
+            }
+        }
+    }
+}
+
+/// Rows between two frames, or one and what does not move.
+struct Rows<'a> {
+    rows: &'a [usize],
+    /// Whose rates they are to be solved for.
+    far: &'a Frame,
+    frames: [&'a Frame; 2],
+}
+
+impl Rows<'_> {
+    /// The rates, by their places among those of the frame, for which the rows can be solved wherever they are met.
+    fn rates(&self, held: &Dynamics, defaults: &[f64], g: &Graph) -> Option<Vec<usize>> {
+        let choices = choices(self.rows.len())?;
+        let own = self.far.coordinates();
+        let columns = self.far.columns()[1..].iter();
+        let columns: Vec<Id> = columns.flatten().copied().collect();
+        let entries = self
+            .rows
+            .iter()
+            .flat_map(|row| own.iter().map(|i| (*row, *i)));
+        let entries = entries.map(|at| held.jacobian.get(&at).copied());
+        let entries: Vec<Option<Id>> = entries.collect();
+        let roots: Vec<Id> = columns
+            .iter()
+            .copied()
+            .chain(entries.iter().flatten().copied())
+            .collect();
+        let mut sweep = Sweep::new(g, &roots);
+        let mut random = Random::new(8);
+        let mut shares: Vec<Vec<f64>> = vec![Vec::new(); choices.len()];
+        for _ in 0..STATES {
+            let probe = Probe::signed(defaults, held.force.len(), &mut random);
+            let probe = self.met(probe, held, g)?;
+            let values = sweep.at(g, &probe.point());
+            let (columns, mut values) = (&values[..columns.len()], values[columns.len()..].iter());
+            let entries = entries
+                .iter()
+                .map(|a| a.map_or(Some(0.0), |_| values.next().copied()));
+            let entries: Vec<f64> = entries.collect::<Option<_>>()?;
+            let along = |row: &[f64], column: &[f64]| -> f64 {
+                row.iter().zip(column).map(|(a, c)| a * c).sum()
+            };
+            let rows = entries.chunks(own.len());
+            let rows = rows.map(|row| columns.chunks(own.len()).map(|c| along(row, c)).collect());
+            let rows: Vec<Vec<f64>> = rows.collect();
+            let lengths = rows.iter().map(|row| along(row, row).sqrt());
+            let whole: f64 = lengths.product();
+            for (choice, shares) in choices.iter().zip(&mut shares) {
+                shares.push(numeric(&rows, choice).abs() / whole);
+            }
+        }
+        let least = |at: &usize| shares[*at].iter().fold(f64::INFINITY, |s, x| s.min(*x));
+        let most = |at: &usize| shares[*at].iter().fold(0.0_f64, |s, x| s.max(*x));
+        let steady = |at: &usize| least(at) >= LEAST && most(at) - least(at) <= VARIES;
+        let best = (0..choices.len()).filter(steady);
+        let best = best.max_by(|a, b| least(a).total_cmp(&least(b)).then(b.cmp(a)))?;
+        Some(choices[best].clone())
+    }
+
+    /// A state near `probe` at which the rows are met.
+    fn met<'p>(&self, probe: Probe<'p>, held: &Dynamics, g: &Graph) -> Option<Probe<'p>> {
+        let units = self.frames.map(Frame::row);
+        let all: BTreeSet<usize> = self.rows.iter().copied().chain(units).collect();
+        let phi: Vec<Id> = all.iter().map(|row| held.phi[*row]).collect();
+        let jacobian = all.iter().enumerate().flat_map(|(k, row)| {
+            let entries = held.jacobian.range((*row, 0)..(*row + 1, 0));
+            entries.map(move |((_, i), a)| ((k, *i), *a))
+        });
+        met(&phi, &jacobian.collect(), probe, g)
+    }
+}
+
+/// Which of three rates as many rows may be solved for.
+fn choices(rows: usize) -> Option<Vec<Vec<usize>>> {
+    let choices: &[&[usize]] = match rows {
+        1 => &[&[0], &[1], &[2]],
+        2 => &[&[0, 1], &[0, 2], &[1, 2]],
+        3 => &[&[0, 1, 2]],
+        _ => return None,
+    };
+    Some(choices.iter().map(|choice| choice.to_vec()).collect())
+}
+
+/// The determinant of the columns `chosen`.
+fn numeric(rows: &[Vec<f64>], chosen: &[usize]) -> f64 {
+    let Some((first, rest)) = rows.split_first() else {
+        return 1.0;
+    };
+    let terms = chosen.iter().enumerate().map(|(k, column)| {
+        let others = chosen.iter().filter(|other| *other != column);
+        let others: Vec<usize> = others.copied().collect();
+        let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
+        sign * first[*column] * numeric(rest, &others)
+    });
+    terms.sum()
+}
