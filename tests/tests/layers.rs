@@ -155,11 +155,13 @@ fn ukcore() {
             "model",
             "linearise",
             "modes",
+            "nearby",
             "equilibrium",
             "integrate",
             "events",
             "trajectory",
             "simulate",
+            "verify",
         ],
     );
 }

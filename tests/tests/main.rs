@@ -45,3 +45,4 @@ mod tree;
 mod turned;
 mod vanishing;
 mod vectors;
+mod verify;

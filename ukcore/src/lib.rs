@@ -46,6 +46,7 @@ pub mod mechanism;
 mod metric;
 pub mod model;
 mod modes;
+mod nearby;
 mod noise;
 pub mod numbers;
 mod pinv;
@@ -59,6 +60,7 @@ pub mod solver;
 pub mod spec;
 mod start;
 mod trajectory;
+mod verify;
 mod zero;
 
 pub use assemble::{State, assemble};
@@ -73,6 +75,7 @@ pub use simulate::Ensemble;
 pub use simulate::{Event, Failure, Method, Simulation, Trajectory};
 pub use solver::{Solution, Solver, SolverOptions};
 pub use ukmacros::multibody;
+pub use verify::{Unverified, Verified, verify};
 
 /// What emitted code calls. Not for other use.
 #[doc(hidden)]

@@ -205,6 +205,9 @@ pub struct Structure {
     pub loaded: bool,
     /// A `potential` section exists.
     pub potential: bool,
+    /// Coordinates whose Q is more than Lagrange's equations make of T and V: a `force` is declared on them, or M varies and is not from
+    /// `kinetic`.
+    pub forced: &'static [usize],
     /// T + V is conserved: scleronomic, no `force` and no `nonideal`, nonholonomic constraints homogeneous in q̇, and M either constant or
     /// from `kinetic`.
     pub conservative: bool,
@@ -414,6 +417,7 @@ impl Structure {
         nonideal: false,
         loaded: false,
         potential: false,
+        forced: &[],
         conservative: false,
         left_out: &[],
         costs: Costs::NONE,

@@ -6,6 +6,19 @@ use catalogue::{
 use ukcore::model::Model;
 use ukcore::{Solver, SolverOptions};
 
+ukcore::verify!(
+    Andrews,
+    Arm,
+    Bicycle,
+    Bricard,
+    Governor,
+    HeavyTop,
+    JansenLeg,
+    RollingDisc,
+    Stewart,
+    Walker
+);
+
 #[test]
 fn mechanisms_have_the_freedoms_counted_by_hand() {
     fn check<M: Model>(freedoms: usize, redundant: usize) {
