@@ -3,9 +3,11 @@
 mod allocation;
 mod assembly;
 mod bodies;
+mod branches;
 mod certificate;
 mod closed_forms;
 mod derivatives;
+mod diagnosis;
 mod drawing;
 mod ensemble;
 mod equilibrium;

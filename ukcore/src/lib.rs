@@ -6,12 +6,13 @@
 //!
 //! - [`Solver`]: accelerations, constraint forces and multipliers at a state, for regular and singular M, for redundant
 //!   constraints, with ideal and non-ideal constraint forces. Without heap allocation once it is made.
-//! - [`assemble`](assemble()): a consistent state from a rough guess. [`manifold::Projector`]: the nearest consistent state.
+//! - [`assemble`](assemble()): a consistent state from a rough guess; [`branches`](branches()): the other ways to put it together. [`manifold::Projector`]: the nearest consistent state.
 //! - [`Simulation`]: adaptive integration with projection, events, dense output and named CSV; `Ensemble` (feature `ensemble`): many
 //!   motions at once, in
 //!   lanes and on all cores.
 //! - [`Linearisation`]: exact derivatives of the accelerations. [`equilibrium`](equilibrium()): where a mechanism rests; [`modes`](modes()):
-//!   how it vibrates. [`lanes`]: several mechanisms at once, in the lanes of wide numbers.
+//!   how it vibrates. [`diagnose`](diagnose()): degrees of freedom, what follows from what, singular positions. [`verify!`]: a test of the
+//!   emitted code. [`lanes`]: several mechanisms at once, in the lanes of wide numbers.
 //! - [`equations`]: the formulas as printed. [`spec`] and [`plan`]: what the compiler knows about a mechanism, and decided. [`model`]: what
 //!   a mechanism may
 //!   say of itself besides.
@@ -28,8 +29,10 @@
 #![deny(missing_docs)]
 
 pub mod assemble;
+mod branches;
 mod dense;
-pub mod diagnose;
+mod diagnose;
+mod diagnosis;
 pub mod equations;
 mod equilibrium;
 mod error;
@@ -64,6 +67,8 @@ mod verify;
 mod zero;
 
 pub use assemble::{State, assemble};
+pub use branches::{Assembled, branches};
+pub use diagnosis::{Diagnosis, Redundant, diagnose, diagnose_along};
 pub use equilibrium::{Equilibrium, Stability, equilibrium};
 pub use error::Error;
 pub use linearise::Linearisation;

@@ -105,11 +105,14 @@ macro_rules! verify {
     };
 }
 
+/// A number with two derivatives.
+type Twice = Dual<Dual>;
+
 /// What is emitted as it was declared, in numbers with derivatives that nothing else takes them in.
 #[derive(Clone, Copy)]
 struct Declared {
     energy: fn(&Prepared, Dual, &[Dual], &[Dual]) -> Energy<Dual>,
-    residual: fn(&Prepared, Dual<Dual>, &[Dual<Dual>]) -> Vec<Dual<Dual>>,
+    residual: fn(&Prepared, Twice, &[Twice]) -> Vec<Twice>,
 }
 
 impl Declared {

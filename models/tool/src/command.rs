@@ -10,6 +10,7 @@ use ukcore::Error;
 use ukcore::model::Entry;
 
 use crate::animate::{AnimateArgs, animate};
+use crate::diagnose::{DiagnoseArgs, diagnose};
 use crate::explain::{ExplainArgs, explain};
 use crate::failure::Failure;
 use crate::list::list;
@@ -33,6 +34,9 @@ pub enum Command {
     Animate(AnimateArgs),
     /// Show where a model rests next to its start, and how it vibrates there: frequencies, growth, shapes
     Modes(ModesArgs),
+    /// Show degrees of freedom, which constraints follow from which, which reactions are unique, how near a run comes to a singular
+    /// position, and whether the start could be put together otherwise
+    Diagnose(DiagnoseArgs),
     /// Show what is known about a model: M, Q, A, b, rank, degrees of freedom, how its motion is computed; or the emitted code
     Explain(ExplainArgs),
     /// Measure error against run time, for each method, formula and stabilisation, and say which to take for which accuracy
@@ -50,6 +54,7 @@ impl Command {
             Command::Run(args) => run(models, args),
             Command::Animate(args) => animate(models, args),
             Command::Modes(args) => modes(models, args),
+            Command::Diagnose(args) => diagnose(models, args),
             Command::Explain(args) => explain(models, args),
             Command::Report(args) => report(models, args),
         }

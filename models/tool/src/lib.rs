@@ -1,6 +1,6 @@
 //! Tools for mechanisms declared with [`ukcore::multibody!`]: commands, pages, plots.
 //!
-//! [`main!`] beside a declaration makes a program of it, with the commands `list`, `run`, `animate`, `modes`, `explain` and `report`:
+//! [`main!`] beside a declaration makes a program of it, with the commands `list`, `run`, `animate`, `modes`, `diagnose`, `explain` and `report`:
 //!
 //! ```no_run
 //! ukcore::multibody! {
@@ -23,7 +23,8 @@
 //! `cargo run -- run cart --set angle=50deg --until 2 --csv -` then prints its motion, and `cargo run -- animate cart` makes a page that shows
 //! it. A mechanism that implements [`ukcore::model::Model`] has further starts, a duration and references of its own besides.
 //!
-//! Programs of other shape call functions: [`list`](list::list), [`run`](run::run), [`animate`](animate::animate), [`modes`](modes::modes), [`explain`](explain::explain),
+//! Programs of other shape call functions: [`list`](list::list), [`run`](run::run), [`animate`](animate::animate), [`modes`](modes::modes),
+//! [`diagnose`](diagnose::diagnose), [`explain`](explain::explain),
 //! [`report`](report::report) and [`stability`](stability::stability) take models as [`Entry`], or cases, and their arguments; [`plot`]
 //! draws charts and [`html`] makes pages.
 
@@ -32,6 +33,7 @@
 
 pub mod animate;
 pub mod command;
+pub mod diagnose;
 pub mod drift;
 pub mod explain;
 pub mod failure;
@@ -54,7 +56,7 @@ pub mod units;
 pub use ukcore::model::Entry;
 
 /// The whole of a program for the mechanisms declared beside it: a `main` function with the commands `list`, `run`, `animate`,
-/// `modes`, `explain` and `report`.
+/// `modes`, `diagnose`, `explain` and `report`.
 ///
 /// The mechanisms are called like their types, in lower case and with dashes (`Cart` as `cart`, `UChain` as `u-chain`), and have the starts
 /// that they declare; unless they implement [`ukcore::model::Model`] and say more of themselves. See the [crate] for an example.
