@@ -132,7 +132,7 @@ fn it_is_explained_with_a_guess_and_without() {
     let text = output(&format!("explain cart {GUESS}"));
     for part in [
         "M[s, s] = big",
-        "A[x] = ",
+        "A[rod, x] = ",
         "degrees of freedom: 2",
         "At the start `assembled`",
     ] {
