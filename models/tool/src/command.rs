@@ -17,6 +17,7 @@ use crate::list::list;
 use crate::modes::{ModesArgs, modes};
 use crate::report::{ReportArgs, report};
 use crate::run::{RunArgs, run};
+use crate::stability::{ModelArgs, of_model};
 
 /// The exit codes, and how values are written: the end of `--help`.
 pub const HELP: &str = "\
@@ -41,6 +42,9 @@ pub enum Command {
     Explain(ExplainArgs),
     /// Measure error against run time, for each method, formula and stabilisation, and say which to take for which accuracy
     Report(ReportArgs),
+    /// Sweep each parameter, the speed of the start and the tolerance until something breaks: how far results are right, and what is said
+    /// beyond
+    Stability(ModelArgs),
 }
 
 impl Command {
@@ -57,6 +61,7 @@ impl Command {
             Command::Diagnose(args) => diagnose(models, args),
             Command::Explain(args) => explain(models, args),
             Command::Report(args) => report(models, args),
+            Command::Stability(args) => of_model(models, args),
         }
     }
 }

@@ -184,7 +184,7 @@ impl<'m> Lowering<'m> {
             return Value::Error;
         };
         let (rows, shape) = (rows.clone(), shape.clone());
-        // Rows that keep a point at a point: their multipliers are the force's components. A wheel in space has rows in two directions alone.
+        // Rows that keep a point at a point, along all axes: their multipliers are the force's components.
         let axes = names.iter().zip(["x", "y", "z"]);
         let axes = axes.take_while(|(name, axis)| *name == axis).count();
         let Some(Pushed { centre, sign }) = force.clone() else {
