@@ -156,6 +156,7 @@ fn ukcore() {
             "modes",
             "nearby",
             "branches",
+            "inverse",
             "diagnosis",
             "explain",
             "equilibrium",

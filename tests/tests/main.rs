@@ -16,6 +16,7 @@ mod fallback;
 mod formulas;
 mod integrals;
 mod invariants;
+mod inverse;
 mod joints;
 mod kinks;
 mod lanes;

@@ -11,7 +11,8 @@
 //!   motions at once, in
 //!   lanes and on all cores.
 //! - [`Linearisation`]: exact derivatives of the accelerations. [`equilibrium`](equilibrium()): where a mechanism rests; [`modes`](modes()):
-//!   how it vibrates. [`diagnose`](diagnose()): degrees of freedom, what follows from what, singular positions. [`verify!`]: a test of the
+//!   how it vibrates. [`diagnose`](diagnose()): degrees of freedom, what follows from what, singular positions. [`inverse`](inverse()): what it takes to drive
+//!   it. [`verify!`]: a test of the
 //!   emitted code. [`lanes`]: several mechanisms at once, in the lanes of wide numbers.
 //! - [`equations`]: the formulas as printed. [`spec`] and [`plan`]: what the compiler knows about a mechanism, and decided. [`model`]: what
 //!   a mechanism may
@@ -41,6 +42,7 @@ pub mod explain;
 #[cfg(test)]
 mod fixture;
 mod integrate;
+mod inverse;
 pub mod lanes;
 mod linearise;
 mod lu;
@@ -71,6 +73,7 @@ pub use branches::{Assembled, branches};
 pub use diagnosis::{Diagnosis, Redundant, diagnose, diagnose_along};
 pub use equilibrium::{Equilibrium, Stability, equilibrium};
 pub use error::Error;
+pub use inverse::{Effort, inverse};
 pub use linearise::Linearisation;
 pub use manifold::Stabilisation;
 pub use mechanism::{Mechanism, Prepared};

@@ -522,6 +522,24 @@ impl Spec {
         find("output", name, self.outputs.iter().map(|o| o.name))
     }
 
+    /// Indices of the rows that the constraint called `name` has, or of the row of this name (`p.x`, `link[3]`).
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name.
+    pub fn constraint_indices(&self, name: &str) -> Result<Vec<usize>, Error> {
+        let belongs = |full: &str| {
+            let rest = full.strip_prefix(name);
+            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+        };
+        let rows = self.constraints.iter().enumerate();
+        let rows = rows.filter(|(_, c)| belongs(c.name)).map(|(row, _)| row);
+        let rows: Vec<usize> = rows.collect();
+        match rows.is_empty() {
+            true => Ok(vec![self.constraint_index(name)?]),
+            false => Ok(rows),
+        }
+    }
+
     /// Index of the constraint called `name`.
     ///
     /// # Errors

@@ -293,3 +293,30 @@ fn it_is_swept_until_it_breaks() {
     assert!(place.join("index.html").exists() && place.join("stability.svg").exists());
     fails("stability carts", 2, "did you mean `cart`?");
 }
+
+#[test]
+fn constraints_are_diagnosed() {
+    let told = output("diagnose cart --until 0.2");
+    let lines: Vec<&str> = told.lines().collect();
+    assert_eq!(
+        lines[..3],
+        [
+            "cart at `released`: 3 coordinates, 1 constraint of rank 1: 2 degrees of freedom",
+            "all reactions are unique",
+            "",
+        ],
+        "{told}"
+    );
+    fails(
+        "inverse cart",
+        2,
+        "no constraint of `cart` prescribes a motion in time",
+    );
+    fails(
+        "inverse cart --motor rd",
+        1,
+        "no constraint is called `rd`; did you mean `rod`?",
+    );
+    let rod = output("inverse cart --motor rod --until 0.2 --csv");
+    assert!(rod.starts_with("t,rod,power(rod)\n0,"), "{rod}");
+}

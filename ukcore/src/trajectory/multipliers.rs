@@ -3,6 +3,7 @@
 use super::{Sample, Trajectory};
 use crate::diagnosis::{Relation, measured_rows, relations};
 use crate::error::Error;
+use crate::inverse::{Effort, inverse};
 use crate::solver::{Solution, Solver};
 
 impl Trajectory {
@@ -16,17 +17,7 @@ impl Trajectory {
     /// # Errors
     /// [`Error::UnknownName`] with the nearest name; what the solver reports, with the sample ([`Error::At`]).
     pub fn multipliers(&self, name: &str) -> Result<Vec<Vec<f64>>, Error> {
-        let spec = self.spec();
-        let belongs = |full: &str| {
-            let rest = full.strip_prefix(name);
-            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
-        };
-        let rows = spec.constraints.iter().enumerate();
-        let rows = rows.filter(|(_, c)| belongs(c.name)).map(|(row, _)| row);
-        let mut rows: Vec<usize> = rows.collect();
-        if rows.is_empty() {
-            rows.push(spec.constraint_index(name)?);
-        }
+        let rows = self.spec().constraint_indices(name)?;
         let mut solver = Solver::new(self.mechanism(), self.options);
         let mut values = |s: Sample<'_>| {
             let solution = solver.solve(s.t, s.q, s.v);
@@ -39,6 +30,18 @@ impl Trajectory {
             Ok(rows.iter().map(value).collect())
         };
         self.samples().map(&mut values).collect()
+    }
+
+    /// The efforts of the constraints `motors` at the samples, as [`inverse`](crate::inverse()) has them, a vector for each.
+    ///
+    /// # Errors
+    /// What [`inverse`](crate::inverse()) reports, with the sample ([`Error::At`]).
+    pub fn efforts(&self, motors: &[&str]) -> Result<Vec<Vec<Effort>>, Error> {
+        let efforts = |s: Sample<'_>| {
+            let found = inverse(self.mechanism(), &s.to_state(), motors);
+            found.map_err(|error| s.locate(error))
+        };
+        self.samples().map(efforts).collect()
     }
 
     /// Of each constraint, whether its multiplier is unique: no combination of rows of A that vanishes has it.
