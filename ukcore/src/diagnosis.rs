@@ -45,6 +45,22 @@ pub struct Diagnosis {
     pub nearest: Vec<String>,
 }
 
+impl Diagnosis {
+    /// In a sentence, the constraints that come nearest to depending on each other, and by which margin; `None` where there are no two.
+    #[must_use]
+    pub fn nearness(&self) -> Option<String> {
+        let margin = match self.margin {
+            x if x < 1e-3 => format!("{x:.1e}"),
+            x => format!("{x:.3}"),
+        };
+        let rows = quoted(&self.nearest);
+        let told = format!(
+            "nearest to depend on each other: {rows}, by a margin of {margin}; at a singular position it is 0"
+        );
+        (!self.nearest.is_empty()).then_some(told)
+    }
+}
+
 /// A constraint that others imply.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Redundant {
@@ -289,18 +305,10 @@ impl fmt::Display for Diagnosis {
             rows if rows.len() == *constraints => write!(f, "\nno reaction is unique")?,
             rows => write!(f, "\nreactions are unique but for {}", quoted(rows))?,
         }
-        if self.only_here.is_empty() && !self.nearest.is_empty() {
-            let (margin, rows) = (self.margin, quoted(&self.nearest));
-            let margin = match margin {
-                x if x < 1e-3 => format!("{x:.1e}"),
-                x => format!("{x:.3}"),
-            };
-            write!(
-                f,
-                "\nnearest to depend on each other: {rows}, by a margin of {margin}; at a singular position it is 0"
-            )?;
+        match self.nearness() {
+            Some(nearness) if self.only_here.is_empty() => write!(f, "\n{nearness}"),
+            _ => Ok(()),
         }
-        Ok(())
     }
 }
 
@@ -313,7 +321,23 @@ impl fmt::Display for Redundant {
     }
 }
 
+/// The names in quotes; rows of one joint by the name of the joint, where there are several.
 fn quoted(names: &[String]) -> String {
-    let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
-    names.join(", ")
+    let joint = |name: &str| name.rsplit_once('.').map(|(joint, _)| joint.to_owned());
+    let mut listed: Vec<String> = Vec::new();
+    for name in names {
+        let several = |own: &String| {
+            names
+                .iter()
+                .filter(|n| joint(n).as_ref() == Some(own))
+                .count()
+                > 1
+        };
+        let shown = joint(name).filter(several).unwrap_or_else(|| name.clone());
+        let shown = format!("`{shown}`");
+        if !listed.contains(&shown) {
+            listed.push(shown);
+        }
+    }
+    listed.join(", ")
 }

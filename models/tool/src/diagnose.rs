@@ -51,15 +51,13 @@ pub fn diagnose(models: &[Entry], args: &DiagnoseArgs) -> Result<(), Failure> {
         if let Some(found) = &branches {
             tell(out, mech.spec().coords, found)?;
         }
-        match nearest.filter(|nearest| nearest.t != here.t) {
-            Some(nearest) => {
-                let t = full(nearest.t);
-                writeln!(
-                    out,
-                    "\nof its run nearest to a singular position at t = {t} s: {nearest}"
-                )
-            }
-            None => Ok(()),
+        let Some(nearest) = nearest.filter(|nearest| nearest.t != here.t) else {
+            return Ok(());
+        };
+        let t = full(nearest.t);
+        match nearest.nearness().filter(|_| nearest.rank == here.rank) {
+            Some(nearness) => writeln!(out, "of its run at t = {t} s {nearness}"),
+            None => writeln!(out, "\nof its run at t = {t} s: {nearest}"),
         }
     })?;
     error.map_or(Ok(()), |error| Err(error.into()))

@@ -296,16 +296,9 @@ fn it_is_swept_until_it_breaks() {
 
 #[test]
 fn constraints_are_diagnosed() {
-    let told = output("diagnose cart --until 0.2");
-    let lines: Vec<&str> = told.lines().collect();
     assert_eq!(
-        lines[..3],
-        [
-            "cart at `released`: 3 coordinates, 1 constraint of rank 1: 2 degrees of freedom",
-            "all reactions are unique",
-            "",
-        ],
-        "{told}"
+        output("diagnose cart --until 0.2"),
+        "cart at `released`: 3 coordinates, 1 constraint of rank 1: 2 degrees of freedom\nall reactions are unique\n"
     );
     fails(
         "inverse cart",
@@ -314,7 +307,7 @@ fn constraints_are_diagnosed() {
     );
     fails(
         "inverse cart --motor rd",
-        1,
+        2,
         "no constraint is called `rd`; did you mean `rod`?",
     );
     let rod = output("inverse cart --motor rod --until 0.2 --csv");

@@ -35,8 +35,11 @@ impl Trajectory {
     /// The efforts of the constraints `motors` at the samples, as [`inverse`](crate::inverse()) has them, a vector for each.
     ///
     /// # Errors
-    /// What [`inverse`](crate::inverse()) reports, with the sample ([`Error::At`]).
+    /// [`Error::UnknownName`] with the nearest name; what the solver reports, with the sample ([`Error::At`]).
     pub fn efforts(&self, motors: &[&str]) -> Result<Vec<Vec<Effort>>, Error> {
+        for name in motors {
+            self.spec().constraint_indices(name)?;
+        }
         let efforts = |s: Sample<'_>| {
             let found = inverse(self.mechanism(), &s.to_state(), motors);
             found.map_err(|error| s.locate(error))
