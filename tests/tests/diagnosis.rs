@@ -50,7 +50,7 @@ fn redundant(name: &str, follows_from: &[&str]) -> Redundant {
 
 #[test]
 fn what_follows_from_what_is_told() {
-    let found = diagnose(&Sum::default(), &at(&[0.6, -0.8, 1.2, -1.6, 0.5])).unwrap();
+    let found = diagnose(Sum::default(), &at(&[0.6, -0.8, 1.2, -1.6, 0.5])).unwrap();
     assert_eq!((found.rank, found.degrees_of_freedom), (3, 2));
     assert_eq!(found.redundant, [redundant("both", &["upper", "lower"])]);
     assert_eq!(found.undetermined, ["upper", "lower", "both"]);
@@ -80,7 +80,7 @@ fn the_margin_is_that_of_the_angle_between_rows() {
     }
     for angle in [0.0, 0.4, 1.3, std::f64::consts::FRAC_PI_2] {
         let (s, c) = f64::sin_cos(angle);
-        let found = diagnose(&Double::default(), &at(&[1.0, 0.0, 1.0 + c, s])).unwrap();
+        let found = diagnose(Double::default(), &at(&[1.0, 0.0, 1.0 + c, s])).unwrap();
         let expected = (1.0 - c / 2.0_f64.sqrt()).sqrt();
         assert_close("margin", found.margin, expected, 1e-12);
         if c > 0.1 {
