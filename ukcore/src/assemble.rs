@@ -134,7 +134,7 @@ pub(crate) struct Held {
 }
 
 impl Held {
-    fn both(coordinates: Vec<usize>) -> Self {
+    pub(crate) fn both(coordinates: Vec<usize>) -> Self {
         Held {
             positions: coordinates.clone(),
             velocities: coordinates,
@@ -216,14 +216,14 @@ fn blame(mech: &Prepared, guess: &State, held: &Held, mut error: Error) -> Error
 }
 
 /// The search for q, then for q̇.
-struct Search {
-    manifold: Manifold,
+pub(crate) struct Search {
+    pub(crate) manifold: Manifold,
     /// Coordinates that may change.
-    free: Vec<usize>,
+    pub(crate) free: Vec<usize>,
 }
 
 impl Search {
-    fn new(mech: &Prepared, guess: &State, held: &[usize]) -> Self {
+    pub(crate) fn new(mech: &Prepared, guess: &State, held: &[usize]) -> Self {
         let n = mech.spec().n();
         let mut mass = vec![0.0; n * n];
         mech.mass_matrix(guess.t, &guess.q, &mut mass);
@@ -240,7 +240,7 @@ impl Search {
     }
 
     /// The solution for one level; tries the guess, then perturbations of it.
-    fn find(&mut self, at: &At<'_, f64>, guess: &[f64]) -> Result<Vec<f64>, Error> {
+    pub(crate) fn find(&mut self, at: &At<'_, f64>, guess: &[f64]) -> Result<Vec<f64>, Error> {
         let mut x = guess.to_vec();
         if at.linear() && self.manifold.project(at, &mut x).is_ok() {
             return Ok(x);

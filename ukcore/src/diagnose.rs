@@ -1,7 +1,5 @@
 //! From rank facts to the modeller's words.
 
-use std::fmt;
-
 use nalgebra::Matrix3;
 
 use crate::error::Error;
@@ -12,50 +10,6 @@ use crate::spec::Spec;
 /// A coordinate or constraint takes part in a finding if its share is at least this much of the largest one's. Shares that are
 /// zero in exact arithmetic are below 1e-12 (rounding over the smallest pivot taken as regular); true ones are seldom below 1e-3.
 pub(crate) const PARTICIPATION: f64 = 1e-6;
-
-/// What a mechanism's constraints amount to at one state.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Diagnosis {
-    /// Number n of coordinates.
-    pub coordinates: usize,
-    /// Number m of constraints.
-    pub constraints: usize,
-    /// Rank of A.
-    pub rank: usize,
-    /// n − rank A.
-    pub degrees_of_freedom: usize,
-    /// Names of constraints that the others imply.
-    pub redundant: Vec<String>,
-}
-
-impl Diagnosis {
-    /// The diagnosis for `spec` with A of rank `rank` and the constraints `redundant` (indices) implied by the others.
-    #[must_use]
-    pub fn new(spec: &Spec, rank: usize, redundant: &[usize]) -> Self {
-        let names = redundant.iter().filter_map(|&i| spec.constraints.get(i));
-        Diagnosis {
-            coordinates: spec.n(),
-            constraints: spec.m(),
-            rank,
-            degrees_of_freedom: spec.n().saturating_sub(rank),
-            redundant: names.map(|c| c.name.to_owned()).collect(),
-        }
-    }
-}
-
-impl fmt::Display for Diagnosis {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "{} coordinates, {} constraints of rank {}, {} degrees of freedom",
-            self.coordinates, self.constraints, self.rank, self.degrees_of_freedom
-        )?;
-        match self.redundant.len() {
-            0 => Ok(()),
-            _ => write!(f, "; implied by the others: {}", self.redundant.join(", ")),
-        }
-    }
-}
 
 /// Names of the coordinates whose share is significant.
 pub(crate) fn participating(spec: &Spec, shares: &[f64]) -> Vec<String> {

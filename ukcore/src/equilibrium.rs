@@ -11,7 +11,7 @@ use crate::assemble::{Held, State, assembled, held};
 use crate::error::Error;
 use crate::linearise::Linearisation;
 use crate::mechanism::Prepared;
-use crate::modes::{Mode, mass_matrix, modes, null_space, units};
+use crate::modes::{Mode, constraint_matrix, mass_matrix, modes, null_space, units};
 use crate::solver::{Solver, SolverOptions};
 
 /// A rest position.
@@ -216,12 +216,9 @@ impl Search {
     fn basis(&self, state: &State, units: &DVector<f64>) -> DMatrix<f64> {
         let spec = self.mech.spec();
         let (n, m) = (spec.n(), spec.m());
-        let mut jacobian = vec![0.0; m * n];
-        self.mech
-            .jacobian(state.t, &state.q, &state.v, &mut jacobian);
         let mut rows = DMatrix::zeros(m + self.held.len(), n);
         rows.view_mut((0, 0), (m, n))
-            .copy_from(&DMatrix::from_vec(m, n, jacobian));
+            .copy_from(&constraint_matrix(&self.mech, state));
         for (k, j) in self.held.iter().enumerate() {
             rows[(m + k, *j)] = 1.0;
         }

@@ -3,6 +3,7 @@
 use std::fmt::{self, Formatter};
 
 use crate::assemble::State;
+use crate::diagnosis::{Diagnosis, Redundant, diagnose};
 use crate::error::Error;
 use crate::mechanism::Prepared;
 use crate::numbers::{fixed, short};
@@ -22,7 +23,7 @@ pub struct Explanation {
 struct Start {
     name: String,
     state: State,
-    solution: Option<Solution>,
+    found: Option<(Solution, Diagnosis)>,
 }
 
 /// Decimals of values.
@@ -44,14 +45,18 @@ impl Explanation {
     pub fn at(mut self, name: &str, state: &State) -> (Self, Result<(), Error>) {
         let mut solver = Solver::new(&self.mechanism, SolverOptions::default());
         let solution = solver.solve(state.t, &state.q, &state.v);
-        let (solution, result) = match solution {
-            Ok(solution) => (Some(solution), Ok(())),
+        let found = solution.and_then(|solution| {
+            let diagnosis = diagnose(&self.mechanism, state)?;
+            Ok((solution, diagnosis))
+        });
+        let (found, result) = match found {
+            Ok(found) => (Some(found), Ok(())),
             Err(error) => (None, Err(error)),
         };
         self.start = Some(Start {
             name: name.to_owned(),
             state: state.clone(),
-            solution,
+            found,
         });
         (self, result)
     }
@@ -214,15 +219,17 @@ fn structure(f: &mut Formatter<'_>, spec: &Spec) -> fmt::Result {
 }
 
 fn at_start(f: &mut Formatter<'_>, spec: &Spec, start: &Start) -> fmt::Result {
-    let Some(solution) = &start.solution else {
+    let Some((solution, diagnosis)) = &start.found else {
         return Ok(());
     };
-    let redundant = solution.redundant.iter();
-    let redundant = listed(redundant.map(|&i| spec.constraints[i].name));
-    let redundant = if redundant.is_empty() {
-        "none"
-    } else {
-        &redundant
+    let redundant: Vec<String> = diagnosis
+        .redundant
+        .iter()
+        .map(Redundant::to_string)
+        .collect();
+    let redundant = match redundant.is_empty() {
+        true => "none".to_owned(),
+        false => redundant.join("; "),
     };
     writeln!(
         f,

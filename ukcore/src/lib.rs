@@ -6,12 +6,14 @@
 //!
 //! - [`Solver`]: accelerations, constraint forces and multipliers at a state, for regular and singular M, for redundant
 //!   constraints, with ideal and non-ideal constraint forces. Without heap allocation once it is made.
-//! - [`assemble`](assemble()): a consistent state from a rough guess. [`manifold::Projector`]: the nearest consistent state.
+//! - [`assemble`](assemble()): a consistent state from a rough guess; [`branches`](branches()): the other ways to put it together. [`manifold::Projector`]: the nearest consistent state.
 //! - [`Simulation`]: adaptive integration with projection, events, dense output and named CSV; `Ensemble` (feature `ensemble`): many
 //!   motions at once, in
 //!   lanes and on all cores.
 //! - [`Linearisation`]: exact derivatives of the accelerations. [`equilibrium`](equilibrium()): where a mechanism rests; [`modes`](modes()):
-//!   how it vibrates. [`lanes`]: several mechanisms at once, in the lanes of wide numbers.
+//!   how it vibrates. [`diagnose`](diagnose()): degrees of freedom, what follows from what, singular positions. [`inverse`](inverse()): what it takes to drive
+//!   it. [`verify!`]: a test of the
+//!   emitted code. [`lanes`]: several mechanisms at once, in the lanes of wide numbers.
 //! - [`equations`]: the formulas as printed. [`spec`] and [`plan`]: what the compiler knows about a mechanism, and decided. [`model`]: what
 //!   a mechanism may
 //!   say of itself besides.
@@ -28,8 +30,10 @@
 #![deny(missing_docs)]
 
 pub mod assemble;
+mod branches;
 mod dense;
-pub mod diagnose;
+mod diagnose;
+mod diagnosis;
 pub mod equations;
 mod equilibrium;
 mod error;
@@ -38,6 +42,7 @@ pub mod explain;
 #[cfg(test)]
 mod fixture;
 mod integrate;
+mod inverse;
 pub mod lanes;
 mod linearise;
 mod lu;
@@ -46,6 +51,7 @@ pub mod mechanism;
 mod metric;
 pub mod model;
 mod modes;
+mod nearby;
 mod noise;
 pub mod numbers;
 mod pinv;
@@ -59,11 +65,15 @@ pub mod solver;
 pub mod spec;
 mod start;
 mod trajectory;
+mod verify;
 mod zero;
 
 pub use assemble::{State, assemble};
+pub use branches::{Assembled, branches};
+pub use diagnosis::{Diagnosis, Redundant, diagnose, diagnose_along};
 pub use equilibrium::{Equilibrium, Stability, equilibrium};
 pub use error::Error;
+pub use inverse::{Effort, inverse};
 pub use linearise::Linearisation;
 pub use manifold::Stabilisation;
 pub use mechanism::{Mechanism, Prepared};
@@ -73,6 +83,7 @@ pub use simulate::Ensemble;
 pub use simulate::{Event, Failure, Method, Simulation, Trajectory};
 pub use solver::{Solution, Solver, SolverOptions};
 pub use ukmacros::multibody;
+pub use verify::{Unverified, Verified, verify};
 
 /// What emitted code calls. Not for other use.
 #[doc(hidden)]

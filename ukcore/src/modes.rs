@@ -6,7 +6,7 @@
 //! eigenvalues of R = Zᵀ F Z are those of the mechanism alone: n coordinates bound by constraints have no eigenvalues of their own.
 //! Coordinates are measured by the root of their inertia, so that metres and radians are comparable.
 
-use nalgebra::{Complex, DMatrix, DVector};
+use nalgebra::{ColPivQR, Complex, DMatrix, DVector, Dyn};
 
 use crate::assemble::State;
 use crate::error::Error;
@@ -16,7 +16,7 @@ use crate::scalar::{Scalar, Sloped, Slopes};
 use crate::solver::{Solver, SolverOptions};
 
 /// Rows of constraints, each of length 1, that keep less beside the others follow from them.
-const INDEPENDENT: f64 = 1e-9;
+pub(crate) const INDEPENDENT: f64 = 1e-9;
 /// An acceleration below this share of the parts that the largest one is the sum of is rounding, or what is left of a rest position that was
 /// found by iteration.
 const REST: f64 = 1e-9;
@@ -114,6 +114,14 @@ pub(crate) fn mass_matrix(mech: &Prepared, state: &State) -> DMatrix<f64> {
     DMatrix::from_vec(n, n, mass)
 }
 
+/// A at `state`.
+pub(crate) fn constraint_matrix(mech: &Prepared, state: &State) -> DMatrix<f64> {
+    let (n, m) = (mech.spec().n(), mech.spec().m());
+    let mut jacobian = vec![0.0; m * n];
+    mech.jacobian(state.t, &state.q, &state.v, &mut jacobian);
+    DMatrix::from_vec(m, n, jacobian)
+}
+
 /// What coordinates with the inertia `mass` are measured by: 1/√M_jj; 1 where there is no inertia.
 pub(crate) fn units(mass: &DMatrix<f64>) -> DVector<f64> {
     mass.diagonal().map(|m| match m > 0.0 {
@@ -133,18 +141,29 @@ pub(crate) fn normalise(rows: &mut DMatrix<f64>) {
 }
 
 /// An orthonormal basis of what all `rows` are at right angles to, measured by `units`, in columns.
-pub(crate) fn null_space(mut rows: DMatrix<f64>, units: &DVector<f64>) -> DMatrix<f64> {
+pub(crate) fn null_space(rows: DMatrix<f64>, units: &DVector<f64>) -> DMatrix<f64> {
     let n = rows.ncols();
+    let (decomposed, pivots) = decompose(rows, units);
+    let rank = pivots.iter().filter(|x| **x > INDEPENDENT).count();
+    let mut turned = DMatrix::identity(n, n);
+    decomposed.q_tr_mul(&mut turned);
+    turned.rows(rank, n - rank).transpose()
+}
+
+/// The pivoted decomposition of the transpose of `rows`, measured by `units` and each of length 1, and its pivots: what each row keeps beside
+/// those before it.
+pub(crate) fn decompose(
+    mut rows: DMatrix<f64>,
+    units: &DVector<f64>,
+) -> (ColPivQR<f64, Dyn, Dyn>, Vec<f64>) {
     for (k, mut column) in rows.column_iter_mut().enumerate() {
         column *= units[k % units.len()];
     }
     normalise(&mut rows);
     let decomposed = rows.transpose().col_piv_qr();
-    let diagonal = decomposed.r().diagonal();
-    let rank = diagonal.iter().filter(|x| x.abs() > INDEPENDENT).count();
-    let mut turned = DMatrix::identity(n, n);
-    decomposed.q_tr_mul(&mut turned);
-    turned.rows(rank, n - rank).transpose()
+    let r = decomposed.r();
+    let pivots = (0..r.nrows().min(r.ncols())).map(|k| r[(k, k)].abs());
+    (decomposed, pivots.collect())
 }
 
 /// Whether no coordinate accelerates, beside what accelerations here are made up of.
@@ -192,9 +211,7 @@ fn tangent(mech: &Prepared, state: &State, units: &DVector<f64>) -> DMatrix<f64>
     let spec = mech.spec();
     let (n, m, h) = (spec.n(), spec.m(), spec.holonomic);
     let mut rows = DMatrix::zeros(h + m, 2 * n);
-    let mut jacobian = vec![0.0; m * n];
-    mech.jacobian(state.t, &state.q, &state.v, &mut jacobian);
-    let jacobian = DMatrix::from_vec(m, n, jacobian);
+    let jacobian = constraint_matrix(mech, state);
     rows.view_mut((0, 0), (h, n))
         .copy_from(&jacobian.rows(0, h));
     rows.view_mut((h, n), (m, n)).copy_from(&jacobian);

@@ -229,6 +229,9 @@ pub struct Structure {
     pub loaded: bool,
     /// A `potential` section exists.
     pub potential: bool,
+    /// Coordinates whose Q is more than Lagrange's equations make of T and V: a `force` is declared on them, or M varies and is not from
+    /// `kinetic`.
+    pub forced: &'static [usize],
     /// T + V is conserved: scleronomic, no `force` and no `nonideal`, nonholonomic constraints homogeneous in q̇, and M either constant or
     /// from `kinetic`.
     pub conservative: bool,
@@ -442,6 +445,7 @@ impl Structure {
         nonideal: false,
         loaded: false,
         potential: false,
+        forced: &[],
         conservative: false,
         left_out: &[],
         costs: Costs::NONE,
@@ -552,6 +556,24 @@ impl Spec {
     /// [`Error::UnknownName`] with the nearest name.
     pub fn output_index(&self, name: &str) -> Result<usize, Error> {
         find("output", name, self.outputs.iter().map(|o| o.name))
+    }
+
+    /// Indices of the rows that the constraint called `name` has, or of the row of this name (`p.x`, `link[3]`).
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name.
+    pub fn constraint_indices(&self, name: &str) -> Result<Vec<usize>, Error> {
+        let belongs = |full: &str| {
+            let rest = full.strip_prefix(name);
+            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+        };
+        let rows = self.constraints.iter().enumerate();
+        let rows = rows.filter(|(_, c)| belongs(c.name)).map(|(row, _)| row);
+        let rows: Vec<usize> = rows.collect();
+        match rows.is_empty() {
+            true => Ok(vec![self.constraint_index(name)?]),
+            false => Ok(rows),
+        }
     }
 
     /// Index of the constraint called `name`.

@@ -108,26 +108,46 @@ impl Prepared {
     ///   not finite.
     /// - [`Error::NotAssembled`] where no state near what it says satisfies all constraints.
     pub fn start(&self, name: &str, options: &StartOptions) -> Result<State, Error> {
+        let Said { guess, held, .. } = self.said(name, options)?;
+        assembled(self, &guess, held)
+    }
+
+    /// What the declared start called `name` says with `options`.
+    pub(crate) fn said(&self, name: &str, options: &StartOptions) -> Result<Said, Error> {
         let (spec, n) = (self.spec(), self.spec().n());
         let chosen = Chosen::among(spec.starts, name, options)?;
         let place = spec.starts.iter().position(|s| s.name == name);
-        let mut guess = State {
+        let guess = State {
             t: 0.0,
             q: vec![0.0; n],
             v: vec![0.0; n],
         };
-        let mut held = Held::default();
+        let (held, told) = (Held::default(), Vec::new());
+        let mut said = Said { guess, held, told };
         self.guess(place.unwrap_or(0), &chosen.values, &mut |told| {
-            let (values, kept) = match told.kind {
-                GuessKind::Position => (&mut guess.q, &mut held.positions),
-                _ => (&mut guess.v, &mut held.velocities),
+            let (values, held) = match told.kind {
+                GuessKind::Position => (&mut said.guess.q, &mut said.held.positions),
+                _ => (&mut said.guess.v, &mut said.held.velocities),
             };
             values[told.coordinate] = told.value;
-            kept.extend(told.held.then_some(told.coordinate));
-            if matches!(told.kind, GuessKind::Omega | GuessKind::Spin) {
-                held.turning.push((told.coordinate, told.kind));
+            held.extend(told.held.then_some(told.coordinate));
+            match told.kind {
+                GuessKind::Position => said.told.push(told.coordinate),
+                GuessKind::Velocity => {}
+                GuessKind::Omega | GuessKind::Spin => {
+                    said.held.turning.push((told.coordinate, told.kind));
+                }
             }
         });
-        assembled(self, &guess, held)
+        Ok(said)
     }
+}
+
+/// What a declared start says.
+pub(crate) struct Said {
+    /// 0 where it says nothing.
+    pub(crate) guess: State,
+    pub(crate) held: Held,
+    /// The coordinates of whose position it says something.
+    pub(crate) told: Vec<usize>,
 }

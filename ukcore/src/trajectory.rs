@@ -4,6 +4,7 @@ use std::fmt;
 use std::io::{self, Write};
 
 use crate::assemble::State;
+use crate::diagnosis::{Diagnosis, diagnose_along};
 use crate::error::Error;
 use crate::events::EventHit;
 pub use crate::integrate::sample::Sample;
@@ -388,6 +389,14 @@ impl Trajectory {
             solution.map_err(|error| s.locate(error))
         };
         self.samples().map(&mut solve).collect()
+    }
+
+    /// [`diagnose`](crate::diagnose()) at the sample nearest to a singular position; `None` without samples.
+    ///
+    /// # Errors
+    /// What the solver reports, with the sample ([`Error::At`]).
+    pub fn diagnose(&self) -> Result<Option<Diagnosis>, Error> {
+        diagnose_along(&self.mechanism, self.samples().map(Sample::to_state))
     }
 
     /// Writes all samples as comma-separated values, as [`CsvWriter`] does one by one.

@@ -235,6 +235,7 @@ const _: () = {
                 nonideal: false,
                 loaded: false,
                 potential: true,
+                forced: &[],
                 conservative: true,
                 left_out: &[
                     "1 of the 3 entries of A: structurally zero, never written",

@@ -211,6 +211,7 @@ const _: () = {
                 nonideal: false,
                 loaded: false,
                 potential: true,
+                forced: &[],
                 conservative: true,
                 left_out: &[
                     "off-diagonal entries of M: M is diagonal, its square root is taken entry by entry",

@@ -252,6 +252,7 @@ const _: () = {
                 nonideal: true,
                 loaded: false,
                 potential: true,
+                forced: &[],
                 conservative: false,
                 left_out: &[
                     "off-diagonal entries of M: M is diagonal, its square root is taken entry by entry",

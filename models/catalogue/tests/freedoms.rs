@@ -5,6 +5,19 @@ use catalogue::{
 };
 use ukcore::{Mechanism, Solver, SolverOptions};
 
+ukcore::verify!(
+    Andrews,
+    Arm,
+    Bicycle,
+    Bricard,
+    Governor,
+    HeavyTop,
+    JansenLeg,
+    RollingDisc,
+    Stewart,
+    Walker
+);
+
 #[test]
 fn mechanisms_have_the_freedoms_counted_by_hand() {
     fn check<M: Mechanism>(freedoms: usize, redundant: usize) {

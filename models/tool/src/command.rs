@@ -10,8 +10,10 @@ use ukcore::Error;
 use ukcore::model::Entry;
 
 use crate::animate::{AnimateArgs, animate};
+use crate::diagnose::{DiagnoseArgs, diagnose};
 use crate::explain::{ExplainArgs, explain};
 use crate::failure::Failure;
+use crate::inverse::{InverseArgs, inverse};
 use crate::list::list;
 use crate::modes::{ModesArgs, modes};
 use crate::report::{ReportArgs, report};
@@ -37,6 +39,11 @@ pub enum Command {
     Animate(AnimateArgs),
     /// Show where a model rests next to its start, and how it vibrates there: frequencies, growth, shapes
     Modes(ModesArgs),
+    /// Show degrees of freedom, which constraints follow from which, which reactions are unique, how near a run comes to a singular
+    /// position, and whether the start could be put together otherwise
+    Diagnose(DiagnoseArgs),
+    /// Show what it takes to drive a model as its constraints prescribe: torque or force of each motor, its power and work
+    Inverse(InverseArgs),
     /// Show what is known about a model: M, Q, A, b, rank, degrees of freedom, how its motion is computed; or the emitted code
     Explain(ExplainArgs),
     /// Measure error against run time, for each method, formula and stabilisation, and say which to take for which accuracy
@@ -58,6 +65,8 @@ impl Command {
             Command::Sweep(args) => sweep(models, args),
             Command::Animate(args) => animate(models, args),
             Command::Modes(args) => modes(models, args),
+            Command::Diagnose(args) => diagnose(models, args),
+            Command::Inverse(args) => inverse(models, args),
             Command::Explain(args) => explain(models, args),
             Command::Report(args) => report(models, args),
             Command::Stability(args) => of_model(models, args),

@@ -558,3 +558,23 @@ fn it_is_swept_until_it_breaks() {
     assert!(place.join("index.html").exists() && place.join("stability.svg").exists());
     fails("stability carts", 2, "did you mean `cart`?");
 }
+
+#[test]
+fn constraints_are_diagnosed() {
+    assert_eq!(
+        output("diagnose cart --until 0.2"),
+        "cart at `released`: 3 coordinates, 1 constraint of rank 1: 2 degrees of freedom\nall reactions are unique\n"
+    );
+    fails(
+        "inverse cart",
+        2,
+        "no constraint of `cart` prescribes a motion in time",
+    );
+    fails(
+        "inverse cart --motor rd",
+        2,
+        "no constraint is called `rd`; did you mean `rod`?",
+    );
+    let rod = output("inverse cart --motor rod --until 0.2 --csv");
+    assert!(rod.starts_with("t,rod,power(rod)\n0,"), "{rod}");
+}

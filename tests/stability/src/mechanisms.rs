@@ -126,3 +126,8 @@ macro_rules! u_chain {
 u_chain!(UChain9, 9);
 u_chain!(UChain33, 33);
 u_chain!(UChain65, 65);
+
+ukcore::verify!(
+    Chain, Elastic, Incline, ScaledRows, Copies, NearPlanes, Wheel, Carriage, UChain9, UChain33,
+    UChain65
+);

@@ -3,9 +3,7 @@
 use std::fmt;
 
 use super::RANK_TOLERANCE;
-use crate::diagnose::Diagnosis;
 use crate::scalar::Scalar;
-use crate::spec::Spec;
 
 /// Which formula computes the accelerations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -122,12 +120,4 @@ pub struct Solution {
     pub formula: Formula,
     /// Indices of constraints that the others imply, ascending. Not an error.
     pub redundant: Vec<usize>,
-}
-
-impl Solution {
-    /// Rank, degrees of freedom and redundant constraints by name, for the mechanism of `spec`.
-    #[must_use]
-    pub fn diagnosis(&self, spec: &Spec) -> Diagnosis {
-        Diagnosis::new(spec, self.rank, &self.redundant)
-    }
 }

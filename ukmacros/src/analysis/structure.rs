@@ -17,6 +17,8 @@ pub(crate) struct Structure {
     /// The non-ideal force depends on reactions.
     pub(crate) loaded: bool,
     pub(crate) potential: bool,
+    /// Coordinates whose Q is more than kinetic energy and potential give.
+    pub(crate) forced: Vec<usize>,
     pub(crate) conservative: bool,
     pub(crate) left_out: Vec<String>,
 }
@@ -42,13 +44,10 @@ pub(crate) fn structure(system: &mut System, dynamics: &Dynamics) -> Structure {
     let scleronomic = equations.all(|id| !g.uses(*id).time);
     let nonideal = system.nonideal.is_some();
     let loaded = dynamics.nonideal.iter().any(|c| g.uses(*c).multiplier);
-    let forced = system.force.values().any(|f| !g.is_zero(*f));
-    let conservative = scleronomic
-        && !nonideal
-        && !forced
-        && homogeneous
-        && quadratic
-        && (mass_constant || system.kinetic.is_some());
+    let declared = |i: &usize| system.force.get(i).is_some_and(|f| !g.is_zero(*f));
+    let lagrangian = mass_constant || system.kinetic.is_some();
+    let forced: Vec<usize> = (0..n).filter(|i| !lagrangian || declared(i)).collect();
+    let conservative = scleronomic && !nonideal && forced.is_empty() && homogeneous && quadratic;
     let mut structure = Structure {
         mass_diagonal,
         mass_constant,
@@ -59,6 +58,7 @@ pub(crate) fn structure(system: &mut System, dynamics: &Dynamics) -> Structure {
         nonideal,
         loaded,
         potential: system.potential.is_some(),
+        forced,
         conservative,
         left_out: Vec::new(),
     };

@@ -139,11 +139,13 @@ fn structure(analysis: &Analysis) -> TokenStream {
         nonideal,
         loaded,
         potential,
+        forced,
         conservative,
         left_out,
     } = &analysis.structure;
     let massless = massless.iter().map(|i| number(*i));
     let angles = angles.iter().map(|i| number(*i));
+    let forced = forced.iter().map(|i| number(*i));
     let straight_line = analysis.solve.is_ok();
     let solve = match &analysis.solve {
         Ok(solve) => self::solve(solve, analysis.dynamics.force.len()),
@@ -165,6 +167,7 @@ fn structure(analysis: &Analysis) -> TokenStream {
             nonideal: #nonideal,
             loaded: #loaded,
             potential: #potential,
+            forced: &[#(#forced),*],
             conservative: #conservative,
             left_out: &[#(#left_out),*],
             costs: #costs,

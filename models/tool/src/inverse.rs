@@ -1,0 +1,132 @@
+//! The command `inverse`: what it takes to drive a mechanism as its constraints prescribe.
+
+use std::io::{self, Write};
+use std::ops::ControlFlow;
+
+use clap::Args;
+use ukcore::model::Entry;
+use ukcore::{Effort, Error, inverse as efforts_at};
+
+use crate::failure::Failure;
+use crate::motion::{self, Motion};
+use crate::numbers::{full, width};
+use crate::output;
+use crate::scene::{Ready, Scene};
+
+/// The arguments of `inverse`.
+#[derive(Debug, Args)]
+pub struct InverseArgs {
+    /// The mechanism and its start
+    #[command(flatten)]
+    pub scene: Scene,
+    /// How its motion is computed
+    #[command(flatten)]
+    pub motion: Motion,
+    /// A constraint that is a motor; may be repeated. All rows that prescribe a motion in time if absent
+    #[arg(long = "motor", value_name = "NAME", value_delimiter = ',')]
+    pub motors: Vec<String>,
+    /// Sample at this interval; each accepted step if absent
+    #[arg(long, value_name = "TIME", value_parser = motion::interval, allow_hyphen_values = true)]
+    pub every: Option<f64>,
+    /// Print the efforts and powers at all samples as CSV instead
+    #[arg(long)]
+    pub csv: bool,
+}
+
+/// Times of a run at which rows are looked at for a motion that they prescribe.
+const TIMES: u32 = 16;
+/// Fractional part of the golden ratio: no multiple of a period.
+const GOLDEN: f64 = 0.618_033_988_749_895;
+
+/// Runs a model, and prints for each motor the range of its effort, its largest power, and its work.
+///
+/// # Errors
+/// [`Failure::Usage`] for what is wrong with the command line, and where there is no motor; [`Failure::Failed`] where the run ends early: what
+/// was found up to there is printed all the same.
+pub fn inverse(models: &[Entry], args: &InverseArgs) -> Result<(), Failure> {
+    let ready = args.scene.ready(models)?;
+    let mech = &ready.mechanism;
+    let length = args.motion.length(&ready);
+    let named: Vec<&str> = args.motors.iter().map(String::as_str).collect();
+    let times = (0..TIMES).map(|k| ready.state.t + length * (f64::from(k) * GOLDEN).fract());
+    let motors = match named.is_empty() {
+        true => mech.motors(&ready.state, times),
+        false => named,
+    };
+    if motors.is_empty() {
+        return Err(Failure::Usage(format!(
+            "no constraint of `{}` prescribes a motion in time; `--motor NAME` takes one that holds still",
+            ready.entry.id
+        )));
+    }
+    let mut samples: Vec<(f64, Vec<Effort>)> = Vec::new();
+    let mut broken: Option<Error> = None;
+    let (_, error) = args.motion.follow(&ready, args.every, |sample| {
+        match efforts_at(mech, &sample.to_state(), &motors) {
+            Ok(efforts) => samples.push((sample.t, efforts)),
+            Err(error) => broken = Some(error),
+        }
+        match broken {
+            None => ControlFlow::Continue(()),
+            Some(_) => ControlFlow::Break(()),
+        }
+    })?;
+    output::to_stdout(|out| match args.csv {
+        true => rows(out, &samples),
+        false => summary(out, &ready, &samples),
+    })?;
+    error.or(broken).map_or(Ok(()), |error| Err(error.into()))
+}
+
+fn rows(out: &mut dyn Write, samples: &[(f64, Vec<Effort>)]) -> io::Result<()> {
+    let names = samples.first().map_or(&[][..], |(_, efforts)| efforts);
+    let names = names.iter().map(|e| format!(",{0},power({0})", e.name));
+    writeln!(out, "t{}", names.collect::<String>())?;
+    for (t, efforts) in samples {
+        let values = efforts
+            .iter()
+            .map(|e| format!(",{},{}", full(e.effort), full(e.power)));
+        writeln!(out, "{}{}", full(*t), values.collect::<String>())?;
+    }
+    Ok(())
+}
+
+fn summary(
+    out: &mut dyn Write,
+    ready: &Ready<'_>,
+    samples: &[(f64, Vec<Effort>)],
+) -> io::Result<()> {
+    let Some((_, first)) = samples.first() else {
+        return Ok(());
+    };
+    writeln!(
+        out,
+        "{} from `{}`, motors by their constraints",
+        ready.entry.id, ready.start
+    )?;
+    let wide = width(first.iter().map(|e| e.name));
+    for (k, motor) in first.iter().enumerate() {
+        let efforts = samples.iter().map(|(_, efforts)| efforts[k].effort);
+        let (least, most) = efforts.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), x| {
+            (least.min(x), most.max(x))
+        });
+        let powers = samples.iter().map(|(t, efforts)| (*t, efforts[k].power));
+        let (at, power) = powers.clone().fold((0.0, 0.0), |best: (f64, f64), now| {
+            if now.1.abs() > best.1.abs() {
+                now
+            } else {
+                best
+            }
+        });
+        let pairs = powers.clone().zip(powers.skip(1));
+        let work: f64 = pairs
+            .map(|((t, p), (later, next))| 0.5 * (later - t) * (p + next))
+            .sum();
+        let name = motor.name;
+        writeln!(
+            out,
+            "  {name:<wide$}  effort {least:.6} to {most:.6}, power at most {power:.6} at t = {at:.4} s, work {work:.6}"
+        )?;
+    }
+    Ok(())
+}

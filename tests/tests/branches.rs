@@ -1,0 +1,100 @@
+//! The ways to put a mechanism together near a guess: the nearest, what moved, and others that are as near.
+
+use tests::assert_close;
+use ukcore::model::StartOptions;
+use ukcore::{Error, Mechanism, State, branches};
+
+ukcore::multibody! {
+    /// Two rods of length 1 whose ends are 1 apart: their pin lies above the line of the ends, or below.
+    pub Elbow {
+        coords { x, y }
+        mass { x: 1.0, y: 1.0 }
+        holonomic { left: sq(x) + sq(y) = 1.0, right: sq(x - 1.0) + sq(y) = 1.0 }
+        start above { x near 0.5; y near 0.5 }
+        start unsaid { x near 0.5 }
+    }
+}
+
+ukcore::multibody! {
+    /// A four-bar linkage of bodies.
+    pub Linkage {
+        params { l[3] = [0.5, 2.0, 1.5], m = 1.0, span = 2.0 }
+        bodies { for i in 0..3 { planar bar[i] { mass: m, inertia: m * sq(l[i]) / 12.0, centre: [l[i] / 2.0, 0] } } }
+        holonomic {
+            o: pin(ground.at([0, 0]), bar[0].at([0, 0]))
+            p: pin(bar[0].at([l[0], 0]), bar[1].at([0, 0]))
+            q: pin(bar[1].at([l[1], 0]), bar[2].at([l[2], 0]))
+            r: pin(ground.at([span, 0]), bar[2].at([0, 0]))
+        }
+        start open(crank = 1.0) { bar[0].angle = crank; bar[1].angle near 0.5; bar[2].angle near 1.0; dot(bar[0].angle) near 2.0 }
+        start crossed(crank = 1.0) { bar[0].angle = crank; bar[1].angle near -1.2; bar[2].angle near -2.0 }
+        start crank(crank = 1.0) { bar[0].angle = crank }
+    }
+}
+
+fn guess(x: f64, y: f64) -> State {
+    State {
+        t: 0.0,
+        q: vec![x, y],
+        v: vec![0.0; 2],
+    }
+}
+
+#[test]
+fn the_nearest_is_taken_and_as_near_ones_are_told() {
+    let elbow = Elbow::default();
+    let height = 0.75_f64.sqrt();
+    for (y, others) in [(0.5, 0), (-0.5, 0), (0.1, 1), (-0.1, 1), (1e-9, 1)] {
+        let found = branches(&elbow, &guess(0.5, y), &[]).unwrap();
+        assert_close("x", found.state.q[0], 0.5, 1e-14);
+        assert_close("y", found.state.q[1], height.copysign(y), 1e-14);
+        assert_eq!(found.alternatives.len(), others, "{y}");
+        for other in &found.alternatives {
+            assert_close("y", other.q[1], -height.copysign(y), 1e-14);
+        }
+        assert_eq!(found.moved.len(), 1);
+        assert_eq!(found.moved[0].0, "y");
+        assert_close("moved", found.moved[0].1, found.state.q[1] - y, 1e-14);
+    }
+    let exact = branches(&elbow, &guess(0.5, height), &[]).unwrap();
+    assert_eq!((exact.moved, exact.alternatives), (Vec::new(), Vec::new()));
+}
+
+#[test]
+fn starts_that_leave_it_open_are_told() {
+    let elbow = Elbow::default().prepared();
+    let above = elbow.branches("above", &StartOptions::new()).unwrap();
+    assert!(above.alternatives.is_empty() && above.state.q[1] > 0.8);
+    let unsaid = elbow.branches("unsaid", &StartOptions::new()).unwrap();
+    assert_eq!((unsaid.alternatives.len(), unsaid.moved.len()), (1, 0));
+
+    let linkage = Linkage::default().prepared();
+    for name in ["open", "crossed"] {
+        let found = linkage.branches(name, &StartOptions::new()).unwrap();
+        assert!(found.alternatives.is_empty(), "{name}: {found:?}");
+        let start = linkage.start(name, &StartOptions::new()).unwrap();
+        tests::assert_all_close(name, &found.state.q, &start.q, 1e-12);
+        tests::assert_all_close(name, &found.state.v, &start.v, 1e-12);
+        let most = found.moved[0].0;
+        assert!(most.ends_with(".angle"), "{name}: {most}");
+        // What is held stays, and places of which nothing is said do not count.
+        let names: Vec<&str> = found.moved.iter().map(|(name, _)| *name).collect();
+        assert_eq!(names.len(), 2, "{names:?}");
+    }
+    let crank = linkage.branches("crank", &StartOptions::new()).unwrap();
+    assert_eq!(crank.alternatives.len(), 1);
+    assert!(crank.moved.is_empty());
+}
+
+#[test]
+fn what_cannot_be_put_together_is_refused() {
+    let mut linkage = Linkage::default();
+    linkage.l[1] = 0.9;
+    let far = linkage
+        .prepared()
+        .branches("open", &[("crank", 3.1)].into());
+    let Err(Error::NotAssembled { held, .. }) = far else {
+        panic!("it cannot be put together");
+    };
+    assert_eq!(held, ["bar[0].angle"]);
+}

@@ -1,0 +1,139 @@
+//! Efforts of motors against closed forms.
+
+use tests::assert_close;
+use ukcore::{Error, Mechanism, Simulation, State, inverse};
+
+ukcore::multibody! {
+    /// A rod on a driven hinge; y points up.
+    pub Driven {
+        params { m = 1.7, l = 0.8, a = 0.6, w = 3.0, g = 9.81 }
+        bodies { planar rod { mass: m, inertia: m * sq(l) / 12.0, centre: [l / 2.0, 0] } }
+        gravity { [0, -g] }
+        holonomic {
+            hinge: pin(ground.at([0, 0]), rod.at([0, 0]))
+            motor: turn(ground, rod) = a * sin(w * t)
+        }
+        start level() { rod.angle near 0.0 }
+    }
+}
+
+ukcore::multibody! {
+    /// An arm of two links with point masses at their ends, in joint angles that are driven.
+    pub Arm {
+        params { m[2] = [1.2, 0.7], l[2] = [0.5, 0.4], w = 2.0, g = 9.81 }
+        coords { a, b }
+        let elbow = l[0] * [cos(a), sin(a)];
+        let hand = elbow + l[1] * [cos(a + b), sin(a + b)];
+        kinetic { 0.5 * m[0] * sq(dot(elbow)), 0.5 * m[1] * sq(dot(hand)) }
+        potential { m[0] * g * elbow[1], m[1] * g * hand[1] }
+        holonomic { shoulder: a = 0.5 * sin(w * t), bend: b = 0.8 + 0.3 * sq(t) }
+        start begun { a near 0.0; b near 0.8 }
+    }
+}
+
+ukcore::multibody! {
+    /// A parallelogram of massless cranks of length 1 under a beam of mass m, both cranks driven by the same angle, with a third crank that
+    /// makes the joints redundant too; y points up.
+    pub Lift {
+        params { m = 3.0, w = 1.3, g = 9.81 }
+        coords { x, y, a, b }
+        mass { x: m, y: m }
+        potential { m * g * y }
+        holonomic {
+            near: [x, y] = [cos(a), sin(a)]
+            far: [x, y] = [cos(b), sin(b)]
+            third: sq(x) + sq(y) = 1.0
+            left: a = 0.4 + w * t
+            right: 2.0 * b = 0.8 + 2.0 * w * t
+        }
+        start low { a near 0.4; b near 0.4; x near 0.9; y near 0.4 }
+    }
+}
+
+#[test]
+fn a_driven_rod_takes_inertia_and_weight() {
+    let driven = Driven::default();
+    let start = driven.start("level", &[].into()).unwrap();
+    let run = Simulation::new(&driven)
+        .start(start)
+        .every(0.1)
+        .until(1.0)
+        .unwrap();
+    let Driven { m, l, a, w, g } = driven;
+    for (sample, efforts) in run.samples().zip(run.efforts(&["motor"]).unwrap()) {
+        let (s, c) = (w * sample.t).sin_cos();
+        let (angle, rate, turning) = (a * s, a * w * c, -a * w * w * s);
+        let torque = m * l * l / 3.0 * turning + 0.5 * m * g * l * angle.cos();
+        assert_eq!((efforts.len(), efforts[0].name), (1, "motor"));
+        assert_close("torque", efforts[0].effort, torque, 1e-9);
+        assert_close("power", efforts[0].power, torque * rate, 1e-9);
+    }
+    let motors = driven
+        .prepared()
+        .motors(&run.last().unwrap().to_state(), [0.1, 0.7]);
+    assert_eq!(motors, ["motor"]);
+    assert!(matches!(
+        run.efforts(&["moter"]),
+        Err(Error::UnknownName { .. })
+    ));
+}
+
+/// Torques of the two-link arm as textbooks have them (Spong, Hutchinson & Vidyasagar, section 7.3), of point masses.
+#[test]
+fn an_arm_of_two_links_has_the_torques_of_textbooks() {
+    let arm = Arm::default();
+    let start = arm.start("begun", &[].into()).unwrap();
+    let run = Simulation::new(&arm)
+        .start(start)
+        .every(0.2)
+        .until(2.0)
+        .unwrap();
+    let Arm { m, l, w, g } = arm;
+    for (sample, efforts) in run
+        .samples()
+        .zip(run.efforts(&["shoulder", "bend"]).unwrap())
+    {
+        let t = sample.t;
+        let [a, b] = [0.5 * (w * t).sin(), 0.8 + 0.3 * t * t];
+        let [va, vb] = [0.5 * w * (w * t).cos(), 0.6 * t];
+        let [aa, ab] = [-0.5 * w * w * (w * t).sin(), 0.6];
+        let [cross, own] = [m[1] * l[0] * l[1], m[1] * l[1] * l[1]];
+        let [m11, m12] = [
+            (m[0] + m[1]) * l[0] * l[0] + own + 2.0 * cross * b.cos(),
+            own + cross * b.cos(),
+        ];
+        let turn = cross * b.sin();
+        let weight = m[1] * g * l[1] * (a + b).cos();
+        let shoulder = m11 * aa + m12 * ab - turn * (2.0 * va * vb + vb * vb)
+            + (m[0] + m[1]) * g * l[0] * a.cos()
+            + weight;
+        let bend = m12 * aa + own * ab + turn * va * va + weight;
+        assert_close("shoulder", efforts[0].effort, shoulder, 1e-8);
+        assert_close("bend", efforts[1].effort, bend, 1e-8);
+        assert_close("power", efforts[1].power, bend * vb, 1e-8);
+    }
+}
+
+/// The row of the right crank is twice as long, so its effort counts double: of all λ with λ + 2μ = T the least are T/5 and 2T/5.
+#[test]
+fn motors_that_share_their_work_take_the_least() {
+    let lift = Lift::default();
+    let Lift { m, w, g } = lift;
+    for k in 0..10 {
+        let t = 0.1 * f64::from(k);
+        let (s, c) = (0.4 + w * t).sin_cos();
+        let state = State {
+            t,
+            q: vec![c, s, 0.4 + w * t, 0.4 + w * t],
+            v: vec![-w * s, w * c, w, w],
+        };
+        let torque = m * g * c;
+        let both = inverse(&lift, &state, &["left", "right"]).unwrap();
+        assert_close("left", both[0].effort, torque / 5.0, 1e-9);
+        assert_close("right", both[1].effort, 0.4 * torque, 1e-9);
+        assert_close("power", both[0].power + both[1].power, torque * w, 1e-9);
+        // The other taken as a joint, neither is needed.
+        let alone = inverse(&lift, &state, &["left"]).unwrap();
+        assert_close("alone", alone[0].effort, 0.0, 1e-9);
+    }
+}

@@ -1,0 +1,265 @@
+//! All the ways to put a mechanism together near a guess.
+//!
+//! Searches begin at the guess and at places all around it; from where each ends, the nearest place to the guess is sought within its branch, by
+//! Gauss and Newton's method along the constraints. Distances are measured by the root of inertia, over the coordinates that the guess
+//! tells of.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::assemble::{Held, Search, State, assembled, held};
+use crate::diagnose;
+use crate::error::Error;
+use crate::manifold::{At, Level};
+use crate::mechanism::Prepared;
+use crate::modes::{constraint_matrix, mass_matrix, null_space, units};
+use crate::nearby::Random;
+use crate::scan::{largest, largest_difference};
+use crate::start::{Said, StartOptions};
+
+/// A state put together from a guess, and how else it could have been.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Assembled {
+    /// The nearest one.
+    pub state: State,
+    /// The coordinates that differ from what the guess tells of them and by how much, the largest difference in terms of inertia first.
+    pub moved: Vec<(&'static str, f64)>,
+    /// The nearest states of other branches that are as near, nearest first: what the guess tells does not decide between them.
+    pub alternatives: Vec<State>,
+}
+
+/// Beginnings besides the guess.
+const BEGINNINGS: usize = 24;
+/// Another branch is as near if its distance is not more than this many times that of the nearest.
+const AS_NEAR: f64 = 1.5;
+/// What the guess does not tell of counts so little.
+const UNTOLD: f64 = 1e-6;
+/// Distances below this part of the coordinates are none.
+const NONE: f64 = 1e-7;
+/// Steps towards the guess within a branch.
+const STEPS: usize = 60;
+
+/// What [`assemble`](crate::assemble()) finds, but of all ways to put the mechanism together near `guess` the nearest one, with what moved and
+/// the other ways that are as near. It searches two dozen times, so it is for looking rather than for loops; branches far from the guess may
+/// be missed.
+///
+/// # Errors
+/// What [`assemble`](crate::assemble()) reports.
+pub fn branches(
+    mechanism: impl Into<Prepared>,
+    guess: &State,
+    hold: &[&str],
+) -> Result<Assembled, Error> {
+    let mech: Prepared = mechanism.into();
+    let held = Held::both(held(mech.spec(), hold)?);
+    let told: Vec<usize> = (0..mech.spec().n()).collect();
+    branches_of(&mech, guess, &held, &told)
+}
+
+impl Prepared {
+    /// [`branches`](branches()) of the declared start called `name` with `options`, near what it says: coordinates of which it says nothing
+    /// do not count.
+    ///
+    /// # Errors
+    /// What [`Prepared::start`] reports.
+    pub fn branches(&self, name: &str, options: &StartOptions) -> Result<Assembled, Error> {
+        let Said { guess, held, told } = self.said(name, options)?;
+        branches_of(self, &guess, &held, &told)
+    }
+}
+
+/// [`branches`] near a guess that tells of the coordinates `told` alone.
+fn branches_of(
+    mech: &Prepared,
+    guess: &State,
+    held: &Held,
+    told: &[usize],
+) -> Result<Assembled, Error> {
+    guess.check(mech)?;
+    diagnose::inertias(mech)?;
+    let units = units(&mass_matrix(mech, guess));
+    let weight = |j: usize| if told.contains(&j) { 1.0 } else { UNTOLD };
+    let mut ways = Ways {
+        mech,
+        guess,
+        held,
+        weights: DVector::from_fn(units.len(), |j, _| weight(j) / units[j]),
+        units,
+        found: Vec::new(),
+    };
+    ways.seek();
+    let size = largest(&guess.q).max(1.0);
+    let far = |way: &Way| way.distance;
+    ways.found.sort_by(|a, b| far(a).total_cmp(&far(b)));
+    let Some(nearest) = ways.found.first() else {
+        // Says why.
+        let state = assembled(mech, guess, held.clone())?;
+        return Ok(ways.assembled(state, Vec::new(), told));
+    };
+    let none = NONE * size * ways.weights.amax();
+    let bound = AS_NEAR * far(nearest).max(none);
+    let near = ways.found.iter().take_while(|way| far(way) <= bound);
+    let states: Vec<State> = near.filter_map(|way| ways.state(&way.q).ok()).collect();
+    let mut states = states.into_iter();
+    match states.next() {
+        Some(state) => Ok(ways.assembled(state, states.collect(), told)),
+        // Velocities contradict each other.
+        None => Err(ways.state(&nearest.q).err().unwrap_or(Error::NotAssembled {
+            level: "velocity",
+            constraints: Vec::new(),
+            held: Vec::new(),
+        })),
+    }
+}
+
+/// A place on the constraints, and how far it is from the guess.
+struct Way {
+    q: Vec<f64>,
+    distance: f64,
+}
+
+/// The search for all of them.
+struct Ways<'a> {
+    mech: &'a Prepared,
+    guess: &'a State,
+    held: &'a Held,
+    /// What distances are measured by.
+    units: DVector<f64>,
+    weights: DVector<f64>,
+    found: Vec<Way>,
+}
+
+impl Ways<'_> {
+    fn seek(&mut self) {
+        let (mech, guess) = (self.mech, self.guess);
+        let mut search = Search::new(mech, guess, &self.held.positions);
+        let at = At::new(mech, Level::Position, guess.t, &guess.v);
+        let mut random = Random::new(0x5eed);
+        let size = match largest(&guess.q) {
+            size if size > 0.0 => size,
+            _ => 1.0,
+        };
+        let angles = mech.spec().structure.angles;
+        for k in 0..=BEGINNINGS {
+            let mut q = guess.q.clone();
+            // Ever farther off.
+            let share = k as f64 / BEGINNINGS as f64;
+            for j in search.free.clone() {
+                let reach = match angles.contains(&j) {
+                    true => std::f64::consts::PI,
+                    false => size,
+                };
+                q[j] += share * reach * random.signed();
+            }
+            if search.manifold.search(&at, &guess.q, &mut q) == 0.0 {
+                self.approach(&mut search, &at, &mut q);
+                self.enter(q);
+            }
+        }
+    }
+
+    fn distance(&self, q: &[f64]) -> f64 {
+        let pairs = q.iter().zip(&self.guess.q).zip(self.weights.iter());
+        pairs
+            .map(|((q, g), w)| (w * (q - g)).powi(2))
+            .sum::<f64>()
+            .sqrt()
+    }
+
+    /// Moves `q` along the constraints to where it is nearest to the guess.
+    fn approach(&self, search: &mut Search, at: &At<'_, f64>, q: &mut [f64]) {
+        let n = q.len();
+        let mut distance = self.distance(q);
+        for _ in 0..STEPS {
+            let here = State {
+                q: q.to_vec(),
+                ..self.guess.clone()
+            };
+            let rows = constraint_matrix(self.mech, &here);
+            let (h, held) = (self.mech.spec().holonomic, &self.held.positions);
+            let mut fixed = DMatrix::zeros(h + held.len(), n);
+            fixed.rows_mut(0, h).copy_from(&rows.rows(0, h));
+            for (k, j) in held.iter().enumerate() {
+                fixed[(h + k, *j)] = 1.0;
+            }
+            let mut ways = null_space(fixed, &self.units);
+            if ways.is_empty() {
+                return;
+            }
+            for (mut row, unit) in ways.row_iter_mut().zip(self.units.iter()) {
+                row *= *unit;
+            }
+            let mut weighed = ways.clone();
+            for (mut row, weight) in weighed.row_iter_mut().zip(self.weights.iter()) {
+                row *= *weight;
+            }
+            let wanted = DVector::from_fn(n, |j, _| self.weights[j] * (self.guess.q[j] - q[j]));
+            let Ok(shares) = weighed.svd(true, true).solve(&wanted, 1e-12) else {
+                return;
+            };
+            let step = ways * shares;
+            let nearer = (0..8).find_map(|halved| {
+                let part = 0.5_f64.powi(halved);
+                let moved = q.iter().zip(step.iter()).map(|(q, d)| q + part * d);
+                let mut there: Vec<f64> = moved.collect();
+                search.manifold.project(at, &mut there).ok()?;
+                let far = self.distance(&there);
+                (far < distance).then_some((there, far))
+            });
+            let Some((there, far)) = nearer else {
+                return;
+            };
+            q.copy_from_slice(&there);
+            let stands = distance - far <= 1e-9 * distance;
+            distance = far;
+            if stands {
+                return;
+            }
+        }
+    }
+
+    /// Keeps `q`, unless it is known, but for whole turns; of places that differ by these the nearest.
+    fn enter(&mut self, q: Vec<f64>) {
+        let angles = self.mech.spec().structure.angles;
+        let size = largest(&q).max(largest(&self.guess.q));
+        let distance = self.distance(&q);
+        let same = |way: &&mut Way| {
+            let mut turned = way.q.clone();
+            for j in angles {
+                let turns = ((q[*j] - turned[*j]) / std::f64::consts::TAU).round();
+                turned[*j] += turns * std::f64::consts::TAU;
+            }
+            largest_difference(&turned, &q) <= 1e-3 * size
+        };
+        match self.found.iter_mut().find(same) {
+            Some(way) if distance < way.distance => *way = Way { q, distance },
+            Some(_) => {}
+            None => self.found.push(Way { q, distance }),
+        }
+    }
+
+    /// The state at `q` whose velocities are next to those of the guess.
+    fn state(&self, q: &[f64]) -> Result<State, Error> {
+        let mut there = self.guess.clone();
+        there.q.copy_from_slice(q);
+        let mut search = Search::new(self.mech, &there, &self.held.velocities);
+        let at = At::new(self.mech, Level::Velocity, there.t, q);
+        there.v = search.find(&at, &self.guess.v)?;
+        Ok(there)
+    }
+
+    fn assembled(&self, state: State, alternatives: Vec<State>, told: &[usize]) -> Assembled {
+        let size = largest(&self.guess.q).max(1.0);
+        let change = |j: &usize| state.q[*j] - self.guess.q[*j];
+        let mut moved: Vec<usize> = told.to_vec();
+        moved.retain(|j| change(j).abs() > NONE * size);
+        let far = |j: &usize| (change(j) / self.units[*j]).abs();
+        moved.sort_by(|a, b| far(b).total_cmp(&far(a)));
+        let coords = self.mech.spec().coords;
+        let moved = moved.iter().map(|j| (coords[*j], change(j)));
+        Assembled {
+            moved: moved.collect(),
+            alternatives,
+            state,
+        }
+    }
+}

@@ -1,0 +1,343 @@
+//! What the constraints of a mechanism amount to at a state: degrees of freedom, what follows from what, and how near that is to change.
+
+use std::fmt;
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::assemble::State;
+use crate::diagnose::PARTICIPATION;
+use crate::error::Error;
+use crate::mechanism::Prepared;
+use crate::modes::{constraint_matrix, mass_matrix, normalise, units};
+use crate::nearby::{Random, nearby};
+use crate::solver::{Solver, SolverOptions};
+
+/// States near one that are looked at, to tell what holds at it alone.
+const NEIGHBOURS: usize = 3;
+/// A row takes part in what comes near to dependence if it has this part of the largest share.
+const SHARE: f64 = 0.5;
+
+/// What the constraints of a mechanism amount to at a state: see [`diagnose`]. It prints as sentences.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Diagnosis {
+    /// Time of the state.
+    pub t: f64,
+    /// Number n of coordinates.
+    pub coordinates: usize,
+    /// Number m of constraints.
+    pub constraints: usize,
+    /// Rank of A.
+    pub rank: usize,
+    /// n − rank A: freedoms of motion.
+    pub degrees_of_freedom: usize,
+    /// n less the rank of the holonomic rows: freedoms of position, more than those of motion where constraints are nonholonomic.
+    pub freedoms_of_position: usize,
+    /// Constraints that follow from those declared before them.
+    pub redundant: Vec<Redundant>,
+    /// Of the redundant ones those that are not so at positions nearby: the state is a singular position.
+    pub only_here: Vec<String>,
+    /// Constraints whose multiplier is not unique: those that follow from others, and those from which they follow. Forces of all others are.
+    pub undetermined: Vec<String>,
+    /// The least singular value of the independent rows of A, each of length 1 in the mass metric: 1 where they are at right angles to each
+    /// other, 0 at a singular position.
+    pub margin: f64,
+    /// The constraints that come nearest to depending on each other.
+    pub nearest: Vec<String>,
+}
+
+impl Diagnosis {
+    /// In a sentence, the constraints that come nearest to depending on each other, and by which margin; `None` where there are no two.
+    #[must_use]
+    pub fn nearness(&self) -> Option<String> {
+        let margin = match self.margin {
+            x if x < 1e-3 => format!("{x:.1e}"),
+            x => format!("{x:.3}"),
+        };
+        let rows = quoted(&self.nearest);
+        let told = format!(
+            "nearest to depend on each other: {rows}, by a margin of {margin}; at a singular position it is 0"
+        );
+        (!self.nearest.is_empty()).then_some(told)
+    }
+}
+
+/// A constraint that others imply.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Redundant {
+    /// Its name.
+    pub name: String,
+    /// The constraints that imply it; none for one that has no gradient at the state.
+    pub follows_from: Vec<String>,
+}
+
+/// What the constraints of `mechanism` amount to at `state`, which is to satisfy them.
+///
+/// # Errors
+/// What [`Solver::solve`] reports.
+pub fn diagnose(mechanism: impl Into<Prepared>, state: &State) -> Result<Diagnosis, Error> {
+    let mech: Prepared = mechanism.into();
+    let spec = mech.spec();
+    let (n, m) = (spec.n(), spec.m());
+    state.check(&mech)?;
+    let (rank, rows) = independent(&mech, state)?;
+    let relations = relations(&rows, rank);
+    let names = |rows: &[usize]| -> Vec<String> {
+        let names = rows.iter().map(|i| spec.constraints[*i].name.to_owned());
+        names.collect()
+    };
+    let follow: Vec<usize> = relations.iter().map(|r| r.row).collect();
+    let mut undetermined: Vec<usize> = relations.iter().flat_map(Relation::rows).collect();
+    undetermined.sort_unstable();
+    undetermined.dedup();
+    let mut only_here = Vec::new();
+    let mut random = Random::new(0x5eed);
+    for _ in 0..NEIGHBOURS {
+        let there = nearby(&mech, state, &mut random);
+        // Where nothing can be solved for nearby, nothing is told of it.
+        let there = there.and_then(|there| independent(&mech, &there).ok());
+        let Some((there, rows)) = there.filter(|(there, _)| *there > rank) else {
+            continue;
+        };
+        let remain: Vec<usize> = self::relations(&rows, there)
+            .iter()
+            .map(|r| r.row)
+            .collect();
+        only_here = follow
+            .iter()
+            .copied()
+            .filter(|row| !remain.contains(row))
+            .collect();
+        break;
+    }
+    let free: Vec<usize> = (0..m).filter(|row| !follow.contains(row)).collect();
+    let (margin, nearest) = match only_here.is_empty() {
+        true => margin(&rows, &free),
+        false => (0.0, only_here.clone()),
+    };
+    let position = free.iter().filter(|row| **row < spec.holonomic).count();
+    Ok(Diagnosis {
+        t: state.t,
+        coordinates: n,
+        constraints: m,
+        rank,
+        degrees_of_freedom: n - rank,
+        freedoms_of_position: n - position,
+        redundant: relations
+            .iter()
+            .map(|relation| Redundant {
+                name: spec.constraints[relation.row].name.to_owned(),
+                follows_from: names(&relation.from),
+            })
+            .collect(),
+        only_here: names(&only_here),
+        undetermined: names(&undetermined),
+        margin,
+        nearest: names(&nearest),
+    })
+}
+
+/// [`diagnose`] at the one of `states` that is nearest to a singular position; `None` of no state.
+///
+/// # Errors
+/// What [`diagnose`] reports, with the state ([`Error::At`]).
+pub fn diagnose_along(
+    mechanism: impl Into<Prepared>,
+    states: impl IntoIterator<Item = State>,
+) -> Result<Option<Diagnosis>, Error> {
+    let mech: Prepared = mechanism.into();
+    let mut nearest: Option<(usize, f64, State)> = None;
+    for state in states {
+        let found = independent(&mech, &state).map(|(rank, rows)| {
+            let follow: Vec<usize> = relations(&rows, rank).iter().map(|r| r.row).collect();
+            let free: Vec<usize> = (0..mech.spec().m())
+                .filter(|row| !follow.contains(row))
+                .collect();
+            (rank, margin(&rows, &free).0)
+        });
+        let (rank, margin) = found.map_err(|error| located(&state, error))?;
+        let nearer =
+            |(least, closest, _): &(usize, f64, State)| (rank, margin) < (*least, *closest);
+        if nearest.as_ref().is_none_or(nearer) {
+            nearest = Some((rank, margin, state));
+        }
+    }
+    let told =
+        nearest.map(|(.., state)| diagnose(&mech, &state).map_err(|error| located(&state, error)));
+    told.transpose()
+}
+
+fn located(state: &State, error: Error) -> Error {
+    let State { t, q, v } = state.clone();
+    let source = Box::new(error);
+    Error::At { t, q, v, source }
+}
+
+/// The rank of A, as the solver decides it, and its rows, each of length 1 in the mass metric.
+fn independent(mech: &Prepared, state: &State) -> Result<(usize, DMatrix<f64>), Error> {
+    let State { t, q, v } = state;
+    let solution = Solver::new(mech, SolverOptions::default()).solve(*t, q, v)?;
+    Ok((solution.rank, measured_rows(mech, state)))
+}
+
+/// The rows of A at `state`, each of length 1 in the mass metric.
+pub(crate) fn measured_rows(mech: &Prepared, state: &State) -> DMatrix<f64> {
+    let units = units(&mass_matrix(mech, state));
+    let mut rows = constraint_matrix(mech, state);
+    for (mut column, unit) in rows.column_iter_mut().zip(units.iter()) {
+        column *= *unit;
+    }
+    normalise(&mut rows);
+    rows
+}
+
+/// How near the rows that `free` names come to depending on each other, and which do.
+pub(crate) fn margin(rows: &DMatrix<f64>, free: &[usize]) -> (f64, Vec<usize>) {
+    if free.len() < 2 {
+        return (1.0, Vec::new());
+    }
+    let svd = rows.select_rows(free).svd(true, false);
+    let least = svd.singular_values.imin();
+    let shares = svd.u.map(|u| u.column(least).abs());
+    let most = shares.as_ref().map_or(0.0, DVector::amax);
+    let taking_part = shares.iter().flat_map(|shares| {
+        let part = free.iter().zip(shares.iter());
+        let part = part.filter(|(_, share)| **share >= SHARE * most);
+        part.map(|(row, _)| *row).collect::<Vec<_>>()
+    });
+    (svd.singular_values[least], taking_part.collect())
+}
+
+/// A row that others imply.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Relation {
+    pub(crate) row: usize,
+    /// The rows that imply it.
+    pub(crate) from: Vec<usize>,
+}
+
+impl Relation {
+    /// All rows in it, none of which has a unique multiplier.
+    pub(crate) fn rows(&self) -> impl Iterator<Item = usize> + use<> {
+        let mut rows = self.from.clone();
+        rows.push(self.row);
+        rows.into_iter()
+    }
+}
+
+/// What the rows before each of `rows`, of which `rank` are independent, imply of it: so many relations as there are more rows than that.
+pub(crate) fn relations(rows: &DMatrix<f64>, rank: usize) -> Vec<Relation> {
+    let (m, n) = rows.shape();
+    if rank >= m {
+        return Vec::new();
+    }
+    // What each row keeps beside those before it, by Gram and Schmidt's method, twice for the digits.
+    let mut basis: Vec<DVector<f64>> = Vec::new();
+    let mut kept: Vec<(f64, usize)> = Vec::new();
+    for i in 0..m {
+        let mut rest: DVector<f64> = rows.row(i).transpose();
+        for _ in 0..2 {
+            for direction in &basis {
+                rest -= direction * direction.dot(&rest);
+            }
+        }
+        let norm = rest.norm();
+        kept.push((norm, i));
+        if norm > f64::EPSILON * n as f64 {
+            basis.push(rest / norm);
+        }
+    }
+    kept.sort_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
+    let mut implied: Vec<usize> = kept[..m - rank].iter().map(|(_, i)| *i).collect();
+    implied.sort_unstable();
+    let free: Vec<usize> = (0..m).filter(|i| !implied.contains(i)).collect();
+    let factored = (!free.is_empty()).then(|| rows.select_rows(&free).transpose().svd(true, true));
+    let relation = |row: usize| {
+        let wanted: DVector<f64> = rows.row(row).transpose();
+        let shares = factored
+            .as_ref()
+            .and_then(|svd| svd.solve(&wanted, f64::EPSILON).ok());
+        let shares = shares.unwrap_or_default();
+        let from = free.iter().zip(shares.iter());
+        let from = from.filter(|(_, share)| share.abs() > PARTICIPATION);
+        let from = from.map(|(i, _)| *i).collect();
+        Relation { row, from }
+    };
+    implied.into_iter().map(relation).collect()
+}
+
+impl fmt::Display for Diagnosis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Diagnosis {
+            coordinates,
+            constraints,
+            rank,
+            ..
+        } = self;
+        let counted = |count: usize, what: &str| match count {
+            1 => format!("1 {what}"),
+            _ => format!("{count} {what}s"),
+        };
+        let freedoms = self.degrees_of_freedom;
+        let plural = if freedoms == 1 { "degree" } else { "degrees" };
+        write!(
+            f,
+            "{}, {} of rank {rank}: {freedoms} {plural} of freedom",
+            counted(*coordinates, "coordinate"),
+            counted(*constraints, "constraint"),
+        )?;
+        if self.freedoms_of_position != freedoms {
+            write!(f, " ({} of position)", self.freedoms_of_position)?;
+        }
+        for redundant in &self.redundant {
+            write!(f, "\n{redundant}")?;
+            if self.only_here.contains(&redundant.name) {
+                write!(f, " at this position alone")?;
+            }
+        }
+        if !self.only_here.is_empty() {
+            write!(
+                f,
+                "\na singular position: nearby the constraints have a higher rank"
+            )?;
+        }
+        match &self.undetermined[..] {
+            [] => write!(f, "\nall reactions are unique")?,
+            rows if rows.len() == *constraints => write!(f, "\nno reaction is unique")?,
+            rows => write!(f, "\nreactions are unique but for {}", quoted(rows))?,
+        }
+        match self.nearness() {
+            Some(nearness) if self.only_here.is_empty() => write!(f, "\n{nearness}"),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl fmt::Display for Redundant {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.follows_from[..] {
+            [] => write!(f, "`{}` has no gradient", self.name),
+            from => write!(f, "`{}` follows from {}", self.name, quoted(from)),
+        }
+    }
+}
+
+/// The names in quotes; rows of one joint by the name of the joint, where there are several.
+fn quoted(names: &[String]) -> String {
+    let joint = |name: &str| name.rsplit_once('.').map(|(joint, _)| joint.to_owned());
+    let mut listed: Vec<String> = Vec::new();
+    for name in names {
+        let several = |own: &String| {
+            names
+                .iter()
+                .filter(|n| joint(n).as_ref() == Some(own))
+                .count()
+                > 1
+        };
+        let shown = joint(name).filter(several).unwrap_or_else(|| name.clone());
+        let shown = format!("`{shown}`");
+        if !listed.contains(&shown) {
+            listed.push(shown);
+        }
+    }
+    listed.join(", ")
+}

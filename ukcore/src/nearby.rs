@@ -1,0 +1,94 @@
+//! Random states on the constraints near a given one, the same in every run.
+
+use nalgebra::DVector;
+
+use crate::assemble::State;
+use crate::manifold::Projector;
+use crate::mechanism::{Evaluated, Prepared};
+use crate::modes::{constraint_matrix, mass_matrix, null_space, units};
+use crate::scan::{all_finite, largest};
+
+/// Random numbers: SplitMix64 (Steele, Lea & Flood 2014).
+#[derive(Debug, Clone)]
+pub(crate) struct Random(u64);
+
+impl Random {
+    pub(crate) fn new(seed: u64) -> Self {
+        Random(seed)
+    }
+
+    /// Uniform in [−1, 1).
+    pub(crate) fn signed(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^= z >> 31;
+        // 53 bits fill the mantissa.
+        (z >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    /// `n` values, each uniform in [−1, 1).
+    pub(crate) fn vector(&mut self, n: usize) -> Vec<f64> {
+        (0..n).map(|_| self.signed()).collect()
+    }
+}
+
+/// Displacements are this part of the largest coordinate, and times are as far off; half as much each time it is too far.
+const SPREAD: f64 = 0.2;
+/// So often at most: then the state itself is taken.
+const HALVINGS: i32 = 24;
+
+/// A random state on the constraints near `from`, which is on them or nearly so: displaced in the directions that the constraints allow, with
+/// other velocities, and at another time where constraints depend on time. `None` where none is found at which all terms of the equations
+/// are finite.
+pub(crate) fn nearby(mech: &Prepared, from: &State, random: &mut Random) -> Option<State> {
+    let spec = mech.spec();
+    let n = spec.n();
+    let units = units(&mass_matrix(mech, from));
+    let free = null_space(constraint_matrix(mech, from), &units);
+    let mut projector = Projector::new(mech);
+    let size = match largest(&from.q).max(projector.length(from.t, &from.q, &from.v)) {
+        size if size > 0.0 => size,
+        _ => 1.0,
+    };
+    let shares = DVector::from_vec(random.vector(free.ncols()));
+    let mut way = (free * shares).component_mul(&units);
+    let longest = way.amax();
+    if longest > 0.0 {
+        way *= size / longest;
+    }
+    let later = 0.5 * (random.signed() + 1.0);
+    let speed = size.max(largest(&from.v));
+    let pushes = random.vector(n);
+    let factors = (0..HALVINGS).map(|k| SPREAD * 0.5_f64.powi(k));
+    factors.chain([0.0]).find_map(|factor| {
+        let mut t = from.t;
+        if !spec.structure.scleronomic {
+            t += factor * later;
+        }
+        let moved = from.q.iter().zip(way.iter());
+        let mut q: Vec<f64> = moved.map(|(q, d)| q + factor * d).collect();
+        let pushed = from.v.iter().zip(&pushes);
+        let mut v: Vec<f64> = pushed.map(|(v, d)| v + SPREAD * speed * d).collect();
+        projector.position(t, &mut q, &v).ok()?;
+        projector.velocity(t, &q, &mut v).ok()?;
+        let state = State { t, q, v };
+        is_finite(mech, &state).then_some(state)
+    })
+}
+
+/// Whether all terms of the equations of motion are finite at `state`.
+pub(crate) fn is_finite(mech: &Prepared, state: &State) -> bool {
+    let mut terms = Evaluated::new(mech.spec().n(), mech.spec().m());
+    terms.dynamics(mech, state.t, &state.q, &state.v);
+    let Evaluated {
+        mass,
+        force,
+        nonideal,
+        jacobian,
+        rhs,
+    } = &terms;
+    let all = [mass, force, nonideal, jacobian, rhs];
+    all.into_iter().all(|values| all_finite(values))
+}
