@@ -21,6 +21,7 @@ mod language;
 mod layers;
 mod linearise;
 mod machines;
+mod misses;
 mod modes;
 mod orientations;
 mod paper_fish;

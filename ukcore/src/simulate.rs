@@ -23,6 +23,7 @@ mod energy;
 #[cfg(feature = "ensemble")]
 mod ensemble;
 mod grid;
+mod independence;
 mod integrals;
 mod obstacles;
 mod record;

@@ -4,7 +4,10 @@
 //! So it shows between two states of the motion, however far stages are from the place, while rows that turn without vanishing are told
 //! from it by their length on the way. Rows are looked at before any of them can have changed by half of itself; that is at each step only
 //! where steps are long.
+//!
+//! So do combinations of rows, where constraints come to imply each other: [`Independence`] tells whether one is reversed.
 
+use super::independence::Independence;
 use crate::assemble::State;
 use crate::integrate::sample::Sample;
 use crate::mechanism::Prepared;
@@ -15,6 +18,9 @@ use crate::zero::locate;
 const CHANGE: f64 = 0.5;
 const LONGEST: f64 = 16.0;
 
+/// Combinations of rows may lose so much faster than they have done what they have beside each other.
+const STEEPER: f64 = 2.0;
+
 /// A row that keeps this share of its length on the way from one state to the other has turned, and not vanished.
 const DIP: f64 = 0.25;
 
@@ -24,6 +30,20 @@ const SMALL: f64 = 1.0 / 32.0;
 /// How far before the place where a row is least a search for the singular position begins, as a share of the step: there it has a
 /// direction.
 const BEFORE: f64 = 0.01;
+
+/// A step over which a combination of rows is reversed is halved so often in search of the place.
+const HALVINGS: i32 = 8;
+
+/// What is lost of A on the way of a motion.
+pub(super) enum Loss {
+    /// A row by itself.
+    Row(Vanishing),
+    /// A combination of rows, between two states of the motion; whether all rows were looked at, or some that others have implied were not.
+    Rank {
+        states: Box<[State; 2]>,
+        whole: bool,
+    },
+}
 
 /// A row that all but vanishes.
 pub(super) struct Vanishing {
@@ -49,6 +69,12 @@ pub(super) struct RowWatch {
     here: Matrix,
     /// Products of the rows of both.
     products: Vec<f64>,
+    /// Of rows beside each other; `None` where there are not several.
+    independence: Option<Independence>,
+    /// The least share of a row that the others had not on the way between both states; 0 where a combination is reversed.
+    share: f64,
+    /// The same, at the last state that was looked at alone.
+    left: f64,
     /// When to look again.
     due: f64,
 }
@@ -116,13 +142,14 @@ impl Matrix {
 }
 
 impl RowWatch {
-    /// The row that vanishes on the step from `old` to `new`, or is all but zero at its end, if one does or is.
+    /// The row that vanishes on the step from `old` to `new`, or is all but zero at its end, if one does or is; else the part of the step on
+    /// which a combination of rows does.
     pub(super) fn vanishing(
         &mut self,
         mech: &Prepared,
         old: Sample<'_>,
         new: Sample<'_>,
-    ) -> Option<Vanishing> {
+    ) -> Option<Loss> {
         let first = self.sizes.is_empty();
         if mech.spec().m() == 0 || !first && (new.t - self.due) * (new.t - old.t) < 0.0 {
             return None;
@@ -130,23 +157,52 @@ impl RowWatch {
         if first {
             self.look_back(mech, old);
             self.sizes = self.seen.squares.iter().map(|x| x.sqrt()).collect();
+            self.independence = Independence::new(mech, &self.seen.entries);
         }
         self.here.take(mech, new);
         self.compare(mech);
-        if self.reversed().next().is_some() && self.look_back(mech, old) {
+        let reversed = self.reversed().next().is_some() || self.share == 0.0;
+        if reversed && self.look_back(mech, old) {
             self.compare(mech);
         }
         let vanish = self
             .reversed()
             .filter_map(|c| self.least(mech, c, old, new));
         let first = vanish.min_by(|a, b| a.least.total_cmp(&b.least));
-        first.or_else(|| self.smallest(&self.here, new))
+        let row = first.or_else(|| self.smallest(&self.here, new));
+        row.map(Loss::Row)
+            .or_else(|| self.dependent(mech, old, new))
     }
 
     /// The row that is all but zero where the motion stands, if one is.
-    pub(super) fn small(&mut self, mech: &Prepared, here: Sample<'_>) -> Option<Vanishing> {
+    pub(super) fn small(&mut self, mech: &Prepared, here: Sample<'_>) -> Option<Loss> {
         self.look_back(mech, here);
-        self.smallest(&self.seen, here)
+        self.smallest(&self.seen, here).map(Loss::Row)
+    }
+
+    /// The part of the step from `old` to `new` on which a combination of rows vanishes, if one does.
+    fn dependent(&mut self, mech: &Prepared, old: Sample<'_>, new: Sample<'_>) -> Option<Loss> {
+        let independence = self.independence.as_mut().filter(|_| self.share == 0.0)?;
+        let ends = [&self.seen.entries[..], &self.here.entries[..]];
+        let mut between = Matrix::default();
+        let at = |part: f64| between_states(old, new, part);
+        // Parts of the step that are left to look at, the first one last, with A at their ends.
+        let mut left = vec![(0.0, 1.0, ends.map(<[f64]>::to_vec))];
+        while let Some((from, to, [a, b])) = left.pop() {
+            if independence.share(&a, &b).is_some() {
+                continue;
+            }
+            if to - from <= 0.5_f64.powi(HALVINGS) {
+                let (states, whole) = (Box::new([at(from), at(to)]), independence.is_whole());
+                return Some(Loss::Rank { states, whole });
+            }
+            let middle = 0.5 * (from + to);
+            between.take(mech, Sample::from(&at(middle)));
+            let c = between.entries.clone();
+            left.push((middle, to, [c.clone(), b]));
+            left.push((from, middle, [a, c]));
+        }
+        None
     }
 
     /// The largest change of a row between both places, as a share of what it is at the last.
@@ -173,6 +229,12 @@ impl RowWatch {
     fn compare(&mut self, mech: &Prepared) {
         let other = (&self.seen, &mut self.products);
         self.here.compare(mech, Some(other));
+        self.share = match &mut self.independence {
+            Some(rows) => rows
+                .share(&self.seen.entries, &self.here.entries)
+                .unwrap_or(0.0),
+            None => 1.0,
+        };
     }
 
     /// The row of `matrix`, which is A at `here`, that is all but zero, if one is.
@@ -192,11 +254,19 @@ impl RowWatch {
     }
 
     /// The run has got to the time `t`.
-    pub(super) fn accept(&mut self, t: f64) {
+    pub(super) fn accept(&mut self, mech: &Prepared, t: f64) {
         if self.here.t != t || self.seen.t == t {
             return;
         }
-        let change = self.change();
+        // Combinations of rows change as their rows do, or faster where these add up, and have less to lose.
+        let mut change = self.change();
+        if let Some(rows) = &mut self.independence {
+            let here = &self.here.entries;
+            rows.weigh(mech, here);
+            let left = rows.share(here, here).unwrap_or(0.0).sqrt();
+            change = STEEPER * (change / left).max((self.left - left) / left);
+            self.left = left;
+        }
         let pairs = self.sizes.iter_mut().zip(&self.here.squares);
         for (size, square) in pairs {
             if *square > *size * *size {
