@@ -76,7 +76,20 @@ pub fn largest<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
     values.into_iter().fold(0.0, |a: f64, x| a.max(x.abs()))
 }
 
-/// The README's examples, compiled and run.
-#[doc = include_str!("../../README.md")]
+/// The examples of README and chapters, compiled and run.
 #[cfg(doctest)]
-pub struct Readme;
+mod chapters {
+    macro_rules! chapters {
+        ($($file:literal)*) => {
+            $(
+                const _: () = {
+                    #[doc = include_str!(concat!("../../", $file))]
+                    struct Chapter;
+                };
+            )*
+        };
+    }
+    chapters! {
+        "README.md" "docs/planar.md" "docs/spatial.md" "docs/redundant.md" "docs/stiff.md" "docs/ensembles.md" "docs/compiler.md"
+    }
+}

@@ -9,7 +9,7 @@ use tests::{Check, Dense, Random, every_model, pseudo_inverse, singular_values};
 use ukcore::scalar::{DoubleDouble, Scalar};
 use ukcore::solver::Formula;
 use ukcore::spec::Pivot;
-use ukcore::{Mechanism, Solver, SolverOptions, State};
+use ukcore::{Mechanism, Prepared, Solver, SolverOptions, State};
 
 /// Largest distance that may be refused.
 const MARGIN: f64 = 1.0 / 32.0;
@@ -478,15 +478,24 @@ fn wrong_masses() {
     impl tests::Check for Wrong {
         fn check<M: Model>(&self) {
             let solve = &M::SPEC.structure.solve;
-            let masses = M::SPEC.params.iter().enumerate().filter(|(_, p)| {
-                let diagonal = M::SPEC.equations.mass.iter().filter(|(i, j, _)| i == j);
-                let solved = diagonal.filter(|(i, ..)| {
-                    !solve
-                        .pivots
-                        .iter()
-                        .any(|s| matches!(s, Pivot::Prescribed(j, ..) if j == i))
-                });
-                solved.into_iter().any(|(.., text)| *text == p.name)
+            let n = M::SPEC.n();
+            let prescribed = |i: usize| {
+                let pivots = &mut solve.pivots.iter();
+                pivots.any(|s| matches!(s, Pivot::Prescribed(j, ..) if *j == i))
+            };
+            // Parameters that stand alone on the diagonal of M, by themselves.
+            let mass = |index: usize, x: f64| {
+                let mut mechanism = M::default();
+                mechanism.set_parameter(index, x);
+                let mut mass = vec![0.0; n * n];
+                let state = M::default().default_start().expect("a start");
+                Prepared::from(&mechanism).mass_matrix(state.t, &state.q, &mut mass);
+                mass
+            };
+            let masses = M::SPEC.params.iter().enumerate().filter(|(index, _)| {
+                let [one, other] = [2.5, 7.25].map(|x| mass(*index, x));
+                let alone = |i: &usize| one[i * n + i] == 2.5 && other[i * n + i] == 7.25;
+                (0..n).filter(alone).any(|i| !prescribed(i))
             });
             for (index, p) in masses {
                 for wrong in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 0.0, -0.0, -1.0] {

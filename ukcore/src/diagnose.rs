@@ -169,12 +169,9 @@ pub(crate) fn non_finite_terms(spec: &Spec, terms: &Evaluated, rhs: &[f64]) -> E
         let broken = pairs.filter(|(_, x)| !x.is_finite());
         what.extend(broken.map(|(name, _)| format!("{kind} on {name}")));
     }
-    let equations = &spec.equations;
-    let texts = equations.nonideal.iter().map(|(_, text)| text);
-    let mut texts = texts.chain(equations.definitions.iter().map(|(_, text)| text));
     let forces = terms.force.iter().all(|x| x.is_finite());
     let ideal = forces && terms.nonideal.iter().any(|x| !x.is_finite());
-    if ideal && texts.any(|text| text.contains("reaction(")) {
+    if ideal && spec.structure.loaded {
         what.push("a reaction (not unique where constraints imply each other)".to_owned());
     }
     if let Error::NonFinite { what: constraints } = non_finite_residual(spec, rhs) {

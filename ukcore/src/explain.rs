@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::mechanism::Prepared;
 use crate::numbers::{fixed, short};
 use crate::solver::{Solution, Solver, SolverOptions};
-use crate::spec::{ConstraintKind, ParamSpec, Spec};
+use crate::spec::{ParamSpec, Spec};
 
 /// All that is known about a mechanism, to print: coordinates, parameters, M, Q, c, A and b as equations, outputs, structure, the
 /// [`Plan`](crate::plan::Plan) of how q̈ is computed; and at a state rank, degrees of freedom, redundant constraints and accelerations.
@@ -150,20 +150,21 @@ fn unconstrained(f: &mut Formatter<'_>, spec: &Spec) -> fmt::Result {
         f,
         "\nM q̈ = Q without constraints (eq. 1); entries that are not listed are zero"
     )?;
-    for (row, column, text) in e.mass {
-        let [row, column] = [row, column].map(|i| spec.coords[*i]);
-        writeln!(f, "  M[{row}, {column}] = {text}")?;
-    }
-    for (row, text) in e.force {
-        writeln!(f, "  Q[{}] = {text}", spec.coords[*row])?;
-    }
+    lines(f, e.mass)?;
+    lines(f, e.force)?;
     if !e.nonideal.is_empty() {
         writeln!(f, "\nNon-ideal constraint force c (eq. 8)")?;
+        lines(f, e.nonideal)?;
     }
-    for (row, text) in e.nonideal {
-        writeln!(f, "  c[{}] = {text}", spec.coords[*row])?;
+    if !e.definitions.is_empty() {
+        writeln!(f, "\nAbbreviations")?;
+        lines(f, e.definitions)?;
     }
     Ok(())
+}
+
+fn lines(f: &mut Formatter<'_>, lines: &[&str]) -> fmt::Result {
+    lines.iter().try_for_each(|line| writeln!(f, "  {line}"))
 }
 
 fn constraints(f: &mut Formatter<'_>, spec: &Spec) -> fmt::Result {
@@ -175,17 +176,9 @@ fn constraints(f: &mut Formatter<'_>, spec: &Spec) -> fmt::Result {
         f,
         "\nConstraints ({holonomic} holonomic, {others} nonholonomic) and A q̈ = b (eq. 5)"
     )?;
-    for (row, constraint) in spec.constraints.iter().enumerate() {
-        let kind = match constraint.kind {
-            ConstraintKind::Holonomic => "",
-            ConstraintKind::Nonholonomic => "  (nonholonomic)",
-        };
-        writeln!(f, "  {}: {}{kind}", constraint.name, constraint.equation)?;
-        for (_, column, text) in spec.equations.jacobian.iter().filter(|(r, ..)| *r == row) {
-            writeln!(f, "      A[{}] = {text}", spec.coords[*column])?;
-        }
-        let b = spec.equations.rhs.iter().find(|(r, _)| *r == row);
-        writeln!(f, "      b = {}", b.map_or("0", |(_, text)| text))?;
+    for line in spec.equations.constraints {
+        let entry = line.starts_with("A[") || line.starts_with("b[");
+        writeln!(f, "  {}{line}", if entry { "    " } else { "" })?;
     }
     Ok(())
 }

@@ -201,6 +201,8 @@ pub struct Structure {
     pub scleronomic: bool,
     /// A `nonideal` section exists (c of eq. 8).
     pub nonideal: bool,
+    /// c depends on reactions, which are not unique where constraints imply each other.
+    pub loaded: bool,
     /// A `potential` section exists.
     pub potential: bool,
     /// T + V is conserved: scleronomic, no `force` and no `nonideal`, nonholonomic constraints homogeneous in q̇, and M either constant or
@@ -379,21 +381,20 @@ impl Costs {
     };
 }
 
-/// The derived equations as text; entries that are zero are absent.
+/// The derived equations as text, a line for each row. Entries that are zero are absent; rows that differ in their indices alone are one
+/// line, which ends with the values of the letters in it.
 #[derive(Debug)]
 pub struct Equations {
-    /// Abbreviations (name, text) that the others use.
-    pub definitions: &'static [(&'static str, &'static str)],
-    /// Entries (row, column, text) of the lower triangle of M.
-    pub mass: &'static [(usize, usize, &'static str)],
-    /// Entries (coordinate, text) of Q.
-    pub force: &'static [(usize, &'static str)],
-    /// Entries (coordinate, text) of c.
-    pub nonideal: &'static [(usize, &'static str)],
-    /// Entries (row, column, text) of A.
-    pub jacobian: &'static [(usize, usize, &'static str)],
-    /// Entries (constraint, text) of b.
-    pub rhs: &'static [(usize, &'static str)],
+    /// Abbreviations that the others use.
+    pub definitions: &'static [&'static str],
+    /// The lower triangle of M.
+    pub mass: &'static [&'static str],
+    /// Q.
+    pub force: &'static [&'static str],
+    /// c.
+    pub nonideal: &'static [&'static str],
+    /// Each constraint, followed by its entries of A and of b.
+    pub constraints: &'static [&'static str],
 }
 
 impl Structure {
@@ -410,6 +411,7 @@ impl Structure {
         angles: &[],
         scleronomic: false,
         nonideal: false,
+        loaded: false,
         potential: false,
         conservative: false,
         left_out: &[],
@@ -424,8 +426,7 @@ impl Equations {
         mass: &[],
         force: &[],
         nonideal: &[],
-        jacobian: &[],
-        rhs: &[],
+        constraints: &[],
     };
 }
 

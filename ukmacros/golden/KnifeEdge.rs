@@ -7,36 +7,20 @@
 ///
 /// Mass matrix M (lower triangle), eq. 1:
 ///
-/// ```text
-/// M[x, x] = m
-/// M[y, y] = m
-/// M[th, th] = i
-/// ```
+/// <p><math><msub><mi>M</mi><mrow><mi>x</mi><mo>,</mo><mi>x</mi></mrow></msub><mo>=</mo><mi>m</mi></math><br>
+/// <math><msub><mi>M</mi><mrow><mi>y</mi><mo>,</mo><mi>y</mi></mrow></msub><mo>=</mo><mi>m</mi></math><br>
+/// <math><msub><mi>M</mi><mrow><mi>th</mi><mo>,</mo><mi>th</mi></mrow></msub><mo>=</mo><mi>i</mi></math></p>
 ///
 /// Generalised force Q, eq. 1:
 ///
-/// ```text
-/// Q[x] = m*g*sin(slope)
-/// ```
+/// <p><math><msub><mi>Q</mi><mi>x</mi></msub><mo>=</mo><mi>m</mi><mspace width="0.17em"/><mi>g</mi><mspace width="0.17em"/><mi>sin</mi><mo>(</mo><mi>slope</mi><mo>)</mo></math></p>
 ///
-/// Constraints φ, eqs. 3 and 4:
+/// Constraints, eqs. 3 and 4, each with its row of the constraint Jacobian A and of b, eq. 5:
 ///
-/// ```text
-/// edge: dot(x)*sin(th) - dot(y)*cos(th) = 0
-/// ```
-///
-/// Constraint Jacobian A, eq. 5:
-///
-/// ```text
-/// A[edge, x] = sin(th)
-/// A[edge, y] = -cos(th)
-/// ```
-///
-/// Right-hand side b, eq. 5:
-///
-/// ```text
-/// b[edge] = -(dot(x)*cos(th)*dot(th) + sin(th)*dot(y)*dot(th))
-/// ```
+/// <p><math><mtext>edge (nonholonomic):</mtext><mspace width="1em"/><mover><mi>x</mi><mo>˙</mo></mover><mspace width="0.17em"/><mi>sin</mi><mo>(</mo><mi>th</mi><mo>)</mo><mo>−</mo><mover><mi>y</mi><mo>˙</mo></mover><mspace width="0.17em"/><mi>cos</mi><mo>(</mo><mi>th</mi><mo>)</mo><mo>=</mo><mn>0</mn></math><br>
+/// <math><msub><mi>A</mi><mrow><mi>edge</mi><mo>,</mo><mi>x</mi></mrow></msub><mo>=</mo><mi>sin</mi><mo>(</mo><mi>th</mi><mo>)</mo></math><br>
+/// <math><msub><mi>A</mi><mrow><mi>edge</mi><mo>,</mo><mi>y</mi></mrow></msub><mo>=</mo><mo>−</mo><mi>cos</mi><mo>(</mo><mi>th</mi><mo>)</mo></math><br>
+/// <math><msub><mi>b</mi><mi>edge</mi></msub><mo>=</mo><mo>−</mo><mo>(</mo><mover><mi>x</mi><mo>˙</mo></mover><mspace width="0.17em"/><mi>cos</mi><mo>(</mo><mi>th</mi><mo>)</mo><mspace width="0.17em"/><mover><mi>th</mi><mo>˙</mo></mover><mo>+</mo><mi>sin</mi><mo>(</mo><mi>th</mi><mo>)</mo><mspace width="0.17em"/><mover><mi>y</mi><mo>˙</mo></mover><mspace width="0.17em"/><mover><mi>th</mi><mo>˙</mo></mover><mo>)</mo></math></p>
 ///
 /// # How it is computed
 ///
@@ -206,6 +190,7 @@ const _: () = {
                 angles: &[2],
                 scleronomic: true,
                 nonideal: false,
+                loaded: false,
                 potential: true,
                 conservative: true,
                 left_out: &[
@@ -269,11 +254,15 @@ const _: () = {
             },
             equations: ukcore::Equations {
                 definitions: &[],
-                mass: &[(0, 0, "m"), (1, 1, "m"), (2, 2, "i")],
-                force: &[(0, "m*g*sin(slope)")],
+                mass: &["M[x, x] = m", "M[y, y] = m", "M[th, th] = i"],
+                force: &["Q[x] = m*g*sin(slope)"],
                 nonideal: &[],
-                jacobian: &[(0, 0, "sin(th)"), (0, 1, "-cos(th)")],
-                rhs: &[(0, "-(dot(x)*cos(th)*dot(th) + sin(th)*dot(y)*dot(th))")],
+                constraints: &[
+                    "edge (nonholonomic): dot(x)*sin(th) - dot(y)*cos(th) = 0",
+                    "A[edge, x] = sin(th)",
+                    "A[edge, y] = -cos(th)",
+                    "b[edge] = -(dot(x)*cos(th)*dot(th) + sin(th)*dot(y)*dot(th))",
+                ],
             },
         };
         fn parameter(&self, index: usize) -> f64 {

@@ -8,29 +8,19 @@
 ///
 /// Mass matrix M (lower triangle), eq. 1:
 ///
-/// ```text
-/// M[x, x] = m
-/// ```
+/// <p><math><msub><mi>M</mi><mrow><mi>x</mi><mo>,</mo><mi>x</mi></mrow></msub><mo>=</mo><mi>m</mi></math></p>
 ///
 /// Generalised force Q, eq. 1:
 ///
-/// ```text
-/// Q[joint] = -(k1*joint + k2*(joint - x))
-/// Q[x] = k2*(joint - x)
-/// ```
+/// <p><math><msub><mi>Q</mi><mi>joint</mi></msub><mo>=</mo><mo>−</mo><mo>(</mo><msub><mi>k</mi><mn>1</mn></msub><mspace width="0.17em"/><mi>joint</mi><mo>+</mo><msub><mi>k</mi><mn>2</mn></msub><mspace width="0.17em"/><mo>(</mo><mi>joint</mi><mo>−</mo><mi>x</mi><mo>)</mo><mo>)</mo></math><br>
+/// <math><msub><mi>Q</mi><mi>x</mi></msub><mo>=</mo><msub><mi>k</mi><mn>2</mn></msub><mspace width="0.17em"/><mo>(</mo><mi>joint</mi><mo>−</mo><mi>x</mi><mo>)</mo></math></p>
 ///
-/// Constraints φ, eqs. 3 and 4:
+/// Constraints, eqs. 3 and 4, each with its row of the constraint Jacobian A and of b, eq. 5:
 ///
-/// ```text
-/// balance: k1*joint + k2*(joint - x) = 0
-/// ```
-///
-/// Constraint Jacobian A, eq. 5:
-///
-/// ```text
-/// A[balance, joint] = k1 + k2
-/// A[balance, x] = -k2
-/// ```
+/// <p><math><mtext>balance:</mtext><mspace width="1em"/><msub><mi>k</mi><mn>1</mn></msub><mspace width="0.17em"/><mi>joint</mi><mo>+</mo><msub><mi>k</mi><mn>2</mn></msub><mspace width="0.17em"/><mo>(</mo><mi>joint</mi><mo>−</mo><mi>x</mi><mo>)</mo><mo>=</mo><mn>0</mn></math><br>
+/// <math><msub><mi>A</mi><mrow><mi>balance</mi><mo>,</mo><mi>joint</mi></mrow></msub><mo>=</mo><msub><mi>k</mi><mn>1</mn></msub><mo>+</mo><msub><mi>k</mi><mn>2</mn></msub></math><br>
+/// <math><msub><mi>A</mi><mrow><mi>balance</mi><mo>,</mo><mi>x</mi></mrow></msub><mo>=</mo><mo>−</mo><msub><mi>k</mi><mn>2</mn></msub></math><br>
+/// <math><msub><mi>b</mi><mi>balance</mi></msub><mo>=</mo><mn>0</mn></math></p>
 ///
 /// # How it is computed
 ///
@@ -188,6 +178,7 @@ const _: () = {
                 angles: &[],
                 scleronomic: true,
                 nonideal: false,
+                loaded: false,
                 potential: true,
                 conservative: true,
                 left_out: &[
@@ -249,11 +240,18 @@ const _: () = {
             },
             equations: ukcore::Equations {
                 definitions: &[],
-                mass: &[(1, 1, "m")],
-                force: &[(0, "-(k1*joint + k2*(joint - x))"), (1, "k2*(joint - x)")],
+                mass: &["M[x, x] = m"],
+                force: &[
+                    "Q[joint] = -(k1*joint + k2*(joint - x))",
+                    "Q[x] = k2*(joint - x)",
+                ],
                 nonideal: &[],
-                jacobian: &[(0, 0, "k1 + k2"), (0, 1, "-k2")],
-                rhs: &[],
+                constraints: &[
+                    "balance: k1*joint + k2*(joint - x) = 0",
+                    "A[balance, joint] = k1 + k2",
+                    "A[balance, x] = -k2",
+                    "b[balance] = 0",
+                ],
             },
         };
         fn parameter(&self, index: usize) -> f64 {

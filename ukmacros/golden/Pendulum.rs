@@ -6,35 +6,19 @@
 ///
 /// Mass matrix M (lower triangle), eq. 1:
 ///
-/// ```text
-/// M[x, x] = m
-/// M[y, y] = m
-/// ```
+/// <p><math><msub><mi>M</mi><mrow><mi>x</mi><mo>,</mo><mi>x</mi></mrow></msub><mo>=</mo><mi>m</mi></math><br>
+/// <math><msub><mi>M</mi><mrow><mi>y</mi><mo>,</mo><mi>y</mi></mrow></msub><mo>=</mo><mi>m</mi></math></p>
 ///
 /// Generalised force Q, eq. 1:
 ///
-/// ```text
-/// Q[y] = -m*g
-/// ```
+/// <p><math><msub><mi>Q</mi><mi>y</mi></msub><mo>=</mo><mo>−</mo><mi>m</mi><mspace width="0.17em"/><mi>g</mi></math></p>
 ///
-/// Constraints φ, eqs. 3 and 4:
+/// Constraints, eqs. 3 and 4, each with its row of the constraint Jacobian A and of b, eq. 5:
 ///
-/// ```text
-/// rod: sq(x) + sq(y) - sq(l) = 0
-/// ```
-///
-/// Constraint Jacobian A, eq. 5:
-///
-/// ```text
-/// A[rod, x] = 2*x
-/// A[rod, y] = 2*y
-/// ```
-///
-/// Right-hand side b, eq. 5:
-///
-/// ```text
-/// b[rod] = -2*(sq(dot(x)) + sq(dot(y)))
-/// ```
+/// <p><math><mtext>rod:</mtext><mspace width="1em"/><msup><mi>x</mi><mn>2</mn></msup><mo>+</mo><msup><mi>y</mi><mn>2</mn></msup><mo>−</mo><msup><mi>l</mi><mn>2</mn></msup><mo>=</mo><mn>0</mn></math><br>
+/// <math><msub><mi>A</mi><mrow><mi>rod</mi><mo>,</mo><mi>x</mi></mrow></msub><mo>=</mo><mn>2</mn><mspace width="0.17em"/><mi>x</mi></math><br>
+/// <math><msub><mi>A</mi><mrow><mi>rod</mi><mo>,</mo><mi>y</mi></mrow></msub><mo>=</mo><mn>2</mn><mspace width="0.17em"/><mi>y</mi></math><br>
+/// <math><msub><mi>b</mi><mi>rod</mi></msub><mo>=</mo><mo>−</mo><mn>2</mn><mspace width="0.17em"/><mo>(</mo><msup><mrow><mover><mi>x</mi><mo>˙</mo></mover></mrow><mn>2</mn></msup><mo>+</mo><msup><mrow><mover><mi>y</mi><mo>˙</mo></mover></mrow><mn>2</mn></msup><mo>)</mo></math></p>
 ///
 /// # How it is computed
 ///
@@ -191,6 +175,7 @@ const _: () = {
                 angles: &[],
                 scleronomic: true,
                 nonideal: false,
+                loaded: false,
                 potential: true,
                 conservative: true,
                 left_out: &[
@@ -253,11 +238,15 @@ const _: () = {
             },
             equations: ukcore::Equations {
                 definitions: &[],
-                mass: &[(0, 0, "m"), (1, 1, "m")],
-                force: &[(1, "-m*g")],
+                mass: &["M[x, x] = m", "M[y, y] = m"],
+                force: &["Q[y] = -m*g"],
                 nonideal: &[],
-                jacobian: &[(0, 0, "2*x"), (0, 1, "2*y")],
-                rhs: &[(0, "-2*(sq(dot(x)) + sq(dot(y)))")],
+                constraints: &[
+                    "rod: sq(x) + sq(y) - sq(l) = 0",
+                    "A[rod, x] = 2*x",
+                    "A[rod, y] = 2*y",
+                    "b[rod] = -2*(sq(dot(x)) + sq(dot(y)))",
+                ],
             },
         };
         fn parameter(&self, index: usize) -> f64 {

@@ -8,42 +8,28 @@
 ///
 /// Abbreviations:
 ///
-/// ```text
-/// speed_down = dot(x)*cos(slope) - dot(y)*sin(slope)
-/// ```
+/// <p><math><mi>speed_down</mi><mo>=</mo><mover><mi>x</mi><mo>˙</mo></mover><mspace width="0.17em"/><mi>cos</mi><mo>(</mo><mi>slope</mi><mo>)</mo><mo>−</mo><mover><mi>y</mi><mo>˙</mo></mover><mspace width="0.17em"/><mi>sin</mi><mo>(</mo><mi>slope</mi><mo>)</mo></math></p>
 ///
 /// Mass matrix M (lower triangle), eq. 1:
 ///
-/// ```text
-/// M[x, x] = m
-/// M[y, y] = m
-/// ```
+/// <p><math><msub><mi>M</mi><mrow><mi>x</mi><mo>,</mo><mi>x</mi></mrow></msub><mo>=</mo><mi>m</mi></math><br>
+/// <math><msub><mi>M</mi><mrow><mi>y</mi><mo>,</mo><mi>y</mi></mrow></msub><mo>=</mo><mi>m</mi></math></p>
 ///
 /// Generalised force Q, eq. 1:
 ///
-/// ```text
-/// Q[y] = -m*g
-/// ```
+/// <p><math><msub><mi>Q</mi><mi>y</mi></msub><mo>=</mo><mo>−</mo><mi>m</mi><mspace width="0.17em"/><mi>g</mi></math></p>
 ///
-/// Constraints φ, eqs. 3 and 4:
+/// Constraints, eqs. 3 and 4, each with its row of the constraint Jacobian A and of b, eq. 5:
 ///
-/// ```text
-/// plane: x*sin(slope) + cos(slope)*y = 0
-/// ```
-///
-/// Constraint Jacobian A, eq. 5:
-///
-/// ```text
-/// A[plane, x] = sin(slope)
-/// A[plane, y] = cos(slope)
-/// ```
+/// <p><math><mtext>plane:</mtext><mspace width="1em"/><mi>x</mi><mspace width="0.17em"/><mi>sin</mi><mo>(</mo><mi>slope</mi><mo>)</mo><mo>+</mo><mi>cos</mi><mo>(</mo><mi>slope</mi><mo>)</mo><mspace width="0.17em"/><mi>y</mi><mo>=</mo><mn>0</mn></math><br>
+/// <math><msub><mi>A</mi><mrow><mi>plane</mi><mo>,</mo><mi>x</mi></mrow></msub><mo>=</mo><mi>sin</mi><mo>(</mo><mi>slope</mi><mo>)</mo></math><br>
+/// <math><msub><mi>A</mi><mrow><mi>plane</mi><mo>,</mo><mi>y</mi></mrow></msub><mo>=</mo><mi>cos</mi><mo>(</mo><mi>slope</mi><mo>)</mo></math><br>
+/// <math><msub><mi>b</mi><mi>plane</mi></msub><mo>=</mo><mn>0</mn></math></p>
 ///
 /// Non-ideal force c, eq. 8:
 ///
-/// ```text
-/// c[x] = -sq(cos(slope))*mu*m*g*sign(speed_down)
-/// c[y] = cos(slope)*sin(slope)*mu*m*g*sign(speed_down)
-/// ```
+/// <p><math><msub><mi>c</mi><mi>x</mi></msub><mo>=</mo><mo>−</mo><msup><mrow><mi>cos</mi><mo>(</mo><mi>slope</mi><mo>)</mo></mrow><mn>2</mn></msup><mspace width="0.17em"/><mi>μ</mi><mspace width="0.17em"/><mi>m</mi><mspace width="0.17em"/><mi>g</mi><mspace width="0.17em"/><mi>sign</mi><mo>(</mo><mi>speed_down</mi><mo>)</mo></math><br>
+/// <math><msub><mi>c</mi><mi>y</mi></msub><mo>=</mo><mi>cos</mi><mo>(</mo><mi>slope</mi><mo>)</mo><mspace width="0.17em"/><mi>sin</mi><mo>(</mo><mi>slope</mi><mo>)</mo><mspace width="0.17em"/><mi>μ</mi><mspace width="0.17em"/><mi>m</mi><mspace width="0.17em"/><mi>g</mi><mspace width="0.17em"/><mi>sign</mi><mo>(</mo><mi>speed_down</mi><mo>)</mo></math></p>
 ///
 /// Switches, functions at whose zeros abs, sign, min or max change their branch or the direction of a vector turns, with the terms that contain them:
 ///
@@ -234,6 +220,7 @@ const _: () = {
                 angles: &[],
                 scleronomic: true,
                 nonideal: true,
+                loaded: false,
                 potential: true,
                 conservative: false,
                 left_out: &[
@@ -295,15 +282,19 @@ const _: () = {
                 },
             },
             equations: ukcore::Equations {
-                definitions: &[("speed_down", "dot(x)*cos(slope) - dot(y)*sin(slope)")],
-                mass: &[(0, 0, "m"), (1, 1, "m")],
-                force: &[(1, "-m*g")],
+                definitions: &["speed_down = dot(x)*cos(slope) - dot(y)*sin(slope)"],
+                mass: &["M[x, x] = m", "M[y, y] = m"],
+                force: &["Q[y] = -m*g"],
                 nonideal: &[
-                    (0, "-sq(cos(slope))*mu*m*g*sign(speed_down)"),
-                    (1, "cos(slope)*sin(slope)*mu*m*g*sign(speed_down)"),
+                    "c[x] = -sq(cos(slope))*mu*m*g*sign(speed_down)",
+                    "c[y] = cos(slope)*sin(slope)*mu*m*g*sign(speed_down)",
                 ],
-                jacobian: &[(0, 0, "sin(slope)"), (0, 1, "cos(slope)")],
-                rhs: &[],
+                constraints: &[
+                    "plane: x*sin(slope) + cos(slope)*y = 0",
+                    "A[plane, x] = sin(slope)",
+                    "A[plane, y] = cos(slope)",
+                    "b[plane] = 0",
+                ],
             },
         };
         fn parameter(&self, index: usize) -> f64 {

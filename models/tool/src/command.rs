@@ -16,6 +16,7 @@ use crate::list::list;
 use crate::modes::{ModesArgs, modes};
 use crate::report::{ReportArgs, report};
 use crate::run::{RunArgs, run};
+use crate::stability::{ModelArgs, of_model};
 
 /// The exit codes, and how values are written: the end of `--help`.
 pub const HELP: &str = "\
@@ -37,6 +38,9 @@ pub enum Command {
     Explain(ExplainArgs),
     /// Measure error against run time, for each method, formula and stabilisation, and say which to take for which accuracy
     Report(ReportArgs),
+    /// Sweep each parameter, the speed of the start and the tolerance until something breaks: how far results are right, and what is said
+    /// beyond
+    Stability(ModelArgs),
 }
 
 impl Command {
@@ -52,6 +56,7 @@ impl Command {
             Command::Modes(args) => modes(models, args),
             Command::Explain(args) => explain(models, args),
             Command::Report(args) => report(models, args),
+            Command::Stability(args) => of_model(models, args),
         }
     }
 }

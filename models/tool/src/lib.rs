@@ -1,6 +1,7 @@
 //! Tools for mechanisms declared with [`ukcore::multibody!`]: commands, pages, plots.
 //!
-//! [`main!`] beside a declaration makes a program of it, with the commands `list`, `run`, `animate`, `modes`, `explain` and `report`:
+//! [`main!`] beside a declaration makes a program of it, with the commands `list`, `run`, `animate`, `modes`, `explain`,
+//! `report` and `stability`:
 //!
 //! ```no_run
 //! ukcore::multibody! {
@@ -54,7 +55,7 @@ pub mod units;
 pub use ukcore::model::Entry;
 
 /// The whole of a program for the mechanisms declared beside it: a `main` function with the commands `list`, `run`, `animate`,
-/// `modes`, `explain` and `report`.
+/// `modes`, `explain`, `report` and `stability`.
 ///
 /// The mechanisms are called like their types, in lower case and with dashes (`Cart` as `cart`, `UChain` as `u-chain`), and have the starts
 /// that they declare; unless they implement [`ukcore::model::Model`] and say more of themselves. See the [crate] for an example.

@@ -132,7 +132,7 @@ fn it_is_explained_with_a_guess_and_without() {
     let text = output(&format!("explain cart {GUESS}"));
     for part in [
         "M[s, s] = big",
-        "A[x] = ",
+        "A[rod, x] = ",
         "degrees of freedom: 2",
         "At the start `assembled`",
     ] {
@@ -261,4 +261,35 @@ fn its_modes_are_told() {
         1,
         "is neither a rest position nor a steady motion",
     );
+}
+
+#[test]
+fn it_is_swept_until_it_breaks() {
+    let out = tempfile::tempdir().expect("a directory");
+    let place = out.path().join("stability");
+    let text = output(&format!(
+        "stability cart --until 0.05 --out {}",
+        place.display()
+    ));
+    // Far from all ordinary values motions agree with those by the printed formula, or something is said.
+    assert!(
+        text.contains(" accurate, ") && text.contains(" 0 wrong in "),
+        "{text}"
+    );
+    let lines = std::fs::read_to_string(place.join("stability.csv")).expect("a table");
+    let class = |case: &str, factor: &str| {
+        let mut lines = lines
+            .lines()
+            .map(|line| line.split(',').collect::<Vec<_>>());
+        let line = lines.find(|line| line[0] == case && line[2] == factor);
+        line.map(|line| line[3].to_owned())
+    };
+    let accurate = Some("accurate".to_owned());
+    for case in ["big", "m", "l", "k", "g"] {
+        assert_eq!(class(case, "1"), accurate, "{case}");
+    }
+    assert_eq!(class("m", "1e-12"), accurate);
+    assert_eq!(class("tolerance", "1e-9"), accurate);
+    assert!(place.join("index.html").exists() && place.join("stability.svg").exists());
+    fails("stability carts", 2, "did you mean `cart`?");
 }

@@ -7,7 +7,6 @@ use super::frame::{Frame, turned};
 use super::functions::{Function, acceleration, functions};
 use super::hoist::{Hoisted, hoist};
 use super::hub::{Divided, divided};
-use super::redundant::redundant;
 use super::regular::Regular;
 use super::switches::Switch;
 use crate::expr::{Graph, Id, Map, System};
@@ -102,7 +101,6 @@ pub(super) fn choose(
         return refused(refusal, system);
     }
     let variants = variants(system, held, regular, names);
-    let redundant = redundant(&regular.dynamics, &system.defaults, &system.graph);
     // Why the first way that does not go does not.
     let mut refusal = None;
     let tasks = variants.iter().map(|variant| Task {
@@ -111,7 +109,7 @@ pub(super) fn choose(
         names: &variant.names,
         own,
         further: variant.further,
-        redundant: &redundant,
+        redundant: &regular.redundant,
         frames: &variant.frames,
         multipliers: false,
     });

@@ -9,7 +9,6 @@
 
 use super::dynamics::Dynamics;
 use super::elimination::{Further, Straight, Task, eliminate, orders};
-use super::redundant::redundant;
 use super::regular::Regular;
 use super::switches::Switch;
 use crate::expr::{Func, Graph, Id, Map, Node, Symbol, System};
@@ -79,14 +78,13 @@ fn multipliers(
     }
     let mut ideal = regular.dynamics.clone();
     ideal.nonideal.fill(system.graph.zero());
-    let redundant = redundant(&ideal, &system.defaults, &system.graph);
     let task = Task {
         dynamics: &ideal,
         weights: &regular.weights,
         names,
         own: (ideal.force.len(), ideal.rhs.len()),
         further: Further::Nothing,
-        redundant: &redundant,
+        redundant: &regular.redundant,
         frames: &[],
         multipliers: true,
     };

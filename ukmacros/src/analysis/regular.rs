@@ -16,6 +16,7 @@
 use super::dynamics::Dynamics;
 use super::groups::Groups;
 use super::probe::{Probe, Random};
+use super::redundant::redundant;
 use crate::expr::{Graph, Id, Node, Symbol, System, eval};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -50,6 +51,8 @@ pub(crate) struct Regular {
     pub(crate) met: Vec<usize>,
     /// Coordinates of a block that is singular at any state, and that no constraint makes regular.
     pub(crate) singular: Vec<usize>,
+    /// Constraints that follow from others, with these others; not looked for where `singular` refuses the straight line.
+    pub(crate) redundant: BTreeSet<usize>,
 }
 
 /// Makes M regular as far as constraints do.
@@ -62,6 +65,7 @@ pub(crate) fn regular(system: &mut System, d: &Dynamics) -> Regular {
         rows: Vec::new(),
         met: Vec::new(),
         singular: Vec::new(),
+        redundant: BTreeSet::new(),
     };
     let g = &mut system.graph;
     for block in blocks(d, g) {
@@ -83,6 +87,9 @@ pub(crate) fn regular(system: &mut System, d: &Dynamics) -> Regular {
     found.rows.sort_unstable();
     found.met.sort_unstable();
     found.met.dedup();
+    if found.singular.is_empty() {
+        found.redundant = redundant(d, &system.defaults, &system.graph);
+    }
     found
 }
 

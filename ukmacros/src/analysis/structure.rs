@@ -14,6 +14,8 @@ pub(crate) struct Structure {
     pub(crate) angles: Vec<usize>,
     pub(crate) scleronomic: bool,
     pub(crate) nonideal: bool,
+    /// The non-ideal force depends on reactions.
+    pub(crate) loaded: bool,
     pub(crate) potential: bool,
     pub(crate) conservative: bool,
     pub(crate) left_out: Vec<String>,
@@ -39,6 +41,7 @@ pub(crate) fn structure(system: &mut System, dynamics: &Dynamics) -> Structure {
     let mut equations = equations.chain([&dynamics.potential]);
     let scleronomic = equations.all(|id| !g.uses(*id).time);
     let nonideal = system.nonideal.is_some();
+    let loaded = dynamics.nonideal.iter().any(|c| g.uses(*c).multiplier);
     let forced = system.force.values().any(|f| !g.is_zero(*f));
     let conservative = scleronomic
         && !nonideal
@@ -54,6 +57,7 @@ pub(crate) fn structure(system: &mut System, dynamics: &Dynamics) -> Structure {
         angles: angles(dynamics, g),
         scleronomic,
         nonideal,
+        loaded,
         potential: system.potential.is_some(),
         conservative,
         left_out: Vec::new(),

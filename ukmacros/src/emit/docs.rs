@@ -6,8 +6,9 @@ use crate::expr::System;
 use crate::model::Model;
 use std::fmt::Write as _;
 
-/// Rows of a block shown before the middle is left out.
-const ROWS: usize = 12;
+/// Blocks shown before the middle is left out, and characters of one that is typeset: `explain` shows what is longer.
+const BLOCKS: usize = 8;
+const LENGTH: usize = 4000;
 
 /// What the emitted type's documentation says after the user's own.
 pub(super) fn derived(
@@ -16,7 +17,7 @@ pub(super) fn derived(
     system: &System,
     model: &Model,
 ) -> String {
-    let equations = equations(listing, system, model);
+    let equations = equations(listing);
     let computed = computed(analysis, system, model);
     format!(
         "# Equations of motion\n\nDerived from the declaration at compile time, in the notation of Zhao, Zhen & Chen 2013: \
@@ -25,64 +26,62 @@ pub(super) fn derived(
 }
 
 /// Markdown of the equations for the emitted type's docs.
-fn equations(listing: &Listing, system: &System, model: &Model) -> String {
-    let coord = |i: usize| &model.coord_elements[i].name;
-    let constraint = |i: usize| system.constraints[i].item.text();
+fn equations(listing: &Listing) -> String {
     let mut out = String::new();
-    let mut block = |title: &str, rows: Vec<String>| {
-        if rows.is_empty() {
-            return;
+    let sections = [
+        ("Abbreviations:", &listing.definitions),
+        ("Mass matrix M (lower triangle), eq. 1:", &listing.mass),
+        ("Generalised force Q, eq. 1:", &listing.force),
+        (
+            "Constraints, eqs. 3 and 4, each with its row of the constraint Jacobian A and of b, eq. 5:",
+            &listing.constraints,
+        ),
+        ("Non-ideal force c, eq. 8:", &listing.nonideal),
+    ];
+    for (title, blocks) in sections {
+        if blocks.is_empty() {
+            continue;
         }
-        let _ = writeln!(out, "{title}\n\n```text");
-        let hidden = rows.len().saturating_sub(ROWS);
-        let shown = if hidden > 0 { ROWS - 2 } else { rows.len() };
-        for row in &rows[..shown] {
-            let _ = writeln!(out, "{row}");
+        let _ = writeln!(out, "{title}\n");
+        let hidden = match blocks.len() > BLOCKS {
+            true => BLOCKS - 2..blocks.len() - 1,
+            false => 0..0,
+        };
+        // One paragraph for rows that stand alone, one for each constraint.
+        let mut paragraph: Vec<String> = Vec::new();
+        let mut close = |paragraph: &mut Vec<String>| {
+            if !paragraph.is_empty() {
+                let _ = writeln!(out, "<p>{}</p>\n", paragraph.join("<br>\n"));
+                paragraph.clear();
+            }
+        };
+        for (k, block) in blocks.iter().enumerate() {
+            let length: usize = block.texts().iter().map(String::len).sum();
+            if block.rows.len() > 1 {
+                close(&mut paragraph);
+            }
+            if k == hidden.start && !hidden.is_empty() {
+                let hidden = hidden.len();
+                paragraph.push(format!(
+                    "… {hidden} more, which <code>Explanation::new</code> shows …"
+                ));
+            } else if length > LENGTH {
+                paragraph
+                    .push("… a long one, which <code>Explanation::new</code> shows …".to_owned());
+            } else if !hidden.contains(&k) {
+                paragraph.extend(block.mathml());
+            }
         }
-        if hidden > 0 {
-            let _ = writeln!(
-                out,
-                "… {} rows like these …\n{}",
-                rows.len() - shown - 1,
-                rows[rows.len() - 1]
-            );
+        close(&mut paragraph);
+    }
+    if !listing.switches.is_empty() {
+        out += "Switches, functions at whose zeros abs, sign, min or max change their branch or the direction of a vector turns, with the \
+                terms that contain them:\n\n```text\n";
+        for (function, terms) in &listing.switches {
+            let _ = writeln!(out, "{function}: {}", terms.join(", "));
         }
-        let _ = writeln!(out, "```\n");
-    };
-    let of_coordinates = |name: &str, rows: &[(usize, String)]| -> Vec<String> {
-        let rows = rows.iter();
-        rows.map(|(i, t)| format!("{name}[{}] = {t}", coord(*i)))
-            .collect()
-    };
-    let definitions = listing.definitions.iter();
-    let definitions = definitions.map(|(n, t)| format!("{n} = {t}"));
-    let mass = listing.mass.iter();
-    let mass = mass.map(|(i, j, t)| format!("M[{}, {}] = {t}", coord(*i), coord(*j)));
-    let phi = listing.phi.iter().enumerate();
-    let phi = phi.map(|(i, t)| format!("{}: {t}", constraint(i)));
-    let jacobian = listing.jacobian.iter();
-    let jacobian = jacobian.map(|(i, j, t)| format!("A[{}, {}] = {t}", constraint(*i), coord(*j)));
-    let rhs = listing.rhs.iter();
-    let rhs = rhs.map(|(i, t)| format!("b[{}] = {t}", constraint(*i)));
-    block("Abbreviations:", definitions.collect());
-    block("Mass matrix M (lower triangle), eq. 1:", mass.collect());
-    block(
-        "Generalised force Q, eq. 1:",
-        of_coordinates("Q", &listing.force),
-    );
-    block("Constraints φ, eqs. 3 and 4:", phi.collect());
-    block("Constraint Jacobian A, eq. 5:", jacobian.collect());
-    block("Right-hand side b, eq. 5:", rhs.collect());
-    block(
-        "Non-ideal force c, eq. 8:",
-        of_coordinates("c", &listing.nonideal),
-    );
-    let switches = listing.switches.iter();
-    let switches = switches.map(|(g, terms)| format!("{g}: {}", terms.join(", ")));
-    block(
-        "Switches, functions at whose zeros abs, sign, min or max change their branch or the direction of a vector turns, with the terms that contain them:",
-        switches.collect(),
-    );
+        out += "```\n\n";
+    }
     out
 }
 

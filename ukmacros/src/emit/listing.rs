@@ -2,21 +2,24 @@
 
 use super::names::{Namer, Slots};
 use crate::analysis::Analysis;
-use crate::expr::{Id, Map, Node, Printer, Symbol, System};
+use crate::expr::{
+    Block, Formula, Id, Kind, Letters, Map, Name, Node, Printer, Symbol, System, families,
+};
 use crate::model::Model;
 use std::collections::HashSet;
 
 /// A shared subexpression of at least this many symbols gets a name of its own.
 const ABBREVIATE: usize = 12;
 
-/// The equations, row by row.
+/// The equations, to be read: families of rows as one row.
 pub(super) struct Listing {
-    pub(super) definitions: Vec<(String, String)>,
-    pub(super) mass: Vec<(usize, usize, String)>,
-    pub(super) force: Vec<(usize, String)>,
-    pub(super) nonideal: Vec<(usize, String)>,
-    pub(super) jacobian: Vec<(usize, usize, String)>,
-    pub(super) rhs: Vec<(usize, String)>,
+    pub(super) definitions: Vec<Block>,
+    pub(super) mass: Vec<Block>,
+    pub(super) force: Vec<Block>,
+    pub(super) nonideal: Vec<Block>,
+    /// Each constraint with its row of A q̈ = b.
+    pub(super) constraints: Vec<Block>,
+    /// φ of each constraint.
     pub(super) phi: Vec<String>,
     /// Name and expression of the prepared values.
     pub(super) prepared: Vec<(String, String)>,
@@ -51,24 +54,53 @@ pub(super) fn listing(system: &System, model: &Model, analysis: &Analysis) -> Li
         .copied()
         .chain(phis.iter().copied())
         .collect();
-    let families = model.coords.iter().chain(&model.params);
-    let taken = families.map(|f| f.name.to_string());
-    let taken = taken.chain(system.hints.values().cloned()).collect();
+    let declared = model.coords.iter().chain(&model.params);
+    let taken = declared.map(|f| f.name.to_string());
+    let taken: HashSet<String> = taken.chain(system.hints.values().cloned()).collect();
     let definitions = abbreviate(system, &roots, &taken, &mut printer);
     let g = &system.graph;
     if let Some(unique) = system.unique.filter(|id| !g.operands(*id).is_empty()) {
         printer.named.insert(unique, "unique".to_owned());
     }
-    let vector = |ids: &[Id]| -> Vec<(usize, String)> {
-        let present = ids.iter().enumerate().filter(|(_, id)| !g.is_zero(**id));
-        present.map(|(i, id)| (i, printer.text(*id))).collect()
+    let letters = Letters::beside(&taken);
+    let fold = |blocks: Vec<Block>| families(blocks, &letters);
+    let name = |text: &String| Name::from(text.as_str());
+    let vector = |letter: &'static str, ids: &[Id]| {
+        let present = ids.iter().zip(&coords).filter(|(id, _)| !g.is_zero(**id));
+        let rows = present.map(|(id, coord)| {
+            let entry = Formula::Entry(letter, vec![name(coord)]);
+            Block::from(entry.equal(printer.formula(*id)))
+        });
+        fold(rows.collect())
     };
-    let matrix = |entries: &std::collections::BTreeMap<(usize, usize), Id>| {
-        entries
-            .iter()
-            .map(|((i, j), id)| (*i, *j, printer.text(*id)))
-            .collect()
-    };
+    let mass = dynamics.mass.iter().map(|((i, j), id)| {
+        let entry = Formula::Entry("M", vec![name(&coords[*i]), name(&coords[*j])]);
+        Block::from(entry.equal(printer.formula(*id)))
+    });
+    let rows = (0..phis.len()).map(|row| {
+        let label = || name(&constraints[row]);
+        let zero = printer.formula(phis[row]).equal(Formula::Number(0.0));
+        let title = match system.constraints[row].kind {
+            Kind::Holonomic => label(),
+            Kind::Nonholonomic => {
+                Name::from(format!("{} (nonholonomic)", constraints[row]).as_str())
+            }
+        };
+        let first = Formula::Labelled(title, Box::new(zero));
+        let entries = dynamics.jacobian.range((row, 0)..(row + 1, 0));
+        let entries = entries.map(|((_, j), id)| {
+            let entry = Formula::Entry("A", vec![label(), name(&coords[*j])]);
+            entry.equal(printer.formula(*id))
+        });
+        let b = Formula::Entry("b", vec![label()]).equal(printer.formula(dynamics.rhs[row]));
+        Block::from(
+            [first]
+                .into_iter()
+                .chain(entries)
+                .chain([b])
+                .collect::<Vec<_>>(),
+        )
+    });
     let names = prepared_names(system, model, prepared);
     let texts = prepared.iter().map(|id| match g.node(*id) {
         _ if system.unique == Some(*id) => {
@@ -86,16 +118,15 @@ pub(super) fn listing(system: &System, model: &Model, analysis: &Analysis) -> Li
     Listing {
         switches: switches.collect(),
         prepared: names.into_iter().zip(texts).collect(),
-        mass: matrix(&dynamics.mass),
-        force: vector(&dynamics.force),
-        nonideal: vector(&dynamics.nonideal),
-        jacobian: matrix(&dynamics.jacobian),
-        rhs: vector(&dynamics.rhs),
+        mass: fold(mass.collect()),
+        force: vector("Q", &dynamics.force),
+        nonideal: vector("c", &dynamics.nonideal),
+        constraints: fold(rows.collect()),
         phi: phis
             .iter()
             .map(|id| format!("{} = 0", printer.text(*id)))
             .collect(),
-        definitions,
+        definitions: fold(definitions),
     }
 }
 
@@ -105,7 +136,7 @@ fn abbreviate(
     roots: &[Id],
     taken: &HashSet<String>,
     printer: &mut Printer<'_>,
-) -> Vec<(String, String)> {
+) -> Vec<Block> {
     let g = &system.graph;
     let mut readers: Map<Id, usize> = Map::default();
     let mut stack = roots.to_vec();
@@ -135,7 +166,8 @@ fn abbreviate(
         let Some(name) = hint.cloned().or_else(|| free.next()) else {
             break;
         };
-        definitions.push((name.clone(), printer.definition(id)));
+        let definition = Formula::name(&name).equal(printer.definition(id));
+        definitions.push(Block::from(definition));
         printer.named.insert(id, name);
         sizes.insert(id, 1);
     }

@@ -6,7 +6,7 @@ use crate::analysis::Switch;
 use crate::analysis::{
     Analysis, Costs, Operations, Pair, Pivoting, Rotation, SAFE_SHARE, Solve, Structure,
 };
-use crate::expr::{Drawing, Kind, OutputValue, StartValue, System};
+use crate::expr::{Block, Drawing, Kind, OutputValue, StartValue, System};
 use crate::model::Model;
 use crate::parse::Declaration;
 use proc_macro2::{Literal, TokenStream};
@@ -126,6 +126,7 @@ fn structure(analysis: &Analysis) -> TokenStream {
         angles,
         scleronomic,
         nonideal,
+        loaded,
         potential,
         conservative,
         left_out,
@@ -151,6 +152,7 @@ fn structure(analysis: &Analysis) -> TokenStream {
             angles: &[#(#angles),*],
             scleronomic: #scleronomic,
             nonideal: #nonideal,
+            loaded: #loaded,
             potential: #potential,
             conservative: #conservative,
             left_out: &[#(#left_out),*],
@@ -235,31 +237,23 @@ fn costs(costs: &Costs) -> TokenStream {
 }
 
 fn equations(listing: &Listing) -> TokenStream {
-    let triple = |rows: &[(usize, usize, String)]| -> Vec<TokenStream> {
-        let row = |(i, j, text): &(usize, usize, String)| (number(*i), number(*j), text.clone());
-        let rows = rows.iter().map(row);
-        rows.map(|(i, j, text)| quote! { (#i, #j, #text) })
-            .collect()
-    };
-    let pairs = |rows: &[(usize, String)]| -> Vec<TokenStream> {
-        let rows = rows.iter().map(|(i, text)| (number(*i), text));
-        rows.map(|(i, text)| quote! { (#i, #text) }).collect()
-    };
-    let definitions = listing.definitions.iter().map(|(n, t)| quote! { (#n, #t) });
-    let (mass, jacobian) = (triple(&listing.mass), triple(&listing.jacobian));
-    let (force, nonideal, rhs) = (
-        pairs(&listing.force),
-        pairs(&listing.nonideal),
-        pairs(&listing.rhs),
-    );
+    let texts =
+        |blocks: &[Block]| -> Vec<String> { blocks.iter().flat_map(Block::texts).collect() };
+    let [definitions, mass, force, nonideal, constraints] = [
+        &listing.definitions,
+        &listing.mass,
+        &listing.force,
+        &listing.nonideal,
+        &listing.constraints,
+    ]
+    .map(|blocks| texts(blocks));
     quote! {
         ukcore::Equations {
             definitions: &[#(#definitions),*],
             mass: &[#(#mass),*],
             force: &[#(#force),*],
             nonideal: &[#(#nonideal),*],
-            jacobian: &[#(#jacobian),*],
-            rhs: &[#(#rhs),*],
+            constraints: &[#(#constraints),*],
         }
     }
 }

@@ -1,8 +1,9 @@
-//! Expressions as a reader writes them.
+//! From the graph to formulas with the modeller's names.
 
+use super::formula::{Formula, Name};
 use super::graph::{Graph, Id, Map, Node, Symbol};
 
-/// Prints expressions with the modeller's names.
+/// Writes expressions with the modeller's names.
 pub(crate) struct Printer<'a> {
     pub(crate) graph: &'a Graph,
     pub(crate) coords: &'a [String],
@@ -12,116 +13,77 @@ pub(crate) struct Printer<'a> {
     pub(crate) named: Map<Id, String>,
 }
 
-/// How tightly the outermost operator of a printed expression binds.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Precedence {
-    Sum,
-    Sign,
-    Product,
-    Power,
-    Atom,
-}
-
-/// A number without trailing `.0`.
-fn number(x: f64) -> String {
-    if x == std::f64::consts::PI {
-        return "π".to_owned();
-    }
-    match x == 0.0 || (1e-6..1e16).contains(&x.abs()) {
-        true => format!("{x}"),
-        false => format!("{x:e}"),
-    }
-}
-
 impl Printer<'_> {
     /// The text of `id`.
     pub(crate) fn text(&self, id: Id) -> String {
-        self.print(id, true).0
+        self.formula(id).to_string()
     }
 
-    /// The text of `id` itself, even if it has a name.
-    pub(crate) fn definition(&self, id: Id) -> String {
-        self.print(id, false).0
-    }
-
-    fn wrapped(&self, id: Id, least: Precedence) -> String {
-        let (text, precedence) = self.print(id, true);
-        if precedence < least {
-            format!("({text})")
-        } else {
-            text
+    /// What `id` reads as.
+    pub(crate) fn formula(&self, id: Id) -> Formula {
+        match self.named.get(&id) {
+            Some(name) => Formula::name(name),
+            None => self.definition(id),
         }
     }
 
-    fn print(&self, id: Id, by_name: bool) -> (String, Precedence) {
-        if by_name && let Some(name) = self.named.get(&id) {
-            return (name.clone(), Precedence::Atom);
-        }
+    /// What `id` itself reads as, even if it has a name.
+    pub(crate) fn definition(&self, id: Id) -> Formula {
         match self.graph.node(id) {
-            Node::Const(x) if x.get() < 0.0 => (number(x.get()), Precedence::Sign),
-            Node::Const(x) => (number(x.get()), Precedence::Atom),
-            Node::Symbol(s) => (self.symbol(*s), Precedence::Atom),
+            Node::Const(x) => Formula::number(x.get()),
+            Node::Symbol(s) => self.symbol(*s),
             Node::Sum(c, terms) => {
                 let terms: Vec<(f64, Id)> = terms.iter().map(|(k, t)| (k.get(), *t)).collect();
-                (self.sum(c.get(), &terms), Precedence::Sum)
+                self.sum(c.get(), &terms)
             }
             Node::Scale(c, inner) => self.scale(c.get(), *inner),
             Node::Product(factors) => self.product(1.0, factors),
-            Node::Held(inner) => self.print(*inner, by_name),
+            Node::Held(inner) => self.formula(*inner),
             Node::Call(func, args) => {
-                let args: Vec<String> = args.iter().map(|a| self.text(*a)).collect();
-                let name = func.row().name;
-                (format!("{name}({})", args.join(", ")), Precedence::Atom)
+                let args = args.iter().map(|a| self.formula(*a));
+                Formula::Call(func.row().name, args.collect())
             }
-            Node::Select(args) => {
-                let [a, b, then, otherwise] = args.map(|id| self.text(id));
-                let text = format!("({a} ≤ {b} ? {then} : {otherwise})");
-                (text, Precedence::Atom)
-            }
+            Node::Select(args) => Formula::Select(Box::new(args.map(|id| self.formula(id)))),
         }
     }
 
-    fn symbol(&self, symbol: Symbol) -> String {
+    fn symbol(&self, symbol: Symbol) -> Formula {
         match symbol {
-            Symbol::Param(i) => self.params[i].clone(),
-            Symbol::Coord(i) => self.coords[i].clone(),
-            Symbol::Velocity(i) => format!("dot({})", self.coords[i]),
-            Symbol::Time => "t".to_owned(),
-            Symbol::Residual(i) => format!("residual[{i}]"),
-            Symbol::Prepared(i) => format!("prepared[{i}]"),
-            Symbol::Branch(i) => format!("branch[{i}]"),
-            Symbol::Multiplier(i) => format!("reaction({})", self.constraints[i]),
+            Symbol::Param(i) => Formula::name(&self.params[i]),
+            Symbol::Coord(i) => Formula::name(&self.coords[i]),
+            Symbol::Velocity(i) => Formula::Rate(Name::from(self.coords[i].as_str())),
+            Symbol::Time => Formula::name("t"),
+            Symbol::Residual(i) => Formula::name(&format!("residual[{i}]")),
+            Symbol::Prepared(i) => Formula::name(&format!("prepared[{i}]")),
+            Symbol::Branch(i) => Formula::name(&format!("branch[{i}]")),
+            Symbol::Multiplier(i) => {
+                Formula::Call("reaction", vec![Formula::name(&self.constraints[i])])
+            }
         }
     }
 
-    fn sum(&self, constant: f64, terms: &[(f64, Id)]) -> String {
-        let mut out = String::new();
+    fn sum(&self, constant: f64, terms: &[(f64, Id)]) -> Formula {
         // A positive term first reads better: x[1] − x[0], not −x[0] + x[1].
         let positive = terms.iter().filter(|(c, _)| *c > 0.0);
         let negative = terms.iter().filter(|(c, _)| *c <= 0.0);
+        let mut out = Vec::new();
         if constant > 0.0 {
-            out += &number(constant);
+            out.push((false, Formula::Number(constant)));
         }
         for (c, term) in positive.chain(negative) {
-            let sign = match (out.is_empty(), *c < 0.0) {
-                (true, false) => "",
-                (true, true) => "-",
-                (false, false) => " + ",
-                (false, true) => " - ",
+            let term = match c.abs() {
+                1.0 => self.formula(*term),
+                k => self.scale(k, *term),
             };
-            out += sign;
-            out += &match c.abs() {
-                1.0 => self.wrapped(*term, Precedence::Product),
-                k => self.scale(k, *term).0,
-            };
+            out.push((*c < 0.0, term));
         }
         if constant < 0.0 {
-            out += &format!(" - {}", number(-constant));
+            out.push((true, Formula::Number(-constant)));
         }
-        out
+        Formula::Sum(out)
     }
 
-    fn scale(&self, c: f64, inner: Id) -> (String, Precedence) {
+    fn scale(&self, c: f64, inner: Id) -> Formula {
         if !self.named.contains_key(&inner) {
             match self.graph.node(inner) {
                 // −(a − b) reads b − a, and −2·(a − b) reads 2·(b − a).
@@ -131,53 +93,60 @@ impl Printer<'_> {
                     let flipped: Vec<(f64, Id)> =
                         terms.iter().map(|(k, t)| (-k.get(), *t)).collect();
                     let sum = self.sum(-constant.get(), &flipped);
-                    if c == -1.0 {
-                        return (sum, Precedence::Sum);
-                    }
-                    return (format!("{}*({sum})", number(-c)), Precedence::Product);
+                    return match c == -1.0 {
+                        true => sum,
+                        false => Formula::Product(vec![Formula::Number(-c), sum], Vec::new()),
+                    };
                 }
                 Node::Product(factors) => return self.product(c, factors),
                 _ => {}
             }
         }
-        if c == -1.0 {
-            return (
-                format!("-{}", self.wrapped(inner, Precedence::Product)),
-                Precedence::Sign,
-            );
+        let inner = self.formula(inner);
+        let magnitude = match c.abs() {
+            1.0 => inner,
+            k => Formula::Product(vec![Formula::Number(k), inner], Vec::new()),
+        };
+        match c < 0.0 {
+            true => magnitude.negative(),
+            false => magnitude,
         }
-        let text = format!("{}*{}", number(c), self.wrapped(inner, Precedence::Product));
-        (
-            text,
-            if c < 0.0 {
-                Precedence::Sign
-            } else {
-                Precedence::Product
-            },
-        )
     }
 
-    fn product(&self, coefficient: f64, factors: &[(Id, i32)]) -> (String, Precedence) {
-        let power = |(id, e): &(Id, i32)| match e.abs() {
-            1 => self.wrapped(*id, Precedence::Power),
-            2 => format!("sq({})", self.text(*id)),
-            n => format!("{}^{n}", self.wrapped(*id, Precedence::Atom)),
+    fn product(&self, coefficient: f64, factors: &[(Id, i32)]) -> Formula {
+        let power = |(id, e): &(Id, i32)| match (e.unsigned_abs(), self.graph.node(*id)) {
+            (1, _) => self.formula(*id),
+            // Of even powers the sign below does not matter: the coordinate declared first is the positive one.
+            (e, Node::Sum(c, terms)) if e % 2 == 0 && !self.named.contains_key(id) => {
+                let first = terms
+                    .iter()
+                    .min_by_key(|(_, term)| match self.graph.node(*term) {
+                        Node::Symbol(symbol) => Some(*symbol),
+                        _ => None,
+                    });
+                let sign = first.map_or(1.0, |(k, _)| k.get().signum());
+                let terms: Vec<(f64, Id)> =
+                    terms.iter().map(|(k, t)| (sign * k.get(), *t)).collect();
+                Formula::Power(Box::new(self.sum(sign * c.get(), &terms)), e)
+            }
+            (e, _) => Formula::Power(Box::new(self.formula(*id)), e),
         };
-        let mut above: Vec<String> = factors.iter().filter(|(_, e)| *e > 0).map(power).collect();
-        let below: Vec<String> = factors.iter().filter(|(_, e)| *e < 0).map(power).collect();
+        let mut above: Vec<Formula> = factors.iter().filter(|(_, e)| *e > 0).map(power).collect();
+        let below: Vec<Formula> = factors.iter().filter(|(_, e)| *e < 0).map(power).collect();
         let magnitude = coefficient.abs();
         if magnitude != 1.0 || above.is_empty() {
-            above.insert(0, number(magnitude));
+            above.insert(0, Formula::Number(magnitude));
         }
-        let mut text = above.join("*");
-        match below.as_slice() {
-            [] => {}
-            [one] => text += &format!("/{one}"),
-            many => text += &format!("/({})", many.join("*")),
+        let product = match (below.is_empty(), above.pop()) {
+            (true, Some(one)) if above.is_empty() => one,
+            (_, last) => {
+                above.extend(last);
+                Formula::Product(above, below)
+            }
+        };
+        match coefficient < 0.0 {
+            true => product.negative(),
+            false => product,
         }
-        if coefficient < 0.0 {
-            return (format!("-{text}"), Precedence::Sign);
-        }
-        (text, Precedence::Product)
     }
 }

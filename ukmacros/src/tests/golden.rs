@@ -72,6 +72,32 @@ fn hash(text: &str) -> u64 {
     })
 }
 
+#[test]
+fn typeset_equations_are_well_formed() {
+    for (name, tokens) in declarations() {
+        let (code, _) = crate::expand(tokens);
+        let code = formatted(code);
+        let lines = code.lines().filter_map(|line| line.strip_prefix("/// "));
+        let lines: Vec<&str> = lines.filter(|line| line.contains("<math>")).collect();
+        assert!(!lines.is_empty(), "{name}");
+        for line in lines {
+            let mut open = Vec::new();
+            let inner = line.trim_start_matches("<p>");
+            let inner = inner.trim_end_matches("<br>").trim_end_matches("</p>");
+            for tag in inner.split('<').skip(1) {
+                let (tag, text) = tag.split_once('>').expect("a tag ends");
+                assert!(!text.contains('>'), "{name}: {line}");
+                match tag.strip_prefix('/') {
+                    Some(end) => assert_eq!(open.pop(), Some(end), "{name}: {line}"),
+                    None if tag.ends_with('/') => {}
+                    None => open.extend(tag.split(' ').next()),
+                }
+            }
+            assert!(open.is_empty(), "{name}: {line}");
+        }
+    }
+}
+
 /// A declaration of everything that a user's code can name, with an error.
 const BROKEN: &str = "
 /// A declaration with an error: its type, so that what uses it gives no second message.

@@ -30,6 +30,8 @@ use crate::units::{self, Quantity};
 use export::Report;
 use study::Study;
 
+pub(crate) use truth::{scale, stacked};
+
 /// The arguments of `report`.
 #[derive(Debug, Args)]
 pub struct ReportArgs {

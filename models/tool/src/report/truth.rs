@@ -192,7 +192,7 @@ impl Truth {
 }
 
 /// (q, q̇).
-pub(super) fn stacked(state: &State) -> Vec<f64> {
+pub(crate) fn stacked(state: &State) -> Vec<f64> {
     [state.q.as_slice(), &state.v].concat()
 }
 
@@ -219,7 +219,7 @@ fn along(
 
 /// The size of each coordinate and velocity: the largest of its kind along the motion; of all kinds, where its own stays at zero. The
 /// kind of a coordinate is its name up to the first digit or bracket: `x1`, `x[3]` and `x` are of one kind.
-fn scale(spec: &Spec, start: &State, states: &[Vec<f64>]) -> Vec<f64> {
+pub(crate) fn scale(spec: &Spec, start: &State, states: &[Vec<f64>]) -> Vec<f64> {
     let coords = spec.coords;
     let n = coords.len();
     let start = stacked(start);

@@ -38,17 +38,17 @@ impl Effort {
 }
 
 /// The error at one value of what is swept, as a part of the size of the result; the work done for it is added to the effort.
-pub type Measure = fn(f64, &mut Effort) -> Result<f64, Error>;
+pub type Measure<'a> = &'a (dyn Fn(f64, &mut Effort) -> Result<f64, Error> + Sync);
 
 /// A case.
-#[derive(Debug, Clone)]
-pub struct Case {
+#[derive(Clone)]
+pub struct Case<'a> {
     /// Name on the command line.
-    pub id: &'static str,
+    pub id: &'a str,
     /// What is swept, in what mechanism.
-    pub swept: &'static str,
+    pub swept: &'a str,
     /// What the results are compared with.
-    pub oracle: &'static str,
+    pub oracle: &'a str,
     /// Errors up to this are full accuracy.
     pub accurate: f64,
     /// Errors up to this are degraded within bounds; beyond, only an error with a name will do.
@@ -56,7 +56,7 @@ pub struct Case {
     /// The values, each with the text that stands for it if that is not the number.
     pub sweep: Sweep,
     /// The error at a value.
-    pub measure: Measure,
+    pub measure: Measure<'a>,
 }
 
 /// Values in order, and which of them is the ordinary one from which the others move away.
@@ -191,13 +191,13 @@ pub struct Point {
 
 /// A case with all its values.
 #[derive(Debug, Clone, Serialize)]
-pub struct Row {
+pub struct Row<'a> {
     /// [`Case::id`].
-    pub id: &'static str,
+    pub id: &'a str,
     /// [`Case::swept`].
-    pub swept: &'static str,
+    pub swept: &'a str,
     /// [`Case::oracle`].
-    pub oracle: &'static str,
+    pub oracle: &'a str,
     /// [`Case::accurate`].
     pub accurate_to: f64,
     /// [`Case::bound`].
@@ -208,9 +208,9 @@ pub struct Row {
     pub points: Vec<Point>,
 }
 
-impl Case {
+impl<'a> Case<'a> {
     /// All values; `None` if interrupted before the last. `done` hears of each value.
-    pub fn row(&self, interrupt: Interrupt, done: impl Fn()) -> Option<Row> {
+    pub fn row(&self, interrupt: Interrupt, done: impl Fn()) -> Option<Row<'a>> {
         let mut points = Vec::with_capacity(self.sweep.values.len());
         for (index, &value) in self.sweep.values.iter().enumerate() {
             if interrupt.is_set() {
@@ -252,7 +252,7 @@ impl Case {
     }
 }
 
-impl Row {
+impl Row<'_> {
     /// The values around the ordinary one, without a gap, that `good` admits; as indices, the last one included.
     pub fn range(&self, good: impl Fn(Class) -> bool) -> Option<(usize, usize)> {
         let ok = |i: usize| good(self.points[i].class);
@@ -366,7 +366,7 @@ mod tests {
             accurate: 1e-12,
             bound: 1e-3,
             sweep: decades(0, 12, 1, 0),
-            measure: newton,
+            measure: &newton,
         };
         let row = case
             .row(Interrupt::never(), || ())

@@ -1,9 +1,10 @@
-//! The command `stability`: how far stiff and extreme cases go.
+//! The command `stability`: how far stiff and extreme cases go, of any model or of those that a program has ([`Case`]).
 //!
-//! Each [`Case`] sweeps one thing until it breaks. Every value comes out accurate, degraded within a stated bound, or refused with an
+//! Each case sweeps one thing until it breaks. Every value comes out accurate, degraded within a stated bound, or refused with an
 //! error that has a name. A result that is off by more, without a word, is the one thing that must not be: it makes the command fail.
 
 mod case;
+mod model;
 mod page;
 mod picture;
 
@@ -25,6 +26,7 @@ use crate::output::{self, Directory};
 use crate::progress::Progress;
 
 pub use case::{Case, Class, Effort, Measure, Point, Row, Sweep, decades};
+pub use model::{ModelArgs, of_model};
 
 /// Stiff and extreme cases: how far each one goes with full accuracy, how far within a bound, and what is refused beyond.
 #[derive(Debug, Parser)]
@@ -40,11 +42,11 @@ pub struct StabilityArgs {
 
 /// Every number on the page.
 #[derive(Debug, Serialize)]
-struct Stability {
+struct Stability<'a> {
     about: &'static str,
     /// All that was asked for is there.
     complete: bool,
-    cases: Vec<Row>,
+    cases: Vec<Row<'a>>,
     /// Wall time, s.
     seconds: f64,
 }
@@ -69,7 +71,7 @@ struct Line<'a> {
 
 /// A whole program: reads the command line and runs these cases.
 #[must_use]
-pub fn main(cases: &[Case]) -> ExitCode {
+pub fn main(cases: &[Case<'_>]) -> ExitCode {
     command::exit(stability(cases, &command::parse()))
 }
 
@@ -78,11 +80,15 @@ pub fn main(cases: &[Case]) -> ExitCode {
 /// # Errors
 /// [`Failure::Usage`] for a case that is not there; [`Failure::Failed`] if a result is wrong, or a file cannot be written;
 /// [`Failure::Interrupted`] after Ctrl-C, with the cases that were finished written.
-pub fn stability(cases: &[Case], args: &StabilityArgs) -> Result<(), Failure> {
+pub fn stability(cases: &[Case<'_>], args: &StabilityArgs) -> Result<(), Failure> {
+    sweep(&chosen(cases, &args.cases)?, &args.out)
+}
+
+/// Runs these cases and writes the report to the directory `out`.
+fn sweep(chosen: &[&Case<'_>], out: &Path) -> Result<(), Failure> {
     let started = Instant::now();
-    let chosen = chosen(cases, &args.cases)?;
-    let directory = Directory::create(&args.out)?;
-    let rows = compute(&chosen, Interrupt::catch()?);
+    let directory = Directory::create(out)?;
+    let rows = compute(chosen, Interrupt::catch()?);
     let report = Stability {
         about: ABOUT,
         complete: rows.len() == chosen.len(),
@@ -93,7 +99,7 @@ pub fn stability(cases: &[Case], args: &StabilityArgs) -> Result<(), Failure> {
     directory.json("stability.json", &report)?;
     directory.csv("stability.csv", report.cases.iter().flat_map(lines))?;
     directory.write("index.html", page::html(&report))?;
-    print(&args.out, &report)?;
+    print(out, &report)?;
     if !report.complete {
         return Err(Failure::Interrupted(format!(
             "interrupted; {} of {} are written",
@@ -114,7 +120,7 @@ pub fn stability(cases: &[Case], args: &StabilityArgs) -> Result<(), Failure> {
 }
 
 /// The cases with these names, in their own order; all if there is no name.
-fn chosen<'a>(cases: &'a [Case], names: &[String]) -> Result<Vec<&'a Case>, Failure> {
+fn chosen<'c, 'a>(cases: &'c [Case<'a>], names: &[String]) -> Result<Vec<&'c Case<'a>>, Failure> {
     for name in names {
         if !cases.iter().any(|c| c.id == name) {
             let ids: Vec<&str> = cases.iter().map(|c| c.id).collect();
@@ -123,28 +129,28 @@ fn chosen<'a>(cases: &'a [Case], names: &[String]) -> Result<Vec<&'a Case>, Fail
             return Err(Failure::Usage(format!("{unknown}; there are {known}")));
         }
     }
-    let asked = |c: &&Case| names.is_empty() || names.iter().any(|n| n == c.id);
+    let asked = |c: &&Case<'_>| names.is_empty() || names.iter().any(|n| n == c.id);
     Ok(cases.iter().filter(asked).collect())
 }
 
 /// The rows of the cases that were finished.
-fn compute(cases: &[&Case], interrupt: Interrupt) -> Vec<Row> {
+fn compute<'a>(cases: &[&Case<'a>], interrupt: Interrupt) -> Vec<Row<'a>> {
     let progress = Progress::new("stability");
     let all: usize = cases.iter().map(|c| c.sweep.values.len()).sum();
     let done = AtomicUsize::new(0);
-    let row = |case: &&Case| {
+    let row = |case: &&Case<'a>| {
         case.row(interrupt, || {
             let done = done.fetch_add(1, Ordering::Relaxed) + 1;
             progress.set(done as f64 / all as f64, || case.id.to_owned());
         })
     };
     // One case after the other to whoever is free: they differ in length.
-    let rows: Vec<Option<Row>> = cases.par_iter().with_max_len(1).map(row).collect();
+    let rows: Vec<Option<Row<'a>>> = cases.par_iter().with_max_len(1).map(row).collect();
     progress.finish();
     rows.into_iter().flatten().collect()
 }
 
-fn lines(row: &Row) -> impl Iterator<Item = Line<'_>> {
+fn lines<'a>(row: &'a Row<'_>) -> impl Iterator<Item = Line<'a>> {
     row.points.iter().map(|p| {
         let (refusal, message) = match &p.refusal {
             Some((name, message)) => (*name, message.as_str()),
@@ -167,7 +173,7 @@ fn lines(row: &Row) -> impl Iterator<Item = Line<'_>> {
 }
 
 /// The table at the terminal.
-fn print(out: &Path, report: &Stability) -> Result<(), Failure> {
+fn print(out: &Path, report: &Stability<'_>) -> Result<(), Failure> {
     output::to_stdout(|w| {
         let width = numbers::width(report.cases.iter().map(|r| r.id));
         let accurate = |c| c == Class::Accurate;
@@ -205,7 +211,7 @@ fn print(out: &Path, report: &Stability) -> Result<(), Failure> {
 }
 
 /// What happens beyond the bound, in a few words.
-fn beyond(row: &Row) -> String {
+fn beyond(row: &Row<'_>) -> String {
     let mut words = row.refusals().join(", ");
     let wrong = row.count(Class::Wrong);
     if wrong > 0 {

@@ -7,7 +7,7 @@ use super::case::{Class, Point, Row};
 use crate::html::{Cell, Page, Section, figure_of, fixed, power_of_ten, table};
 
 /// index.html.
-pub(super) fn html(report: &Stability) -> String {
+pub(super) fn html(report: &Stability<'_>) -> String {
     let page = Page {
         title: "Stiff and extreme cases",
         head: head(report),
@@ -34,7 +34,7 @@ pub(super) fn html(report: &Stability) -> String {
     page.render()
 }
 
-fn head(report: &Stability) -> Markup {
+fn head(report: &Stability<'_>) -> Markup {
     let count = |class| -> usize { report.cases.iter().map(|r| r.count(class)).sum() };
     let [accurate, degraded, refused, wrong] = Class::ALL.map(count);
     html! {
@@ -64,7 +64,7 @@ fn picture() -> Markup {
     )
 }
 
-fn summary(rows: &[Row]) -> Markup {
+fn summary(rows: &[Row<'_>]) -> Markup {
     let cells = rows.iter().map(|row| {
         let (effort, seconds) = row.total();
         let wrong = row.count(Class::Wrong);
@@ -91,7 +91,7 @@ fn summary(rows: &[Row]) -> Markup {
     )
 }
 
-fn values(row: &Row) -> Markup {
+fn values(row: &Row<'_>) -> Markup {
     let caption = html! {
         (row.swept) ". Compared with: " (row.oracle) ". Full accuracy: " (power_of_ten(row.accurate_to)) "; bound: "
          (power_of_ten(row.bound)) "."

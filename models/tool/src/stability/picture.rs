@@ -32,7 +32,7 @@ type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 ///
 /// # Errors
 /// [`Failure::Failed`] if the drawing library fails.
-pub(super) fn picture(rows: &[Row]) -> Result<String, Failure> {
+pub(super) fn picture(rows: &[Row<'_>]) -> Result<String, Failure> {
     let height = HEAD + PITCH * rows.len() as i32 + 10;
     svg((WIDTH as u32, height as u32), |area| {
         area.fill(&WHITE)?;
@@ -63,7 +63,7 @@ fn write<'a>(
     area.draw(&Text::new(text, place, style))
 }
 
-fn bar<'a>(area: &Area<'a>, row: &Row, top: i32) -> Result<(), DrawError<'a>> {
+fn bar<'a>(area: &Area<'a>, row: &Row<'_>, top: i32) -> Result<(), DrawError<'a>> {
     let middle = top + BAR / 2;
     write(area, (14, middle), HPos::Left, 13, row.id)?;
     let named = row.points.iter().any(|p| p.label.contains(' '));

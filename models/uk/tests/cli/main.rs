@@ -279,8 +279,8 @@ fn explain_shows_equations_and_rank() {
         "M[x1, x1] = m1",
         "Q[x1] = ",
         "joint1[0]: ",
-        "A[th1] = ",
-        "b = ",
+        "A[joint1[0], th1] = ",
+        "b[joint1[0]] = ",
         "without mass: th2, th3",
         "rank of A: 6 of 6",
         "degrees of freedom: 3",
@@ -291,6 +291,11 @@ fn explain_shows_equations_and_rank() {
     ] {
         assert!(fish.contains(part), "{part} in {fish}");
     }
+    let chain = output(&["explain", "uchain"]);
+    assert!(
+        chain.contains("  M[x[i], x[i]] = m,  i = 0 … 16\n"),
+        "{chain}"
+    );
     let crank = output(&["explain", "double_scott_russell"]);
     assert!(crank.contains("degrees of freedom: 1"), "{crank}");
     assert!(crank.contains("redundant constraints: "), "{crank}");

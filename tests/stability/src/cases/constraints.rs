@@ -10,7 +10,7 @@ use super::{REGULAR, accelerations_off, off, worse};
 use crate::mechanisms::{Copies, NearPlanes, ScaledRows};
 use uktool::stability::{Case, Effort, decades};
 
-pub(crate) fn cases() -> Vec<Case> {
+pub(crate) fn cases() -> Vec<Case<'static>> {
     vec![
         Case {
             id: "rows-scaled",
@@ -19,7 +19,7 @@ pub(crate) fn cases() -> Vec<Case> {
             accurate: 1e-9,
             bound: 1e-6,
             sweep: decades(-150, 150, 15, 0),
-            measure: rows_scaled,
+            measure: &rows_scaled,
         },
         Case {
             id: "rows-copied",
@@ -28,7 +28,7 @@ pub(crate) fn cases() -> Vec<Case> {
             accurate: 1e-9,
             bound: 1e-6,
             sweep: decades(-150, 150, 15, 0),
-            measure: rows_copied,
+            measure: &rows_copied,
         },
         Case {
             id: "rows-near",
@@ -37,7 +37,7 @@ pub(crate) fn cases() -> Vec<Case> {
             accurate: 1e-12,
             bound: 1e-10,
             sweep: decades(-1, -16, 1, -1),
-            measure: rows_near,
+            measure: &rows_near,
         },
     ]
 }

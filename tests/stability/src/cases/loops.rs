@@ -12,7 +12,7 @@ use super::{REGULAR, accelerations_imprecise, accelerations_off, off, worse};
 use crate::mechanisms::{UChain9, UChain33, UChain65};
 use uktool::stability::{Case, Effort, Sweep, decades};
 
-pub(crate) fn cases() -> Vec<Case> {
+pub(crate) fn cases() -> Vec<Case<'static>> {
     let distances = || decades(-1, -16, 1, -1).and(0.0);
     vec![
         Case {
@@ -22,7 +22,7 @@ pub(crate) fn cases() -> Vec<Case> {
             accurate: 1e-8,
             bound: 1e-5,
             sweep: Sweep::of(&[9.0, 17.0, 33.0, 65.0]),
-            measure: whip,
+            measure: &whip,
         },
         Case {
             id: "crank-distance",
@@ -31,7 +31,7 @@ pub(crate) fn cases() -> Vec<Case> {
             accurate: 1e-9,
             bound: 1e-4,
             sweep: distances(),
-            measure: crank_distance,
+            measure: &crank_distance,
         },
         Case {
             id: "crank-through",
@@ -40,7 +40,7 @@ pub(crate) fn cases() -> Vec<Case> {
             accurate: 1e-8,
             bound: 1e-5,
             sweep: decades(-1, -12, 1, -1),
-            measure: crank_through,
+            measure: &crank_through,
         },
         Case {
             id: "bars-distance",
@@ -49,7 +49,7 @@ pub(crate) fn cases() -> Vec<Case> {
             accurate: 1e-10,
             bound: 1e-4,
             sweep: distances(),
-            measure: bars_distance,
+            measure: &bars_distance,
         },
         Case {
             id: "bars-through",
@@ -58,7 +58,7 @@ pub(crate) fn cases() -> Vec<Case> {
             accurate: 1e-8,
             bound: 1e-5,
             sweep: decades(-2, 5, 1, 0),
-            measure: |rate, effort| through(rate, 1e-9, effort),
+            measure: &|rate, effort| through(rate, 1e-9, effort),
         },
         Case {
             id: "bars-tolerance",
@@ -67,7 +67,7 @@ pub(crate) fn cases() -> Vec<Case> {
             accurate: 1e-6,
             bound: 1e-2,
             sweep: decades(-4, -14, 1, -9),
-            measure: |tolerance, effort| through(2.0, tolerance, effort),
+            measure: &|tolerance, effort| through(2.0, tolerance, effort),
         },
     ]
 }

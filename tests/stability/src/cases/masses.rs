@@ -9,7 +9,7 @@ use super::{REGULAR, accelerations_imprecise, accelerations_off, largest, worse}
 use crate::mechanisms::{Chain, Wheel};
 use uktool::stability::{Case, Effort, Sweep, decades};
 
-pub(crate) fn cases() -> Vec<Case> {
+pub(crate) fn cases() -> Vec<Case<'static>> {
     let ratio = || decades(-12, 12, 2, 0);
     vec![
         Case {
@@ -19,7 +19,7 @@ pub(crate) fn cases() -> Vec<Case> {
             accurate: 1e-12,
             bound: 1e-8,
             sweep: ratio(),
-            measure: mass_ratio,
+            measure: &mass_ratio,
         },
         Case {
             id: "mass-ratio-run",
@@ -28,7 +28,7 @@ pub(crate) fn cases() -> Vec<Case> {
             accurate: 1e-8,
             bound: 1e-5,
             sweep: ratio(),
-            measure: mass_ratio_run,
+            measure: &mass_ratio_run,
         },
         Case {
             id: "length-ratio",
@@ -37,7 +37,7 @@ pub(crate) fn cases() -> Vec<Case> {
             accurate: 1e-12,
             bound: 1e-8,
             sweep: decades(-8, 8, 1, 0),
-            measure: length_ratio,
+            measure: &length_ratio,
         },
         Case {
             id: "length-ratio-run",
@@ -46,7 +46,7 @@ pub(crate) fn cases() -> Vec<Case> {
             accurate: 1e-8,
             bound: 1e-5,
             sweep: decades(-8, 8, 1, 0),
-            measure: length_ratio_run,
+            measure: &length_ratio_run,
         },
         Case {
             id: "mass-to-zero",
@@ -55,7 +55,7 @@ pub(crate) fn cases() -> Vec<Case> {
             accurate: 1e-9,
             bound: 1e-6,
             sweep: inertias(),
-            measure: inertia_to_zero,
+            measure: &inertia_to_zero,
         },
         Case {
             id: "bob-to-zero",
@@ -64,7 +64,7 @@ pub(crate) fn cases() -> Vec<Case> {
             accurate: 1e-9,
             bound: 1e-6,
             sweep: inertias(),
-            measure: bob_to_zero,
+            measure: &bob_to_zero,
         },
         Case {
             id: "quaternion",
@@ -73,7 +73,7 @@ pub(crate) fn cases() -> Vec<Case> {
             accurate: 1e-12,
             bound: 1e-8,
             sweep: decades(0, -16, 1, 0).and(0.0),
-            measure: near_identity,
+            measure: &near_identity,
         },
     ]
 }

@@ -8,7 +8,7 @@ use ukcore::{Error, Simulation, State};
 use super::{off, worse};
 use uktool::stability::{Case, Effort, Sweep, decades};
 
-pub(crate) fn cases() -> Vec<Case> {
+pub(crate) fn cases() -> Vec<Case<'static>> {
     let scale = |id, swept, sweep, measure| Case {
         id,
         swept,
@@ -23,19 +23,19 @@ pub(crate) fn cases() -> Vec<Case> {
             "unit-length",
             "unit of length of a U-chain's fall",
             decades(-30, 30, 3, 0),
-            |s, e| in_units(s, 1.0, 1.0, e),
+            &|s, e| in_units(s, 1.0, 1.0, e),
         ),
         scale(
             "unit-mass",
             "unit of mass of a U-chain's fall",
             decades(-300, 300, 50, 0),
-            |s, e| in_units(1.0, s, 1.0, e),
+            &|s, e| in_units(1.0, s, 1.0, e),
         ),
         scale(
             "unit-time",
             "unit of time of a U-chain's fall",
             decades(-30, 30, 3, 0),
-            |s, e| in_units(1.0, 1.0, s, e),
+            &|s, e| in_units(1.0, 1.0, s, e),
         ),
         Case {
             id: "turns",
@@ -44,7 +44,7 @@ pub(crate) fn cases() -> Vec<Case> {
             accurate: 1e-8,
             bound: 1e-4,
             sweep: decades(0, 16, 1, 0),
-            measure: turns,
+            measure: &turns,
         },
         Case {
             id: "first-step",
@@ -56,7 +56,7 @@ pub(crate) fn cases() -> Vec<Case> {
                 1e-2, 1e-4, 1e-8, 1e-12, 1e-16, 1e-20, 1e-24, 1e-28, 1e-32, 1e-40, 1e-80, 1e-160,
                 1e-320,
             ]),
-            measure: first_step,
+            measure: &first_step,
         },
         Case {
             id: "short-run",
@@ -67,7 +67,7 @@ pub(crate) fn cases() -> Vec<Case> {
             sweep: Sweep::of(&[
                 1e-4, 1e-8, 1e-16, 1e-32, 1e-64, 1e-128, 1e-256, 1e-300, 1e-310, 1e-320,
             ]),
-            measure: short_run,
+            measure: &short_run,
         },
     ]
 }

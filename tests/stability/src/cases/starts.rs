@@ -7,7 +7,7 @@ use super::worse;
 use crate::mechanisms::{Carriage, Elastic};
 use uktool::stability::{Case, Effort, Sweep, decades};
 
-pub(crate) fn cases() -> Vec<Case> {
+pub(crate) fn cases() -> Vec<Case<'static>> {
     let jumps = || decades(-16, 0, 1, -16);
     let jump = |id, swept, measure| Case {
         id,
@@ -26,7 +26,7 @@ pub(crate) fn cases() -> Vec<Case> {
             accurate: 1e-13,
             bound: 1e-12,
             sweep: decades(-16, 0, 1, -16),
-            measure: start_off,
+            measure: &start_off,
         },
         Case {
             id: "assembly-off",
@@ -35,20 +35,20 @@ pub(crate) fn cases() -> Vec<Case> {
             accurate: 1e-13,
             bound: 1e-12,
             sweep: decades(-16, 1, 1, -16),
-            measure: assembly_off,
+            measure: &assembly_off,
         },
-        jump("jump-place", "jump of a prescribed position, m", |h, e| {
+        jump("jump-place", "jump of a prescribed position, m", &|h, e| {
             jumping(h, 0.0, 0.0, e)
         }),
         jump(
             "jump-velocity",
             "jump of a prescribed velocity, m/s",
-            |u, e| jumping(0.0, u, 0.0, e),
+            &|u, e| jumping(0.0, u, 0.0, e),
         ),
         jump(
             "jump-acceleration",
             "jump of a prescribed acceleration, m/s²",
-            |a, e| jumping(0.0, 0.0, a, e),
+            &|a, e| jumping(0.0, 0.0, a, e),
         ),
         Case {
             id: "not-finite",
@@ -57,7 +57,7 @@ pub(crate) fn cases() -> Vec<Case> {
             accurate: 0.0,
             bound: 0.0,
             sweep: Sweep::named(&PLACES),
-            measure: not_finite,
+            measure: &not_finite,
         },
     ]
 }

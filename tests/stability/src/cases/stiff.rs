@@ -7,7 +7,7 @@ use super::{off, worse};
 use crate::mechanisms::{Elastic, Incline};
 use uktool::stability::{Case, Effort, decades};
 
-pub(crate) fn cases() -> Vec<Case> {
+pub(crate) fn cases() -> Vec<Case<'static>> {
     vec![
         Case {
             id: "spring",
@@ -16,7 +16,7 @@ pub(crate) fn cases() -> Vec<Case> {
             accurate: 1e-7,
             bound: 1e-4,
             sweep: decades(2, 12, 1, 2),
-            measure: |k, effort| spring(k, Method::Dop853, effort),
+            measure: &|k, effort| spring(k, Method::Dop853, effort),
         },
         Case {
             id: "spring-implicit",
@@ -25,7 +25,7 @@ pub(crate) fn cases() -> Vec<Case> {
             accurate: 1e-7,
             bound: 1e-4,
             sweep: decades(2, 12, 1, 2),
-            measure: |k, effort| spring(k, Method::Radau5, effort),
+            measure: &|k, effort| spring(k, Method::Radau5, effort),
         },
         Case {
             id: "drag",
@@ -34,7 +34,7 @@ pub(crate) fn cases() -> Vec<Case> {
             accurate: 1e-9,
             bound: 1e-6,
             sweep: decades(0, 8, 1, 0),
-            measure: drag,
+            measure: &drag,
         },
     ]
 }

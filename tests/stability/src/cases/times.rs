@@ -9,7 +9,7 @@ use ukcore::{Error, Method, Simulation};
 use super::{off, worse};
 use uktool::stability::{Case, Effort, decades};
 
-pub(crate) fn cases() -> Vec<Case> {
+pub(crate) fn cases() -> Vec<Case<'static>> {
     vec![
         Case {
             id: "long-pendulum",
@@ -18,7 +18,7 @@ pub(crate) fn cases() -> Vec<Case> {
             accurate: 1e-6,
             bound: 1e-3,
             sweep: decades(0, 4, 1, 0),
-            measure: long_pendulum,
+            measure: &long_pendulum,
         },
         Case {
             id: "long-double",
@@ -27,7 +27,7 @@ pub(crate) fn cases() -> Vec<Case> {
             accurate: 1e-7,
             bound: 1e-4,
             sweep: decades(0, 4, 1, 0),
-            measure: long_double,
+            measure: &long_double,
         },
         Case {
             id: "long-rattle",
@@ -36,7 +36,7 @@ pub(crate) fn cases() -> Vec<Case> {
             accurate: 1e-5,
             bound: 1e-3,
             sweep: decades(0, 4, 1, 0),
-            measure: long_rattle,
+            measure: &long_rattle,
         },
         Case {
             id: "late-pendulum",
@@ -45,7 +45,7 @@ pub(crate) fn cases() -> Vec<Case> {
             accurate: 1e-8,
             bound: 1e-5,
             sweep: decades(0, 15, 1, 0),
-            measure: late_pendulum,
+            measure: &late_pendulum,
         },
         Case {
             id: "late-start",
@@ -54,7 +54,7 @@ pub(crate) fn cases() -> Vec<Case> {
             accurate: 1e-6,
             bound: 1e-3,
             sweep: decades(0, 16, 1, 0),
-            measure: late_start,
+            measure: &late_start,
         },
     ]
 }

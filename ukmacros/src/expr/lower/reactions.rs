@@ -184,7 +184,7 @@ impl<'m> Lowering<'m> {
             return Value::Error;
         };
         let (rows, shape) = (rows.clone(), shape.clone());
-        // Rows that keep a point at a point: their multipliers are the force's components.
+        // Rows that keep a point at a point, along all axes: their multipliers are the force's components.
         let axes = names.iter().zip(["x", "y", "z"]);
         let axes = axes.take_while(|(name, axis)| *name == axis).count();
         let Some(Pushed { centre, sign }) = force.clone() else {
@@ -192,7 +192,7 @@ impl<'m> Lowering<'m> {
             let multipliers: Vec<Id> = multipliers.collect();
             return Value::new(&shape, multipliers);
         };
-        if axes >= 2 {
+        if axes >= 2 && (centre.is_empty() || axes == centre.len()) {
             let components = rows.take(axes).map(Symbol::Multiplier);
             let components: Vec<Id> = components.map(|symbol| self.graph.symbol(symbol)).collect();
             return Value::vector(components);

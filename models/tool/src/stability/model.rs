@@ -1,0 +1,290 @@
+//! Cases of any model: nothing is known of it but its equations, so a motion is compared with the same motion computed another way.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use ukcore::model::{Entry, StartOptions};
+use ukcore::simulate::SMALLEST_TOLERANCE;
+use ukcore::solver::Formula;
+use ukcore::{Error, Method, Prepared, Simulation, State, assemble};
+
+use super::{Case, Effort, Sweep, decades, sweep};
+use crate::command;
+use crate::failure::Failure;
+use crate::report::{scale, stacked};
+use crate::scene::Scene;
+use crate::units;
+
+/// The arguments of `stability` for a model.
+#[derive(Debug, Args)]
+pub struct ModelArgs {
+    /// The mechanism and its start
+    #[command(flatten)]
+    pub scene: Scene,
+    /// Length of the motions that are compared; the model's own duration if absent
+    #[arg(long, value_name = "TIME", value_parser = units::seconds)]
+    pub until: Option<f64>,
+    /// Directory to write index.html, stability.svg, stability.json and stability.csv to
+    #[arg(long, value_name = "DIR", default_value = "out/stability", value_parser = command::path)]
+    pub out: PathBuf,
+}
+
+/// Tolerance of the motions where it is not what is swept.
+const TOLERANCE: f64 = 1e-9;
+/// Errors beyond those of the tolerance: an integration gathers them along the motion.
+const GATHERED: f64 = 1e3;
+/// Errors up to this are degraded: three digits are left.
+const BOUND: f64 = 1e-3;
+/// Steps of an explicit method, and of an implicit one, before the value counts as refused; what it is compared with may take more.
+const STEPS: usize = 20_000;
+const IMPLICIT_STEPS: usize = 2_000;
+const MORE: usize = 4;
+/// Change of the start that tells by how much a motion magnifies errors, as a part of the sizes of its coordinates.
+const NUDGE: f64 = 1e-7;
+/// Instants at which motions are compared.
+const INSTANTS: u32 = 8;
+
+/// Sweeps each parameter of a model, the speed of its start and the tolerance, and writes the report to `args.out`.
+///
+/// # Errors
+/// [`Failure::Usage`] for what is wrong with the command line, and for a start that cannot be assembled; [`Failure::Failed`] if two ways to
+/// compute a motion differ by more than the bound, or a file cannot be written; [`Failure::Interrupted`] after Ctrl-C, with the cases that
+/// were finished written.
+pub fn of_model(models: &[Entry], args: &ModelArgs) -> Result<(), Failure> {
+    let ready = args.scene.ready(models)?;
+    let (_, start, options) = args.scene.start.settings(ready.entry)?;
+    let named = start.filter(|start| start.name == ready.start);
+    let subject = Subject {
+        entry: ready.entry,
+        mechanism: ready.mechanism,
+        start: named.map(|start| (start.name, options)),
+        length: args.until.unwrap_or(ready.entry.duration) - ready.state.t,
+        state: ready.state,
+    };
+    let mut sweeps = Vec::new();
+    let spec = subject.mechanism.spec();
+    for (i, (parameter, value)) in spec
+        .params
+        .iter()
+        .zip(subject.mechanism.parameters())
+        .enumerate()
+    {
+        if *value != 0.0 {
+            let swept = format!("parameter {}, times what it is", parameter.name);
+            sweeps.push((
+                parameter.name,
+                swept,
+                decades(-12, 12, 3, 0),
+                Change::Parameter(i),
+            ));
+        }
+    }
+    if subject.state.v.iter().any(|v| *v != 0.0) {
+        let swept = "velocities of the start, times what they are".to_owned();
+        sweeps.push(("speed", swept, decades(-6, 6, 2, 0), Change::Speed));
+    }
+    let tolerances = Sweep {
+        ordinary: 6,
+        ..decades(-3, -15, 1, -9)
+    };
+    sweeps.push((
+        "tolerance",
+        "tolerance; errors are in units of it".to_owned(),
+        tolerances,
+        Change::Tolerance,
+    ));
+
+    let measures = sweeps.iter().map(|(.., change)| {
+        let subject = &subject;
+        Box::new(move |value: f64, effort: &mut Effort| subject.error(*change, value, effort))
+    });
+    let measures: Vec<_> = measures.collect();
+    let cases = sweeps
+        .iter()
+        .zip(&measures)
+        .map(|((id, swept, values, change), measure)| Case {
+            id,
+            swept,
+            oracle: ORACLE,
+            accurate: match change {
+                Change::Tolerance => GATHERED,
+                _ => GATHERED * TOLERANCE,
+            },
+            bound: match change {
+                Change::Tolerance => BOUND / TOLERANCE,
+                _ => BOUND,
+            },
+            sweep: values.clone(),
+            measure: measure.as_ref(),
+        });
+    let cases: Vec<Case<'_>> = cases.collect();
+    sweep(&cases.iter().collect::<Vec<_>>(), &args.out)
+}
+
+const ORACLE: &str = "the same motion by an implicit method with the formula as printed, where that gets through, else at a smaller \
+                      tolerance. Errors are divided by what the motion makes of a small change of its start";
+
+/// What a sweep changes.
+#[derive(Debug, Clone, Copy)]
+enum Change {
+    Parameter(usize),
+    Speed,
+    Tolerance,
+}
+
+/// A model, at its start.
+struct Subject<'a> {
+    entry: &'a Entry,
+    mechanism: Prepared,
+    /// Name and options of the start, if it has one.
+    start: Option<(&'static str, StartOptions)>,
+    state: State,
+    length: f64,
+}
+
+/// How a motion is computed.
+#[derive(Debug, Clone, Copy)]
+struct Way {
+    method: Method,
+    formula: Formula,
+    tolerance: f64,
+    steps: usize,
+}
+
+impl Subject<'_> {
+    /// The error of the motion with this change.
+    fn error(&self, change: Change, value: f64, effort: &mut Effort) -> Result<f64, Error> {
+        let mut mechanism = self.mechanism.clone();
+        let mut tolerance = TOLERANCE;
+        let mut state = self.state.clone();
+        match change {
+            Change::Parameter(i) => {
+                let name = mechanism.spec().params[i].name;
+                mechanism.set(name, self.mechanism.parameters()[i] * value)?;
+                state = match &self.start {
+                    Some((name, options)) => self.entry.start(&mechanism, name, options)?,
+                    None => assemble(&mechanism, state, &[])?,
+                };
+            }
+            Change::Speed => {
+                state.v.iter_mut().for_each(|v| *v *= value);
+                state = assemble(&mechanism, state, &[])?;
+            }
+            Change::Tolerance => tolerance = value.max(SMALLEST_TOLERANCE),
+        }
+        let motion = Motion {
+            mechanism: &mechanism,
+            length: self.length,
+        };
+        let explicit = |formula, tolerance| Way {
+            method: Method::Dop853,
+            formula,
+            tolerance,
+            steps: STEPS,
+        };
+        let implicit = |formula, tolerance| Way {
+            method: Method::Radau5,
+            steps: IMPLICIT_STEPS,
+            ..explicit(formula, tolerance)
+        };
+        let patient = |way: Way| Way {
+            steps: MORE * way.steps,
+            ..way
+        };
+        let finer = (0.01 * tolerance).max(SMALLEST_TOLERANCE);
+        let (printed, auto) = (self.printed(), Formula::Auto);
+        // The way itself, one that shares little with it, and what to take where that does not get through.
+        let (found, other, instead) = match motion.by(explicit(auto, tolerance), &state, effort) {
+            // What a user does who is told that steps are many: the method for stiff mechanisms.
+            Err(Error::TooManySteps { .. }) => (
+                motion.by(implicit(auto, tolerance), &state, effort)?,
+                implicit(printed, tolerance),
+                implicit(auto, finer),
+            ),
+            found => {
+                let other = match change {
+                    Change::Tolerance => explicit(printed, finer),
+                    _ => implicit(printed, tolerance),
+                };
+                (found?, other, explicit(auto, finer))
+            }
+        };
+        let (other, instead) = (patient(other), patient(instead));
+        let expected = motion.by(other, &state, effort);
+        let expected = expected.or_else(|_| motion.by(instead, &state, effort))?;
+        let scale = scale(mechanism.spec(), &state, &expected);
+        let magnified = motion.magnified(instead, &state, (&expected, &scale), effort)?;
+        let error = largest(&found, &expected, &scale) / magnified.max(1.0);
+        Ok(match change {
+            Change::Tolerance => error / tolerance,
+            _ => error,
+        })
+    }
+
+    /// The formula of the paper for this mass matrix.
+    fn printed(&self) -> Formula {
+        match self.mechanism.spec().structure.massless.is_empty() {
+            true => Formula::UdwadiaKalaba,
+            false => Formula::UdwadiaPhohomsiri,
+        }
+    }
+}
+
+/// The motion of a mechanism over a time.
+struct Motion<'a> {
+    mechanism: &'a Prepared,
+    length: f64,
+}
+
+impl Motion<'_> {
+    /// (q, q̇) at instants of the motion from `start`.
+    fn by(&self, way: Way, start: &State, effort: &mut Effort) -> Result<Vec<Vec<f64>>, Error> {
+        let at = |k| start.t + self.length * f64::from(k) / f64::from(INSTANTS);
+        let simulation = Simulation::new(self.mechanism)
+            .start(start.clone())
+            .method(way.method)
+            .formula(way.formula)
+            .tolerance(way.tolerance)
+            .max_steps(way.steps)
+            .at((1..=INSTANTS).map(at).collect());
+        let run = effort.run(simulation, start.t + self.length)?;
+        Ok(run
+            .samples()
+            .map(|sample| stacked(&sample.to_state()))
+            .collect())
+    }
+
+    /// By how much the motion magnifies a small change of its start: its states without one are known, with their sizes.
+    fn magnified(
+        &self,
+        way: Way,
+        start: &State,
+        (known, scale): (&[Vec<f64>], &[f64]),
+        effort: &mut Effort,
+    ) -> Result<f64, Error> {
+        let n = start.q.len();
+        let mut nudged = start.clone();
+        let places = nudged.q.iter_mut().chain(&mut nudged.v).zip(scale);
+        for (k, (place, size)) in places.enumerate() {
+            *place += NUDGE * size * if (k % n).is_multiple_of(2) { 1.0 } else { -1.0 };
+        }
+        let nudged = assemble(self.mechanism, nudged, &[])?;
+        let changed = self.by(way, &nudged, effort)?;
+        Ok(largest(&changed, known, scale) / NUDGE)
+    }
+}
+
+/// The largest difference of states, in units of the sizes of their coordinates.
+fn largest(a: &[Vec<f64>], b: &[Vec<f64>], scale: &[f64]) -> f64 {
+    let mut largest = 0.0;
+    for (a, b) in a.iter().zip(b) {
+        for ((a, b), size) in a.iter().zip(b).zip(scale) {
+            let apart = (a - b).abs() / size;
+            // What is no number stays.
+            if apart.is_nan() || apart > largest {
+                largest = apart;
+            }
+        }
+    }
+    largest
+}
