@@ -312,7 +312,7 @@ impl Simulation {
             t_end,
             weakest: 1.0,
             nearest: None,
-            rows: RowWatch::default(),
+            rows: RowWatch::new(self.method, settings.tolerance.relative),
         };
         let result = run.integrate(Sample::from(&start), self.method, &settings);
         let trajectory = run.finish();

@@ -123,7 +123,9 @@ pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option
     if !crossing::counts(mech, near, *row, found.size) {
         return None;
     }
-    if *row < spec.holonomic {
+    if found.rest {
+        // It may leave in any direction, whichever way it came.
+    } else if *row < spec.holonomic {
         if let Some(position) = crossing::find(mech, near, Some((*row, found.size))) {
             return Some(Singular {
                 significance: *reached,

@@ -212,7 +212,7 @@ impl Problem for Run<'_> {
         }
         obstacles::check_branch(&mut self.solver, self.weakest, step)?;
         self.recorder.step(step)?;
-        self.rows.accept(self.solver.mechanism(), step.new.t);
+        self.rows.accept(step.new.t);
         let Some(end) = self.recorder.trajectory.last() else {
             return Ok(Next::Continue);
         };

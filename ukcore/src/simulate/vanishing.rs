@@ -9,14 +9,19 @@
 
 use super::independence::Independence;
 use crate::assemble::State;
+use crate::integrate::Method;
 use crate::integrate::sample::Sample;
 use crate::mechanism::Prepared;
+use crate::pinv::dot;
 use crate::zero::locate;
 
 /// Rows are looked at again before they have changed by this share of themselves, going on as they did, and after this many times the time
 /// since they were looked at last.
 const CHANGE: f64 = 0.5;
 const LONGEST: f64 = 16.0;
+
+/// Tolerance up to which steps of DOP853 have a stage near the places where constraints come to imply each other.
+const CLOSE: f64 = 1e-8;
 
 /// Combinations of rows may lose so much faster than they have done what they have beside each other.
 const STEEPER: f64 = 2.0;
@@ -57,6 +62,8 @@ pub(super) struct Vanishing {
     pub(super) least: f64,
     /// The least share of its size that it has at a state of the run.
     pub(super) reached: f64,
+    /// The motion comes to rest there.
+    pub(super) rest: bool,
 }
 
 /// The rows of A along a run.
@@ -69,8 +76,10 @@ pub(super) struct RowWatch {
     here: Matrix,
     /// Products of the rows of both.
     products: Vec<f64>,
-    /// Of rows beside each other; `None` where there are not several.
-    independence: Option<Independence>,
+    /// Whether combinations of rows are looked at, too.
+    together: bool,
+    /// Of rows beside each other; `None` within where there are not several.
+    independence: Option<Option<Independence>>,
     /// The least share of a row that the others had not on the way between both states; 0 where a combination is reversed.
     share: f64,
     /// The same, at the last state that was looked at alone.
@@ -142,6 +151,15 @@ impl Matrix {
 }
 
 impl RowWatch {
+    /// For a run by `method` with this tolerance: where steps are so short that a stage comes near any place where constraints come to imply
+    /// each other, combinations of rows are not looked at.
+    pub(super) fn new(method: Method, tolerance: f64) -> Self {
+        RowWatch {
+            together: method != Method::Dop853 || tolerance > CLOSE,
+            ..RowWatch::default()
+        }
+    }
+
     /// The row that vanishes on the step from `old` to `new`, or is all but zero at its end, if one does or is; else the part of the step on
     /// which a combination of rows does.
     pub(super) fn vanishing(
@@ -151,13 +169,14 @@ impl RowWatch {
         new: Sample<'_>,
     ) -> Option<Loss> {
         let first = self.sizes.is_empty();
-        if mech.spec().m() == 0 || !first && (new.t - self.due) * (new.t - old.t) < 0.0 {
+        let rests = dot(old.v, new.v) < 0.0;
+        if mech.spec().m() == 0 || !(rests || self.is_due(old.t, new.t)) {
             return None;
         }
         if first {
             self.look_back(mech, old);
             self.sizes = self.seen.squares.iter().map(|x| x.sqrt()).collect();
-            self.independence = Independence::new(mech, &self.seen.entries);
+            self.left = 1.0;
         }
         self.here.take(mech, new);
         self.compare(mech);
@@ -170,6 +189,7 @@ impl RowWatch {
             .filter_map(|c| self.least(mech, c, old, new));
         let first = vanish.min_by(|a, b| a.least.total_cmp(&b.least));
         let row = first.or_else(|| self.smallest(&self.here, new));
+        let row = row.or_else(|| rests.then(|| self.resting(mech, old, new)).flatten());
         row.map(Loss::Row)
             .or_else(|| self.dependent(mech, old, new))
     }
@@ -180,9 +200,34 @@ impl RowWatch {
         self.smallest(&self.seen, here).map(Loss::Row)
     }
 
+    /// Whether rows are to be looked at on a step between these times.
+    pub(super) fn is_due(&self, from: f64, to: f64) -> bool {
+        self.sizes.is_empty() || (to - self.due) * (to - from) >= 0.0
+    }
+
+    /// The row that is all but zero where the motion comes to rest on its way from `old` to `new`, if one is.
+    fn resting(&self, mech: &Prepared, old: Sample<'_>, new: Sample<'_>) -> Option<Vanishing> {
+        let turned = |part: f64| -> Result<f64, std::convert::Infallible> {
+            let v = between_states(old, new, part).v;
+            Ok(dot(&v, new.v) - dot(&v, old.v))
+        };
+        let Ok(part) = locate(turned, 0.0, 1.0);
+        let state = between_states(old, new, part);
+        let mut between = Matrix::default();
+        between.take(mech, Sample::from(&state));
+        between.compare(mech, None);
+        let found = self.smallest(&between, Sample::from(&state))?;
+        Some(Vanishing {
+            near: between_states(old, new, (part - BEFORE).max(0.0)),
+            rest: true,
+            ..found
+        })
+    }
+
     /// The part of the step from `old` to `new` on which a combination of rows vanishes, if one does.
     fn dependent(&mut self, mech: &Prepared, old: Sample<'_>, new: Sample<'_>) -> Option<Loss> {
-        let independence = self.independence.as_mut().filter(|_| self.share == 0.0)?;
+        let independence = self.independence.as_mut()?.as_mut();
+        let independence = independence.filter(|_| self.share == 0.0)?;
         let ends = [&self.seen.entries[..], &self.here.entries[..]];
         let mut between = Matrix::default();
         let at = |part: f64| between_states(old, new, part);
@@ -229,12 +274,16 @@ impl RowWatch {
     fn compare(&mut self, mech: &Prepared) {
         let other = (&self.seen, &mut self.products);
         self.here.compare(mech, Some(other));
-        self.share = match &mut self.independence {
-            Some(rows) => rows
-                .share(&self.seen.entries, &self.here.entries)
-                .unwrap_or(0.0),
-            None => 1.0,
-        };
+        self.share = 1.0;
+        if !self.together {
+            return;
+        }
+        let [seen, here] = [&self.seen.entries[..], &self.here.entries];
+        let new = || Independence::new(mech, seen);
+        if let Some(rows) = self.independence.get_or_insert_with(new) {
+            rows.weigh(mech, here);
+            self.share = rows.share(seen, here).unwrap_or(0.0);
+        }
     }
 
     /// The row of `matrix`, which is A at `here`, that is all but zero, if one is.
@@ -250,19 +299,19 @@ impl RowWatch {
             t: here.t,
             least,
             reached: least,
+            rest: false,
         })
     }
 
     /// The run has got to the time `t`.
-    pub(super) fn accept(&mut self, mech: &Prepared, t: f64) {
+    pub(super) fn accept(&mut self, t: f64) {
         if self.here.t != t || self.seen.t == t {
             return;
         }
         // Combinations of rows change as their rows do, or faster where these add up, and have less to lose.
         let mut change = self.change();
-        if let Some(rows) = &mut self.independence {
+        if let Some(Some(rows)) = &mut self.independence {
             let here = &self.here.entries;
-            rows.weigh(mech, here);
             let left = rows.share(here, here).unwrap_or(0.0).sqrt();
             change = STEEPER * (change / left).max((self.left - left) / left);
             self.left = left;
@@ -310,6 +359,7 @@ impl RowWatch {
             t: state.t,
             least,
             reached: ends / self.sizes[c],
+            rest: false,
         })
     }
 }
