@@ -24,6 +24,7 @@ mod language;
 mod layers;
 mod linearise;
 mod machines;
+mod misses;
 mod modes;
 mod orientations;
 mod paper_fish;

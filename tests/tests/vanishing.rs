@@ -2,7 +2,7 @@
 //! turns with its own branch, and where it could go on in many ways the run ends with the constraint's name.
 
 use ukcore::simulate::Sample;
-use ukcore::{Error, Method, Prepared, Simulation, State, Trajectory};
+use ukcore::{Ensemble, Error, Method, Prepared, Simulation, State, Trajectory};
 
 ukcore::multibody! {
     /// A bead on Cassini's oval: a lemniscate for e = 0, two loops for e < 0, one for e > 0.
@@ -26,8 +26,14 @@ ukcore::multibody! {
 }
 
 ukcore::multibody! {
-    /// A point on a cone, free of forces.
-    Cone { coords { x, y, z } mass { x: 1.0, y: 1.0, z: 1.0 } holonomic { cone: sq(x) + sq(y) = sq(z) } }
+    /// A point on a cone, free of forces unless it is heavy.
+    Cone {
+        params { g = 0.0 }
+        coords { x, y, z }
+        mass { x: 1.0, y: 1.0, z: 1.0 }
+        potential { g * z }
+        holonomic { cone: sq(x) + sq(y) = sq(z) }
+    }
 }
 
 ukcore::multibody! {
@@ -245,4 +251,64 @@ fn a_row_that_vanishes_with_its_factor_is_passed() {
         let off = worst(&run, |s| (s.q[0] - s.t + 1.0).abs().max(s.q[1].abs()));
         assert!(off < 1e-8, "{method}: {off:e}");
     }
+}
+
+/// Thrown up along a line of the cone with z̈ = −2: z = −1 + 2 c t − t² comes to rest in the apex for c = 1, and falls back before it for
+/// less.
+#[test]
+fn rest_in_an_apex_is_named_and_rest_before_it_is_not() {
+    let methods = [Method::Dop853, Method::Dopri5, Method::Radau5];
+    for method in methods {
+        for tolerance in [1e-4, 1e-7, 1e-10] {
+            let run = |c: f64| {
+                let v = [-1.2 * c, -1.6 * c, 2.0 * c];
+                let cone = Cone { g: 4.0 };
+                simulation(cone, &[0.6, 0.8, -1.0], &v, method, tolerance).until(2.0)
+            };
+            named(&run(1.0).expect_err("rest in an apex"), "cone", 1.0);
+            for before in [0.5, 0.3, 0.1] {
+                let c = f64::sqrt(1.0 - before);
+                let run = run(c);
+                let place = format!("{method}, {tolerance:e}, {before:e}");
+                let run = run.unwrap_or_else(|failure| panic!("{place}: {failure}"));
+                let off = worst(&run, |s| (s.q[2] + 1.0 - 2.0 * c * s.t + s.t * s.t).abs());
+                assert!(off < 1e2 * tolerance + 1e-8, "{place}: {off:e}");
+            }
+        }
+    }
+}
+
+/// Lanes look for rows that vanish as a run of its own does.
+#[test]
+fn members_of_an_ensemble_pass_nodes_and_end_before_apexes() {
+    let state = |q: &[f64], v: &[f64]| State {
+        t: 0.0,
+        q: q.to_vec(),
+        v: v.to_vec(),
+    };
+    let ovals = [2.1, 3.3, 4.7, 5.9, 7.97].map(|speed| {
+        let start = state(&[1.0, 0.0], &[0.0, speed]);
+        (Oval::default(), start)
+    });
+    let ends = Ensemble::new(ovals.to_vec()).until(2.0);
+    for ((oval, start), member) in ovals.into_iter().zip(ends) {
+        let alone = Simulation::new(oval).start(start).until(2.0);
+        let alone = alone.unwrap_or_else(|failure| panic!("{failure}"));
+        let end = alone.last().expect("an end");
+        let member = member.unwrap_or_else(|error| panic!("{error}")).end;
+        let pairs = member.q.iter().chain(&member.v);
+        for (x, y) in pairs.zip(end.q.iter().chain(end.v)) {
+            assert!((x - y).abs() < 1e-6, "{member:?}");
+        }
+    }
+    let cones = [[-1.3, 0.1, 1.3], [-1.3, 0.0, 1.3]];
+    let cones = cones.map(|v| (Cone::default(), state(&[1.0, 0.0, -1.0], &v)));
+    let [beside, through] = <[_; 2]>::try_from(Ensemble::new(cones.to_vec()).until(2.0))
+        .unwrap_or_else(|_| panic!("two members"));
+    assert!(beside.is_ok(), "{beside:?}");
+    let error = through.expect_err("an apex");
+    let Error::At { source, .. } = &error else {
+        panic!("{error}")
+    };
+    assert!(matches!(&**source, Error::Singular { .. }), "{error}");
 }

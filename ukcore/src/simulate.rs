@@ -23,6 +23,7 @@ mod energy;
 #[cfg(feature = "ensemble")]
 mod ensemble;
 mod grid;
+mod independence;
 mod integrals;
 mod obstacles;
 mod record;
@@ -311,7 +312,7 @@ impl Simulation {
             t_end,
             weakest: 1.0,
             nearest: None,
-            rows: RowWatch::default(),
+            rows: RowWatch::new(self.method, settings.tolerance.relative),
         };
         let result = run.integrate(Sample::from(&start), self.method, &settings);
         let trajectory = run.finish();

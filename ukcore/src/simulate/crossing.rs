@@ -25,6 +25,12 @@ const TOGETHER: f64 = 2.0;
 /// Guesses at most of how many rows go singular.
 const TRIES: usize = 4;
 
+/// Rows that keep this share of themselves are not implied by others at any place near by.
+const CLEAR: f64 = 4.0 * RANK_CEILING;
+
+/// Significance of a row beside a reversed combination below which steps are short enough to tell what becomes of the motion.
+const UNTOLD: f64 = 1e-5;
+
 /// Newton steps at most.
 const MOST: usize = 20;
 
@@ -99,6 +105,44 @@ pub(super) fn find(
         }
     }
     None
+}
+
+/// The singular position that a motion from `t` meets between the states `near` and `behind`, where a combination of rows is reversed
+/// between them. Where rows are redundant, and `whole` does not hold, others may only have taken over what some of them say.
+pub(super) fn between(
+    mech: &Prepared,
+    t: f64,
+    [near, behind]: [&State; 2],
+    whole: bool,
+) -> Option<Singular> {
+    let mut search = Search::new(mech, near);
+    let mut significance = |at: &State| {
+        (search.t, search.q) = (at.t, at.q.clone());
+        search.factor(&at.v)?;
+        search.dense.cod.pivots().last().copied()
+    };
+    let least = significance(behind)?.min(significance(near)?);
+    if least > CLEAR {
+        return None;
+    }
+    let cod = &search.dense.cod;
+    let names = cod.order()[leading(cod.pivots(), CLEAR)..].iter();
+    let names = names.map(|c| mech.spec().constraints[*c].name.to_owned());
+    // Steps are too long yet to tell, or it cannot be told.
+    let way = (behind.t - t).abs();
+    find(mech, near, None).or_else(|| {
+        whole.then(|| Singular {
+            t: behind.t,
+            gap: if least < UNTOLD {
+                f64::NAN
+            } else {
+                least * way
+            },
+            significance: least,
+            rate: way.recip(),
+            constraints: names.collect(),
+        })
+    })
 }
 
 /// Whether a row of A that is small at a state, beside its `size`, says something there that the others do not.

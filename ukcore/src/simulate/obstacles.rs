@@ -1,7 +1,7 @@
 //! Where a motion does not get through: branches of the constraints that meet, jumps, accelerations out of all proportion.
 
 use super::crossing;
-use super::vanishing::Vanishing;
+use super::vanishing::{Loss, Vanishing};
 use crate::assemble::State;
 use crate::dense::Rows;
 use crate::diagnose;
@@ -107,8 +107,15 @@ pub(super) fn jump(solver: &mut Solver, at: Sample<'_>, t_old: f64) -> Option<Er
     (weakest <= RANK_CEILING).then(|| singular(solver, RANK_CEILING))
 }
 
-/// Where a motion from `old` meets the place where a row all but vanishes; `None` where that is of no concern.
-pub(super) fn vanishing(mech: &Prepared, found: Vanishing, old: Sample<'_>) -> Option<Singular> {
+/// Where a motion from `old` meets the place where A loses a row; `None` where that is of no concern.
+pub(super) fn vanishing(mech: &Prepared, found: Loss, old: Sample<'_>) -> Option<Singular> {
+    let found = match found {
+        Loss::Row(found) => found,
+        Loss::Rank { states, whole } => {
+            let [near, behind] = &*states;
+            return crossing::between(mech, old.t, [near, behind], whole);
+        }
+    };
     let Vanishing {
         row, near, reached, ..
     } = &found;
@@ -116,7 +123,9 @@ pub(super) fn vanishing(mech: &Prepared, found: Vanishing, old: Sample<'_>) -> O
     if !crossing::counts(mech, near, *row, found.size) {
         return None;
     }
-    if *row < spec.holonomic {
+    if found.rest {
+        // It may leave in any direction, whichever way it came.
+    } else if *row < spec.holonomic {
         if let Some(position) = crossing::find(mech, near, Some((*row, found.size))) {
             return Some(Singular {
                 significance: *reached,

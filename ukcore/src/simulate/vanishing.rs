@@ -4,16 +4,27 @@
 //! So it shows between two states of the motion, however far stages are from the place, while rows that turn without vanishing are told
 //! from it by their length on the way. Rows are looked at before any of them can have changed by half of itself; that is at each step only
 //! where steps are long.
+//!
+//! So do combinations of rows, where constraints come to imply each other: [`Independence`] tells whether one is reversed.
 
+use super::independence::Independence;
 use crate::assemble::State;
+use crate::integrate::Method;
 use crate::integrate::sample::Sample;
 use crate::mechanism::Prepared;
+use crate::pinv::dot;
 use crate::zero::locate;
 
 /// Rows are looked at again before they have changed by this share of themselves, going on as they did, and after this many times the time
 /// since they were looked at last.
 const CHANGE: f64 = 0.5;
 const LONGEST: f64 = 16.0;
+
+/// Tolerance up to which steps of DOP853 have a stage near the places where constraints come to imply each other.
+const CLOSE: f64 = 1e-8;
+
+/// Combinations of rows may lose so much faster than they have done what they have beside each other.
+const STEEPER: f64 = 2.0;
 
 /// A row that keeps this share of its length on the way from one state to the other has turned, and not vanished.
 const DIP: f64 = 0.25;
@@ -24,6 +35,20 @@ const SMALL: f64 = 1.0 / 32.0;
 /// How far before the place where a row is least a search for the singular position begins, as a share of the step: there it has a
 /// direction.
 const BEFORE: f64 = 0.01;
+
+/// A step over which a combination of rows is reversed is halved so often in search of the place.
+const HALVINGS: i32 = 8;
+
+/// What is lost of A on the way of a motion.
+pub(super) enum Loss {
+    /// A row by itself.
+    Row(Vanishing),
+    /// A combination of rows, between two states of the motion; whether all rows were looked at, or some that others have implied were not.
+    Rank {
+        states: Box<[State; 2]>,
+        whole: bool,
+    },
+}
 
 /// A row that all but vanishes.
 pub(super) struct Vanishing {
@@ -37,6 +62,8 @@ pub(super) struct Vanishing {
     pub(super) least: f64,
     /// The least share of its size that it has at a state of the run.
     pub(super) reached: f64,
+    /// The motion comes to rest there.
+    pub(super) rest: bool,
 }
 
 /// The rows of A along a run.
@@ -49,6 +76,14 @@ pub(super) struct RowWatch {
     here: Matrix,
     /// Products of the rows of both.
     products: Vec<f64>,
+    /// Whether combinations of rows are looked at, too.
+    together: bool,
+    /// Of rows beside each other; `None` within where there are not several.
+    independence: Option<Option<Independence>>,
+    /// The least share of a row that the others had not on the way between both states; 0 where a combination is reversed.
+    share: f64,
+    /// The same, at the last state that was looked at alone.
+    left: f64,
     /// When to look again.
     due: f64,
 }
@@ -116,37 +151,103 @@ impl Matrix {
 }
 
 impl RowWatch {
-    /// The row that vanishes on the step from `old` to `new`, or is all but zero at its end, if one does or is.
+    /// For a run by `method` with this tolerance: where steps are so short that a stage comes near any place where constraints come to imply
+    /// each other, combinations of rows are not looked at.
+    pub(super) fn new(method: Method, tolerance: f64) -> Self {
+        RowWatch {
+            together: method != Method::Dop853 || tolerance > CLOSE,
+            ..RowWatch::default()
+        }
+    }
+
+    /// The row that vanishes on the step from `old` to `new`, or is all but zero at its end, if one does or is; else the part of the step on
+    /// which a combination of rows does.
     pub(super) fn vanishing(
         &mut self,
         mech: &Prepared,
         old: Sample<'_>,
         new: Sample<'_>,
-    ) -> Option<Vanishing> {
+    ) -> Option<Loss> {
         let first = self.sizes.is_empty();
-        if mech.spec().m() == 0 || !first && (new.t - self.due) * (new.t - old.t) < 0.0 {
+        let rests = dot(old.v, new.v) < 0.0;
+        if mech.spec().m() == 0 || !(rests || self.is_due(old.t, new.t)) {
             return None;
         }
         if first {
             self.look_back(mech, old);
             self.sizes = self.seen.squares.iter().map(|x| x.sqrt()).collect();
+            self.left = 1.0;
         }
         self.here.take(mech, new);
         self.compare(mech);
-        if self.reversed().next().is_some() && self.look_back(mech, old) {
+        let reversed = self.reversed().next().is_some() || self.share == 0.0;
+        if reversed && self.look_back(mech, old) {
             self.compare(mech);
         }
         let vanish = self
             .reversed()
             .filter_map(|c| self.least(mech, c, old, new));
         let first = vanish.min_by(|a, b| a.least.total_cmp(&b.least));
-        first.or_else(|| self.smallest(&self.here, new))
+        let row = first.or_else(|| self.smallest(&self.here, new));
+        let row = row.or_else(|| rests.then(|| self.resting(mech, old, new)).flatten());
+        row.map(Loss::Row)
+            .or_else(|| self.dependent(mech, old, new))
     }
 
     /// The row that is all but zero where the motion stands, if one is.
-    pub(super) fn small(&mut self, mech: &Prepared, here: Sample<'_>) -> Option<Vanishing> {
+    pub(super) fn small(&mut self, mech: &Prepared, here: Sample<'_>) -> Option<Loss> {
         self.look_back(mech, here);
-        self.smallest(&self.seen, here)
+        self.smallest(&self.seen, here).map(Loss::Row)
+    }
+
+    /// Whether rows are to be looked at on a step between these times.
+    pub(super) fn is_due(&self, from: f64, to: f64) -> bool {
+        self.sizes.is_empty() || (to - self.due) * (to - from) >= 0.0
+    }
+
+    /// The row that is all but zero where the motion comes to rest on its way from `old` to `new`, if one is.
+    fn resting(&self, mech: &Prepared, old: Sample<'_>, new: Sample<'_>) -> Option<Vanishing> {
+        let turned = |part: f64| -> Result<f64, std::convert::Infallible> {
+            let v = between_states(old, new, part).v;
+            Ok(dot(&v, new.v) - dot(&v, old.v))
+        };
+        let Ok(part) = locate(turned, 0.0, 1.0);
+        let state = between_states(old, new, part);
+        let mut between = Matrix::default();
+        between.take(mech, Sample::from(&state));
+        between.compare(mech, None);
+        let found = self.smallest(&between, Sample::from(&state))?;
+        Some(Vanishing {
+            near: between_states(old, new, (part - BEFORE).max(0.0)),
+            rest: true,
+            ..found
+        })
+    }
+
+    /// The part of the step from `old` to `new` on which a combination of rows vanishes, if one does.
+    fn dependent(&mut self, mech: &Prepared, old: Sample<'_>, new: Sample<'_>) -> Option<Loss> {
+        let independence = self.independence.as_mut()?.as_mut();
+        let independence = independence.filter(|_| self.share == 0.0)?;
+        let ends = [&self.seen.entries[..], &self.here.entries[..]];
+        let mut between = Matrix::default();
+        let at = |part: f64| between_states(old, new, part);
+        // Parts of the step that are left to look at, the first one last, with A at their ends.
+        let mut left = vec![(0.0, 1.0, ends.map(<[f64]>::to_vec))];
+        while let Some((from, to, [a, b])) = left.pop() {
+            if independence.share(&a, &b).is_some() {
+                continue;
+            }
+            if to - from <= 0.5_f64.powi(HALVINGS) {
+                let (states, whole) = (Box::new([at(from), at(to)]), independence.is_whole());
+                return Some(Loss::Rank { states, whole });
+            }
+            let middle = 0.5 * (from + to);
+            between.take(mech, Sample::from(&at(middle)));
+            let c = between.entries.clone();
+            left.push((middle, to, [c.clone(), b]));
+            left.push((from, middle, [a, c]));
+        }
+        None
     }
 
     /// The largest change of a row between both places, as a share of what it is at the last.
@@ -173,6 +274,16 @@ impl RowWatch {
     fn compare(&mut self, mech: &Prepared) {
         let other = (&self.seen, &mut self.products);
         self.here.compare(mech, Some(other));
+        self.share = 1.0;
+        if !self.together {
+            return;
+        }
+        let [seen, here] = [&self.seen.entries[..], &self.here.entries];
+        let new = || Independence::new(mech, seen);
+        if let Some(rows) = self.independence.get_or_insert_with(new) {
+            rows.weigh(mech, here);
+            self.share = rows.share(seen, here).unwrap_or(0.0);
+        }
     }
 
     /// The row of `matrix`, which is A at `here`, that is all but zero, if one is.
@@ -188,6 +299,7 @@ impl RowWatch {
             t: here.t,
             least,
             reached: least,
+            rest: false,
         })
     }
 
@@ -196,7 +308,14 @@ impl RowWatch {
         if self.here.t != t || self.seen.t == t {
             return;
         }
-        let change = self.change();
+        // Combinations of rows change as their rows do, or faster where these add up, and have less to lose.
+        let mut change = self.change();
+        if let Some(Some(rows)) = &mut self.independence {
+            let here = &self.here.entries;
+            let left = rows.share(here, here).unwrap_or(0.0).sqrt();
+            change = STEEPER * (change / left).max((self.left - left) / left);
+            self.left = left;
+        }
         let pairs = self.sizes.iter_mut().zip(&self.here.squares);
         for (size, square) in pairs {
             if *square > *size * *size {
@@ -240,6 +359,7 @@ impl RowWatch {
             t: state.t,
             least,
             reached: ends / self.sizes[c],
+            rest: false,
         })
     }
 }

@@ -257,6 +257,7 @@ impl<'a> Group<'a> {
         let (stepper, members) = (&mut self.stepper, &mut self.members);
         let end = members.each(|r| r.trial.end.s);
         let Ok(_) = stepper.close(members, end, step);
+        self.watch();
         self.record(start, step);
         let (stepper, members) = (&mut self.stepper, &mut self.members);
         let alive = members.alive.clone();
@@ -265,6 +266,7 @@ impl<'a> Group<'a> {
             if alive[k] {
                 course.advance(trial, || stepper.states().map(|y| lane(y, k)));
                 course.propose(size.accepted(control, trial.h, errors.lane(k)));
+                running.accept();
             } else {
                 course.h = size.unfit(trial.h);
             }
@@ -272,6 +274,23 @@ impl<'a> Group<'a> {
         stepper.advance(choose(&alive));
         for k in (0..Wide::WIDTH).filter(|&k| alive[k]) {
             self.finish(k);
+        }
+    }
+
+    /// Members that meet a place where A loses a row go on alone, from their start.
+    fn watch(&mut self) {
+        let alive = self.members.alive.clone();
+        let stepper = &self.stepper;
+        let mut lost = Vec::new();
+        for (k, running) in self.members.running(&alive) {
+            if running.loses_a_row(|| stepper.states().map(|y| lane(y, k))) {
+                lost.push((k, running.index));
+            }
+        }
+        for (k, index) in lost {
+            (self.members.alive[k], self.members.lanes[k]) = (false, None);
+            let result = self.ensemble.alone(index, self.t_end);
+            self.results.push((index, result));
         }
     }
 

@@ -3,8 +3,11 @@
 use super::Member;
 use crate::error::Error;
 use crate::integrate::sample::Sample;
-use crate::integrate::{Course, PROJECTION_LIMIT, Settings, StepSize, Trial, projection_norm};
+use crate::integrate::{
+    Course, Method, PROJECTION_LIMIT, Settings, StepSize, Trial, projection_norm,
+};
 use crate::simulate::record::Recorder;
+use crate::simulate::vanishing::RowWatch;
 use crate::simulate::{Simulation, obstacles};
 use crate::solver::SolverWork;
 
@@ -18,6 +21,7 @@ pub(super) struct Running {
     pub(super) settings: Settings,
     /// Takes its samples, and has what projects them, and states that its lane leaves to it.
     pub(super) recorder: Recorder<'static>,
+    rows: RowWatch,
 }
 
 impl Running {
@@ -36,6 +40,7 @@ impl Running {
             trial: Trial::default(),
             settings,
             recorder,
+            rows: RowWatch::new(Method::Dop853, settings.tolerance.relative),
         })
     }
 
@@ -66,6 +71,25 @@ impl Running {
         self.recorder.projector.excess(t, q, v, &mut excess);
         let tolerance = self.settings.tolerance;
         projection_norm(excess.into_iter(), [old, raw], tolerance) <= PROJECTION_LIMIT
+    }
+
+    /// Whether A loses a row on the step in hand, from and to the states that `state` gives, so that the member is to go on alone.
+    pub(super) fn loses_a_row(&mut self, states: impl Fn() -> [Vec<f64>; 2]) -> bool {
+        let Trial { start, end, .. } = self.trial;
+        if !self.rows.is_due(start.t, end.t) {
+            return false;
+        }
+        let states = states();
+        let [old, new] =
+            [(start.t, &states[0]), (end.t, &states[1])].map(|(t, y)| Sample::of(t, y));
+        let mechanism = self.recorder.trajectory.mechanism();
+        let found = self.rows.vanishing(mechanism, old, new);
+        found.is_some_and(|found| obstacles::vanishing(mechanism, found, old).is_some())
+    }
+
+    /// The step in hand is accepted.
+    pub(super) fn accept(&mut self) {
+        self.rows.accept(self.trial.end.t);
     }
 
     /// Whether a sample lies within the step in hand.

@@ -1,0 +1,266 @@
+//! Whether rows of A that are independent at one state stay so on the way to another.
+//!
+//! Let S be the symmetric part of A₀ W A₁ᵀ, with A at both states and any positive W. If S is positive definite, then for each combination
+//! η of rows (A₀ᵀη)·W((1 − τ) A₀ + τ A₁)ᵀη = (1 − τ)|A₀ᵀη|² + τ ηᵀSη > 0: on the straight way from A₀ to A₁ no combination vanishes. And where
+//! one does vanish on a smooth way it is reversed behind that place, and S is not definite. So this tells a motion that has gone over a
+//! singular position from one that has turned beside it, however far both states are from the place; a Cholesky factorisation of S decides.
+
+use crate::mechanism::Prepared;
+
+/// Pivots of a factorisation below this share of their diagonals are of rows that the others imply.
+const IMPLIED: f64 = 1e-3;
+
+/// Entries of A, squared, above this share of the largest before in their column are weighed anew.
+const WEIGHTY: f64 = 4.0;
+
+/// The factorisation, in an order of rows that keeps it sparse.
+#[derive(Debug)]
+pub(super) struct Independence {
+    /// W.
+    weights: Vec<f64>,
+    /// 1 over the largest entries of rows where the run began.
+    scales: Vec<f64>,
+    /// Rows that others do not imply.
+    counts: Vec<bool>,
+    /// The lower triangle: for each term of S its place, its entries of A and its coordinate.
+    terms: Vec<[u32; 4]>,
+    /// Rows in the order of elimination, and where their columns of the factor begin and end.
+    columns: Vec<Column>,
+    /// Places that the elimination of a column changes, one column after the other.
+    changed: Vec<u32>,
+    /// The entries of S, then of its factor; the diagonal of S in the order of elimination.
+    values: Vec<f64>,
+    own: Vec<f64>,
+}
+
+/// A column of the factor: the row, its place on the diagonal, and where the others end.
+#[derive(Debug)]
+struct Column {
+    row: usize,
+    diagonal: usize,
+    end: usize,
+}
+
+/// Sets of rows, a word for 64 of them.
+#[derive(Clone)]
+struct Sets {
+    words: usize,
+    bits: Vec<u64>,
+}
+
+impl Sets {
+    fn new(m: usize) -> Self {
+        let words = m.div_ceil(64);
+        Sets {
+            words,
+            bits: vec![0; words * m],
+        }
+    }
+
+    fn of(&self, c: usize) -> &[u64] {
+        &self.bits[c * self.words..][..self.words]
+    }
+
+    fn join(&mut self, c: usize, other: &[u64]) {
+        let pairs = self.bits[c * self.words..][..self.words]
+            .iter_mut()
+            .zip(other);
+        pairs.for_each(|(x, y)| *x |= y);
+    }
+
+    fn remove(&mut self, c: usize, d: usize) {
+        self.bits[c * self.words + d / 64] &= !(1 << (d % 64));
+    }
+
+    fn size(&self, c: usize) -> u32 {
+        self.of(c).iter().map(|x| x.count_ones()).sum()
+    }
+
+    fn members(&self, c: usize) -> Vec<usize> {
+        let words = self.of(c).iter().enumerate();
+        words
+            .flat_map(|(k, word)| {
+                (0..64)
+                    .filter(move |b| word >> b & 1 == 1)
+                    .map(move |b| 64 * k + b)
+            })
+            .collect()
+    }
+}
+
+impl Independence {
+    /// For the rows of A (column-major) that others do not imply at a state; `None` if there are fewer than two.
+    pub(super) fn new(mech: &Prepared, jacobian: &[f64]) -> Option<Self> {
+        let m = mech.spec().m();
+        let mut all = Independence {
+            weights: vec![0.0; mech.spec().n()],
+            scales: vec![0.0; m],
+            counts: vec![true; m],
+            terms: Vec::new(),
+            columns: Vec::new(),
+            changed: Vec::new(),
+            values: Vec::new(),
+            own: Vec::new(),
+        };
+        if m < 2 {
+            return None;
+        }
+        for (c, i) in mech.spec().structure.jacobian_pattern {
+            all.scales[*c] = jacobian[i * m + c].abs().max(all.scales[*c]);
+        }
+        let size = |x: &mut f64| *x = if *x > 0.0 { x.recip() } else { 1.0 };
+        all.scales.iter_mut().for_each(size);
+        all.weigh(mech, jacobian);
+        all.arrange(mech);
+        all.load(jacobian, jacobian);
+        if !all.imply() {
+            all.arrange(mech);
+        }
+        (all.columns.len() > 1).then_some(all)
+    }
+
+    /// Takes W such that no coordinate's entries hide those of others, whatever the units of both, nor one row's those of another. Entries
+    /// that are larger than all before count from now on.
+    pub(super) fn weigh(&mut self, mech: &Prepared, jacobian: &[f64]) {
+        let m = self.counts.len();
+        let pattern = mech.spec().structure.jacobian_pattern;
+        for (c, i) in pattern {
+            let share = (jacobian[i * m + c] * self.scales[*c]).abs();
+            let weight = &mut self.weights[*i];
+            if share > 0.0 && (*weight == 0.0 || share * share * *weight > WEIGHTY) {
+                *weight = (share * share).recip();
+            }
+        }
+    }
+
+    /// Whether no row is left out.
+    pub(super) fn is_whole(&self) -> bool {
+        self.counts.iter().all(|counts| *counts)
+    }
+
+    /// Chooses the order of elimination, by least degree, and finds the places of the factor.
+    fn arrange(&mut self, mech: &Prepared) {
+        let (n, m) = (mech.spec().n(), mech.spec().m());
+        let mut rows: Vec<Vec<usize>> = vec![Vec::new(); n];
+        for (c, i) in mech.spec().structure.jacobian_pattern {
+            if self.counts[*c] {
+                rows[*i].push(*c);
+            }
+        }
+        let mut sets = Sets::new(m);
+        for column in &rows {
+            let mut all = vec![0; sets.words];
+            column.iter().for_each(|c| all[c / 64] |= 1 << (c % 64));
+            column.iter().for_each(|c| sets.join(*c, &all));
+        }
+        (0..m).for_each(|c| sets.remove(c, c));
+        let mut left: Vec<usize> = (0..m).filter(|c| self.counts[*c]).collect();
+        let mut places = vec![u32::MAX; m * m];
+        let mut parts = Vec::with_capacity(left.len());
+        self.columns.clear();
+        let mut end = 0;
+        while let Some(next) = (0..left.len()).min_by_key(|k| sets.size(left[*k])) {
+            let row = left.swap_remove(next);
+            let part = sets.members(row);
+            let own = sets.of(row).to_vec();
+            let diagonal = end;
+            places[row * m + row] = diagonal as u32;
+            for (k, c) in part.iter().enumerate() {
+                (places[row * m + c], places[c * m + row]) =
+                    ((end + 1 + k) as u32, (end + 1 + k) as u32);
+                sets.join(*c, &own);
+                sets.remove(*c, *c);
+                sets.remove(*c, row);
+            }
+            end += 1 + part.len();
+            self.columns.push(Column { row, diagonal, end });
+            parts.push(part);
+        }
+        self.values = vec![0.0; end];
+        let place = |c: usize, d: usize| places[c * m + d];
+        self.changed.clear();
+        for part in &parts {
+            for (k, c) in part.iter().enumerate() {
+                self.changed
+                    .extend(part[..=k].iter().map(|d| place(*c, *d)));
+            }
+        }
+        self.terms.clear();
+        for (i, column) in rows.iter().enumerate() {
+            for (k, c) in column.iter().enumerate() {
+                let entry = |d: usize| (i * m + d) as u32;
+                let terms = column[..=k]
+                    .iter()
+                    .map(|d| [place(*c, *d), entry(*c), entry(*d), i as u32]);
+                self.terms.extend(terms);
+            }
+        }
+    }
+
+    /// Loads 2 S.
+    fn load(&mut self, a: &[f64], b: &[f64]) {
+        self.values.fill(0.0);
+        for [place, c, d, i] in &self.terms {
+            let (c, d) = (*c as usize, *d as usize);
+            self.values[*place as usize] += self.weights[*i as usize] * (a[c] * b[d] + b[c] * a[d]);
+        }
+        self.own.clear();
+        let diagonal = self
+            .columns
+            .iter()
+            .map(|column| self.values[column.diagonal]);
+        self.own.extend(diagonal);
+    }
+
+    /// Leaves out the rows whose pivots say that others imply them. Returns whether there were none.
+    fn imply(&mut self) -> bool {
+        let mut changed = &self.changed[..];
+        let mut none = true;
+        for (Column { row, diagonal, end }, own) in self.columns.iter().zip(&self.own) {
+            let (pivot, part) = (self.values[*diagonal], end - diagonal - 1);
+            let (mine, rest) = changed.split_at(part * (part + 1) / 2);
+            changed = rest;
+            let counts = pivot > IMPLIED * own;
+            self.counts[*row] = counts;
+            none &= counts;
+            if counts {
+                eliminate(&mut self.values, *diagonal, *end, mine);
+            }
+        }
+        none
+    }
+
+    /// The least share that a pivot of S, for A at two states, has of its diagonal; `None` if S is not positive definite.
+    pub(super) fn share(&mut self, a: &[f64], b: &[f64]) -> Option<f64> {
+        self.load(a, b);
+        let mut changed = &self.changed[..];
+        let mut least = 1.0_f64;
+        for (Column { diagonal, end, .. }, own) in self.columns.iter().zip(&self.own) {
+            let (pivot, part) = (self.values[*diagonal], end - diagonal - 1);
+            if pivot.is_nan() || pivot <= 0.0 {
+                return None;
+            }
+            least = least.min(pivot / own);
+            let (mine, rest) = changed.split_at(part * (part + 1) / 2);
+            changed = rest;
+            eliminate(&mut self.values, *diagonal, *end, mine);
+        }
+        Some(least)
+    }
+}
+
+/// Eliminates the column with this diagonal, which changes these places.
+#[inline]
+fn eliminate(values: &mut [f64], diagonal: usize, end: usize, changed: &[u32]) {
+    let inverse = values[diagonal].recip();
+    let mut changed = changed.iter();
+    for c in diagonal + 1..end {
+        let share = values[c] * inverse;
+        for d in diagonal + 1..=c {
+            let product = share * values[d];
+            if let Some(place) = changed.next() {
+                values[*place as usize] -= product;
+            }
+        }
+    }
+}
