@@ -18,6 +18,7 @@ use crate::nearby::{Random, nearby};
 use crate::scalar::{Dual, Scalar};
 use crate::scan::{largest, largest_difference};
 use crate::simulate::START_BOUND;
+use crate::spec::GuessKind;
 
 mod derivatives;
 mod motion;
@@ -356,9 +357,11 @@ impl<'a> Verification<'a> {
             .collect();
         self.mech.guess(place, &defaults, &mut |told| {
             let coord = spec.coords[told.coordinate];
-            let (values, coord) = match told.rate {
-                false => (&state.q, coord.to_owned()),
-                true => (&state.v, format!("dot({coord})")),
+            let (values, coord) = match told.kind {
+                GuessKind::Position => (&state.q, coord.to_owned()),
+                GuessKind::Velocity => (&state.v, format!("dot({coord})")),
+                // An angular velocity says nothing of one coordinate by itself.
+                GuessKind::Omega | GuessKind::Spin => return,
             };
             let is = values[told.coordinate];
             if told.held && is != told.value {

@@ -23,10 +23,10 @@ ukcore::multibody! {
             step = 0.2 [rad],
         ) until 2.0 {
             base.angle = first
-            dot(base.angle) = first
+            dot(base.angle) = first / (1 [s])
             for i in 1..N {
                 joint[i - 1].angle = first + i * step
-                dot(joint[i - 1].angle) = first + i * step
+                dot(joint[i - 1].angle) = (first + i * step) / (1 [s])
             }
         }
     }

@@ -52,7 +52,7 @@ ukcore::multibody! {
             fork.centre near [0.9, 0, 0.7]
             front.centre near hub[1]
             // The wheels follow.
-            dot(frame.centre) = [speed, -0.9 * lean_rate, 0]
+            dot(frame.centre) = [speed, -0.9 [m] * lean_rate, 0]
             frame.omega = [lean_rate, 0, 0]
             fork.omega = [lean_rate, 0, 0]
         }

@@ -5,7 +5,6 @@ use ukcore::simulate::Sample;
 use ukcore::{Error, Prepared};
 
 use crate::failure::Failure;
-use crate::units;
 
 /// Some quantities of a mechanism, in the order asked for.
 #[derive(Debug, Clone)]
@@ -81,15 +80,21 @@ impl Columns {
     #[must_use]
     pub(crate) fn labels(&self) -> Vec<String> {
         let spec = self.mechanism.spec();
-        let unit = |source: &Source| match source {
-            Source::Time => Some("s"),
-            Source::Output(k) => units::unit_in(spec.outputs[*k].doc),
-            Source::Integral(k) => units::unit_in(self.mechanism.integrals()[*k].doc),
-            _ => None,
+        let unit = |source: &Source| match *source {
+            Source::Time => "s".to_owned(),
+            Source::Coordinate(i) => spec.coordinate_unit(i).to_owned(),
+            Source::Velocity(i) => match spec.coordinate_unit(i) {
+                "" => String::new(),
+                unit => format!("{unit}/s"),
+            },
+            Source::Output(k) => spec.outputs[k].unit.to_owned(),
+            Source::Integral(k) => self.mechanism.integrals()[k].unit.to_owned(),
+            Source::Energy if !spec.coordinate_units.is_empty() => "J".to_owned(),
+            _ => String::new(),
         };
-        let label = |(name, source): &(String, Source)| match unit(source) {
-            Some(unit) => format!("{name} ({unit})"),
-            None => name.clone(),
+        let label = |(name, source): &(String, Source)| match unit(source).as_str() {
+            "" => name.clone(),
+            unit => format!("{name} ({unit})"),
         };
         self.chosen.iter().map(label).collect()
     }

@@ -150,7 +150,7 @@ impl Values {
     fn si(&self, declared: &str) -> Result<Vec<f64>, String> {
         let [first, last, step] = match self {
             Values::List(values) => return values.iter().map(|v| v.si(declared)).collect(),
-            Values::Range(range) => *range,
+            Values::Range(range) => range,
         };
         let [first, last, step] = [first.si(declared)?, last.si(declared)?, step.si(declared)?];
         let steps = (last - first) / step;

@@ -5,7 +5,7 @@ use crate::assemble::State;
 use crate::mechanism::{Dynamics, Evaluated, Prepared};
 use crate::modes::{constraint_matrix, mass_matrix};
 use crate::rounding::Rounded;
-use crate::scalar::Dual;
+use crate::scalar::{Dual, Scalar, Sloped, Slopes};
 use crate::scan::largest;
 
 /// Two ways to compute the same carry about the same rounding; so many times that is allowed.
@@ -16,7 +16,7 @@ const PART: f64 = 1e-11;
 /// A state of a mechanism, and what the equations say there.
 struct Checked<'a> {
     mech: &'a Prepared,
-    dual: Prepared<Dual, dyn Dynamics<Dual>>,
+    sloped: Prepared<Sloped, dyn Dynamics<Sloped>>,
     declared: Declared,
     state: &'a State,
     terms: Evaluated,
@@ -40,7 +40,7 @@ pub(super) fn check(mech: &Prepared, declared: Declared, state: &State, found: &
     );
     let checked = Checked {
         mech,
-        dual: mech.dual(),
+        sloped: mech.sloped(),
         declared,
         state,
         terms,
@@ -59,13 +59,21 @@ impl Checked<'_> {
     fn rows(&self, position: bool, slope: (f64, &[f64], &[f64])) -> Vec<Dual> {
         let spec = self.mech.spec();
         let State { t, q, v } = self.state;
-        let (t, q, v) = (Dual::new(*t, slope.0), along(q, slope.1), along(v, slope.2));
-        let mut rows = vec![constant(0.0); if position { spec.holonomic } else { spec.m() }];
+        let sloped = |x: f64, slope: f64| Sloped::new(x, Slopes::new(|_| slope));
+        let all = |x: &[f64], slopes: &[f64]| -> Vec<Sloped> {
+            let pairs = x.iter().zip(slopes);
+            pairs.map(|(x, slope)| sloped(*x, *slope)).collect()
+        };
+        let (t, q, v) = (sloped(*t, slope.0), all(q, slope.1), all(v, slope.2));
+        let count = if position { spec.holonomic } else { spec.m() };
+        let mut rows = vec![Sloped::from_f64(0.0); count];
         match position {
-            true => self.dual.residual(t, &q, &mut rows),
-            false => self.dual.residual_rate(t, &q, &v, &mut rows),
+            true => self.sloped.residual(t, &q, &mut rows),
+            false => self.sloped.residual_rate(t, &q, &v, &mut rows),
         }
-        rows
+        let rows = rows.into_iter();
+        rows.map(|row| Dual::new(row.re, row.eps.along(0)))
+            .collect()
     }
 
     /// A, φ̇ and b.

@@ -66,7 +66,11 @@ impl Marking<'_> {
                     // A vector that a start tells of, behind an entry without its comma.
                     let stands = match rest.peek() {
                         Some(TokenTree::Ident(next)) if next == "near" => Before::Other,
-                        Some(TokenTree::Punct(next)) if next.as_char() == '=' && stands == Before::Number => Before::Other,
+                        Some(TokenTree::Punct(next))
+                            if next.as_char() == '=' && stands == Before::Number =>
+                        {
+                            Before::Other
+                        }
                         _ => stands,
                     };
                     let stream = self.group(group, stands);
