@@ -258,7 +258,7 @@ mod tests {
     #[track_caller]
     fn numbers(text: &str, unit: &str) -> Vec<f64> {
         let (_, values) = assignment(text).expect("values");
-        values.in_unit(Some(unit)).expect("numbers")
+        values.si(unit).expect("numbers")
     }
 
     #[test]
@@ -274,7 +274,7 @@ mod tests {
         assert_eq!(numbers("x=1..2:5", "m"), [1.0]);
         for (text, unit) in [("x=1..2:0", "m"), ("x=2..1:1", "m"), ("x=0..1:1e-9", "m")] {
             let (_, values) = assignment(text).expect("values");
-            assert!(values.in_unit(Some(unit)).is_err(), "{text}");
+            assert!(values.si(unit).is_err(), "{text}");
         }
         for text in ["x", "=1", "x=", "x=1..2", "x=1,,2", "x=1..2:m3"] {
             assert!(assignment(text).is_err(), "{text}");

@@ -378,8 +378,10 @@ fn values_are_swept() {
         let low = values.iter().copied().fold(f64::INFINITY, f64::min);
         let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         assert_eq!(values.last(), Some(&number("swing")));
-        assert!((number("min(swing)") - low).abs() < 1e-5, "{row:?}");
-        assert!((number("max(swing)") - high).abs() < 1e-5, "{row:?}");
+        // In degrees.
+        let near = 1e-5_f64.to_degrees();
+        assert!((number("min(swing)") - low).abs() < near, "{row:?}");
+        assert!((number("max(swing)") - high).abs() < near, "{row:?}");
         assert!(number("min(swing)") <= low && number("max(swing)") >= high);
     }
     // One that was broken off in the middle of a row goes on to the same table.
@@ -433,7 +435,7 @@ fn members_fail_alone() {
         "a range needs its step: `k=1..2:STEP`",
     );
     fails(
-        "sweep cart --set k=1m,2 --set angle=1kg --out a.csv",
+        "sweep cart --set k=1,2 --set angle=1kg --out a.csv",
         2,
         "`angle`",
     );

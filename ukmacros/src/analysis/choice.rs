@@ -210,7 +210,14 @@ fn variants(
     let (coordinates, constraints) = names.split_at(held.force.len());
     let with = |more: &[String]| [coordinates, more, constraints, more].concat();
     if let Some(lift) = &held.lift {
-        let turned = turned(held, lift, &regular.rows, &system.defaults, g);
+        let turned = turned(
+            held,
+            lift,
+            &regular.rows,
+            &regular.redundant,
+            &system.defaults,
+            g,
+        );
         let (dynamics, turned) = turned.unwrap_or_else(|| {
             let (mass, force) = (&regular.added, &regular.pulled);
             let extended = lift.extended(&regular.dynamics, mass, force, g);

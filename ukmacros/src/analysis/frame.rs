@@ -104,7 +104,7 @@ impl Frame {
     }
 
     /// Writes `d`, which has definitions behind its first `m` constraints, in x.
-    fn turn(&mut self, d: &mut Dynamics, m: usize, g: &mut Graph) {
+    fn turn(&mut self, d: &mut Dynamics, m: usize, redundant: &BTreeSet<usize>, g: &mut Graph) {
         let (zero, one) = (g.zero(), g.one());
         for vector in [&mut d.force, &mut d.nonideal] {
             let own: Vec<Id> = self.coordinates.iter().map(|i| vector[*i]).collect();
@@ -138,14 +138,16 @@ impl Frame {
         });
         let mut along: Vec<Derivative> = along.collect();
         for (row, entries) in rows {
+            // Rows that may be left out stay as exact as they are: what is left of them tells whether they are.
+            let apart = redundant.contains(&row);
             // Functions of the frame are differentiated once for all they stand in.
             let turned = match d.phi.get(row) {
-                Some(phi) => along.iter_mut().map(|along| along.of(*phi, g)).collect(),
-                None => self.across(&entries, g),
+                Some(phi) if !apart => along.iter_mut().map(|along| along.of(*phi, g)).collect(),
+                _ => self.across(&entries, g),
             };
             let places = self.coordinates.iter().zip(turned);
             let mut places = places.filter(|(_, a)| !g.is_zero(*a)).peekable();
-            let first = places.next_if(|(i, _)| **i == self.coordinates[0]);
+            let first = places.next_if(|(i, _)| **i == self.coordinates[0] && !apart);
             self.given.extend(first.map(|(_, a)| (row, a)));
             d.jacobian.extend(places.map(|(i, a)| ((row, *i), a)));
         }
@@ -193,6 +195,7 @@ pub(crate) fn turned(
     d: &Dynamics,
     lift: &Lift,
     regular: &[usize],
+    redundant: &BTreeSet<usize>,
     defaults: &[f64],
     g: &mut Graph,
 ) -> Option<(Dynamics, Turned)> {
@@ -204,8 +207,8 @@ pub(crate) fn turned(
     let mut turned = lift.extended(d, &BTreeMap::new(), &BTreeMap::new(), g);
     let m = d.rhs.len();
     let all = frames.iter_mut();
-    all.for_each(|frame| frame.turn(&mut turned, m, g));
-    let joints = joints(&mut turned, d, &frames, defaults, g);
+    all.for_each(|frame| frame.turn(&mut turned, m, redundant, g));
+    let joints = joints(&mut turned, d, &frames, redundant, defaults, g);
     Some((turned, Turned { frames, joints }))
 }
 

@@ -153,17 +153,21 @@ fn determinant(w: &[Vec<Id>], g: &mut Graph) -> Id {
     g.factored_sum(&terms)
 }
 
-/// Solves rows of joints for rates of `frames`; `d` are the equations in these, `held` those in coordinates. `defaults` are those of the
-/// parameters.
+/// Solves rows of joints for rates of `frames`; `d` are the equations in these, `held` those in coordinates. Rows that may be `redundant` are
+/// not touched. `defaults` are those of the parameters.
 pub(super) fn joints(
     d: &mut Dynamics,
     held: &Dynamics,
     frames: &[Frame],
+    redundant: &BTreeSet<usize>,
     defaults: &[f64],
     g: &mut Graph,
 ) -> Vec<Joint> {
     let mut found = Vec::new();
-    for (rows, ends) in outwards(groups(held, frames), frames.len()) {
+    let mut groups = groups(held, frames);
+    // Which of rows that imply each other are left out is decided at run time: they stay apart.
+    groups.retain(|_, rows| rows.iter().all(|row| !redundant.contains(row)));
+    for (rows, ends) in outwards(groups, frames.len()) {
         let far = &frames[ends[1]];
         let between = Rows {
             rows: &rows,

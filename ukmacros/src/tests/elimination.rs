@@ -325,7 +325,8 @@ impl Tally {
                 Turned::default(),
             )
         });
-        let turned = lift.and_then(|lift| turned(&dynamics, lift, &[], &system.defaults, g));
+        let turned = lift
+            .and_then(|lift| turned(&dynamics, lift, &[], &BTreeSet::new(), &system.defaults, g));
         // M knows nothing of the length of a quaternion: as it stands it is singular.
         let forms = match turned {
             Some(turned) => vec![turned],
@@ -464,8 +465,15 @@ fn hinges_are_solved_for_rates_unless_their_axes_are_at_right_angles() {
     let n = model.coord_elements.len();
     let dynamics = derive(&mut system, n);
     let lift = dynamics.lift.as_ref().expect("velocities");
-    let (of, turned) =
-        turned(&dynamics, lift, &[], &system.defaults, &mut system.graph).expect("frames");
+    let (of, turned) = turned(
+        &dynamics,
+        lift,
+        &[],
+        &BTreeSet::new(),
+        &system.defaults,
+        &mut system.graph,
+    )
+    .expect("frames");
     let tilts: Vec<String> = turned
         .rows()
         .map(|row| system.constraints[*row].item.text())
