@@ -30,7 +30,7 @@ fn check_force(short: &str, long: &str) {
 
 #[test]
 fn the_documentation_lists_the_vocabulary() {
-    let text = include_str!("../lib.rs");
+    let text = include_str!("../../../docs/language.md");
     let (_, section) = text
         .split_once("# Vectors and matrices")
         .expect("a section");
