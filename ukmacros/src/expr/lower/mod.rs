@@ -28,7 +28,7 @@ pub(crate) use vectors::vocabulary;
 use super::graph::{Graph, Id, Map, Symbol};
 use crate::diag::{Diagnostics, Loc};
 use crate::model::{Model, Scope, every, uses};
-use crate::parse::{Block, Declaration, Entry, Equation, Expr, ExprKind, Function, MassEntry};
+use crate::parse::{Block, Declaration, Entry, Equation, Expr, ExprKind, Function, Key, MassEntry};
 use array::{Value, describe};
 use bodies::Declared;
 use drawing::Between;
@@ -499,18 +499,22 @@ impl<'m> Lowering<'m> {
         }
     }
 
-    fn equation(&mut self, equation: &Equation, kind: Kind, scope: &Scope<'m>, names: &mut Names) {
-        let key = &equation.key;
-        let Some(indices) = self.indices(&key.indices, scope) else {
-            return;
-        };
-        let mut item = ConstraintRef {
+    /// What `key` calls an equation, output or integral, whole.
+    fn item(&mut self, key: &Key, scope: &Scope<'m>) -> Option<ConstraintRef> {
+        Some(ConstraintRef {
             base: key.name.clone(),
             shown: self.model.shown(&key.name.to_string()).to_owned(),
-            indices,
+            indices: self.indices(&key.indices, scope)?,
             components: Vec::new(),
             row: None,
             unit_of: None,
+        })
+    }
+
+    fn equation(&mut self, equation: &Equation, kind: Kind, scope: &Scope<'m>, names: &mut Names) {
+        let key = &equation.key;
+        let Some(mut item) = self.item(key, scope) else {
+            return;
         };
         let looped = !scope.variables.is_empty();
         let free = self.free(&key.name);

@@ -1,6 +1,6 @@
 //! Outputs and integrals.
 
-use super::system::{ConstraintRef, OutputValue};
+use super::system::OutputValue;
 use super::units::Measured;
 use super::{Env, Lowering, Names, NoValue, Place};
 use crate::expr::graph::Id;
@@ -44,16 +44,8 @@ impl<'m> Lowering<'m> {
         };
         top.unroll(blocks, self.diag, &mut |output, scope| {
             let key = &output.key;
-            let Some(indices) = self.indices(&key.indices, scope) else {
+            let Some(mut item) = self.item(key, scope) else {
                 return;
-            };
-            let mut item = ConstraintRef {
-                base: key.name.clone(),
-                shown: self.model.shown(&key.name.to_string()).to_owned(),
-                indices,
-                components: Vec::new(),
-                row: None,
-                unit_of: None,
             };
             let looped = !scope.variables.is_empty();
             let free = self.model.column(&key.name);
