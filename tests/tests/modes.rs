@@ -171,3 +171,36 @@ fn what_does_not_stay_has_no_modes() {
     ukcore::multibody! { Falling { coords { y } mass { y: 1.0 } potential { 9.81 * y } } }
     assert!(modes(Falling::default(), &rest(&[0.0])).is_err());
 }
+
+ukcore::multibody! {
+    /// A rod on a hinge in space, with the orientation near that of the ground.
+    Hinged {
+        params { m = 1.3, l = 0.8, g = 9.81 }
+        bodies { spatial rod { mass: m, inertia: [0.01, m * sq(l) / 12, m * sq(l) / 12], centre: [0, 0, -l / 2] } }
+        gravity { [0, 0, -g] }
+        holonomic { root: hinge(ground.at([0, 0, 0]), rod.at([0, 0, 0]), [0, 1, 0]) }
+        start tilted(angle = 0.3) { [rod.e0, rod.e2] near [cos(angle / 2), sin(angle / 2)] }
+    }
+}
+
+/// ω² = 3 g/(2 l) but for the rod's thickness; the first of its quaternion has no inertia where it is 1, and does not move.
+#[test]
+fn bodies_in_space_have_shapes() {
+    let rod = Hinged::default();
+    for angle in [0.0, 1e-9, 1e-3, 0.3] {
+        let start = rod.start("tilted", &[("angle", angle)].into()).unwrap();
+        let found = ukcore::equilibrium(&rod, &start, &[]).unwrap();
+        let modes = modes(&rod, &found.state).unwrap();
+        assert_eq!(modes.len(), 1);
+        assert_close("ω", modes[0].frequency, (1.5 * 9.81 / 0.8_f64).sqrt(), 1e-7);
+        let shape = |i: usize| modes[0].shape[i][0].hypot(modes[0].shape[i][1]);
+        let turn = shape(Hinged::ROD_E2);
+        assert!(
+            shape(Hinged::ROD_E0) < 1e-6 * turn,
+            "{angle}: {:?}",
+            modes[0]
+        );
+        // Half a radian of the quaternion is a radian of the rod, and moves its centre by half its length.
+        assert_close("x", shape(Hinged::ROD_X) / turn, 2.0 * 0.4, 1e-6);
+    }
+}

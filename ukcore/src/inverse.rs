@@ -19,7 +19,7 @@ pub struct Effort {
     pub power: f64,
 }
 
-/// A combination of motors below this part of the strongest one moves nothing.
+/// A combination of motors that acts on free displacements by less than this part of their largest coefficient moves nothing.
 const IDLE: f64 = 1e-9;
 
 /// The efforts that drive `mechanism` through `state` as its constraints say, of the constraints `motors` by name, each with all its rows
@@ -55,11 +55,11 @@ pub fn inverse(
     for (mut column, unit) in acting.column_iter_mut().zip(units.iter()) {
         column *= *unit;
     }
+    let strongest = acting.amax();
     let force = DVector::from_vec(solution.ideal_force).component_mul(&units);
     let mut efforts = DVector::zeros(driven.len());
     if !free.is_empty() && !driven.is_empty() {
         let acting = (acting * &free).transpose();
-        let strongest = acting.amax();
         if let Ok(least) = acting
             .svd(true, true)
             .solve(&free.tr_mul(&force), IDLE * strongest)

@@ -78,6 +78,12 @@ pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>,
             flow[(n + i, n + j)] = scale * found.by_velocity[j * n + i];
         }
     }
+    // Where a coordinate has hardly any inertia, as one of a quaternion near its zero, rounding is large in its own units: what holonomic
+    // constraints do not allow is taken off once more.
+    let holonomic = constraint_matrix(&mech, state)
+        .rows(0, mech.spec().holonomic)
+        .into_owned();
+    let allowed = null_space(holonomic, &DVector::repeat(n, 1.0));
     let reduced = tangent.tr_mul(&(flow * &tangent));
     let values = reduced.complex_eigenvalues();
     let told = values.iter().filter(|z| z.im >= 0.0);
@@ -86,15 +92,19 @@ pub fn modes(mechanism: impl Into<Prepared>, state: &State) -> Result<Vec<Mode>,
             let part = eigenvector(&reduced, *value);
             let shape = tangent.rows(0, n).map(|x| Complex::new(x, 0.0)) * part;
             let leader = shape.icamax();
-            let most = shape[leader] * units[leader];
-            let relative = |(x, unit): (&Complex<f64>, &f64)| {
-                let share = x * *unit / most;
+            let moved = shape.zip_map(&units, |x, unit| x * unit);
+            let moved =
+                [moved.map(|x| x.re), moved.map(|x| x.im)].map(|x| &allowed * allowed.tr_mul(&x));
+            let moved = moved[0].zip_map(&moved[1], Complex::new);
+            let most = moved[leader];
+            let relative = |x: &Complex<f64>| {
+                let share = x / most;
                 [share.re, share.im]
             };
             Mode {
                 growth: value.re,
                 frequency: value.im,
-                shape: shape.iter().zip(units.iter()).map(relative).collect(),
+                shape: moved.iter().map(relative).collect(),
                 leader: mech.spec().coords[leader],
             }
         })

@@ -99,6 +99,15 @@ impl Columns {
         self.chosen.iter().map(label).collect()
     }
 
+    /// The same of `mechanism`, which has other parameters.
+    #[must_use]
+    pub(crate) fn with(&self, mechanism: &Prepared) -> Self {
+        Columns {
+            mechanism: mechanism.clone(),
+            chosen: self.chosen.clone(),
+        }
+    }
+
     /// Their values at `sample`.
     #[must_use]
     pub(crate) fn values(&self, sample: Sample<'_>) -> Vec<f64> {

@@ -25,7 +25,7 @@ pub struct InverseArgs {
     /// A constraint that is a motor; may be repeated. All rows that prescribe a motion in time if absent
     #[arg(long = "motor", value_name = "NAME", value_delimiter = ',')]
     pub motors: Vec<String>,
-    /// Sample at this interval; each accepted step if absent
+    /// Sample at this interval; a thousandth of the run if absent
     #[arg(long, value_name = "TIME", value_parser = motion::interval, allow_hyphen_values = true)]
     pub every: Option<f64>,
     /// Print the efforts and powers at all samples as CSV instead
@@ -33,6 +33,8 @@ pub struct InverseArgs {
     pub csv: bool,
 }
 
+/// Samples of a run, between whose powers work is summed up.
+const SAMPLES: f64 = 1000.0;
 /// Times of a run at which rows are looked at for a motion that they prescribe.
 const TIMES: u32 = 16;
 /// Fractional part of the golden ratio: no multiple of a period.
@@ -61,7 +63,8 @@ pub fn inverse(models: &[Entry], args: &InverseArgs) -> Result<(), Failure> {
     }
     let mut samples: Vec<(f64, Vec<Effort>)> = Vec::new();
     let mut broken: Option<Error> = None;
-    let (_, error) = args.motion.follow(&ready, args.every, |sample| {
+    let every = args.every.unwrap_or(length.abs() / SAMPLES);
+    let (_, error) = args.motion.follow(&ready, Some(every), |sample| {
         match efforts_at(mech, &sample.to_state(), &motors) {
             Ok(efforts) => samples.push((sample.t, efforts)),
             Err(error) => broken = Some(error),

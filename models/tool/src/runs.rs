@@ -68,7 +68,12 @@ impl Runs {
             ..Start::default()
         };
         let mut axes = Vec::new();
-        for (name, values) in &self.settings {
+        for (k, (name, values)) in self.settings.iter().enumerate() {
+            if self.settings[..k].iter().any(|(other, _)| other == name) {
+                let message =
+                    format!("`{name}` is set twice; list its values once: `--set {name}=1,2`");
+                return Err(Failure::Usage(message));
+            }
             let values = values.si(plain.unit(entry, name)?);
             let values = values.map_err(|e| Failure::Usage(format!("`{name}`: {e}")))?;
             axes.push((name, values));

@@ -190,7 +190,9 @@ impl Plan<'_> {
                 return line(&row).map(Some);
             }
         };
-        let mut extremes = vec![Extremes::default(); self.columns.names().count()];
+        // Outputs depend on parameters, which are those of this run.
+        let columns = self.columns.with(&ready.mechanism);
+        let mut extremes = vec![Extremes::default(); columns.names().count()];
         let mut drift = Drift::new(&ready.mechanism);
         let mut last = Vec::new();
         let length = chosen.motion.length(&ready);
@@ -203,7 +205,7 @@ impl Plan<'_> {
                 false => ControlFlow::Continue(()),
             });
         let mut add = |sample: Sample<'_>| {
-            last = self.columns.values(sample);
+            last = columns.values(sample);
             for (extremes, value) in extremes.iter_mut().zip(&last) {
                 extremes.add(sample.t, *value);
             }
@@ -224,7 +226,7 @@ impl Plan<'_> {
         }
         // That of a run which fails is behind the last sample.
         if let Some(end) = trajectory.last().filter(|_| !last.is_empty()) {
-            last = self.columns.values(end);
+            last = columns.values(end);
         }
         row.push(trajectory.last().map_or(String::new(), |end| number(end.t)));
         last.resize(extremes.len(), f64::NAN);

@@ -580,3 +580,35 @@ fn constraints_are_diagnosed() {
     let rod = output("inverse cart --motor rod --until 0.2 --csv");
     assert!(rod.starts_with("t,rod,power(rod)\n0,"), "{rod}");
 }
+
+#[test]
+fn what_is_swept_is_reported_with_its_own_parameters() {
+    let out = tempfile::tempdir().expect("directory");
+    let place = out.path().join("sweep.csv");
+    let set = "--until 0.5 --set k=10,90 --set m=1,3 --of energy";
+    output(&format!("sweep cart {set} --out {}", place.display()));
+    let table = std::fs::read_to_string(&place).expect("a table");
+    for row in rows(&table) {
+        let csv = output(&format!(
+            "run cart --until 0.5 --csv - --set k={} --set m={}",
+            row["k"], row["m"]
+        ));
+        let names: Vec<&str> = csv.lines().next().expect("names").split(',').collect();
+        let column = names
+            .iter()
+            .position(|name| *name == "energy")
+            .expect("energy");
+        let last = csv
+            .lines()
+            .last()
+            .and_then(|line| line.split(',').nth(column));
+        let [found, expected] =
+            [row["energy"], last.expect("a value")].map(|x| x.parse::<f64>().expect("a number"));
+        assert!((found - expected).abs() < 1e-7, "{row:?}: {expected}");
+    }
+    fails(
+        "sweep cart --set k=1 --set k=2 --out a.csv",
+        2,
+        "`k` is set twice",
+    );
+}
