@@ -22,6 +22,7 @@ mod kinks;
 mod lanes;
 mod language;
 mod layers;
+mod light;
 mod linearise;
 mod machines;
 mod misses;

@@ -1,0 +1,273 @@
+//! The example as its user meets it: a program of a declaration and one line.
+
+mod pictures;
+mod sweeps;
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+/// The example.
+fn program() -> std::path::PathBuf {
+    // Examples are built beside the tests.
+    let test = std::env::current_exe().expect("a test");
+    let examples = test.ancestors().nth(2).expect("a target directory");
+    let program = examples.join("examples/cart");
+    assert!(
+        program
+            .with_extension(std::env::consts::EXE_EXTENSION)
+            .exists(),
+        "`cargo build -p uktool --example cart` makes {}",
+        program.display()
+    );
+    program
+}
+
+fn cart(args: &str) -> Output {
+    Command::new(program())
+        .args(args.split_whitespace())
+        .output()
+        .expect("it starts")
+}
+
+#[track_caller]
+fn output(args: &str) -> String {
+    let output = cart(args);
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(
+        (told.as_str(), output.status.code()),
+        ("", Some(0)),
+        "{args}"
+    );
+    String::from_utf8(output.stdout).expect("UTF-8")
+}
+
+#[track_caller]
+fn fails(args: &str, code: i32, message: &str) {
+    let output = cart(args);
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(told.contains(message), "{args}: {told}");
+    assert_eq!(output.status.code(), Some(code), "{args}");
+}
+
+const GUESS: &str = "--guess x=0.4 --guess y=-0.2 --hold s";
+
+#[test]
+fn a_mechanism_is_listed_with_its_starts() {
+    let list = output("list");
+    assert!(
+        list.starts_with(
+            "cart  A cart on a spring with a pendulum hanging from it; y points up.\n"
+        )
+    );
+    for part in [
+        "start released (default): let go with the cart at rest\n",
+        "angle = 0.872665 rad    Angle of the rod from the vertical\n",
+        "parameters big = 2 kg, m = 1 kg, l = 0.5 m, k = 40 N/m,",
+    ] {
+        assert!(list.contains(part), "{part} in {list}");
+    }
+    fails(
+        "run crat",
+        2,
+        "no model is called `crat`; did you mean `cart`?",
+    );
+    fails("run train", 2, "`cart list` shows those there are");
+}
+
+#[test]
+fn its_start_is_assembled_and_its_motion_printed() {
+    let csv = output(&format!("run cart {GUESS} --until 2 --every 0.5 --csv -"));
+    let mut lines = csv.lines();
+    assert_eq!(
+        lines.next(),
+        Some("t,s,x,y,dot(s),dot(x),dot(y),swing,energy,residual")
+    );
+    // As the library computes it: the nearest state on the rod, with the cart held.
+    let start = lines.next().expect("a row");
+    assert!(start.starts_with("0.0,0.0,0.44721359549995"), "{start}");
+    assert_eq!(csv.lines().count(), 1 + 5);
+    let run = output(&format!(
+        "run cart {GUESS} --guess dot(x)=0.1 --set k=80 --json"
+    ));
+    let run: Value = serde_json::from_str(&run).expect("JSON");
+    assert_eq!(
+        (&run["start"], &run["parameters"]["k"]),
+        (&"assembled".into(), &80.0.into())
+    );
+    let units = &run["units"];
+    assert_eq!(
+        (&units["k"], &units["s"], &units["swing"]),
+        (&"N/m".into(), &"m".into(), &"deg".into())
+    );
+    assert!(
+        run["energy_drift"]
+            .as_f64()
+            .is_some_and(|drift| drift < 1e-8),
+        "{run}"
+    );
+    fails(
+        "run cart --guess x=0.4 --hold u",
+        2,
+        "no coordinate is called `u`",
+    );
+    fails(
+        "run cart --guess x=9 --hold s,x,y",
+        1,
+        "`--guess NAME=VALUE` gives one, of s, x, y",
+    );
+    fails("run cart --start rest", 2, "no start is called `rest`");
+}
+
+#[test]
+fn a_declared_start_takes_its_options() {
+    let csv = output("run cart --set angle=30deg --set l=2 --until 0.1 --csv -");
+    let row = csv.lines().nth(1).expect("a row");
+    let numbers: Vec<f64> = row
+        .split(',')
+        .map(|x| x.parse().expect("a number"))
+        .collect();
+    let [t, s, x, y, ..] = numbers[..] else {
+        panic!("columns: {row}")
+    };
+    assert_eq!((t, s), (0.0, 0.0));
+    assert!(
+        (x - 1.0).abs() < 1e-15 && (y + 3.0_f64.sqrt()).abs() < 1e-15,
+        "{row}"
+    );
+    let same = output("run cart --set angle=30deg --set l=2000mm --until 0.1 --csv -");
+    assert_eq!(same, csv);
+    for (setting, told) in [
+        (
+            "angle=3m",
+            "`angle`: a value in rad is needed, not one in m",
+        ),
+        ("l=3kg", "`l`: a value in m is needed, not one in kg"),
+        ("k=3m/s", "`k`: a value in N/m is needed, not one in m/s"),
+    ] {
+        fails(&format!("run cart --set {setting}"), 2, told);
+    }
+    fails(
+        "run cart --guess dot(x)=3m --hold s",
+        2,
+        "`dot(x)`: a value in m/s is needed, not one in m",
+    );
+    fails("run cart --set angel=3", 2, "did you mean `angle`?");
+}
+
+#[test]
+fn it_is_explained_with_a_guess_and_without() {
+    let text = output(&format!("explain cart {GUESS}"));
+    for part in [
+        "M[s, s] = big",
+        "A[rod, x] = ",
+        "degrees of freedom: 2",
+        "At the start `assembled`",
+    ] {
+        assert!(text.contains(part), "{part} in {text}");
+    }
+    assert!(output("explain cart").contains("rod: "));
+    assert!(output("explain cart --code acceleration").starts_with("fn acceleration<S: "));
+}
+
+#[test]
+fn it_is_measured() {
+    let out = tempfile::tempdir().expect("directory");
+    let place = out.path().join("report");
+    let told = output(&format!(
+        "report cart {GUESS} --until 0.5 --quick --out {}",
+        place.display()
+    ));
+    assert!(told.contains("DOP853, projection at"), "{told}");
+    for file in [
+        "index.html",
+        "report.json",
+        "report.csv",
+        "figures/cart-time.svg",
+    ] {
+        assert!(Path::new(&place).join(file).is_file(), "{file}");
+    }
+    fails(
+        &format!(
+            "report cart --guess x=9 --hold s,x,y --out {}",
+            place.display()
+        ),
+        1,
+        "`--guess NAME=VALUE` gives one, of s, x, y",
+    );
+}
+
+/// About the hanging position (M + m) s̈ + m l θ̈ + k s = 0 and s̈ + l θ̈ + g θ = 0.
+#[test]
+fn its_modes_are_told() {
+    let told = output("modes cart");
+    assert!(told.starts_with("cart rests, stable, at\n"), "{told}");
+    let (big, m, l, k, g) = (2.0, 1.0, 0.5, 40.0, 9.81);
+    // M l ω⁴ − ((M + m) g + k l) ω² + k g = 0.
+    let (a, b, c): (f64, f64, f64) = (big * l, (big + m) * g + k * l, k * g);
+    let root = (b * b - 4.0 * a * c).sqrt();
+    let expected = [b - root, b + root].map(|x| (x / (2.0 * a)).sqrt());
+    let lines = told.lines().filter_map(|line| line.split_once(" rad/s"));
+    let found: Vec<f64> = lines.map(|(x, _)| x.parse().expect("a number")).collect();
+    assert_eq!(found.len(), 2, "{told}");
+    for (found, expected) in found.iter().zip(expected) {
+        assert!((found - expected).abs() < 1e-6, "{told}");
+    }
+    fails(
+        "modes cart --steady",
+        1,
+        "is neither a rest position nor a steady motion",
+    );
+}
+
+#[test]
+fn it_is_swept_until_it_breaks() {
+    let out = tempfile::tempdir().expect("a directory");
+    let place = out.path().join("stability");
+    let text = output(&format!(
+        "stability cart --until 0.05 --out {}",
+        place.display()
+    ));
+    // Far from all ordinary values motions agree with those by the printed formula, or something is said.
+    assert!(
+        text.contains(" accurate, ") && text.contains(" 0 wrong in "),
+        "{text}"
+    );
+    let lines = std::fs::read_to_string(place.join("stability.csv")).expect("a table");
+    let class = |case: &str, factor: &str| {
+        let mut lines = lines
+            .lines()
+            .map(|line| line.split(',').collect::<Vec<_>>());
+        let line = lines.find(|line| line[0] == case && line[2] == factor);
+        line.map(|line| line[3].to_owned())
+    };
+    let accurate = Some("accurate".to_owned());
+    for case in ["big", "m", "l", "k", "g"] {
+        assert_eq!(class(case, "1"), accurate, "{case}");
+    }
+    assert_eq!(class("m", "1e-12"), accurate);
+    assert_eq!(class("tolerance", "1e-9"), accurate);
+    assert!(place.join("index.html").exists() && place.join("stability.svg").exists());
+    fails("stability carts", 2, "did you mean `cart`?");
+}
+
+#[test]
+fn constraints_are_diagnosed() {
+    assert_eq!(
+        output("diagnose cart --until 0.2"),
+        "cart at `released`: 3 coordinates, 1 constraint of rank 1: 2 degrees of freedom\nall reactions are unique\n"
+    );
+    fails(
+        "inverse cart",
+        2,
+        "no constraint of `cart` prescribes a motion in time",
+    );
+    fails(
+        "inverse cart --motor rd",
+        2,
+        "no constraint is called `rd`; did you mean `rod`?",
+    );
+    let rod = output("inverse cart --motor rod --until 0.2 --csv");
+    assert!(rod.starts_with("t,rod,power(rod)\n0,"), "{rod}");
+}

@@ -1,0 +1,174 @@
+//! Motions and curves as they are shown.
+
+use std::path::Path;
+use std::process::Command;
+
+use serde_json::Value;
+
+use super::{fails, output};
+
+#[test]
+fn its_motion_is_shown() {
+    let out = tempfile::tempdir().expect("directory");
+    let page = out.path().join("cart.html");
+    let told = output(&format!(
+        "animate cart --until 2 --pictures 41 --out {}",
+        page.display()
+    ));
+    assert_eq!(told, format!("open {}\n", page.display()));
+    let text = std::fs::read_to_string(&page).expect("the page");
+    let data = &data(&text)["runs"][0];
+    let pictures = data["pictures"].as_array().expect("pictures");
+    assert_eq!((pictures.len(), data["t"][40].as_f64()), (41, Some(2.0)));
+    // Spring, rod, bob and trace: the rod is as long in each.
+    for picture in pictures {
+        let x = |k: usize| picture[k].as_f64().expect("a number");
+        let length = (x(6) - x(4)).hypot(x(7) - x(5));
+        assert!((length - 0.5).abs() < 1e-6, "{picture}");
+    }
+    assert!(
+        !text.contains("http://") || text.matches("http").count() == 1,
+        "nothing is fetched"
+    );
+    if let Some(shown) = browsed(&page) {
+        // The last picture, asked for by the address, with the whole trace.
+        let traces = shown
+            .split("<polyline")
+            .skip(1)
+            .find(|part| part.contains("#c25a00"));
+        let trace = traces
+            .expect("a trace")
+            .split("points=\"")
+            .nth(1)
+            .expect("points");
+        let points = trace
+            .split('"')
+            .next()
+            .unwrap_or_default()
+            .split(' ')
+            .count();
+        assert_eq!(points, 41, "{shown}");
+        assert!(shown.contains("t = 2.000 s"), "{shown}");
+    }
+    fails("animate cart --pictures 1", 2, "1 is not in 2..=100000");
+}
+
+/// What a page is given.
+fn data(page: &str) -> Value {
+    let (_, data) = page.split_once("id=\"data\">").expect("data");
+    let (data, _) = data.split_once("</script>").expect("its end");
+    serde_json::from_str(data).expect("JSON")
+}
+
+/// Of a conservative mechanism projection keeps the rod, and a loose tolerance without it does not.
+#[test]
+fn runs_are_shown_side_by_side() {
+    let out = tempfile::tempdir().expect("directory");
+    let page = out.path().join("both.html");
+    output(&format!(
+        "animate cart --stabilise projection,none --tol 1e-4 --set k=40,400 --until 5 --pictures 51 --out {}",
+        page.display()
+    ));
+    let data = data(&std::fs::read_to_string(&page).expect("the page"));
+    let runs = data["runs"].as_array().expect("runs");
+    let labels: Vec<&str> = runs
+        .iter()
+        .filter_map(|run| run["label"].as_str())
+        .collect();
+    assert_eq!(
+        labels,
+        [
+            "k = 40, stabilisation = projection",
+            "k = 40, stabilisation = none",
+            "k = 400, stabilisation = projection",
+            "k = 400, stabilisation = none"
+        ]
+    );
+    for (k, run) in runs.iter().enumerate() {
+        let residuals = run["residual"].as_array().expect("residuals");
+        let largest = residuals.iter().filter_map(Value::as_f64);
+        let largest = largest.fold(0.0, f64::max);
+        assert_eq!(largest < 1e-12, k % 2 == 0, "{largest:e}");
+    }
+    if let Some(shown) = browsed(&page) {
+        let pictures = shown.matches("role=\"img\" aria-label=\"the mechanism\"");
+        assert_eq!(pictures.count(), 4, "{shown}");
+        assert!(shown.contains("t = 4.000 s"), "{shown}");
+    }
+    fails(
+        "animate cart --set k=1,2,3,4 --tol 1e-4,1e-6",
+        2,
+        "4 × 2 runs are asked for; at most 6 are made",
+    );
+}
+
+#[test]
+fn curves_of_a_run_are_drawn() {
+    let out = tempfile::tempdir().expect("directory");
+    let (over_time, path) = (out.path().join("t.svg"), out.path().join("path.svg"));
+    let page = out.path().join("run.html");
+    output(&format!(
+        "run cart --until 1 --plot {} swing dot(s) --animate {}",
+        over_time.display(),
+        page.display()
+    ));
+    let text = std::fs::read_to_string(&over_time).expect("a picture");
+    for part in ["swing", "dot(s)", "t (s)", "</svg>"] {
+        assert!(text.contains(part), "{part} in {text}");
+    }
+    let shown = data(&std::fs::read_to_string(&page).expect("a page"));
+    let times = shown["runs"][0]["t"].as_array().map(Vec::len);
+    assert_eq!(times, Some(1001));
+    // With a heavy cart that stands the bob swings on a circle about it: the path is as wide as 2 l sin(angle).
+    output(&format!(
+        "run cart --set big=1e12 --set k=0 --set angle=0.9 --until 3 --plot {} x,y",
+        path.display()
+    ));
+    let text = std::fs::read_to_string(&path).expect("a picture");
+    let longest = text
+        .split("points=\"")
+        .skip(1)
+        .filter_map(|part| part.split('"').next())
+        .max_by_key(|points| points.len());
+    let points = longest.expect("a curve").split_whitespace();
+    let across = points.filter_map(|point| point.split_once(',')?.0.parse::<f64>().ok());
+    let (low, high) = across.fold((f64::INFINITY, 0.0_f64), |(low, high), x| {
+        (low.min(x), high.max(x))
+    });
+    // The axis goes from −0.4 to 0.4 over the frame, or from −0.391 to 0.392.
+    assert!(high - low > 0.9 * 0.979 * 650.0, "{low} {high}");
+    fails(
+        "run cart --plot a.svg swnig",
+        2,
+        "no quantity is called `swnig`; did you mean `swing`?",
+    );
+    fails(
+        "run cart --plot a.svg s x,y",
+        2,
+        "do not go into one picture",
+    );
+    fails("run cart --plot a.svg", 2, "--plot <FILE> <CURVE>");
+}
+
+/// The page as a browser has it once its script has run, with the last picture shown; nothing where no browser is installed.
+fn browsed(page: &Path) -> Option<String> {
+    let arguments = [
+        "--headless=new",
+        "--no-sandbox",
+        "--disable-gpu",
+        "--virtual-time-budget=2000",
+        "--dump-dom",
+    ];
+    let address = format!("file://{}#40", page.display());
+    let run = |name: &str| {
+        Command::new(name)
+            .args(arguments)
+            .arg(&address)
+            .output()
+            .ok()
+    };
+    let shown = ["chromium", "chromium-browser", "google-chrome"]
+        .into_iter()
+        .find_map(run)?;
+    Some(String::from_utf8_lossy(&shown.stdout).into_owned())
+}

@@ -1,0 +1,184 @@
+//! Tables of runs.
+
+use std::path::Path;
+use std::process::Command;
+
+use super::{fails, output, program};
+
+/// Rows of a table as names to values.
+fn rows(table: &str) -> Vec<std::collections::HashMap<&str, &str>> {
+    let names = table.lines().next().expect("names").split(',');
+    let rows = table.lines().skip(1);
+    rows.map(|line| names.clone().zip(line.split(',')).collect())
+        .collect()
+}
+
+#[test]
+fn values_are_swept() {
+    let out = tempfile::tempdir().expect("directory");
+    let place = out.path().join("sweep.csv");
+    let sweep = |more: &str| format!("sweep cart --until 1 --out {} {more}", place.display());
+    let command = sweep("--set k=40..60:10 --set angle=30deg,1");
+    assert!(output(&command).starts_with("6 runs in "));
+    let table = std::fs::read_to_string(&place).expect("a table");
+    let found = rows(&table);
+    assert_eq!(found.len(), 6);
+    for (k, row) in found.iter().enumerate() {
+        let angle = ["0.5235987755982988", "1.0"][k % 2];
+        let stiffness = ["40.0", "50.0", "60.0"][k / 2];
+        assert_eq!(
+            (row["member"], row["k"], row["angle"], row["error"]),
+            (k.to_string().as_str(), stiffness, angle, "")
+        );
+        // Against the samples of a run.
+        let csv = output(&format!(
+            "run cart --until 1 --every 1ms --csv - --set k={stiffness} --set angle={angle}"
+        ));
+        let column = csv.lines().next().expect("names").split(',');
+        let column = column.into_iter().position(|name| name == "swing");
+        let values = csv.lines().skip(1).map(|line| {
+            let value = line.split(',').nth(column.expect("swing"));
+            value.expect("a value").parse::<f64>().expect("a number")
+        });
+        let values: Vec<f64> = values.collect();
+        let number = |name: &str| row[name].parse::<f64>().expect("a number");
+        let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        assert_eq!(values.last(), Some(&number("swing")));
+        // In degrees.
+        let near = 1e-5_f64.to_degrees();
+        assert!((number("min(swing)") - low).abs() < near, "{row:?}");
+        assert!((number("max(swing)") - high).abs() < near, "{row:?}");
+        assert!(number("min(swing)") <= low && number("max(swing)") >= high);
+    }
+    // One that was broken off in the middle of a row goes on to the same table.
+    let half = table.len() / 2;
+    std::fs::write(&place, &table[..half]).expect("a part");
+    output(&command);
+    assert_eq!(std::fs::read_to_string(&place).expect("a table"), table);
+    // Complete, it is left as it is; of another sweep, too, which is an error.
+    output(&command);
+    fails(&sweep("--set k=40..70:10"), 2, "holds something else than");
+    fails(
+        &sweep("--set k=40..60:10 --set angle=30deg,1 --tol 1e-8"),
+        2,
+        "holds something else",
+    );
+    assert_eq!(std::fs::read_to_string(&place).expect("a table"), table);
+}
+
+#[test]
+fn members_fail_alone() {
+    let out = tempfile::tempdir().expect("directory");
+    let place = out.path().join("sweep.csv");
+    let told = output(&format!(
+        "sweep cart --until 1 --set m=1,-1 --out {}",
+        place.display()
+    ));
+    assert!(told.contains("of which 1 failed"), "{told}");
+    let table = std::fs::read_to_string(&place).expect("a table");
+    let mut reader = csv::Reader::from_reader(table.as_bytes());
+    let last = |record: csv::StringRecord| record.iter().next_back().map(str::to_owned);
+    let errors: Vec<String> = reader
+        .records()
+        .map(|record| record.ok().and_then(last).expect("a row"))
+        .collect();
+    assert_eq!(errors[0], "");
+    assert!(errors[1].contains("mass"), "{}", errors[1]);
+    let other = out.path().join("none.csv");
+    fails(
+        &format!("sweep cart --until 1 --set m=-1 --out {}", other.display()),
+        1,
+        "no run succeeded; the first: ",
+    );
+    fails(
+        "sweep cart --set q=1 --out a.csv",
+        2,
+        "no parameter or start option is called `q`",
+    );
+    fails(
+        "sweep cart --set k=1..2 --out a.csv",
+        2,
+        "a range needs its step: `k=1..2:STEP`",
+    );
+    fails(
+        "sweep cart --set k=1,2 --set angle=1kg --out a.csv",
+        2,
+        "`angle`",
+    );
+}
+
+/// What is done when the user ends it is kept, and the same command goes on from there.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_sweep_goes_on() {
+    let out = tempfile::tempdir().expect("directory");
+    let (broken, whole) = (out.path().join("broken.csv"), out.path().join("whole.csv"));
+    let sweep = |place: &Path| {
+        format!(
+            "sweep cart --set k=40..79:1 --until 20 --out {}",
+            place.display()
+        )
+    };
+    let mut child = Command::new(program())
+        .args(sweep(&broken).split_whitespace())
+        .stderr(std::process::Stdio::piped())
+        .stdout(std::process::Stdio::piped())
+        .spawn()
+        .expect("it starts");
+    let done = || std::fs::read_to_string(&broken).map_or(0, |text| text.lines().count());
+    while done() < 4 && child.try_wait().expect("a child").is_none() {
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    let kill = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    let output_of = child.wait_with_output().expect("its end");
+    // It may have been done before it was told.
+    if kill.is_ok_and(|status| status.success()) && output_of.status.code() != Some(0) {
+        let told = String::from_utf8_lossy(&output_of.stderr);
+        assert_eq!(output_of.status.code(), Some(130), "{told}");
+        assert!(
+            told.contains("the same command goes on from there"),
+            "{told}"
+        );
+        let rows = done() - 1;
+        assert!((3..40).contains(&rows), "{rows} rows");
+    }
+    output(&sweep(&broken));
+    output(&sweep(&whole));
+    let read = |place: &Path| std::fs::read_to_string(place).expect("a table");
+    assert_eq!(read(&broken), read(&whole));
+}
+
+#[test]
+fn what_is_swept_is_reported_with_its_own_parameters() {
+    let out = tempfile::tempdir().expect("directory");
+    let place = out.path().join("sweep.csv");
+    let set = "--until 0.5 --set k=10,90 --set m=1,3 --of energy";
+    output(&format!("sweep cart {set} --out {}", place.display()));
+    let table = std::fs::read_to_string(&place).expect("a table");
+    for row in rows(&table) {
+        let csv = output(&format!(
+            "run cart --until 0.5 --csv - --set k={} --set m={}",
+            row["k"], row["m"]
+        ));
+        let names: Vec<&str> = csv.lines().next().expect("names").split(',').collect();
+        let column = names
+            .iter()
+            .position(|name| *name == "energy")
+            .expect("energy");
+        let last = csv
+            .lines()
+            .last()
+            .and_then(|line| line.split(',').nth(column));
+        let [found, expected] =
+            [row["energy"], last.expect("a value")].map(|x| x.parse::<f64>().expect("a number"));
+        assert!((found - expected).abs() < 1e-7, "{row:?}: {expected}");
+    }
+    fails(
+        "sweep cart --set k=1 --set k=2 --out a.csv",
+        2,
+        "`k` is set twice",
+    );
+}
