@@ -64,18 +64,13 @@ impl Model for SpringPendulum {
 }
 
 impl SpringPendulum {
-    /// Length of the spring, m, and its rate, m/s, at which the spring carries the mass at `angle`, rad, and `rate`, rad/s, but for terms
-    /// of order 1/k².
-    ///
-    /// k (r − l) = m (g cos θ + r θ̇²), and its derivative with θ̈ = −g sin θ / r.
+    /// Length of the spring, m, at which it carries the mass at `angle`, rad, and `rate`, rad/s, but for terms of order 1/k²:
+    /// k (r − l) = m (g cos θ + r θ̇²).
     #[must_use]
-    pub fn balance(&self, angle: f64, rate: f64) -> (f64, f64) {
-        let (sin, cos) = angle.sin_cos();
+    pub fn balance(&self, angle: f64, rate: f64) -> f64 {
         let SpringPendulum { m, l, k, g, .. } = *self;
         // The square of the rate stretches the spring, too: k r − m r θ̇² = k l + m g cos θ.
-        let r = (k * l + m * g * cos) / (k - m * rate * rate);
-        let growth = -3.0 * m * g * rate * sin / k;
-        (r, growth)
+        (k * l + m * g * angle.cos()) / (k - m * rate * rate)
     }
 
     /// Angular frequency of the oscillation along the spring, rad/s: √(k/m).

@@ -315,6 +315,7 @@ fn wrong_masses() {
         fn check<M: Model>(&self) {
             let solve = &M::SPEC.structure.solve;
             let n = M::SPEC.n();
+            let state = M::default().default_start().expect("a start");
             let prescribed = |i: usize| {
                 let pivots = &mut solve.pivots.iter();
                 pivots.any(|s| matches!(s, Pivot::Prescribed(j, ..) if *j == i))
@@ -324,7 +325,6 @@ fn wrong_masses() {
                 let mut mechanism = M::default();
                 mechanism.set_parameter(index, x);
                 let mut mass = vec![0.0; n * n];
-                let state = M::default().default_start().expect("a start");
                 Prepared::from(&mechanism).mass_matrix(state.t, &state.q, &mut mass);
                 mass
             };
@@ -336,7 +336,6 @@ fn wrong_masses() {
             for (index, p) in masses {
                 for wrong in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 0.0, -0.0, -1.0] {
                     let mut mechanism = M::default();
-                    let state = mechanism.default_start().expect("a start");
                     mechanism.set_parameter(index, wrong);
                     let mut out = vec![0.0; M::SPEC.n()];
                     let prepared = mechanism.prepared::<f64>();

@@ -104,7 +104,6 @@ fn models_have_the_freedoms_counted_by_hand() {
     );
     let table = DoubleScottRussell::default();
     let found = diagnose(&table, &table.default_start().unwrap()).unwrap();
-    println!("{found}");
     assert_eq!((found.degrees_of_freedom, found.redundant.len()), (1, 2));
 }
 

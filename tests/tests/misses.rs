@@ -52,11 +52,13 @@ ukcore::multibody! {
     }
 }
 
-/// A mechanism, its start, and its four joints at a state, the two on the ground first and last; where the last one is, its chain says.
+/// A mechanism with its start.
 struct Case {
     mechanism: Prepared,
     start: State,
-    joints: fn(Sample<'_>) -> [[f64; 2]; 4],
+    /// The two moving joints at a state; the others are on the ground, at 0 and this far from there.
+    joints: fn(Sample<'_>) -> [[f64; 2]; 2],
+    ground: f64,
     /// The rod that is the shortest: crank, coupler, rocker, ground.
     shortest: usize,
 }
@@ -102,7 +104,8 @@ fn points(rods: [f64; 4], shortest: usize, g: f64, w: f64) -> Case {
             q: [p, q].concat(),
             v: [vp, vq].concat().iter().map(|v| w * v).collect(),
         },
-        joints: |s| [[0.0; 2], [s.q[0], s.q[1]], [s.q[2], s.q[3]], [f64::NAN; 2]],
+        joints: |s| [[s.q[0], s.q[1]], [s.q[2], s.q[3]]],
+        ground: d,
         shortest,
     }
 }
@@ -141,8 +144,9 @@ fn bodies(rods: [f64; 4], shortest: usize, g: f64, w: f64) -> Case {
             let (first, middle) = (q(0), q(1));
             let p = [2.0 * first[0], 2.0 * first[1]];
             let far = [2.0 * middle[0] - p[0], 2.0 * middle[1] - p[1]];
-            [[0.0; 2], p, far, [f64::NAN; 2]]
+            [p, far]
         },
+        ground: d,
         shortest,
     }
 }
@@ -165,16 +169,17 @@ fn pair(rods: [f64; 4], shortest: usize, g: f64, w: f64) -> Case {
             q: [p, q, r].concat(),
             v: [vp, vq, vr].concat().iter().map(|v| w * v).collect(),
         },
-        joints: |s| [[0.0; 2], [s.q[0], s.q[1]], [s.q[4], s.q[5]], [f64::NAN; 2]],
+        joints: |s| [[s.q[0], s.q[1]], [s.q[4], s.q[5]]],
+        ground: d,
         shortest,
     }
 }
 
 impl Case {
     /// The sines, times lengths, of the angles that keep their signs.
-    fn sides(&self, d: f64, at: Sample<'_>) -> [f64; 2] {
-        let mut joint = (self.joints)(at);
-        joint[3] = [d, 0.0];
+    fn sides(&self, at: Sample<'_>) -> [f64; 2] {
+        let [p, q] = (self.joints)(at);
+        let joint = [[0.0; 2], p, q, [self.ground, 0.0]];
         let side = |i: usize| {
             let [before, here, after] = [joint[(i + 3) % 4], joint[i % 4], joint[(i + 1) % 4]];
             let (a, b) = (
@@ -205,10 +210,10 @@ struct Outcomes {
     wrong: Vec<String>,
 }
 
-fn least(run: &Trajectory, case: &Case, d: f64) -> f64 {
-    let start = case.sides(d, Sample::from(&case.start));
+fn least(run: &Trajectory, case: &Case) -> f64 {
+    let start = case.sides(Sample::from(&case.start));
     run.samples().fold(f64::INFINITY, |least, s| {
-        let sides = case.sides(d, s);
+        let sides = case.sides(s);
         least
             .min(sides[0] * start[0].signum())
             .min(sides[1] * start[1].signum())
@@ -253,7 +258,7 @@ impl Outcomes {
         };
         match run {
             Ok(run) => {
-                let (side, drift) = (least(&run, &case, rods[3]), run.energy_drift());
+                let (side, drift) = (least(&run, &case), run.energy_drift());
                 // RATTLE has the accuracy of its step, which may be too long for a turn.
                 let loose = if rattle { 0.25 } else { 3e3 * tolerance + 1e-7 };
                 match side > -bound && drift < loose {
@@ -264,7 +269,7 @@ impl Outcomes {
                 }
             }
             Err(failure) => {
-                let side = least(&failure.trajectory, &case, rods[3]);
+                let side = least(&failure.trajectory, &case);
                 match side > -bound {
                     true => self.refused.push(format!("{label}: {failure}")),
                     false => self.wrong.push(format!("{label}: {side:.1e}, {failure}")),
@@ -331,7 +336,7 @@ fn members_of_an_ensemble_turn_as_they_do_alone() {
                 start(w),
                 member.unwrap_or_else(|error| panic!("{error}")).end,
             );
-            let sides = [&case.start, &end].map(|s| case.sides(1.0, Sample::from(s)));
+            let sides = [&case.start, &end].map(|s| case.sides(Sample::from(s)));
             let kept = |i: usize| sides[1][i] * sides[0][i].signum() > -1e-4;
             assert!(kept(0) && kept(1), "{e:e}, {w}: {sides:?}");
         }

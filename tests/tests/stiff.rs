@@ -133,7 +133,7 @@ fn what_is_not_resolved_is_damped() {
             let angle = f64::atan2(last.q[0], -last.q[1]);
             let rate = (last.q[0] * last.v[1] - last.q[1] * last.v[0])
                 / (last.q[0].powi(2) + last.q[1].powi(2));
-            model.balance(angle, rate).0
+            model.balance(angle, rate)
         };
         let growth = (last.q[0] * last.v[0] + last.q[1] * last.v[1]) / balance;
         f64::hypot(

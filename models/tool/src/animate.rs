@@ -1,8 +1,7 @@
 //! The command `animate`: motions as a page that opens from disk, with no network and no library.
 
-use std::io::Write;
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use maud::{PreEscaped, html};
@@ -17,7 +16,7 @@ use crate::command::{self, find};
 use crate::curves::Thinned;
 use crate::failure::Failure;
 use crate::html::document;
-use crate::motion::{self, Motion};
+use crate::motion::Motion;
 use crate::numbers::short;
 use crate::output::{self, WholeFile};
 use crate::runs::Runs;
@@ -171,7 +170,7 @@ pub fn animate(models: &[Entry], args: &AnimateArgs) -> Result<(), Failure> {
         films.push(film);
     }
     if let (Some(file), Some(about)) = (file, about) {
-        write(file, &path, &page(entry, films, &about)?)?;
+        file.finish_with(page(entry, films, &about)?)?;
     }
     output::to_stdout(|out| writeln!(out, "open {}", path.display()))?;
     failed.map_or(Ok(()), |error| Err(error.into()))
@@ -212,18 +211,8 @@ fn taken(
         film.add(sample);
         ControlFlow::Continue(())
     })?;
-    if let Some(error @ Error::InvalidSetting { .. }) = error {
-        return Err(motion::usage(error));
-    }
     film.end(error.as_ref());
     Ok((film, error))
-}
-
-/// Writes a page to the file begun for it.
-pub(crate) fn write(mut file: WholeFile, path: &Path, page: &str) -> Result<(), Failure> {
-    file.write_all(page.as_bytes())
-        .map_err(|e| output::failure(Some(path), &e))?;
-    file.finish()
 }
 
 fn kind(kind: ShapeKind) -> &'static str {

@@ -1,7 +1,6 @@
 //! The quantities of a motion by the names that they have in tables: `t`, `x`, `dot(x)`, outputs, integrals, `energy`, `residual`.
 
-use ukcore::assemble::residuals;
-use ukcore::simulate::Sample;
+use ukcore::simulate::{Drift, Sample};
 use ukcore::{Error, Prepared};
 
 use crate::failure::Failure;
@@ -130,10 +129,9 @@ impl Columns {
 
 /// The largest |φ| and |φ̇| there; 0 without constraints.
 pub(crate) fn residual(mechanism: &Prepared, sample: Sample<'_>) -> f64 {
-    let left = residuals(mechanism, &sample.to_state());
-    left.map_or(f64::NAN, |left| {
-        left.largest_position().max(left.largest_velocity())
-    })
+    let mut drift = Drift::new(mechanism);
+    drift.add(sample);
+    drift.residual().largest()
 }
 
 fn all(mechanism: &Prepared) -> Vec<(String, Source)> {

@@ -162,7 +162,7 @@ mod tests {
             panic!("not a run")
         };
         assert_eq!(run.scene.start.settings.len(), 2);
-        assert_eq!(run.scene.start.hold, ["s", "th"]);
+        assert_eq!(run.scene.start.place.hold, ["s", "th"]);
         assert_eq!(run.motion.until, Some(120.0));
         assert_eq!(run.every, Some(0.01));
         assert_eq!(run.motion.stabilise, Stabilisation::None);

@@ -1,6 +1,6 @@
 //! Curves of a motion as they are drawn by `run --plot`.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use ukcore::Prepared;
 use ukcore::simulate::Sample;
@@ -10,8 +10,6 @@ use crate::failure::Failure;
 use crate::html::joined;
 use crate::output::WholeFile;
 use crate::plot::{Chart, Legend, Series, round_range};
-
-use std::io::Write;
 
 /// More points than a picture shows.
 const MOST: usize = 20_000;
@@ -68,7 +66,6 @@ impl<T> Thinned<T> {
 #[derive(Debug)]
 pub(crate) struct Curves {
     file: WholeFile,
-    path: PathBuf,
     /// Horizontal quantities, and vertical ones.
     over: Columns,
     of: Columns,
@@ -107,7 +104,6 @@ impl Curves {
         };
         Ok(Curves {
             file: WholeFile::create(Path::new(path))?,
-            path: PathBuf::from(path),
             over,
             of,
             rows: Thinned::new(MOST),
@@ -123,7 +119,7 @@ impl Curves {
     ///
     /// # Errors
     /// [`Failure::Failed`] where the file cannot be written.
-    pub(crate) fn finish(mut self) -> Result<(), Failure> {
+    pub(crate) fn finish(self) -> Result<(), Failure> {
         let rows = self.rows.finish();
         let across = self.over.names().count();
         let curve = |k: usize| {
@@ -158,11 +154,7 @@ impl Curves {
                 series,
             )
         };
-        let text = chart.svg()?;
-        self.file
-            .write_all(text.as_bytes())
-            .map_err(|e| Failure::file(&self.path, &e))?;
-        self.file.finish()
+        self.file.finish_with(chart.svg()?)
     }
 }
 

@@ -7,12 +7,11 @@ use clap::Args;
 use ukcore::model::Entry;
 use ukcore::{Assembled, State, diagnose as diagnosis_of, diagnose_along};
 
-use crate::command::find;
 use crate::failure::Failure;
 use crate::motion::Motion;
 use crate::numbers::full;
 use crate::output;
-use crate::scene::Scene;
+use crate::scene::{Scene, Start};
 
 /// The arguments of `diagnose`.
 #[derive(Debug, Args)]
@@ -25,9 +24,6 @@ pub struct DiagnoseArgs {
     pub motion: Motion,
 }
 
-/// So many states of a run are looked at, evenly spread.
-const STATES: f64 = 1000.0;
-
 /// Prints the diagnosis of the start, then that of the state of a run that is nearest to a singular position.
 ///
 /// # Errors
@@ -37,10 +33,9 @@ pub fn diagnose(models: &[Entry], args: &DiagnoseArgs) -> Result<(), Failure> {
     let ready = args.scene.ready(models)?;
     let mech = &ready.mechanism;
     let here = diagnosis_of(mech, &ready.state)?;
-    let branches = otherwise(models, args)?;
+    let branches = otherwise(ready.entry, &args.scene.start)?;
     let mut states: Vec<State> = Vec::new();
-    let length = args.motion.length(&ready);
-    let every = Some(length.abs() / STATES).filter(|interval| *interval > 0.0);
+    let every = Some(args.motion.interval(&ready)).filter(|interval| *interval > 0.0);
     let (_, error) = args.motion.follow(&ready, every, |sample| {
         states.push(sample.to_state());
         ControlFlow::Continue(())
@@ -64,12 +59,10 @@ pub fn diagnose(models: &[Entry], args: &DiagnoseArgs) -> Result<(), Failure> {
 }
 
 /// How else the start could be put together by what it says.
-fn otherwise(models: &[Entry], args: &DiagnoseArgs) -> Result<Option<Assembled>, Failure> {
-    let start = &args.scene.start;
-    if !start.guesses.is_empty() || !start.hold.is_empty() {
+fn otherwise(entry: &Entry, start: &Start) -> Result<Option<Assembled>, Failure> {
+    if start.guesses() {
         return Ok(None);
     }
-    let entry = find(models, &args.scene.model)?;
     let (mechanism, spec, options) = start.settings(entry)?;
     let declared = mechanism.spec().starts;
     match spec.filter(|spec| declared.contains(spec)) {

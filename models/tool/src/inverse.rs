@@ -33,8 +33,6 @@ pub struct InverseArgs {
     pub csv: bool,
 }
 
-/// Samples of a run, between whose powers work is summed up.
-const SAMPLES: f64 = 1000.0;
 /// Times of a run at which rows are looked at for a motion that they prescribe.
 const TIMES: u32 = 16;
 /// Fractional part of the golden ratio: no multiple of a period.
@@ -63,7 +61,7 @@ pub fn inverse(models: &[Entry], args: &InverseArgs) -> Result<(), Failure> {
     }
     let mut samples: Vec<(f64, Vec<Effort>)> = Vec::new();
     let mut broken: Option<Error> = None;
-    let every = args.every.unwrap_or(length.abs() / SAMPLES);
+    let every = args.every.unwrap_or_else(|| args.motion.interval(&ready));
     let (_, error) = args.motion.follow(&ready, Some(every), |sample| {
         match efforts_at(mech, &sample.to_state(), &motors) {
             Ok(efforts) => samples.push((sample.t, efforts)),

@@ -66,7 +66,7 @@ impl Motion {
     /// error.
     ///
     /// # Errors
-    /// [`Failure::Failed`] if signals cannot be caught.
+    /// [`Failure::Usage`] for settings that the simulation refuses; [`Failure::Failed`] if signals cannot be caught.
     pub(crate) fn follow(
         &self,
         ready: &Ready<'_>,
@@ -91,12 +91,23 @@ impl Motion {
             _ => ControlFlow::Continue(()),
         });
         progress.finish();
-        Ok(match result {
-            Ok(trajectory) => (trajectory, None),
-            Err(failure) => (*failure.trajectory, Some(failure.error)),
-        })
+        match result {
+            Ok(trajectory) => Ok((trajectory, None)),
+            Err(failure) if matches!(failure.error, Error::InvalidSetting { .. }) => {
+                Err(usage(failure.error))
+            }
+            Err(failure) => Ok((*failure.trajectory, Some(failure.error))),
+        }
+    }
+
+    /// The interval of samples where none is asked for, s.
+    pub(crate) fn interval(&self, ready: &Ready<'_>) -> f64 {
+        self.length(ready).abs() / INTERVALS
     }
 }
+
+/// Intervals of a run whose samples nobody has asked for otherwise.
+const INTERVALS: f64 = 1000.0;
 
 /// A setting that the simulation refuses, by the name that it has on the command line.
 pub(crate) fn usage(error: Error) -> Failure {

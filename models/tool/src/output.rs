@@ -57,6 +57,16 @@ impl WholeFile {
         }
     }
 
+    /// Writes `bytes` and gives the file its name.
+    ///
+    /// # Errors
+    /// [`Failure::Failed`] naming the file.
+    pub(crate) fn finish_with(mut self, bytes: impl AsRef<[u8]>) -> Result<(), Failure> {
+        let done = self.write_all(bytes.as_ref());
+        done.map_err(|e| failure(self.path.as_deref(), &e))?;
+        self.finish()
+    }
+
     /// Gives the file its name.
     ///
     /// # Errors

@@ -84,9 +84,6 @@ pub fn run(models: &[Entry], args: &RunArgs) -> Result<(), Failure> {
     let started = Instant::now();
     let (trajectory, error, mut samples) = integrate(&ready, args, samples)?;
     let seconds = started.elapsed().as_secs_f64();
-    if let Some(error @ Error::InvalidSetting { .. }) = error {
-        return Err(motion::usage(error));
-    }
     if let Some((film, _)) = &mut samples.film {
         film.end(error.as_ref());
     }
@@ -103,9 +100,9 @@ pub fn run(models: &[Entry], args: &RunArgs) -> Result<(), Failure> {
         rows.into_inner().finish()?;
     }
     samples.curves.map_or(Ok(()), Curves::finish)?;
-    if let (Some((film, file)), Some(path)) = (samples.film, &args.animate) {
+    if let Some((film, file)) = samples.film {
         let about = animate::foot(&ready, &args.motion);
-        animate::write(file, path, &animate::page(ready.entry, vec![film], &about)?)?;
+        file.finish_with(animate::page(ready.entry, vec![film], &about)?)?;
     }
     if !to_stdout {
         let message = match &failure {
@@ -147,7 +144,7 @@ fn integrate(
 ) -> Result<(Trajectory, Option<Error>, Samples), Failure> {
     let every = args.every.or_else(|| {
         let pictures = args.plot.is_some() || args.animate.is_some();
-        pictures.then(|| args.motion.length(ready).abs() / PICTURES)
+        pictures.then(|| args.motion.interval(ready))
     });
     if let Some(interval) = every {
         let number = args.motion.length(ready).abs() / interval;
@@ -179,9 +176,6 @@ fn integrate(
     }
     Ok((trajectory, error, samples))
 }
-
-/// Intervals of a run that is drawn.
-const PICTURES: f64 = 1000.0;
 
 /// A slip in the unit of an interval must not fill the disk.
 const MOST_SAMPLES: f64 = 1e8;

@@ -9,7 +9,7 @@ use ukcore::{Method, Stabilisation};
 use crate::failure::Failure;
 use crate::motion::{self, Motion};
 use crate::numbers::full;
-use crate::scene::Start;
+use crate::scene::{Place, Start};
 use crate::units::{self, Quantity};
 
 /// Runs of one model, one for each combination of the values listed.
@@ -18,15 +18,9 @@ pub struct Runs {
     /// Set a parameter or an option of the start, to each of several values: `k=1,2,5` or `x0=12..16:0.5`; may be repeated
     #[arg(long = "set", value_name = "NAME=VALUES", value_parser = assignment)]
     pub settings: Vec<(String, Values)>,
-    /// Start configuration (see `list`); the first one if absent
-    #[arg(long, value_name = "NAME")]
-    pub start: Option<String>,
-    /// Guess a coordinate, or by `dot(NAME)=VALUE` a velocity, of the start, as for `run`
-    #[arg(long = "guess", value_name = "NAME=VALUE", value_parser = units::assignment)]
-    pub guesses: Vec<(String, Quantity)>,
-    /// Coordinates that keep the value and velocity guessed; may be repeated
-    #[arg(long, value_name = "NAME", value_delimiter = ',')]
-    pub hold: Vec<String>,
+    /// Where they begin
+    #[command(flatten)]
+    pub place: Place,
     /// Time to stop at, before 0 to run backward; that of the start if absent
     #[arg(long, value_name = "TIME", value_parser = units::seconds, allow_hyphen_values = true)]
     pub until: Option<f64>,
@@ -62,9 +56,7 @@ impl Runs {
     /// [`Failure::Usage`] for unknown names, values in the wrong unit, and more runs than `most`.
     pub fn each(&self, entry: &Entry, most: usize) -> Result<Vec<Variant>, Failure> {
         let plain = Start {
-            start: self.start.clone(),
-            guesses: self.guesses.clone(),
-            hold: self.hold.clone(),
+            place: self.place.clone(),
             ..Start::default()
         };
         let mut axes = Vec::new();
@@ -179,14 +171,7 @@ fn rounded(value: f64) -> f64 {
 
 /// Reads `NAME=VALUES`.
 fn assignment(text: &str) -> Result<(String, Values), String> {
-    let Some((name, values)) = text.split_once('=') else {
-        return Err(format!("`{text}` is not of the form NAME=VALUES"));
-    };
-    let name = name.trim();
-    if name.is_empty() {
-        return Err(format!("`{text}` has no name before `=`"));
-    }
-    let values = values.trim();
+    let (name, values) = units::split(text, "VALUES")?;
     let values = match values.split_once("..") {
         Some((first, rest)) => {
             let (last, step) = rest
@@ -198,7 +183,6 @@ fn assignment(text: &str) -> Result<(String, Values), String> {
                 Quantity::parse(step)?,
             ])
         }
-        None if values.is_empty() => return Err(format!("`{text}` has no value after `=`")),
         None => Values::List(
             values
                 .split(',')
@@ -213,21 +197,24 @@ fn assignment(text: &str) -> Result<(String, Values), String> {
 #[derive(Debug, Clone, PartialEq)]
 pub struct List<T>(pub Vec<T>);
 
+/// What `parts` are read as.
+fn listed<'a, T>(
+    parts: impl IntoIterator<Item = &'a str>,
+    read: impl Fn(&str) -> Result<T, String>,
+) -> Result<List<T>, String> {
+    let values: Result<_, _> = parts.into_iter().map(read).collect();
+    values.map(List)
+}
+
 impl List<f64> {
     fn read(text: &str) -> Result<Self, String> {
-        text.split(',')
-            .map(motion::tolerance)
-            .collect::<Result<_, _>>()
-            .map(List)
+        listed(text.split(','), motion::tolerance)
     }
 }
 
 impl List<Method> {
     fn read(text: &str) -> Result<Self, String> {
-        text.split(',')
-            .map(motion::method)
-            .collect::<Result<_, _>>()
-            .map(List)
+        listed(text.split(','), motion::method)
     }
 }
 
@@ -248,11 +235,8 @@ impl List<Stabilisation> {
                 _ => parts.push(part.to_owned()),
             }
         }
-        let ways = parts
-            .iter()
-            .map(|part| Stabilisation::from_str(part.trim()));
-        let ways: Result<_, _> = ways.map(|way| way.map_err(|e| e.to_string())).collect();
-        ways.map(List)
+        let way = |part: &str| Stabilisation::from_str(part.trim()).map_err(|e| e.to_string());
+        listed(parts.iter().map(String::as_str), way)
     }
 }
 

@@ -25,6 +25,14 @@ pub struct Start {
     /// Set a parameter or an option of the start; may be repeated
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = units::assignment)]
     pub settings: Vec<(String, Quantity)>,
+    /// Where the motion begins
+    #[command(flatten)]
+    pub place: Place,
+}
+
+/// The start configuration, and what is guessed of it.
+#[derive(Debug, Default, Clone, Args)]
+pub struct Place {
     /// Start configuration (see `list`); the first one if absent
     #[arg(long, value_name = "NAME")]
     pub start: Option<String>,
@@ -67,7 +75,7 @@ impl Start {
     /// Whether nothing is asked for: the model as it is.
     #[must_use]
     pub fn is_default(&self) -> bool {
-        self.settings.is_empty() && self.start.is_none() && !self.guesses()
+        self.settings.is_empty() && self.place.start.is_none() && !self.guesses()
     }
 
     /// Whether a start has to be assembled from zeros alone.
@@ -76,7 +84,7 @@ impl Start {
     }
 
     pub(crate) fn guesses(&self) -> bool {
-        !self.guesses.is_empty() || !self.hold.is_empty()
+        !self.place.guesses.is_empty() || !self.place.hold.is_empty()
     }
 
     /// `entry` with these parameters, at this start.
@@ -138,7 +146,7 @@ impl Start {
     }
 
     fn spec(&self, entry: &Entry) -> Result<Option<&'static StartSpec>, Failure> {
-        let Some(name) = &self.start else {
+        let Some(name) = &self.place.start else {
             return Ok(entry.starts.first());
         };
         let found = entry.starts.iter().find(|s| s.name == name);
@@ -150,7 +158,7 @@ impl Start {
     /// The nearest consistent state to `state` with the guesses in it.
     fn assembled(&self, mechanism: &Prepared, mut state: State) -> Result<State, Failure> {
         let spec = mechanism.spec();
-        for (name, quantity) in &self.guesses {
+        for (name, quantity) in &self.place.guesses {
             let velocity = name.strip_prefix("dot(").and_then(|n| n.strip_suffix(')'));
             let values = if velocity.is_some() {
                 &mut state.v
@@ -166,7 +174,7 @@ impl Start {
                 values[index] = value.map_err(|e| Failure::Usage(format!("`{name}`: {e}")))?;
             }
         }
-        let hold: Vec<&str> = self.hold.iter().map(String::as_str).collect();
+        let hold: Vec<&str> = self.place.hold.iter().map(String::as_str).collect();
         assemble(mechanism, state, &hold).map_err(|error| match error {
             error @ Error::NotAssembled { .. } => Failure::Failed(format!(
                 "{error}; `--guess NAME=VALUE` gives one, of {}",

@@ -45,9 +45,6 @@ pub struct SweepArgs {
     pub out: PathBuf,
 }
 
-/// Samples of a run, if nothing is said.
-const SAMPLES: f64 = 1000.0;
-
 /// More members are a slip.
 const MOST: usize = 1_000_000;
 
@@ -199,7 +196,7 @@ impl Plan<'_> {
         let simulation = chosen
             .motion
             .simulation(&ready)
-            .every(self.every.unwrap_or(length.abs() / SAMPLES))
+            .every(self.every.unwrap_or_else(|| chosen.motion.interval(&ready)))
             .progress(move |_| match interrupt.is_set() {
                 true => ControlFlow::Break(()),
                 false => ControlFlow::Continue(()),

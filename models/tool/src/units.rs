@@ -88,13 +88,19 @@ impl From<f64> for Quantity {
 /// # Errors
 /// If there is no `=`, no name, or the value is not understood.
 pub fn assignment(text: &str) -> Result<(String, Quantity), String> {
+    let (name, value) = split(text, "VALUE")?;
+    Ok((name.to_owned(), Quantity::parse(value)?))
+}
+
+/// Splits `NAME=…`; what is behind is called `values` where it is missing.
+pub(crate) fn split<'a>(text: &'a str, values: &str) -> Result<(&'a str, &'a str), String> {
     let Some((name, value)) = text.split_once('=') else {
-        return Err(format!("`{text}` is not of the form NAME=VALUE"));
+        return Err(format!("`{text}` is not of the form NAME={values}"));
     };
     match (name.trim(), value.trim()) {
         ("", _) => Err(format!("`{text}` has no name before `=`")),
         (_, "") => Err(format!("`{text}` has no value after `=`")),
-        (name, _) => Ok((name.to_owned(), Quantity::parse(value)?)),
+        both => Ok(both),
     }
 }
 

@@ -30,7 +30,7 @@ use crate::units::{self, Quantity};
 use export::Report;
 use study::Study;
 
-pub(crate) use truth::{scale, stacked};
+pub(crate) use truth::{distance, grow, scale, stacked};
 
 /// The arguments of `report`.
 #[derive(Debug, Args)]

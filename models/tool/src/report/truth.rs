@@ -47,9 +47,9 @@ pub(super) struct Truth {
 
 /// The distance of two states.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Distance {
+pub(crate) struct Distance {
     /// Largest difference as a part of the size of the coordinate's kind.
-    pub(super) scaled: f64,
+    pub(crate) scaled: f64,
     /// Largest difference, in units of the coordinates.
     pub(super) absolute: f64,
 }
@@ -172,22 +172,28 @@ impl Truth {
 
     /// Distance of two (q, q̇).
     pub(super) fn distance(&self, a: &[f64], b: &[f64]) -> Distance {
-        let mut distance = Distance {
-            scaled: 0.0,
-            absolute: 0.0,
-        };
-        let grow = |so_far: &mut f64, value: f64| {
-            // What is no number stays.
-            if value.is_nan() || value > *so_far {
-                *so_far = value;
-            }
-        };
-        for ((a, b), scale) in a.iter().zip(b).zip(&self.scale) {
-            let difference = (a - b).abs();
-            grow(&mut distance.absolute, difference);
-            grow(&mut distance.scaled, difference / scale);
-        }
-        distance
+        distance(a, b, &self.scale)
+    }
+}
+
+/// Distance of two (q, q̇) whose coordinates have the sizes `scale`.
+pub(crate) fn distance(a: &[f64], b: &[f64], scale: &[f64]) -> Distance {
+    let mut distance = Distance {
+        scaled: 0.0,
+        absolute: 0.0,
+    };
+    for ((a, b), scale) in a.iter().zip(b).zip(scale) {
+        let difference = (a - b).abs();
+        grow(&mut distance.absolute, difference);
+        grow(&mut distance.scaled, difference / scale);
+    }
+    distance
+}
+
+/// Takes the larger one; what is no number stays.
+pub(crate) fn grow(so_far: &mut f64, value: f64) {
+    if value.is_nan() || value > *so_far {
+        *so_far = value;
     }
 }
 

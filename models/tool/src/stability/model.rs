@@ -11,7 +11,7 @@ use ukcore::{Error, Method, Prepared, Simulation, State, assemble};
 use super::{Case, Effort, Sweep, decades, sweep};
 use crate::command;
 use crate::failure::Failure;
-use crate::report::{scale, stacked};
+use crate::report::{distance, grow, scale, stacked};
 use crate::scene::Scene;
 use crate::units;
 
@@ -96,7 +96,7 @@ pub fn of_model(models: &[Entry], args: &ModelArgs) -> Result<(), Failure> {
 
     let measures = sweeps.iter().map(|(.., change)| {
         let subject = &subject;
-        Box::new(move |value: f64, effort: &mut Effort| subject.error(*change, value, effort))
+        move |value: f64, effort: &mut Effort| subject.error(*change, value, effort)
     });
     let measures: Vec<_> = measures.collect();
     let cases = sweeps
@@ -115,7 +115,7 @@ pub fn of_model(models: &[Entry], args: &ModelArgs) -> Result<(), Failure> {
                 _ => BOUND,
             },
             sweep: values.clone(),
-            measure: measure.as_ref(),
+            measure,
         });
     let cases: Vec<Case<'_>> = cases.collect();
     sweep(&cases.iter().collect::<Vec<_>>(), &args.out)
@@ -278,13 +278,7 @@ impl Motion<'_> {
 fn largest(a: &[Vec<f64>], b: &[Vec<f64>], scale: &[f64]) -> f64 {
     let mut largest = 0.0;
     for (a, b) in a.iter().zip(b) {
-        for ((a, b), size) in a.iter().zip(b).zip(scale) {
-            let apart = (a - b).abs() / size;
-            // What is no number stays.
-            if apart.is_nan() || apart > largest {
-                largest = apart;
-            }
-        }
+        grow(&mut largest, distance(a, b, scale).scaled);
     }
     largest
 }

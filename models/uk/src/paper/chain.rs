@@ -8,7 +8,7 @@ use ukcore::simulate::Direction;
 use uktool::animate;
 use uktool::command;
 use uktool::failure::Failure;
-use uktool::scene::Start;
+use uktool::scene::{Place, Start};
 
 use super::measure;
 use super::motion::{self, Motion, RunRow, times};
@@ -101,7 +101,10 @@ pub(super) fn film() -> Result<String, Failure> {
     let rows = [first, last].map(|row| (format!("x0 = {} m", row.x0), row.x0));
     let runs = rows.each_ref().map(|(label, x0)| {
         let start = Start {
-            start: Some(PAPER_START.to_owned()),
+            place: Place {
+                start: Some(PAPER_START.to_owned()),
+                ..Place::default()
+            },
             settings: vec![("x0".to_owned(), (*x0).into())],
             ..Start::default()
         };
