@@ -206,8 +206,8 @@ fn taken(
     motion: &Motion,
     pictures: u32,
 ) -> Result<(Film, Option<Error>), Failure> {
-    let every = motion.length(ready).abs() / f64::from(pictures - 1);
-    let (_, error) = motion.follow(ready, Some(every), |sample| {
+    let every = motion.interval(ready, None, pictures - 1)?;
+    let (_, error) = motion.follow(ready, every, |sample| {
         film.add(sample);
         ControlFlow::Continue(())
     })?;

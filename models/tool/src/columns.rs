@@ -75,9 +75,9 @@ impl Columns {
         self.chosen.iter().map(|(name, _)| name.as_str())
     }
 
-    /// Their names with units, as far as these are known.
+    /// Their units; nothing where none is known.
     #[must_use]
-    pub(crate) fn labels(&self) -> Vec<String> {
+    pub(crate) fn units(&self) -> Vec<String> {
         let spec = self.mechanism.spec();
         let unit = |source: &Source| match *source {
             Source::Time => "s".to_owned(),
@@ -91,11 +91,17 @@ impl Columns {
             Source::Energy if !spec.coordinate_units.is_empty() => "J".to_owned(),
             _ => String::new(),
         };
-        let label = |(name, source): &(String, Source)| match unit(source).as_str() {
-            "" => name.clone(),
+        self.chosen.iter().map(|(_, source)| unit(source)).collect()
+    }
+
+    /// Their names with units.
+    #[must_use]
+    pub(crate) fn labels(&self) -> Vec<String> {
+        let label = |(name, unit): (&str, String)| match unit.as_str() {
+            "" => name.to_owned(),
             unit => format!("{name} ({unit})"),
         };
-        self.chosen.iter().map(label).collect()
+        self.names().zip(self.units()).map(label).collect()
     }
 
     /// The same of `mechanism`, which has other parameters.

@@ -23,8 +23,9 @@ use crate::sweep::{SweepArgs, sweep};
 
 /// The exit codes, and how values are written: the end of `--help`.
 pub const HELP: &str = "\
-Exit codes: 0 done; 1 the computation or the writing of a file failed; 2 the command line is wrong; 130 interrupted.
-Values may have units: 15deg, 12mm, 9.81 m/s^2, 2.5*PI. A bare number is in the parameter's own unit.";
+Exit codes: 0 done; 1 the computation or the writing of a file failed; 2 the command line is wrong;
+3 some runs of a sweep failed; 130 interrupted.
+Values may have units: 15deg, 12mm, 9.81 m/s^2, 2.5*PI. A bare number is in SI units: kg, m, s, rad.";
 
 /// A command of the tool. A program with more commands flattens it into its own.
 #[derive(Debug, Subcommand)]
@@ -133,11 +134,22 @@ pub fn find<'a>(models: &'a [Entry], id: &str) -> Result<&'a Entry, Failure> {
     })
 }
 
-/// Reads the path of a file or directory, which must not be empty.
+/// Reads the path of a file or directory: neither nothing, nor `-`.
 ///
 /// # Errors
 /// What is wrong.
 pub fn path(text: &str) -> Result<PathBuf, String> {
+    match text {
+        "-" => Err("standard output is for `--csv` alone; name a file".to_owned()),
+        _ => path_or_stdout(text),
+    }
+}
+
+/// Reads the path of a file, or `-`, which is standard output.
+///
+/// # Errors
+/// What is wrong.
+pub(crate) fn path_or_stdout(text: &str) -> Result<PathBuf, String> {
     if text.is_empty() {
         return Err("a path is needed".to_owned());
     }

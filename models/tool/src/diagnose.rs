@@ -8,7 +8,7 @@ use ukcore::model::Entry;
 use ukcore::{Assembled, State, diagnose as diagnosis_of, diagnose_along};
 
 use crate::failure::Failure;
-use crate::motion::Motion;
+use crate::motion::{INTERVALS, Motion};
 use crate::numbers::full;
 use crate::output;
 use crate::scene::{Scene, Start};
@@ -35,7 +35,7 @@ pub fn diagnose(models: &[Entry], args: &DiagnoseArgs) -> Result<(), Failure> {
     let here = diagnosis_of(mech, &ready.state)?;
     let branches = otherwise(ready.entry, &args.scene.start)?;
     let mut states: Vec<State> = Vec::new();
-    let every = Some(args.motion.interval(&ready)).filter(|interval| *interval > 0.0);
+    let every = args.motion.interval(&ready, None, INTERVALS)?;
     let (_, error) = args.motion.follow(&ready, every, |sample| {
         states.push(sample.to_state());
         ControlFlow::Continue(())

@@ -42,7 +42,13 @@ pub fn explain(models: &[Entry], args: &ExplainArgs) -> Result<(), Failure> {
         }
         Err(failure) => return Err(failure),
     };
-    output::to_stdout(|out| write!(out, "{}: {}\n\n{explanation}", entry.id, entry.summary))?;
+    // The explanation begins with what the declaration says of itself.
+    let end = if entry.summary.is_empty() {
+        "\n\n"
+    } else {
+        ": "
+    };
+    output::to_stdout(|out| write!(out, "{}{end}{explanation}", entry.id))?;
     result
 }
 

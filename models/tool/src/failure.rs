@@ -10,6 +10,8 @@ use ukcore::Error;
 pub const FAILED: u8 = 1;
 /// Exit code of a command line that asks for something that is not there. The argument parser uses the same one.
 pub const USAGE: u8 = 2;
+/// Exit code of a sweep of which some runs failed: its table is whole, and tells of each what it failed by.
+pub const PARTLY: u8 = 3;
 /// Exit code of a run that was interrupted: as shells say of a program ended by the interrupt signal.
 pub const INTERRUPTED: u8 = 130;
 
@@ -20,6 +22,8 @@ pub enum Failure {
     Usage(String),
     /// The command is right and failed (exit code 1).
     Failed(String),
+    /// All was done, and some runs of many failed (exit code 3).
+    Partly(String),
     /// The user has interrupted the run (exit code 130).
     Interrupted(String),
     /// Whoever read our output has stopped reading (`uk list | head`): nobody is left to tell, and nothing went wrong.
@@ -32,6 +36,7 @@ impl Failure {
         match self {
             Failure::Usage(_) => USAGE,
             Failure::Failed(_) => FAILED,
+            Failure::Partly(_) => PARTLY,
             Failure::Interrupted(_) => INTERRUPTED,
             Failure::ReaderGone => 0,
         }
@@ -41,7 +46,9 @@ impl Failure {
     #[must_use]
     pub fn message(&self) -> String {
         match self {
-            Failure::Usage(message) | Failure::Failed(message) => message.clone(),
+            Failure::Usage(message) | Failure::Failed(message) | Failure::Partly(message) => {
+                message.clone()
+            }
             other => other.to_string(),
         }
     }
@@ -65,7 +72,9 @@ impl Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Failure::Usage(message) | Failure::Failed(message) => write!(f, "error: {message}"),
+            Failure::Usage(message) | Failure::Failed(message) | Failure::Partly(message) => {
+                write!(f, "error: {message}")
+            }
             Failure::Interrupted(message) => f.write_str(message),
             Failure::ReaderGone => f.write_str("the reader of standard output is gone"),
         }
@@ -79,7 +88,11 @@ impl From<Error> for Failure {
             Error::UnknownName { .. } | Error::InvalidSetting { .. } => {
                 Failure::Usage(error.to_string())
             }
-            _ => Failure::Failed(error.to_string().replace("`max_steps`", "`--max-steps`")),
+            _ => {
+                let message = error.to_string();
+                let message = message.replace("`max_steps`", "`--max-steps`");
+                Failure::Failed(message.replace("`Method::Radau5`", "`--method radau5`"))
+            }
         }
     }
 }
@@ -94,10 +107,12 @@ mod tests {
         let failure = Failure::from(unknown);
         assert_eq!(failure.code(), USAGE);
         assert!(failure.to_string().contains("did you mean `uchain`"));
-        assert_eq!(
-            Failure::from(Error::TooManySteps { steps: 3 }).code(),
-            FAILED
-        );
+        let steps = Failure::from(Error::TooManySteps { steps: 3 });
+        assert_eq!(steps.code(), FAILED);
+        // As the command line has them.
+        for name in ["`--max-steps`", "`--method radau5`"] {
+            assert!(steps.message().contains(name), "{steps}");
+        }
     }
 
     #[test]

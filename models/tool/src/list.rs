@@ -5,11 +5,14 @@ use std::io::{self, Write};
 use ukcore::model::Entry;
 
 use crate::failure::Failure;
-use crate::numbers::{short, width};
+use crate::numbers::{rounded, short, width};
 use crate::output;
 
 /// Width of a list of parameters; with what stands before them, lines are within 100 characters.
 const LINE: usize = 84;
+
+/// Decimals of values.
+const DIGITS: usize = 8;
 
 /// Prints every model with its starts, their options, and the parameters, all with their defaults.
 ///
@@ -22,14 +25,20 @@ pub fn list(models: &[Entry]) -> Result<(), Failure> {
 
 /// `wide` is the width of the column of names.
 fn entry(out: &mut dyn Write, model: &Entry, wide: usize) -> io::Result<()> {
-    writeln!(out, "{:<wide$}  {}", model.id, model.summary)?;
+    let line = format!("{:<wide$}  {}", model.id, model.summary);
+    writeln!(out, "{}", line.trim_end())?;
     for (i, start) in model.starts.iter().enumerate() {
         let default = if i == 0 { " (default)" } else { "" };
-        writeln!(out, "    start {}{default}: {}", start.name, start.doc)?;
+        let until = short(start.duration, DIGITS);
+        let head = format!("    start {}{default}, until {until} s", start.name);
+        match start.doc {
+            "" => writeln!(out, "{head}")?,
+            doc => writeln!(out, "{head}: {doc}")?,
+        }
         for option in start.options {
-            let value = short(option.default, 6);
-            let setting = format!("{} = {value} {}", option.name, option.unit);
-            writeln!(out, "        {:<24}{}", setting.trim_end(), option.doc)?;
+            let setting = value(option.name, option.default, option.unit);
+            let line = format!("        {setting:<24}{}", option.doc);
+            writeln!(out, "{}", line.trim_end())?;
         }
     }
     if model.starts.is_empty() {
@@ -41,12 +50,26 @@ fn entry(out: &mut dyn Write, model: &Entry, wide: usize) -> io::Result<()> {
         });
         paragraph(out, "guess", coordinates)?;
     }
-    let params = model.mechanism.spec().params.iter().map(|p| {
-        let setting = format!("{} = {} {}", p.name, short(p.default, 8), p.unit);
-        setting.trim_end().to_owned()
-    });
-    paragraph(out, "parameters", params)?;
+    let params = model.mechanism.spec().params.iter();
+    paragraph(
+        out,
+        "parameters",
+        params.map(|p| value(p.name, p.default, p.unit)),
+    )?;
     writeln!(out)
+}
+
+/// `name = value unit`; an angle in degrees, if it has fewer digits there.
+fn value(name: &str, value: f64, unit: &str) -> String {
+    let (si, degrees) = (
+        short(value, DIGITS),
+        short(rounded(value.to_degrees()), DIGITS),
+    );
+    let text = match unit == "rad" && degrees.len() < si.len() {
+        true => format!("{name} = {degrees} deg"),
+        false => format!("{name} = {si} {unit}"),
+    };
+    text.trim_end().to_owned()
 }
 
 /// Entries with commas between them, in lines of at most [`LINE`] characters where the entries allow it.

@@ -100,14 +100,33 @@ impl Motion {
         }
     }
 
-    /// The interval of samples where none is asked for, s.
-    pub(crate) fn interval(&self, ready: &Ready<'_>) -> f64 {
-        self.length(ready).abs() / INTERVALS
+    /// The interval of samples, s: the one asked for, or one of so many equal intervals. There is none in a motion without length, whose
+    /// only sample is its start.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`] for an interval with which there are too many samples.
+    pub(crate) fn interval(
+        &self,
+        ready: &Ready<'_>,
+        every: Option<f64>,
+        intervals: u32,
+    ) -> Result<Option<f64>, Failure> {
+        let length = self.length(ready).abs();
+        let interval = every.unwrap_or(length / f64::from(intervals));
+        let number = length / interval;
+        if number > MOST_SAMPLES {
+            return Err(Failure::Usage(format!(
+                "`--every` is {interval:?}, which asks for {number:.1e} samples; at most {MOST_SAMPLES:.0e} are taken"
+            )));
+        }
+        Ok((length > 0.0).then_some(interval))
     }
 }
 
 /// Intervals of a run whose samples nobody has asked for otherwise.
-const INTERVALS: f64 = 1000.0;
+pub(crate) const INTERVALS: u32 = 1000;
+/// A slip in the unit of an interval must not fill the disk.
+const MOST_SAMPLES: f64 = 1e8;
 
 /// A setting that the simulation refuses, by the name that it has on the command line.
 pub(crate) fn usage(error: Error) -> Failure {
@@ -128,7 +147,7 @@ pub(crate) fn usage(error: Error) -> Failure {
 pub(crate) fn method(text: &str) -> Result<Method, String> {
     match text.split_once('=') {
         Some(("rattle", step)) => Ok(Method::Rattle {
-            step: interval(step)?,
+            step: positive(step)?,
         }),
         _ => text.parse().map_err(|e: Error| e.to_string()),
     }
@@ -150,12 +169,13 @@ pub(crate) fn steps(text: &str) -> Result<usize, String> {
     Ok(number as usize)
 }
 
-pub(crate) fn interval(text: &str) -> Result<f64, String> {
+/// Reads a time above 0.
+pub(crate) fn positive(text: &str) -> Result<f64, String> {
     let seconds = units::seconds(text)?;
     if seconds > 0.0 {
         return Ok(seconds);
     }
-    Err("the interval must be positive".to_owned())
+    Err("a positive time is needed".to_owned())
 }
 
 #[cfg(test)]

@@ -9,6 +9,12 @@ pub fn count(number: usize, thing: &str) -> String {
     format!("{number} {thing}{plural}")
 }
 
+/// The number of fifteen digits next to `value`: 0.3 for 0.1 + 2·0.1, as is meant by who writes fewer.
+#[must_use]
+pub(crate) fn rounded(value: f64) -> f64 {
+    format!("{value:.14e}").parse().unwrap_or(value)
+}
+
 /// A time with its unit: `34.0 µs`, `1.20 s`.
 #[must_use]
 pub fn duration(seconds: f64) -> String {

@@ -235,6 +235,24 @@ impl Chart {
     }
 }
 
+/// Charts of one width one below the other, as the text of an SVG file.
+///
+/// # Errors
+/// [`Failure::Failed`] if the drawing library fails.
+pub fn stacked(charts: &[Chart]) -> Result<String, Failure> {
+    let width = charts.iter().map(|chart| chart.size.0).max();
+    let height = charts.iter().map(|chart| chart.size.1).sum();
+    svg((width.unwrap_or(0), height), |area| {
+        let mut rest = area.clone();
+        for chart in charts {
+            let (panel, below) = rest.split_vertically(chart.size.1);
+            chart.draw(&panel)?;
+            rest = below;
+        }
+        Ok(())
+    })
+}
+
 impl Chart {
     /// The legend, if it stands above the frame; what is left of the area for the frame then.
     fn draw_legend_above<'a>(

@@ -132,16 +132,30 @@ impl Summary<'_> {
         writeln!(out, "{id} from `{start}`, {method}{tolerance}, {ending}")?;
         let (drift, w) = (self.drift(), self.trajectory.work());
         self.write_last(out)?;
-        writeln!(
-            out,
-            "\nResiduals: position {:.1e}, velocity {:.1e} at most over {}",
-            drift.position_residual,
-            drift.velocity_residual,
-            count(self.measured.samples(), "sample")
-        )?;
+        let samples = count(self.measured.samples(), "sample");
+        writeln!(out, "\nLargest of {samples}")?;
+        if self.trajectory.spec().m() > 0 {
+            writeln!(
+                out,
+                "  constraint residuals: position {:.1e}, velocity {:.1e}, in the units of the constraints (SI)",
+                drift.position_residual, drift.velocity_residual,
+            )?;
+        }
         match drift.energy_drift {
-            Some(drift) => writeln!(out, "Energy drift: {drift:.1e} of the energy exchanged")?,
-            None => writeln!(out, "Energy is not conserved in this model")?,
+            Some(drift) => writeln!(
+                out,
+                "  energy drift: {drift:.1e} of the energy exchanged, {:.3e}{}",
+                self.measured.exchanged(),
+                if self.trajectory.spec().coordinate_units.is_empty() {
+                    ""
+                } else {
+                    " J"
+                },
+            )?,
+            None => writeln!(
+                out,
+                "  energy drift: none told, as energy is not conserved in this model"
+            )?,
         }
         if w.rounded > 0 {
             let steps = count(w.rounded, "step");

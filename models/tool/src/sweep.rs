@@ -19,8 +19,9 @@ use ukcore::simulate::{Drift, Ending, Record, Sample};
 use crate::columns::Columns;
 use crate::command::{self, find};
 use crate::failure::Failure;
+use crate::html::joined;
 use crate::interrupt::Interrupt;
-use crate::motion;
+use crate::motion::{self, INTERVALS};
 use crate::numbers::count;
 use crate::output::{self, write_whole};
 use crate::progress::Progress;
@@ -38,7 +39,7 @@ pub struct SweepArgs {
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     pub of: Vec<String>,
     /// Interval at which extremes are looked for; a thousandth of the run if absent
-    #[arg(long, value_name = "TIME", value_parser = motion::interval, allow_hyphen_values = true)]
+    #[arg(long, value_name = "TIME", value_parser = motion::positive, allow_hyphen_values = true)]
     pub every: Option<f64>,
     /// The table, as CSV. One that an interrupted sweep has left is completed
     #[arg(long, value_name = "FILE", value_parser = command::path)]
@@ -53,7 +54,7 @@ const MOST: usize = 1_000_000;
 /// # Errors
 /// [`Failure::Usage`] for what is wrong with the command line, and where the table is of another sweep; [`Failure::Interrupted`] if the user
 /// ends it: what is done is kept, and the same command goes on from there; [`Failure::Failed`] if no member could be computed, or the table
-/// not be written. A member that fails alone is a row with its error.
+/// not be written; [`Failure::Partly`] if some could not: each is a row with its error.
 pub fn sweep(models: &[Entry], args: &SweepArgs) -> Result<(), Failure> {
     let entry = find(models, &args.model)?;
     let columns = match args.of.is_empty() {
@@ -97,19 +98,33 @@ pub fn sweep(models: &[Entry], args: &SweepArgs) -> Result<(), Failure> {
     }
     drop(table);
     let failed = in_order(&args.out)?;
-    if let (Some(first), true) = (failed.first(), failed.len() == all) {
+    let Some((member, error)) = failed.first() else {
+        let told = format!("{} in {}", count(all, "run"), args.out.display());
+        return output::to_stdout(|out| writeln!(out, "{told}"));
+    };
+    if failed.len() == all {
         return Err(Failure::Failed(format!(
-            "no run succeeded; the first: {first}"
+            "no run succeeded; the first: {error}"
         )));
     }
-    output::to_stdout(|out| {
-        write!(out, "{} in {}", count(all, "run"), args.out.display())?;
-        match failed.len() {
-            0 => writeln!(out),
-            number => writeln!(out, ", of which {number} failed (column `error`)"),
+    let which = match &failed[..] {
+        [_] => format!("number {member}"),
+        _ => {
+            let members = failed.iter().take(SHOWN).map(|(member, _)| member.clone());
+            let more = if failed.len() > SHOWN { ", …" } else { "" };
+            format!("numbers {}{more}; the first", joined(members))
         }
-    })
+    };
+    Err(Failure::Partly(format!(
+        "{} of {} failed (column `error` of {}): {which}: {error}",
+        failed.len(),
+        count(all, "run"),
+        args.out.display(),
+    )))
 }
+
+/// Runs that failed are called by their numbers, so many of them.
+const SHOWN: usize = 10;
 
 /// All that is to be computed.
 struct Plan<'a> {
@@ -193,14 +208,14 @@ impl Plan<'_> {
         let mut drift = Drift::new(&ready.mechanism);
         let mut last = Vec::new();
         let length = chosen.motion.length(&ready);
-        let simulation = chosen
-            .motion
-            .simulation(&ready)
-            .every(self.every.unwrap_or_else(|| chosen.motion.interval(&ready)))
-            .progress(move |_| match interrupt.is_set() {
-                true => ControlFlow::Break(()),
-                false => ControlFlow::Continue(()),
-            });
+        let mut simulation = chosen.motion.simulation(&ready);
+        if let Some(interval) = chosen.motion.interval(&ready, self.every, INTERVALS)? {
+            simulation = simulation.every(interval);
+        }
+        let simulation = simulation.progress(move |_| match interrupt.is_set() {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        });
         let mut add = |sample: Sample<'_>| {
             last = columns.values(sample);
             for (extremes, value) in extremes.iter_mut().zip(&last) {
@@ -404,8 +419,8 @@ fn other(path: &Path) -> Failure {
     ))
 }
 
-/// Puts the rows in the order of their members; the errors that there are.
-fn in_order(path: &Path) -> Result<Vec<String>, Failure> {
+/// Puts the rows in the order of their members; the members that failed, with their errors.
+fn in_order(path: &Path) -> Result<Vec<(String, String)>, Failure> {
     let text = fs::read_to_string(path).map_err(|e| Failure::file(path, &e))?;
     let (head, rows) = text.split_once('\n').unwrap_or((&text, ""));
     let member = |row: &&str| {
@@ -419,9 +434,14 @@ fn in_order(path: &Path) -> Result<Vec<String>, Failure> {
     let sorted = format!("{head}\n{}\n", rows.join("\n"));
     write_whole(path, |out| out.write_all(sorted.as_bytes()))?;
     let mut reader = csv::Reader::from_reader(sorted.as_bytes());
-    let last = |record: csv::StringRecord| record.iter().next_back().unwrap_or_default().to_owned();
-    let errors = reader.records().filter_map(Result::ok).map(last);
-    Ok(errors.filter(|error| !error.is_empty()).collect())
+    let ends = |record: csv::StringRecord| {
+        let (member, error) = (record.get(0)?, record.get(record.len() - 1)?);
+        (!error.is_empty()).then(|| (member.to_owned(), error.to_owned()))
+    };
+    Ok(reader
+        .records()
+        .filter_map(|record| ends(record.ok()?))
+        .collect())
 }
 
 #[cfg(test)]

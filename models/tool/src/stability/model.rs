@@ -11,9 +11,9 @@ use ukcore::{Error, Method, Prepared, Simulation, State, assemble};
 use super::{Case, Effort, Sweep, decades, sweep};
 use crate::command;
 use crate::failure::Failure;
+use crate::motion;
 use crate::report::{distance, grow, scale, stacked};
 use crate::scene::Scene;
-use crate::units;
 
 /// The arguments of `stability` for a model.
 #[derive(Debug, Args)]
@@ -22,7 +22,7 @@ pub struct ModelArgs {
     #[command(flatten)]
     pub scene: Scene,
     /// Length of the motions that are compared; the model's own duration if absent
-    #[arg(long, value_name = "TIME", value_parser = units::seconds)]
+    #[arg(long, value_name = "TIME", value_parser = motion::positive, allow_hyphen_values = true)]
     pub until: Option<f64>,
     /// Directory to write index.html, stability.svg, stability.json and stability.csv to
     #[arg(long, value_name = "DIR", default_value = "out/stability", value_parser = command::path)]

@@ -1,5 +1,6 @@
 //! The example as its user meets it: a program of a declaration and one line.
 
+mod codes;
 mod pictures;
 mod sweeps;
 
@@ -62,12 +63,13 @@ fn a_mechanism_is_listed_with_its_starts() {
         )
     );
     for part in [
-        "start released (default): let go with the cart at rest\n",
-        "angle = 0.872665 rad    Angle of the rod from the vertical\n",
+        "start released (default), until 10 s: let go with the cart at rest\n",
+        "angle = 50 deg          Angle of the rod from the vertical\n",
         "parameters big = 2 kg, m = 1 kg, l = 0.5 m, k = 40 N/m,",
     ] {
         assert!(list.contains(part), "{part} in {list}");
     }
+    assert!(list.lines().all(|line| line == line.trim_end()), "{list}");
     fails(
         "run crat",
         2,
@@ -168,6 +170,8 @@ fn it_is_explained_with_a_guess_and_without() {
         assert!(text.contains(part), "{part} in {text}");
     }
     assert!(output("explain cart").contains("rod: "));
+    let said = text.matches("A cart on a spring with a pendulum hanging from it");
+    assert_eq!(said.count(), 1, "{text}");
     assert!(output("explain cart --code acceleration").starts_with("fn acceleration<S: "));
 }
 
@@ -188,6 +192,13 @@ fn it_is_measured() {
     ] {
         assert!(Path::new(&place).join(file).is_file(), "{file}");
     }
+    // A motion that cannot be measured is told once to be an error.
+    let told = cart(&format!(
+        "report cart --set m=-1 --quick --out {}",
+        place.display()
+    ));
+    let told = String::from_utf8_lossy(&told.stderr).into_owned();
+    assert_eq!(told.matches("error").count(), 1, "{told}");
     fails(
         &format!(
             "report cart --guess x=9 --hold s,x,y --out {}",

@@ -143,10 +143,22 @@ fn curves_of_a_run_are_drawn() {
         "no quantity is called `swnig`; did you mean `swing`?",
     );
     fails(
-        "run cart --plot a.svg s x,y",
+        "run cart --plot a.svg s,t,x",
         2,
-        "do not go into one picture",
+        "no quantity is called `t,x`",
     );
+    // A panel for what is over time in degrees, in metres, and for the path.
+    output(&format!(
+        "run cart --until 1 --plot {} swing s x,y x",
+        path.display()
+    ));
+    let text = std::fs::read_to_string(&path).expect("a picture");
+    assert!(text.contains("viewBox=\"0 0 760 900\""), "{text}");
+    for label in ["swing (deg)", "s (m), x (m)", "x (m)", "y (m)"] {
+        assert!(text.contains(&format!("\n{label}\n")), "{label} in {text}");
+    }
+    let over_time = text.matches("\nt (s)\n");
+    assert_eq!(over_time.count(), 2, "{text}");
     fails("run cart --plot a.svg", 2, "--plot <FILE> <CURVE>");
 }
 
