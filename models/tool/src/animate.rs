@@ -17,7 +17,7 @@ use crate::curves::Thinned;
 use crate::failure::Failure;
 use crate::html::document;
 use crate::motion::Motion;
-use crate::numbers::short;
+use crate::numbers::setting;
 use crate::output::{self, WholeFile};
 use crate::runs::Runs;
 use crate::scene::{Ready, Start};
@@ -231,10 +231,12 @@ fn kind(kind: ShapeKind) -> &'static str {
 pub(crate) fn foot(ready: &Ready<'_>, motion: &Motion) -> String {
     let parameters = ready.mechanism.spec().params.iter();
     let parameters = parameters.zip(ready.mechanism.parameters());
-    let parameters = parameters.map(|(p, value)| format!("{} = {}", p.name, short(*value, 6)));
+    let parameters = parameters.map(|(p, value)| setting(p.name, *value, p.unit));
     let parameters: Vec<String> = parameters.collect();
-    let (start, method, tol) = (ready.start, motion.method, motion.tol);
-    let from = format!("From `{start}`, by {method} at tolerance {tol:e}.");
+    let (start, method) = (ready.start, motion.method);
+    let tolerance = motion.tolerance();
+    let tolerance = tolerance.map_or(String::new(), |tol| format!(" at tolerance {tol:e}"));
+    let from = format!("From `{start}`, by {method}{tolerance}.");
     match parameters.is_empty() {
         true => from,
         false => format!("{from} Parameters: {}.", parameters.join(", ")),

@@ -37,7 +37,9 @@ impl Columns {
             let exact = all.iter().filter(|(known, _)| known == name);
             let mut found: Vec<_> = exact.cloned().collect();
             if found.is_empty() {
-                let members = all.iter().filter(|(known, _)| family(known) == name);
+                let members = all
+                    .iter()
+                    .filter(|(known, _)| family(known).is_some_and(|f| f == name));
                 found.extend(members.cloned());
             }
             if found.is_empty() {
@@ -160,10 +162,8 @@ fn all(mechanism: &Prepared) -> Vec<(String, Source)> {
 }
 
 /// `x` of `x[1][2]`, and `dot(x)` of `dot(x[1])`.
-fn family(name: &str) -> String {
-    let bare = |name: &str| name.split_once('[').map(|(family, _)| family.to_owned());
-    match name.strip_prefix("dot(").and_then(|n| n.strip_suffix(')')) {
-        Some(inner) => bare(inner).map_or_else(String::new, |family| format!("dot({family})")),
-        None => bare(name).unwrap_or_default(),
-    }
+fn family(name: &str) -> Option<String> {
+    let (family, _) = name.split_once('[')?;
+    let end = if family.starts_with("dot(") { ")" } else { "" };
+    Some(format!("{family}{end}"))
 }

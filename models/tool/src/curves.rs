@@ -138,7 +138,8 @@ impl Curves {
         };
         let chart = |panel: &Vec<usize>| {
             let single = panel.len() == 1;
-            let series = panel.iter().map(|&k| {
+            // The first lies on top, and comes first in the legend.
+            let series = panel.iter().rev().map(|&k| {
                 let points = rows.iter().map(|(x, y)| (x[k], y[k]));
                 // Where something is not finite there is a gap at least.
                 let points: Vec<_> = points

@@ -6,6 +6,8 @@ use std::path::Path;
 
 use ukcore::Error;
 
+use crate::numbers::full;
+
 /// Exit code of a run that failed: the motion could not be computed, or a file not be written.
 pub const FAILED: u8 = 1;
 /// Exit code of a command line that asks for something that is not there. The argument parser uses the same one.
@@ -84,17 +86,36 @@ impl fmt::Display for Failure {
 /// Names and settings come from the command line, so they are usage errors; all else failed in the computation.
 impl From<Error> for Failure {
     fn from(error: Error) -> Self {
+        let message = told(&error);
         match error {
-            Error::UnknownName { .. } | Error::InvalidSetting { .. } => {
-                Failure::Usage(error.to_string())
-            }
-            _ => {
-                let message = error.to_string();
-                let message = message.replace("`max_steps`", "`--max-steps`");
-                Failure::Failed(message.replace("`Method::Radau5`", "`--method radau5`"))
-            }
+            Error::UnknownName { .. } | Error::InvalidSetting { .. } => Failure::Usage(message),
+            _ => Failure::Failed(message),
         }
     }
+}
+
+/// The message of an error, with settings by the names that they have on the command line.
+fn told(error: &Error) -> String {
+    let message = match error {
+        Error::At { t, source, .. } => format!("at t = {}: {}", full(*t), told(source)),
+        Error::InvalidSetting { what, reason } => match *what {
+            "t_end" => format!("`--until` {reason}"),
+            "every" => format!("`--every` {reason}"),
+            "method" => format!("`--method` {reason}"),
+            "step" => format!("the step of `--method rattle=STEP` {reason}"),
+            // Which one stands in the reason.
+            "parameter" => reason.clone(),
+            _ => error.to_string(),
+        },
+        other => other.to_string(),
+    };
+    [
+        ("`max_steps`", "`--max-steps`"),
+        ("`Method::Dop853`", "`--method dop853`"),
+        ("`Method::Radau5`", "`--method radau5`"),
+    ]
+    .iter()
+    .fold(message, |text, (name, option)| text.replace(name, option))
 }
 
 #[cfg(test)]
@@ -113,6 +134,18 @@ mod tests {
         for name in ["`--max-steps`", "`--method radau5`"] {
             assert!(steps.message().contains(name), "{steps}");
         }
+        let late = Error::At {
+            t: 0.5,
+            q: Vec::new(),
+            v: Vec::new(),
+            source: Box::new(Error::InvalidSetting {
+                what: "t_end",
+                reason: "is 1, so far that …".to_owned(),
+            }),
+        };
+        let late = Failure::from(late);
+        assert_eq!(late.message(), "at t = 0.5: `--until` is 1, so far that …");
+        assert_eq!(late.code(), FAILED);
     }
 
     #[test]

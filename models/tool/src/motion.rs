@@ -52,6 +52,11 @@ impl Motion {
         self.until.unwrap_or(ready.duration) - ready.state.t
     }
 
+    /// The tolerance, none where the method looks at none.
+    pub(crate) fn tolerance(&self) -> Option<f64> {
+        (!matches!(self.method, Method::Rattle { .. })).then_some(self.tol)
+    }
+
     /// What computes it.
     pub(crate) fn simulation(&self, ready: &Ready<'_>) -> Simulation {
         Simulation::new(&ready.mechanism)
@@ -94,7 +99,7 @@ impl Motion {
         match result {
             Ok(trajectory) => Ok((trajectory, None)),
             Err(failure) if matches!(failure.error, Error::InvalidSetting { .. }) => {
-                Err(usage(failure.error))
+                Err(failure.error.into())
             }
             Err(failure) => Ok((*failure.trajectory, Some(failure.error))),
         }
@@ -128,21 +133,6 @@ pub(crate) const INTERVALS: u32 = 1000;
 /// A slip in the unit of an interval must not fill the disk.
 const MOST_SAMPLES: f64 = 1e8;
 
-/// A setting that the simulation refuses, by the name that it has on the command line.
-pub(crate) fn usage(error: Error) -> Failure {
-    match error {
-        Error::InvalidSetting {
-            what: "every",
-            reason,
-        } => Failure::Usage(format!("`--every` {reason}")),
-        Error::InvalidSetting {
-            what: "t_end",
-            reason,
-        } => Failure::Usage(format!("`--until` {reason}")),
-        other => Failure::from(other),
-    }
-}
-
 /// Reads a method; the step of RATTLE may have a unit.
 pub(crate) fn method(text: &str) -> Result<Method, String> {
     match text.split_once('=') {
@@ -164,8 +154,8 @@ pub(crate) fn steps(text: &str) -> Result<usize, String> {
         .trim()
         .parse()
         .ok()
-        .filter(|x: &f64| (1.0..1e18).contains(x));
-    let number = number.ok_or("a number of steps is needed, at least 1")?;
+        .filter(|x: &f64| (1.0..1e18).contains(x) && x.fract() == 0.0);
+    let number = number.ok_or("a whole number of steps is needed, at least 1")?;
     Ok(number as usize)
 }
 
@@ -186,7 +176,7 @@ mod tests {
     fn steps_may_be_many() {
         assert_eq!(steps("1e9"), Ok(1_000_000_000));
         assert!(
-            ["0", "-1", "nan", "many", "1e30"]
+            ["0", "-1", "1.5", "nan", "many", "1e30"]
                 .iter()
                 .all(|text| steps(text).is_err())
         );

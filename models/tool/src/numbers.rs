@@ -15,6 +15,23 @@ pub(crate) fn rounded(value: f64) -> f64 {
     format!("{value:.14e}").parse().unwrap_or(value)
 }
 
+/// `name = value unit`, of a value in SI; an angle in degrees, if it has fewer digits there.
+#[must_use]
+pub(crate) fn setting(name: &str, value: f64, unit: &str) -> String {
+    let [si, degrees] = [value, rounded(value.to_degrees())].map(|x| short(x, 8));
+    let text = match unit == "rad" && degrees.len() < si.len() {
+        true => format!("{name} = {degrees} deg"),
+        false => format!("{name} = {si} {unit}"),
+    };
+    text.trim_end().to_owned()
+}
+
+/// So many significant digits of a number, and none that only fill it up.
+#[must_use]
+pub(crate) fn significant(value: f64, digits: usize) -> String {
+    full(format!("{value:.*e}", digits - 1).parse().unwrap_or(value))
+}
+
 /// A time with its unit: `34.0 µs`, `1.20 s`.
 #[must_use]
 pub fn duration(seconds: f64) -> String {
@@ -38,6 +55,29 @@ pub fn width<'a>(names: impl IntoIterator<Item = &'a str>) -> usize {
     lengths.max().unwrap_or(0)
 }
 
+/// Width of a line of entries; with what stands before them, lines are within 100 characters.
+const LINE: usize = 84;
+
+/// Entries with commas between them, in lines as long as reads well where the entries allow it.
+#[must_use]
+pub(crate) fn lines(entries: impl IntoIterator<Item = String>) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for entry in entries {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 2 + entry.chars().count() <= LINE => {
+                *line += ", ";
+                *line += &entry;
+            }
+            Some(line) => {
+                line.push(',');
+                lines.push(entry);
+            }
+            None => lines.push(entry),
+        }
+    }
+    lines
+}
+
 /// The middle one of some numbers; of two the larger.
 #[must_use]
 pub fn median(mut values: Vec<f64>) -> Option<f64> {
@@ -54,6 +94,23 @@ mod tests {
         assert_eq!(
             [0, 1, 2].map(|n| count(n, "step")),
             ["0 steps", "1 step", "2 steps"]
+        );
+    }
+
+    #[test]
+    fn settings_are_short() {
+        for (value, unit, text) in [
+            (50_f64.to_radians(), "rad", "a = 50 deg"),
+            (0.9, "rad", "a = 0.9 rad"),
+            (0.0, "rad", "a = 0 rad"),
+            (0.5, "", "a = 0.5"),
+            (1.23e-3, "m", "a = 0.00123 m"),
+        ] {
+            assert_eq!(setting("a", value, unit), text);
+        }
+        assert_eq!(
+            [1.52489, 270.0, 0.0, 2.8e-21].map(|x| significant(x, 4)),
+            ["1.525", "270", "0", "2.8e-21"]
         );
     }
 

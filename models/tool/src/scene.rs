@@ -122,6 +122,7 @@ impl Start {
         &self,
         entry: &Entry,
     ) -> Result<(Prepared, Option<&'static StartSpec>, StartOptions), Failure> {
+        once("--set", &self.settings)?;
         let start = self.spec(entry)?;
         let mut mechanism = entry.mechanism.clone();
         let mut options = StartOptions::new();
@@ -158,6 +159,7 @@ impl Start {
     /// The nearest consistent state to `state` with the guesses in it.
     fn assembled(&self, mechanism: &Prepared, mut state: State) -> Result<State, Failure> {
         let spec = mechanism.spec();
+        once("--guess", &self.place.guesses)?;
         for (name, quantity) in &self.place.guesses {
             let velocity = name.strip_prefix("dot(").and_then(|n| n.strip_suffix(')'));
             let values = if velocity.is_some() {
@@ -182,6 +184,19 @@ impl Start {
             )),
             other => other.into(),
         })
+    }
+}
+
+/// Refuses a name that is given twice, of which one value would count and nobody know which.
+fn once(option: &str, given: &[(String, Quantity)]) -> Result<(), Failure> {
+    let twice = |(k, (name, _)): &(usize, &(String, Quantity))| {
+        given[..*k].iter().any(|(other, _)| other == name)
+    };
+    match given.iter().enumerate().find(twice) {
+        None => Ok(()),
+        Some((_, (name, _))) => Err(Failure::Usage(format!(
+            "`{name}` is given twice by `{option}`; leave one out"
+        ))),
     }
 }
 

@@ -4,11 +4,11 @@ use std::io::{self, Write};
 
 use serde_json::{Map, Value, json};
 use ukcore::simulate::Ending;
-use ukcore::{Method, Solver, SolverOptions, Trajectory};
+use ukcore::{Solver, SolverOptions, Trajectory};
 
 use crate::drift::Drift;
 use crate::motion::Motion;
-use crate::numbers::{count, fixed, full, width};
+use crate::numbers::{count, fixed, full, significant, width};
 use crate::scene::Ready;
 
 /// What a run was, what came out and what it cost. SI units.
@@ -40,11 +40,6 @@ impl Summary<'_> {
             Ending::Interrupted => "interrupted",
             Ending::Failed => "failed",
         }
-    }
-
-    /// None where the method looks at none.
-    fn tolerance(&self) -> Option<f64> {
-        (!matches!(self.motion.method, Method::Rattle { .. })).then_some(self.motion.tol)
     }
 
     fn drift(&self) -> Drift {
@@ -95,7 +90,7 @@ impl Summary<'_> {
             "parameters": named(params, self.trajectory.mechanism().parameters()),
             "method": self.motion.method.to_string(),
             "stabilise": self.motion.stabilise.to_string(),
-            "tolerance": self.tolerance(),
+            "tolerance": self.motion.tolerance(),
             "ending": self.ending(),
             "error": self.error,
             "final": self.last(),
@@ -125,7 +120,7 @@ impl Summary<'_> {
     /// # Errors
     /// What writing to `out` reports.
     pub(crate) fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        let tolerance = self.tolerance();
+        let tolerance = self.motion.tolerance();
         let tolerance = tolerance.map_or(String::new(), |tol| format!(" at tolerance {tol:e}"));
         let (id, start) = (&self.ready.entry.id, self.ready.start);
         let (method, ending) = (self.motion.method, self.ending());
@@ -144,8 +139,8 @@ impl Summary<'_> {
         match drift.energy_drift {
             Some(drift) => writeln!(
                 out,
-                "  energy drift: {drift:.1e} of the energy exchanged, {:.3e}{}",
-                self.measured.exchanged(),
+                "  energy drift: {drift:.1e} of the energy exchanged, {}{}",
+                significant(self.measured.exchanged(), 4),
                 if self.trajectory.spec().coordinate_units.is_empty() {
                     ""
                 } else {
@@ -154,7 +149,7 @@ impl Summary<'_> {
             )?,
             None => writeln!(
                 out,
-                "  energy drift: none told, as energy is not conserved in this model"
+                "  energy drift: not told, as energy is not conserved in this model"
             )?,
         }
         if w.rounded > 0 {

@@ -231,7 +231,7 @@ impl Plan<'_> {
         });
         let (trajectory, error) = match result {
             Ok(trajectory) => (trajectory, String::new()),
-            Err(failure) => (*failure.trajectory, motion::usage(failure.error).message()),
+            Err(failure) => (*failure.trajectory, Failure::from(failure.error).message()),
         };
         if trajectory.ending() == Ending::Interrupted {
             return Ok(None);

@@ -263,7 +263,8 @@ fn tell(out: &Path, report: &Report) -> Result<(), Failure> {
                     let (time, knob) = (numbers::duration(choice.cost.seconds), choice.cost.knob);
                     format!("{time:>9}  {} at {knob:.0e}", choice.variant.label)
                 });
-                writeln!(w, "  {name:<wide$}  {goal:.0e}  {words}")?;
+                let goal = format!("{goal:.0e}");
+                writeln!(w, "  {name:<wide$}  {goal:<5}  {words}")?;
             }
         }
         writeln!(

@@ -117,8 +117,8 @@ fn value(p: &Point) -> Vec<Cell> {
         Cell::number(p.effort.steps),
         Cell::number(p.effort.evaluations),
         Cell::number(p.effort.fallbacks),
-        Cell::Text(html! {
-            @if let Some((name, message)) = &p.refusal { small { (name) ": " (message) } }
+        Cell::or_missing(p.refusal.as_ref(), |(name, message)| {
+            Cell::Class("said", html! { (name) ": " (message) })
         }),
     ]
 }

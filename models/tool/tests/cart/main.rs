@@ -63,7 +63,7 @@ fn a_mechanism_is_listed_with_its_starts() {
         )
     );
     for part in [
-        "start released (default), until 10 s: let go with the cart at rest\n",
+        "start released (default), for 10 s: let go with the cart at rest\n",
         "angle = 50 deg          Angle of the rod from the vertical\n",
         "parameters big = 2 kg, m = 1 kg, l = 0.5 m, k = 40 N/m,",
     ] {
@@ -156,6 +156,28 @@ fn a_declared_start_takes_its_options() {
         "`dot(x)`: a value in m/s is needed, not one in m",
     );
     fails("run cart --set angel=3", 2, "did you mean `angle`?");
+    fails(
+        "run cart --set l=2 --set l=3",
+        2,
+        "`l` is given twice by `--set`",
+    );
+    fails("run cart --guess x=1 --guess x=2", 2, "twice by `--guess`");
+    // What is refused is called as it was written.
+    fails(
+        "run cart --set m=1e-310",
+        2,
+        "error: `m` is 1e-310: below 2.2e-308 numbers lose digits",
+    );
+    fails(
+        "run cart --method rattle=0.5 --set k=4000",
+        1,
+        "the step of `--method rattle=STEP` is 0.5, which is too long here",
+    );
+    fails(
+        "run cart --until 1e300",
+        1,
+        "`--until` is 1e300, so far that",
+    );
 }
 
 #[test]

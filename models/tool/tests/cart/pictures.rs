@@ -147,6 +147,7 @@ fn curves_of_a_run_are_drawn() {
         2,
         "no quantity is called `t,x`",
     );
+    fails("run cart --plot a.svg s,", 2, "no quantity is called ``");
     // A panel for what is over time in degrees, in metres, and for the path.
     output(&format!(
         "run cart --until 1 --plot {} swing s x,y x",

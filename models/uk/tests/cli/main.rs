@@ -267,9 +267,20 @@ fn a_start_is_assembled_from_a_guess() {
 }
 
 #[test]
+fn a_remark_is_no_failure() {
+    let page = include_str!("../../../../docs/commands.md");
+    assert!(page.contains(
+        "| 0 | done, with a remark in the summary | `run` | `uk run double_scott_russell` |"
+    ));
+    let told = output(&["run", "double_scott_russell"]);
+    let remark = "Dropped from the straight line, as the other constraints imply them: ";
+    assert!(told.contains(remark), "{told}");
+}
+
+#[test]
 fn summaries_count_in_words() {
     let none = output(&["run", "pendulum", "--until", "0"]);
-    assert!(none.contains("over 1 sample\n"), "{none}");
+    assert!(none.contains("Largest of 1 sample\n"), "{none}");
 }
 
 #[test]

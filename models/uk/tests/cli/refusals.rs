@@ -43,12 +43,12 @@ fn names_that_are_near_to_none_are_listed() {
     fails(
         &["run", "kapitza", "--start", "foo"],
         USAGE,
-        "no start is called `foo`; there is `inverted`, `hanging`\n",
+        "no start is called `foo`; there are `inverted`, `hanging`\n",
     );
     fails(
         &["run", "pendulum", "--set", "zz=1"],
         USAGE,
-        "there is `from`, `rate`, `m`, `l`, `g`\n",
+        "there are `from`, `rate`, `m`, `l`, `g`\n",
     );
 }
 
