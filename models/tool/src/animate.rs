@@ -22,7 +22,7 @@ use crate::output::{self, WholeFile};
 use crate::runs::Runs;
 use crate::scene::{Ready, Start};
 
-/// The arguments of `animate`.
+/// The command-line arguments of the command `animate`, to be flattened into a parser of `clap`.
 #[derive(Debug, Args)]
 pub struct AnimateArgs {
     /// Model (see `list`)

@@ -72,12 +72,12 @@ impl Columns {
         }
     }
 
-    /// Their names.
+    /// The names of the quantities, as in tables.
     pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
         self.chosen.iter().map(|(name, _)| name.as_str())
     }
 
-    /// Their units; nothing where none is known.
+    /// The units of the quantities; nothing where none is known.
     #[must_use]
     pub(crate) fn units(&self) -> Vec<String> {
         let spec = self.mechanism.spec();
@@ -96,7 +96,7 @@ impl Columns {
         self.chosen.iter().map(|(_, source)| unit(source)).collect()
     }
 
-    /// Their names with units.
+    /// The names of the quantities, with units behind where these are known.
     #[must_use]
     pub(crate) fn labels(&self) -> Vec<String> {
         let label = |(name, unit): (&str, String)| match unit.as_str() {
@@ -106,7 +106,7 @@ impl Columns {
         self.names().zip(self.units()).map(label).collect()
     }
 
-    /// The same of `mechanism`, which has other parameters.
+    /// The same quantities of `mechanism`, which has other parameters.
     #[must_use]
     pub(crate) fn with(&self, mechanism: &Prepared) -> Self {
         Columns {
@@ -115,7 +115,7 @@ impl Columns {
         }
     }
 
-    /// Their values at `sample`.
+    /// The values of the quantities at `sample`.
     #[must_use]
     pub(crate) fn values(&self, sample: Sample<'_>) -> Vec<f64> {
         let Sample { t, q, v, integrals } = sample;

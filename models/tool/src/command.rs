@@ -21,7 +21,7 @@ use crate::run::{RunArgs, run};
 use crate::stability::{ModelArgs, of_model};
 use crate::sweep::{SweepArgs, sweep};
 
-/// The exit codes, and how values are written: the end of `--help`.
+/// The end of `--help`: which exit codes there are, and how values are written.
 pub const HELP: &str = "\
 Exit codes: 0 done; 1 the computation or the writing of a file failed; 2 the command line is wrong;
 3 some runs of a sweep failed; 130 interrupted.
@@ -55,7 +55,7 @@ pub enum Command {
 }
 
 impl Command {
-    /// Does what is asked, with these models.
+    /// Does what the command asks for, with `models` as those that it may name.
     ///
     /// # Errors
     /// [`Failure`], whose display is a line for standard error and whose [`code`](Failure::code) is the one to exit with.
@@ -95,7 +95,7 @@ pub fn parse<C: CommandFactory + FromArgMatches>() -> C {
     C::from_arg_matches_mut(&mut matches).unwrap_or_else(|error| error.exit())
 }
 
-/// Tells of a failure on standard error; the code to end the program with.
+/// Writes a failure to standard error, if there is one, and returns the code to end the program with.
 #[must_use]
 pub fn exit(result: Result<(), Failure>) -> ExitCode {
     let Err(failure) = result else {
@@ -117,7 +117,7 @@ fn program() -> String {
     name.to_string_lossy().into_owned()
 }
 
-/// The model called `id`.
+/// Finds the model called `id` on the command line.
 ///
 /// # Errors
 /// [`Failure::Usage`] with the nearest name.

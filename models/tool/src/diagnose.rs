@@ -13,7 +13,7 @@ use crate::numbers::full;
 use crate::output;
 use crate::scene::{Scene, Start};
 
-/// The arguments of `diagnose`.
+/// The command-line arguments of the command `diagnose`, to be flattened into a parser of `clap`.
 #[derive(Debug, Args)]
 pub struct DiagnoseArgs {
     /// The mechanism and its start
@@ -27,8 +27,8 @@ pub struct DiagnoseArgs {
 /// Prints the diagnosis of the start, then that of the state of a run that is nearest to a singular position.
 ///
 /// # Errors
-/// [`Failure::Usage`] for what is wrong with the command line; [`Failure::Failed`] where the equations cannot be solved or the run ends early:
-/// what was found up to there is printed all the same.
+/// [`Failure::Usage`] for what is wrong with the command line; [`Failure::Failed`] where the equations cannot be solved or the run ends
+/// early: what was found up to there is printed all the same.
 pub fn diagnose(models: &[Entry], args: &DiagnoseArgs) -> Result<(), Failure> {
     let ready = args.scene.ready(models)?;
     let mech = &ready.mechanism;

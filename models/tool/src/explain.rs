@@ -10,7 +10,7 @@ use crate::failure::Failure;
 use crate::output;
 use crate::scene::Scene;
 
-/// The arguments of `explain`.
+/// The command-line arguments of the command `explain`, to be flattened into a parser of `clap`.
 #[derive(Debug, Args)]
 pub struct ExplainArgs {
     /// The mechanism and its start

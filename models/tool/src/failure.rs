@@ -17,7 +17,7 @@ pub const PARTLY: u8 = 3;
 /// Exit code of a run that was interrupted: as shells say of a program ended by the interrupt signal.
 pub const INTERRUPTED: u8 = 130;
 
-/// Why a command ends early.
+/// Why a command does not end with exit code 0, in words for standard error.
 #[derive(Debug)]
 pub enum Failure {
     /// The command line is wrong (exit code 2).
@@ -33,7 +33,7 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// The exit code, as documented by `--help`.
+    /// The exit code to end the program with, as documented by `--help`.
     pub fn code(&self) -> u8 {
         match self {
             Failure::Usage(_) => USAGE,
@@ -44,7 +44,7 @@ impl Failure {
         }
     }
 
-    /// What went wrong, without saying that something did.
+    /// What went wrong, without the word `error:` that [`Display`](fmt::Display) puts before it.
     #[must_use]
     pub fn message(&self) -> String {
         match self {
@@ -55,7 +55,7 @@ impl Failure {
         }
     }
 
-    /// A failure to write standard output.
+    /// The failure that an error in writing standard output is; none, if its reader is gone.
     pub fn stdout(error: &io::Error) -> Self {
         if error.kind() == io::ErrorKind::BrokenPipe {
             Failure::ReaderGone
@@ -64,7 +64,7 @@ impl Failure {
         }
     }
 
-    /// A failure to write a file.
+    /// The failure that an error in writing the file `path` is.
     pub fn file(path: &Path, error: &io::Error) -> Self {
         Failure::Failed(format!("cannot write {}: {error}", path.display()))
     }

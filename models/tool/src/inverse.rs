@@ -13,7 +13,7 @@ use crate::numbers::{full, width};
 use crate::output;
 use crate::scene::{Ready, Scene};
 
-/// The arguments of `inverse`.
+/// The command-line arguments of the command `inverse`, to be flattened into a parser of `clap`.
 #[derive(Debug, Args)]
 pub struct InverseArgs {
     /// The mechanism and its start

@@ -12,7 +12,7 @@ use crate::numbers::{fixed, lines, significant, width};
 use crate::output;
 use crate::scene::{Ready, Scene};
 
-/// The arguments of `modes`.
+/// The command-line arguments of the command `modes`, to be flattened into a parser of `clap`.
 #[derive(Debug, Args)]
 pub struct ModesArgs {
     /// The mechanism, and where the search begins
@@ -29,8 +29,8 @@ const STILL: f64 = 1e-6;
 /// Prints the rest position next to the start, and its modes, slowest first.
 ///
 /// # Errors
-/// [`Failure::Usage`] for what is wrong with the command line; [`Failure::Failed`] where there is no rest position, or no linear motion about
-/// it.
+/// [`Failure::Usage`] for what is wrong with the command line; [`Failure::Failed`] where there is no rest position, or no linear motion
+/// about it.
 pub fn modes(models: &[Entry], args: &ModesArgs) -> Result<(), Failure> {
     let ready = args.scene.ready(models)?;
     let failed = |error| match error {

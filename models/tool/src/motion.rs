@@ -12,7 +12,7 @@ use crate::progress::Progress;
 use crate::scene::Ready;
 use crate::units;
 
-/// Until when, by which method, how accurately.
+/// The command-line arguments that say how a motion is computed: until when, by which method, how accurately.
 #[derive(Debug, Clone, Args)]
 pub struct Motion {
     /// Time to stop at, before 0 to run backward; the model's own duration if absent

@@ -2,7 +2,7 @@
 
 pub use ukcore::numbers::{fixed, full, short};
 
-/// A number of things: `1 step`, `2 steps`.
+/// A number of things in words: `1 step`, `2 steps`.
 #[must_use]
 pub fn count(number: usize, thing: &str) -> String {
     let plural = if number == 1 { "" } else { "s" };
@@ -32,7 +32,7 @@ pub(crate) fn significant(value: f64, digits: usize) -> String {
     full(format!("{value:.*e}", digits - 1).parse().unwrap_or(value))
 }
 
-/// A time with its unit: `34.0 µs`, `1.20 s`.
+/// A time, given in seconds, with three digits and the unit that suits them: `34.0 µs`, `1.20 s`.
 #[must_use]
 pub fn duration(seconds: f64) -> String {
     let (value, unit) = match seconds {
@@ -48,7 +48,7 @@ pub fn duration(seconds: f64) -> String {
     format!("{} {unit}", fixed(value, digits))
 }
 
-/// The widest of some names, in characters.
+/// The number of characters of the longest of some names; 0 if there is none.
 #[must_use]
 pub fn width<'a>(names: impl IntoIterator<Item = &'a str>) -> usize {
     let lengths = names.into_iter().map(|n| n.chars().count());
@@ -78,7 +78,7 @@ pub(crate) fn lines(entries: impl IntoIterator<Item = String>) -> Vec<String> {
     lines
 }
 
-/// The middle one of some numbers; of two the larger.
+/// The median of some numbers: of two in the middle the larger; nothing if there is none.
 #[must_use]
 pub fn median(mut values: Vec<f64>) -> Option<f64> {
     values.sort_by(f64::total_cmp);

@@ -67,7 +67,7 @@ impl WholeFile {
         self.finish()
     }
 
-    /// Gives the file its name.
+    /// Ends the file: from here on it stands under its name, whole.
     ///
     /// # Errors
     /// [`Failure::Failed`] naming the file.
@@ -227,7 +227,7 @@ impl Directory {
         Ok(directory)
     }
 
-    /// The path of a file in it.
+    /// The path of the file called `name` in this directory.
     #[must_use]
     pub fn file(&self, name: &str) -> PathBuf {
         self.path.join(name)

@@ -37,7 +37,7 @@ pub const COLOURS: [RGBColor; 6] = [
     RGBColor(230, 159, 0),
     RGBColor(86, 180, 233),
 ];
-/// Reference curves: free fall, zero, g.
+/// The colour of curves to compare with, as those of a free fall.
 pub const GREY: RGBColor = RGBColor(120, 120, 120);
 
 pub(crate) const FONT: &str = "Helvetica, Arial, sans-serif";
@@ -48,7 +48,7 @@ const ROW: i32 = 18;
 const GRID: RGBColor = RGBColor(226, 226, 226);
 const FRAME: RGBColor = RGBColor(90, 90, 90);
 
-/// A curve.
+/// A curve of a chart: points joined by a line, with an entry in the legend.
 #[derive(Debug, Clone)]
 pub struct Series {
     /// Entry of the legend; none if empty.
@@ -92,7 +92,7 @@ impl Series {
     }
 }
 
-/// Where the legend stands.
+/// The place of the legend of a [`Chart`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Legend {
     /// Nowhere.
@@ -111,7 +111,7 @@ pub enum Legend {
     LowerRight,
 }
 
-/// What the axes are divided by.
+/// The division of both axes of a [`Chart`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
     /// Equal distances are equal differences.
@@ -120,7 +120,7 @@ pub enum Scale {
     Decades,
 }
 
-/// A chart.
+/// A chart of curves in one frame, with labelled axes and a legend.
 #[derive(Debug, Clone)]
 pub struct Chart {
     /// Label of the horizontal axis, with its unit.
@@ -161,7 +161,7 @@ impl Chart {
         }
     }
 
-    /// The chart as the text of an SVG file.
+    /// Draws the chart as the text of an SVG file.
     ///
     /// # Errors
     /// [`Failure::Failed`] if the drawing library fails.
@@ -235,7 +235,7 @@ impl Chart {
     }
 }
 
-/// Charts of one width one below the other, as the text of an SVG file.
+/// Draws charts of one width, one below the other, as the text of an SVG file.
 ///
 /// # Errors
 /// [`Failure::Failed`] if the drawing library fails.

@@ -19,7 +19,7 @@ use crate::output::{self, WholeFile};
 use crate::scene::{Ready, Scene};
 use crate::summary::Summary;
 
-/// The arguments of `run`.
+/// The command-line arguments of the command `run`, to be flattened into a parser of `clap`.
 #[derive(Debug, Args)]
 pub struct RunArgs {
     /// The mechanism and its start

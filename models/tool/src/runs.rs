@@ -12,7 +12,7 @@ use crate::numbers::{full, rounded};
 use crate::scene::{Place, Start};
 use crate::units::{self, Quantity};
 
-/// Runs of one model, one for each combination of the values listed.
+/// The command-line arguments for several runs of one model: one for each combination of the values listed.
 #[derive(Debug, Clone, Args)]
 pub struct Runs {
     /// Set a parameter or an option of the start, to each of several values: `k=1,2,5`, `x0=12..16:0.5`, `angle=10deg..80deg:10deg`; may be
@@ -39,7 +39,7 @@ pub struct Runs {
     pub stabilise: List<Stabilisation>,
 }
 
-/// One of the runs.
+/// One of the runs that [`Runs`] asks for.
 #[derive(Debug, Clone)]
 pub struct Variant {
     /// With which parameters, and from where.
@@ -51,7 +51,7 @@ pub struct Variant {
 }
 
 impl Runs {
-    /// The runs of `entry`, the last list running fastest.
+    /// Lists the runs of `entry`, with the values of the last list next to each other.
     ///
     /// # Errors
     /// [`Failure::Usage`] for unknown names, values in the wrong unit, and more runs than `most`.
@@ -185,7 +185,7 @@ fn assignment(text: &str) -> Result<(String, Values), String> {
     Ok((name.to_owned(), Values::Range(range)))
 }
 
-/// What is written with commas between.
+/// Values that are written with commas between them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct List<T>(pub Vec<T>);
 

@@ -9,7 +9,7 @@ use crate::command::find;
 use crate::failure::Failure;
 use crate::units::{self, Quantity};
 
-/// Which mechanism, with which parameters, from where.
+/// The command-line arguments that name a mechanism, its parameters and its start.
 #[derive(Debug, Args)]
 pub struct Scene {
     /// Model (see `list`)
@@ -19,7 +19,7 @@ pub struct Scene {
     pub start: Start,
 }
 
-/// With which parameters, and from where.
+/// The command-line arguments for the parameters of a mechanism and its start.
 #[derive(Debug, Default, Clone, Args)]
 pub struct Start {
     /// Set a parameter or an option of the start; may be repeated
@@ -30,7 +30,7 @@ pub struct Start {
     pub place: Place,
 }
 
-/// The start configuration, and what is guessed of it.
+/// The command-line arguments for where a motion begins: a start on offer, or a guess to assemble one from.
 #[derive(Debug, Default, Clone, Args)]
 pub struct Place {
     /// Start configuration (see `list`); the first one if absent
@@ -61,7 +61,7 @@ pub struct Ready<'a> {
 }
 
 impl Scene {
-    /// The mechanism that is asked for, at its start.
+    /// Finds the mechanism that is asked for, sets its parameters and puts it together at its start.
     ///
     /// # Errors
     /// [`Failure::Usage`] for unknown names, values in the wrong unit, and settings that the start refuses; [`Failure::Failed`] where
@@ -72,7 +72,7 @@ impl Scene {
 }
 
 impl Start {
-    /// Whether nothing is asked for: the model as it is.
+    /// Whether nothing is asked for, so that the model is taken as it is.
     #[must_use]
     pub fn is_default(&self) -> bool {
         self.settings.is_empty() && self.place.start.is_none() && !self.guesses()
@@ -87,7 +87,7 @@ impl Start {
         !self.place.guesses.is_empty() || !self.place.hold.is_empty()
     }
 
-    /// `entry` with these parameters, at this start.
+    /// Sets the parameters of `entry` and puts it together at its start.
     ///
     /// # Errors
     /// What [`Scene::ready`] reports.

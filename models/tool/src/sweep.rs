@@ -1,7 +1,7 @@
 //! The command `sweep`: many runs of a model, one for each combination of values, as a table.
 //!
-//! Each row is appended as soon as its run has ended, in one write; a table that is not finished is taken up where it ends. When all runs are
-//! there the rows are put in order, so that the file does not depend on the number of cores.
+//! Each row is appended as soon as its run has ended, in one write; a table that is not finished is taken up where it ends. When all runs
+//! are there the rows are put in order, so that the file does not depend on the number of cores.
 
 use std::collections::HashMap;
 use std::fs::{self, File};
@@ -27,7 +27,7 @@ use crate::output::{self, write_whole};
 use crate::progress::Progress;
 use crate::runs::{Runs, Variant};
 
-/// The arguments of `sweep`.
+/// The command-line arguments of the command `sweep`, to be flattened into a parser of `clap`.
 #[derive(Debug, Args)]
 pub struct SweepArgs {
     /// Model (see `list`)
@@ -52,9 +52,9 @@ const MOST: usize = 1_000_000;
 /// Runs all members that the table has not yet, on all cores.
 ///
 /// # Errors
-/// [`Failure::Usage`] for what is wrong with the command line, and where the table is of another sweep; [`Failure::Interrupted`] if the user
-/// ends it: what is done is kept, and the same command goes on from there; [`Failure::Failed`] if no member could be computed, or the table
-/// not be written; [`Failure::Partly`] if some could not: each is a row with its error.
+/// [`Failure::Usage`] for what is wrong with the command line, and where the table is of another sweep; [`Failure::Interrupted`] if the
+/// user ends it: what is done is kept, and the same command goes on from there; [`Failure::Failed`] if no member could be computed, or the
+/// table not be written; [`Failure::Partly`] if some could not: each is a row with its error.
 pub fn sweep(models: &[Entry], args: &SweepArgs) -> Result<(), Failure> {
     let entry = find(models, &args.model)?;
     let columns = match args.of.is_empty() {

@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 use ukcore::Error;
 use ukunits::{Dimension, Refusal, Unit};
 
-/// A value, and its unit if one is named.
+/// A value as it is written on the command line: a number, and its unit if one is named.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quantity {
     value: f64,
@@ -18,7 +18,7 @@ pub struct Quantity {
 }
 
 impl Quantity {
-    /// Reads a value.
+    /// Reads a value: a number, or a product, with a unit behind or without.
     ///
     /// # Errors
     /// What is wrong with `text`, with the nearest unit if one is unknown.
@@ -87,7 +87,7 @@ impl Quantity {
         self.of(declared, Dimension::NUMBER)
     }
 
-    /// The same of a velocity, of what is declared in `declared`.
+    /// The number in the SI unit of a velocity: `declared` per second.
     ///
     /// # Errors
     /// If it is of another dimension.
@@ -116,7 +116,7 @@ impl From<f64> for Quantity {
     }
 }
 
-/// Splits `NAME=VALUE`.
+/// Reads `NAME=VALUE` as a name and a quantity.
 ///
 /// # Errors
 /// If there is no `=`, no name, or the value is not understood.
@@ -137,7 +137,7 @@ pub(crate) fn split<'a>(text: &'a str, values: &str) -> Result<(&'a str, &'a str
     }
 }
 
-/// A time in seconds: `1.5`, `20ms`, `2min`.
+/// Reads a time, such as `1.5`, `20ms` or `2min`, as seconds.
 ///
 /// # Errors
 /// If the value is not understood or not a time.

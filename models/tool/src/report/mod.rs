@@ -33,7 +33,7 @@ use study::Study;
 
 pub(crate) use truth::{distance, grow, scale, stacked};
 
-/// The arguments of `report`.
+/// The command-line arguments of the command `report`, to be flattened into a parser of `clap`.
 #[derive(Debug, Args)]
 pub struct ReportArgs {
     /// Models to measure (see `list`); all of them if none is named

@@ -15,7 +15,7 @@ use crate::motion;
 use crate::report::{distance, grow, scale, stacked};
 use crate::scene::Scene;
 
-/// The arguments of `stability` for a model.
+/// The command-line arguments of the command `stability` of a model, to be flattened into a parser of `clap`.
 #[derive(Debug, Args)]
 pub struct ModelArgs {
     /// The mechanism and its start
