@@ -16,8 +16,15 @@ pub struct ExplainArgs {
     /// The mechanism and its start
     #[command(flatten)]
     pub scene: Scene,
-    /// Print the code that runs instead: of FUNCTION (`dynamics`, `acceleration`, …), or of all of them
-    #[arg(long, value_name = "FUNCTION", num_args = 0..=1, default_missing_value = "")]
+    /// Print the code that runs instead, which is the same for any parameters and start: of FUNCTION (`dynamics`, `acceleration`, …), or
+    /// of all of them
+    #[arg(
+        long,
+        value_name = "FUNCTION",
+        num_args = 0..=1,
+        default_missing_value = "",
+        conflicts_with_all = ["settings", "start", "guesses", "hold"]
+    )]
     pub code: Option<String>,
 }
 

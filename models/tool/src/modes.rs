@@ -77,7 +77,11 @@ fn place(
     let names = ready.mechanism.spec().coords;
     let wide = width(names.iter().copied());
     let largest = |values: &[f64]| values.iter().fold(0.0, |s: f64, x| s.max(x.abs()));
-    let (size, speed) = (largest(&state.q), largest(&state.v));
+    // A rest position at 0 is small beside the start.
+    let (size, speed) = (
+        largest(&[&state.q[..], &ready.state.q].concat()),
+        largest(&state.v),
+    );
     for (i, ((name, q), v)) in names.iter().zip(&state.q).zip(&state.v).enumerate() {
         let rate = if *v == 0.0 {
             String::new()

@@ -126,6 +126,19 @@ pub fn sweep(models: &[Entry], args: &SweepArgs) -> Result<(), Failure> {
 /// Runs that failed are called by their numbers, so many of them.
 const SHOWN: usize = 10;
 
+/// The columns that every table has: before options and parameters, behind them, and behind quantities.
+const FIRST: [&str; 2] = ["member", "start"];
+const SETTINGS: [&str; 5] = ["until", "tolerance", "method", "stabilisation", "t"];
+const LAST: [&str; 7] = [
+    "residual",
+    "energy_drift",
+    "steps",
+    "rejected",
+    "evaluations",
+    "fallbacks",
+    "error",
+];
+
 /// All that is to be computed.
 struct Plan<'a> {
     entry: &'a Entry,
@@ -138,29 +151,28 @@ impl Plan<'_> {
     /// The line of names.
     fn head(&self) -> Result<Vec<u8>, Failure> {
         let (_, start, _) = self.members[0].start.settings(self.entry)?;
-        let mut head = vec!["member".to_owned(), "start".to_owned()];
+        // No two columns have one name.
+        let own = |what: &str, name: &str| {
+            let taken = [&FIRST[..], &SETTINGS, &LAST].concat().contains(&name);
+            if taken {
+                format!("{what}({name})")
+            } else {
+                name.to_owned()
+            }
+        };
+        let mut head = FIRST.map(str::to_owned).to_vec();
         let options = start.map_or(&[][..], |s| s.options);
-        head.extend(options.iter().map(|o| o.name.to_owned()));
+        head.extend(options.iter().map(|o| own("set", o.name)));
         let params = self.entry.mechanism.spec().params;
-        head.extend(params.iter().map(|p| p.name.to_owned()));
-        head.extend(["until", "tolerance", "method", "stabilisation"].map(str::to_owned));
-        head.push("t".to_owned());
+        head.extend(params.iter().map(|p| own("set", p.name)));
+        head.extend(SETTINGS.map(str::to_owned));
         for name in self.columns.names() {
-            head.push(name.to_owned());
+            head.push(own("end", name));
             for what in ["min", "t_min", "max", "t_max"] {
                 head.push(format!("{what}({name})"));
             }
         }
-        let last = [
-            "residual",
-            "energy_drift",
-            "steps",
-            "rejected",
-            "evaluations",
-            "fallbacks",
-            "error",
-        ];
-        head.extend(last.map(str::to_owned));
+        head.extend(LAST.map(str::to_owned));
         line(&head)
     }
 
@@ -246,14 +258,13 @@ impl Plan<'_> {
             row.push(number(value));
             row.extend(extremes.told().map(number));
         }
-        let conservative = trajectory.spec().structure.conservative;
         let work = trajectory.work();
-        row.push(number(drift.residual().largest()));
-        row.push(if conservative {
-            number(drift.energy())
-        } else {
-            String::new()
-        });
+        let told = |known: bool, x: f64| if known { number(x) } else { String::new() };
+        // A run that did not begin has none.
+        let any = drift.samples() > 0;
+        row.push(told(any, drift.residual().largest()));
+        let conservative = trajectory.spec().structure.conservative;
+        row.push(told(any && conservative, drift.energy()));
         let counts = [work.steps, work.rejected, work.evaluations, work.fallbacks];
         row.extend(counts.map(|n| n.to_string()));
         row.push(error);

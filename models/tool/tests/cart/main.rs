@@ -195,6 +195,7 @@ fn it_is_explained_with_a_guess_and_without() {
     let said = text.matches("A cart on a spring with a pendulum hanging from it");
     assert_eq!(said.count(), 1, "{text}");
     assert!(output("explain cart --code acceleration").starts_with("fn acceleration<S: "));
+    fails("explain cart --code --set l=2", 2, "cannot be used with");
 }
 
 #[test]

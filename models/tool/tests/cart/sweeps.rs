@@ -137,6 +137,34 @@ fn members_fail_alone() {
 }
 
 #[test]
+fn no_two_columns_have_one_name() {
+    let out = tempfile::tempdir().expect("directory");
+    let place = out.path().join("sweep.csv");
+    let command = format!(
+        "sweep cart --until 0.1 --method dop853,rattle=0.01 --of t,residual,swing --out {}",
+        place.display()
+    );
+    output(&command);
+    let table = std::fs::read_to_string(&place).expect("a table");
+    let mut names: Vec<&str> = table.lines().next().expect("names").split(',').collect();
+    let number = names.len();
+    for name in ["t", "end(t)", "residual", "end(residual)", "swing"] {
+        assert!(names.contains(&name), "{name} in {names:?}");
+    }
+    names.sort_unstable();
+    names.dedup();
+    assert_eq!(names.len(), number, "{names:?}");
+    // What did not begin has no residual.
+    let place = out.path().join("none.csv");
+    let command = command.replace("sweep.csv", "none.csv");
+    fails(&format!("{command} --set m=1,1e-310"), 3, "2 of 4 runs failed");
+    let table = std::fs::read_to_string(&place).expect("a table");
+    for row in rows(&table) {
+        assert_eq!(row["residual"].is_empty(), row["m"] == "1e-310", "{row:?}");
+    }
+}
+
+#[test]
 fn a_step_without_a_unit_is_in_that_of_the_ends() {
     let out = tempfile::tempdir().expect("directory");
     let table = |values: &str| {
