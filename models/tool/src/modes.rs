@@ -8,7 +8,7 @@ use ukcore::model::Entry;
 use ukcore::{Error, Mode, Stability, State, equilibrium, modes as modes_of};
 
 use crate::failure::Failure;
-use crate::numbers::{fixed, lines, significant, width};
+use crate::numbers::{fixed, full, lines, significant, width};
 use crate::output;
 use crate::scene::{Ready, Scene};
 
@@ -46,6 +46,7 @@ pub fn modes(models: &[Entry], args: &ModesArgs) -> Result<(), Failure> {
     let found = modes_of(&ready.mechanism, &state).map_err(failed)?;
     output::to_stdout(|out| {
         place(out, &ready, &state, stability)?;
+        limits(out, &ready, &state)?;
         let still = Mode::STILL * found.iter().map(Mode::size).fold(0.0, f64::max);
         // A displacement that costs nothing has an eigenvalue of 0 twice, with one shape.
         let again = |k: usize| {
@@ -93,6 +94,37 @@ fn place(
         writeln!(out, "{}", line.trim_end())?;
     }
     writeln!(out)
+}
+
+/// What a linear motion about `state` leaves out.
+fn limits(out: &mut dyn Write, ready: &Ready<'_>, state: &State) -> io::Result<()> {
+    let spec = ready.mechanism.spec();
+    let mut told = Vec::new();
+    if !spec.structure.scleronomic {
+        let t = full(state.t);
+        told.push(format!(
+            "what depends on time is taken as it is at t = {t} s"
+        ));
+    }
+    let mut values = vec![0.0; spec.switches.len()];
+    let State { t, q, v } = state;
+    ready.mechanism.switching(*t, q, v, &mut values);
+    for (switch, value) in spec.switches.iter().zip(values) {
+        if value.abs() <= ROUNDING {
+            let (function, terms) = (switch.function, switch.terms.join(", "));
+            told.push(format!(
+                "`{function}` is 0, where the {terms} has a kink or a jump, which is no part of a linear motion"
+            ));
+        }
+    }
+    for remark in &told {
+        writeln!(out, "note: {remark}")?;
+    }
+    if told.is_empty() {
+        Ok(())
+    } else {
+        writeln!(out)
+    }
 }
 
 fn show(out: &mut dyn Write, ready: &Ready<'_>, mode: &Mode, still: f64) -> io::Result<()> {

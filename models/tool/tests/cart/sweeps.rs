@@ -157,7 +157,11 @@ fn no_two_columns_have_one_name() {
     // What did not begin has no residual.
     let place = out.path().join("none.csv");
     let command = command.replace("sweep.csv", "none.csv");
-    fails(&format!("{command} --set m=1,1e-310"), 3, "2 of 4 runs failed");
+    fails(
+        &format!("{command} --set m=1,1e-310"),
+        3,
+        "2 of 4 runs failed",
+    );
     let table = std::fs::read_to_string(&place).expect("a table");
     for row in rows(&table) {
         assert_eq!(row["residual"].is_empty(), row["m"] == "1e-310", "{row:?}");

@@ -278,6 +278,16 @@ fn a_remark_is_no_failure() {
 }
 
 #[test]
+fn modes_say_what_they_leave_out() {
+    // On level ground the block rests, by a friction that no linear motion has.
+    let told = output(&["modes", "rough_block", "--set", "slope=0"]);
+    let note = "is 0, where the non-ideal force on `x`";
+    assert!(told.contains("\nnote: `") && told.contains(note), "{told}");
+    let told = output(&["modes", "pendulum"]);
+    assert!(!told.contains("note: "), "{told}");
+}
+
+#[test]
 fn summaries_count_in_words() {
     let none = output(&["run", "pendulum", "--until", "0"]);
     assert!(none.contains("Largest of 1 sample\n"), "{none}");
