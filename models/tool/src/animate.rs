@@ -15,7 +15,7 @@ use crate::columns::residual;
 use crate::command::{self, find};
 use crate::curves::Thinned;
 use crate::failure::Failure;
-use crate::html::document;
+use crate::html::{document, message};
 use crate::motion::Motion;
 use crate::numbers::setting;
 use crate::output::{self, WholeFile};
@@ -281,7 +281,7 @@ pub(crate) fn page(entry: &Entry, films: Vec<Film>, about: &str) -> Result<Strin
             label { input #traces type="checkbox" checked; " traces" }
         }
         div #strips {}
-        p.soft { @if several { "The first: " } (about) }
+        p.soft { @if several { "The first: " } (message(about)) }
         script type="application/json" id="data" { (PreEscaped(data)) }
         script { (PreEscaped(PLAYER)) }
     };

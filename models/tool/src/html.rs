@@ -36,6 +36,16 @@ pub fn power_of_ten(value: f64) -> Markup {
     }
 }
 
+/// A message of a command as HTML: names between backticks are code.
+#[must_use]
+pub fn message(text: &str) -> Markup {
+    html! {
+        @for (k, part) in text.split('`').enumerate() {
+            @if k % 2 == 1 { code { (part) } } @else { (part) }
+        }
+    }
+}
+
 /// The values as one text, with commas between them.
 #[must_use]
 pub fn joined(values: impl IntoIterator<Item = String>) -> String {
@@ -269,6 +279,10 @@ mod tests {
 
     #[test]
     fn what_html_reserves_is_escaped() {
+        assert_eq!(
+            message("`a<b` & c").into_string(),
+            "<code>a&lt;b</code> &amp; c"
+        );
         let figure = figure("a.svg", "x < 1", "b & c").into_string();
         assert!(
             figure.contains("alt=\"x &lt; 1\"") && figure.contains("b &amp; c"),

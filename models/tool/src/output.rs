@@ -176,8 +176,12 @@ fn temporary(target: &Path) -> io::Result<NamedTempFile> {
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     let file = builder.tempfile_in(directory);
-    // The name of the temporary file would puzzle who is told of it.
-    let file = file.map_err(|e| io::Error::from(e.kind()))?;
+    // The name of the temporary file would puzzle who is told of it: the cause alone.
+    let file = file.map_err(|e| {
+        let text = e.to_string();
+        let cause = text.split(" at path ").next().unwrap_or_default();
+        io::Error::new(e.kind(), cause.to_owned())
+    })?;
     unfinished().push(file.path().to_path_buf());
     Ok(file)
 }

@@ -99,6 +99,7 @@ impl Summary<'_> {
             "position_residual": drift.position_residual,
             "velocity_residual": drift.velocity_residual,
             "energy_drift": drift.energy_drift,
+            "energy_exchanged": drift.energy_drift.map(|_| self.measured.exchanged()),
             "work": {
                 "steps": work.steps,
                 "rejected": work.rejected,

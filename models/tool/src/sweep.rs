@@ -425,7 +425,7 @@ impl Table {
 
 fn other(path: &Path) -> Failure {
     Failure::Usage(format!(
-        "{} is there and holds something else than the begin of this sweep; take another file with `--out`, or remove it",
+        "{} is there and holds something else than the beginning of this sweep; take another file with `--out`, or remove it",
         path.display()
     ))
 }

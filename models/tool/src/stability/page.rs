@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::Stability;
 use super::case::{Class, Point, Row};
-use crate::html::{Cell, Page, Section, figure_of, fixed, power_of_ten, table};
+use crate::html::{Cell, Page, Section, figure_of, fixed, message, power_of_ten, table};
 
 /// index.html.
 pub(super) fn html(report: &Stability<'_>) -> String {
@@ -117,8 +117,8 @@ fn value(p: &Point) -> Vec<Cell> {
         Cell::number(p.effort.steps),
         Cell::number(p.effort.evaluations),
         Cell::number(p.effort.fallbacks),
-        Cell::or_missing(p.refusal.as_ref(), |(name, message)| {
-            Cell::Class("said", html! { (name) ": " (message) })
+        Cell::or_missing(p.refusal.as_ref(), |(name, text)| {
+            Cell::Class("said", html! { (name) ": " (message(text)) })
         }),
     ]
 }

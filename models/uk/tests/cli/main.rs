@@ -154,6 +154,7 @@ fn json_holds_final_state_residuals_and_work() {
     assert!(q.contains_key("x[0]") && q.contains_key("y[16]"));
     assert!(run["position_residual"].as_f64().expect("number") < 1e-12);
     assert!(run["energy_drift"].as_f64().expect("number") < 1e-9);
+    assert!(run["energy_exchanged"].as_f64().expect("number") > 1.0);
     assert!(run["work"]["steps"].as_u64().expect("number") > 0);
     assert_eq!(run["parameters"]["g"], 9.8);
 }
