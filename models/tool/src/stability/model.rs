@@ -12,6 +12,7 @@ use super::{Case, Effort, Sweep, decades, sweep};
 use crate::command;
 use crate::failure::Failure;
 use crate::motion;
+use crate::numbers::short;
 use crate::report::{distance, grow, scale, stacked};
 use crate::scene::{Ready, Scene};
 
@@ -53,6 +54,9 @@ const INSTANTS: u32 = 8;
 pub fn of_model(models: &[Entry], args: &ModelArgs) -> Result<(), Failure> {
     let ready = args.scene.ready(models)?;
     let (_, start, options) = args.scene.start.settings(ready.entry)?;
+    let (id, from) = (&ready.entry.id, ready.start);
+    let length = short(args.until.unwrap_or(ready.duration), 6);
+    let about = format!("`{id}` from `{from}`, {length} s");
     let subject = Subject::new(ready, start.map(|start| (start.name, options)), args.until);
     let mut sweeps = Vec::new();
     let spec = subject.mechanism.spec();
@@ -117,7 +121,7 @@ pub fn of_model(models: &[Entry], args: &ModelArgs) -> Result<(), Failure> {
             measure,
         });
     let cases: Vec<Case<'_>> = cases.collect();
-    sweep(&cases.iter().collect::<Vec<_>>(), &args.out)
+    sweep(&cases.iter().collect::<Vec<_>>(), &about, &args.out)
 }
 
 const ORACLE: &str = "the same motion by an implicit method with the formula as printed, where that gets through, else at a smaller \

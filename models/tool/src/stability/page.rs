@@ -38,7 +38,10 @@ fn head(report: &Stability<'_>) -> Markup {
     let count = |class| -> usize { report.cases.iter().map(|r| r.count(class)).sum() };
     let [accurate, degraded, refused, wrong] = Class::ALL.map(count);
     html! {
-        p.lead { "Each case sweeps one thing until it breaks." }
+        p.lead {
+            @if !report.subject.is_empty() { (message(report.subject)) ". " }
+            "Each case sweeps one thing until it breaks."
+        }
         @if !report.complete {
             p.note { b { "This page is incomplete" } ": the run was interrupted. It has the cases that were finished by then." }
         }

@@ -282,7 +282,10 @@ fn it_is_swept_until_it_breaks() {
     }
     assert_eq!(class("m", "1e-12"), accurate);
     assert_eq!(class("tolerance", "1e-9"), accurate);
-    assert!(place.join("index.html").exists() && place.join("stability.svg").exists());
+    assert!(place.join("stability.svg").exists());
+    let page = std::fs::read_to_string(place.join("index.html")).expect("a page");
+    let of = "<code>cart</code> from <code>released</code>, 0.05 s";
+    assert!(page.contains(of), "{page}");
     fails("stability carts", 2, "did you mean `cart`?");
 }
 
