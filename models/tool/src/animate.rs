@@ -15,7 +15,7 @@ use crate::columns::residual;
 use crate::command::{self, find};
 use crate::curves::Thinned;
 use crate::failure::Failure;
-use crate::html::{document, message};
+use crate::html::{document, joined, message};
 use crate::motion::Motion;
 use crate::numbers::setting;
 use crate::output::{self, WholeFile};
@@ -154,26 +154,25 @@ pub fn animate(models: &[Entry], args: &AnimateArgs) -> Result<(), Failure> {
     let path = path.unwrap_or_else(|| PathBuf::from(format!("{}.html", entry.id)));
     let (mut file, mut films, mut about, mut failed) = (None, Vec::new(), None, None);
     for run in &runs {
-        let ready = run.start.ready(entry)?;
         let differs = run.differs.iter();
-        let label: Vec<String> = differs
-            .map(|(name, value)| format!("{name} = {value}"))
-            .collect();
-        let film = Film::new(&ready, label.join(", "))?;
+        let label = joined(differs.map(|(name, value)| format!("{name} = {value}")));
+        let ready = run.start.ready(entry);
+        let ready = ready.map_err(|failure| failure.of(&label))?;
+        let film = Film::new(&ready, label.clone())?;
         // Where the page cannot be written it is known before a long computation.
         if file.is_none() {
             file = Some(WholeFile::create(&path)?);
         }
         let (film, error) = taken(film, &ready, &run.motion, args.pictures)?;
         about.get_or_insert_with(|| foot(&ready, &run.motion));
-        failed = failed.or(error);
+        failed = failed.or(error.map(|error| Failure::from(error).of(&label)));
         films.push(film);
     }
     if let (Some(file), Some(about)) = (file, about) {
         file.finish_with(page(entry, films, &about)?)?;
     }
     output::to_stdout(|out| writeln!(out, "open {}", path.display()))?;
-    failed.map_or(Ok(()), |error| Err(error.into()))
+    failed.map_or(Ok(()), Err)
 }
 
 /// The page of motions of one model side by side, each with what it is called there, in so many pictures.

@@ -55,6 +55,19 @@ impl Failure {
         }
     }
 
+    /// The same failure, with the run that it is of before its message; as it is where `run` is empty.
+    pub(crate) fn of(self, run: &str) -> Self {
+        let told = |message| match run {
+            "" => message,
+            _ => format!("{run}: {message}"),
+        };
+        match self {
+            Failure::Usage(message) => Failure::Usage(told(message)),
+            Failure::Failed(message) => Failure::Failed(told(message)),
+            other => other,
+        }
+    }
+
     /// The failure that an error in writing standard output is; none, if its reader is gone.
     pub fn stdout(error: &io::Error) -> Self {
         if error.kind() == io::ErrorKind::BrokenPipe {

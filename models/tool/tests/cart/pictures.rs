@@ -95,6 +95,14 @@ fn runs_are_shown_side_by_side() {
         assert_eq!(pictures.count(), 4, "{shown}");
         assert!(shown.contains("t = 4.000 s"), "{shown}");
     }
+    // Which of them fails is said, and what was computed of it is shown.
+    let told = format!(
+        "animate cart --set m=1,-1 --until 1 --out {}",
+        page.display()
+    );
+    fails(&told, 1, "error: m = -1: at t = 0: the mass matrix");
+    let told = "animate cart --set l=1,2 --guess x=9 --hold s,x,y --out a.html";
+    fails(told, 1, "error: l = 1: no state near the guess");
     fails(
         "animate cart --set k=1,2,3,4 --tol 1e-4,1e-6",
         2,
