@@ -8,7 +8,7 @@ use crate::command::path;
 use crate::failure::Failure;
 use crate::html::joined;
 use crate::output::WholeFile;
-use crate::plot::{Chart, Legend, Series, round_range, stacked};
+use crate::plot::{Chart, Legend, Series, legend_height, round_range, stacked};
 
 /// More points than a picture shows.
 const MOST: usize = 20_000;
@@ -71,7 +71,7 @@ pub(crate) struct Curves {
     rows: Thinned<(Vec<f64>, Vec<f64>)>,
 }
 
-/// Height of a panel that stands alone, and of one of several, in pixels.
+/// Height of a panel that stands alone, and of one of several, below its legend, in pixels.
 const HEIGHTS: (u32, u32) = (460, 300);
 /// Curves whose names are written at an axis; those of more stand in the legend alone.
 const NAMED: usize = 4;
@@ -160,9 +160,13 @@ impl Curves {
                 ..=NAMED => joined(panel.iter().map(|&k| of[k].clone())),
                 _ => kinds[panel[0]].0.1.clone(),
             };
+            let (legend, above) = match single {
+                true => (Legend::None, 0),
+                false => (Legend::Above, legend_height(panel.len())),
+            };
             Chart {
-                legend: if single { Legend::None } else { Legend::Above },
-                size: (760, height),
+                legend,
+                size: (760, height + above),
                 ..Chart::new(joined(across), up, round_range(x), series.clone())
             }
         };

@@ -44,7 +44,7 @@ pub(crate) const FONT: &str = "Helvetica, Arial, sans-serif";
 const LABEL_SIZE: u32 = 15;
 const TICK_SIZE: u32 = 13;
 /// Height of a row of a legend above the frame.
-const ROW: i32 = 18;
+const ROW: u32 = 18;
 const GRID: RGBColor = RGBColor(226, 226, 226);
 const FRAME: RGBColor = RGBColor(90, 90, 90);
 
@@ -235,6 +235,11 @@ impl Chart {
     }
 }
 
+/// The height of a legend above the frame with so many entries, in pixels.
+pub(crate) fn legend_height(entries: usize) -> u32 {
+    8 + ROW * entries.div_ceil(2) as u32
+}
+
 /// Draws charts of one width, one below the other, as the text of an SVG file.
 ///
 /// # Errors
@@ -265,8 +270,7 @@ impl Chart {
         // What lies on top comes first.
         let named = || self.series.iter().rev().filter(|s| !s.label.is_empty());
         let rows = named().count().div_ceil(2);
-        let height = 8 + ROW * rows as i32;
-        let (legend, frame) = area.split_vertically(height);
+        let (legend, frame) = area.split_vertically(legend_height(named().count()));
         let column = self.size.0 as i32 / 2 - 10;
         let text = (FONT, TICK_SIZE)
             .into_text_style(&legend)
@@ -274,7 +278,7 @@ impl Chart {
         for (k, series) in named().enumerate() {
             let (x, y) = (
                 16 + column * (k / rows) as i32,
-                8 + ROW / 2 + ROW * (k % rows) as i32,
+                8 + (ROW / 2 + ROW * (k % rows) as u32) as i32,
             );
             let style = series.colour.stroke_width(series.width);
             let line = [(x, y), (x + 26, y)];
