@@ -248,8 +248,8 @@ struct Rows<'a> {
 impl Rows<'_> {
     /// The rates, by their places among those of the frame, for which the rows can be solved wherever they are met.
     fn rates(&self, held: &Dynamics, defaults: &[f64], g: &Graph) -> Option<Vec<usize>> {
-        let choices = choices(self.rows.len())?;
         let own = self.far.coordinates();
+        let choices = choices(self.rows.len(), own.len() - 1);
         let columns = self.far.columns()[1..].iter();
         let columns: Vec<Id> = columns.flatten().copied().collect();
         let entries = self
@@ -308,15 +308,17 @@ impl Rows<'_> {
     }
 }
 
-/// Which of three rates as many rows may be solved for.
-fn choices(rows: usize) -> Option<Vec<Vec<usize>>> {
+/// Which of the first `rates` of turning as many rows may be solved for: three at most, as a body in space has.
+fn choices(rows: usize, rates: usize) -> Vec<Vec<usize>> {
     let choices: &[&[usize]] = match rows {
         1 => &[&[0], &[1], &[2]],
         2 => &[&[0, 1], &[0, 2], &[1, 2]],
         3 => &[&[0, 1, 2]],
-        _ => return None,
+        _ => &[],
     };
-    Some(choices.iter().map(|choice| choice.to_vec()).collect())
+    let there = |choice: &&&[usize]| choice.iter().all(|rate| *rate < rates);
+    let choices = choices.iter().filter(there);
+    choices.map(|choice| choice.to_vec()).collect()
 }
 
 /// The determinant of the columns `chosen`.
