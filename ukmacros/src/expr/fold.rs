@@ -193,6 +193,13 @@ impl Graph {
         self.scale(c, product)
     }
 
+    /// Σ u v, with the factors that all products share in front.
+    pub(crate) fn inner(&mut self, u: &[Id], v: &[Id]) -> Id {
+        let pairs = u.iter().zip(v);
+        let products: Vec<(f64, Id)> = pairs.map(|(u, v)| (1.0, self.mul(*u, *v))).collect();
+        self.factored_sum(&products)
+    }
+
     /// c · id as terms of a sum: a sum is opened. For what the compiler derives, not for what a user grouped.
     pub(crate) fn open(&mut self, c: f64, id: Id) -> Vec<(f64, Id)> {
         let (k, inner) = self.unscaled(id);
@@ -460,6 +467,13 @@ impl Graph {
         outside.push((self.intern(Node::Held(scaled)), 1));
         let product = self.product(&outside);
         self.scale(c.signum(), product)
+    }
+
+    /// `id` as one value, with its coefficient outside: see [`Graph::hold_whole`].
+    pub(crate) fn hold_inner(&mut self, id: Id) -> Id {
+        let (c, inner) = self.unscaled(id);
+        let inner = self.hold_whole(inner);
+        self.scale(c, inner)
     }
 
     /// `id` with its coefficient as one value, with factors of parameters.
