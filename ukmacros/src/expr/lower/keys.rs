@@ -4,7 +4,7 @@ use super::Lowering;
 use super::array::describe;
 use crate::diag::suggest;
 use crate::model::{Family, Field, Name, Scope, block, indexed};
-use crate::parse::{Expr, Key};
+use crate::parse::{Expr, ExprKind, Key};
 use proc_macro2::Ident;
 use std::borrow::Cow;
 
@@ -40,6 +40,21 @@ impl<'m> Lowering<'m> {
                 None
             }
         }
+    }
+
+    /// The name of a unit, where `index` is a constant that is called so.
+    pub(super) fn hidden_unit<'e>(&self, index: &'e Expr, scope: &Scope<'m>) -> Option<&'e Ident> {
+        let ExprKind::Name(name) = &index.kind else {
+            return None;
+        };
+        let text = name.to_string();
+        let hides = scope
+            .variables
+            .iter()
+            .all(|(variable, _)| *variable != text)
+            && self.model.integers.contains_key(&text)
+            && ukunits::is_known(&text);
+        hides.then_some(name)
     }
 
     /// Positions in q of the coordinates that `key` names, and the shape of what they make up.

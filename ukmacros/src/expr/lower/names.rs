@@ -99,9 +99,12 @@ impl<'m> Lowering<'m> {
         }
         let shape = value.shape();
         if let Some(surplus) = indices.get(shape.len()) {
-            let message = match shape.len() {
-                0 => format!("{name} is a number; write it without an index"),
-                n => format!(
+            let message = match (shape.len(), self.hidden_unit(surplus, &env.scope)) {
+                (_, Some(unit)) => {
+                    format!("`{unit}` is the constant here, and no unit; rename the constant")
+                }
+                (0, None) => format!("{name} is a number; write it without an index"),
+                (n, None) => format!(
                     "{name} is {}; it takes no index beyond {n}",
                     describe(shape)
                 ),
