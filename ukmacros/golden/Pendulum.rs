@@ -683,11 +683,11 @@ const _: () = {
 };
 #[doc(hidden)]
 #[allow(unused_macros, non_local_definitions)]
-macro_rules! __part_Pendulum_1dec97a7c7c5bf2c {
+macro_rules! __part_Pendulum {
     (($($callback:tt)*) ($($path:tt)*) [$($known:tt)*] $($rest:tt)*) => {
         $($callback)* ! { @ parts[$($known)* { $($path)* } { ? } {}] $($rest)* }
     };
 }
 #[doc(hidden)]
 #[allow(unused_imports)]
-pub(crate) use __part_Pendulum_1dec97a7c7c5bf2c as Pendulum;
+pub(crate) use __part_Pendulum as Pendulum;

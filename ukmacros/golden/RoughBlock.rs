@@ -765,11 +765,11 @@ const _: () = {
 };
 #[doc(hidden)]
 #[allow(unused_macros, non_local_definitions)]
-macro_rules! __part_RoughBlock_1c2d08fa13a4de28 {
+macro_rules! __part_RoughBlock {
     (($($callback:tt)*) ($($path:tt)*) [$($known:tt)*] $($rest:tt)*) => {
         $($callback)* ! { @ parts[$($known)* { $($path)* } { ? } {}] $($rest)* }
     };
 }
 #[doc(hidden)]
 #[allow(unused_imports)]
-pub(crate) use __part_RoughBlock_1c2d08fa13a4de28 as RoughBlock;
+pub(crate) use __part_RoughBlock as RoughBlock;

@@ -13,12 +13,6 @@ pub(crate) fn part(
     faulty: bool,
 ) -> TokenStream {
     let (vis, name, parts) = (&decl.vis, &decl.name, &table.tokens);
-    // An exported macro stands at the root of its crate, whatever module it is declared in: its name tells the place.
-    let place = format!("{:?} {tokens}", name.span());
-    let number = place.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-    });
-    let own = format_ident!("__part_{name}_{number:016x}");
     let public = vis.to_string() == "pub";
     let export = (public && decl.part).then(|| quote! { #[macro_export] });
     let vis = match public && !decl.part {
@@ -29,6 +23,17 @@ pub(crate) fn part(
         (false, _) => (quote! { ? }, TokenStream::new()),
         (true, true) => (quote! { ! #tokens }, parts.clone()),
         (true, false) => (tokens.clone(), parts.clone()),
+    };
+    // An exported macro stands at the root of its crate, whatever module it is declared in: its name tells the place.
+    let own = match decl.part {
+        false => format_ident!("__part_{name}"),
+        true => {
+            let place = format!("{:?} {tokens}", name.span());
+            let number = place.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+                (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+            });
+            format_ident!("__part_{name}_{number:016x}")
+        }
     };
     quote! {
         #export

@@ -204,7 +204,7 @@ fn functions_of_parts() {
     let nested = "@parts [{ Leg } { pub Leg { coords { x } mass { x: 1 } parts { foot[2]: Foot } let f = |u| -u; output { a = foot[1].f(x) + f(x) } } } \
         { { Foot } { pub Foot { params { r = 0.5 } coords { y } mass { y: 1 } let f = |u| r * u + y; } } { } }] \
         pub T { parts { leg: Leg } let f = 7.0; output { b = leg.foot[1].f(leg.x) - leg.x - leg.foot[1].y + f } }";
-    let [a, b] = outputs(nested)[..] else {
+    let [b, a] = outputs(nested)[..] else {
         panic!("two outputs")
     };
     let x = |i: i32| (1.7 * f64::from(i)).sin();
