@@ -144,6 +144,11 @@ fn bodies_turn_as_they_are_told() {
     for w in [-3.0, 0.0, 0.7] {
         let spun = state(&hung, "spun", [("w", w)].into());
         assert_all_close("ω", &seen(&spun, "omega"), &[w, 1.0, -2.0], 1e-14);
+        // In whichever way it is put together.
+        let ways = hung.branches("spun", &[("w", w)].into()).unwrap();
+        for way in [&ways.state].into_iter().chain(&ways.alternatives) {
+            assert_all_close("ω of a way", &seen(way, "omega"), &[w, 1.0, -2.0], 1e-14);
+        }
         let [e0, e2] = [Hung::BLOCK_E0, Hung::BLOCK_E2].map(|i| spun.q[i]);
         assert!(e0 != 0.8 && e2 != 0.6, "the hook has moved it: {spun:?}");
         let rolled = state(&hung, "rolled", [("w", w)].into());

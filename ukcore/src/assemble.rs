@@ -191,12 +191,7 @@ pub(crate) fn assembled(mech: &Prepared, guess: &State, held: Held) -> Result<St
 fn search(mech: &Prepared, guess: &State, held: &Held) -> Result<State, Error> {
     let mut search = Search::new(mech, guess, &held.positions);
     let q = search.find(&At::new(mech, Level::Position, guess.t, &guess.v), &guess.q)?;
-    if held.velocities != held.positions {
-        search = Search::new(mech, guess, &held.velocities);
-    }
-    let v = held.rates(&q, &guess.v);
-    let v = search.find(&At::new(mech, Level::Velocity, guess.t, &q), &v)?;
-    Ok(State { t: guess.t, q, v })
+    Search::velocities(mech, guess, held, q)
 }
 
 /// `error` with the held coordinates that cause it: those that help if let go alone; if none does, all, provided that letting all go helps.
@@ -237,6 +232,19 @@ impl Search {
             manifold: Manifold::with_ease(mech, (0..n).map(ease).collect(), held.to_vec()),
             free: (0..n).filter(|j| !held.contains(j)).collect(),
         }
+    }
+
+    /// The state at `q` whose velocities are next to those of `guess`.
+    pub(crate) fn velocities(
+        mech: &Prepared,
+        guess: &State,
+        held: &Held,
+        q: Vec<f64>,
+    ) -> Result<State, Error> {
+        let mut search = Search::new(mech, guess, &held.velocities);
+        let v = held.rates(&q, &guess.v);
+        let v = search.find(&At::new(mech, Level::Velocity, guess.t, &q), &v)?;
+        Ok(State { t: guess.t, q, v })
     }
 
     /// The solution for one level; tries the guess, then perturbations of it.

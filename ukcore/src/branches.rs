@@ -239,12 +239,7 @@ impl Ways<'_> {
 
     /// The state at `q` whose velocities are next to those of the guess.
     fn state(&self, q: &[f64]) -> Result<State, Error> {
-        let mut there = self.guess.clone();
-        there.q.copy_from_slice(q);
-        let mut search = Search::new(self.mech, &there, &self.held.velocities);
-        let at = At::new(self.mech, Level::Velocity, there.t, q);
-        there.v = search.find(&at, &self.guess.v)?;
-        Ok(there)
+        Search::velocities(self.mech, self.guess, self.held, q.to_vec())
     }
 
     fn assembled(&self, state: State, alternatives: Vec<State>, told: &[usize]) -> Assembled {
