@@ -42,6 +42,13 @@ impl State {
         }
     }
 
+    /// `error` with this state as the place where it arose.
+    pub(crate) fn locate(&self, error: Error) -> Error {
+        let State { t, q, v } = self.clone();
+        let source = Box::new(error);
+        Error::At { t, q, v, source }
+    }
+
     /// Checks lengths, and that every number is finite.
     ///
     /// # Errors

@@ -11,7 +11,7 @@ use crate::assemble::{Held, State, assembled, held};
 use crate::error::Error;
 use crate::linearise::Linearisation;
 use crate::mechanism::Prepared;
-use crate::modes::{Mode, constraint_matrix, mass_matrix, modes, null_space, units};
+use crate::modes::{Mode, constraint_matrix, mass_matrix, modes, null_space_holding, units};
 use crate::solver::{Solver, SolverOptions};
 
 /// A rest position.
@@ -122,8 +122,9 @@ struct Search {
 /// A position on the constraints, and what drives it.
 struct Place {
     state: State,
-    /// Orthonormal displacements that are allowed, in units of the coordinates.
+    /// Orthonormal displacements that constraints and held coordinates allow, in units of the coordinates.
     basis: DMatrix<f64>,
+    mass: DMatrix<f64>,
     units: DVector<f64>,
     /// r, by these displacements.
     force: DVector<f64>,
@@ -194,11 +195,12 @@ impl Search {
         let units = units(&mass);
         let sizes = state.q.iter().zip(units.iter());
         self.size = sizes.fold(self.size, |s, (q, unit)| s.max((q / unit).abs()));
-        let inertial = mass * DVector::from_vec(solved.acceleration);
+        let inertial = &mass * DVector::from_vec(solved.acceleration);
         let push = inertial.component_mul(&units);
         let parts = solved.ideal_force.iter().zip(units.iter());
         let parts: f64 = parts.map(|(f, unit)| (f * unit).abs()).sum();
-        let basis = self.basis(&state, &units);
+        let rows = constraint_matrix(&self.mech, &state);
+        let basis = null_space_holding(&self.held, rows, &units);
         let conservative = self.mech.spec().structure.conservative;
         let energy = self.mech.energy(state.t, &state.q, &state.v);
         Ok(Place {
@@ -206,23 +208,11 @@ impl Search {
             parts: parts + push.abs().sum(),
             potential: conservative.then_some(energy.potential),
             basis,
+            mass,
             units,
             push,
             state,
         })
-    }
-
-    /// Displacements that constraints and held coordinates allow.
-    fn basis(&self, state: &State, units: &DVector<f64>) -> DMatrix<f64> {
-        let spec = self.mech.spec();
-        let (n, m) = (spec.n(), spec.m());
-        let mut rows = DMatrix::zeros(m + self.held.len(), n);
-        rows.view_mut((0, 0), (m, n))
-            .copy_from(&constraint_matrix(&self.mech, state));
-        for (k, j) in self.held.iter().enumerate() {
-            rows[(m + k, *j)] = 1.0;
-        }
-        null_space(rows, units)
     }
 
     /// The place where `step` leads, of which the longest that is tried is as long as the coordinates.
@@ -247,13 +237,12 @@ impl Search {
         if self.held.is_empty() {
             let n = self.mech.spec().n();
             let found = Linearisation::at(&self.mech, &here.state)?;
-            let mass = mass_matrix(&self.mech, &here.state);
             let slope = DMatrix::from_vec(n, n, found.by_position);
             let mut scaled = here.basis.clone();
             for (mut row, unit) in scaled.row_iter_mut().zip(here.units.iter()) {
                 row *= *unit;
             }
-            return Ok(-scaled.tr_mul(&(mass * (slope * &scaled))));
+            return Ok(-scaled.tr_mul(&(&here.mass * (slope * &scaled))));
         }
         let freedoms = here.force.len();
         let mut out = DMatrix::zeros(freedoms, freedoms);
