@@ -73,7 +73,7 @@ pub use branches::{Assembled, branches};
 pub use diagnosis::{Diagnosis, Redundant, diagnose, diagnose_along};
 pub use equilibrium::{Equilibrium, Stability, equilibrium};
 pub use error::Error;
-pub use inverse::{Effort, inverse};
+pub use inverse::{Effort, Inverse, inverse};
 pub use linearise::Linearisation;
 pub use manifold::Stabilisation;
 pub use mechanism::{Mechanism, Prepared};
