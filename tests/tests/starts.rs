@@ -30,6 +30,21 @@ ukcore::multibody! {
 }
 
 ukcore::multibody! {
+    /// The linkage with a mass for each bar.
+    pub Uneven {
+        params { l[3] = [0.5, 2.0, 1.5], m[3] = 1.0, span = 2.0 }
+        bodies { for i in 0..3 { planar bar[i] { mass: m[i], inertia: m[i] * sq(l[i]) / 12.0, centre: [l[i] / 2.0, 0] } } }
+        holonomic {
+            o: pin(ground.at([0, 0]), bar[0].at([0, 0]))
+            p: pin(bar[0].at([l[0], 0]), bar[1].at([0, 0]))
+            q: pin(bar[1].at([l[1], 0]), bar[2].at([l[2], 0]))
+            r: pin(ground.at([span, 0]), bar[2].at([0, 0]))
+        }
+        start open(crank = 1.0) { bar[0].angle = crank; bar[1].angle near 0.3; bar[2].angle near 1.4; bar[0].omega = 2.0 }
+    }
+}
+
+ukcore::multibody! {
     /// A box with a corner on a ball joint, beside a driven slide.
     pub Hung {
         params { a[3] = [0.1, 0.2, 0.3] }
@@ -129,6 +144,24 @@ fn families_bodies_and_what_moves_with_time() {
     assert!(start.q[Hung::BLOCK_E0] > 0.9, "{start:?}");
     let turned = state(&hung, "turned", StartOptions::new());
     assert!(turned.q[Hung::BLOCK_E1] > 0.9, "{turned:?}");
+}
+
+/// Where a crank is held there are two places for the others, whatever they weigh.
+#[test]
+fn masses_many_orders_apart_are_assembled() {
+    let even = Uneven::default().prepared();
+    let expected = state(&even, "open", StartOptions::new());
+    for exponent in [-12, -8, -4, 4, 8, 12] {
+        for i in 0..3 {
+            let mut uneven = Uneven::default();
+            uneven.m[i] = 10_f64.powi(exponent);
+            let found = uneven.prepared().start("open", &StartOptions::new());
+            let found = found.unwrap_or_else(|error| panic!("m[{i}] = 1e{exponent}: {error}"));
+            let place = format!("m[{i}] = 1e{exponent}");
+            assert_all_close(&place, &found.q, &expected.q, 1e-9);
+            assert_all_close(&place, &found.v, &expected.v, 1e-8);
+        }
+    }
 }
 
 /// Wherever the constraints put the body, it has the angular velocity that was asked for.

@@ -254,7 +254,7 @@ impl Search {
         Ok(State { t: guess.t, q, v })
     }
 
-    /// The solution for one level; tries the guess, then perturbations of it.
+    /// The solution for one level; tries the guess, then perturbations of it, and all of them again with coordinates that move alike.
     pub(crate) fn find(&mut self, at: &At<'_, f64>, guess: &[f64]) -> Result<Vec<f64>, Error> {
         let mut x = guess.to_vec();
         if at.linear() && self.manifold.project(at, &mut x).is_ok() {
@@ -267,19 +267,25 @@ impl Search {
         let mut least = f64::INFINITY;
         // Of what is linear there is nothing else to find.
         let shakes = if at.linear() { &SHAKES[..1] } else { &SHAKES };
-        for shake in shakes {
-            let mut place = guess.to_vec();
-            for (k, &j) in self.free.iter().enumerate() {
-                // Deterministic, and no two coordinates alike.
-                let share = ((k as f64 + 1.0) * GOLDEN).fract();
-                place[j] += shake * size * (2.0 * share - 1.0);
+        for even in [false, true] {
+            // Where inertias are orders apart, rows with a light coordinate all but vanish beside the others, and the way along those is long.
+            if even {
+                self.manifold.even();
             }
-            let cost = self.manifold.search(at, guess, &mut place);
-            if cost == 0.0 {
-                return Ok(place);
-            }
-            if cost < least {
-                (least, x) = (cost, place);
+            for shake in shakes {
+                let mut place = guess.to_vec();
+                for (k, &j) in self.free.iter().enumerate() {
+                    // Deterministic, and no two coordinates alike.
+                    let share = ((k as f64 + 1.0) * GOLDEN).fract();
+                    place[j] += shake * size * (2.0 * share - 1.0);
+                }
+                let cost = self.manifold.search(at, guess, &mut place);
+                if cost == 0.0 {
+                    return Ok(place);
+                }
+                if cost < least && !even {
+                    (least, x) = (cost, place);
+                }
             }
         }
         Err(match self.manifold.refusal(at, &x) {
