@@ -151,24 +151,26 @@ impl Place {
 
     /// Newton's step; downhill, where forces have a potential.
     fn step(&self, stiffness: &DMatrix<f64>) -> DVector<f64> {
-        if self.potential.is_none()
-            && let Some(step) = stiffness.clone().lu().solve(&self.force)
-        {
-            return step;
-        }
         let largest = stiffness.amax();
-        let curved = symmetric(stiffness).symmetric_eigen();
-        let mut shares = curved.eigenvectors.tr_mul(&self.force);
-        for (share, curvature) in shares.iter_mut().zip(curved.eigenvalues.iter()) {
-            // What costs nothing is moved by what pushes it as by the stiffest, and stays if that is rounding.
-            let flat = curvature.abs() <= FLAT * largest;
-            *share /= if flat {
-                largest.max(f64::MIN_POSITIVE)
-            } else {
-                curvature.abs()
-            };
+        // What costs nothing is moved by what pushes it as by the stiffest, and stays if that is rounding.
+        let curved = |curvature: f64| match curvature.abs() <= FLAT * largest {
+            true => largest.max(f64::MIN_POSITIVE),
+            false => curvature.abs(),
+        };
+        let shared = |mut shares: DVector<f64>, curvatures: &DVector<f64>| {
+            let pairs = shares.iter_mut().zip(curvatures.iter());
+            pairs.for_each(|(share, curvature)| *share /= curved(*curvature));
+            shares
+        };
+        if self.potential.is_none() {
+            let svd = stiffness.clone().svd(true, true);
+            if let (Some(u), Some(v)) = (&svd.u, &svd.v_t) {
+                return v.tr_mul(&shared(u.tr_mul(&self.force), &svd.singular_values));
+            }
         }
-        curved.eigenvectors * shares
+        let eigen = symmetric(stiffness).symmetric_eigen();
+        let shares = shared(eigen.eigenvectors.tr_mul(&self.force), &eigen.eigenvalues);
+        eigen.eigenvectors * shares
     }
 }
 
