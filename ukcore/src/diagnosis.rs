@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::mechanism::Prepared;
 use crate::modes::{constraint_matrix, mass_matrix, measure, normalise, units};
 use crate::nearby::{Random, nearby};
-use crate::solver::{Solver, SolverOptions};
+use crate::solver::{Accepted, Solver, SolverOptions};
 use crate::spec::Spec;
 
 /// States near one that are looked at, to tell what holds at it alone.
@@ -160,6 +160,27 @@ pub fn diagnose_along(
     let told =
         nearest.map(|(.., state)| diagnose(&mech, &state).map_err(|error| state.locate(error)));
     told.transpose()
+}
+
+/// In a clause, which constraints have it that reactions are not numbers at `state`; `None` where these are unique, and where that is unknown.
+pub fn lost_reactions(mechanism: impl Into<Prepared>, state: &State) -> Option<String> {
+    let mech: Prepared = mechanism.into();
+    let State { t, q, v } = state;
+    let mut acceleration = vec![0.0; q.len()];
+    if !mech.spec().structure.straight_line
+        || Accepted::WHOLE.has(mech.acceleration(*t, q, v, &mut acceleration))
+    {
+        return None;
+    }
+    let found = diagnose(&mech, state).ok()?;
+    let (rows, how) = match found.undetermined.is_empty() {
+        true => (&found.nearest, "all but imply"),
+        false => (&found.undetermined, "imply"),
+    };
+    let rows = quoted(rows);
+    (!rows.is_empty()).then(|| {
+        format!("{rows} {how} each other there, so that reactions are not unique: end the run before, or do without them")
+    })
 }
 
 /// The constraints that follow from those declared before them at `state`, where A has the rank `rank`.
