@@ -67,13 +67,7 @@ impl<'m> Lowering<'m> {
                 self.needs(&body);
                 let places = own.map_or(0..0, |first| first..first + 3);
                 out.diagonal.extend(places.map(|i| (i, mass, loc)));
-                let spin = self.spin(&frame);
-                let hung = self.model.hung[position];
-                let freely = |joint: usize| self.model.joints[joint].kind.coordinates.len() == 4;
-                let turns = Turns {
-                    spin,
-                    freely: own.is_some() || hung.is_some_and(freely),
-                };
+                let turns = self.turns(position, &frame);
                 let inertia = self.turning(&body, &variables, &turns, defaults, &mut out.turning);
                 let given = inertia.map(|rows| [vec![mass], rows].concat());
                 out.inertias
@@ -242,6 +236,16 @@ impl<'m> Lowering<'m> {
             );
         }
         numbers[0]
+    }
+
+    /// How the body at `position` turns.
+    fn turns(&mut self, position: usize, frame: &Frame) -> Turns {
+        let model = self.model;
+        let freely = |joint: usize| model.joints[joint].kind.coordinates.len() == 4;
+        Turns {
+            spin: self.spin(frame),
+            freely: model.own[position].is_some() || model.hung[position].is_some_and(freely),
+        }
     }
 
     /// Whether these are the moments of a thin rod, which has none about one of its axes, hung where it cannot turn about that alone.
