@@ -383,7 +383,8 @@ fn possible(numbers: &[f64], thin: bool) -> Result<(), String> {
     };
     let (own, pairs, det) = minors([xx, yy, zz], [yx, zx, zy]);
     let definite = own.iter().chain(&pairs).chain([&det]).all(|x| *x > 0.0);
-    if !definite && !(thin && own.iter().all(|x| *x >= 0.0)) {
+    let thin = thin && own.iter().all(|x| *x >= 0.0);
+    if !(definite || thin) {
         let remedy = match own.contains(&0.0) {
             true => {
                 "; about its own axis a thin rod has a small moment, m r²/2, too; it may be left out, as 0, where the rod hangs on a joint under `tree` \
