@@ -1,7 +1,8 @@
 //! Exact derivatives of the accelerations: ∂q̈/∂(t, q, q̇, parameters) at a state.
 //!
 //! Emitted code runs on numbers with [`Slopes`], a sweep for several directions. Where there is an emitted elimination and its certificate
-//! holds, it is differentiated as it stands. Elsewhere the solution is differentiated implicitly: from M q̈ = Q + c + Aᵀλ and A q̈ = b follow
+//! holds, it is differentiated as it stands. Elsewhere the solution is differentiated implicitly: from M q̈ = Q + c + Aᵀλ and A q̈ = b
+//! follow
 //!
 //! M dq̈ = dQ + dc − dM q̈ + dAᵀλ + Aᵀdλ,  A dq̈ = db − dA q̈,
 //!

@@ -4,7 +4,7 @@ use crate::parse::{Declaration, PartUse, Table};
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
-/// The macro, called as the type is, that hands the tokens of the declaration and those of its parts on to another, or, where it is no part,
+/// The macro, called as the type is, that hands the tokens of the declaration and those of its parts on to another; of what is no part,
 /// that it is none. There may be an error in the tokens, which is told.
 pub(crate) fn part(
     decl: &Declaration,

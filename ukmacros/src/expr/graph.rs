@@ -145,7 +145,10 @@ pub(crate) struct Graph {
     uses: Vec<Uses>,
     /// Estimated latency of each node, in cycles: its place on the critical path.
     latency: Vec<u32>,
-    known: Map<Node, Id>,
+    /// By hash the last node that has it: nodes stand in the arena alone, which is often copied.
+    known: Map<u64, Id>,
+    /// Of each node the one before it with the same hash.
+    alike: Vec<Option<Id>>,
 }
 
 impl Graph {
@@ -194,8 +197,9 @@ impl Graph {
 
     /// The node itself if it is known, else a new one. Only `fold` calls this: it keeps the invariants.
     pub(super) fn intern(&mut self, node: Node) -> Id {
-        if let Some(id) = self.known.get(&node) {
-            return *id;
+        let hash = hashed(&node);
+        if let Some(id) = self.find(hash, &node) {
+            return id;
         }
         let id = Id::at(self.nodes.len());
         let (mut slowest, mut uses) = (0, Uses::default());
@@ -215,10 +219,19 @@ impl Graph {
                 Symbol::Multiplier(_) => uses.multiplier = true,
             }
         }
-        self.nodes.push(node.clone());
+        self.nodes.push(node);
         self.uses.push(uses);
-        self.known.insert(node, id);
+        self.alike.push(self.known.insert(hash, id));
         id
+    }
+
+    /// The `node` of this hash, if it is known.
+    fn find(&self, hash: u64, node: &Node) -> Option<Id> {
+        let mut next = self.known.get(&hash).copied();
+        while let Some(id) = next.filter(|id| self.node(*id) != node) {
+            next = self.alike[id.index()];
+        }
+        next
     }
 
     /// The value if `id` is a constant.
@@ -243,7 +256,8 @@ impl Graph {
 
     /// The node `func(arg)`, if there is one.
     pub(crate) fn find_call(&self, func: Func, arg: Id) -> Option<Id> {
-        self.known.get(&Node::Call(func, vec![arg])).copied()
+        let call = Node::Call(func, vec![arg]);
+        self.find(hashed(&call), &call)
     }
 
     /// Factors of `id` without its coefficient: itself where it is no product.
@@ -300,6 +314,12 @@ impl Graph {
     pub(crate) fn each_operand(&self, id: Id, take: impl FnMut(Id)) {
         each_operand(self.node(id), take);
     }
+}
+
+fn hashed(node: &Node) -> u64 {
+    let mut hash = Hash::default();
+    std::hash::Hash::hash(node, &mut hash);
+    hash.finish()
 }
 
 /// Cycles of the last operations of a node, roughly as on current processors; only comparisons matter.

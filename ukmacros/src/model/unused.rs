@@ -29,7 +29,8 @@ pub(crate) fn unused<'d>(decl: &'d Declaration, model: &Model) -> Unused<'d> {
     for block in &decl.params {
         block.each(&mut |param| out.params.extend(Some(&param.key.name).filter(|n| idle(n))));
     }
-    for block in &decl.lets {
+    // What a part declares by `let` is for those that it is a part of, too.
+    for block in decl.lets.iter().filter(|_| !decl.part) {
         block.each(&mut |binding| {
             let list = match binding.value {
                 LetValue::Value(_) => &mut out.values,

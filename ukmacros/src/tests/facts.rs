@@ -84,6 +84,27 @@ fn the_runtime_is_called_what_the_user_calls_it() {
     assert!(!renamed.contains("::ukcore;") && !renamed.contains("::ukcore::"));
 }
 
+#[test]
+fn commas_may_be_left_out_before_names() {
+    let source = "pub T { bodies { planar a { mass: 1, inertia: 2 } } coords { u, v } mass { u: 1, v: 1 } \
+        start s(b = 30 [deg], c = 2.0) { [u, v] near [b, c], a.angle = b } draw { line(a.at([0, 0]), a.centre), text(a.centre, \"a\") } }";
+    let (with, errors) = expand(source);
+    assert!(errors.is_empty());
+    for (from, to) in [
+        ("mass: 1, inertia", "mass: 1 inertia"),
+        ("[deg], c", "[deg] c"),
+        ("[u, v] near", "[u v] near"),
+        ("([0, 0]), a.centre", "([0, 0]) a.centre"),
+        ("a.centre, \"a\"", "a.centre \"a\""),
+    ] {
+        assert!(source.contains(from));
+        let (without, errors) = expand(&source.replace(from, to));
+        let told: Vec<&str> = errors.iter().map(|e| e.message.as_str()).collect();
+        assert!(told.is_empty(), "{to}: {told:?}");
+        assert_eq!(with.to_string(), without.to_string(), "{to}");
+    }
+}
+
 /// All names that a pattern binds.
 fn bound(pattern: &syn::Pat, names: &mut Vec<String>) {
     match pattern {

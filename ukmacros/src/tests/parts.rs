@@ -162,6 +162,20 @@ fn parts_are_asked_for() {
     assert!(code.to_string().contains("macro_export"));
 }
 
+/// What a part declares by `let` may be used by those that it is a part of alone.
+#[test]
+fn what_parts_declare_is_not_unused() {
+    let told = |attribute: &str| {
+        let source = format!(
+            "{attribute} pub P {{ params {{ m = 1.0 }} coords {{ x }} mass {{ x: 1 }} let f = |u| 2 * u; let d = 2 * x; }}"
+        );
+        let code = expand(&source).0.to_string();
+        ["const d : ()", "fn f ()", "m : ()"].map(|item| code.contains(item))
+    };
+    assert_eq!(told(""), [true; 3]);
+    assert_eq!(told("#[ukcore(part)]"), [false, false, true]);
+}
+
 /// A declaration that is no part says so to the whole, which tells the remedy, and no more.
 #[test]
 fn what_is_no_part_is_told() {

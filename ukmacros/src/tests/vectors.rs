@@ -222,11 +222,12 @@ fn idle(source: &str) -> Vec<(String, LineColumn)> {
         }
     };
     // The last of the anonymous constants, if it is not the implementation.
-    let Some(TokenTree::Group(last)) = code
-        .into_iter()
-        .filter(|t| matches!(t, TokenTree::Group(_)))
-        .last()
-    else {
+    let tokens: Vec<TokenTree> = code.into_iter().collect();
+    let mut constants = tokens.windows(2).filter_map(|pair| match pair {
+        [TokenTree::Punct(p), TokenTree::Group(value)] if p.as_char() == '=' => Some(value),
+        _ => None,
+    });
+    let Some(last) = constants.next_back() else {
         return Vec::new();
     };
     if !last.stream().to_string().contains("Mechanism for") {

@@ -27,6 +27,14 @@ pub(super) struct OfBodies {
     pub(super) inertias: Vec<(String, Vec<Id>)>,
 }
 
+/// How a spatial body turns.
+struct Turns {
+    /// Its angular velocity in axes of its own.
+    spin: Value,
+    /// In any way: its coordinates are a quaternion.
+    freely: bool,
+}
+
 impl<'m> Lowering<'m> {
     /// What the bodies of the declaration have by themselves; `defaults` are those of the parameters.
     pub(super) fn of_bodies(
@@ -59,8 +67,8 @@ impl<'m> Lowering<'m> {
                 self.needs(&body);
                 let places = own.map_or(0..0, |first| first..first + 3);
                 out.diagonal.extend(places.map(|i| (i, mass, loc)));
-                let spin = self.spin(&frame);
-                let inertia = self.turning(&body, &variables, &spin, defaults, &mut out.turning);
+                let turns = self.turns(position, &frame);
+                let inertia = self.turning(&body, &variables, &turns, defaults, &mut out.turning);
                 let given = inertia.map(|rows| [vec![mass], rows].concat());
                 out.inertias
                     .extend(given.map(|given| (frame.to_string(), given)));
@@ -230,12 +238,28 @@ impl<'m> Lowering<'m> {
         numbers[0]
     }
 
+    /// How the body at `position` turns.
+    fn turns(&mut self, position: usize, frame: &Frame) -> Turns {
+        let model = self.model;
+        let freely = |joint: usize| model.joints[joint].kind.coordinates.len() == 4;
+        Turns {
+            spin: self.spin(frame),
+            freely: model.own[position].is_some() || model.hung[position].is_some_and(freely),
+        }
+    }
+
+    /// Whether these are the moments of a thin rod, which has none about one of its axes, hung where it cannot turn about that alone.
+    fn thin(&self, moments: &Value, turns: &Turns) -> bool {
+        let zeros = moments.entries().iter().filter(|j| self.graph.is_zero(**j));
+        !turns.freely && moments.shape() == [3] && zeros.count() == 1
+    }
+
     /// Adds ½ ωᵀJω as a sum of squares: with J = L D Lᵀ it is ½ Σ dₖ (Lᵀω)ₖ². Returns J by rows.
     fn turning(
         &mut self,
         body: &Body,
         variables: &[Variable],
-        spin: &Value,
+        turns: &Turns,
         defaults: &[f64],
         out: &mut Vec<(f64, Id)>,
     ) -> Option<Vec<Id>> {
@@ -263,11 +287,12 @@ impl<'m> Lowering<'m> {
         let mut all = lower.concat();
         all.extend(upper);
         if let Some(numbers) = self.by_default(&all, defaults)
-            && let Err(reason) = possible(&numbers)
+            && let Err(reason) = possible(&numbers, self.thin(&value, turns))
         {
             self.error(e.loc, reason);
             return None;
         }
+        let spin = turns.spin.entries();
         let mut l = lower;
         let mut d = [zero; 3];
         for k in 0..3 {
@@ -282,13 +307,15 @@ impl<'m> Lowering<'m> {
                 let reduced = self.graph.sum(&terms);
                 match i == k {
                     true => d[k] = reduced,
+                    // Of a thin rod there is nothing in this column.
+                    false if self.graph.is_zero(d[k]) => l[i][k] = zero,
                     false => l[i][k] = self.graph.div(reduced, d[k]),
                 }
             }
         }
         for k in 0..3 {
-            let mut terms = vec![(1.0, spin.entries()[k])];
-            for (row, rate) in l.iter().zip(spin.entries()).skip(k + 1) {
+            let mut terms = vec![(1.0, spin[k])];
+            for (row, rate) in l.iter().zip(spin).skip(k + 1) {
                 terms.push((1.0, self.graph.mul(row[k], *rate)));
             }
             let rate = self.graph.sum(&terms);
@@ -297,6 +324,10 @@ impl<'m> Lowering<'m> {
         }
         let [xy, xz, yz] = upper;
         let [[xx, ..], [yx, yy, _], [zx, zy, zz]] = lower;
+        // Of a thin rod a run looks at the moments that it has.
+        let there = |j: &Id| !self.graph.is_zero(*j);
+        let one = [xx, yy, zz].into_iter().find(there).unwrap_or(zero);
+        let [xx, yy, zz] = [xx, yy, zz].map(|j| if there(&j) { j } else { one });
         Some(vec![xx, xy, xz, yx, yy, yz, zx, zy, zz])
     }
 
@@ -333,8 +364,8 @@ impl<'m> Lowering<'m> {
 }
 
 /// Whether a rigid body can have this inertia, by rows of the lower triangle, then the upper one: J and ½ tr J − J, the second moments of
-/// its mass, are symmetric, the first positive definite and the second positive semidefinite.
-fn possible(numbers: &[f64]) -> Result<(), String> {
+/// its mass, are symmetric, the first positive definite, but where the body is `thin`, and the second positive semidefinite.
+fn possible(numbers: &[f64], thin: bool) -> Result<(), String> {
     let [xx, _, _, yx, yy, _, zx, zy, zz, xy, xz, yz] = *numbers else {
         return Ok(());
     };
@@ -351,9 +382,14 @@ fn possible(numbers: &[f64]) -> Result<(), String> {
         ([a, b, c], pairs, det)
     };
     let (own, pairs, det) = minors([xx, yy, zz], [yx, zx, zy]);
-    if own.iter().chain(&pairs).chain([&det]).any(|x| *x <= 0.0) {
+    let definite = own.iter().chain(&pairs).chain([&det]).all(|x| *x > 0.0);
+    let thin = thin && own.iter().all(|x| *x >= 0.0);
+    if !(definite || thin) {
         let remedy = match own.contains(&0.0) {
-            true => "; about its own axis a thin rod has a small moment, m r²/2, too",
+            true => {
+                "; about its own axis a thin rod has a small moment, m r²/2, too; it may be left out, as 0, where the rod hangs on a joint under `tree` \
+                 that has angles for coordinates"
+            }
             false => "",
         };
         return Err(format!(
