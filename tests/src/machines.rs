@@ -34,6 +34,26 @@ macro_rules! arm {
     };
 }
 
+/// `hinges!(Name, n)`: the same arm as bodies with places and quaternions, whose hinges are constraints.
+#[macro_export]
+macro_rules! hinges {
+    ($name:ident, $n:literal) => {
+        ukcore::multibody! {
+            pub $name {
+                const N: usize = $n;
+                params { m = 1.0, l = 0.5, inertia[3] = [0.01, 0.03, 0.03], g = 9.81 }
+                gravity { [0, 0, -g] }
+                bodies { for i in 0..N { spatial link[i] { mass: m, inertia: inertia, centre: [l / 2, 0, 0] } } }
+                let axis = |i| [[0, 0, 1], [0, 1, 0], [0, 1, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]][i - 6 * (i / 6)];
+                holonomic {
+                    first: hinge(ground.at([0, 0, 0]), link[0].at([0, 0, 0]), axis(0))
+                    for i in 1..N { joint[i]: hinge(link[i - 1].at([l, 0, 0]), link[i].at([0, 0, 0]), axis(i)) }
+                }
+            }
+        }
+    };
+}
+
 /// `planar_chain!(Bodies, Angles, n)`: n rods of length l in a plane, hinged to each other and to the ground, as bodies with a place and an
 /// angle whose hinges are constraints, and in their absolute angles alone. y points up.
 #[macro_export]

@@ -2,15 +2,19 @@
 
 use std::hint::black_box;
 
-use models::{FishRobot, Model, RigidBody, SliderCrank, UChain};
+use models::{FishRobot, Model, RigidBody, SliderCrank, StartOptions, UChain};
 use ukcore::{Mechanism, Simulation, Solver, SolverOptions, State};
 
 use crate::chain::{self, Chain};
 use crate::dense::Dense;
 use crate::harness::{Contender, Group};
-use crate::mechanisms::{Angles12, Arm6, Arm12, Bodies12, CrankAndRod, FourBars40, LongChain};
+#[cfg(feature = "large")]
+use crate::mechanisms;
+use crate::mechanisms::{
+    Angles12, Arm6, Arm12, Bodies12, Bricard, CrankAndRod, FourBars40, Hinges6, LongChain,
+};
 use crate::recursive::{self, Arm, Planar};
-use crate::{fish, four_bars};
+use crate::{bricard, fish, four_bars};
 
 /// States a pass goes through.
 const STATES: usize = 16;
@@ -234,23 +238,30 @@ pub(crate) fn fourbars40() -> serde_json::Value {
     all.group("acceleration/fourbars40", &[]).run()
 }
 
+/// The arm of the benchmarks.
+const ARM: Arm = Arm {
+    m: 1.0,
+    l: 0.5,
+    inertia: [0.01, 0.03, 0.03],
+    g: 9.81,
+};
+
+/// Angles and rates of its N hinges.
+fn postures<const N: usize>() -> Vec<State> {
+    let q: Vec<f64> = (0..N).map(|i| -0.5 + 0.2 * (i % 6) as f64).collect();
+    let states = (0..STATES).map(|k| State {
+        t: 0.0,
+        q: q.iter().map(|x| x + 0.05 * k as f64).collect(),
+        v: q.clone(),
+    });
+    states.collect()
+}
+
 /// An arm of N hinges from one posture, beside the articulated-body recursion.
 fn arm<M: Mechanism, const N: usize>(name: &'static str, mechanism: M) -> serde_json::Value {
-    let q: Vec<f64> = (0..N).map(|i| -0.5 + 0.2 * (i % 6) as f64).collect();
-    let states: Vec<State> = (0..STATES)
-        .map(|k| State {
-            t: 0.0,
-            q: q.iter().map(|x| x + 0.05 * k as f64).collect(),
-            v: q.clone(),
-        })
-        .collect();
+    let states = postures::<N>();
     let mut all = Accelerations::new(&states);
-    let by_hand = black_box(Arm {
-        m: 1.0,
-        l: 0.5,
-        inertia: [0.01, 0.03, 0.03],
-        g: 9.81,
-    });
+    let by_hand = black_box(ARM);
     all.add("by hand, articulated bodies", true, move |s, out| {
         by_hand.acceleration::<N>(&s.q, &s.v, out);
     });
@@ -263,8 +274,102 @@ pub(crate) fn arms() -> Vec<serde_json::Value> {
         arm::<_, 6>("acceleration/arm6", Arm6::default()),
         arm::<_, 12>("acceleration/arm12", Arm12::default()),
         #[cfg(feature = "large")]
-        arm::<_, 24>("acceleration/arm24", crate::mechanisms::Arm24::default()),
+        arm::<_, 24>("acceleration/arm24", mechanisms::Arm24::default()),
     ]
+}
+
+/// The same arm as bodies in space.
+fn hinged<M: Mechanism, const N: usize>(name: &'static str, mechanism: M) -> serde_json::Value {
+    let by_hand = black_box(ARM);
+    let states = postures::<N>();
+    let states = states.iter().map(|s| {
+        let (q, v) = by_hand.placed::<N>(&s.q, &s.v);
+        State { t: 0.0, q, v }
+    });
+    let states: Vec<State> = states.collect();
+    let mut all = Accelerations::new(&states);
+    all.add("by hand, articulated bodies", true, move |s, out| {
+        by_hand.in_places::<N>(&s.q, &s.v, out);
+    });
+    all.add_ours(&mechanism);
+    all.group(name, &[]).run()
+}
+
+pub(crate) fn hinges() -> Vec<serde_json::Value> {
+    vec![
+        hinged::<_, 6>("acceleration/hinges6", Hinges6::default()),
+        #[cfg(feature = "large")]
+        hinged::<_, 12>("acceleration/hinges12", mechanisms::Hinges12::default()),
+    ]
+}
+
+pub(crate) fn legs() -> Vec<serde_json::Value> {
+    vec![
+        #[cfg(feature = "large")]
+        legs12(),
+    ]
+}
+
+/// Twelve legs, their joints about where they can be.
+#[cfg(feature = "large")]
+fn legs12() -> serde_json::Value {
+    const N: usize = 12;
+    const JOINTS: [[f64; 2]; 5] = [
+        [-2.0, 3.0],
+        [-7.0, 1.0],
+        [-3.0, -4.0],
+        [-6.5, -3.5],
+        [-4.0, -9.0],
+    ];
+    let mech = black_box(mechanisms::Legs12 {
+        phase: std::array::from_fn(|n| (n / 2) as f64),
+        side: std::array::from_fn(|n| if n % 2 == 0 { 1.0 } else { -1.0 }),
+        ..mechanisms::Legs12::default()
+    });
+    let states = (0..STATES).map(|k| {
+        let places = mech
+            .side
+            .iter()
+            .flat_map(|side| JOINTS.map(|[x, y]| [side * x, y]));
+        let wave = |n: usize| 0.3 * ((n + k) as f64).sin();
+        let q: Vec<f64> = [0.2].into_iter().chain(places.flatten()).collect();
+        State {
+            t: 0.0,
+            v: (0..q.len()).map(wave).collect(),
+            q: q.iter().enumerate().map(|(n, x)| x + wave(n)).collect(),
+        }
+    });
+    let states: Vec<State> = states.collect();
+    let mut all = Accelerations::new(&states);
+    let by_hand = black_box(crate::legs::Legs::<N> {
+        hip: [mech.a, mech.l],
+        throw: mech.m,
+        torque: mech.torque,
+        drag: mech.drag,
+        g: mech.grav,
+        mass: mech.mass,
+        inertia: mech.jc,
+        phase: mech.phase,
+        side: mech.side,
+    });
+    all.add("by hand, in the null space", true, move |s, out| {
+        by_hand.acceleration(&s.q, &s.v, out);
+    });
+    all.add_ours(&mech);
+    all.group("acceleration/legs12", &[]).run()
+}
+
+pub(crate) fn bricard() -> serde_json::Value {
+    let mech = black_box(Bricard::default());
+    let start = mech.start("cube", &StartOptions::new());
+    let states = states(mech.clone(), start.expect("a cube"), 2.0);
+    let mut all = Accelerations::new(&states);
+    let own = mech.clone();
+    all.add("by hand, one degree of freedom", true, move |s, out| {
+        bricard::acceleration(&own, &s.q, &s.v, out);
+    });
+    all.add_ours(&mech);
+    all.group("acceleration/bricard", &[]).run()
 }
 
 pub(crate) fn bodies12() -> serde_json::Value {

@@ -7,6 +7,7 @@
 #![forbid(unsafe_code)]
 
 mod accelerations;
+mod bricard;
 #[cfg(feature = "ivp")]
 mod by_hand;
 mod chain;
@@ -14,6 +15,8 @@ mod dense;
 mod fish;
 mod four_bars;
 mod harness;
+#[cfg(feature = "large")]
+mod legs;
 mod mechanisms;
 mod recursive;
 mod runs;
@@ -25,7 +28,7 @@ use serde_json::Value;
 type Measure = fn() -> Vec<Value>;
 
 /// Groups by the beginning of their names.
-const GROUPS: [(&str, Measure); 11] = [
+const GROUPS: [(&str, Measure); 14] = [
     ("acceleration/uchain17", || vec![accelerations::uchain17()]),
     ("acceleration/uchain65", || vec![accelerations::uchain65()]),
     ("acceleration/fish", || vec![accelerations::fish()]),
@@ -33,6 +36,9 @@ const GROUPS: [(&str, Measure); 11] = [
         vec![accelerations::fourbars40()]
     }),
     ("acceleration/arm", accelerations::arms),
+    ("acceleration/hinges", accelerations::hinges),
+    ("acceleration/legs", accelerations::legs),
+    ("acceleration/bricard", || vec![accelerations::bricard()]),
     ("acceleration/bodies12", || vec![accelerations::bodies12()]),
     ("acceleration/slider_crank", || {
         vec![accelerations::slider_crank()]

@@ -1,7 +1,7 @@
 //! Recursions written by hand: what the emitted code of the mechanisms in `machines.rs` is measured beside.
 
 use models::{RigidBody, SliderCrank};
-use nalgebra::{Matrix2, Matrix3, RowVector3, Vector2, Vector3};
+use nalgebra::{Matrix2, Matrix3, Quaternion, UnitQuaternion, Vector2, Vector3};
 
 /// Inertia of a link and what hangs on it, [A B; Bᵀ M], from (ω, v) of its near end to moment and force.
 #[derive(Clone, Copy)]
@@ -48,22 +48,22 @@ pub(crate) struct Arm {
 }
 
 impl Arm {
+    fn axis(k: usize) -> Vector3<f64> {
+        match k % 6 {
+            3 => Vector3::x(),
+            1 | 2 | 4 => Vector3::y(),
+            _ => Vector3::z(),
+        }
+    }
+
     fn hinge(k: usize, angle: f64) -> (Matrix3<f64>, Vector3<f64>) {
         let (s, c) = angle.sin_cos();
-        match k % 6 {
-            3 => (
-                Matrix3::new(1.0, 0.0, 0.0, 0.0, c, s, 0.0, -s, c),
-                Vector3::x(),
-            ),
-            1 | 2 | 4 => (
-                Matrix3::new(c, 0.0, -s, 0.0, 1.0, 0.0, s, 0.0, c),
-                Vector3::y(),
-            ),
-            _ => (
-                Matrix3::new(c, s, 0.0, -s, c, 0.0, 0.0, 0.0, 1.0),
-                Vector3::z(),
-            ),
-        }
+        let turn = match k % 6 {
+            3 => Matrix3::new(1.0, 0.0, 0.0, 0.0, c, s, 0.0, -s, c),
+            1 | 2 | 4 => Matrix3::new(c, 0.0, -s, 0.0, 1.0, 0.0, s, 0.0, c),
+            _ => Matrix3::new(c, s, 0.0, -s, c, 0.0, 0.0, 0.0, 1.0),
+        };
+        (turn, Self::axis(k))
     }
 
     /// A link alone, which moves at `velocity` without its own hinge, whose rate is `speed`.
@@ -93,18 +93,90 @@ impl Arm {
         }
     }
 
-    /// q̈ at (q, q̇) by the articulated-body recursion (Featherstone, Rigid Body Dynamics Algorithms, table 7.1), in blocks of 3 × 3.
+    /// q̈ at (q, q̇).
     #[inline(never)]
     pub(crate) fn acceleration<const N: usize>(&self, q: &[f64], v: &[f64], out: &mut [f64]) {
+        let hinge = |k: usize| {
+            let (turn, axis) = Self::hinge(k, q[k]);
+            (turn, axis, v[k])
+        };
+        self.recursion::<N>(hinge, |k, angular, _, _| out[k] = angular);
+    }
+
+    /// The same in places and quaternions of the links: ẍ and ë, with |e| = 1.
+    #[inline(never)]
+    pub(crate) fn in_places<const N: usize>(&self, q: &[f64], v: &[f64], out: &mut [f64]) {
+        let four = |of: &[f64], k: usize| quaternion(&of[7 * k + 3..]);
+        let mut turned = [(Matrix3::identity(), Vector3::zeros()); N];
+        for (k, (to_ground, w)) in turned.iter_mut().enumerate() {
+            let (e, rate) = (four(q, k), four(v, k));
+            *to_ground = UnitQuaternion::new_unchecked(e)
+                .to_rotation_matrix()
+                .into_inner();
+            *w = spin(e, rate);
+        }
+        let hinge = |k: usize| {
+            let (to_ground, w) = turned[k];
+            let axis = Self::axis(k);
+            let (before, other) = match k {
+                0 => (Matrix3::identity(), Vector3::zeros()),
+                _ => turned[k - 1],
+            };
+            let turn = to_ground.tr_mul(&before);
+            (turn, axis, axis.dot(&(w - turn * other)))
+        };
+        let centre = Vector3::new(0.5 * self.l, 0.0, 0.0);
+        self.recursion::<N>(hinge, |k, _, (w, u), (a, push)| {
+            let own = push + w.cross(&u) + a.cross(&centre) + w.cross(&w.cross(&centre));
+            let place = turned[k].0 * own - Vector3::new(0.0, 0.0, self.g);
+            let out = &mut out[7 * k..7 * k + 7];
+            out[..3].copy_from_slice(place.as_slice());
+            out[3..].copy_from_slice(&turning(four(q, k), four(v, k), &a));
+        });
+    }
+
+    /// The places and quaternions of the links, with their rates, at (q, q̇) in angles.
+    pub(crate) fn placed<const N: usize>(&self, q: &[f64], v: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let (mut places, mut rates) = (Vec::new(), Vec::new());
+        let (mut near, mut moving, mut spin) =
+            (Vector3::zeros(), Vector3::zeros(), Vector3::zeros());
+        let mut e = UnitQuaternion::identity();
+        let half = Vector3::new(0.5 * self.l, 0.0, 0.0);
+        for k in 0..N {
+            let (turn, axis) = Self::hinge(k, q[k]);
+            e *= UnitQuaternion::new(axis * q[k]);
+            spin = turn * spin + axis * v[k];
+            let (to_middle, rate) = (e * half, e * spin.cross(&half));
+            let turning = e.into_inner() * Quaternion::from_imag(0.5 * spin);
+            places.extend((near + to_middle).iter().chain([&e.w, &e.i, &e.j, &e.k]));
+            rates.extend(
+                (moving + rate)
+                    .iter()
+                    .chain([&turning.w, &turning.i, &turning.j, &turning.k]),
+            );
+            near += 2.0 * to_middle;
+            moving += 2.0 * rate;
+        }
+        (places, rates)
+    }
+
+    /// The articulated-body recursion (Featherstone, Rigid Body Dynamics Algorithms, table 7.1), in blocks of 3 × 3, over hinges, each the
+    /// matrix from the axes of the link before, its axis and its rate. Gives of each its q̈, and of its link's near end (ω, v) and the rates
+    /// of these in the link's axes; gravity counts as acceleration.
+    fn recursion<const N: usize>(
+        &self,
+        hinge: impl Fn(usize) -> (Matrix3<f64>, Vector3<f64>, f64),
+        mut found: impl FnMut(usize, f64, Pair, Pair),
+    ) {
         let still = (Vector3::zeros(), Vector3::zeros());
         let arm = Vector3::new(self.l, 0.0, 0.0);
         let place = |k: usize| if k == 0 { Vector3::zeros() } else { arm };
-        let (turn, axis) = Self::hinge(0, q[0]);
-        let mut links = [self.link(turn, axis, still, v[0]); N];
+        let (turn, axis, speed) = hinge(0);
+        let mut links = [self.link(turn, axis, still, speed); N];
         for k in 1..N {
-            let (turn, axis) = Self::hinge(k, q[k]);
+            let (turn, axis, speed) = hinge(k);
             let (w, u) = links[k - 1].velocity;
-            links[k] = self.link(turn, axis, (turn * w, turn * (u + w.cross(&arm))), v[k]);
+            links[k] = self.link(turn, axis, (turn * w, turn * (u + w.cross(&arm))), speed);
         }
         for k in (0..N).rev() {
             let link = &mut links[k];
@@ -146,8 +218,9 @@ impl Arm {
             let spin = link.turn * w + link.rate.0;
             let push = link.turn * (u + w.cross(&place(k))) + link.rate.1;
             let known = link.column.0.dot(&spin) + link.column.1.dot(&push);
-            out[k] = (link.drive - known) * link.pivot;
-            rate = (spin + link.axis * out[k], push);
+            let angular = (link.drive - known) * link.pivot;
+            rate = (spin + link.axis * angular, push);
+            found(k, angular, link.velocity, rate);
         }
     }
 }
@@ -236,21 +309,33 @@ pub(crate) fn slider_crank(p: &SliderCrank, q: &[f64], v: &[f64], out: &mut [f64
     ]);
 }
 
-/// ë of a free body: Euler's equations, ë = ½ Gᵀ ω̇ − |ė|² e with |e| = 1.
+/// ω in axes of the body, at a unit quaternion and its rate.
+pub(crate) fn spin(e: Quaternion<f64>, rate: Quaternion<f64>) -> Vector3<f64> {
+    2.0 * (e.w * rate.imag() - rate.w * e.imag() - e.imag().cross(&rate.imag()))
+}
+
+/// ë = ½ Gᵀ ω̇ − |ė|² e, at |e| = 1.
+pub(crate) fn turning(e: Quaternion<f64>, rate: Quaternion<f64>, a: &Vector3<f64>) -> [f64; 4] {
+    let square = rate.w * rate.w + rate.imag().norm_squared();
+    let imag = 0.5 * (e.w * a + e.imag().cross(a)) - square * e.imag();
+    let real = -0.5 * e.imag().dot(a) - square * e.w;
+    [real, imag.x, imag.y, imag.z]
+}
+
+/// The quaternion at the beginning of `of`.
+pub(crate) fn quaternion(of: &[f64]) -> Quaternion<f64> {
+    Quaternion::new(of[0], of[1], of[2], of[3])
+}
+
+/// ë of a free body, by Euler's equations.
 #[inline(never)]
 pub(crate) fn rigid_body(p: &RigidBody, e: &[f64], v: &[f64], out: &mut [f64]) {
-    let (im, rate) = (
-        Vector3::new(e[1], e[2], e[3]),
-        Vector3::new(v[1], v[2], v[3]),
-    );
-    let w = 2.0 * (e[0] * rate - v[0] * im - im.cross(&rate));
+    let (e, rate) = (quaternion(e), quaternion(v));
+    let w = spin(e, rate);
     let a = Vector3::new(
         (p.i2 - p.i3) / p.i1 * w.y * w.z,
         (p.i3 - p.i1) / p.i2 * w.z * w.x,
         (p.i1 - p.i2) / p.i3 * w.x * w.y,
     );
-    let square = v[0] * v[0] + rate.norm_squared();
-    out[0] = -0.5 * im.dot(&a) - square * e[0];
-    let vector: RowVector3<f64> = (0.5 * (e[0] * a + im.cross(&a)) - square * im).transpose();
-    out[1..].copy_from_slice(vector.as_slice());
+    out.copy_from_slice(&turning(e, rate, &a));
 }

@@ -31,9 +31,11 @@ pub(crate) struct Frame {
     row: usize,
     /// The definitions, in the order of the further columns.
     definitions: Vec<usize>,
+    /// a and the c_k, with the squares of their lengths.
+    vectors: Vec<(Vec<Id>, Id)>,
     /// R, column by column.
     columns: Vec<Vec<Id>>,
-    /// What other constraints have of the first of x, which is given.
+    /// What other constraints have of the first of x, which is given, times |a|².
     given: Vec<(usize, Id)>,
 }
 
@@ -81,6 +83,30 @@ impl Frame {
         g.factored_sum(&products)
     }
 
+    /// Rᵀ u for the `entries` u of a row, each as one value; of the first, which is given, that times |a|². A row of `phi` has them by its
+    /// derivatives `along` the vectors: functions of the frame are differentiated once for all they stand in.
+    fn slopes(
+        &self,
+        phi: Option<Id>,
+        entries: &[Id],
+        along: &mut [Derivative],
+        g: &mut Graph,
+    ) -> Vec<Id> {
+        let vectors = self.vectors.iter().zip(along).enumerate();
+        let slopes = vectors.map(|(k, ((vector, square), along))| {
+            let slope = match phi {
+                Some(phi) => along.of(phi, g),
+                None => g.inner(vector, entries),
+            };
+            if k == 0 {
+                return slope;
+            }
+            let slope = g.div(slope, *square);
+            g.hold_all(slope)
+        });
+        slopes.collect()
+    }
+
     /// Puts ë = R x in the place of x.
     fn turn_back(&self, solution: &mut [Id], g: &mut Graph) {
         let x: Vec<Id> = self.coordinates.iter().map(|i| solution[*i]).collect();
@@ -92,8 +118,13 @@ impl Frame {
 
     /// Takes what is given off the other constraints' `values`.
     fn take_off(&self, values: &mut [Id], g: &mut Graph) {
+        if self.given.is_empty() {
+            return;
+        }
+        let own = g.div(values[self.row], self.vectors[0].1);
+        let own = g.hold_whole(own);
         for (row, a) in &self.given {
-            let given = g.mul(*a, values[self.row]);
+            let given = g.mul(*a, own);
             values[*row] = g.factored_sum(&[(1.0, values[*row]), (-1.0, given)]);
         }
     }
@@ -127,18 +158,17 @@ impl Frame {
         }
         let symbols = self.coordinates.iter().map(|i| g.symbol(Symbol::Coord(*i)));
         let symbols: Vec<Id> = symbols.collect();
-        let along = self.columns.iter().map(|column| {
-            let direction = symbols.iter().copied().zip(column.iter().copied());
+        let along = self.vectors.iter().map(|(vector, _)| {
+            let direction = symbols.iter().copied().zip(vector.iter().copied());
             Derivative::along(direction.collect())
         });
         let mut along: Vec<Derivative> = along.collect();
         for (row, entries) in rows {
             // Rows that may be left out stay as exact as they are: what is left of them tells whether they are.
             let apart = redundant.contains(&row);
-            // Functions of the frame are differentiated once for all they stand in.
-            let turned = match d.phi.get(row) {
-                Some(phi) if !apart => along.iter_mut().map(|along| along.of(*phi, g)).collect(),
-                _ => self.across(&entries, g),
+            let turned = match apart {
+                true => self.across(&entries, g),
+                false => self.slopes(d.phi.get(row).copied(), &entries, &mut along, g),
             };
             let places = self.coordinates.iter().zip(turned);
             let mut places = places.filter(|(_, a)| !g.is_zero(*a)).peekable();
@@ -238,13 +268,18 @@ fn frames(d: &Dynamics, lift: &Lift, defaults: &[f64], g: &mut Graph) -> Vec<Fra
             continue;
         }
         taken.extend(&coordinates);
-        let columns = vectors.iter().map(|vector| {
-            let square = g.inner(vector, vector);
-            let entries = vector.iter().map(|a| g.div(*a, square));
+        let vectors = vectors.into_iter().map(|vector| {
+            let square = g.inner(&vector, &vector);
+            (vector, square)
+        });
+        let vectors: Vec<(Vec<Id>, Id)> = vectors.collect();
+        let columns = vectors.iter().map(|(vector, square)| {
+            let entries = vector.iter().map(|a| g.div(*a, *square));
             entries.collect()
         });
         found.push(Frame {
             columns: columns.collect(),
+            vectors,
             coordinates,
             row,
             definitions: own,

@@ -50,7 +50,7 @@ impl Joint {
         let own: Vec<Id> = self.rows.iter().map(|row| values[*row]).collect();
         for (row, inverse) in self.rows.iter().zip(&self.inverse) {
             let value = g.inner(inverse, &own);
-            values[*row] = g.hold_inner(value);
+            values[*row] = g.hold_whole(value);
         }
     }
 
@@ -109,7 +109,7 @@ impl Joint {
                     Some(_) => zero,
                     None => {
                         let value = g.inner(&joint.inverse[k], &values);
-                        g.hold_inner(value)
+                        g.hold_whole(value)
                     }
                 };
                 match g.is_zero(value) {

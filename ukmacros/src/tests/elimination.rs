@@ -156,7 +156,7 @@ fn bodies(random: &mut Random) -> String {
     text + "} }"
 }
 
-/// Bodies in space, each joined to one before it or to the ground, with inertia about any axes.
+/// Bodies in space, each joined to one before it or to the ground, some in loops, with inertia about any axes.
 fn spatial(random: &mut Random) -> String {
     let n = 1 + random.below(3);
     let mut text = String::from("pub T { params { r = 0.3 } bodies { ");
@@ -173,6 +173,7 @@ fn spatial(random: &mut Random) -> String {
         );
     }
     text += "} gravity { [0, 0, -9.81] } holonomic { ";
+    let mut freedom = 6 * n;
     for i in 0..n {
         let to = match random.below(i + 1) {
             0 => "ground".to_owned(),
@@ -182,15 +183,25 @@ fn spatial(random: &mut Random) -> String {
             format!("{to}.at([r, 0.2, 0])"),
             format!("b{i}.at([0, 0, 0.1])"),
         );
-        let joint = match random.below(5) {
+        let (rows, joint) = match random.below(5) {
             0 => continue,
-            1 => format!("ball({p}, {q})"),
-            4 => format!("weld({p}, {q})"),
-            2 => format!("hinge({p}, {q}, [0, 0.6, 0.8])"),
-            _ => format!("universal({p}, {q}, [1, 0, 0], [0, 1, 0])"),
+            1 => (3, format!("ball({p}, {q})")),
+            4 => (6, format!("weld({p}, {q})")),
+            2 => (5, format!("hinge({p}, {q}, [0, 0.6, 0.8])")),
+            _ => (4, format!("universal({p}, {q}, [1, 0, 0], [0, 1, 0])")),
         };
+        freedom -= rows;
         let _ = write!(text, "j{i}: {joint}, ");
     }
+    let (p, q) = (
+        "ground.at([0.4, 0.3, 0.2])",
+        format!("b{}.at([r, 0, 0])", n - 1),
+    );
+    let _ = match random.below(3) {
+        0 if freedom > 3 => write!(text, "closing: ball({p}, {q}), "),
+        1 if freedom > 1 => write!(text, "closing: rod({p}, {q}, 0.7), "),
+        _ => Ok(()),
+    };
     text + "} }"
 }
 
@@ -294,7 +305,7 @@ fn saddle(system: &System, d: &Dynamics, point: &Point<'_>) -> (Vec<Vec<f64>>, V
 }
 
 /// How the straight lines of a mechanism fared.
-#[derive(Default)]
+#[derive(Debug, Default)]
 struct Tally {
     solved: usize,
     refused: usize,
@@ -310,6 +321,17 @@ struct Tally {
 }
 
 impl Tally {
+    /// A mechanism of some kind.
+    fn case(&mut self, kind: usize, random: &mut Random) {
+        let source = match kind {
+            0 => spatial(random),
+            3 => bodies(random),
+            4 => linkage(random),
+            _ => declaration(random),
+        };
+        self.check(&source, random);
+    }
+
     /// All straight lines of a declaration at random states, against elimination with pivoting.
     fn check(&mut self, source: &str, random: &mut Random) {
         let (mut system, model) = system(source);
@@ -425,13 +447,7 @@ fn straight_lines_solve_the_saddle_point_system() {
     let mut random = Random(20_131);
     let mut tally = Tally::default();
     for case in 0..170 {
-        let source = match case % 4 {
-            _ if case >= 140 => spatial(&mut random),
-            2 => bodies(&mut random),
-            3 => linkage(&mut random),
-            _ => declaration(&mut random),
-        };
-        tally.check(&source, &mut random);
+        tally.case(if case >= 140 { 0 } else { 1 + case % 4 }, &mut random);
     }
     let Tally {
         solved,
@@ -452,6 +468,21 @@ fn straight_lines_solve_the_saddle_point_system() {
             && joints > 10,
         "{solved} solved, {refused} refused, {without} without a straight line, {lifted} lifted, {rotated} rotated, {turned} turned, {joints} with joints"
     );
+}
+
+/// More of them, bodies in space above all: `HUNT=1000 cargo test -p ukmacros hunt -- --ignored --nocapture`.
+#[test]
+#[ignore = "a hunt over many seeds"]
+fn hunt() {
+    let cases = std::env::var("HUNT").ok().and_then(|n| n.parse().ok());
+    let mut tally = Tally::default();
+    for seed in 0..cases.unwrap_or(400) {
+        let mut random = Random(1_000_000 + seed);
+        // Of two cases one is of bodies in space.
+        let kind = usize::try_from(seed % 8).unwrap_or(0).saturating_sub(3);
+        tally.case(kind, &mut random);
+    }
+    println!("{tally:?}");
 }
 
 /// Two bodies on a hinge about their y axes, the second turned off these about the line between x and z: where they are at right angles its rows cannot be solved for

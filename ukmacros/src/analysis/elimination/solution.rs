@@ -127,6 +127,12 @@ impl Forward {
         self.rights.push(Some(right));
         let along = turned.along(right, g);
         for (r, with) in &turned.touched {
+            // What a constraint has of both is collected with what others have of them; inertia they share has a factor in common.
+            if *r < self.n {
+                let term = g.inner(with, &along);
+                self.take_off(*r, term, false, g);
+                continue;
+            }
             for i in [0, 1] {
                 let term = g.mul(with[i], along[i]);
                 self.take_off(*r, term, false, g);
