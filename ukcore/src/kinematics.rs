@@ -11,8 +11,9 @@ use nalgebra::DVector;
 use crate::assemble::{Held, State, assembled, held};
 use crate::diagnosis::{margin, measured_rows, quoted};
 use crate::error::Error;
+use crate::inverse::{Effort, Posture, inverse_forces};
 use crate::mechanism::Prepared;
-use crate::modes::{mass_matrix, units};
+use crate::modes::{constraint_matrix, mass_matrix, null_space, units};
 use crate::nearby::{Random, nearby};
 use crate::numbers::short;
 
@@ -20,7 +21,6 @@ mod curve;
 mod posture;
 
 use curve::{Curve, End, Place, Rows};
-pub use posture::Posture;
 
 /// What [`kinematics`](kinematics()) finds.
 #[derive(Debug, Clone)]
@@ -488,6 +488,37 @@ impl Kinematics {
     /// [`Error::UnknownName`] with the nearest name.
     pub fn acceleration(&self, name: &str) -> Result<Vec<f64>, Error> {
         self.each(name, |posture, j| posture.acceleration[j])
+    }
+
+    /// The forces on the `coordinates` that it takes at the postures, as [`inverse_forces`](crate::inverse_forces()) has them, a vector for
+    /// each. Where branches cross, forces that the constraints leave open there are not a number.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name; what [`inverse_forces`](crate::inverse_forces()) reports.
+    pub fn efforts(&self, coordinates: &[&str]) -> Result<Vec<Vec<Effort>>, Error> {
+        let driven = held(self.mechanism.spec(), coordinates)?;
+        let freedoms = |posture: &Posture| {
+            let rows = constraint_matrix(&self.mechanism, &posture.state);
+            null_space(rows, &units(&mass_matrix(&self.mechanism, &posture.state))).ncols()
+        };
+        let counts: Vec<usize> = self.postures.iter().map(freedoms).collect();
+        let usual = counts.iter().min();
+        let unknown = |j: &usize| Effort {
+            name: self.mechanism.spec().coords[*j],
+            effort: f64::NAN,
+            power: f64::NAN,
+        };
+        let all = self.postures.iter().zip(&counts);
+        let efforts = all.map(|(posture, count)| {
+            let found = inverse_forces(&self.mechanism, posture, coordinates);
+            match found {
+                Err(Error::InvalidSetting { .. }) if Some(count) > usual => {
+                    Ok(driven.iter().map(unknown).collect())
+                }
+                found => found,
+            }
+        });
+        efforts.collect()
     }
 
     /// Values of the output called `name` at the postures.

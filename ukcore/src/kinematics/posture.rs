@@ -6,17 +6,9 @@ use super::STILL;
 use super::curve::{Curve, Path, Place, Rows};
 use crate::assemble::State;
 use crate::error::Error;
+use crate::inverse::Posture;
 use crate::manifold::{At, Level, Manifold};
 use crate::scalar::{Scalar, Sloped, Slopes};
-
-/// A position of a mechanism, with velocities and accelerations there.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Posture {
-    /// Time, coordinates, and velocities.
-    pub state: State,
-    /// Accelerations, where the drives have none.
-    pub acceleration: Vec<f64>,
-}
 
 /// Where rows keep less beside the others, branches cross nearby, and rounding grows by the third power of the inverse.
 const NEAR: f64 = 1e-2;
