@@ -15,7 +15,7 @@ use crate::inverse::{Effort, Posture, inverse_forces};
 use crate::mechanism::Prepared;
 use crate::modes::{constraint_matrix, mass_matrix, null_space, units};
 use crate::nearby::{Random, nearby};
-use crate::numbers::short;
+use crate::numbers::full;
 
 mod curve;
 mod posture;
@@ -538,18 +538,19 @@ impl Kinematics {
     }
 }
 
-/// In a sentence: `` `crank` cannot pass 1.2446 rad (71.31 deg): `coupler`, `rocker` are stretched or folded; `rocker.angle` passes ``.
+/// In a sentence, such as "`bar[0].angle` cannot pass 1.333507 rad (76.404 deg): `p`, `q`, `r` hold it; there `bar[1].angle` moves most, and
+/// passes as a drive".
 impl fmt::Display for Limit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let digits = |x: f64, digits: usize| full(format!("{x:.digits$e}").parse().unwrap_or(x));
         let drives = self.drives.iter().zip(&self.units);
-        let drives = drives.map(|((name, value), unit)| match *unit {
-            "" => format!("`{name}` cannot pass {}", short(*value, 6)),
-            "rad" => format!(
-                "`{name}` cannot pass {} rad ({} deg)",
-                short(*value, 6),
-                short(value.to_degrees(), 4)
-            ),
-            unit => format!("`{name}` cannot pass {} {unit}", short(*value, 6)),
+        let drives = drives.map(|((name, value), unit)| {
+            let told = format!("`{name}` cannot pass {}", digits(*value, 6));
+            match *unit {
+                "" => told,
+                "rad" => format!("{told} rad ({} deg)", digits(value.to_degrees(), 4)),
+                unit => format!("{told} {unit}"),
+            }
         });
         write!(f, "{}", drives.collect::<Vec<_>>().join(", "))?;
         match self.constraints.len() {

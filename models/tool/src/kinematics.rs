@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use clap::Args;
 use ukcore::model::Entry;
 use ukcore::simulate::Sample;
-use ukcore::{Error, Kinematics, kinematics as swept};
+use ukcore::{Effort, Error, Kinematics, State, kinematics as swept};
 
 use crate::columns::Columns;
 use crate::command;
@@ -31,7 +31,11 @@ pub struct KinematicsArgs {
     /// Speed of the first drive; 1 in SI units if absent
     #[arg(long, value_name = "SPEED", value_parser = Quantity::parse)]
     pub speed: Option<Quantity>,
-    /// Write the positions as CSV, with velocities, outputs and accelerations `ddot(NAME)`; `-` is standard output
+    /// Coordinates on which forces or torques are to make the motion, such as the drive: `effort(NAME)` and `power(NAME)`; of more than it
+    /// takes the least
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    pub effort: Vec<String>,
+    /// Write the positions as CSV, with velocities, outputs, accelerations `ddot(NAME)` and efforts; `-` is standard output
     #[arg(long, value_name = "FILE", value_parser = command::path)]
     pub csv: Option<PathBuf>,
     /// Draw curves as SVG: each is a NAME of the table over the first drive, or `X,Y`, which is Y over X
@@ -100,6 +104,14 @@ pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure
             .for_each(|p| curves.add(Sample::from(&p.state)));
         curves.finish()?;
     }
+    let on: Vec<&str> = args.effort.iter().map(String::as_str).collect();
+    let found = Found {
+        efforts: match on.is_empty() {
+            true => vec![Vec::new(); found.postures.len()],
+            false => found.efforts(&on).map_err(told)?,
+        },
+        swept: found,
+    };
     let to_stdout = args
         .csv
         .as_deref()
@@ -113,6 +125,19 @@ pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure
         return Ok(());
     }
     output::to_stdout(|out| summary(out, &ready, &drives, intervals, &found))
+}
+
+/// Postures and limits, and of each posture the efforts asked for.
+struct Found {
+    swept: Kinematics,
+    efforts: Vec<Vec<Effort>>,
+}
+
+impl Found {
+    fn effort_names(&self) -> impl Iterator<Item = String> {
+        let efforts = self.efforts.first().into_iter().flatten();
+        efforts.flat_map(|e| ["effort", "power"].map(|what| format!("{what}({})", e.name)))
+    }
 }
 
 /// The picture asked for by a file's name and curves, of which those over time are drawn over the drive `name`.
@@ -137,6 +162,8 @@ fn told(error: Error) -> Failure {
                 "hold" => "`--hold`",
                 "drives" => "the drives",
                 "start" => "the start",
+                "coordinates" => "the coordinates of `--effort`",
+                "acceleration" => "the motion",
                 _ => "the mechanism",
             };
             Failure::Usage(format!("{what} {reason}"))
@@ -196,13 +223,13 @@ fn ranges<'a>(
     Ok((ranges, intervals))
 }
 
-fn text(ready: &Ready<'_>, found: &Kinematics) -> Result<String, Failure> {
+fn text(ready: &Ready<'_>, found: &Found) -> Result<String, Failure> {
     let mut bytes = Vec::new();
     table(&mut bytes, ready, found).map_err(|e| Failure::Failed(e.to_string()))?;
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
-fn table(out: &mut dyn Write, ready: &Ready<'_>, found: &Kinematics) -> io::Result<()> {
+fn table(out: &mut dyn Write, ready: &Ready<'_>, found: &Found) -> io::Result<()> {
     let spec = ready.mechanism.spec();
     let coords = || spec.coords.iter().copied();
     let mut head = vec!["t".to_owned()];
@@ -210,22 +237,22 @@ fn table(out: &mut dyn Write, ready: &Ready<'_>, found: &Kinematics) -> io::Resu
     head.extend(coords().map(|name| format!("dot({name})")));
     head.extend(spec.outputs.iter().map(|o| o.name.to_owned()));
     head.extend(coords().map(|name| format!("ddot({name})")));
+    head.extend(found.effort_names());
     writeln!(out, "{}", head.join(","))?;
     let mut outputs = vec![0.0; spec.outputs.len()];
-    for posture in &found.postures {
-        let state = &posture.state;
-        ready
-            .mechanism
-            .outputs(state.t, &state.q, &state.v, &mut outputs);
-        let values = [
-            &[state.t],
-            &state.q[..],
-            &state.v,
-            &outputs,
-            &posture.acceleration,
-        ]
-        .concat();
-        let values: Vec<String> = values.into_iter().map(full).collect();
+    for (posture, efforts) in found.swept.postures.iter().zip(&found.efforts) {
+        let State { t, q, v } = &posture.state;
+        ready.mechanism.outputs(*t, q, v, &mut outputs);
+        let efforts: Vec<f64> = efforts.iter().flat_map(|e| [e.effort, e.power]).collect();
+        let values = [&[*t], &q[..], v, &outputs, &posture.acceleration, &efforts].concat();
+        let text = |x: f64| {
+            if x.is_finite() {
+                full(x)
+            } else {
+                String::new()
+            }
+        };
+        let values: Vec<String> = values.into_iter().map(text).collect();
         writeln!(out, "{}", values.join(","))?;
     }
     Ok(())
@@ -236,63 +263,58 @@ fn summary(
     ready: &Ready<'_>,
     drives: &[(&str, Range<f64>)],
     intervals: usize,
-    found: &Kinematics,
+    found: &Found,
 ) -> io::Result<()> {
     let name = drives[0].0;
-    let first = |state: &ukcore::State| match ready.mechanism.spec().coordinate_index(name) {
-        Ok(j) => state.q[j],
-        Err(_) => state.t,
-    };
-    let (id, reached) = (&ready.entry.id, found.postures.len());
+    let drive = ready.mechanism.spec().coordinate_index(name).ok();
+    let at = |state: &State| drive.map_or(state.t, |j| state.q[j]);
+    let postures = &found.swept.postures;
+    let places: Vec<f64> = postures.iter().map(|p| at(&p.state)).collect();
+    let (id, all) = (&ready.entry.id, count(intervals + 1, "position"));
     write!(
         out,
-        "{id} from `{}`: {reached} of {}",
+        "{id} from `{}`: {} of {all}",
         ready.start,
-        count(intervals + 1, "position")
+        places.len()
     )?;
-    match (found.postures.first(), found.postures.last()) {
-        (Some(begin), Some(end)) => writeln!(
-            out,
-            ", `{name}` from {} to {}",
-            short(first(&begin.state)),
-            short(first(&end.state))
-        )?,
+    match places[..] {
+        [begin, .., end] => writeln!(out, ", `{name}` from {} to {}", short(begin), short(end))?,
         _ => writeln!(out)?,
     }
-    found
-        .limits
-        .iter()
-        .try_for_each(|limit| writeln!(out, "{limit}"))?;
+    let mut limits = found.swept.limits.iter();
+    limits.try_for_each(|limit| writeln!(out, "{limit}"))?;
     let columns = Columns::of_interest(&ready.mechanism);
-    let labels = columns.labels();
+    let mut labels = columns.labels();
+    labels.extend(found.effort_names());
     let wide = width(labels.iter().map(String::as_str));
-    let rows: Vec<(f64, Vec<f64>)> = found
-        .postures
+    let rows = postures
         .iter()
-        .map(|p| (first(&p.state), columns.values(Sample::from(&p.state))))
-        .collect();
+        .zip(&found.efforts)
+        .map(|(posture, efforts)| {
+            let mut row = columns.values(Sample::from(&posture.state));
+            row.extend(efforts.iter().flat_map(|e| [e.effort, e.power]));
+            row
+        });
+    let rows: Vec<Vec<f64>> = rows.collect();
     for (k, label) in labels.iter().enumerate() {
         let values = || {
-            rows.iter()
-                .map(|(at, values)| (*at, values[k]))
-                .filter(|(_, x)| x.is_finite())
+            let values = places.iter().zip(&rows).map(|(at, row)| (row[k], *at));
+            values.filter(|(x, _)| x.is_finite())
         };
-        let least = values().min_by(|a, b| a.1.total_cmp(&b.1));
-        let most = values().max_by(|a, b| a.1.total_cmp(&b.1));
+        let least = values().min_by(|a, b| a.0.total_cmp(&b.0));
+        let most = values().max_by(|a, b| a.0.total_cmp(&b.0));
         if let (Some(least), Some(most)) = (least, most) {
+            let [low, from, high, to] = [least.0, least.1, most.0, most.1].map(short);
             writeln!(
                 out,
-                "  {label:<wide$}  {} at {name} = {}, to {} at {}",
-                short(least.1),
-                short(least.0),
-                short(most.1),
-                short(most.0)
+                "  {label:<wide$}  {low} at {name} = {from}, to {high} at {to}"
             )?;
         }
     }
     Ok(())
 }
 
+/// Seven digits.
 fn short(x: f64) -> String {
-    crate::numbers::short(x, 6)
+    full(format!("{x:.6e}").parse().unwrap_or(x))
 }
