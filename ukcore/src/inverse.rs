@@ -110,10 +110,13 @@ pub fn inverse_forces(
     terms.dynamics(&mech, state.t, &state.q, &state.v);
     let acceleration = DVector::from_column_slice(acceleration);
     let rows = DMatrix::from_vec(m, n, terms.jacobian);
+    let mass = DMatrix::from_vec(n, n, terms.mass);
+    let units = units(&mass);
+    let size = acceleration.component_div(&units).norm();
     for (row, b) in terms.rhs.iter().enumerate() {
-        let parts = rows.row(row).transpose().component_mul(&acceleration);
-        let size = parts.abs().sum() + b.abs();
-        if (parts.sum() - b).abs() > MET * size {
+        let entries = rows.row(row).transpose();
+        let most = entries.component_mul(&units).norm() * size + b.abs();
+        if (entries.dot(&acceleration) - b).abs() > MET * most {
             let name = spec.constraints[row].name;
             return Err(Error::InvalidSetting {
                 what: "acceleration",
@@ -121,8 +124,6 @@ pub fn inverse_forces(
             });
         }
     }
-    let mass = DMatrix::from_vec(n, n, terms.mass);
-    let units = units(&mass);
     let given = DVector::from_vec(terms.force) + DVector::from_vec(terms.nonideal);
     let inertial = &mass * &acceleration;
     let sizes = (inertial.abs() + given.abs()).component_mul(&units);
