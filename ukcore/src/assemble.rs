@@ -42,8 +42,8 @@ impl State {
         }
     }
 
-    /// A guess by names, for [`assemble`](crate::assemble()): `x` or `bar[0].angle` is a coordinate, `dot(x)` its velocity, a family's bare name all its members, `t`
-    /// the time; 0 what is not named.
+    /// A guess by names, for [`assemble`](crate::assemble()): `x` or `bar[0].angle` is a coordinate, `dot(x)` its velocity, a family's bare
+    /// name all its members, `t` the time; 0 what is not named.
     ///
     /// # Errors
     /// [`Error::UnknownName`] with the nearest name.

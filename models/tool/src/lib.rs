@@ -25,9 +25,9 @@
 //! it. A mechanism that implements [`ukcore::model::Model`] has further starts and references of its own besides.
 //!
 //! Programs of other shape call functions: [`list`](list::list), [`run`](run::run), [`sweep`](sweep::sweep), [`animate`](animate::animate),
-//! [`modes`](modes::modes), [`diagnose`](diagnose::diagnose), [`inverse`](inverse::inverse), [`kinematics`](kinematics::kinematics), [`explain`](explain::explain),
-//! [`report`](report::report) and [`stability`](stability::stability) take models as [`Entry`], or cases, and their arguments; [`plot`]
-//! draws charts and [`html`] makes pages.
+//! [`modes`](modes::modes), [`diagnose`](diagnose::diagnose), [`inverse`](inverse::inverse), [`kinematics`](kinematics::kinematics),
+//! [`explain`](explain::explain), [`report`](report::report) and [`stability`](stability::stability) take models as [`Entry`], or cases, and
+//! their arguments; [`plot`] draws charts and [`html`] makes pages.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

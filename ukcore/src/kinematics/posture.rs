@@ -1,9 +1,9 @@
-//! A position on the curve, with velocities and accelerations.
+//! Postures on the curve.
 
 use nalgebra::DVector;
 
-use super::STILL;
 use super::curve::{Curve, Path, Place, Rows};
+use super::sweep::STILL;
 use crate::assemble::State;
 use crate::error::Error;
 use crate::inverse::Posture;
