@@ -71,10 +71,10 @@ mod zero;
 
 pub use assemble::{State, assemble};
 pub use branches::{Assembled, branches};
-pub use diagnosis::{Diagnosis, Redundant, diagnose, diagnose_along};
+pub use diagnosis::{Diagnosis, Redundant, diagnose, diagnose_along, lost_reactions};
 pub use equilibrium::{Equilibrium, Stability, equilibrium};
 pub use error::Error;
-pub use inverse::{Effort, Posture, inverse, inverse_forces};
+pub use inverse::{Effort, Inverse, Posture, inverse, inverse_forces};
 pub use kinematics::{Kinematics, Limit, kinematics};
 pub use linearise::Linearisation;
 pub use manifold::Stabilisation;

@@ -7,7 +7,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::mechanism::Prepared;
-use crate::modes::INDEPENDENT;
+use crate::modes::{INDEPENDENT, measure};
 use crate::zero::locate;
 
 /// Steps of Newton's method at most.
@@ -192,9 +192,7 @@ impl Curve<'_> {
             rows[(h + k, *j)] = 1.0;
             rows[(h + k, n)] = -gain;
         }
-        for (mut column, unit) in rows.column_iter_mut().zip(self.units.iter()) {
-            column *= *unit;
-        }
+        measure(&mut rows, &self.units);
         Rows::new(rows, rank, &self.lengths)
     }
 

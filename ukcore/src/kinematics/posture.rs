@@ -113,8 +113,7 @@ impl Curve<'_> {
         let mut manifold = Manifold::with_ease(self.mech, ease, held);
         let at = At::new(self.mech, Level::Position, t, &rest);
         if let Err(error) = manifold.project(&at, &mut q) {
-            let (q, v, source) = (q.clone(), rest.clone(), Box::new(error));
-            return Err(Error::At { t, q, v, source });
+            return Err(State { t, q, v: rest }.locate(error));
         }
         let x = DVector::from_column_slice(&q).insert_row(n, s);
         let rows = self.rows(&x, n);

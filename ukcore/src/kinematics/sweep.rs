@@ -356,8 +356,6 @@ impl<'a> Sweep<'a> {
         let constraints = margin(&rows, &all).1;
         let name = |row: &usize| self.mech.spec().constraints[*row].name.to_owned();
         let constraints = constraints.iter().map(name).collect();
-        let State { t, q, v } = state;
-        let source = Box::new(Error::Singular { constraints });
-        Error::At { t, q, v, source }
+        state.locate(Error::Singular { constraints })
     }
 }
