@@ -1,6 +1,6 @@
 //! Positions, velocities and accelerations of a mechanism whose drives are swept, and where they cannot go on.
 //!
-//! With as many drives and held coordinates as there are degrees of freedom, the positions that the constraints allow are a [curve](curve),
+//! With as many drives and held coordinates as there are degrees of freedom, the positions that the constraints allow are a curve,
 //! which is followed from the start: so the mechanism stays in the branch that it is in, also where branches cross.
 
 use std::fmt;
@@ -58,8 +58,8 @@ pub struct Limit {
 /// - [`Error::InvalidSetting`] where drives and held coordinates are not as many as the degrees of freedom, where there are nonholonomic
 ///   constraints, since these leave the position to the way on which it is reached, and where the start is a dead centre or a singular
 ///   position, or the begin of the sweep is not reached.
-/// - [`Error::At`] with [`Error::Singular`] where positions do not go on smoothly; with [`Error::OffConstraint`] where constraints that
-///   imply each other come to contradict each other.
+/// - [`Error::At`] with [`Error::InvalidSetting`] where positions do not go on smoothly; with [`Error::OffConstraint`] where constraints
+///   that imply each other come to contradict each other.
 pub fn kinematics(
     mechanism: impl Into<Prepared>,
     start: &State,
@@ -101,7 +101,8 @@ pub fn kinematics(
 }
 
 impl Kinematics {
-    /// The same where the first drive has this `speed`: velocities in proportion to it, accelerations to its square.
+    /// The same `speed` times as fast, which is the speed of the first drive where it was 1: velocities in proportion to it, accelerations to
+    /// its square.
     #[must_use]
     pub fn at_speed(mut self, speed: f64) -> Self {
         for posture in &mut self.postures {

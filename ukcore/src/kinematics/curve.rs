@@ -177,6 +177,11 @@ impl Curve<'_> {
 
     /// All rows at `x`, of which `rank` count.
     pub(super) fn rows(&self, x: &DVector<f64>, rank: usize) -> Rows {
+        Rows::new(self.matrix(x), rank, &self.lengths)
+    }
+
+    /// All rows at `x`, in units.
+    fn matrix(&self, x: &DVector<f64>) -> DMatrix<f64> {
         let spec = self.mech.spec();
         let (n, m, h) = (spec.n(), spec.m(), spec.holonomic);
         let (t, q, rest) = (self.time_at(x[n]), &x.as_slice()[..n], vec![0.0; n]);
@@ -193,7 +198,7 @@ impl Curve<'_> {
             rows[(h + k, n)] = -gain;
         }
         measure(&mut rows, &self.units);
-        Rows::new(rows, rank, &self.lengths)
+        rows
     }
 
     /// Takes the lengths of rows along `path`.
@@ -223,16 +228,26 @@ impl Curve<'_> {
     }
 
     /// The place on the curve that is reached from `x`, where the tangent is nearest to `way`.
-    pub(super) fn onto(&self, mut x: DVector<f64>, way: &DVector<f64>) -> Option<Place> {
-        let (rank, size) = (self.mech.spec().n(), self.size(&x));
+    pub(super) fn onto(&self, x: DVector<f64>, way: &DVector<f64>) -> Option<Place> {
+        let x = self.solved(x, false)?;
+        let way = self.rows(&x, self.mech.spec().n()).along(way)?;
+        Some(Place { x, way })
+    }
+
+    /// What Newton's method comes to from `x`, with steps that leave s as it is where it is `kept`.
+    pub(super) fn solved(&self, mut x: DVector<f64>, kept: bool) -> Option<DVector<f64>> {
+        let (n, size) = (self.mech.spec().n(), self.size(&x));
         let mut before = f64::INFINITY;
         for _ in 0..NEWTON {
-            let step = self.rows(&x, rank).shortest(&-self.residual(&x));
+            let mut rows = self.matrix(&x);
+            if kept {
+                rows.column_mut(n).fill(0.0);
+            }
+            let step = Rows::new(rows, n, &self.lengths).shortest(&-self.residual(&x));
             let length = step.norm();
             x += step.component_mul(&self.units);
             if length <= ROUNDING * size || length <= STALLED * size && length > 0.1 * before {
-                let way = self.rows(&x, rank).along(way)?;
-                return Some(Place { x, way });
+                return Some(x);
             }
             if length.is_nan() || length > 0.5 * before {
                 return None;

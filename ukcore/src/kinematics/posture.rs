@@ -3,7 +3,7 @@
 use nalgebra::DVector;
 
 use super::curve::{Curve, Path, Place, Rows};
-use super::sweep::STILL;
+use super::sweep::{STILL, stuck};
 use crate::assemble::State;
 use crate::error::Error;
 use crate::inverse::Posture;
@@ -16,6 +16,10 @@ const NEAR: f64 = 1e-2;
 const ASIDE: f64 = 3e-2;
 /// each pair with its share, which makes the error one of eighth order; its own distance is so many times that.
 const SHARES: [f64; 4] = [1.6, -0.8, 8.0 / 35.0, -1.0 / 35.0];
+
+/// So often at most half as far, until all of them lie on one branch: their tangents turn by less than an angle with this cosine.
+const HALVINGS: usize = 6;
+const ALONG: f64 = 0.95;
 
 impl Curve<'_> {
     /// The posture at the part `s` of the sweep, on the piece of `path` behind its place number `index`, where the sweep goes on by `speed` in
@@ -36,17 +40,31 @@ impl Curve<'_> {
             let (q, rows) = self.position(guess, s)?;
             return Ok(self.moved(q, s, &a.way, &rows, speed));
         }
-        let aside = ASIDE * path.radius;
         let reach = |from: &Place, step: f64| {
             let there = self.beyond(from, step);
             there.map_or_else(|| from.clone(), |(place, _)| place)
         };
-        let (behind, ahead) = (reach(a, -5.0 * aside), reach(b, 5.0 * aside));
-        let step = aside * a.speed() * self.units[guess.len() - 1];
-        self.mean(&behind, &ahead, s, step, speed)
+        let mut aside = ASIDE * path.radius;
+        for _ in 0..HALVINGS {
+            let (behind, ahead) = (reach(a, -5.0 * aside), reach(b, 5.0 * aside));
+            let step = aside * a.speed() * self.units[guess.len() - 1];
+            if let Some(mean) = self.mean(&behind, &ahead, s, step, speed)? {
+                return Ok(Some(mean));
+            }
+            aside *= 0.5;
+        }
+        let (t, q) = (
+            self.time_at(s),
+            guess.as_slice()[..guess.len() - 1].to_vec(),
+        );
+        Err(stuck(State {
+            t,
+            v: vec![0.0; q.len()],
+            q,
+        }))
     }
 
-    /// The mean of postures on both sides of `s`, in steps of `step`.
+    /// The mean of postures on both sides of `s`, in steps of `step`, if they lie on one branch.
     fn mean(
         &self,
         a: &Place,
@@ -67,10 +85,17 @@ impl Curve<'_> {
         for (k, share) in SHARES.iter().enumerate() {
             for side in [1.0, -1.0] {
                 let there = s + side * (k + 1) as f64 * step;
-                let (q, rows) = self.position(self.guess(a, b, there), there)?;
-                let Some(posture) = self.moved(q, there, &a.way, &rows, speed) else {
+                let guess = self.guess(a, b, there);
+                let (q, rows) = self.position(guess, there)?;
+                let (Some(posture), Some(way)) = (
+                    self.moved(q, there, &a.way, &rows, speed),
+                    rows.along(&a.way),
+                ) else {
                     return Ok(None);
                 };
+                if way.dot(&a.way) < ALONG || way.dot(&b.way) < ALONG {
+                    return Ok(None);
+                }
                 let add = |sum: &mut Vec<f64>, part: &[f64]| {
                     let pairs = sum.iter_mut().zip(part);
                     pairs.for_each(|(sum, x)| *sum += 0.5 * share * x);
@@ -107,6 +132,10 @@ impl Curve<'_> {
         let (t, rest) = (self.time_at(s), vec![0.0; n]);
         for (j, begin, gain) in &self.fixed {
             q[*j] = begin + gain * s;
+        }
+        // By the rows that were independent at the start, then by all.
+        if let Some(x) = self.solved(DVector::from_vec(q.clone()).insert_row(n, s), true) {
+            q.copy_from_slice(&x.as_slice()[..n]);
         }
         let ease = self.units.as_slice()[..n].to_vec();
         let held = self.fixed.iter().map(|(j, ..)| *j).collect();

@@ -7,7 +7,7 @@ use nalgebra::DVector;
 use super::Limit;
 use super::curve::{Curve, End, Place, Rows};
 use crate::assemble::State;
-use crate::diagnosis::{margin, measured_rows, quoted};
+use crate::diagnosis::quoted;
 use crate::error::Error;
 use crate::inverse::Posture;
 use crate::mechanism::Prepared;
@@ -23,6 +23,15 @@ const NEIGHBOURS: usize = 3;
 
 fn invalid<T>(what: &'static str, reason: String) -> Result<T, Error> {
     Err(Error::InvalidSetting { what, reason })
+}
+
+/// There is no smooth way on at `state`.
+pub(super) fn stuck(state: State) -> Error {
+    let reason = "do not go on smoothly from here: positions have a corner, or branches meet that cannot be told from each other; end the sweep before it";
+    state.locate(Error::InvalidSetting {
+        what: "drives",
+        reason: reason.to_owned(),
+    })
 }
 
 /// What is swept.
@@ -141,7 +150,7 @@ impl<'a> Sweep<'a> {
             match path.end {
                 End::Arrived => {}
                 End::Turned => limits.push(self.limit(&curve, path.last())),
-                End::Stuck => return Err(self.stuck(&curve, path.last())),
+                End::Stuck => return Err(stuck(self.state(&curve, path.last()))),
             }
         }
         Ok((postures, limits))
@@ -166,7 +175,7 @@ impl<'a> Sweep<'a> {
         let path = curve.follow(begin, 1.0);
         curve.gauge(&path);
         match path.end {
-            End::Stuck => Err(self.stuck(&curve, path.last())),
+            End::Stuck => Err(stuck(self.state(&curve, path.last()))),
             End::Turned => invalid(
                 "drives",
                 format!(
@@ -346,16 +355,5 @@ impl<'a> Sweep<'a> {
             constraints: holding.collect(),
             leader: spec.coords[leader],
         }
-    }
-
-    /// Where there is no smooth way on.
-    fn stuck(&self, curve: &Curve<'_>, place: &Place) -> Error {
-        let state = self.state(curve, place);
-        let rows = measured_rows(self.mech, &state);
-        let all: Vec<usize> = (0..self.mech.spec().m()).collect();
-        let constraints = margin(&rows, &all).1;
-        let name = |row: &usize| self.mech.spec().constraints[*row].name.to_owned();
-        let constraints = constraints.iter().map(name).collect();
-        state.locate(Error::Singular { constraints })
     }
 }
