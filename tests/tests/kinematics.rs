@@ -250,6 +250,33 @@ fn four_bars_turn_or_swing() {
     }
 }
 
+/// Where all bars lie in one line branches cross, and the rocker of this one turns sharply: it is the parallel one, mirrored in the diagonal.
+#[test]
+fn crossed_bars_stay_crossed() {
+    let mut bars = Linkage::default();
+    (bars.l, bars.span) = ([1.0, 2.0, 1.0], 2.0);
+    let crossed = [("crank", 1.0), ("coupler", -0.9), ("rocker", -1.0)];
+    let start = bars.start("open", &crossed.into()).unwrap();
+    let found = swept(&bars, &start, "bar[0].angle", -TAU..2.0 * TAU, 360);
+    assert_eq!((found.limits.len(), found.postures.len()), (0, 361));
+    let rockers = found.coordinate("bar[2].angle").unwrap();
+    let speeds = found.velocity("bar[2].angle").unwrap();
+    let cranks = found.coordinate("bar[0].angle").unwrap();
+    for (k, crank) in cranks.into_iter().enumerate() {
+        let (s, c) = crank.sin_cos();
+        let diagonal = s.atan2(c - 2.0);
+        assert_close(
+            "rocker",
+            (rockers[k] - (2.0 * diagonal - crank)).sin(),
+            0.0,
+            1e-11,
+        );
+        let turn = (1.0 - 2.0 * c) / (5.0 - 4.0 * c);
+        assert_close("speed", speeds[k], 2.0 * turn - 1.0, 1e-8);
+    }
+    assert_eq!(found.efforts(&["bar[0].angle"]).unwrap().len(), 361);
+}
+
 /// tan(out) = tan(in) / cos(bend).
 #[test]
 fn a_universal_joint_runs_unevenly() {
@@ -428,6 +455,20 @@ fn what_does_not_decide_a_motion_is_refused() {
     refused(
         far,
         "do not come from the start to the begin of the sweep: `x` cannot pass",
+    );
+    ukcore::multibody! {
+        /// A follower on a cam with corners at the multiples of π.
+        pub Cam {
+            coords { a, x }
+            mass { a: 1.0, x: 1.0 }
+            holonomic { cam: x = abs(sin(a)) }
+        }
+    }
+    let start = State::guess::<Cam>(&[("a", 1.0), ("x", 0.8)]).unwrap();
+    let corner = kinematics(&Cam::default(), &start, &[("a", 0.5..4.0)], &[], 10);
+    refused(
+        corner,
+        "`drives` do not go on smoothly from here: positions have a corner",
     );
     let rods = Rods::default();
     let flat = State {

@@ -36,6 +36,8 @@ pub(super) struct Curve<'a> {
     pub(super) time: (f64, f64),
     /// The largest length of each row that is known, beside which a row may come to vanish; none yet where it is empty.
     pub(super) lengths: Vec<f64>,
+    /// What the rows usually keep beside each other.
+    pub(super) margin: f64,
 }
 
 /// A place on the curve.
@@ -201,12 +203,17 @@ impl Curve<'_> {
         rows
     }
 
-    /// Takes the lengths of rows along `path`.
+    /// Takes the lengths of rows along `path`, and what they usually keep beside each other.
     pub(super) fn gauge(&mut self, path: &Path) {
+        let n = self.mech.spec().n();
         for place in &path.places {
-            let rows = self.rows(&place.x, place.x.len());
+            let rows = self.rows(&place.x, n);
             self.lengths = rows.lengths.iter().copied().collect();
         }
+        let margins = path.places.iter().map(|p| self.rows(&p.x, n).margin);
+        let mut margins: Vec<f64> = margins.collect();
+        margins.sort_by(f64::total_cmp);
+        self.margin = margins[margins.len() / 2];
     }
 
     /// How far `x` is off, row by row.

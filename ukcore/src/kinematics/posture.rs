@@ -10,16 +10,18 @@ use crate::inverse::Posture;
 use crate::manifold::{At, Level, Manifold};
 use crate::scalar::{Scalar, Sloped, Slopes};
 
-/// Where rows keep less beside the others, branches cross nearby, and rounding grows by the third power of the inverse.
+/// Where rows keep less than this part of what is usual, branches cross nearby, and rounding grows by the third power of the inverse.
 const NEAR: f64 = 1e-2;
 /// Then it is the mean of places on both sides, so far away, as a part of a radius of curvature,
 const ASIDE: f64 = 3e-2;
 /// each pair with its share, which makes the error one of eighth order; its own distance is so many times that.
 const SHARES: [f64; 4] = [1.6, -0.8, 8.0 / 35.0, -1.0 / 35.0];
 
-/// So often at most half as far, until all of them lie on one branch: their tangents turn by less than an angle with this cosine.
-const HALVINGS: usize = 6;
+/// So often at most half as far, until all of them lie on one branch, where their tangents turn by less than an angle with this cosine, and
+/// two means agree up to this part.
+const HALVINGS: usize = 7;
 const ALONG: f64 = 0.95;
+const SAME: f64 = 1e-5;
 
 impl Curve<'_> {
     /// The posture at the part `s` of the sweep, on the piece of `path` behind its place number `index`, where the sweep goes on by `speed` in
@@ -36,7 +38,7 @@ impl Curve<'_> {
     ) -> Result<Option<Posture>, Error> {
         let [a, b] = [&path.places[index], &path.places[index + 1]];
         let guess = self.guess(a, b, s);
-        if self.rows(&guess, guess.len() - 1).margin >= NEAR {
+        if self.rows(&guess, guess.len() - 1).margin >= NEAR * self.margin {
             let (q, rows) = self.position(guess, s)?;
             return Ok(self.moved(q, s, &a.way, &rows, speed));
         }
@@ -44,13 +46,17 @@ impl Curve<'_> {
             let there = self.beyond(from, step);
             there.map_or_else(|| from.clone(), |(place, _)| place)
         };
-        let mut aside = ASIDE * path.radius;
+        let (mut aside, mut before) = (ASIDE * path.radius, None);
         for _ in 0..HALVINGS {
             let (behind, ahead) = (reach(a, -5.0 * aside), reach(b, 5.0 * aside));
             let step = aside * a.speed() * self.units[guess.len() - 1];
-            if let Some(mean) = self.mean(&behind, &ahead, s, step, speed)? {
-                return Ok(Some(mean));
+            let mean = self.mean(&behind, &ahead, s, step, speed)?;
+            if let (Some(now), Some(then)) = (&mean, &before)
+                && self.agree(now, then)
+            {
+                return Ok(mean);
             }
+            before = mean;
             aside *= 0.5;
         }
         let (t, q) = (
@@ -62,6 +68,20 @@ impl Curve<'_> {
             v: vec![0.0; q.len()],
             q,
         }))
+    }
+
+    /// Whether two means are the same but for small errors, of which that of the nearer one is far smaller.
+    fn agree(&self, a: &Posture, b: &Posture) -> bool {
+        let most = |a: &[f64], b: &[f64]| {
+            let pairs = a.iter().zip(b).zip(self.units.iter());
+            pairs.fold(0.0, |s: f64, ((a, b), unit)| s.max(((a - b) / unit).abs()))
+        };
+        let zero = vec![0.0; a.acceleration.len()];
+        let speed = most(&a.state.v, &zero);
+        let turn = speed * speed / most(&a.state.q, &zero).max(1.0 / self.units[zero.len()]);
+        most(&a.state.v, &b.state.v) <= SAME * speed
+            && most(&a.acceleration, &b.acceleration)
+                <= SAME * (turn + most(&a.acceleration, &zero))
     }
 
     /// The mean of postures on both sides of `s`, in steps of `step`, if they lie on one branch.

@@ -211,6 +211,7 @@ impl<'a> Sweep<'a> {
             fixed,
             time,
             lengths: Vec::new(),
+            margin: 1.0,
         }
     }
 
