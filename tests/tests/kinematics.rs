@@ -250,7 +250,8 @@ fn four_bars_turn_or_swing() {
     }
 }
 
-/// Where all bars lie in one line branches cross, and the rocker of this one turns sharply: it is the parallel one, mirrored in the diagonal.
+/// Where all bars lie in one line branches cross, and the rocker of this one turns sharply: it is the parallel one, mirrored in the
+/// diagonal.
 #[test]
 fn crossed_bars_stay_crossed() {
     let mut bars = Linkage::default();

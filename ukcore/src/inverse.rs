@@ -14,8 +14,8 @@ use crate::solver::{Solver, SolverOptions};
 pub struct Effort {
     /// The row of the constraint, or the coordinate.
     pub name: &'static str,
-    /// Its multiplier: the torque of a row that prescribes an angle, the force of one that prescribes a place. Of a coordinate the generalised
-    /// force on it.
+    /// Its multiplier: the torque of a row that prescribes an angle, the force of one that prescribes a place. Of a coordinate the
+    /// generalised force on it.
     pub effort: f64,
     /// The power that it puts into the mechanism: the effort times the rate at which it moves.
     pub power: f64,
@@ -111,8 +111,8 @@ impl Inverse {
 ///
 /// # Errors
 /// - [`Error::UnknownName`] with the nearest name; [`Error::WrongLength`], [`Error::NonFinite`].
-/// - [`Error::InvalidSetting`] where the acceleration does not satisfy a constraint, and where forces on these coordinates alone cannot make
-///   the motion, with the coordinate on which a force is missing most.
+/// - [`Error::InvalidSetting`] where the acceleration does not satisfy a constraint, and where forces on these coordinates alone cannot
+///   make the motion, with the coordinate on which a force is missing most.
 pub fn inverse_forces(
     mechanism: impl Into<Prepared>,
     posture: &Posture,

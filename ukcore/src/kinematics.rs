@@ -45,10 +45,10 @@ pub struct Limit {
     units: Vec<&'static str>,
 }
 
-/// Positions, velocities and accelerations of `mechanism` where each of the `drives` goes evenly from one value to another, all together, at
-/// the ends of so many equal `intervals`. A drive is a coordinate or the time `t`; velocities are those of a first drive with the speed 1.
-/// Coordinates named in `hold` keep the value that they have at `start`, from where the constraints are followed, first to the begin of the
-/// sweep: so the start decides in which branch the mechanism is. Constraints that move with time do so only if `t` is a drive.
+/// Positions, velocities and accelerations of `mechanism` where each of the `drives` goes evenly from one value to another, all together,
+/// at the ends of so many equal `intervals`. A drive is a coordinate or the time `t`; velocities are those of a first drive with the speed
+/// 1. Coordinates named in `hold` keep the value that they have at `start`, from where the constraints are followed, first to the begin of
+/// the sweep: so the start decides in which branch the mechanism is. Constraints that move with time do so only if `t` is a drive.
 ///
 /// Singular positions in which branches cross are passed. Where the drive itself comes to a dead centre, at both ends of the sweep if need
 /// be, that is a [`Limit`].
@@ -101,8 +101,8 @@ pub fn kinematics(
 }
 
 impl Kinematics {
-    /// The same `speed` times as fast, which is the speed of the first drive where it was 1: velocities in proportion to it, accelerations to
-    /// its square.
+    /// The same `speed` times as fast, which is the speed of the first drive where it was 1: velocities in proportion to it, accelerations
+    /// to its square.
     #[must_use]
     pub fn at_speed(mut self, speed: f64) -> Self {
         for posture in &mut self.postures {
@@ -190,8 +190,8 @@ impl Kinematics {
     }
 }
 
-/// In a sentence, such as "`bar[0].angle` cannot pass 1.333507 rad (76.404 deg): `p`, `q`, `r` hold it; there `bar[1].angle` moves most, and
-/// passes as a drive".
+/// In a sentence, such as "`bar[0].angle` cannot pass 1.333507 rad (76.404 deg): `p`, `q`, `r` hold it; there `bar[1].angle` moves most,
+/// and passes as a drive".
 impl fmt::Display for Limit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let digits = |x: f64, digits: usize| full(format!("{x:.digits$e}").parse().unwrap_or(x));

@@ -43,6 +43,9 @@ pub struct KinematicsArgs {
     pub plot: Option<Vec<String>>,
 }
 
+/// Drives by name, from value to value.
+type Ranges<'a> = Vec<(&'a str, Range<f64>)>;
+
 /// What `--drive` says.
 #[derive(Debug, Clone)]
 pub struct Drive {
@@ -182,10 +185,7 @@ fn unit(ready: &Ready<'_>, name: &str) -> Result<&'static str, Failure> {
 }
 
 /// The drives as numbers, and how many intervals there are.
-fn ranges<'a>(
-    ready: &Ready<'_>,
-    asked: &'a [Drive],
-) -> Result<(Vec<(&'a str, Range<f64>)>, usize), Failure> {
+fn ranges<'a>(ready: &Ready<'_>, asked: &'a [Drive]) -> Result<(Ranges<'a>, usize), Failure> {
     let mut ranges = Vec::new();
     let mut intervals = INTERVALS;
     for (k, drive) in asked.iter().enumerate() {

@@ -24,10 +24,11 @@
 //! `cargo run -- run cart --set angle=50deg --until 2 --csv -` then prints its motion, and `cargo run -- animate cart` makes a page that shows
 //! it. A mechanism that implements [`ukcore::model::Model`] has further starts and references of its own besides.
 //!
-//! Programs of other shape call functions: [`list`](list::list), [`run`](run::run), [`sweep`](sweep::sweep), [`animate`](animate::animate),
-//! [`modes`](modes::modes), [`diagnose`](diagnose::diagnose), [`inverse`](inverse::inverse), [`kinematics`](kinematics::kinematics),
-//! [`explain`](explain::explain), [`report`](report::report) and [`stability`](stability::stability) take models as [`Entry`], or cases, and
-//! their arguments; [`plot`] draws charts and [`html`] makes pages.
+//! Programs of other shape call functions: [`list`](list::list), [`run`](run::run), [`sweep`](sweep::sweep),
+//! [`animate`](animate::animate), [`modes`](modes::modes), [`diagnose`](diagnose::diagnose), [`inverse`](inverse::inverse),
+//! [`kinematics`](kinematics::kinematics), [`explain`](explain::explain), [`report`](report::report) and
+//! [`stability`](stability::stability) take models as [`Entry`], or cases, and their arguments; [`plot`] draws charts and [`html`] makes
+//! pages.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]

@@ -40,8 +40,8 @@ pub struct SweepArgs {
     /// Interval at which extremes are looked for; a thousandth of the run if absent
     #[arg(long, value_name = "TIME", value_parser = motion::interval, allow_hyphen_values = true)]
     pub every: Option<f64>,
-    /// Only a share of the runs, such as `3/10`: every tenth, from the third on. Tables of all shares, one behind the other in one file, are
-    /// a table of the sweep, which the same command without a share puts in order and completes
+    /// Only a share of the runs, such as `3/10`: every tenth, from the third on. Tables of all shares, one behind the other in one file,
+    /// are a table of the sweep, which the same command without a share puts in order and completes
     #[arg(long, value_name = "K/N", value_parser = shard)]
     pub shard: Option<Shard>,
     /// The table, as CSV. One that an interrupted sweep has left is completed

@@ -27,7 +27,8 @@ fn invalid<T>(what: &'static str, reason: String) -> Result<T, Error> {
 
 /// There is no smooth way on at `state`.
 pub(super) fn stuck(state: State) -> Error {
-    let reason = "do not go on smoothly from here: positions have a corner, or branches meet that cannot be told from each other; end the sweep before it";
+    let reason = "do not go on smoothly from here: positions have a corner, or branches meet that cannot be told from each other; end \
+                  the sweep before it";
     state.locate(Error::InvalidSetting {
         what: "drives",
         reason: reason.to_owned(),
