@@ -46,9 +46,10 @@ pub struct Limit {
 }
 
 /// Positions, velocities and accelerations of `mechanism` where each of the `drives` goes evenly from one value to another, all together,
-/// at the ends of so many equal `intervals`. A drive is a coordinate or the time `t`; velocities are those of a first drive with the speed
-/// 1. Coordinates named in `hold` keep the value that they have at `start`, from where the constraints are followed, first to the begin of
-/// the sweep: so the start decides in which branch the mechanism is. Constraints that move with time do so only if `t` is a drive.
+/// at the ends of so many equal `intervals`. A drive is a coordinate or the time `t`; where the first one goes
+/// at unit speed the velocities are those found. Coordinates named in `hold` keep the value that they have at `start`, from where the
+/// constraints are followed, first to the begin of the sweep: so the start decides in which branch the mechanism is. Constraints that move
+/// with time do so only if `t` is a drive.
 ///
 /// Singular positions in which branches cross are passed. Where the drive itself comes to a dead centre, at both ends of the sweep if need
 /// be, that is a [`Limit`].
