@@ -1,7 +1,9 @@
 //! Efforts of motors against closed forms.
 
 use tests::assert_close;
-use ukcore::{Error, Mechanism, Simulation, State, inverse};
+use ukcore::{
+    Error, Mechanism, Posture, Prepared, Simulation, State, inverse, inverse_forces, kinematics,
+};
 
 ukcore::multibody! {
     /// A rod on a driven hinge; y points up.
@@ -168,4 +170,113 @@ fn a_motor_that_joints_imply_does_nothing() {
         let efforts = inverse(&spare, &start, &["level"]).unwrap();
         assert_close("level", efforts[0].effort, 0.0, 1e-9);
     }
+}
+
+ukcore::multibody! {
+    /// A crank that drives a slider against a load.
+    pub Pump {
+        params { m = 2.0, r = 0.1, l = 0.3, load = 50.0 }
+        coords { th, x }
+        mass { th: 0.2, x: m }
+        force { x: -load }
+        holonomic { rod: sq(x - r * cos(th)) + sq(r * sin(th)) = sq(l) }
+    }
+}
+
+/// By the power, τ = (m ẍ + F) dx/dθ.
+#[test]
+fn a_crank_takes_the_torque_of_its_slider() {
+    let pump = Pump::default();
+    let guess = State::guess::<Pump>(&[("th", 0.4), ("x", 0.3)]).unwrap();
+    let start = ukcore::assemble(&pump, guess, &["th"]).unwrap();
+    let turn = kinematics(&pump, &start, &[("th", 0.0..6.0)], &[], 60).unwrap();
+    let speed = 7.0;
+    let turn = turn.at_speed(speed);
+    let efforts = turn.efforts(&["th"]).unwrap();
+    for (posture, efforts) in turn.postures.iter().zip(efforts) {
+        let (s, c) = posture.state.q[0].sin_cos();
+        let (r, l) = (pump.r, pump.l);
+        let w = (l * l - r * r * s * s).sqrt();
+        let dw = -r * r * s * c / w;
+        let ddw = (-r * r * (c * c - s * s) - dw * dw) / w;
+        let (dx, ddx) = (dw - r * s, ddw - r * c);
+        let torque = (pump.m * ddx * speed * speed + pump.load) * dx;
+        assert_eq!(efforts[0].name, "th");
+        assert_close("torque", efforts[0].effort, torque, 1e-9);
+        assert_close("power", efforts[0].power, torque * speed, 1e-8);
+    }
+    // The slider driven instead does the same work; both share it such that their squares are least.
+    let posture = &turn.postures[7];
+    let torque = efforts_of(&pump, posture, &["th"])[0].effort;
+    let speeds = [speed, posture.state.v[1]];
+    let force = efforts_of(&pump, posture, &["x"])[0].effort;
+    assert_close("force", force * speeds[1], torque * speeds[0], 1e-9);
+    let both = efforts_of(&pump, posture, &["th", "x"]);
+    let share = torque * speeds[0] / (speeds[0].powi(2) + speeds[1].powi(2));
+    assert_close("shared torque", both[0].effort, share * speeds[0], 1e-9);
+    assert_close("shared force", both[1].effort, share * speeds[1], 1e-9);
+}
+
+fn efforts_of(mechanism: &impl Mechanism, posture: &Posture, on: &[&str]) -> Vec<ukcore::Effort> {
+    inverse_forces(&mechanism.prepared(), posture, on).unwrap()
+}
+
+#[test]
+fn a_motion_that_the_forces_cannot_make_is_refused() {
+    ukcore::multibody! {
+        /// Two carts with a spring between them.
+        pub Carts {
+            coords { x, y }
+            mass { x: 2.0, y: 3.0 }
+            potential { 50.0 * sq(y - x) }
+        }
+    }
+    let state = State::guess::<Carts>(&[("x", 0.1), ("dot(y)", 2.0), ("t", 0.5)]).unwrap();
+    assert_eq!(
+        (state.t, &state.q[..], &state.v[..]),
+        (0.5, &[0.1, 0.0][..], &[0.0, 2.0][..])
+    );
+    let posture = Posture {
+        state,
+        acceleration: vec![4.0, 5.0],
+    };
+    let both = efforts_of(&Carts::default(), &posture, &["x", "y"]);
+    assert_close("x", both[0].effort, 8.0 + 10.0, 1e-12);
+    assert_close("y", both[1].effort, 15.0 - 10.0, 1e-12);
+    assert_close("power", both[1].power, 10.0, 1e-12);
+    let refused = |mechanism: &Prepared, posture: &Posture, on: &[&str], message: &str| {
+        let told = inverse_forces(mechanism, posture, on)
+            .unwrap_err()
+            .to_string();
+        assert!(told.contains(message), "{told}");
+    };
+    let carts = Carts::default().prepared();
+    refused(
+        &carts,
+        &posture,
+        &["x"],
+        "do not suffice for this motion: most of all it takes a force on `y`",
+    );
+    refused(&carts, &posture, &["z"], "no coordinate is called `z`");
+    let short = Posture {
+        acceleration: vec![4.0],
+        ..posture
+    };
+    refused(&carts, &short, &["x"], "`acceleration` has length 1");
+    let pump = Pump::default();
+    let state = State::guess::<Pump>(&[("x", 0.4)]).unwrap();
+    let off = Posture {
+        state,
+        acceleration: vec![0.0, 1.0],
+    };
+    refused(
+        &pump.prepared(),
+        &off,
+        &["th"],
+        "`acceleration` does not satisfy the constraint `rod`",
+    );
+    let unknown = State::guess::<Pump>(&[("dot(xx)", 0.4)])
+        .unwrap_err()
+        .to_string();
+    assert!(unknown.contains("did you mean `x`"), "{unknown}");
 }

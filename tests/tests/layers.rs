@@ -158,6 +158,7 @@ fn ukcore() {
             "branches",
             "inverse",
             "diagnosis",
+            "kinematics",
             "explain",
             "equilibrium",
             "integrate",

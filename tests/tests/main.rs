@@ -19,6 +19,7 @@ mod integrals;
 mod invariants;
 mod inverse;
 mod joints;
+mod kinematics;
 mod kinks;
 mod lanes;
 mod language;

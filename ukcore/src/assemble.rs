@@ -42,6 +42,25 @@ impl State {
         }
     }
 
+    /// A guess by names, for [`assemble`](crate::assemble()): `x` or `bar[0].angle` is a coordinate, `dot(x)` its velocity, a family's bare
+    /// name all its members, `t` the time; 0 what is not named.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name.
+    pub fn guess<M: Mechanism>(values: &[(&str, f64)]) -> Result<Self, Error> {
+        let mut state = State::zeros::<M>();
+        for (name, value) in values {
+            let velocity = name.strip_prefix("dot(").and_then(|n| n.strip_suffix(')'));
+            let indices = M::SPEC.coordinate_indices(velocity.unwrap_or(name));
+            match (indices, velocity) {
+                (Err(_), None) if *name == "t" => state.t = *value,
+                (indices, Some(_)) => indices?.into_iter().for_each(|j| state.v[j] = *value),
+                (indices, None) => indices?.into_iter().for_each(|j| state.q[j] = *value),
+            }
+        }
+        Ok(state)
+    }
+
     /// `error` with this state as the place where it arose.
     pub(crate) fn locate(&self, error: Error) -> Error {
         let State { t, q, v } = self.clone();

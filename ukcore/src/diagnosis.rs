@@ -349,7 +349,7 @@ impl fmt::Display for Redundant {
 }
 
 /// The names in quotes; rows of one joint by the name of the joint, where there are several.
-fn quoted(names: &[String]) -> String {
+pub(crate) fn quoted(names: &[String]) -> String {
     let joint = |name: &str| name.rsplit_once('.').map(|(joint, _)| joint.to_owned());
     let mut listed: Vec<String> = Vec::new();
     for name in names {

@@ -1,23 +1,37 @@
-//! What it takes to drive a mechanism: the efforts of motors, which are constraints that prescribe a motion.
+//! What it takes to drive a mechanism: the efforts of motors, which are constraints that prescribe a motion, or forces on coordinates.
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
-use crate::assemble::State;
+use crate::assemble::{State, held};
+use crate::diagnose;
 use crate::error::Error;
-use crate::mechanism::Prepared;
+use crate::mechanism::{Evaluated, Prepared};
 use crate::modes::{constraint_matrix, mass_matrix, measure, null_space, units};
 use crate::solver::{Solver, SolverOptions};
 
 /// What a motor does at a state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effort {
-    /// The row of the constraint.
+    /// The row of the constraint, or the coordinate.
     pub name: &'static str,
-    /// Its multiplier: the torque of a row that prescribes an angle, the force of one that prescribes a place.
+    /// Its multiplier: the torque of a row that prescribes an angle, the force of one that prescribes a place. Of a coordinate the
+    /// generalised force on it.
     pub effort: f64,
     /// The power that it puts into the mechanism: the effort times the rate at which it moves.
     pub power: f64,
 }
+
+/// A position of a mechanism, with velocities and accelerations there.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Posture {
+    /// Time, coordinates, and velocities.
+    pub state: State,
+    /// Accelerations q̈; of a sweep those where the drives have none.
+    pub acceleration: Vec<f64>,
+}
+
+/// An acceleration, or a force on a free displacement, that is off by this part of what adds up to it is not what is asked for.
+const MET: f64 = 1e-6;
 
 /// A combination of motors that acts on free displacements by less than this part of their largest coefficient moves nothing.
 const IDLE: f64 = 1e-9;
@@ -80,18 +94,8 @@ impl Inverse {
         let mut acting = rows.select_rows(driven);
         let speeds = &acting * DVector::from_column_slice(v);
         measure(&mut acting, &units);
-        let strongest = acting.amax();
         let force = DVector::from_vec(solution.ideal_force).component_mul(&units);
-        let mut efforts = DVector::zeros(driven.len());
-        if !free.is_empty() && !driven.is_empty() {
-            let acting = (acting * &free).transpose();
-            if let Ok(least) = acting
-                .svd(true, true)
-                .solve(&free.tr_mul(&force), IDLE * strongest)
-            {
-                efforts = least;
-            }
-        }
+        let efforts = least(&acting, &free, &free.tr_mul(&force));
         let all = driven.iter().zip(efforts.iter()).zip(speeds.iter());
         let effort = |((row, effort), speed): ((&usize, &f64), &f64)| Effort {
             name: spec.constraints[*row].name,
@@ -100,6 +104,91 @@ impl Inverse {
         };
         Ok(all.map(effort).collect())
     }
+}
+
+/// The generalised forces on the `coordinates`, by name, that make `mechanism` move as `posture` says; of a family's bare name on all its
+/// members. Forces that are declared act besides. Of more coordinates than degrees of freedom they are those whose sum of squares is least.
+///
+/// # Errors
+/// - [`Error::UnknownName`] with the nearest name; [`Error::WrongLength`], [`Error::NonFinite`].
+/// - [`Error::InvalidSetting`] where the acceleration does not satisfy a constraint, and where forces on these coordinates alone cannot
+///   make the motion, with the coordinate on which a force is missing most.
+pub fn inverse_forces(
+    mechanism: impl Into<Prepared>,
+    posture: &Posture,
+    coordinates: &[&str],
+) -> Result<Vec<Effort>, Error> {
+    let mech: Prepared = mechanism.into();
+    let spec = mech.spec();
+    let (n, m) = (spec.n(), spec.m());
+    let Posture {
+        state,
+        acceleration,
+    } = posture;
+    let driven = held(spec, coordinates)?;
+    state.check(&mech)?;
+    diagnose::check_length("acceleration", acceleration.len(), n)?;
+    if acceleration.iter().any(|a| !a.is_finite()) {
+        let what = vec!["acceleration".to_owned()];
+        return Err(Error::NonFinite { what });
+    }
+    let mut terms = Evaluated::new(n, m);
+    terms.dynamics(&mech, state.t, &state.q, &state.v);
+    let acceleration = DVector::from_column_slice(acceleration);
+    let rows = DMatrix::from_vec(m, n, terms.jacobian);
+    let mass = DMatrix::from_vec(n, n, terms.mass);
+    let units = units(&mass);
+    let size = acceleration.component_div(&units).norm();
+    for (row, b) in terms.rhs.iter().enumerate() {
+        let entries = rows.row(row).transpose();
+        let most = entries.component_mul(&units).norm() * size + b.abs();
+        if (entries.dot(&acceleration) - b).abs() > MET * most {
+            let name = spec.constraints[row].name;
+            return Err(Error::InvalidSetting {
+                what: "acceleration",
+                reason: format!("does not satisfy the constraint `{name}`"),
+            });
+        }
+    }
+    let given = DVector::from_vec(terms.force) + DVector::from_vec(terms.nonideal);
+    let inertial = &mass * &acceleration;
+    let sizes = (inertial.abs() + given.abs()).component_mul(&units);
+    let missing = (inertial - given).component_mul(&units);
+    let free = null_space(rows, &units);
+    let mut acting = DMatrix::zeros(driven.len(), n);
+    for (k, j) in driven.iter().enumerate() {
+        acting[(k, *j)] = units[*j];
+    }
+    let wanted = free.tr_mul(&missing);
+    let efforts = least(&acting, &free, &wanted);
+    let left = &free * (wanted - (&acting * &free).tr_mul(&efforts));
+    if left.amax() > MET * sizes.sum() {
+        let name = spec.coords[left.icamax()];
+        return Err(Error::InvalidSetting {
+            what: "coordinates",
+            reason: format!(
+                "do not suffice for this motion: most of all it takes a force on `{name}`"
+            ),
+        });
+    }
+    let all = driven.iter().zip(efforts.iter());
+    let effort = all.map(|(j, effort)| Effort {
+        name: spec.coords[*j],
+        effort: *effort,
+        power: effort * state.v[*j],
+    });
+    Ok(effort.collect())
+}
+
+/// Of the efforts that act by the rows `acting` as `wanted` in the displacements `free` those whose sum of squares is least.
+fn least(acting: &DMatrix<f64>, free: &DMatrix<f64>, wanted: &DVector<f64>) -> DVector<f64> {
+    let strongest = acting.amax();
+    let none = DVector::zeros(acting.nrows());
+    if free.is_empty() || acting.is_empty() {
+        return none;
+    }
+    let svd = (acting * free).transpose().svd(true, true);
+    svd.solve(wanted, IDLE * strongest).unwrap_or(none)
 }
 
 impl Prepared {

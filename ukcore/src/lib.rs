@@ -10,10 +10,10 @@
 //! - [`Simulation`]: adaptive integration with projection, events, dense output and named CSV; `Ensemble` (feature `ensemble`): many
 //!   motions at once, in
 //!   lanes and on all cores.
-//! - [`Linearisation`]: exact derivatives of the accelerations. [`equilibrium`](equilibrium()): where a mechanism rests; [`modes`](modes()):
-//!   how it vibrates. [`diagnose`](diagnose()): degrees of freedom, what follows from what, singular positions. [`inverse`](inverse()): what it takes to drive
-//!   it. [`verify!`]: a test of the
-//!   emitted code. [`lanes`]: several mechanisms at once, in the lanes of wide numbers.
+//! - [`Linearisation`]: exact derivatives of the accelerations. [`equilibrium`](equilibrium()): where a mechanism rests;
+//!   [`modes`](modes()): how it vibrates. [`diagnose`](diagnose()): degrees of freedom, what follows from what, singular positions.
+//!   [`kinematics`](kinematics()): swept drives, and limits of motion. [`inverse`](inverse()), [`inverse_forces`](inverse_forces()): what
+//!   it takes to drive it. [`verify!`]: a test of the emitted code. [`lanes`]: several mechanisms at once, in the lanes of wide numbers.
 //! - [`equations`]: the formulas as printed. [`spec`] and [`plan`]: what the compiler knows about a mechanism, and decided. [`model`]: what
 //!   a mechanism may
 //!   say of itself besides.
@@ -43,6 +43,7 @@ pub mod explain;
 mod fixture;
 mod integrate;
 mod inverse;
+mod kinematics;
 pub mod lanes;
 mod linearise;
 mod lu;
@@ -73,7 +74,8 @@ pub use branches::{Assembled, branches};
 pub use diagnosis::{Diagnosis, Redundant, diagnose, diagnose_along, lost_reactions};
 pub use equilibrium::{Equilibrium, Stability, equilibrium};
 pub use error::Error;
-pub use inverse::{Effort, Inverse, inverse};
+pub use inverse::{Effort, Inverse, Posture, inverse, inverse_forces};
+pub use kinematics::{Kinematics, Limit, kinematics};
 pub use linearise::Linearisation;
 pub use manifold::Stabilisation;
 pub use mechanism::{Mechanism, Prepared};

@@ -14,6 +14,7 @@ use crate::diagnose::{DiagnoseArgs, diagnose};
 use crate::explain::{ExplainArgs, explain};
 use crate::failure::Failure;
 use crate::inverse::{InverseArgs, inverse};
+use crate::kinematics::{KinematicsArgs, kinematics};
 use crate::list::list;
 use crate::modes::{ModesArgs, modes};
 use crate::report::{ReportArgs, report};
@@ -45,6 +46,9 @@ pub enum Command {
     Diagnose(DiagnoseArgs),
     /// Show what it takes to drive a model as its constraints prescribe: torque or force of each motor, its power and work
     Inverse(InverseArgs),
+    /// Sweep drives: positions, velocities and accelerations of a model where coordinates or the time go from one value to another, and
+    /// the limits of its motion
+    Kinematics(KinematicsArgs),
     /// Show what is known about a model: M, Q, A, b, rank, degrees of freedom, how its motion is computed; or the emitted code
     Explain(ExplainArgs),
     /// Measure error against run time, for each method, formula and stabilisation, and say which to take for which accuracy
@@ -68,6 +72,7 @@ impl Command {
             Command::Modes(args) => modes(models, args),
             Command::Diagnose(args) => diagnose(models, args),
             Command::Inverse(args) => inverse(models, args),
+            Command::Kinematics(args) => kinematics(models, args),
             Command::Explain(args) => explain(models, args),
             Command::Report(args) => report(models, args),
             Command::Stability(args) => of_model(models, args),

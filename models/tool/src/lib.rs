@@ -1,7 +1,7 @@
 //! Tools for mechanisms declared with [`ukcore::multibody!`]: commands, pages, plots.
 //!
 //! [`main!`] beside a declaration makes a program of it, with the commands `list`, `run`, `sweep`, `animate`, `modes`, `diagnose`,
-//! `inverse`, `explain`, `report` and `stability`:
+//! `inverse`, `kinematics`, `explain`, `report` and `stability`:
 //!
 //! ```no_run
 //! ukcore::multibody! {
@@ -24,10 +24,11 @@
 //! `cargo run -- run cart --set angle=50deg --until 2 --csv -` then prints its motion, and `cargo run -- animate cart` makes a page that
 //! shows it. A mechanism that implements [`ukcore::model::Model`] has further starts and references of its own besides.
 //!
-//! Programs of other shape call functions: [`list`](list::list), [`run`](run::run), [`sweep`](sweep::sweep), [`animate`](animate::animate),
-//! [`modes`](modes::modes), [`diagnose`](diagnose::diagnose), [`inverse`](inverse::inverse), [`explain`](explain::explain),
-//! [`report`](report::report) and [`stability`](stability::stability) take models as [`Entry`], or cases, and their arguments; [`plot`]
-//! draws charts and [`html`] makes pages.
+//! Programs of other shape call functions: [`list`](list::list), [`run`](run::run), [`sweep`](sweep::sweep),
+//! [`animate`](animate::animate), [`modes`](modes::modes), [`diagnose`](diagnose::diagnose), [`inverse`](inverse::inverse),
+//! [`kinematics`](kinematics::kinematics), [`explain`](explain::explain), [`report`](report::report) and
+//! [`stability`](stability::stability) take models as [`Entry`], or cases, and their arguments; [`plot`] draws charts and [`html`] makes
+//! pages.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -43,6 +44,7 @@ pub mod failure;
 pub mod html;
 pub mod interrupt;
 pub mod inverse;
+pub mod kinematics;
 pub mod list;
 pub mod modes;
 pub mod motion;
@@ -62,7 +64,7 @@ pub mod units;
 pub use ukcore::model::Entry;
 
 /// The whole of a program for the mechanisms declared beside it: a `main` function with the commands `list`, `run`, `sweep`, `animate`,
-/// `modes`, `diagnose`, `inverse`, `explain`, `report` and `stability`.
+/// `modes`, `diagnose`, `inverse`, `kinematics`, `explain`, `report` and `stability`.
 ///
 /// The mechanisms are called like their types, in lower case and with dashes (`Cart` as `cart`, `UChain` as `u-chain`), and have the starts
 /// that they declare; unless they implement [`ukcore::model::Model`] and say more of themselves. See the [crate] for an example.

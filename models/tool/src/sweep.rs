@@ -41,9 +41,36 @@ pub struct SweepArgs {
     /// Interval at which extremes are looked for; a thousandth of the run if absent
     #[arg(long, value_name = "TIME", value_parser = motion::positive, allow_hyphen_values = true)]
     pub every: Option<f64>,
+    /// Only a share of the runs, such as `3/10`: every tenth, from the third on. Tables of all shares, one behind the other in one file,
+    /// are a table of the sweep, which the same command without a share puts in order and completes
+    #[arg(long, value_name = "K/N", value_parser = shard)]
+    pub shard: Option<Shard>,
     /// The table, as CSV. One that an interrupted sweep has left is completed
     #[arg(long, value_name = "FILE", value_parser = command::path)]
     pub out: PathBuf,
+}
+
+/// A share of the runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shard {
+    number: usize,
+    of: usize,
+}
+
+impl Shard {
+    fn has(self, member: usize) -> bool {
+        member % self.of == self.number - 1
+    }
+}
+
+/// Reads `K/N`.
+fn shard(text: &str) -> Result<Shard, String> {
+    let (number, of) = text.split_once('/').unwrap_or((text, ""));
+    let read = |text: &str| text.trim().parse::<usize>().ok();
+    match (read(number), read(of)) {
+        (Some(number), Some(of)) if (1..=of).contains(&number) => Ok(Shard { number, of }),
+        _ => Err("a share is needed as K/N, with K from 1 to N: `1/10` to `10/10`".to_owned()),
+    }
 }
 
 /// More members are a slip.
@@ -69,9 +96,12 @@ pub fn sweep(models: &[Entry], args: &SweepArgs) -> Result<(), Failure> {
     };
     let head = plan.head()?;
     let mut table = Table::open(&args.out, &head)?;
-    let todo = table.missing(&plan)?;
+    let own = |member: &usize| args.shard.is_none_or(|shard| shard.has(*member));
+    let mut todo = table.missing(&plan)?;
+    todo.retain(own);
     let (interrupt, progress) = (Interrupt::catch()?, Progress::new(&entry.id));
-    let (all, done) = (plan.members.len(), AtomicUsize::new(0));
+    let all = (0..plan.members.len()).filter(own).count();
+    let done = AtomicUsize::new(0);
     let had = all - todo.len();
     let file = Mutex::new(&mut table.file);
     let run = |&member: &usize| -> Result<(), Failure> {
@@ -387,10 +417,15 @@ impl Table {
         }
         file.set_len(whole as u64).map_err(|e| broken(&e))?;
         let mut reader = csv::Reader::from_reader(&text[..whole]);
+        let names = reader.headers().cloned().map_err(|_| other(path))?;
         let mut rows = HashMap::new();
         for record in reader.records() {
             let record = record.map_err(|_| other(path))?;
             let fields: Vec<String> = record.iter().map(str::to_owned).collect();
+            // Tables of shares come one behind the other, each with its head.
+            if names.iter().eq(&fields) {
+                continue;
+            }
             let member = fields[0].parse().map_err(|_| other(path))?;
             rows.insert(member, fields);
         }
@@ -438,8 +473,9 @@ fn in_order(path: &Path) -> Result<Vec<(String, String)>, Failure> {
             .and_then(|k| k.parse().ok())
             .unwrap_or(usize::MAX)
     };
-    let mut rows: Vec<&str> = rows.lines().collect();
+    let mut rows: Vec<&str> = rows.lines().filter(|row| *row != head).collect();
     rows.sort_by_key(member);
+    rows.dedup_by_key(|row| member(row));
     let sorted = format!("{head}\n{}\n", rows.join("\n"));
     write_whole(path, |out| out.write_all(sorted.as_bytes()))?;
     let mut reader = csv::Reader::from_reader(sorted.as_bytes());

@@ -16,6 +16,7 @@ impl Trajectory {
     ///
     /// # Errors
     /// [`Error::UnknownName`] with the nearest name; what the solver reports, with the sample ([`Error::At`]).
+    #[doc(alias = "reaction")]
     pub fn multipliers(&self, name: &str) -> Result<Vec<Vec<f64>>, Error> {
         let rows = self.spec().constraint_indices(name)?;
         let mut solver = Solver::new(self.mechanism(), self.options);

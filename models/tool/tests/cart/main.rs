@@ -308,3 +308,57 @@ fn constraints_are_diagnosed() {
     let rod = output("inverse cart --motor rod --until 0.2 --csv");
     assert!(rod.starts_with("t,rod,power(rod)\n0,"), "{rod}");
 }
+
+#[test]
+fn drives_are_swept_to_the_limits_of_motion() {
+    let told = output("kinematics cart --drive x=-1..1:10cm --hold s");
+    // The rod, of 0.5 m, is level at both ends.
+    for part in [
+        "cart from `assembled`: 9 of 21 positions, `x` from -0.4 to 0.4\n",
+        "`x` cannot pass -0.5 m: `rod` holds it; there `y` moves most, and passes as a drive\n`x` cannot pass 0.5 m: ",
+        "swing (deg)  -53.1301 at x = -0.4, to 53.1301 at 0.4\n",
+    ] {
+        assert!(told.contains(part), "{part} in {told}");
+    }
+    let table =
+        output("kinematics cart --drive x=0..30cm:15cm --hold s --speed 2 --effort x,s --csv -");
+    let mut rows = table.lines();
+    let head = "t,s,x,y,dot(s),dot(x),dot(y),swing,ddot(s),ddot(x),ddot(y),effort(s),power(s),effort(x),power(x)";
+    assert_eq!(rows.next(), Some(head));
+    let last: Vec<f64> = rows
+        .nth(2)
+        .expect("a row")
+        .split(',')
+        .map(|x| x.parse().expect("a number"))
+        .collect();
+    // y = −(l² − x²)^½ = −0.4 m, dy/dx = 3/4, d²y/dx² = (1 + dy/dx²)/0.4 m.
+    for (k, expected) in [(3, -0.4), (5, 2.0), (6, 1.5), (10, 4.0 * 1.5625 / 0.4)] {
+        assert!((last[k] - expected).abs() < 1e-9, "{k}: {}", last[k]);
+    }
+    // The cart stands still: x feels weight and inertia by the slope, and the rod pushes the cart as much to the other side.
+    let force = (9.81 + 4.0 * 1.5625 / 0.4) * 0.75;
+    assert!(
+        (last[13] - force).abs() < 1e-9 && (last[11] + force).abs() < 1e-9,
+        "{table}"
+    );
+    fails(
+        "kinematics cart --drive x=0..1",
+        2,
+        "the drives leave 1 degree of freedom beside the sweep: hold or drive as many",
+    );
+    fails(
+        "kinematics cart --drive x=0..1kg",
+        2,
+        "`x`: a value in m is needed",
+    );
+    fails(
+        "kinematics cart --drive x=0..1:2 --hold s",
+        2,
+        "steps of 2 do not lead from 0 to 1",
+    );
+    fails(
+        "kinematics cart --drive x=0..1 --hold s --effort s",
+        2,
+        "the coordinates of `--effort` do not suffice",
+    );
+}

@@ -258,3 +258,36 @@ fn what_is_swept_is_reported_with_its_own_parameters() {
         "`k` is set twice",
     );
 }
+
+#[test]
+fn shares_are_joined_to_the_same_table() {
+    let out = tempfile::tempdir().expect("directory");
+    let place = |name: &str| out.path().join(name);
+    let sweep = |name: &str, more: &str| {
+        let file = place(name);
+        output(&format!(
+            "sweep cart --until 0.1 --set k=40..70:10 --tol 1e-6,1e-9 --out {} {more}",
+            file.display()
+        ))
+    };
+    let read = |name: &str| std::fs::read_to_string(place(name)).expect("a table");
+    assert!(sweep("all.csv", "").starts_with("8 runs in "));
+    let mut joined = String::new();
+    for (k, runs) in [(3, 2), (1, 3), (2, 3)] {
+        let name = format!("{k}.csv");
+        let told = sweep(&name, &format!("--shard {k}/3"));
+        assert!(told.starts_with(&format!("{runs} runs in ")), "{told}");
+        assert_eq!(read(&name).lines().count(), 1 + runs);
+        joined += &read(&name);
+    }
+    std::fs::write(place("joined.csv"), joined).expect("a table");
+    sweep("joined.csv", "");
+    assert_eq!(read("joined.csv"), read("all.csv"));
+    for share in ["0/3", "4/3", "3", "a/b"] {
+        fails(
+            &format!("sweep cart --out x.csv --shard {share}"),
+            2,
+            "a share is needed as K/N",
+        );
+    }
+}

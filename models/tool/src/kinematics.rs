@@ -1,0 +1,320 @@
+//! The command `kinematics`: positions, velocities and accelerations while drives are swept, and the limits of motion.
+
+use std::io::{self, Write};
+use std::ops::Range;
+use std::path::PathBuf;
+
+use clap::Args;
+use ukcore::model::Entry;
+use ukcore::simulate::Sample;
+use ukcore::{Effort, Error, Kinematics, State, kinematics as swept};
+
+use crate::columns::Columns;
+use crate::command;
+use crate::curves::Curves;
+use crate::failure::Failure;
+use crate::numbers::{count, full, width};
+use crate::output::{self, WholeFile};
+use crate::scene::{Ready, Scene};
+use crate::units::{self, Quantity};
+
+/// The arguments of `kinematics`.
+#[derive(Debug, Args)]
+pub struct KinematicsArgs {
+    /// The mechanism, and the start from where it is followed; `--hold` keeps coordinates at its values
+    #[command(flatten)]
+    pub scene: Scene,
+    /// Sweep a coordinate, or the time `t`, as in `crank.angle=0deg..360deg:5deg`; without a step in 200 intervals. Drives that are given
+    /// together go together, evenly each, in the steps of the first
+    #[arg(long = "drive", value_name = "NAME=FROM..TO[:STEP]", required = true, value_parser = drive, allow_hyphen_values = true)]
+    pub drives: Vec<Drive>,
+    /// Speed of the first drive; 1 in SI units if absent
+    #[arg(long, value_name = "SPEED", value_parser = Quantity::parse)]
+    pub speed: Option<Quantity>,
+    /// Coordinates on which forces or torques are to make the motion, such as the drive: `effort(NAME)` and `power(NAME)`; of more than it
+    /// takes the least
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    pub effort: Vec<String>,
+    /// Write the positions as CSV, with velocities, outputs, accelerations `ddot(NAME)` and efforts; `-` is standard output
+    #[arg(long, value_name = "FILE", value_parser = command::path)]
+    pub csv: Option<PathBuf>,
+    /// Draw curves as SVG: each is a NAME of the table over the first drive, or `X,Y`, which is Y over X
+    #[arg(long, num_args = 2.., value_names = ["FILE", "CURVE"])]
+    pub plot: Option<Vec<String>>,
+}
+
+/// Drives by name, from value to value.
+type Ranges<'a> = Vec<(&'a str, Range<f64>)>;
+
+/// What `--drive` says.
+#[derive(Debug, Clone)]
+pub struct Drive {
+    name: String,
+    ends: [Quantity; 2],
+    step: Option<Quantity>,
+}
+
+/// Intervals where no step is given, and at most.
+const INTERVALS: usize = 200;
+const MOST: f64 = 1e6;
+
+/// Reads `NAME=FROM..TO` or `NAME=FROM..TO:STEP`.
+fn drive(text: &str) -> Result<Drive, String> {
+    let (name, values) = units::split(text, "FROM..TO")?;
+    let (range, step) = match values.split_once(':') {
+        Some((range, step)) => (range, Some(Quantity::parse(step)?)),
+        None => (values, None),
+    };
+    let (from, to) = range
+        .split_once("..")
+        .ok_or_else(|| format!("a range is needed: `{name}=FROM..TO`"))?;
+    Ok(Drive {
+        name: name.to_owned(),
+        ends: [Quantity::parse(from)?, Quantity::parse(to)?],
+        step,
+    })
+}
+
+/// Sweeps the drives of a model, and prints what is reached, the limits of motion, and the range of each output.
+///
+/// # Errors
+/// [`Failure::Usage`] for what is wrong with the command line, and where drives and held coordinates do not decide the motion;
+/// [`Failure::Failed`] where positions do not go on or a file cannot be written.
+pub fn kinematics(models: &[Entry], args: &KinematicsArgs) -> Result<(), Failure> {
+    let ready = args.scene.ready(models)?;
+    let (drives, intervals) = ranges(&ready, &args.drives)?;
+    let (name, _) = &drives[0];
+    let speed = args.speed.as_ref().map_or(Ok(1.0), |speed| {
+        let speed = speed.si_rate(unit(&ready, name)?);
+        speed.map_err(|e| Failure::Usage(format!("`--speed`: {e}")))
+    })?;
+    let curves = args.plot.as_deref();
+    let curves = curves.map(|asked| over(&ready, name, asked));
+    let hold: Vec<&str> = args
+        .scene
+        .start
+        .place
+        .hold
+        .iter()
+        .map(String::as_str)
+        .collect();
+    let found = swept(&ready.mechanism, &ready.state, &drives, &hold, intervals);
+    let found = found.map_err(told)?.at_speed(speed);
+    if let Some(mut curves) = curves.transpose()? {
+        found
+            .postures
+            .iter()
+            .for_each(|p| curves.add(Sample::from(&p.state)));
+        curves.finish()?;
+    }
+    let on: Vec<&str> = args.effort.iter().map(String::as_str).collect();
+    let found = Found {
+        efforts: match on.is_empty() {
+            true => vec![Vec::new(); found.postures.len()],
+            false => found.efforts(&on).map_err(told)?,
+        },
+        swept: found,
+    };
+    let to_stdout = args
+        .csv
+        .as_deref()
+        .is_some_and(|path| path.as_os_str() == "-");
+    match args.csv.as_deref() {
+        None => {}
+        Some(_) if to_stdout => output::to_stdout(|out| table(out, &ready, &found))?,
+        Some(path) => WholeFile::create(path)?.finish_with(text(&ready, &found)?)?,
+    }
+    if to_stdout {
+        return Ok(());
+    }
+    output::to_stdout(|out| summary(out, &ready, &drives, intervals, &found))
+}
+
+/// Postures and limits, and of each posture the efforts asked for.
+struct Found {
+    swept: Kinematics,
+    efforts: Vec<Vec<Effort>>,
+}
+
+impl Found {
+    fn effort_names(&self) -> impl Iterator<Item = String> {
+        let efforts = self.efforts.first().into_iter().flatten();
+        efforts.flat_map(|e| ["effort", "power"].map(|what| format!("{what}({})", e.name)))
+    }
+}
+
+/// The picture asked for by a file's name and curves, of which those over time are drawn over the drive `name`.
+fn over(ready: &Ready<'_>, name: &str, asked: &[String]) -> Result<Curves, Failure> {
+    let mut curves: Vec<String> = Vec::new();
+    for (k, curve) in asked.iter().enumerate() {
+        if k == 0 || name == "t" || curve.contains(',') {
+            curves.push(curve.clone());
+        } else {
+            let columns = Columns::named(&ready.mechanism, &[curve])?;
+            curves.extend(columns.names().map(|member| format!("{name},{member}")));
+        }
+    }
+    Curves::new(&ready.mechanism, &curves)
+}
+
+/// What the library says of its arguments, by the names that they have on the command line.
+fn told(error: Error) -> Failure {
+    match error {
+        Error::InvalidSetting { what, reason } => {
+            let what = match what {
+                "hold" => "`--hold`",
+                "drives" => "the drives",
+                "start" => "the start",
+                "coordinates" => "the coordinates of `--effort`",
+                "acceleration" => "the motion",
+                _ => "the mechanism",
+            };
+            Failure::Usage(format!("{what} {reason}"))
+        }
+        other => other.into(),
+    }
+}
+
+/// The unit of a coordinate, or of the time.
+fn unit(ready: &Ready<'_>, name: &str) -> Result<&'static str, Failure> {
+    let spec = ready.mechanism.spec();
+    if name == "t" && !spec.coords.contains(&"t") {
+        return Ok("s");
+    }
+    Ok(spec.coordinate_unit(spec.coordinate_index(name)?))
+}
+
+/// The drives as numbers, and how many intervals there are.
+fn ranges<'a>(ready: &Ready<'_>, asked: &'a [Drive]) -> Result<(Ranges<'a>, usize), Failure> {
+    let mut ranges = Vec::new();
+    let mut intervals = INTERVALS;
+    for (k, drive) in asked.iter().enumerate() {
+        let unit = unit(ready, &drive.name)?;
+        let si = |quantity: &Quantity| {
+            let value = quantity.si(unit);
+            value.map_err(|e| Failure::Usage(format!("`{}`: {e}", drive.name)))
+        };
+        let [from, mut to] = [si(&drive.ends[0])?, si(&drive.ends[1])?];
+        if let Some(step) = &drive.step {
+            let step = si(step)?;
+            let steps = (to - from) / step;
+            if k > 0 {
+                let message = format!(
+                    "`{}` goes along with `{}`, which alone has a step",
+                    drive.name, asked[0].name
+                );
+                return Err(Failure::Usage(message));
+            }
+            if !(1.0 - 1e-9..MOST).contains(&steps) {
+                let message = format!(
+                    "`{}`: steps of {step} do not lead from {from} to {to}, by fewer than {MOST:.0e}",
+                    drive.name
+                );
+                return Err(Failure::Usage(message));
+            }
+            // A last step that rounding puts beyond the end is meant; what is left behind the last one is not swept.
+            intervals = (steps * (1.0 + 1e-9)).floor() as usize;
+            if steps - intervals as f64 > 1e-9 * steps {
+                to = from + step * intervals as f64;
+            }
+        }
+        ranges.push((drive.name.as_str(), from..to));
+    }
+    Ok((ranges, intervals))
+}
+
+fn text(ready: &Ready<'_>, found: &Found) -> Result<String, Failure> {
+    let mut bytes = Vec::new();
+    table(&mut bytes, ready, found).map_err(|e| Failure::Failed(e.to_string()))?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+fn table(out: &mut dyn Write, ready: &Ready<'_>, found: &Found) -> io::Result<()> {
+    let spec = ready.mechanism.spec();
+    let coords = || spec.coords.iter().copied();
+    let mut head = vec!["t".to_owned()];
+    head.extend(coords().map(str::to_owned));
+    head.extend(coords().map(|name| format!("dot({name})")));
+    head.extend(spec.outputs.iter().map(|o| o.name.to_owned()));
+    head.extend(coords().map(|name| format!("ddot({name})")));
+    head.extend(found.effort_names());
+    writeln!(out, "{}", head.join(","))?;
+    let mut outputs = vec![0.0; spec.outputs.len()];
+    for (posture, efforts) in found.swept.postures.iter().zip(&found.efforts) {
+        let State { t, q, v } = &posture.state;
+        ready.mechanism.outputs(*t, q, v, &mut outputs);
+        let efforts: Vec<f64> = efforts.iter().flat_map(|e| [e.effort, e.power]).collect();
+        let values = [&[*t], &q[..], v, &outputs, &posture.acceleration, &efforts].concat();
+        let text = |x: f64| {
+            if x.is_finite() {
+                full(x)
+            } else {
+                String::new()
+            }
+        };
+        let values: Vec<String> = values.into_iter().map(text).collect();
+        writeln!(out, "{}", values.join(","))?;
+    }
+    Ok(())
+}
+
+fn summary(
+    out: &mut dyn Write,
+    ready: &Ready<'_>,
+    drives: &[(&str, Range<f64>)],
+    intervals: usize,
+    found: &Found,
+) -> io::Result<()> {
+    let name = drives[0].0;
+    let drive = ready.mechanism.spec().coordinate_index(name).ok();
+    let at = |state: &State| drive.map_or(state.t, |j| state.q[j]);
+    let postures = &found.swept.postures;
+    let places: Vec<f64> = postures.iter().map(|p| at(&p.state)).collect();
+    let (id, all) = (&ready.entry.id, count(intervals + 1, "position"));
+    write!(
+        out,
+        "{id} from `{}`: {} of {all}",
+        ready.start,
+        places.len()
+    )?;
+    match places[..] {
+        [begin, .., end] => writeln!(out, ", `{name}` from {} to {}", short(begin), short(end))?,
+        _ => writeln!(out)?,
+    }
+    let mut limits = found.swept.limits.iter();
+    limits.try_for_each(|limit| writeln!(out, "{limit}"))?;
+    let columns = Columns::of_interest(&ready.mechanism);
+    let mut labels = columns.labels();
+    labels.extend(found.effort_names());
+    let wide = width(labels.iter().map(String::as_str));
+    let rows = postures
+        .iter()
+        .zip(&found.efforts)
+        .map(|(posture, efforts)| {
+            let mut row = columns.values(Sample::from(&posture.state));
+            row.extend(efforts.iter().flat_map(|e| [e.effort, e.power]));
+            row
+        });
+    let rows: Vec<Vec<f64>> = rows.collect();
+    for (k, label) in labels.iter().enumerate() {
+        let values = || {
+            let values = places.iter().zip(&rows).map(|(at, row)| (row[k], *at));
+            values.filter(|(x, _)| x.is_finite())
+        };
+        let least = values().min_by(|a, b| a.0.total_cmp(&b.0));
+        let most = values().max_by(|a, b| a.0.total_cmp(&b.0));
+        if let (Some(least), Some(most)) = (least, most) {
+            let [low, from, high, to] = [least.0, least.1, most.0, most.1].map(short);
+            writeln!(
+                out,
+                "  {label:<wide$}  {low} at {name} = {from}, to {high} at {to}"
+            )?;
+        }
+    }
+    Ok(())
+}
+
+/// Seven digits.
+fn short(x: f64) -> String {
+    full(format!("{x:.6e}").parse().unwrap_or(x))
+}

@@ -1,0 +1,519 @@
+//! Swept drives against closed forms: positions, velocities, accelerations, limits.
+
+use std::f64::consts::{PI, TAU};
+
+use tests::assert_close;
+use ukcore::{Error, Kinematics, Mechanism, State, kinematics};
+
+ukcore::multibody! {
+    /// Slider-crank of bodies; the slider moves along x.
+    pub Press {
+        params { r = 0.1 [m], l = 0.3 [m] }
+        bodies {
+            planar crank { mass: 1.0, inertia: 0.01 }
+            planar rod { mass: 2.0, inertia: 0.02, centre: [l / 2.0, 0] }
+            planar ram { mass: 3.0, inertia: 0.03 }
+        }
+        holonomic {
+            shaft: pin(ground.at([0, 0]), crank.at([0, 0]))
+            knee: pin(crank.at([r, 0]), rod.at([0, 0]))
+            wrist: pin(rod.at([l, 0]), ram.at([0, 0]))
+            guide: slider(ground.at([0, 0]), ram.at([0, 0]), [1, 0])
+        }
+        output { stroke [mm] = ram.x }
+        start turned(angle = 60 [deg]) { crank.angle = angle; rod.angle near -0.1; ram.x near r * cos(angle) + l }
+    }
+}
+
+ukcore::multibody! {
+    /// Four-bar linkage: crank, coupler, rocker; non-Grashof by its defaults.
+    pub Linkage {
+        params { l[3] = [1.5, 1.0, 1.2], span = 2.0 }
+        bodies { for i in 0..3 { planar bar[i] { mass: 1.0, inertia: sq(l[i]) / 12.0, centre: [l[i] / 2.0, 0] } } }
+        holonomic {
+            o: pin(ground.at([0, 0]), bar[0].at([0, 0]))
+            p: pin(bar[0].at([l[0], 0]), bar[1].at([0, 0]))
+            q: pin(bar[1].at([l[1], 0]), bar[2].at([l[2], 0]))
+            r: pin(ground.at([span, 0]), bar[2].at([0, 0]))
+        }
+        start open(crank = 0.5, coupler = 0.2, rocker = 1.4) {
+            bar[0].angle = crank;
+            bar[1].angle near coupler;
+            bar[2].angle near rocker
+        }
+    }
+}
+
+ukcore::multibody! {
+    /// A universal joint between shafts at an angle `bend`.
+    pub Universal {
+        params { bend = 0.5 }
+        bodies { for i in 0..3 { spatial part[i] { mass: 1.0, inertia: [0.2, 0.3, 0.4] } } }
+        tree {
+            inlet: hinge(ground.at([0, 0, 0]), part[0].at([0, 0, 0]), [0, 0, 1])
+            fork: hinge(part[0].at([0, 0, 0]), part[1].at([0, 0, 0]), [1, 0, 0])
+            outlet: hinge(ground.at([0, 0, 0]), part[2].at([0, 0, 0]), [sin(bend), 0, cos(bend)])
+        }
+        holonomic {
+            cross[0]: inner(part[1].along([1, 0, 0]), part[2].along([0, 1, 0])) = 0
+            cross[1]: inner(part[1].along([0, 0, 1]), part[2].along([0, 1, 0])) = 0
+        }
+        start turned(angle = 0.3) { inlet.angle = angle; outlet.angle near angle }
+    }
+}
+
+ukcore::multibody! {
+    /// A bar that a crank carries, with a second, equal crank and a third one, which is redundant.
+    pub Rods {
+        coords { a, b, c, x, y }
+        mass { x: 1.0, y: 1.0, a: 0.5, b: 0.5, c: 0.5 }
+        holonomic {
+            first: [x, y] = [cos(a), sin(a)]
+            second: [x + 2.0, y] = [2.0 + cos(b), sin(b)]
+            span: sq(2.0 + cos(c) - cos(a)) + sq(sin(c) - sin(a)) = 4.0
+        }
+        start turned(angle = 0.7) { a = angle; b near angle; c near angle; x near 0.7; y near 0.6 }
+    }
+}
+
+ukcore::multibody! {
+    /// A hand of two links, its angles free; a third coordinate moves with the time.
+    pub Arm {
+        coords { a, b, x, y, w }
+        mass { a: 1.0, b: 1.0, x: 1.0, y: 1.0, w: 1.0 }
+        holonomic {
+            hand: [x, y] = [2.0 * cos(a) + cos(a + b), 2.0 * sin(a) + sin(a + b)]
+            clock: w = 0.5 * sin(3.0 * t) + sq(x)
+        }
+    }
+}
+
+fn swept(
+    mechanism: &impl Mechanism,
+    start: &State,
+    name: &str,
+    range: std::ops::Range<f64>,
+    intervals: usize,
+) -> Kinematics {
+    kinematics(
+        &mechanism.prepared(),
+        start,
+        &[(name, range)],
+        &[],
+        intervals,
+    )
+    .unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// Through both dead centres of the ram, also where r = l and branches cross at half way between: there the ram of this branch goes on to
+/// the other side of the shaft.
+#[test]
+fn a_slider_crank_by_its_crank() {
+    for (l, start) in [(0.3, 1.0), (0.1, 1.0), (0.1, -2.5)] {
+        let mut press = Press::default();
+        press.l = l;
+        let r = press.r;
+        let start = match l > r {
+            true => press.start("turned", &[("angle", start)].into()).unwrap(),
+            false => {
+                let (x, y) = (r * start.cos(), r * start.sin());
+                let q = vec![0.0, 0.0, start, x, y, -start, 2.0 * x, 0.0, 0.0];
+                let guess = State {
+                    t: 0.0,
+                    q,
+                    v: vec![0.0; 9],
+                };
+                ukcore::assemble(&press, guess, &["crank.angle"]).unwrap()
+            }
+        };
+        let found = swept(&press, &start, "crank.angle", -PI..TAU, 60).at_speed(2.0);
+        assert_eq!((found.postures.len(), found.limits.len()), (61, 0));
+        let stroke = found.output("stroke").unwrap();
+        let [v, a] = [
+            found.velocity("ram.x").unwrap(),
+            found.acceleration("ram.x").unwrap(),
+        ];
+        for (k, angle) in found
+            .coordinate("crank.angle")
+            .unwrap()
+            .into_iter()
+            .enumerate()
+        {
+            assert_close("angle", angle, -PI + 3.0 * PI * k as f64 / 60.0, 1e-14);
+            let (s, c) = angle.sin_cos();
+            // The rod along x, with its rates by the angle.
+            let [w, dw, ddw] = match l > r {
+                true => {
+                    let w = (l * l - r * r * s * s).sqrt();
+                    let dw = -r * r * s * c / w;
+                    [w, dw, (-r * r * (c * c - s * s) - dw * dw) / w]
+                }
+                false => [r * c, -r * s, -r * c],
+            };
+            assert_close("stroke", stroke[k], 1e3 * (r * c + w), 1e-9);
+            assert_close("velocity", v[k], 2.0 * (dw - r * s), 1e-9);
+            assert_close("acceleration", a[k], 4.0 * (ddw - r * c), 1e-6);
+        }
+    }
+}
+
+/// The drive itself has dead centres where crank and rod are in one line.
+#[test]
+fn a_slider_crank_by_its_ram_has_both_limits() {
+    let press = Press::default();
+    let start = press.start("turned", &[].into()).unwrap();
+    let found = swept(&press, &start, "ram.x", 0.0..0.5, 500);
+    // 200, 201, …, 399 mm of 0 … 500: the dead centres themselves are limits.
+    let reached = found.coordinate("ram.x").unwrap();
+    assert_eq!((reached.len(), found.limits.len()), (199, 2));
+    for (limit, place, angle) in [(&found.limits[0], 0.2, PI), (&found.limits[1], 0.4, 0.0)] {
+        assert_eq!(limit.drives[0].0, "ram.x");
+        assert_close("limit", limit.drives[0].1, place, 1e-14);
+        assert_close("crank", limit.state.q[Press::CRANK_ANGLE], angle, 1e-9);
+        assert_eq!(limit.constraints, ["knee.x", "wrist.x"]);
+        assert_eq!(limit.leader, "crank.angle");
+    }
+    let text = found.limits[1].to_string();
+    assert_eq!(
+        text,
+        "`ram.x` cannot pass 0.4 m: `knee.x`, `wrist.x` hold it; there `crank.angle` moves most, and passes as a drive"
+    );
+    let (r, l) = (press.r, press.l);
+    let angles = found.coordinate("crank.angle").unwrap();
+    for (x, angle) in reached.iter().zip(angles) {
+        let cosine = (x * x + r * r - l * l) / (2.0 * r * x);
+        assert_close("angle", angle.cos(), cosine, 1e-12);
+        assert!(angle > 0.0);
+    }
+}
+
+/// Where coupler and rocker are in one line, a² + d² − 2 a d cos θ = (b ± c)².
+#[test]
+fn four_bars_turn_or_swing() {
+    let swings = Linkage::default();
+    let start = swings.start("open", &[].into()).unwrap();
+    let found = swept(&swings, &start, "bar[0].angle", -PI..PI, 360);
+    let ([a, b, c], d) = (swings.l, swings.span);
+    let limit = ((a * a + d * d - (b + c).powi(2)) / (2.0 * a * d)).acos();
+    assert_eq!(found.limits.len(), 2);
+    for (found, expected) in found.limits.iter().zip([-limit, limit]) {
+        assert_close("limit", found.drives[0].1, expected, 1e-13);
+        let (coupler, rocker) = (
+            found.state.q[Linkage::BAR_ANGLE[1]],
+            found.state.q[Linkage::BAR_ANGLE[2]],
+        );
+        assert_close("stretched", (coupler - rocker).sin(), 0.0, 1e-9);
+        let joints: Vec<&str> = found.constraints.iter().map(|c| &c[..1]).collect();
+        assert_eq!(joints, ["p", "p", "q", "q", "r", "r"]);
+    }
+    let text = found.limits[1].to_string();
+    assert!(
+        text.starts_with("`bar[0].angle` cannot pass 1.33"),
+        "{text}"
+    );
+    assert!(
+        text.contains(": `p`, `q`, `r` hold it; there `bar["),
+        "{text}"
+    );
+    assert_eq!(
+        found.postures.len(),
+        2 * (180.0 * limit / PI).floor() as usize + 1
+    );
+
+    let mut turns = Linkage::default();
+    turns.l = [0.5, 2.0, 1.5];
+    let start = turns
+        .start(
+            "open",
+            &[("crank", 1.0), ("coupler", 0.5), ("rocker", 1.0)].into(),
+        )
+        .unwrap();
+    let found = swept(&turns, &start, "bar[0].angle", 0.0..2.0 * TAU, 240);
+    assert_eq!((found.limits.len(), found.postures.len()), (0, 241));
+    let ([a, b, c], d) = (turns.l, turns.span);
+    let rockers = found.coordinate("bar[2].angle").unwrap();
+    let couplers = found.velocity("bar[1].angle").unwrap();
+    for (k, crank) in found
+        .coordinate("bar[0].angle")
+        .unwrap()
+        .into_iter()
+        .enumerate()
+    {
+        let p = [a * crank.cos() - d, a * crank.sin()];
+        let e = p[0].hypot(p[1]);
+        let inner = ((e * e + c * c - b * b) / (2.0 * e * c)).acos();
+        let rocker = p[1].atan2(p[0]) - inner;
+        assert_close("rocker", (rockers[k] - rocker).sin(), 0.0, 1e-12);
+        let coupler = (c * rocker.sin() - p[1]).atan2(c * rocker.cos() - p[0]);
+        let speed = a * (rocker - crank).sin() / (b * (coupler - rocker).sin());
+        assert_close("coupler", couplers[k], speed, 1e-11);
+    }
+}
+
+/// Where all bars lie in one line branches cross, and the rocker of this one turns sharply: it is the parallel one, mirrored in the
+/// diagonal.
+#[test]
+fn crossed_bars_stay_crossed() {
+    let mut bars = Linkage::default();
+    (bars.l, bars.span) = ([1.0, 2.0, 1.0], 2.0);
+    let crossed = [("crank", 1.0), ("coupler", -0.9), ("rocker", -1.0)];
+    let start = bars.start("open", &crossed.into()).unwrap();
+    let found = swept(&bars, &start, "bar[0].angle", -TAU..2.0 * TAU, 360);
+    assert_eq!((found.limits.len(), found.postures.len()), (0, 361));
+    let rockers = found.coordinate("bar[2].angle").unwrap();
+    let speeds = found.velocity("bar[2].angle").unwrap();
+    let cranks = found.coordinate("bar[0].angle").unwrap();
+    for (k, crank) in cranks.into_iter().enumerate() {
+        let (s, c) = crank.sin_cos();
+        let diagonal = s.atan2(c - 2.0);
+        assert_close(
+            "rocker",
+            (rockers[k] - (2.0 * diagonal - crank)).sin(),
+            0.0,
+            1e-11,
+        );
+        let turn = (1.0 - 2.0 * c) / (5.0 - 4.0 * c);
+        assert_close("speed", speeds[k], 2.0 * turn - 1.0, 1e-8);
+    }
+    assert_eq!(found.efforts(&["bar[0].angle"]).unwrap().len(), 361);
+}
+
+/// tan(out) = tan(in) / cos(bend).
+#[test]
+fn a_universal_joint_runs_unevenly() {
+    let joint = Universal::default();
+    let start = joint.start("turned", &[].into()).unwrap();
+    let found = swept(&joint, &start, "inlet.angle", -TAU..TAU, 90);
+    assert_eq!((found.limits.len(), found.postures.len()), (0, 91));
+    let outlet = found.coordinate("outlet.angle").unwrap();
+    let [v, acceleration] = [
+        found.velocity("outlet.angle").unwrap(),
+        found.acceleration("outlet.angle").unwrap(),
+    ];
+    let (sine, cosine) = joint.bend.sin_cos();
+    for (k, angle) in found
+        .coordinate("inlet.angle")
+        .unwrap()
+        .into_iter()
+        .enumerate()
+    {
+        let (s, c) = angle.sin_cos();
+        assert!((outlet[k] - angle).abs() < 0.2, "{angle}: {}", outlet[k]);
+        assert_close(
+            "outlet",
+            s * outlet[k].cos() - cosine * c * outlet[k].sin(),
+            0.0,
+            1e-13,
+        );
+        let below = 1.0 - (sine * c).powi(2);
+        assert_close("speed", v[k], cosine / below, 1e-12);
+        assert_close(
+            "acceleration",
+            acceleration[k],
+            -cosine * sine * sine * 2.0 * s * c / below.powi(2),
+            1e-10,
+        );
+    }
+}
+
+/// At 0 and π all bars are in one line, and branches cross: the cranks stay parallel.
+#[test]
+fn redundant_cranks_pass_where_they_are_in_line() {
+    let rods = Rods::default();
+    let start = rods.start("turned", &[].into()).unwrap();
+    let found = swept(&rods, &start, "a", 0.0..3.0 * PI, 36);
+    assert_eq!((found.limits.len(), found.postures.len()), (0, 37));
+    for (k, posture) in found.postures.iter().enumerate() {
+        let a = 3.0 * PI * k as f64 / 36.0;
+        let (q, v) = (&posture.state.q, &posture.state.v);
+        for (j, expected) in [a, a, a, a.cos(), a.sin()].into_iter().enumerate() {
+            assert_close("place", q[j], expected, 1e-11);
+        }
+        for (j, expected) in [1.0, 1.0, 1.0, -a.sin(), a.cos()].into_iter().enumerate() {
+            assert_close("speed", v[j], expected, 1e-9);
+        }
+        for (j, expected) in [0.0, 0.0, 0.0, -a.cos(), -a.sin()].into_iter().enumerate() {
+            assert_close("acceleration", posture.acceleration[j], expected, 1e-7);
+        }
+    }
+}
+
+#[test]
+fn several_freedoms_are_held_or_driven_together() {
+    let arm = Arm::default().prepared();
+    let guess = State {
+        t: 0.25,
+        q: vec![0.3, 0.5, 2.5, 1.3, 6.0],
+        v: vec![0.0; 5],
+    };
+    let start = ukcore::assemble(&arm, guess, &["a", "b"]).unwrap();
+    // One held.
+    let found = kinematics(&arm, &start, &[("x", 0.0..4.0)], &["b"], 400).unwrap();
+    let reach = (5.0 + 4.0 * 0.5_f64.cos()).sqrt();
+    assert_eq!(found.limits.len(), 1);
+    assert_close("reach", found.limits[0].drives[0].1, reach, 1e-13);
+    assert_eq!(found.limits[0].leader, "y");
+    for posture in &found.postures {
+        let [a, b, x, _, w] = posture.state.q[..] else {
+            panic!()
+        };
+        assert_eq!((b, posture.state.t), (0.5, 0.25));
+        assert_close("clock", w, 0.5 * 0.75_f64.sin() + x * x, 1e-13);
+        // The time stands still.
+        assert_close("rate", posture.state.v[4], 2.0 * x, 1e-12);
+        assert_close("turn", posture.acceleration[4], 2.0, 1e-9);
+        assert_close(
+            "a",
+            posture.state.v[0] * -(2.0 * a.sin() + (a + b).sin()),
+            1.0,
+            1e-12,
+        );
+    }
+    // Both driven, from elsewhere.
+    let drives = [("b", 1.0..-1.0), ("a", 0.0..TAU), ("t", 2.0..3.0)];
+    let found = kinematics(&arm, &start, &drives, &[], 50).unwrap();
+    assert_eq!((found.limits.len(), found.postures.len()), (0, 51));
+    for (k, posture) in found.postures.iter().enumerate() {
+        let part = k as f64 / 50.0;
+        let (a, b, t) = (TAU * part, 1.0 - 2.0 * part, 2.0 + part);
+        assert_close("t", posture.state.t, t, 1e-14);
+        // b goes by 1 in a second, so a by π and t by 1/2.
+        let (va, vb, vt) = (PI, -1.0, 0.5);
+        let (x, vx) = (
+            2.0 * a.cos() + (a + b).cos(),
+            -2.0 * a.sin() * va - (a + b).sin() * (va + vb),
+        );
+        let ax = -2.0 * a.cos() * va * va - (a + b).cos() * (va + vb).powi(2);
+        assert_close("x", posture.state.q[2], x, 1e-13);
+        assert_close("dot(x)", posture.state.v[2], vx, 1e-11);
+        assert_close("ddot(x)", posture.acceleration[2], ax, 1e-10);
+        let turn = -4.5 * (3.0 * t).sin() * vt * vt + 2.0 * (vx * vx + x * ax);
+        assert_close("ddot(w)", posture.acceleration[4], turn, 1e-9);
+    }
+}
+
+#[track_caller]
+fn refused(found: Result<Kinematics, Error>, message: &str) {
+    let error = found.expect_err("it is refused").to_string();
+    assert!(error.contains(message), "{error}");
+}
+
+#[test]
+fn what_does_not_decide_a_motion_is_refused() {
+    let press = Press::default();
+    let at = |angle: f64| press.start("turned", &[("angle", angle)].into()).unwrap();
+    let mech = press.prepared();
+    let ask = |start: &State, drives: &[(&str, std::ops::Range<f64>)], hold: &[&str]| {
+        kinematics(&mech, start, drives, hold, 10)
+    };
+    refused(
+        ask(&at(1.0), &[("crank.x", 0.0..1.0)], &[]),
+        "`crank.x` would stand still while `ram.x` moves",
+    );
+    refused(
+        ask(&at(0.0), &[("ram.x", 0.3..0.4)], &[]),
+        "`start` is a dead centre: `ram.x` would stand still",
+    );
+    refused(
+        ask(&at(1.0), &[("ram.x", 0.3..0.4)], &["crank.angle"]),
+        "more than the degrees of freedom",
+    );
+    refused(
+        ask(&at(1.0), &[("ram.x", 0.3..0.4)], &["ram.x"]),
+        "`hold` has `ram.x`, which is a drive",
+    );
+    refused(
+        ask(&at(1.0), &[("ram.x", 0.3..0.3)], &[]),
+        "`ram.x` goes from 0.3 to 0.3",
+    );
+    refused(
+        ask(&at(1.0), &[("ran.x", 0.3..0.4)], &[]),
+        "did you mean `ram.x`",
+    );
+    refused(ask(&at(1.0), &[], &[]), "`drives` are none");
+    refused(
+        ask(&at(1.0), &[("ram.x", 0.3..f64::NAN)], &[]),
+        "not a finite number: range of ram.x",
+    );
+    let arm = Arm::default().prepared();
+    let start = ukcore::assemble(
+        &arm,
+        State {
+            t: 0.0,
+            q: vec![0.3, 0.5, 2.5, 1.3, 6.0],
+            v: vec![0.0; 5],
+        },
+        &["a", "b"],
+    )
+    .unwrap();
+    refused(
+        kinematics(&arm, &start, &[("x", 0.0..4.0)], &[], 10),
+        "leave 1 degree of freedom beside the sweep",
+    );
+    let led = kinematics(&arm, &start, &[("x", 4.0..5.0)], &["b"], 10).unwrap();
+    assert_eq!((led.postures.len(), led.limits.len()), (0, 1));
+    let far = kinematics(&arm, &start, &[("x", 4.0..5.0), ("a", 0.0..1.0)], &[], 10);
+    refused(
+        far,
+        "do not come from the start to the begin of the sweep: `x` cannot pass",
+    );
+    ukcore::multibody! {
+        /// A follower on a cam with corners at the multiples of π.
+        pub Cam {
+            coords { a, x }
+            mass { a: 1.0, x: 1.0 }
+            holonomic { cam: x = abs(sin(a)) }
+        }
+    }
+    let start = State::guess::<Cam>(&[("a", 1.0), ("x", 0.8)]).unwrap();
+    let corner = kinematics(&Cam::default(), &start, &[("a", 0.5..4.0)], &[], 10);
+    refused(
+        corner,
+        "`drives` do not go on smoothly from here: positions have a corner",
+    );
+    let rods = Rods::default();
+    let flat = State {
+        t: 0.0,
+        q: vec![0.0, 0.0, 0.0, 1.0, 0.0],
+        v: vec![0.0; 5],
+    };
+    refused(
+        kinematics(&rods, &flat, &[("a", 0.0..1.0)], &[], 10),
+        "is a singular position",
+    );
+}
+
+/// A crank that cannot turn all the way, turned by a motor: the limit is a time.
+#[test]
+fn a_motor_reaches_its_limit_in_time() {
+    ukcore::multibody! {
+        /// Crank, coupler and rocker by coordinates, the crank turned evenly.
+        pub Driven {
+            coords { th, x, y }
+            mass { th: 1.0, x: 1.0, y: 1.0 }
+            holonomic {
+                motor: th = 0.2 + 0.5 * t
+                coupler: sq(x - 1.5 * cos(th)) + sq(y - 1.5 * sin(th)) = 1.0
+                rocker: sq(x - 2.0) + sq(y) = sq(1.2)
+            }
+        }
+    }
+    let driven = Driven::default();
+    let guess = State {
+        t: 0.0,
+        q: vec![0.2, 2.0, 1.2],
+        v: vec![0.0; 3],
+    };
+    let start = ukcore::assemble(&driven, guess, &[]).unwrap();
+    let found = swept(&driven, &start, "t", 0.0..10.0, 100);
+    let limit = ((1.5_f64.powi(2) + 4.0 - 2.2_f64.powi(2)) / 6.0).acos();
+    assert_eq!(found.limits.len(), 1);
+    assert_close(
+        "limit",
+        found.limits[0].drives[0].1,
+        (limit - 0.2) / 0.5,
+        1e-13,
+    );
+    assert_eq!(found.limits[0].constraints, ["coupler", "rocker"]);
+    assert_close("speed", found.velocity("th").unwrap()[3], 0.5, 1e-13);
+}

@@ -1,0 +1,220 @@
+//! Positions, velocities and accelerations of a mechanism whose drives are swept, and where they cannot go on.
+//!
+//! With as many drives and held coordinates as there are degrees of freedom, the positions that the constraints allow are a curve,
+//! which is followed from the start: so the mechanism stays in the branch that it is in, also where branches cross.
+
+use std::fmt;
+use std::ops::Range;
+
+use crate::assemble::{Held, State, assembled, held};
+use crate::diagnosis::quoted;
+use crate::error::Error;
+use crate::inverse::{Effort, Posture, inverse_forces};
+use crate::mechanism::Prepared;
+use crate::modes::{constraint_matrix, mass_matrix, null_space, units};
+use crate::numbers::full;
+
+mod curve;
+mod posture;
+mod sweep;
+
+use sweep::{Drive, Sweep};
+
+/// What [`kinematics`](kinematics()) finds.
+#[derive(Debug, Clone)]
+pub struct Kinematics {
+    mechanism: Prepared,
+    /// The positions, with velocities and accelerations, in the order of the sweep: those of its even parts that are reached.
+    pub postures: Vec<Posture>,
+    /// Where the drive cannot go on, in the order of the sweep; none if it is all done.
+    pub limits: Vec<Limit>,
+}
+
+/// A limit of motion: a dead centre of the drive, at which it stands still while the mechanism moves.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Limit {
+    /// The drives with their values there.
+    pub drives: Vec<(&'static str, f64)>,
+    /// The position there. Its velocities are those with which the mechanism goes on while the drives stand still: 1 for
+    /// [`leader`](Limit::leader).
+    pub state: State,
+    /// The constraints that hold the drive there, such as those of two rods in one line.
+    pub constraints: Vec<String>,
+    /// The coordinate that moves most there, measured by the root of its inertia: as a drive it passes.
+    pub leader: &'static str,
+    units: Vec<&'static str>,
+}
+
+/// Positions, velocities and accelerations of `mechanism` where each of the `drives` goes evenly from one value to another, all together,
+/// at the ends of so many equal `intervals`. A drive is a coordinate or the time `t`; where the first one goes
+/// at unit speed the velocities are those found. Coordinates named in `hold` keep the value that they have at `start`, from where the
+/// constraints are followed, first to the begin of the sweep: so the start decides in which branch the mechanism is. Constraints that move
+/// with time do so only if `t` is a drive.
+///
+/// Singular positions in which branches cross are passed. Where the drive itself comes to a dead centre, at both ends of the sweep if need
+/// be, that is a [`Limit`].
+///
+/// # Errors
+/// - [`Error::UnknownName`] with the nearest name; [`Error::NonFinite`]; what [`assemble`](crate::assemble()) reports for `start`.
+/// - [`Error::InvalidSetting`] where drives and held coordinates are not as many as the degrees of freedom, where there are nonholonomic
+///   constraints, since these leave the position to the way on which it is reached, and where the start is a dead centre or a singular
+///   position, or the begin of the sweep is not reached.
+/// - [`Error::At`] with [`Error::InvalidSetting`] where positions do not go on smoothly; with [`Error::OffConstraint`] where constraints
+///   that imply each other come to contradict each other.
+pub fn kinematics(
+    mechanism: impl Into<Prepared>,
+    start: &State,
+    drives: &[(&str, Range<f64>)],
+    hold: &[&str],
+    intervals: usize,
+) -> Result<Kinematics, Error> {
+    let mech: Prepared = mechanism.into();
+    let spec = mech.spec();
+    if spec.holonomic < spec.m() {
+        let name = spec.constraints[spec.holonomic].name;
+        let reason = format!(
+            "has the nonholonomic constraint `{name}`: positions depend on the way on which they are reached; integrate instead"
+        );
+        return Err(Error::InvalidSetting {
+            what: "mechanism",
+            reason,
+        });
+    }
+    let held = held(spec, hold)?;
+    let kept = Held {
+        positions: held.clone(),
+        ..Held::default()
+    };
+    let start = assembled(&mech, start, kept)?;
+    let drives = Drive::all(&mech, drives, &held)?;
+    let sweep = Sweep {
+        mech: &mech,
+        start: &start,
+        held,
+        drives,
+    };
+    let (postures, limits) = sweep.postures(intervals)?;
+    Ok(Kinematics {
+        postures,
+        limits,
+        mechanism: mech,
+    })
+}
+
+impl Kinematics {
+    /// The same `speed` times as fast, which is the speed of the first drive where it was 1: velocities in proportion to it, accelerations
+    /// to its square.
+    #[must_use]
+    pub fn at_speed(mut self, speed: f64) -> Self {
+        for posture in &mut self.postures {
+            posture.state.v.iter_mut().for_each(|v| *v *= speed);
+            let accelerations = posture.acceleration.iter_mut();
+            accelerations.for_each(|a| *a *= speed * speed);
+        }
+        self
+    }
+
+    fn each(&self, name: &str, of: impl Fn(&Posture, usize) -> f64) -> Result<Vec<f64>, Error> {
+        let index = self.mechanism.spec().coordinate_index(name)?;
+        Ok(self.postures.iter().map(|p| of(p, index)).collect())
+    }
+
+    /// Values of the coordinate called `name` at the postures.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name.
+    pub fn coordinate(&self, name: &str) -> Result<Vec<f64>, Error> {
+        self.each(name, |posture, j| posture.state.q[j])
+    }
+
+    /// Velocities of the coordinate called `name` at the postures.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name.
+    pub fn velocity(&self, name: &str) -> Result<Vec<f64>, Error> {
+        self.each(name, |posture, j| posture.state.v[j])
+    }
+
+    /// Accelerations of the coordinate called `name` at the postures.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name.
+    pub fn acceleration(&self, name: &str) -> Result<Vec<f64>, Error> {
+        self.each(name, |posture, j| posture.acceleration[j])
+    }
+
+    /// The forces on the `coordinates` that it takes at the postures, as [`inverse_forces`](crate::inverse_forces()) has them, a vector for
+    /// each. Where branches cross, forces that the constraints leave open there are not a number.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name; what [`inverse_forces`](crate::inverse_forces()) reports.
+    pub fn efforts(&self, coordinates: &[&str]) -> Result<Vec<Vec<Effort>>, Error> {
+        let driven = held(self.mechanism.spec(), coordinates)?;
+        let freedoms = |posture: &Posture| {
+            let rows = constraint_matrix(&self.mechanism, &posture.state);
+            null_space(rows, &units(&mass_matrix(&self.mechanism, &posture.state))).ncols()
+        };
+        let counts: Vec<usize> = self.postures.iter().map(freedoms).collect();
+        let usual = counts.iter().min();
+        let unknown = |j: &usize| Effort {
+            name: self.mechanism.spec().coords[*j],
+            effort: f64::NAN,
+            power: f64::NAN,
+        };
+        let all = self.postures.iter().zip(&counts);
+        let efforts = all.map(|(posture, count)| {
+            let found = inverse_forces(&self.mechanism, posture, coordinates);
+            match found {
+                Err(Error::InvalidSetting { .. }) if Some(count) > usual => {
+                    Ok(driven.iter().map(unknown).collect())
+                }
+                found => found,
+            }
+        });
+        efforts.collect()
+    }
+
+    /// Values of the output called `name` at the postures.
+    ///
+    /// # Errors
+    /// [`Error::UnknownName`] with the nearest name.
+    pub fn output(&self, name: &str) -> Result<Vec<f64>, Error> {
+        let spec = self.mechanism.spec();
+        let index = spec.output_index(name)?;
+        let mut row = vec![0.0; spec.outputs.len()];
+        let mut value = |posture: &Posture| {
+            let State { t, q, v } = &posture.state;
+            self.mechanism.outputs(*t, q, v, &mut row);
+            row[index]
+        };
+        Ok(self.postures.iter().map(&mut value).collect())
+    }
+}
+
+/// In a sentence, such as "`bar[0].angle` cannot pass 1.333507 rad (76.404 deg): `p`, `q`, `r` hold it; there `bar[1].angle` moves most,
+/// and passes as a drive".
+impl fmt::Display for Limit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let digits = |x: f64, digits: usize| full(format!("{x:.digits$e}").parse().unwrap_or(x));
+        let drives = self.drives.iter().zip(&self.units);
+        let drives = drives.map(|((name, value), unit)| {
+            let told = format!("`{name}` cannot pass {}", digits(*value, 6));
+            match *unit {
+                "" => told,
+                "rad" => format!("{told} rad ({} deg)", digits(value.to_degrees(), 4)),
+                unit => format!("{told} {unit}"),
+            }
+        });
+        write!(f, "{}", drives.collect::<Vec<_>>().join(", "))?;
+        match self.constraints.len() {
+            0 => {}
+            1 => write!(f, ": {} holds it", quoted(&self.constraints))?,
+            _ => write!(f, ": {} hold it", quoted(&self.constraints))?,
+        }
+        write!(
+            f,
+            "; there `{}` moves most, and passes as a drive",
+            self.leader
+        )
+    }
+}

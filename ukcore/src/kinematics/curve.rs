@@ -1,0 +1,353 @@
+//! The curve of positions that constraints and drives leave, in the coordinates and the part s of the sweep that is done.
+//!
+//! It is followed by its arc length, so that it may turn back in s, as at a dead centre of the drive: a step along the tangent, then Gauss
+//! and Newton's method, whose steps of least length are at right angles to the curve. Of rows that imply each other as many are taken as
+//! were independent at the start, those that keep most beside the others.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::mechanism::Prepared;
+use crate::modes::{INDEPENDENT, measure};
+use crate::zero::locate;
+
+/// Steps of Newton's method at most.
+const NEWTON: usize = 12;
+/// A step of Newton's method below this part of the coordinates is rounding; below the larger one, where it does not become smaller.
+const ROUNDING: f64 = 1e-14;
+const STALLED: f64 = 1e-10;
+/// A step along the curve turns its tangent by less than the first of these angles, rad; the second is aimed at.
+const TURN: f64 = 0.3;
+const WANTED: f64 = 0.15;
+/// The first step, as a part of the sweep; and the least one, of the coordinates.
+const FIRST: f64 = 1e-3;
+const LEAST: f64 = 1e-9;
+/// Steps along a curve at most.
+const STEPS: usize = 100_000;
+
+/// The curve: constraints at their times, and coordinates that are prescribed.
+#[derive(Debug, Clone)]
+pub(super) struct Curve<'a> {
+    pub(super) mech: &'a Prepared,
+    /// What coordinates, and s behind them, are measured by.
+    pub(super) units: DVector<f64>,
+    /// Prescribed coordinates, each with its value at s = 0 and what it gains up to s = 1.
+    pub(super) fixed: Vec<(usize, f64, f64)>,
+    /// The time at s = 0, and what it gains.
+    pub(super) time: (f64, f64),
+    /// The largest length of each row that is known, beside which a row may come to vanish; none yet where it is empty.
+    pub(super) lengths: Vec<f64>,
+    /// What the rows usually keep beside each other.
+    pub(super) margin: f64,
+}
+
+/// A place on the curve.
+#[derive(Debug, Clone)]
+pub(super) struct Place {
+    /// Coordinates, and s.
+    pub(super) x: DVector<f64>,
+    /// The tangent there, of length 1 in the units.
+    pub(super) way: DVector<f64>,
+}
+
+impl Place {
+    pub(super) fn s(&self) -> f64 {
+        self.x[self.x.len() - 1]
+    }
+
+    /// How fast s changes along the curve, 1 where nothing else does.
+    pub(super) fn speed(&self) -> f64 {
+        self.way[self.way.len() - 1]
+    }
+}
+
+/// A part of the curve.
+#[derive(Debug)]
+pub(super) struct Path {
+    /// Places along it, so near to each other that a cubic is the curve between them.
+    pub(super) places: Vec<Place>,
+    /// A radius of its curvature that is neither the least nor the largest.
+    pub(super) radius: f64,
+    pub(super) end: End,
+}
+
+/// Why a path ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum End {
+    /// As far as is wanted.
+    Arrived,
+    /// Where s turns back.
+    Turned,
+    /// There is no smooth way on.
+    Stuck,
+}
+
+impl Path {
+    pub(super) fn last(&self) -> &Place {
+        &self.places[self.places.len() - 1]
+    }
+}
+
+/// The rows of the curve's equations at a place, in units, taken apart: Kᵀ P = Q R.
+pub(super) struct Rows {
+    pub(super) matrix: DMatrix<f64>,
+    pub(super) lengths: DVector<f64>,
+    /// Row of each column of R.
+    order: Vec<usize>,
+    turned: DMatrix<f64>,
+    r: DMatrix<f64>,
+    pub(super) rank: usize,
+    /// What the last of these rows keeps beside the others; 0 where there are fewer.
+    pub(super) margin: f64,
+}
+
+impl Rows {
+    /// Of at most `rank` independent rows, each of length 1, or less as it is shorter than the one of `known` lengths.
+    fn new(mut matrix: DMatrix<f64>, rank: usize, known: &[f64]) -> Self {
+        let known = |i: usize| known.get(i).copied().unwrap_or(0.0);
+        let lengths = DVector::from_fn(matrix.nrows(), |i, _| matrix.row(i).norm().max(known(i)));
+        for (mut row, length) in matrix.row_iter_mut().zip(lengths.iter()) {
+            if *length > 0.0 {
+                row /= *length;
+            }
+        }
+        let decomposed = matrix.transpose().col_piv_qr();
+        let r = decomposed.r();
+        let pivots = (0..r.nrows().min(r.ncols())).map(|k| r[(k, k)].abs());
+        let pivots: Vec<f64> = pivots.take(rank).take_while(|x| *x > INDEPENDENT).collect();
+        let mut order = DVector::from_fn(matrix.nrows(), |i, _| i);
+        decomposed.p().permute_rows(&mut order);
+        let mut turned = DMatrix::identity(matrix.ncols(), matrix.ncols());
+        decomposed.q_tr_mul(&mut turned);
+        let margin = match pivots.last() {
+            Some(pivot) if pivots.len() == rank => *pivot,
+            _ => 0.0,
+        };
+        let rank = pivots.len();
+        Rows {
+            matrix,
+            lengths,
+            order: order.iter().copied().collect(),
+            turned,
+            r: r.view((0, 0), (rank, rank)).into_owned(),
+            rank,
+            margin,
+        }
+    }
+
+    /// The shortest z, in units, with K z = `rhs`.
+    pub(super) fn shortest(&self, rhs: &DVector<f64>) -> DVector<f64> {
+        let share = |k: usize| match self.lengths[self.order[k]] {
+            length if length > 0.0 => rhs[self.order[k]] / length,
+            _ => 0.0,
+        };
+        let mut parts = DVector::from_fn(self.rank, |k, _| share(k));
+        // R has no zero on its diagonal.
+        self.r.tr_solve_upper_triangular_mut(&mut parts);
+        self.turned.rows(0, self.rank).tr_mul(&parts)
+    }
+
+    /// The combination of rows, each of length 1, that is `what`.
+    pub(super) fn combination(&self, what: &DVector<f64>) -> Vec<f64> {
+        let mut parts = self.turned.rows(0, self.rank) * what;
+        self.r.solve_upper_triangular_mut(&mut parts);
+        let mut shares = vec![0.0; self.matrix.nrows()];
+        for (row, share) in self.order.iter().zip(parts.iter()) {
+            shares[*row] = *share;
+        }
+        shares
+    }
+
+    /// An orthonormal basis of the directions that all rows leave, in rows.
+    pub(super) fn free(&self) -> DMatrix<f64> {
+        let n = self.matrix.ncols();
+        self.turned.rows(self.rank, n - self.rank).into_owned()
+    }
+
+    /// Of these directions the one nearest to `way`.
+    pub(super) fn along(&self, way: &DVector<f64>) -> Option<DVector<f64>> {
+        let free = self.free();
+        let way = free.tr_mul(&(&free * way));
+        let length = way.norm();
+        (length > 0.0).then(|| way / length)
+    }
+}
+
+impl Curve<'_> {
+    pub(super) fn time_at(&self, s: f64) -> f64 {
+        self.time.0 + self.time.1 * s
+    }
+
+    /// All rows at `x`, of which `rank` count.
+    pub(super) fn rows(&self, x: &DVector<f64>, rank: usize) -> Rows {
+        Rows::new(self.matrix(x), rank, &self.lengths)
+    }
+
+    /// All rows at `x`, in units.
+    fn matrix(&self, x: &DVector<f64>) -> DMatrix<f64> {
+        let spec = self.mech.spec();
+        let (n, m, h) = (spec.n(), spec.m(), spec.holonomic);
+        let (t, q, rest) = (self.time_at(x[n]), &x.as_slice()[..n], vec![0.0; n]);
+        let (mut jacobian, mut rate) = (vec![0.0; m * n], vec![0.0; m]);
+        self.mech.jacobian(t, q, &rest, &mut jacobian);
+        self.mech.residual_rate(t, q, &rest, &mut rate);
+        let mut rows = DMatrix::zeros(h + self.fixed.len(), n + 1);
+        for c in 0..h {
+            (0..n).for_each(|j| rows[(c, j)] = jacobian[j * m + c]);
+            rows[(c, n)] = self.time.1 * rate[c];
+        }
+        for (k, (j, _, gain)) in self.fixed.iter().enumerate() {
+            rows[(h + k, *j)] = 1.0;
+            rows[(h + k, n)] = -gain;
+        }
+        measure(&mut rows, &self.units);
+        rows
+    }
+
+    /// Takes the lengths of rows along `path`, and what they usually keep beside each other.
+    pub(super) fn gauge(&mut self, path: &Path) {
+        let n = self.mech.spec().n();
+        for place in &path.places {
+            let rows = self.rows(&place.x, n);
+            self.lengths = rows.lengths.iter().copied().collect();
+        }
+        let margins = path.places.iter().map(|p| self.rows(&p.x, n).margin);
+        let mut margins: Vec<f64> = margins.collect();
+        margins.sort_by(f64::total_cmp);
+        self.margin = margins[margins.len() / 2];
+    }
+
+    /// How far `x` is off, row by row.
+    fn residual(&self, x: &DVector<f64>) -> DVector<f64> {
+        let (n, h) = (self.mech.spec().n(), self.mech.spec().holonomic);
+        let mut residual = DVector::zeros(h + self.fixed.len());
+        let (q, s) = (&x.as_slice()[..n], x[n]);
+        let phi = &mut residual.as_mut_slice()[..h];
+        self.mech.residual(self.time_at(s), q, phi);
+        for (k, (j, begin, gain)) in self.fixed.iter().enumerate() {
+            residual[h + k] = q[*j] - (begin + gain * s);
+        }
+        residual
+    }
+
+    /// How long the sweep and the coordinates are, in units.
+    pub(super) fn size(&self, x: &DVector<f64>) -> f64 {
+        x.component_div(&self.units).norm() + 1.0 / self.units[x.len() - 1]
+    }
+
+    /// The place on the curve that is reached from `x`, where the tangent is nearest to `way`.
+    pub(super) fn onto(&self, x: DVector<f64>, way: &DVector<f64>) -> Option<Place> {
+        let x = self.solved(x, false)?;
+        let way = self.rows(&x, self.mech.spec().n()).along(way)?;
+        Some(Place { x, way })
+    }
+
+    /// What Newton's method comes to from `x`, with steps that leave s as it is where it is `kept`.
+    pub(super) fn solved(&self, mut x: DVector<f64>, kept: bool) -> Option<DVector<f64>> {
+        let (n, size) = (self.mech.spec().n(), self.size(&x));
+        let mut before = f64::INFINITY;
+        for _ in 0..NEWTON {
+            let mut rows = self.matrix(&x);
+            if kept {
+                rows.column_mut(n).fill(0.0);
+            }
+            let step = Rows::new(rows, n, &self.lengths).shortest(&-self.residual(&x));
+            let length = step.norm();
+            x += step.component_mul(&self.units);
+            if length <= ROUNDING * size || length <= STALLED * size && length > 0.1 * before {
+                return Some(x);
+            }
+            if length.is_nan() || length > 0.5 * before {
+                return None;
+            }
+            before = length;
+        }
+        None
+    }
+
+    /// The place at the distance `step` from `from`, if the curve is smooth in between, and by which angle the tangent has turned.
+    pub(super) fn beyond(&self, from: &Place, step: f64) -> Option<(Place, f64)> {
+        let guess = &from.x + (step * &from.way).component_mul(&self.units);
+        let place = self.onto(guess.clone(), &from.way)?;
+        let turn = from.way.dot(&place.way).clamp(-1.0, 1.0).acos();
+        let off = (&place.x - guess).component_div(&self.units).norm();
+        // Of an arc it is half the turn times its length.
+        let smooth = turn < TURN && off <= TURN * step.abs();
+        smooth.then_some((place, turn))
+    }
+
+    /// Where a cubic from `a` to `b` is at the part `part` of the way, and how fast s changes there.
+    pub(super) fn between(&self, a: &Place, b: &Place, part: f64) -> (DVector<f64>, f64) {
+        let chord = &b.x - &a.x;
+        let length = chord.component_div(&self.units).norm();
+        let ways = [&a.way, &b.way].map(|way| (length * way).component_mul(&self.units));
+        let (p, rest) = (part, 1.0 - part);
+        let x = &a.x + p * p * (3.0 - 2.0 * p) * &chord + p * rest * rest * &ways[0]
+            - p * p * rest * &ways[1];
+        let end = chord.len() - 1;
+        let slope = 6.0 * p * rest * chord[end]
+            + rest * (1.0 - 3.0 * p) * ways[0][end]
+            + p * (3.0 * p - 2.0) * ways[1][end];
+        (x, slope)
+    }
+
+    /// Follows the curve from `from` until s has come to `until`, to where s turns back before, or to where there is no smooth way on.
+    pub(super) fn follow(&self, from: Place, until: f64) -> Path {
+        let (per, sense) = (self.units[from.x.len() - 1], from.speed().signum());
+        let size = self.size(&from.x);
+        // The length along the curve in which s changes by `part`.
+        let lasts = |place: &Place, part: f64| part / (per * place.speed().abs());
+        let mut step = lasts(&from, FIRST).min(size);
+        let mut places = vec![from];
+        let mut radii = Vec::new();
+        let end = loop {
+            let here = &places[places.len() - 1];
+            let rest = (until - here.s()) * sense;
+            if rest <= 0.0 {
+                break End::Arrived;
+            }
+            if places.len() > STEPS || step < LEAST * size {
+                break End::Stuck;
+            }
+            step = step.min(lasts(here, (1.1 * rest).max(FIRST)));
+            let next = self.beyond(here, step).filter(|(next, _)| {
+                let forward = next.speed() * sense > 0.0;
+                // No turn there and back again in between.
+                !forward || self.between(here, next, 0.5).1 * sense > 0.0
+            });
+            let Some((mut next, turn)) = next else {
+                step *= 0.5;
+                continue;
+            };
+            radii.push(step / turn.max(step / size));
+            step *= (WANTED / turn.max(1e-3)).clamp(0.5, 2.0);
+            let back = next.speed() * sense <= 0.0;
+            if back {
+                next = self.turning(here, &next, sense);
+            }
+            let left = (until - next.s()) * sense;
+            places.push(next);
+            if back {
+                break if left > 0.0 {
+                    End::Turned
+                } else {
+                    End::Arrived
+                };
+            }
+        };
+        radii.sort_by(f64::total_cmp);
+        let radius = radii.get(radii.len() / 2).copied().unwrap_or(size);
+        Path {
+            places,
+            radius,
+            end,
+        }
+    }
+
+    /// The place between `a` and `b` where s turns back.
+    fn turning(&self, a: &Place, b: &Place, sense: f64) -> Place {
+        let at = |part: f64| self.onto(self.between(a, b, part).0, &a.way);
+        let back = |part: f64| Ok::<f64, ()>(at(part).map_or(f64::NAN, |p| -p.speed() * sense));
+        let part = locate(back, 0.0, 1.0).unwrap_or(1.0);
+        at(part).unwrap_or_else(|| b.clone())
+    }
+}

@@ -1,0 +1,215 @@
+//! Postures on the curve.
+
+use nalgebra::DVector;
+
+use super::curve::{Curve, Path, Place, Rows};
+use super::sweep::{STILL, stuck};
+use crate::assemble::State;
+use crate::error::Error;
+use crate::inverse::Posture;
+use crate::manifold::{At, Level, Manifold};
+use crate::scalar::{Scalar, Sloped, Slopes};
+
+/// Where rows keep less than this part of what is usual, branches cross nearby, and rounding grows by the third power of the inverse.
+const NEAR: f64 = 1e-2;
+/// Then it is the mean of places on both sides, so far away, as a part of a radius of curvature,
+const ASIDE: f64 = 3e-2;
+/// each pair with its share, which makes the error one of eighth order; its own distance is so many times that.
+const SHARES: [f64; 4] = [1.6, -0.8, 8.0 / 35.0, -1.0 / 35.0];
+
+/// So often at most half as far, until all of them lie on one branch, where their tangents turn by less than an angle with this cosine, and
+/// two means agree up to this part.
+const HALVINGS: usize = 7;
+const ALONG: f64 = 0.95;
+const SAME: f64 = 1e-5;
+
+impl Curve<'_> {
+    /// The posture at the part `s` of the sweep, on the piece of `path` behind its place number `index`, where the sweep goes on by
+    /// `speed` in a second; `None` where the drive stands still.
+    ///
+    /// # Errors
+    /// [`Error::At`] with [`Error::OffConstraint`] where not all constraints are met, and with [`Error::NonFinite`].
+    pub(super) fn posture(
+        &self,
+        path: &Path,
+        index: usize,
+        s: f64,
+        speed: f64,
+    ) -> Result<Option<Posture>, Error> {
+        let [a, b] = [&path.places[index], &path.places[index + 1]];
+        let guess = self.guess(a, b, s);
+        if self.rows(&guess, guess.len() - 1).margin >= NEAR * self.margin {
+            let (q, rows) = self.position(guess, s)?;
+            return Ok(self.moved(q, s, &a.way, &rows, speed));
+        }
+        let reach = |from: &Place, step: f64| {
+            let there = self.beyond(from, step);
+            there.map_or_else(|| from.clone(), |(place, _)| place)
+        };
+        let (mut aside, mut before) = (ASIDE * path.radius, None);
+        for _ in 0..HALVINGS {
+            let (behind, ahead) = (reach(a, -5.0 * aside), reach(b, 5.0 * aside));
+            let step = aside * a.speed() * self.units[guess.len() - 1];
+            let mean = self.mean(&behind, &ahead, s, step, speed)?;
+            if let (Some(now), Some(then)) = (&mean, &before)
+                && self.agree(now, then)
+            {
+                return Ok(mean);
+            }
+            before = mean;
+            aside *= 0.5;
+        }
+        let (t, q) = (
+            self.time_at(s),
+            guess.as_slice()[..guess.len() - 1].to_vec(),
+        );
+        Err(stuck(State {
+            t,
+            v: vec![0.0; q.len()],
+            q,
+        }))
+    }
+
+    /// Whether two means are the same but for small errors, of which that of the nearer one is far smaller.
+    fn agree(&self, a: &Posture, b: &Posture) -> bool {
+        let most = |a: &[f64], b: &[f64]| {
+            let pairs = a.iter().zip(b).zip(self.units.iter());
+            pairs.fold(0.0, |s: f64, ((a, b), unit)| s.max(((a - b) / unit).abs()))
+        };
+        let zero = vec![0.0; a.acceleration.len()];
+        let speed = most(&a.state.v, &zero);
+        let turn = speed * speed / most(&a.state.q, &zero).max(1.0 / self.units[zero.len()]);
+        most(&a.state.v, &b.state.v) <= SAME * speed
+            && most(&a.acceleration, &b.acceleration)
+                <= SAME * (turn + most(&a.acceleration, &zero))
+    }
+
+    /// The mean of postures on both sides of `s`, in steps of `step`, if they lie on one branch.
+    fn mean(
+        &self,
+        a: &Place,
+        b: &Place,
+        s: f64,
+        step: f64,
+        speed: f64,
+    ) -> Result<Option<Posture>, Error> {
+        let n = self.mech.spec().n();
+        let mut mean = Posture {
+            state: State {
+                t: self.time_at(s),
+                q: vec![0.0; n],
+                v: vec![0.0; n],
+            },
+            acceleration: vec![0.0; n],
+        };
+        for (k, share) in SHARES.iter().enumerate() {
+            for side in [1.0, -1.0] {
+                let there = s + side * (k + 1) as f64 * step;
+                let guess = self.guess(a, b, there);
+                let (q, rows) = self.position(guess, there)?;
+                let (Some(posture), Some(way)) = (
+                    self.moved(q, there, &a.way, &rows, speed),
+                    rows.along(&a.way),
+                ) else {
+                    return Ok(None);
+                };
+                if way.dot(&a.way) < ALONG || way.dot(&b.way) < ALONG {
+                    return Ok(None);
+                }
+                let add = |sum: &mut Vec<f64>, part: &[f64]| {
+                    let pairs = sum.iter_mut().zip(part);
+                    pairs.for_each(|(sum, x)| *sum += 0.5 * share * x);
+                };
+                add(&mut mean.state.q, &posture.state.q);
+                add(&mut mean.state.v, &posture.state.v);
+                add(&mut mean.acceleration, &posture.acceleration);
+            }
+        }
+        for (j, begin, gain) in &self.fixed {
+            mean.state.q[*j] = begin + gain * s;
+        }
+        Ok(Some(mean))
+    }
+
+    /// Where the piece from `a` to `b` has the part `s` of the sweep.
+    fn guess(&self, a: &Place, b: &Place, s: f64) -> DVector<f64> {
+        let (n, sense) = (self.mech.spec().n(), (b.s() - a.s()).signum());
+        let (mut low, mut high) = (0.0, 1.0);
+        while high - low > 1e-9 {
+            let middle = 0.5 * (low + high);
+            match (self.between(a, b, middle).0[n] - s) * sense < 0.0 {
+                true => low = middle,
+                false => high = middle,
+            }
+        }
+        self.between(a, b, low).0
+    }
+
+    /// Coordinates at the part `s` of the sweep next to `guess`, and the rows there.
+    fn position(&self, guess: DVector<f64>, s: f64) -> Result<(Vec<f64>, Rows), Error> {
+        let n = guess.len() - 1;
+        let mut q = guess.as_slice()[..n].to_vec();
+        let (t, rest) = (self.time_at(s), vec![0.0; n]);
+        for (j, begin, gain) in &self.fixed {
+            q[*j] = begin + gain * s;
+        }
+        // By the rows that were independent at the start, then by all.
+        if let Some(x) = self.solved(DVector::from_vec(q.clone()).insert_row(n, s), true) {
+            q.copy_from_slice(&x.as_slice()[..n]);
+        }
+        let ease = self.units.as_slice()[..n].to_vec();
+        let held = self.fixed.iter().map(|(j, ..)| *j).collect();
+        let mut manifold = Manifold::with_ease(self.mech, ease, held);
+        let at = At::new(self.mech, Level::Position, t, &rest);
+        if let Err(error) = manifold.project(&at, &mut q) {
+            return Err(State { t, q, v: rest }.locate(error));
+        }
+        let x = DVector::from_column_slice(&q).insert_row(n, s);
+        let rows = self.rows(&x, n);
+        Ok((q, rows))
+    }
+
+    /// Velocities and accelerations at `q`, in the direction `way`.
+    fn moved(
+        &self,
+        q: Vec<f64>,
+        s: f64,
+        way: &DVector<f64>,
+        rows: &Rows,
+        speed: f64,
+    ) -> Option<Posture> {
+        let n = q.len();
+        let way = rows.along(way).filter(|way| way[n].abs() > STILL)?;
+        let way = way.component_mul(&self.units);
+        let v: Vec<f64> = (0..n).map(|j| way[j] / way[n] * speed).collect();
+        let t = self.time_at(s);
+        let acceleration = rows.shortest(&-self.turned(t, &q, &v, self.time.1 * speed));
+        let acceleration = acceleration.component_mul(&self.units);
+        let rest = acceleration[n] / way[n];
+        let acceleration = (0..n).map(|j| acceleration[j] - rest * way[j]);
+        Some(Posture {
+            acceleration: acceleration.collect(),
+            state: State { t, q, v },
+        })
+    }
+
+    /// φ̈ − A q̈ of each row, where the time goes on by `pace` in a second.
+    fn turned(&self, t: f64, q: &[f64], v: &[f64], pace: f64) -> DVector<f64> {
+        let (spec, sloped) = (self.mech.spec(), self.mech.sloped());
+        let along = |slope: f64| Slopes::new(|k| if k == 0 { slope } else { 0.0 });
+        let plain = |x: &f64| Sloped::from_f64(*x);
+        let pairs = q.iter().zip(v);
+        let q: Vec<Sloped> = pairs.map(|(q, v)| Sloped::new(*q, along(*v))).collect();
+        let (t, v): (_, Vec<Sloped>) = (Sloped::new(t, along(pace)), v.iter().map(plain).collect());
+        let rest = vec![Sloped::from_f64(0.0); q.len()];
+        let mut rates = [(); 2].map(|()| vec![Sloped::from_f64(0.0); spec.m()]);
+        sloped.residual_rate(t, &q, &v, &mut rates[0]);
+        sloped.residual_rate(t, &q, &rest, &mut rates[1]);
+        let mut turned = DVector::zeros(spec.holonomic + self.fixed.len());
+        for c in 0..spec.holonomic {
+            // φ̇ = A q̇ + ∂φ/∂t, with the time at its own pace.
+            turned[c] = rates[0][c].eps.along(0) + (pace - 1.0) * rates[1][c].eps.along(0);
+        }
+        turned
+    }
+}

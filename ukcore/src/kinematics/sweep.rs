@@ -1,0 +1,361 @@
+//! From drives and a start to the curve, along it, and what is told where it ends.
+
+use std::ops::Range;
+
+use nalgebra::DVector;
+
+use super::Limit;
+use super::curve::{Curve, End, Place, Rows};
+use crate::assemble::State;
+use crate::diagnosis::quoted;
+use crate::error::Error;
+use crate::inverse::Posture;
+use crate::mechanism::Prepared;
+use crate::modes::{mass_matrix, units};
+use crate::nearby::{Random, nearby};
+
+/// How fast s changes along the curve, below which a drive stands still.
+pub(super) const STILL: f64 = 1e-6;
+/// A share of a limit that is rounding.
+const SHARE: f64 = 1e-6;
+/// States beside one that are looked at, to tell what holds at it alone.
+const NEIGHBOURS: usize = 3;
+
+fn invalid<T>(what: &'static str, reason: String) -> Result<T, Error> {
+    Err(Error::InvalidSetting { what, reason })
+}
+
+/// There is no smooth way on at `state`.
+pub(super) fn stuck(state: State) -> Error {
+    let reason = "do not go on smoothly from here: positions have a corner, or branches meet that cannot be told from each other; end \
+                  the sweep before it";
+    state.locate(Error::InvalidSetting {
+        what: "drives",
+        reason: reason.to_owned(),
+    })
+}
+
+/// What is swept.
+#[derive(Debug, Clone)]
+pub(super) struct Drive {
+    /// The coordinate; `None` for the time.
+    coordinate: Option<usize>,
+    name: &'static str,
+    range: Range<f64>,
+}
+
+impl Drive {
+    pub(super) fn all(
+        mech: &Prepared,
+        drives: &[(&str, Range<f64>)],
+        held: &[usize],
+    ) -> Result<Vec<Self>, Error> {
+        let spec = mech.spec();
+        let mut all: Vec<Drive> = Vec::new();
+        for (name, range) in drives {
+            let coordinate = match *name {
+                "t" if !spec.coords.contains(&"t") => None,
+                name => Some(spec.coordinate_index(name)?),
+            };
+            let known = coordinate.map_or("t", |j| spec.coords[j]);
+            if !(range.start.is_finite() && range.end.is_finite()) {
+                let what = vec![format!("range of {known}")];
+                return Err(Error::NonFinite { what });
+            }
+            if all.iter().any(|other| other.coordinate == coordinate) {
+                return invalid("drives", format!("have `{known}` twice"));
+            }
+            if coordinate.is_some_and(|j| held.contains(&j)) {
+                return invalid("hold", format!("has `{known}`, which is a drive"));
+            }
+            all.push(Drive {
+                coordinate,
+                name: known,
+                range: range.clone(),
+            });
+        }
+        match all.first() {
+            None => invalid("drives", "are none; name a coordinate, or `t`".to_owned()),
+            Some(first) if first.range.start == first.range.end => invalid(
+                "drives",
+                format!(
+                    "do not move: `{}` goes from {} to {1}",
+                    first.name, first.range.start
+                ),
+            ),
+            Some(_) => Ok(all),
+        }
+    }
+
+    fn gain(&self) -> f64 {
+        self.range.end - self.range.start
+    }
+
+    fn of(&self, state: &State) -> f64 {
+        self.coordinate.map_or(state.t, |j| state.q[j])
+    }
+}
+
+/// The question.
+pub(super) struct Sweep<'a> {
+    pub(super) mech: &'a Prepared,
+    pub(super) start: &'a State,
+    pub(super) held: Vec<usize>,
+    pub(super) drives: Vec<Drive>,
+}
+
+impl<'a> Sweep<'a> {
+    /// Postures and limits, in the order of the sweep.
+    pub(super) fn postures(&self, intervals: usize) -> Result<(Vec<Posture>, Vec<Limit>), Error> {
+        if intervals == 0 {
+            return invalid("intervals", "are none; one at least is needed".to_owned());
+        }
+        let (state, from) = match self.part_done() {
+            Some(part) => (self.start.clone(), part),
+            None => (self.led_in()?, 0.0),
+        };
+        let curve = self.curve(|drive| drive.range.clone());
+        let (begin, units) = self.place(&curve, &state, from)?;
+        let mut curve = Curve { units, ..curve };
+        let speed = 1.0 / self.drives[0].gain().abs();
+        let part = |k: usize| k as f64 / intervals as f64;
+        let (before, after): (Vec<usize>, Vec<usize>) =
+            (0..=intervals).partition(|k| part(*k) < begin.s());
+        let (mut postures, mut limits) = (Vec::new(), Vec::new());
+        for (mut wanted, up) in [(before, false), (after, true)] {
+            if up {
+                postures.reverse();
+                wanted.reverse();
+            }
+            let Some(until) = wanted.first().map(|k| part(*k)) else {
+                continue;
+            };
+            let mut begin = begin.clone();
+            if (begin.speed() > 0.0) != up {
+                begin.way.neg_mut();
+            }
+            let path = curve.follow(begin, until);
+            curve.gauge(&path);
+            for (index, b) in path.places.iter().enumerate().skip(1) {
+                let within = |k: usize| {
+                    if up {
+                        part(k) <= b.s()
+                    } else {
+                        part(k) >= b.s()
+                    }
+                };
+                while let Some(k) = wanted.pop_if(|k| within(*k)) {
+                    postures.extend(curve.posture(&path, index - 1, part(k), speed)?);
+                }
+            }
+            match path.end {
+                End::Arrived => {}
+                End::Turned => limits.push(self.limit(&curve, path.last())),
+                End::Stuck => return Err(stuck(self.state(&curve, path.last()))),
+            }
+        }
+        Ok((postures, limits))
+    }
+
+    /// Which part of the sweep is done at the start, if all drives agree on one.
+    fn part_done(&self) -> Option<f64> {
+        let (first, state) = (&self.drives[0], self.start);
+        let part = (first.of(state) - first.range.start) / first.gain();
+        let agrees = |drive: &Drive| {
+            let off = drive.range.start + part * drive.gain() - drive.of(state);
+            off.abs() <= 1e-12 * (drive.range.start.abs() + drive.range.end.abs())
+        };
+        self.drives.iter().all(agrees).then_some(part)
+    }
+
+    /// The state at the begin of the sweep, where drives are taken to on a straight line.
+    fn led_in(&self) -> Result<State, Error> {
+        let curve = self.curve(|drive| drive.of(self.start)..drive.range.start);
+        let (begin, units) = self.place(&curve, self.start, 0.0)?;
+        let mut curve = Curve { units, ..curve };
+        let path = curve.follow(begin, 1.0);
+        curve.gauge(&path);
+        match path.end {
+            End::Stuck => Err(stuck(self.state(&curve, path.last()))),
+            End::Turned => invalid(
+                "drives",
+                format!(
+                    "do not come from the start to the begin of the sweep: {}",
+                    self.limit(&curve, path.last())
+                ),
+            ),
+            End::Arrived => match curve.posture(&path, path.places.len() - 2, 1.0, 1.0)? {
+                Some(posture) => Ok(posture.state),
+                None => invalid("drives", "begin at a dead centre".to_owned()),
+            },
+        }
+    }
+
+    /// The curve along which each drive has this range.
+    fn curve(&self, range: impl Fn(&Drive) -> Range<f64>) -> Curve<'a> {
+        let mut fixed: Vec<(usize, f64, f64)> = Vec::new();
+        let mut time = (self.start.t, 0.0);
+        for drive in &self.drives {
+            let Range { start, end } = range(drive);
+            match drive.coordinate {
+                Some(j) => fixed.push((j, start, end - start)),
+                None => time = (start, end - start),
+            }
+        }
+        let held = self.held.iter().map(|j| (*j, self.start.q[*j], 0.0));
+        fixed.extend(held);
+        let mass = mass_matrix(self.mech, self.start);
+        let n = self.mech.spec().n();
+        Curve {
+            mech: self.mech,
+            units: units(&mass).insert_row(n, 1.0),
+            fixed,
+            time,
+            lengths: Vec::new(),
+            margin: 1.0,
+        }
+    }
+
+    /// The place of `state` on `curve`, at the part `s` of the sweep, and what the curve is to be measured by: the sweep as far as the
+    /// coordinates move in it.
+    fn place(
+        &self,
+        curve: &Curve<'_>,
+        state: &State,
+        s: f64,
+    ) -> Result<(Place, DVector<f64>), Error> {
+        let n = state.q.len();
+        let x = DVector::from_column_slice(&state.q).insert_row(n, s);
+        let rows = curve.rows(&x, n + 1);
+        let free = rows.free();
+        if free.nrows() != 1 {
+            return Err(self.miscounted(curve, state, &rows));
+        }
+        let way = free.row(0).transpose();
+        if way[n].abs() <= STILL {
+            let leader = self.mech.spec().coords[way.rows(0, n).icamax()];
+            let names: Vec<String> = self
+                .drives
+                .iter()
+                .map(|d| format!("`{}`", d.name))
+                .collect();
+            return invalid(
+                "start",
+                format!(
+                    "is a dead centre: {} would stand still while `{leader}` moves; begin beside it, or drive `{leader}`",
+                    names.join(", ")
+                ),
+            );
+        }
+        let moved = way.rows(0, n).norm() / way[n].abs();
+        let size = x.rows(0, n).component_div(&curve.units.rows(0, n)).norm();
+        let mut units = curve.units.clone();
+        let length = moved.max(size);
+        if length > 0.0 {
+            units[n] = length.recip();
+        }
+        let mut way = way.component_mul(&curve.units).component_div(&units);
+        way /= way.norm() * way[n].signum();
+        Ok((Place { x, way }, units))
+    }
+
+    /// Why drives and held coordinates do not leave one way to go at `state`.
+    fn miscounted(&self, curve: &Curve<'_>, state: &State, rows: &Rows) -> Error {
+        let spec = self.mech.spec();
+        let free = rows.free();
+        if free.nrows() == 0 {
+            let reason = "and held coordinates are more than the degrees of freedom, and do not agree: let one of them go".to_owned();
+            return Error::InvalidSetting {
+                what: "drives",
+                reason,
+            };
+        }
+        let mut random = Random::new(0x5eed);
+        let singular = (0..NEIGHBOURS).any(|_| {
+            let there = nearby(self.mech, state, &mut random);
+            there.is_some_and(|there| {
+                let x = DVector::from_vec(there.q).insert_row(spec.n(), 0.0);
+                let time = (there.t, curve.time.1);
+                let curve = Curve {
+                    time,
+                    ..curve.clone()
+                };
+                curve.rows(&x, spec.n() + 1).rank > rows.rank
+            })
+        });
+        if singular {
+            let reason = "is a singular position, in which branches may meet: it does not tell which is meant; begin beside it";
+            return Error::InvalidSetting {
+                what: "start",
+                reason: reason.to_owned(),
+            };
+        }
+        // One by one what moves most, and all with it.
+        let mut ways = free.columns(0, spec.n()).transpose();
+        let mut names = Vec::new();
+        for _ in 1..free.nrows() {
+            let sizes = DVector::from_fn(spec.n(), |j, _| ways.row(j).norm());
+            let j = sizes.imax();
+            names.push(spec.coords[j].to_owned());
+            let along = ways.row(j).transpose() / sizes[j];
+            ways -= (&ways * &along) * along.transpose();
+        }
+        let reason = format!(
+            "leave {} of freedom beside the sweep: hold or drive as many coordinates more, such as {}",
+            match names.len() {
+                1 => "1 degree".to_owned(),
+                count => format!("{count} degrees"),
+            },
+            quoted(&names)
+        );
+        Error::InvalidSetting {
+            what: "drives",
+            reason,
+        }
+    }
+
+    fn state(&self, curve: &Curve<'_>, place: &Place) -> State {
+        let n = self.mech.spec().n();
+        State {
+            t: curve.time_at(place.s()),
+            q: place.x.as_slice()[..n].to_vec(),
+            v: vec![0.0; n],
+        }
+    }
+
+    /// The limit at `place`, where the drives stand still.
+    fn limit(&self, curve: &Curve<'_>, place: &Place) -> Limit {
+        let spec = self.mech.spec();
+        let n = spec.n();
+        let way = place.way.rows(0, n);
+        let leader = way.icamax();
+        let mut state = self.state(curve, place);
+        let moved = way.component_mul(&curve.units.rows(0, n));
+        state.v = (moved / (way[leader] * curve.units[leader]))
+            .as_slice()
+            .to_vec();
+        // A force on the drive is held by the rows that add up to it there; those of parts that stand still but pass it on.
+        let rows = curve.rows(&place.x, n);
+        let mut drive = DVector::zeros(n + 1);
+        drive[n] = 1.0;
+        let shares = &rows.combination(&drive)[..spec.holonomic];
+        let most = shares.iter().fold(0.0, |s: f64, x| s.max(x.abs()));
+        let moves = |row: usize| {
+            let mut pattern = spec.structure.jacobian_pattern.iter();
+            pattern.any(|(c, j)| *c == row && (way[*j] / way[leader]).abs() > SHARE)
+        };
+        let holding = (0..shares.len())
+            .filter(|row| shares[*row].abs() > SHARE * most && moves(*row))
+            .map(|row| spec.constraints[row].name.to_owned());
+        let drives = self.drives.iter().map(|d| (d.name, d.of(&state)));
+        let drives = drives.collect();
+        let unit = |drive: &Drive| drive.coordinate.map_or("s", |j| spec.coordinate_unit(j));
+        Limit {
+            drives,
+            units: self.drives.iter().map(unit).collect(),
+            state,
+            constraints: holding.collect(),
+            leader: spec.coords[leader],
+        }
+    }
+}
