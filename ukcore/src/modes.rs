@@ -260,9 +260,10 @@ fn tangent(
     let mut rate = vec![Sloped::from_f64(0.0); m];
     let v: Vec<Sloped> = state.v.iter().copied().map(Sloped::from_f64).collect();
     for first in (0..n).step_by(Slopes::COUNT) {
-        let unit = |own: usize| Slopes::new(|k| f64::from(u8::from(own == first + k)));
         let q = state.q.iter().enumerate();
-        let q: Vec<Sloped> = q.map(|(i, x)| Sloped::new(*x, unit(i))).collect();
+        let q: Vec<Sloped> = q
+            .map(|(i, x)| Sloped::new(*x, Slopes::unit(i, first)))
+            .collect();
         sloped.residual_rate(Sloped::from_f64(state.t), &q, &v, &mut rate);
         for (row, rate) in rate.iter().enumerate() {
             for k in 0..Slopes::COUNT.min(n - first) {

@@ -4,11 +4,11 @@ use std::io::{self, Write};
 
 use serde_json::{Map, Value, json};
 use ukcore::simulate::Ending;
-use ukcore::{Method, Solver, SolverOptions, State, Trajectory, lost_reactions};
+use ukcore::{Solver, SolverOptions, State, Trajectory, lost_reactions};
 
 use crate::drift::Drift;
 use crate::motion::Motion;
-use crate::numbers::{count, fixed, full, width};
+use crate::numbers::{count, fixed, full, significant, width};
 use crate::scene::Ready;
 
 /// What a run was, what came out and what it cost. SI units.
@@ -42,11 +42,6 @@ impl Summary<'_> {
             Ending::Interrupted => "interrupted",
             Ending::Failed => "failed",
         }
-    }
-
-    /// None where the method looks at none.
-    fn tolerance(&self) -> Option<f64> {
-        (!matches!(self.motion.method, Method::Rattle { .. })).then_some(self.motion.tol)
     }
 
     fn drift(&self) -> Drift {
@@ -97,7 +92,7 @@ impl Summary<'_> {
             "parameters": named(params, self.trajectory.mechanism().parameters()),
             "method": self.motion.method.to_string(),
             "stabilise": self.motion.stabilise.to_string(),
-            "tolerance": self.tolerance(),
+            "tolerance": self.motion.tolerance(),
             "ending": self.ending(),
             "error": self.error,
             "final": self.last(),
@@ -106,6 +101,7 @@ impl Summary<'_> {
             "position_residual": drift.position_residual,
             "velocity_residual": drift.velocity_residual,
             "energy_drift": drift.energy_drift,
+            "energy_exchanged": drift.energy_drift.map(|_| self.measured.exchanged()),
             "work": {
                 "steps": work.steps,
                 "rejected": work.rejected,
@@ -127,23 +123,37 @@ impl Summary<'_> {
     /// # Errors
     /// What writing to `out` reports.
     pub(crate) fn write(&self, out: &mut dyn Write) -> io::Result<()> {
-        let tolerance = self.tolerance();
+        let tolerance = self.motion.tolerance();
         let tolerance = tolerance.map_or(String::new(), |tol| format!(" at tolerance {tol:e}"));
         let (id, start) = (&self.ready.entry.id, self.ready.start);
         let (method, ending) = (self.motion.method, self.ending());
         writeln!(out, "{id} from `{start}`, {method}{tolerance}, {ending}")?;
         let (drift, w) = (self.drift(), self.trajectory.work());
         self.write_last(out)?;
-        writeln!(
-            out,
-            "\nResiduals: position {:.1e}, velocity {:.1e} at most over {}",
-            drift.position_residual,
-            drift.velocity_residual,
-            count(self.measured.samples(), "sample")
-        )?;
+        let samples = count(self.measured.samples(), "sample");
+        writeln!(out, "\nLargest of {samples}")?;
+        if self.trajectory.spec().m() > 0 {
+            writeln!(
+                out,
+                "  constraint residuals: position {:.1e}, velocity {:.1e}, in the units of the constraints (SI)",
+                drift.position_residual, drift.velocity_residual,
+            )?;
+        }
         match drift.energy_drift {
-            Some(drift) => writeln!(out, "Energy drift: {drift:.1e} of the energy exchanged")?,
-            None => writeln!(out, "Energy is not conserved in this model")?,
+            Some(drift) => writeln!(
+                out,
+                "  energy drift: {drift:.1e} of the energy exchanged, {}{}",
+                significant(self.measured.exchanged(), 4),
+                if self.trajectory.spec().coordinate_units.is_empty() {
+                    ""
+                } else {
+                    " J"
+                },
+            )?,
+            None => writeln!(
+                out,
+                "  energy drift: not told, as energy is not conserved in this model"
+            )?,
         }
         self.write_broken(out)?;
         if w.rounded > 0 {

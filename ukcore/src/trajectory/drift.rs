@@ -71,6 +71,12 @@ impl Drift {
     pub fn energy(&self) -> f64 {
         self.energy.share()
     }
+
+    /// The energy exchanged, of which [`energy`](Drift::energy) is a part: the largest T or |V − V₀| of the samples, J.
+    #[must_use]
+    pub fn exchanged(&self) -> f64 {
+        self.energy.exchanged
+    }
 }
 
 /// Measures [`Residual`]s.

@@ -11,18 +11,19 @@ use ukcore::{Error, Method, Prepared, Simulation, State, assemble};
 use super::{Case, Effort, Sweep, decades, sweep};
 use crate::command;
 use crate::failure::Failure;
+use crate::motion;
+use crate::numbers::short;
 use crate::report::{distance, grow, scale, stacked};
-use crate::scene::Scene;
-use crate::units;
+use crate::scene::{Ready, Scene};
 
-/// The arguments of `stability` for a model.
+/// The command-line arguments of the command `stability` of a model, to be flattened into a parser of `clap`.
 #[derive(Debug, Args)]
 pub struct ModelArgs {
     /// The mechanism and its start
     #[command(flatten)]
     pub scene: Scene,
     /// Length of the motions that are compared; the model's own duration if absent
-    #[arg(long, value_name = "TIME", value_parser = units::seconds)]
+    #[arg(long, value_name = "TIME", value_parser = motion::positive, allow_hyphen_values = true)]
     pub until: Option<f64>,
     /// Directory to write index.html, stability.svg, stability.json and stability.csv to
     #[arg(long, value_name = "DIR", default_value = "out/stability", value_parser = command::path)]
@@ -53,16 +54,17 @@ const INSTANTS: u32 = 8;
 pub fn of_model(models: &[Entry], args: &ModelArgs) -> Result<(), Failure> {
     let ready = args.scene.ready(models)?;
     let (_, start, options) = args.scene.start.settings(ready.entry)?;
-    let named = start.filter(|start| start.name == ready.start);
-    let subject = Subject {
-        entry: ready.entry,
-        mechanism: ready.mechanism,
-        start: named.map(|start| (start.name, options)),
-        length: args.until.unwrap_or(ready.duration) - ready.state.t,
-        state: ready.state,
-    };
+    let (id, from) = (&ready.entry.id, ready.start);
+    let length = short(args.until.unwrap_or(ready.duration), 6);
+    let about = format!("`{id}` from `{from}`, {length} s");
+    let subject = Subject::new(ready, start.map(|start| (start.name, options)), args.until);
     let mut sweeps = Vec::new();
     let spec = subject.mechanism.spec();
+    // No two cases have one name.
+    let free = |name, instead| match spec.params.iter().any(|p| p.name == name) {
+        true => instead,
+        false => name,
+    };
     for (i, (parameter, value)) in spec
         .params
         .iter()
@@ -81,14 +83,15 @@ pub fn of_model(models: &[Entry], args: &ModelArgs) -> Result<(), Failure> {
     }
     if subject.state.v.iter().any(|v| *v != 0.0) {
         let swept = "velocities of the start, times what they are".to_owned();
-        sweeps.push(("speed", swept, decades(-6, 6, 2, 0), Change::Speed));
+        let name = free("speed", "start-speed");
+        sweeps.push((name, swept, decades(-6, 6, 2, 0), Change::Speed));
     }
     let tolerances = Sweep {
         ordinary: 6,
         ..decades(-3, -15, 1, -9)
     };
     sweeps.push((
-        "tolerance",
+        free("tolerance", "run-tolerance"),
         "tolerance; errors are in units of it".to_owned(),
         tolerances,
         Change::Tolerance,
@@ -118,7 +121,7 @@ pub fn of_model(models: &[Entry], args: &ModelArgs) -> Result<(), Failure> {
             measure,
         });
     let cases: Vec<Case<'_>> = cases.collect();
-    sweep(&cases.iter().collect::<Vec<_>>(), &args.out)
+    sweep(&cases.iter().collect::<Vec<_>>(), &about, &args.out)
 }
 
 const ORACLE: &str = "the same motion by an implicit method with the formula as printed, where that gets through, else at a smaller \
@@ -151,7 +154,22 @@ struct Way {
     steps: usize,
 }
 
-impl Subject<'_> {
+impl<'a> Subject<'a> {
+    /// A model at its start, which may be one on offer with options, and so long a run.
+    fn new(
+        ready: Ready<'a>,
+        start: Option<(&'static str, StartOptions)>,
+        until: Option<f64>,
+    ) -> Self {
+        Subject {
+            entry: ready.entry,
+            mechanism: ready.mechanism,
+            start: start.filter(|(name, _)| *name == ready.start),
+            length: until.unwrap_or(ready.duration) - ready.state.t,
+            state: ready.state,
+        }
+    }
+
     /// The error of the motion with this change.
     fn error(&self, change: Change, value: f64, effort: &mut Effort) -> Result<f64, Error> {
         let mut mechanism = self.mechanism.clone();
@@ -213,7 +231,11 @@ impl Subject<'_> {
         let (other, instead) = (patient(other), patient(instead));
         let expected = motion.by(other, &state, effort);
         let expected = expected.or_else(|_| motion.by(instead, &state, effort))?;
-        let scale = scale(mechanism.spec(), &state, &expected);
+        let mut scale = scale(mechanism.spec(), &state, &expected);
+        // Tolerances are absolute, too: what gathers from them in a motion that hardly moves is no wrong result.
+        for size in &mut scale {
+            *size = size.max(GATHERED * TOLERANCE / BOUND);
+        }
         let known = (&expected[..], &scale[..]);
         let magnified = motion.magnified(instead, &state, known, effort)?;
         let apart = largest(&found, &expected, &scale);
@@ -305,4 +327,36 @@ fn largest(a: &[Vec<f64>], b: &[Vec<f64>], scale: &[f64]) -> f64 {
         grow(&mut largest, distance(a, b, scale).scaled);
     }
     largest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Start;
+
+    ukcore::multibody! {
+        /// A block on a belt that rubs.
+        Belt {
+            params { belt = 0.5, k = 80.0, mu = 4.0 }
+            coords { x }
+            mass { x: 1.5 }
+            force { x: -k * x - mu * tanh((dot(x) - belt) / 0.01) }
+            start still until 0.3 { x = 0.0 }
+        }
+    }
+
+    /// The motion is some 1e-13 large: far less than the tolerance lets be resolved, which is not to be called wrong.
+    #[test]
+    fn motions_below_the_tolerance_are_not_wrong() {
+        let entry = ukcore::entry!(Belt);
+        let ready = Start::default().ready(&entry).expect("a start");
+        let subject = Subject::new(ready, Some(("still", StartOptions::new())), None);
+        let error = |factor| {
+            let found = subject.error(Change::Parameter(0), factor, &mut Effort::default());
+            found.expect("a motion")
+        };
+        let (slow, usual) = (error(1e-12), error(1.0));
+        assert!(slow < BOUND, "{slow:e}");
+        assert!(usual < GATHERED * TOLERANCE, "{usual:e}");
+    }
 }
