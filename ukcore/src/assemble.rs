@@ -42,6 +42,13 @@ impl State {
         }
     }
 
+    /// `error` with this state as the place where it arose.
+    pub(crate) fn locate(&self, error: Error) -> Error {
+        let State { t, q, v } = self.clone();
+        let source = Box::new(error);
+        Error::At { t, q, v, source }
+    }
+
     /// Checks lengths, and that every number is finite.
     ///
     /// # Errors
@@ -191,12 +198,7 @@ pub(crate) fn assembled(mech: &Prepared, guess: &State, held: Held) -> Result<St
 fn search(mech: &Prepared, guess: &State, held: &Held) -> Result<State, Error> {
     let mut search = Search::new(mech, guess, &held.positions);
     let q = search.find(&At::new(mech, Level::Position, guess.t, &guess.v), &guess.q)?;
-    if held.velocities != held.positions {
-        search = Search::new(mech, guess, &held.velocities);
-    }
-    let v = held.rates(&q, &guess.v);
-    let v = search.find(&At::new(mech, Level::Velocity, guess.t, &q), &v)?;
-    Ok(State { t: guess.t, q, v })
+    Search::velocities(mech, guess, held, q)
 }
 
 /// `error` with the held coordinates that cause it: those that help if let go alone; if none does, all, provided that letting all go helps.
@@ -239,7 +241,20 @@ impl Search {
         }
     }
 
-    /// The solution for one level; tries the guess, then perturbations of it.
+    /// The state at `q` whose velocities are next to those of `guess`.
+    pub(crate) fn velocities(
+        mech: &Prepared,
+        guess: &State,
+        held: &Held,
+        q: Vec<f64>,
+    ) -> Result<State, Error> {
+        let mut search = Search::new(mech, guess, &held.velocities);
+        let v = held.rates(&q, &guess.v);
+        let v = search.find(&At::new(mech, Level::Velocity, guess.t, &q), &v)?;
+        Ok(State { t: guess.t, q, v })
+    }
+
+    /// The solution for one level; tries the guess, then perturbations of it, and all of them again with coordinates that move alike.
     pub(crate) fn find(&mut self, at: &At<'_, f64>, guess: &[f64]) -> Result<Vec<f64>, Error> {
         let mut x = guess.to_vec();
         if at.linear() && self.manifold.project(at, &mut x).is_ok() {
@@ -252,19 +267,25 @@ impl Search {
         let mut least = f64::INFINITY;
         // Of what is linear there is nothing else to find.
         let shakes = if at.linear() { &SHAKES[..1] } else { &SHAKES };
-        for shake in shakes {
-            let mut place = guess.to_vec();
-            for (k, &j) in self.free.iter().enumerate() {
-                // Deterministic, and no two coordinates alike.
-                let share = ((k as f64 + 1.0) * GOLDEN).fract();
-                place[j] += shake * size * (2.0 * share - 1.0);
+        for even in [false, true] {
+            // Where inertias are orders apart, rows with a light coordinate all but vanish beside the others, and the way along those is long.
+            if even {
+                self.manifold.even();
             }
-            let cost = self.manifold.search(at, guess, &mut place);
-            if cost == 0.0 {
-                return Ok(place);
-            }
-            if cost < least {
-                (least, x) = (cost, place);
+            for shake in shakes {
+                let mut place = guess.to_vec();
+                for (k, &j) in self.free.iter().enumerate() {
+                    // Deterministic, and no two coordinates alike.
+                    let share = ((k as f64 + 1.0) * GOLDEN).fract();
+                    place[j] += shake * size * (2.0 * share - 1.0);
+                }
+                let cost = self.manifold.search(at, guess, &mut place);
+                if cost == 0.0 {
+                    return Ok(place);
+                }
+                if cost < least && !even {
+                    (least, x) = (cost, place);
+                }
             }
         }
         Err(match self.manifold.refusal(at, &x) {

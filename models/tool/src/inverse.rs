@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use clap::Args;
 use ukcore::model::Entry;
-use ukcore::{Effort, Error, inverse as efforts_at};
+use ukcore::{Effort, Error, Inverse};
 
 use crate::failure::Failure;
 use crate::motion::{self, Motion};
@@ -59,11 +59,12 @@ pub fn inverse(models: &[Entry], args: &InverseArgs) -> Result<(), Failure> {
             ready.entry.id
         )));
     }
+    let mut inverse = Inverse::new(mech, &motors)?;
     let mut samples: Vec<(f64, Vec<Effort>)> = Vec::new();
     let mut broken: Option<Error> = None;
     let every = args.every.unwrap_or_else(|| args.motion.interval(&ready));
     let (_, error) = args.motion.follow(&ready, Some(every), |sample| {
-        match efforts_at(mech, &sample.to_state(), &motors) {
+        match inverse.efforts(&sample.to_state()) {
             Ok(efforts) => samples.push((sample.t, efforts)),
             Err(error) => broken = Some(error),
         }

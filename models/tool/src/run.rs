@@ -6,8 +6,8 @@ use std::time::Instant;
 
 use clap::Args;
 use ukcore::model::Entry;
-use ukcore::simulate::{CsvWriter, Drift, Ending};
-use ukcore::{Error, Trajectory};
+use ukcore::simulate::{CsvWriter, Drift, Ending, Sample};
+use ukcore::{Error, State, Trajectory};
 
 use crate::animate::{self, Film};
 use crate::command;
@@ -80,6 +80,7 @@ pub fn run(models: &[Entry], args: &RunArgs) -> Result<(), Failure> {
         curves: curves.transpose()?,
         film,
         drift: Drift::new(&ready.mechanism),
+        broken: None,
     };
     let started = Instant::now();
     let (trajectory, error, mut samples) = integrate(&ready, args, samples)?;
@@ -112,6 +113,7 @@ pub fn run(models: &[Entry], args: &RunArgs) -> Result<(), Failure> {
         let summary = Summary {
             trajectory: &trajectory,
             measured: &samples.drift,
+            broken: samples.broken.as_ref(),
             ready: &ready,
             motion: &args.motion,
             seconds,
@@ -131,6 +133,8 @@ struct Samples {
     curves: Option<Curves>,
     film: Option<(Film, WholeFile)>,
     drift: Drift,
+    /// The first at which an output is not finite.
+    broken: Option<State>,
 }
 
 /// The trajectory, why it ends early if it does by an error, and what became of its samples. Where rows cannot be written it ends too.
@@ -155,8 +159,14 @@ fn integrate(
         }
     }
     let mut broken = None;
+    let mut outputs = vec![0.0; ready.mechanism.spec().outputs.len()];
     let (trajectory, error) = args.motion.follow(ready, every, |sample| {
         samples.drift.add(sample);
+        let Sample { t, q, v, .. } = sample;
+        ready.mechanism.outputs(t, q, v, &mut outputs);
+        if samples.broken.is_none() && outputs.iter().any(|x| !x.is_finite()) {
+            samples.broken = Some(sample.to_state());
+        }
         if let Some(curves) = &mut samples.curves {
             curves.add(sample);
         }

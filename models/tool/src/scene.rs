@@ -1,7 +1,7 @@
 //! From the command line to a mechanism with its parameters and a consistent start.
 
 use clap::Args;
-use ukcore::model::{DURATION, Entry, StartOptions, StartSpec};
+use ukcore::model::{Entry, StartOptions, StartSpec};
 use ukcore::spec::Spec;
 use ukcore::{Error, Prepared, State, assemble};
 
@@ -110,7 +110,7 @@ impl Start {
             mechanism,
             start: name.unwrap_or("assembled"),
             state,
-            duration: start.map_or(DURATION, |spec| spec.duration),
+            duration: StartSpec::typical(start),
         })
     }
 

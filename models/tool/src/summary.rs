@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use serde_json::{Map, Value, json};
 use ukcore::simulate::Ending;
-use ukcore::{Method, Solver, SolverOptions, Trajectory};
+use ukcore::{Method, Solver, SolverOptions, State, Trajectory, lost_reactions};
 
 use crate::drift::Drift;
 use crate::motion::Motion;
@@ -16,6 +16,8 @@ pub(crate) struct Summary<'a> {
     pub(crate) trajectory: &'a Trajectory,
     /// Its samples.
     pub(crate) measured: &'a ukcore::simulate::Drift,
+    /// The first of them at which an output is not finite.
+    pub(crate) broken: Option<&'a State>,
     pub(crate) ready: &'a Ready<'a>,
     pub(crate) motion: &'a Motion,
     /// Wall time of the integration, s.
@@ -143,6 +145,7 @@ impl Summary<'_> {
             Some(drift) => writeln!(out, "Energy drift: {drift:.1e} of the energy exchanged")?,
             None => writeln!(out, "Energy is not conserved in this model")?,
         }
+        self.write_broken(out)?;
         if w.rounded > 0 {
             let steps = count(w.rounded, "step");
             writeln!(
@@ -213,6 +216,22 @@ impl Summary<'_> {
             false => format!("the other constraints imply {}", names.join(", ")),
             true => "its pivots lose their digits, as constraints nearly imply each other or masses are many orders apart".to_owned(),
         }
+    }
+
+    /// Which outputs are not finite, and why, as far as reactions are the cause.
+    fn write_broken(&self, out: &mut dyn Write) -> io::Result<()> {
+        let Some(state) = self.broken else {
+            return Ok(());
+        };
+        let mechanism = self.trajectory.mechanism();
+        let declared = mechanism.spec().outputs;
+        let mut outputs = vec![0.0; declared.len()];
+        mechanism.outputs(state.t, &state.q, &state.v, &mut outputs);
+        let names = declared.iter().zip(outputs).filter(|(_, x)| !x.is_finite());
+        let names: Vec<String> = names.map(|(o, _)| format!("`{}`", o.name)).collect();
+        let cause = lost_reactions(mechanism, state).map_or(String::new(), |c| format!("; {c}"));
+        let (names, t) = (names.join(", "), full(state.t));
+        writeln!(out, "Not finite at t = {t} s: {names}{cause}")
     }
 
     fn write_last(&self, out: &mut dyn Write) -> io::Result<()> {

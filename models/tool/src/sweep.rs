@@ -13,7 +13,7 @@ use std::sync::{Mutex, PoisonError};
 
 use clap::Args;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
-use ukcore::model::{DURATION, Entry};
+use ukcore::model::{Entry, StartSpec};
 use ukcore::simulate::{Drift, Ending, Record, Sample};
 
 use crate::columns::Columns;
@@ -162,9 +162,7 @@ impl Plan<'_> {
             key.push(number(options.get(option.name).unwrap_or(option.default)));
         }
         key.extend(mechanism.parameters().iter().map(|x| number(*x)));
-        let until = motion
-            .until
-            .unwrap_or(spec.map_or(DURATION, |s| s.duration));
+        let until = motion.until.unwrap_or(StartSpec::typical(spec));
         key.extend([
             number(until),
             number(motion.tol),

@@ -81,6 +81,13 @@ impl Manifold {
         manifold
     }
 
+    /// From here on coordinates move as readily as each other.
+    pub(crate) fn even(&mut self) {
+        let ease = &mut self.newton.acceptance.ease;
+        let mean = ease.iter().map(|x| x.ln()).sum::<f64>() / ease.len().max(1) as f64;
+        ease.fill(mean.exp());
+    }
+
     /// Moves `x`, which is at or near `guess`, onto the constraints from far off, by Levenberg and Marquardt's method, and by projection
     /// in the end. Returns 0, or the sum of the squares of the scaled residuals where it is least.
     pub(crate) fn search(&mut self, at: &At<'_, f64>, guess: &[f64], x: &mut [f64]) -> f64 {

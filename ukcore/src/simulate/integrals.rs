@@ -7,8 +7,10 @@
 //! revisited, BIT 40, 84-101); intervals are halved until both agree to the tolerance of the run, beside the integral of the magnitude so
 //! far: kinks and jumps of the integrand, which steps do not land on, are closed in so. Steps are what they are without integrals.
 
+use crate::diagnosis::lost_reactions;
 use crate::error::Error;
 use crate::events::States;
+use crate::integrate::sample::Sample;
 use crate::mechanism::Prepared;
 
 /// Points in [−1, 1] that are not negative, and their weights by the rule of 7 points and by that of 4, which is Lobatto's (Gander &
@@ -135,13 +137,17 @@ impl Integrals {
         self.mechanism.integrands(t, q, v, &mut self.integrands);
         let names = self.mechanism.integrals().iter();
         let broken = names.zip(&self.integrands).filter(|(_, f)| !f.is_finite());
-        let what: Vec<String> = broken
+        let mut what: Vec<String> = broken
             .map(|(s, _)| format!("integrand of {}", s.name))
             .collect();
-        match what.is_empty() {
-            true => Ok(()),
-            false => Err(Error::NonFinite { what }),
+        let Some(last) = what.last_mut() else {
+            return Ok(());
+        };
+        let there = Sample::of(t, &self.state).to_state();
+        if let Some(cause) = lost_reactions(&self.mechanism, &there) {
+            *last += &format!("; {cause}");
         }
+        Err(Error::NonFinite { what })
     }
 }
 

@@ -39,7 +39,7 @@ const BOUND: f64 = 1e-3;
 const STEPS: usize = 20_000;
 const IMPLICIT_STEPS: usize = 2_000;
 const MORE: usize = 4;
-/// Change of the start that tells by how much a motion magnifies errors, as a part of the sizes of its coordinates.
+/// Change of a state that tells by how much a motion magnifies errors, as a part of the sizes of its coordinates.
 const NUDGE: f64 = 1e-7;
 /// Instants at which motions are compared.
 const INSTANTS: u32 = 8;
@@ -122,7 +122,7 @@ pub fn of_model(models: &[Entry], args: &ModelArgs) -> Result<(), Failure> {
 }
 
 const ORACLE: &str = "the same motion by an implicit method with the formula as printed, where that gets through, else at a smaller \
-                      tolerance. Errors are divided by what the motion makes of a small change of its start";
+                      tolerance. Errors are divided by what the motion makes of a small change of its start, or of a state on its way";
 
 /// What a sweep changes.
 #[derive(Debug, Clone, Copy)]
@@ -172,9 +172,10 @@ impl Subject<'_> {
             }
             Change::Tolerance => tolerance = value.max(SMALLEST_TOLERANCE),
         }
+        let instant = |k| state.t + self.length * f64::from(k) / f64::from(INSTANTS);
         let motion = Motion {
             mechanism: &mechanism,
-            length: self.length,
+            times: (1..=INSTANTS).map(instant).collect(),
         };
         let explicit = |formula, tolerance| Way {
             method: Method::Dop853,
@@ -213,8 +214,21 @@ impl Subject<'_> {
         let expected = motion.by(other, &state, effort);
         let expected = expected.or_else(|_| motion.by(instead, &state, effort))?;
         let scale = scale(mechanism.spec(), &state, &expected);
-        let magnified = motion.magnified(instead, &state, (&expected, &scale), effort)?;
-        let error = largest(&found, &expected, &scale) / magnified.max(1.0);
+        let known = (&expected[..], &scale[..]);
+        let magnified = motion.magnified(instead, &state, known, effort)?;
+        let apart = largest(&found, &expected, &scale);
+        let mut error = apart / magnified.max(1.0);
+        // Errors that are made on the way may be magnified by more than those of the start.
+        let places = motion.times.iter().zip(&expected);
+        for (t, y) in places.take(motion.times.len() - 1) {
+            if error <= GATHERED * tolerance {
+                break;
+            }
+            let (q, v) = y.split_at(state.q.len());
+            let (t, q, v) = (*t, q.to_vec(), v.to_vec());
+            let magnified = motion.magnified(instead, &State { t, q, v }, known, effort);
+            error = error.min(apart / magnified.unwrap_or(1.0).max(1.0));
+        }
         Ok(match change {
             Change::Tolerance => error / tolerance,
             _ => error,
@@ -230,46 +244,56 @@ impl Subject<'_> {
     }
 }
 
-/// The motion of a mechanism over a time.
+/// The motion of a mechanism through instants.
 struct Motion<'a> {
     mechanism: &'a Prepared,
-    length: f64,
+    times: Vec<f64>,
 }
 
 impl Motion<'_> {
-    /// (q, q̇) at instants of the motion from `start`.
+    /// (q, q̇) at the instants after `start` of the motion from there.
     fn by(&self, way: Way, start: &State, effort: &mut Effort) -> Result<Vec<Vec<f64>>, Error> {
-        let at = |k| start.t + self.length * f64::from(k) / f64::from(INSTANTS);
+        let forward = self.times[self.times.len() - 1] >= start.t;
+        let later = |t: &&f64| {
+            if forward {
+                **t > start.t
+            } else {
+                **t < start.t
+            }
+        };
+        let times: Vec<f64> = self.times.iter().filter(later).copied().collect();
+        let until = times.last().copied().unwrap_or(start.t);
         let simulation = Simulation::new(self.mechanism)
             .start(start.clone())
             .method(way.method)
             .formula(way.formula)
             .tolerance(way.tolerance)
             .max_steps(way.steps)
-            .at((1..=INSTANTS).map(at).collect());
-        let run = effort.run(simulation, start.t + self.length)?;
+            .at(times);
+        let run = effort.run(simulation, until)?;
         Ok(run
             .samples()
             .map(|sample| stacked(&sample.to_state()))
             .collect())
     }
 
-    /// By how much the motion magnifies a small change of its start: its states without one are known, with their sizes.
+    /// By how much the motion magnifies a small change at `place`, a state of it: its states without one are known, with their sizes.
     fn magnified(
         &self,
         way: Way,
-        start: &State,
+        place: &State,
         (known, scale): (&[Vec<f64>], &[f64]),
         effort: &mut Effort,
     ) -> Result<f64, Error> {
-        let n = start.q.len();
-        let mut nudged = start.clone();
+        let n = place.q.len();
+        let mut nudged = place.clone();
         let places = nudged.q.iter_mut().chain(&mut nudged.v).zip(scale);
         for (k, (place, size)) in places.enumerate() {
             *place += NUDGE * size * if (k % n).is_multiple_of(2) { 1.0 } else { -1.0 };
         }
         let nudged = assemble(self.mechanism, nudged, &[])?;
         let changed = self.by(way, &nudged, effort)?;
+        let known = &known[known.len() - changed.len()..];
         Ok(largest(&changed, known, scale) / NUDGE)
     }
 }
