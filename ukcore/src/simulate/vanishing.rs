@@ -92,7 +92,7 @@ pub(super) struct RowWatch {
     asked: Option<usize>,
     /// The least share of a row that the others had not on the way between both states; 0 where a combination is reversed.
     share: f64,
-    /// The same, on the way before.
+    /// The same, at the last state that was looked at alone.
     left: [f64; 2],
     /// When to look again.
     due: f64,
@@ -306,8 +306,12 @@ impl RowWatch {
             false => rows,
         };
         // Combinations of rows change as their rows do, or faster where these add up, and have less to lose.
-        if let Some(which) = self.asked {
-            let (left, before) = (self.share.sqrt(), self.left[which]);
+        if let Some(which) = self.asked
+            && let Some(Some(beside)) = &mut self.independence[which]
+        {
+            let here = &self.here.entries;
+            let left = beside.share(here, here).unwrap_or(0.0).sqrt();
+            let before = self.left[which];
             change = STEEPER * (rows / left).max((before - left) / left);
             if kept {
                 change = change.max(own);
