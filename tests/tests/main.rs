@@ -15,6 +15,7 @@ mod equilibrium;
 mod failures;
 mod fallback;
 mod formulas;
+mod friction;
 mod integrals;
 mod invariants;
 mod inverse;

@@ -134,7 +134,7 @@ fn hunt_for_branches() {
 }
 
 /// Motions that hurt: rates of near misses from stages of far too long steps, stages that come near by chance, passages that miss the
-/// accuracy asked for by a hair, a crank that hovers beside its dead centre, samples on it that no step was planned for.
+/// accuracy asked for by a hair, a crank that hovers beside its dead centre, samples on it that no step was planned for, an end soon behind.
 #[test]
 fn what_the_hunt_has_found() {
     let mut outcomes = Outcomes::default();
@@ -146,6 +146,7 @@ fn what_the_hunt_has_found() {
         (3, 7.750832, 1e-11),
         (4, 2.854832, 1e-12),
         (5, 5.710832, 1e-9),
+        (7, 7.361800000000001, 1e-11),
     ] {
         outcomes.case(number, rate, Method::Dop853, tolerance, 10.0);
     }
@@ -225,6 +226,36 @@ fn runs_end_and_are_sampled_at_singular_positions() {
                 );
             }
         }
+    }
+}
+
+/// Too soon for a step over the position that ends with the run, and not so near that it is one with the end.
+#[test]
+fn runs_end_soon_behind_singular_positions() {
+    for (tolerance, past) in [1e-9, 1e-11]
+        .into_iter()
+        .flat_map(|tolerance| (1..=24).map(move |k| (tolerance, 3e-5 * f64::from(k))))
+    {
+        // The crank lies on the ground, its top on the joint of the rocker.
+        let Case {
+            mechanism,
+            start,
+            off,
+        } = CASES[7](7.361800000000001);
+        let folds = |_t: f64, q: &[f64], _v: &[f64]| q[1];
+        let whole = Simulation::new(mechanism.clone()).start(start.clone());
+        let found = whole.event(Event::new("folds", folds)).until(3.0);
+        let found = found.unwrap_or_else(|failure| panic!("{failure}"));
+        let there = found
+            .all_events()
+            .iter()
+            .find(|hit| hit.q[0] > 0.0)
+            .expect("it folds");
+        let run = Simulation::new(mechanism).start(start).tolerance(tolerance);
+        let run = run.until(there.t + past);
+        let run = run.unwrap_or_else(|failure| panic!("{tolerance:e}, {past:e}: {failure}"));
+        let off = worst(&run, off);
+        assert!(off < 1e-8, "{tolerance:e}, {past:e}: {off:e}");
     }
 }
 

@@ -159,6 +159,16 @@ pub enum Error {
         /// The terms that contain such a function: `"force on s"`.
         terms: Vec<String>,
     },
+    /// The direction v/|v| of a vector is asked for where the vector vanishes, as that of dry friction on a body at rest.
+    #[error(
+        "v/|v| has no direction where v vanishes, in the {}; let the run start with a velocity, or smooth the length, as by \
+         sqrt(sq(v) + sq(1e-3)) for |v|",
+        terms.join(", ")
+    )]
+    NoDirection {
+        /// The terms that contain such a direction: `"force on x"`.
+        terms: Vec<String>,
+    },
     /// Another error that arose during integration, with the time and state where it did.
     #[error("at t = {}: {source}", full(*t))]
     At {

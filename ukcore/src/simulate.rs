@@ -25,6 +25,7 @@ mod ensemble;
 mod grid;
 mod independence;
 mod integrals;
+mod leaves;
 mod obstacles;
 mod record;
 mod run;

@@ -276,7 +276,15 @@ impl Scheme for Radau {
                 c3[i] = slope;
             }
         }
-        Ok(0.0)
+        // What the polynomial's slope misses of the acceleration at the end, which is the last stage.
+        let residual = &mut self.error[..n];
+        for (i, residual) in residual.iter_mut().enumerate() {
+            let slope = self.newton.w[2 * n + i] - c2[n + i] - c3[n + i];
+            *residual = step.h * self.end_rate[n + i] - slope;
+        }
+        let (y, weights, tolerance) = (&self.start, &self.weights, self.tolerance.relative);
+        let solved = (self.newton).confirms(equations, step, y, weights, tolerance, residual)?;
+        Ok(if solved { 0.0 } else { f64::NAN })
     }
 
     fn interpolate(&mut self, _: &mut Equations<'_>, _: Trial) -> Result<(), Cause> {

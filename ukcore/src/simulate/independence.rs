@@ -22,6 +22,8 @@ pub(super) struct Independence {
     scales: Vec<f64>,
     /// Rows that others do not imply.
     counts: Vec<bool>,
+    /// Whether none is left out.
+    whole: bool,
     /// The lower triangle: for each term of S its place, its entries of A and its coordinate.
     terms: Vec<[u32; 4]>,
     /// Rows in the order of elimination, and where their columns of the factor begin and end.
@@ -89,22 +91,20 @@ impl Sets {
 }
 
 impl Independence {
-    /// For the rows of A (column-major) that others do not imply at a state; `None` if there are fewer than two.
-    pub(super) fn new(mech: &Prepared, jacobian: &[f64]) -> Option<Self> {
+    /// For those among some `rows` of A (column-major) that others do not imply at a state; `None` if there are fewer than two.
+    pub(super) fn new(mech: &Prepared, jacobian: &[f64], rows: Vec<bool>) -> Option<Self> {
         let m = mech.spec().m();
         let mut all = Independence {
             weights: vec![0.0; mech.spec().n()],
             scales: vec![0.0; m],
-            counts: vec![true; m],
+            counts: rows,
+            whole: true,
             terms: Vec::new(),
             columns: Vec::new(),
             changed: Vec::new(),
             values: Vec::new(),
             own: Vec::new(),
         };
-        if m < 2 {
-            return None;
-        }
         for (c, i) in mech.spec().structure.jacobian_pattern {
             all.scales[*c] = jacobian[i * m + c].abs().max(all.scales[*c]);
         }
@@ -113,7 +113,8 @@ impl Independence {
         all.weigh(mech, jacobian);
         all.arrange(mech);
         all.load(jacobian, jacobian);
-        if !all.imply() {
+        all.whole = all.imply();
+        if !all.whole {
             all.arrange(mech);
         }
         (all.columns.len() > 1).then_some(all)
@@ -133,9 +134,9 @@ impl Independence {
         }
     }
 
-    /// Whether no row is left out.
+    /// Whether no row is left out that others imply.
     pub(super) fn is_whole(&self) -> bool {
-        self.counts.iter().all(|counts| *counts)
+        self.whole
     }
 
     /// Chooses the order of elimination, by least degree, and finds the places of the factor.

@@ -173,5 +173,27 @@ pub(super) fn explain(mechanism: &Prepared, tolerance: Tolerance, mut trouble: T
             *fastest = first.map(|i| (name(i), acceleration[i]));
         }
     }
+    if let (Error::NonFinite { .. }, terms) =
+        (&trouble.error, directions(mechanism, &trouble.state))
+        && !terms.is_empty()
+    {
+        trouble.error = Error::NoDirection { terms };
+    }
     trouble.into_error()
+}
+
+/// The terms that divide by a length which is zero at a state.
+fn directions(mechanism: &Prepared, State { t, q, v }: &State) -> Vec<String> {
+    let switches = mechanism.spec().switches;
+    let mut values = vec![0.0; switches.len()];
+    mechanism.switching(*t, q, v, &mut values);
+    let zero = switches.iter().zip(values);
+    let zero = zero.filter(|(switch, value)| switch.length && *value == 0.0);
+    let mut terms: Vec<String> = Vec::new();
+    for term in zero.flat_map(|(switch, _)| switch.terms) {
+        if !terms.iter().any(|known| known == term) {
+            terms.push((*term).to_owned());
+        }
+    }
+    terms
 }

@@ -5,9 +5,11 @@
 //! from it by their length on the way. Rows are looked at before any of them can have changed by half of itself; that is at each step only
 //! where steps are long.
 //!
-//! So do combinations of rows, where constraints come to imply each other: [`Independence`] tells whether one is reversed.
+//! So do combinations of rows, where constraints come to imply each other. A row with [entries of its own](super::leaves) is in none that
+//! vanishes while these do not; for the others, [`Independence`] tells whether one is reversed.
 
 use super::independence::Independence;
+use super::leaves::{Compared, Leaves};
 use crate::assemble::State;
 use crate::integrate::Method;
 use crate::integrate::sample::Sample;
@@ -71,19 +73,27 @@ pub(super) struct Vanishing {
 pub(super) struct RowWatch {
     /// The greatest length of each so far.
     sizes: Vec<f64>,
+    leaves: Leaves,
+    /// A where the run began.
+    first: Vec<f64>,
     /// A at the start of the step in hand or before it, and at the last state that was looked at.
     seen: Matrix,
     here: Matrix,
     /// Products of the rows of both.
     products: Vec<f64>,
+    /// What has become of rows between both.
+    compared: Compared,
     /// Whether combinations of rows are looked at, too.
     together: bool,
-    /// Of rows beside each other; `None` within where there are not several.
-    independence: Option<Option<Independence>>,
+    /// Of rows beside each other: those without entries of their own, and all of them, for where such entries are reversed. `None` within
+    /// where there are not several.
+    independence: [Option<Option<Independence>>; 2],
+    /// Which of the two was asked last.
+    asked: Option<usize>,
     /// The least share of a row that the others had not on the way between both states; 0 where a combination is reversed.
     share: f64,
     /// The same, at the last state that was looked at alone.
-    left: f64,
+    left: [f64; 2],
     /// When to look again.
     due: f64,
 }
@@ -118,26 +128,9 @@ impl Matrix {
         unknown
     }
 
-    /// Takes the lengths of its rows, and their products with those of `other`.
-    fn compare(&mut self, mech: &Prepared, other: Option<(&Matrix, &mut Vec<f64>)>) {
-        let m = mech.spec().m();
-        self.squares.clear();
-        self.squares.resize(m, 0.0);
-        let pattern = mech.spec().structure.jacobian_pattern.iter();
-        let Some((other, products)) = other else {
-            for (c, i) in pattern {
-                let a = self.entries[i * m + c];
-                self.squares[*c] += a * a;
-            }
-            return;
-        };
-        products.clear();
-        products.resize(m, 0.0);
-        for (c, i) in pattern {
-            let (a, b) = (self.entries[i * m + c], other.entries[i * m + c]);
-            self.squares[*c] += a * a;
-            products[*c] += a * b;
-        }
+    /// Takes the lengths of its rows.
+    fn measure(&mut self, leaves: &Leaves) {
+        leaves.squares(&self.entries, &mut self.squares);
     }
 
     fn length(&self, c: usize) -> f64 {
@@ -176,7 +169,7 @@ impl RowWatch {
         if first {
             self.look_back(mech, old);
             self.sizes = self.seen.squares.iter().map(|x| x.sqrt()).collect();
-            self.left = 1.0;
+            self.left = [1.0; 2];
         }
         self.here.take(mech, new);
         self.compare(mech);
@@ -215,7 +208,7 @@ impl RowWatch {
         let state = between_states(old, new, part);
         let mut between = Matrix::default();
         between.take(mech, Sample::from(&state));
-        between.compare(mech, None);
+        between.measure(&self.leaves);
         let found = self.smallest(&between, Sample::from(&state))?;
         Some(Vanishing {
             near: between_states(old, new, (part - BEFORE).max(0.0)),
@@ -226,8 +219,8 @@ impl RowWatch {
 
     /// The part of the step from `old` to `new` on which a combination of rows vanishes, if one does.
     fn dependent(&mut self, mech: &Prepared, old: Sample<'_>, new: Sample<'_>) -> Option<Loss> {
-        let independence = self.independence.as_mut()?.as_mut();
-        let independence = independence.filter(|_| self.share == 0.0)?;
+        let asked = self.asked.filter(|_| self.share == 0.0)?;
+        let independence = self.independence[asked].as_mut()?.as_mut()?;
         let ends = [&self.seen.entries[..], &self.here.entries[..]];
         let mut between = Matrix::default();
         let at = |part: f64| between_states(old, new, part);
@@ -250,39 +243,38 @@ impl RowWatch {
         None
     }
 
-    /// The largest change of a row between both places, as a share of what it is at the last.
-    fn change(&self) -> f64 {
-        let pairs = self.seen.squares.iter().zip(&self.here.squares);
-        let largest = pairs
-            .zip(&self.products)
-            .fold(0.0, |most: f64, ((a, b), product)| {
-                let change = (a + b - 2.0 * product) / b;
-                if change > most { change } else { most }
-            });
-        largest.sqrt()
-    }
-
     /// Takes A at the start of the step in hand, if it is not known there.
     fn look_back(&mut self, mech: &Prepared, old: Sample<'_>) -> bool {
         let unknown = self.seen.take(mech, old);
+        if self.leaves.is_empty() {
+            self.leaves = Leaves::new(mech, &self.seen.entries);
+            self.first.clone_from(&self.seen.entries);
+        }
         if unknown {
-            self.seen.compare(mech, None);
+            self.seen.measure(&self.leaves);
         }
         unknown
     }
 
     fn compare(&mut self, mech: &Prepared) {
-        let other = (&self.seen, &mut self.products);
-        self.here.compare(mech, Some(other));
-        self.share = 1.0;
-        if !self.together {
+        let [seen, here] = [&self.seen.entries[..], &self.here.entries];
+        let (squares, products) = (&mut self.here.squares, &mut self.products);
+        self.compared = self.leaves.compare([seen, here], squares, products);
+        (self.share, self.asked) = (1.0, None);
+        let kept = self.compared.kept;
+        if !self.together || kept && self.leaves.are_all() {
             return;
         }
-        let [seen, here] = [&self.seen.entries[..], &self.here.entries];
-        let new = || Independence::new(mech, seen);
-        if let Some(rows) = self.independence.get_or_insert_with(new) {
+        let (which, leaves, first) = (usize::from(!kept), &self.leaves, &self.first);
+        let new = || {
+            let mut rows = leaves.others();
+            rows.iter_mut().for_each(|counts| *counts |= !kept);
+            Independence::new(mech, first, rows)
+        };
+        if let Some(rows) = self.independence[which].get_or_insert_with(new) {
             rows.weigh(mech, here);
             self.share = rows.share(seen, here).unwrap_or(0.0);
+            self.asked = Some(which);
         }
     }
 
@@ -308,13 +300,23 @@ impl RowWatch {
         if self.here.t != t || self.seen.t == t {
             return;
         }
+        let Compared { rows, own, kept } = self.compared;
+        let mut change = match self.together && kept && self.leaves.are_all() {
+            true => own,
+            false => rows,
+        };
         // Combinations of rows change as their rows do, or faster where these add up, and have less to lose.
-        let mut change = self.change();
-        if let Some(Some(rows)) = &mut self.independence {
+        if let Some(which) = self.asked
+            && let Some(Some(beside)) = &mut self.independence[which]
+        {
             let here = &self.here.entries;
-            let left = rows.share(here, here).unwrap_or(0.0).sqrt();
-            change = STEEPER * (change / left).max((self.left - left) / left);
-            self.left = left;
+            let left = beside.share(here, here).unwrap_or(0.0).sqrt();
+            let before = self.left[which];
+            change = STEEPER * (rows / left).max((before - left) / left);
+            if kept {
+                change = change.max(own);
+            }
+            self.left[which] = left;
         }
         let pairs = self.sizes.iter_mut().zip(&self.here.squares);
         for (size, square) in pairs {
@@ -349,7 +351,7 @@ impl RowWatch {
         let Ok(part) = locate(turned, 0.0, 1.0);
         let state = between_states(old, new, part);
         between.take(mech, Sample::from(&state));
-        between.compare(mech, None);
+        between.measure(&self.leaves);
         let ends = self.seen.length(c).min(self.here.length(c));
         let least = between.length(c) / ends;
         (least < DIP).then(|| Vanishing {

@@ -11,6 +11,9 @@ use super::dynamics::Dynamics;
 use crate::expr::{Func, Graph, Id, Map, Node, Num, Symbol, System, is_power_of_two};
 use std::collections::HashSet;
 
+/// A constant up to this under the root of a length keeps it from zero by less than errors of velocities are.
+const TINY: f64 = 1e-20;
+
 /// A switch.
 #[derive(Clone)]
 pub(crate) struct Switch {
@@ -113,7 +116,7 @@ fn lengths_below(id: Id, g: &Graph) -> Vec<Id> {
                 Node::Call(Func::Hypot, _) => true,
                 // With a constant in it, it does not vanish.
                 Node::Call(Func::Sqrt, args) => {
-                    !matches!(g.node(args[0]), Node::Sum(constant, _) if constant.get() > 0.0)
+                    !matches!(g.node(args[0]), Node::Sum(constant, _) if constant.get() > TINY)
                 }
                 _ => false,
             }

@@ -383,6 +383,10 @@ impl Graph {
             if y == 0.5 {
                 return self.call1(Func::Sqrt, a);
             }
+            if y == -0.5 {
+                let root = self.call1(Func::Sqrt, a);
+                return self.pow(root, -1);
+            }
             #[allow(
                 clippy::cast_possible_truncation,
                 reason = "checked to be a small integer"

@@ -320,6 +320,7 @@ fn kind(error: &Error) -> &'static str {
         Error::StepTooSmall { .. } => "StepTooSmall",
         Error::TooManySteps { .. } => "TooManySteps",
         Error::Chattering { .. } => "Chattering",
+        Error::NoDirection { .. } => "NoDirection",
         Error::Jump { .. } => "Jump",
         Error::Singular { .. } => "Singular",
         _ => "Error",

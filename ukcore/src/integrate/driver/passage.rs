@@ -15,6 +15,10 @@ use crate::integrate::{Method, Outcome, Singular, Tolerance};
 /// How far from the middle of the gap the position may be found to lie, as a share of the step.
 const OFF: f64 = 0.05;
 
+/// A run that ends as near behind the position, as a share of the step, is not to go over it by a step that ends with the run: such a step
+/// would be so short that its stages come too near.
+const BEHIND: f64 = 0.2;
+
 /// Steps before the position may have been shorter for the sake of it: the first one that goes over is tried at up to so many times their
 /// size.
 const BOLD: f64 = 16.0;
@@ -126,8 +130,8 @@ impl Driver<'_> {
         let bold = std::mem::take(&mut passage.untried) && size <= BOLD * h;
         // No stage comes near the position, but where the run ends near it the end does: then the step goes on as the motion does.
         let behind = size > rest * (1.0 + OFF);
-        let beyond =
-            behind && (rest - left).abs() < OFF * size && switches.is_empty() && !passage.bounded;
+        let near = (-OFF * size..BEHIND * size).contains(&(rest - left));
+        let beyond = behind && near && switches.is_empty() && !passage.bounded;
         if behind && !beyond && rest < left {
             course.limit(rest);
         } else if behind && !beyond {

@@ -176,6 +176,9 @@ pub(super) struct Newton {
     /// Iterations of the last attempt, their rate of convergence θ, and what the next step may know of it.
     pub(super) iterations: usize,
     theta: f64,
+    /// Size of the last change, and how it was found.
+    size: f64,
+    matrices: Matrices,
     known: Option<Known>,
     /// Factorisations of pairs of matrices so far.
     pub(super) factorisations: usize,
@@ -203,6 +206,8 @@ impl Newton {
             acceleration: zeros(3),
             iterations: 1,
             theta: 0.0,
+            size: 0.0,
+            matrices: Matrices::Start,
             known: None,
             factorisations: 0,
         }
@@ -277,8 +282,8 @@ impl Newton {
         weights: &[f64],
         tolerance: f64,
     ) -> Result<Solved, Cause> {
-        // Errors of the iteration are to be small against those of the step.
-        let enough = f64::max(10.0 * f64::EPSILON / tolerance, tolerance.sqrt().min(0.03));
+        let enough = enough(tolerance);
+        self.matrices = matrices;
         self.positions(step.h, y);
         match matrices {
             Matrices::Start => transform(&T_INVERSE, &self.w, &mut self.diagonal),
@@ -300,11 +305,7 @@ impl Newton {
             if !self.evaluate(anew, equations, step, y)? {
                 return Ok(Solved::No { shorten: 0.5 });
             }
-            match matrices {
-                Matrices::Start => self.improve(step.h),
-                Matrices::Stages => self.improve_by_stages(step.h),
-            }
-            let size = self.change(step.h, y, weights);
+            let size = self.improve(step.h, y, weights);
             if !size.is_finite() {
                 return Ok(Solved::No { shorten: 0.5 });
             }
@@ -346,6 +347,57 @@ impl Newton {
             before = Some(size);
         }
         Ok(Solved::No { shorten: 0.5 })
+    }
+
+    /// Whether a step that was solved in one iteration, for what was known of the convergence before, is solved indeed: where forces jump, or
+    /// are stiff for a moment only, the first change may be all wrong or hardly be one. `residual` is what is left of the equations of the
+    /// last stage, times h; the iteration is repeated where it says so.
+    pub(super) fn confirms(
+        &mut self,
+        equations: &mut Equations<'_>,
+        step: Trial,
+        y: &[f64],
+        weights: &[f64],
+        tolerance: f64,
+        residual: &mut [f64],
+    ) -> Result<bool, Cause> {
+        let n = self.n;
+        let norm = |x: &[f64]| {
+            let pairs = x.iter().zip(&weights[n..]);
+            let square: f64 = pairs.map(|(x, weight)| (x * weight).powi(2)).sum();
+            (square / n.max(1) as f64).sqrt()
+        };
+        let before = self.size;
+        if self.iterations > 1 || norm(residual) <= 1.0 {
+            return Ok(true);
+        }
+        let left = match (self.matrices, &mut self.stages) {
+            (Matrices::Stages, Some(stages)) => {
+                for (x, row) in self.diagonal.chunks_exact_mut(n.max(1)).zip(A) {
+                    let pairs = x.iter_mut().zip(&*residual);
+                    pairs.for_each(|(x, residual)| *x = row[2] * residual);
+                }
+                stages.lu.solve(&mut self.diagonal);
+                norm(&self.diagonal[2 * n..])
+            }
+            _ => {
+                self.real.solve(residual);
+                norm(residual)
+            }
+        };
+        if left <= 1.0 && left <= 0.5 * before {
+            return Ok(true);
+        }
+        let anew = self.matrices == Matrices::Stages;
+        if !self.evaluate(anew, equations, step, y)? {
+            return Ok(false);
+        }
+        transform(&T_INVERSE, &self.w, &mut self.diagonal);
+        let size = self.improve(step.h, y, weights);
+        (self.theta, self.known) = (size / before, None);
+        let remaining = self.theta / (1.0 - self.theta);
+        let converges = self.theta < CONVERGING && remaining * size <= enough(tolerance);
+        Ok(converges || size <= self.rounding(step.h, y, weights))
     }
 
     /// Where the iterations will not get from `error` to below 1: what the step is to be multiplied by.
@@ -407,7 +459,7 @@ impl Newton {
     }
 
     /// W changes by (h/λ T⁻¹ a − W) through the factors; the new w comes into the place of a.
-    fn improve(&mut self, h: f64) {
+    fn improve_by_start(&mut self, h: f64) {
         let n = self.n;
         let (first, pair) = self.diagonal.split_at_mut(n);
         let (second, third) = pair.split_at_mut(n);
@@ -442,6 +494,16 @@ impl Newton {
         for (a, (w, x)) in self.acceleration.iter_mut().zip(self.w.iter().zip(x)) {
             *a = w + *x;
         }
+    }
+
+    /// An iteration. Returns the size of the change in the error norm.
+    fn improve(&mut self, h: f64, y: &[f64], weights: &[f64]) -> f64 {
+        match self.matrices {
+            Matrices::Start => self.improve_by_start(h),
+            Matrices::Stages => self.improve_by_stages(h),
+        }
+        self.size = self.change(h, y, weights);
+        self.size
     }
 
     /// Takes over the new w, computes z. Returns the size of the change in the error norm.
@@ -502,6 +564,11 @@ impl Newton {
             p[i] = x[i];
         }
     }
+}
+
+/// What is left to iterate, in the error norm of this tolerance, is to be small against the error of the step.
+fn enough(tolerance: f64) -> f64 {
+    f64::max(10.0 * f64::EPSILON / tolerance, tolerance.sqrt().min(0.03))
 }
 
 /// `out` = matrix `x`, of three stages.

@@ -1,0 +1,163 @@
+//! Rows of A that have entries of their own: leaves of its pattern, taken off one after the other.
+//!
+//! Where a combination of rows vanishes a row takes no part in it that has an entry, not zero, in a column where no other row has one; and,
+//! that row taken off, so on. On the straight way from A₀ to A₁ a row's own entries a do not vanish if a₀·a₁ > 0. For chains and trees this
+//! tells of every row, by a product each, that it is in no combination that vanishes on the way.
+
+use crate::mechanism::Prepared;
+
+/// Entries of its own that are less than this share of a row where the run begins are not counted on.
+const OWN: f64 = 0.1;
+
+/// The pattern of A by rows.
+#[derive(Debug, Default)]
+pub(super) struct Leaves {
+    rows: Vec<Row>,
+    /// Places of entries in A, column-major: of each row, those of its own first.
+    places: Vec<u32>,
+}
+
+/// A row: where its entries end, and how many are its own.
+#[derive(Debug)]
+struct Row {
+    row: usize,
+    own: usize,
+    end: usize,
+}
+
+/// What has become of the rows of A between two states.
+#[derive(Debug, Default, Clone, Copy)]
+pub(super) struct Compared {
+    /// The largest change of a row, as a share of what it is at the last.
+    pub(super) rows: f64,
+    /// The same, of the entries of its own of a row that has some.
+    pub(super) own: f64,
+    /// Whether these are not reversed.
+    pub(super) kept: bool,
+}
+
+/// |x|², |y − x|² and x·y of vectors x and y, of which y is the last.
+#[derive(Default, Clone, Copy)]
+struct Sums {
+    square: f64,
+    change: f64,
+    product: f64,
+}
+
+impl Sums {
+    #[inline]
+    fn add(mut self, places: &[u32], [x, y]: [&[f64]; 2]) -> Self {
+        for place in places {
+            let (x, y) = (x[*place as usize], y[*place as usize]);
+            self.square += y * y;
+            self.change += (y - x) * (y - x);
+            self.product += x * y;
+        }
+        self
+    }
+
+    /// The change as a share of what the vector is at the last, squared, or `most` if that is more.
+    fn share(self, most: f64) -> f64 {
+        let share = self.change / self.square;
+        if share > most { share } else { most }
+    }
+}
+
+impl Leaves {
+    /// For A (column-major) where the run begins.
+    pub(super) fn new(mech: &Prepared, jacobian: &[f64]) -> Self {
+        let (n, m) = (mech.spec().n(), mech.spec().m());
+        let mut columns: Vec<Vec<usize>> = vec![Vec::new(); m];
+        // How many rows are left in a column, and the sum of their numbers: of one row, its own.
+        let mut left = vec![(0, 0); n];
+        for (c, i) in mech.spec().structure.jacobian_pattern {
+            columns[*c].push(*i);
+            left[*i] = (left[*i].0 + 1, left[*i].1 + c);
+        }
+        let mut all = Leaves::default();
+        let mut taken = vec![false; m];
+        let single = |column: &(usize, usize)| column.0 == 1;
+        let mut next: Vec<usize> = left.iter().filter(|x| single(x)).map(|x| x.1).collect();
+        while let Some(c) = next.pop() {
+            let square = |i: &usize| jacobian[i * m + c].powi(2);
+            let own = columns[c].iter().filter(|i| single(&left[**i]));
+            let sizes = [own.map(square).sum(), columns[c].iter().map(square).sum()];
+            let [own, row]: [f64; 2] = sizes;
+            if taken[c] || own.is_nan() || own <= OWN * OWN * row {
+                continue;
+            }
+            taken[c] = true;
+            columns[c].sort_by_key(|i| !single(&left[*i]));
+            let own = columns[c].iter().filter(|i| single(&left[**i])).count();
+            all.push(c, own, &columns[c], m);
+            for i in &columns[c] {
+                left[*i] = (left[*i].0 - 1, left[*i].1 - c);
+                next.extend(Some(left[*i]).filter(single).map(|x| x.1));
+            }
+        }
+        (0..m)
+            .filter(|c| !taken[*c])
+            .for_each(|c| all.push(c, 0, &columns[c], m));
+        all
+    }
+
+    fn push(&mut self, row: usize, own: usize, columns: &[usize], m: usize) {
+        self.places
+            .extend(columns.iter().map(|i| (i * m + row) as u32));
+        let end = self.places.len();
+        self.rows.push(Row { row, own, end });
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+
+    /// Whether each row has entries of its own.
+    pub(super) fn are_all(&self) -> bool {
+        self.rows.last().is_none_or(|row| row.own > 0)
+    }
+
+    /// Which rows have none.
+    pub(super) fn others(&self) -> Vec<bool> {
+        let mut others = vec![false; self.rows.len()];
+        self.rows
+            .iter()
+            .for_each(|row| others[row.row] = row.own == 0);
+        others
+    }
+
+    /// Squares of the lengths of rows, for A at a state.
+    pub(super) fn squares(&self, a: &[f64], squares: &mut Vec<f64>) {
+        self.compare([a, a], squares, &mut vec![0.0; self.rows.len()]);
+    }
+
+    /// Squares of the lengths of rows at the last of two states, and their products, for A at both.
+    pub(super) fn compare(
+        &self,
+        a: [&[f64]; 2],
+        squares: &mut Vec<f64>,
+        products: &mut Vec<f64>,
+    ) -> Compared {
+        squares.resize(self.rows.len(), 0.0);
+        products.resize(self.rows.len(), 0.0);
+        let mut compared = Compared {
+            kept: true,
+            ..Compared::default()
+        };
+        let mut begin = 0;
+        for Row { row, own, end } in &self.rows {
+            let (mine, rest) = self.places[begin..*end].split_at(*own);
+            begin = *end;
+            let own = Sums::default().add(mine, a);
+            let all = own.add(rest, a);
+            (squares[*row], products[*row]) = (all.square, all.product);
+            compared.rows = all.share(compared.rows);
+            if !mine.is_empty() {
+                compared.own = own.share(compared.own);
+                compared.kept &= own.product > 0.0;
+            }
+        }
+        (compared.rows, compared.own) = (compared.rows.sqrt(), compared.own.sqrt());
+        compared
+    }
+}
