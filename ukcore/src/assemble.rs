@@ -7,17 +7,14 @@
 
 use crate::diagnose;
 use crate::error::Error;
-use crate::manifold::{At, Level, Manifold};
+use crate::manifold::{At, Level};
 use crate::mechanism::{Mechanism, Prepared};
 use crate::scan::largest;
 use crate::spec::{GuessKind, Spec};
 
-/// Guesses: the given one, then it with perturbations of [`SHAKES`] times the size of the coordinates. A guess with points that
-/// coincide has vanishing gradients, from which only a perturbation leads away.
-const SHAKES: [f64; 4] = [0.0, 1e-3, 3e-2, 0.3];
+mod search;
 
-/// Fractional part of the golden ratio: its multiples fill the unit interval evenly.
-const GOLDEN: f64 = 0.618_033_988_749_895;
+pub(crate) use search::Search;
 
 /// A time, coordinates and velocities.
 #[derive(Debug, Clone, PartialEq)]
@@ -213,69 +210,6 @@ fn blame(mech: &Prepared, guess: &State, held: &Held, mut error: Error) -> Error
         cause.extend(names);
     }
     error
-}
-
-/// The search for q, then for q̇.
-pub(crate) struct Search {
-    pub(crate) manifold: Manifold,
-    /// Coordinates that may change.
-    pub(crate) free: Vec<usize>,
-}
-
-impl Search {
-    pub(crate) fn new(mech: &Prepared, guess: &State, held: &[usize]) -> Self {
-        let n = mech.spec().n();
-        let mut mass = vec![0.0; n * n];
-        mech.mass_matrix(guess.t, &guess.q, &mut mass);
-        let inertia = |j: usize| Some(mass[j * n + j]).filter(|m| *m > 0.0 && m.is_finite());
-        let massive: Vec<f64> = (0..n).filter_map(inertia).map(f64::ln).collect();
-        // Massless coordinates move as readily as the middling massive ones.
-        let typical = (massive.iter().sum::<f64>() / massive.len().max(1) as f64).exp();
-        // How readily each moves: 1/√M_jj.
-        let ease = |j: usize| inertia(j).unwrap_or(typical).sqrt().recip();
-        Search {
-            manifold: Manifold::with_ease(mech, (0..n).map(ease).collect(), held.to_vec()),
-            free: (0..n).filter(|j| !held.contains(j)).collect(),
-        }
-    }
-
-    /// The solution for one level; tries the guess, then perturbations of it.
-    pub(crate) fn find(&mut self, at: &At<'_, f64>, guess: &[f64]) -> Result<Vec<f64>, Error> {
-        let mut x = guess.to_vec();
-        if at.linear() && self.manifold.project(at, &mut x).is_ok() {
-            return Ok(x);
-        }
-        let size = match largest(guess) {
-            size if size > 0.0 => size,
-            _ => 1.0,
-        };
-        let mut least = f64::INFINITY;
-        // Of what is linear there is nothing else to find.
-        let shakes = if at.linear() { &SHAKES[..1] } else { &SHAKES };
-        for shake in shakes {
-            let mut place = guess.to_vec();
-            for (k, &j) in self.free.iter().enumerate() {
-                // Deterministic, and no two coordinates alike.
-                let share = ((k as f64 + 1.0) * GOLDEN).fract();
-                place[j] += shake * size * (2.0 * share - 1.0);
-            }
-            let cost = self.manifold.search(at, guess, &mut place);
-            if cost == 0.0 {
-                return Ok(place);
-            }
-            if cost < least {
-                (least, x) = (cost, place);
-            }
-        }
-        Err(match self.manifold.refusal(at, &x) {
-            Error::OffConstraint { level, constraints } => Error::NotAssembled {
-                level,
-                constraints,
-                held: Vec::new(),
-            },
-            error => error,
-        })
-    }
 }
 
 #[cfg(test)]

@@ -9,7 +9,8 @@ use crate::diagnose::PARTICIPATION;
 use crate::error::Error;
 use crate::mechanism::Prepared;
 use crate::modes::{constraint_matrix, mass_matrix, normalise, units};
-use crate::nearby::{Random, nearby};
+use crate::nearby::nearby;
+use crate::random::Random;
 use crate::solver::{Solver, SolverOptions};
 
 /// States near one that are looked at, to tell what holds at it alone.

@@ -9,7 +9,7 @@ use crate::equations::{uk, up};
 use crate::manifold::Projector;
 use crate::mechanism::{Evaluated, Prepared};
 use crate::modes::{INDEPENDENT, decompose, null_space, units};
-use crate::nearby::Random;
+use crate::random::Random;
 use crate::scalar::Dual;
 use crate::scan::largest;
 use crate::solver::{Solution, Solver, SolverOptions};
