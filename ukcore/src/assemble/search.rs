@@ -67,10 +67,7 @@ impl Search {
             at,
             guess,
             parts: &parts,
-            left: std::env::var("MOST")
-                .ok()
-                .and_then(|m| m.parse().ok())
-                .unwrap_or(MOST),
+            left: MOST,
         };
         let all: Vec<usize> = (0..parts.len()).collect();
         let mut x = by_parts.nearest(&all, guess.to_vec(), f64::INFINITY)?.x;

@@ -25,6 +25,10 @@ impl Part {
         }
     }
 
+    pub(crate) fn rows(&self) -> impl Iterator<Item = usize> {
+        self.rows.iter().copied()
+    }
+
     /// Whether there are as many rows as unknowns, so that solutions, if no row depends on others, lie apart.
     pub(crate) fn is_determined(&self) -> bool {
         self.rows.len() == self.unknowns.len()

@@ -22,6 +22,10 @@ const DAMPING_FACTOR: f64 = 10.0;
 /// Beyond this damping steps are below rounding: a minimum that is not zero.
 const DAMPING_LIMIT: f64 = 1e16;
 
+/// In a part of a mechanism rounding is measured, which takes the whole mechanism, where the search begins, and where the sum of squares
+/// has fallen to this share.
+const CLOSE: f64 = 1e-8;
+
 /// Where the search ends as near to the constraints as this share of lengths, √ε, it has found the place, and Newton's method does the
 /// rest.
 const NEAR: f64 = 1.5e-8;
@@ -83,6 +87,19 @@ impl Best {
     }
 }
 
+impl Newton<f64> {
+    /// Whether the place, of which all is known, is so near to where the rows of `part` are met that projection does the rest.
+    fn is_near(&self, part: &Part) -> bool {
+        let Newton {
+            acceptance,
+            residual,
+            ..
+        } = self;
+        let off = acceptance.distance(part.rows(), residual);
+        off <= NEAR * acceptance.length(part.rows())
+    }
+}
+
 impl Manifold {
     /// One in which coordinates move as readily as `ease` says, and those `held` not at all.
     pub(crate) fn with_ease(mechanism: &Prepared, ease: Vec<f64>, held: Vec<usize>) -> Self {
@@ -124,7 +141,8 @@ impl Manifold {
         let (mut best, mut cost): (Option<Best>, f64) = (None, f64::INFINITY);
         let (mut damping, mut stalls) = (DAMPING, 0);
         let noise = &mut self.noise;
-        let (mut near, mut steps) = (false, Vec::new());
+        let (mut near, mut steps, mut begun) = (None, Vec::new(), 0.0_f64);
+        let whole = part.rows.len() == at.rows();
         self.newton.iterate(at, x, 1.0, MAX_STEPS, |newton, x, _| {
             let trial = best
                 .as_ref()
@@ -135,15 +153,18 @@ impl Manifold {
                 damping = (damping / DAMPING_FACTOR).max(f64::EPSILON);
                 newton.acceptance.size = size;
                 newton.weigh(at, x);
-                newton.measure(at, x, noise, None);
+                let measured = whole || steps.is_empty() || trial <= CLOSE * begun;
+                if measured {
+                    newton.measure(at, x, noise, None);
+                }
                 let there = Best::new(newton, part, x);
                 cost = there.residual.norm_squared();
+                begun = begun.max(cost);
                 best = Some(there);
-                let (acceptance, residual) = (&newton.acceptance, &newton.residual);
-                let rows = || part.rows.iter().copied();
-                near = acceptance.distance(rows(), residual) <= NEAR * acceptance.length(rows());
-                if acceptance.violated(rows(), residual).next().is_none() {
-                    near = true;
+                near = measured.then(|| newton.is_near(part));
+                let violated = newton.acceptance.violated(part.rows(), &newton.residual);
+                if measured && violated.take(1).count() == 0 {
+                    near = Some(true);
                     return (1.0, 0.0);
                 }
             } else {
@@ -168,6 +189,10 @@ impl Manifold {
         if let Some(best) = best {
             x.copy_from_slice(&best.x);
         }
+        let near = near.unwrap_or_else(|| {
+            self.meets(at, x, size);
+            self.newton.is_near(part)
+        });
         let first = steps.first().copied().unwrap_or(0.0);
         Reached {
             cost: if near { 0.0 } else { cost },

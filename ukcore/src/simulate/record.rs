@@ -232,7 +232,9 @@ fn sums<'a>(
     let Some(integrals) = integrals else {
         return Ok(&[]);
     };
-    let Step { old, new, error, .. } = *within.step;
+    let Step {
+        old, new, error, ..
+    } = *within.step;
     let mut along = Along {
         states: within,
         from: old.t,

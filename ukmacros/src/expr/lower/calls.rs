@@ -28,7 +28,7 @@ impl<'m> Lowering<'m> {
         }
         match text.as_str() {
             "dot" => return self.dot(e, name, args, env),
-            "reaction" => return self.reaction(e, name, args, env),
+            "reaction" | "moment" => return self.reaction(e, name, args, env),
             "at" | "along" => return self.of_body(e, name, args, env),
             "ddot" => {
                 let message = "accelerations are what is solved for; no section may use them";
@@ -120,7 +120,7 @@ impl<'m> Lowering<'m> {
             return self.error_once(name, message);
         }
         let mut names: Vec<&str> = Func::all().map(|f| f.row().name).collect();
-        names.extend(["powi", "recip", "dot", "sum", "reaction"]);
+        names.extend(["powi", "recip", "dot", "sum", "reaction", "moment"]);
         names.extend(OPERATIONS.iter().map(|o| o.name));
         let list = names.join(", ");
         names.extend(PARTS.iter().map(|part| part.name));
