@@ -4,6 +4,10 @@
 //! satisfies every constraint: a search finds the place, and projection in the mass metric gives the last digits; velocities that enter
 //! linearly it gives at once. For the search each coordinate is scaled by the root of its inertia, so that the state found is near in the
 //! mass metric.
+//!
+//! Constraints that hang together only through coordinates that are held, or determined by their own rows, are searched apart: the legs of
+//! a walker on a held crank each by itself. Where rows determine their unknowns there are solutions that lie apart, ways to put the
+//! mechanism together; of those found the nearest in that metric is taken, over all that depends on the choice.
 
 use crate::diagnose;
 use crate::error::Error;
@@ -92,6 +96,9 @@ pub fn residuals(mechanism: impl Into<Prepared>, state: &State) -> Result<Residu
 
 /// A consistent state near `guess`: φ(q, t) = 0, φ̇ = 0 and φ(q, q̇, t) = 0 to rounding. The coordinates named in `hold` keep both
 /// their value and their velocity; a family's bare name (`"x"` for `x[0]`, `x[1]`, …) holds all its members.
+///
+/// Where what is held leaves as many constraints as coordinates, states lie apart, and the one with the least Σ M_jj Δq_j² is looked for; where
+/// coordinates stay free it is the one that the search from the guess leads to.
 ///
 /// # Errors
 /// - [`Error::NotAssembled`]: no state near the guess satisfies all constraints with these coordinates held; names those in
