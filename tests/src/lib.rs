@@ -90,6 +90,6 @@ mod chapters {
         };
     }
     chapters! {
-        "README.md" "docs/planar.md" "docs/spatial.md" "docs/redundant.md" "docs/stiff.md" "docs/ensembles.md" "docs/compiler.md"
+        "README.md" "docs/language.md" "docs/planar.md" "docs/spatial.md" "docs/redundant.md" "docs/stiff.md" "docs/ensembles.md" "docs/compiler.md"
     }
 }
