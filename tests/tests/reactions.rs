@@ -112,7 +112,43 @@ fn motion<M: Mechanism>(sketch: State) -> Option<(State, Vec<f64>, Vec<f64>)> {
     Some((start, acceleration, outputs))
 }
 
-/// Newton's and Euler's equations of body b, and Newton's of body a if nothing else holds it.
+/// The energy changes by what constraints that change with time feed in, −λ ∂φ/∂t, and by nothing else.
+fn balanced<M: Mechanism>(start: &State, acceleration: &[f64]) {
+    let mechanism = M::default();
+    let prepared = mechanism.prepared::<f64>();
+    let h = 1e-3;
+    let fourth = |of: &dyn Fn(f64) -> f64| {
+        (8.0 * (of(h) - of(-h)) - (of(2.0 * h) - of(-2.0 * h))) / (12.0 * h)
+    };
+    let energy = |s: f64| {
+        let change = |x: &[f64], v: &[f64], a: f64| -> Vec<f64> {
+            let terms = x.iter().zip(v).zip(acceleration);
+            terms.map(|((x, v), b)| x + s * v + a * s * s * b).collect()
+        };
+        let q = change(&start.q, &start.v, 0.5);
+        let v = change(&start.v, acceleration, 0.0);
+        prepared.energy(start.t + s, &q, &v).total()
+    };
+    let mut solver = Solver::new(&mechanism, SolverOptions::default());
+    let solution = solver.solve(start.t, &start.q, &start.v).unwrap();
+    let fed: f64 = (0..M::SPEC.holonomic)
+        .map(|c| {
+            let residual = |s: f64| {
+                let later = State {
+                    t: start.t + s,
+                    ..start.clone()
+                };
+                ukcore::assemble::residuals(&mechanism, &later)
+                    .unwrap()
+                    .position[c]
+            };
+            -solution.multipliers[c] * fourth(&residual)
+        })
+        .sum();
+    assert_close(M::SPEC.name, fourth(&energy), fed, 1e-7);
+}
+
+/// Newton's and Euler's equations of body b, and Newton's of body a if nothing else holds it; the balance of power.
 fn planar<M: Mechanism>(of_a: bool) {
     let mut random = Random::new(17);
     let mut sizes = 0.0;
@@ -122,7 +158,8 @@ fn planar<M: Mechanism>(of_a: bool) {
             q: random.vector(6),
             v: random.vector(6),
         };
-        let (_, x, out) = motion::<M>(sketch).unwrap();
+        let (start, x, out) = motion::<M>(sketch).unwrap();
+        balanced::<M>(&start, &x);
         let (force, moment, arm) = (&out[..2], out[2], &out[3..5]);
         let name = M::SPEC.name;
         let newton = [2.0 * (x[3] - 0.5), 2.0 * (x[4] + 9.81)];
@@ -167,6 +204,7 @@ fn spatial<M: Mechanism>(of_a: bool) {
             continue;
         };
         found += 1;
+        balanced::<M>(&start, &x);
         let vector = |at: usize| Vector3::from_column_slice(&out[at..at + 3]);
         let (force, moment, arm) = (vector(0), vector(3), vector(6));
         let name = M::SPEC.name;
