@@ -449,7 +449,7 @@ fn a_loop_in_space_names_what_is_redundant() {
     let names = solution
         .redundant
         .iter()
-        .map(|c| Loop::SPEC.constraints[*c]);
+        .map(|c| Loop::SPEC.constraints[*c].name);
     let names: Vec<&str> = names.collect();
     assert_eq!(names.len(), 3, "{names:?}");
     for name in names {
