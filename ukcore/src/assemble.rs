@@ -133,6 +133,8 @@ pub(crate) fn held(spec: &Spec, names: &[&str]) -> Result<Vec<usize>, Error> {
 pub(crate) struct Held {
     pub(crate) positions: Vec<usize>,
     pub(crate) velocities: Vec<usize>,
+    /// Coordinates of whose position the guess says nothing: of several states they do not choose.
+    pub(crate) untold: Vec<usize>,
     /// Of quaternions the coordinates, four by four, in whose velocities an angular velocity stands.
     pub(crate) turning: Vec<(usize, GuessKind)>,
 }
@@ -142,6 +144,7 @@ impl Held {
         Held {
             positions: coordinates.clone(),
             velocities: coordinates,
+            untold: Vec::new(),
             turning: Vec::new(),
         }
     }
@@ -160,6 +163,7 @@ impl Held {
         Held {
             positions: others(&self.positions),
             velocities: others(&self.velocities),
+            untold: self.untold.clone(),
             turning: self.turning.clone(),
         }
     }
@@ -194,6 +198,7 @@ pub(crate) fn assembled(mech: &Prepared, guess: &State, held: Held) -> Result<St
 
 fn search(mech: &Prepared, guess: &State, held: &Held) -> Result<State, Error> {
     let mut search = Search::new(mech, guess, &held.positions);
+    search.untold.clone_from(&held.untold);
     let q = search.find(&At::new(mech, Level::Position, guess.t, &guess.v), &guess.q)?;
     if held.velocities != held.positions {
         search = Search::new(mech, guess, &held.velocities);

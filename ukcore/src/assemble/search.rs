@@ -26,6 +26,9 @@ const STRAIGHT: f64 = 0.1;
 /// Solutions nearer than this share of the coordinates are one.
 const SAME: f64 = 1e-6;
 
+/// What the guess does not tell of counts so little.
+const UNTOLD: f64 = 1e-6;
+
 /// So many beginnings are tried for one guess; parts that come later have one solution each.
 const MOST: usize = 20_000;
 
@@ -34,6 +37,8 @@ pub(crate) struct Search {
     pub(crate) manifold: Manifold,
     /// Coordinates that may change.
     pub(crate) free: Vec<usize>,
+    /// Coordinates that do not choose between solutions.
+    pub(super) untold: Vec<usize>,
 }
 
 impl Search {
@@ -49,6 +54,7 @@ impl Search {
         let ease = |j: usize| inertia(j).unwrap_or(typical).sqrt().recip();
         Search {
             manifold: Manifold::with_ease(mech, (0..n).map(ease).collect(), held.to_vec()),
+            untold: Vec::new(),
             free: (0..n).filter(|j| !held.contains(j)).collect(),
         }
     }
@@ -125,7 +131,7 @@ struct ByParts<'a> {
 /// A solution of some parts.
 struct Found {
     x: Vec<f64>,
-    /// Σ (Δq √inertia)² of their unknowns, from the guess.
+    /// Σ (Δq √inertia)² of their unknowns, from the guess where it tells of them.
     distance: f64,
 }
 
@@ -229,7 +235,11 @@ impl ByParts<'_> {
             return;
         }
         let ease = self.search.manifold.ease();
-        let off = |j: &usize| ((x[*j] - self.guess[*j]) / ease[*j]).powi(2);
+        let weight = |j: &usize| match self.search.untold.contains(j) {
+            true => UNTOLD,
+            false => 1.0,
+        };
+        let off = |j: &usize| (weight(j) * (x[*j] - self.guess[*j]) / ease[*j]).powi(2);
         let distance = part.unknowns.iter().map(off).sum();
         found.push(Found { x, distance });
     }
